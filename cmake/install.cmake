@@ -1,0 +1,26 @@
+# Installed tree: library, headers, CMake package, pkg-config file.
+include(CMakePackageConfigHelpers)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/simdbezier)
+install(TARGETS simdbezier EXPORT simdbezierTargets)
+install(DIRECTORY include/simdbezier DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT simdbezierTargets NAMESPACE simdbezier:: DESTINATION ${package_dir})
+
+configure_package_config_file(cmake/simdbezierConfig.cmake.in simdbezierConfig.cmake
+                              INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(simdbezierConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/simdbezierConfig.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/simdbezierConfigVersion.cmake DESTINATION ${package_dir})
+
+# A static library hands its OpenMP runtime on to whoever links it; a shared one does not.
+set(pc_libs_private "")
+set(pc_cflags "")
+if(NOT BUILD_SHARED_LIBS)
+  set(pc_cflags "-DSIMDBEZIER_STATIC")
+  foreach(name IN LISTS OpenMP_CXX_LIB_NAMES)
+    string(APPEND pc_libs_private " -l${name}")
+  endforeach()
+endif()
+configure_file(cmake/simdbezier.pc.in simdbezier.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/simdbezier.pc
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

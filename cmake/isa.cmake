@@ -1,0 +1,53 @@
+# The instruction sets: the only place in the project with -m flags.
+# One row each: name | xsimd architecture tag | compiler flags. Narrowest first.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  set(SIMDBEZIER_ISA_TABLE
+      "scalar|void|"
+      "sse2|xsimd::sse2|-msse2"
+      "avx2|xsimd::fma3<xsimd::avx2>|-mavx2 -mfma"
+      "avx512|xsimd::avx512bw|-mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mavx2 -mfma")
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+  set(SIMDBEZIER_ISA_TABLE "scalar|void|" "neon64|xsimd::neon64|")
+else()
+  set(SIMDBEZIER_ISA_TABLE "scalar|void|")
+endif()
+
+# The flags of one instruction set, as a list.
+function(simdbezier_isa_flags name result)
+  foreach(row IN LISTS SIMDBEZIER_ISA_TABLE)
+    string(REPLACE "|" ";" fields "${row};")
+    list(GET fields 0 row_name)
+    if(row_name STREQUAL name)
+      list(GET fields 2 flags)
+      separate_arguments(flags)
+      set(${result} ${flags} PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()
+
+# Compiles kernels/kernels.cpp once per instruction set and appends the objects to `target`,
+# which learns of each through a macro SIMDBEZIER_HAS_<NAME>.
+function(simdbezier_add_isa_kernels target)
+  foreach(row IN LISTS SIMDBEZIER_ISA_TABLE)
+    string(REPLACE "|" ";" fields "${row};")
+    list(GET fields 0 name)
+    list(GET fields 1 arch)
+    simdbezier_isa_flags(${name} flags)
+    string(TOUPPER ${name} upper)
+    set(object simdbezier_kernels_${name})
+    add_library(${object} OBJECT ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../kernels/kernels.cpp)
+    target_compile_definitions(${object} PRIVATE SIMDBEZIER_ISA=${name} SIMDBEZIER_ARCH=${arch}
+                                                 SIMDBEZIER_KERNELS_${upper})
+    # Without optimisation xsimd's small functions leave weak symbols behind that the linker could
+    # hand to objects of another instruction set (tests/check_symbols.cmake watches over it).
+    # No errno: sqrt becomes one instruction. No exceptions: their personality routine would be one
+    # more symbol to merge. g++ 12 warns about its own _mm512_undefined_ps (GCC bug 105593).
+    target_compile_options(
+      ${object} PRIVATE ${flags} $<$<CONFIG:Debug>:-O1> -fno-math-errno -fno-exceptions
+                        $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    target_link_libraries(${object} PRIVATE simdbezier_private_flags simdbezier_xsimd)
+    set_target_properties(${object} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
+    target_compile_definitions(${target} PRIVATE SIMDBEZIER_HAS_${upper})
+  endforeach()
+endfunction()

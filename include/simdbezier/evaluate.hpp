@@ -1,0 +1,130 @@
+// The evaluate calls: grids and scattered samples of every patch of a set.
+//
+// Constraints that hold for every call
+//   Parameters  u, v in [0,1]; other finite values extrapolate the polynomial. Where a parameter
+//               is nan or infinite, that sample's outputs are nan; its neighbours are untouched.
+//   Outputs     belong to the caller, may not overlap the inputs or each other, need no alignment
+//               (64 bytes are faster).
+//   Accuracy    |error| <= 21 u max|P| a component on FMA instruction sets, 32 u without, at the
+//               centred parameters as rounded (u = 2^-24 float, 2^-53 double); first derivatives
+//               <= 18 u max|hodograph control vector| on FMA instruction sets.
+//   Watertight  positions on an edge depend only on that edge's four control points and are
+//               bit-equal on both sides whatever the orientation; corners are control points.
+//   Bits        equal for any thread count, batch size, place in the batch, layout, alignment and
+//               compiler, and for all instruction sets of one class (see Isa).
+//   Allocation  scratch per thread and per call only, none per sample. Nothing throws.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <simdbezier/isa.hpp>
+#include <simdbezier/patch_set.hpp>
+
+namespace simdbezier {
+
+/// How parameters are given: u in [0,1], or centred x = 2u-1 in [-1,1] (no rounding inside).
+enum class Parameters : std::uint8_t { unit, centred };
+
+/// The centred parameter 2u-1 of a double u, computed in double and rounded once to T.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API T to_centred(double u) noexcept;
+
+/// A tensor grid of nu x nv parameters common to all patches; sample k = iv * nu + iu.
+/// Null u (v): uniform, ends included, x_i = (2i-N)/N with N = nu-1, by one division.
+/// Otherwise u holds nu values, v holds nv, in any order.
+template <typename T>
+struct Grid {
+  std::size_t nu = 0;
+  std::size_t nv = 0;
+  const T* u = nullptr;
+  const T* v = nullptr;
+  Parameters parameters = Parameters::unit;
+
+  [[nodiscard]] static constexpr Grid uniform(std::size_t nu, std::size_t nv) noexcept {
+    return {nu, nv, nullptr, nullptr, Parameters::unit};
+  }
+};
+
+/// Scattered samples in any order: sample k lies on patch[k] at (u[k], v[k]).
+template <typename T>
+struct Samples {
+  std::size_t count = 0;
+  const std::uint32_t* patch = nullptr; ///< count indices into the set
+  const T* u = nullptr;                 ///< count values
+  const T* v = nullptr;                 ///< count values
+  Parameters parameters = Parameters::unit;
+};
+
+/// Where one vector-valued output goes: component c of sample k is c-th pointer [k * stride],
+/// stride in elements. All three null: not asked for.
+template <typename T>
+struct Vectors {
+  T* x = nullptr;
+  T* y = nullptr;
+  T* z = nullptr;
+  std::ptrdiff_t stride = 1;
+
+  /// Three planes (SoA), unit stride.
+  [[nodiscard]] static constexpr Vectors planes(T* x, T* y, T* z) noexcept { return {x, y, z, 1}; }
+  /// x y z triples (AoS), `stride` elements from one to the next: 3 when packed, the size of a
+  /// vertex when interleaved.
+  [[nodiscard]] static constexpr Vectors xyz(T* first, std::ptrdiff_t stride = 3) noexcept {
+    return {first, first + 1, first + 2, stride};
+  }
+  [[nodiscard]] constexpr bool wanted() const noexcept {
+    return x != nullptr || y != nullptr || z != nullptr;
+  }
+};
+
+/// What was found at one sample.
+enum class SampleStatus : std::uint8_t {
+  regular,    ///< every output is what its formula says
+  limit,      ///< du x dv vanishes here; the normal is its limit from inside the patch
+  degenerate, ///< the surface has no normal here; the zero vector was written
+  non_finite  ///< a parameter was nan or infinite; the outputs are nan
+};
+
+/// The outputs of a call; every group is optional, at least one vector group is required.
+/// Grid calls: sample index = (patch - first_patch) * nu * nv + iv * nu + iu.
+template <typename T>
+struct Outputs {
+  Vectors<T> position; ///< S(u,v)
+  Vectors<T> du;       ///< dS/du
+  Vectors<T> dv;       ///< dS/dv
+  Vectors<T> normal;   ///< dS/du x dS/dv, unit length or zero, never nan at finite parameters
+  SampleStatus* status = nullptr; ///< one value a sample, unit stride
+};
+
+/// How a call runs. The defaults are what most callers want.
+struct Options {
+  int threads = 0;             ///< 0: OpenMP's default; 1: no OpenMP region is entered
+  bool watertight = true;      ///< false: edges and corners come from the interior's formula
+  Isa isa = Isa::automatic;    ///< see resolve_isa()
+  Isa* executed = nullptr;     ///< where given, the kernel that ran writes its own name here
+  std::size_t first_patch = 0; ///< grid calls: the first patch to evaluate
+  std::size_t patch_count = static_cast<std::size_t>(-1); ///< grid calls: -1: up to the last
+};
+
+/// Evaluates every patch of the set on one grid.
+///
+/// Positions are S = sum_l y^l sum_k C[l][k] x^k by Horner's rule in x, then in y: 3 fused
+/// multiply-adds a component and sample; first derivatives by synthetic division, 5 more.
+/// Returns ok | null_output | bad_grid | bad_patch_range | size_overflow | unknown_isa |
+/// unsupported_isa | out_of_memory. On an error nothing has been written.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid,
+                                                  const Outputs<T>& out,
+                                                  const Options& options = {}) noexcept;
+
+/// Evaluates single samples, in the grid's own order of operations: where the centred parameters
+/// are equal, the bits are.
+/// Returns ok | null_input | null_output | bad_patch_index | unknown_isa | unsupported_isa |
+/// size_overflow | out_of_memory. On an error nothing has been written.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API Status evaluate_scattered(const PatchSet<T>& set,
+                                                       const Samples<T>& samples,
+                                                       const Outputs<T>& out,
+                                                       const Options& options = {}) noexcept;
+
+} // namespace simdbezier

@@ -1,0 +1,42 @@
+// Instruction sets: which exist, which this machine has, which one runs.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include <simdbezier/status.hpp>
+
+namespace simdbezier {
+
+/// The instruction sets that kernels are compiled for. Results are bit-equal inside a class:
+/// avx2, avx512 and neon64 fuse multiply and add; scalar and sse2 round after each.
+enum class Isa : std::uint8_t {
+  automatic, ///< SIMDBEZIER_ISA where it is set, otherwise the widest that the machine has
+  scalar,
+  sse2,
+  avx2,   ///< AVX2 and FMA
+  avx512, ///< AVX-512 F, CD, DQ, BW, VL
+  neon64  ///< the aarch64 baseline
+};
+
+/// The name used by SIMDBEZIER_ISA and in benchmark names: "scalar", "sse2", …
+[[nodiscard]] SIMDBEZIER_API std::string_view to_string(Isa isa) noexcept;
+
+/// The instruction set of that name, or nothing. "automatic" is a name too.
+[[nodiscard]] SIMDBEZIER_API std::optional<Isa> isa_from_name(std::string_view name) noexcept;
+
+/// What this build contains and this machine can run, narrowest first; never empty.
+/// Probed once, thread-safe, static lifetime.
+[[nodiscard]] SIMDBEZIER_API std::span<const Isa> available_isas() noexcept;
+
+/// True for the instruction sets that round once per multiply-add (the FMA class of results).
+[[nodiscard]] SIMDBEZIER_API bool fuses_multiply_add(Isa isa) noexcept;
+
+/// What a call with `requested` will run on. Isa::automatic reads the environment variable
+/// SIMDBEZIER_ISA at the first use in the process and keeps that answer.
+/// Returns ok | unknown_isa | unsupported_isa; `chosen` is written on ok only.
+[[nodiscard]] SIMDBEZIER_API Status resolve_isa(Isa requested, Isa& chosen) noexcept;
+
+} // namespace simdbezier

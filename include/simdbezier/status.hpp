@@ -1,0 +1,31 @@
+// Every way in which a call can end. The library never prints, throws or aborts.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include <simdbezier/version.hpp>
+
+namespace simdbezier {
+
+enum class Status : std::uint8_t {
+  ok,
+  null_input,           ///< a required input pointer is null
+  null_output,          ///< no output group was asked for, or a group names only some of its planes
+  bad_degree,           ///< the degrees are not supported
+  bad_stride,           ///< the strides let two values share one place
+  non_finite_input,     ///< a control point is nan or infinite
+  coefficient_overflow, ///< the control points are finite, but their coefficients are not
+  bad_grid,             ///< a uniform grid needs 2 samples or more in each direction, a given one 1
+  bad_patch_range,      ///< patches outside of the set were asked for
+  bad_patch_index,      ///< a scattered sample names a patch outside of the set
+  size_overflow,        ///< the number of samples or bytes exceeds what memory can address
+  unknown_isa,          ///< SIMDBEZIER_ISA holds a word that names no instruction set
+  unsupported_isa,      ///< the instruction set is not in this build, or this machine lacks it
+  out_of_memory         ///< an allocation failed
+};
+
+/// One line of English for a status; never null, static lifetime, thread-safe.
+[[nodiscard]] SIMDBEZIER_API std::string_view to_string(Status status) noexcept;
+
+} // namespace simdbezier

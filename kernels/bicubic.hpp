@@ -1,0 +1,141 @@
+// The formulas of one bicubic component, over V = one register of samples or one sample.
+//
+// Order of operations, on which the bits of every result hang:
+//   q_l(X)  = Horner in X over C[.][l]     once per column, 3 madd (5 with the derivative in X)
+//   S(X,Y)  = Horner in Y over q_l(X)      once per sample, 3 madd
+// Derivatives are synthetic divisions of the same Horner chains, so they reuse its intermediates.
+// Where X (Y) is exactly -1/2 or 1/2 the edge's own cubic takes the place of the column (row).
+#pragma once
+
+#include "kernels/isa/arch.hpp"
+#include "kernels/patch_storage.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::kEdges;
+using detail::kOrder;
+
+/// c[0] + t c[1] + t^2 c[2] + t^3 c[3]
+template <typename V>
+SIMDBEZIER_INLINE V horner(const V c[kOrder], V t) {
+  return madd(madd(madd(c[3], t, c[2]), t, c[1]), t, c[0]);
+}
+
+/// The same value, bit for bit, and its derivative.
+template <typename V>
+SIMDBEZIER_INLINE V horner(const V c[kOrder], V t, V& derivative) {
+  const V b1 = madd(c[3], t, c[2]);
+  const V b0 = madd(b1, t, c[1]);
+  derivative = madd(madd(c[3], t, b1), t, b0);
+  return madd(b0, t, c[0]);
+}
+
+/// One column position X, or a register of them, and which lanes lie on the edges u = 0 and u = 1.
+template <typename V>
+struct Column {
+  V x;
+  PairSelector<V> edges;
+  bool on_edge;
+
+  explicit SIMDBEZIER_INLINE Column(V half_centred)
+      : x(half_centred),
+        edges(x == broadcast<V>(ScalarOf<V>(-0.5)), x == broadcast<V>(ScalarOf<V>(0.5))),
+        on_edge(edges.any()) {}
+};
+
+/// The coefficients of one component of one patch.
+template <typename T>
+struct Component {
+  const T* matrix; ///< [k][l]
+  const T* edge;   ///< [power][edge]
+  const T* corner; ///< [corner]
+
+  SIMDBEZIER_INLINE Component(const T* coefficients, const T* edges, std::size_t component)
+      : matrix(coefficients + component * kOrder * kOrder),
+        edge(edges + component * kOrder * kEdges),
+        corner(edges + detail::kCornersAt + component * kEdges) {}
+};
+
+/// The polynomial in Y that a column is, for position and v derivative.
+template <bool kWatertight, typename V>
+SIMDBEZIER_INLINE void replace_edge_columns(const Component<ScalarOf<V>>& c,
+                                            const Column<V>& column, V q[kOrder]) {
+  if (kWatertight && column.on_edge) {
+    for (std::size_t l = 0; l < kOrder; ++l) {
+      q[l] = column.edges.replace(q[l], c.edge + l * kEdges + detail::kEdgeU0);
+    }
+  }
+}
+
+template <typename V>
+SIMDBEZIER_INLINE void matrix_column(const Component<ScalarOf<V>>& c, std::size_t l, V k[kOrder]) {
+  for (std::size_t i = 0; i < kOrder; ++i) {
+    k[i] = broadcast<V>(c.matrix[i * kOrder + l]);
+  }
+}
+
+template <bool kWatertight, typename V>
+SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                         V q[kOrder]) {
+  for (std::size_t l = 0; l < kOrder; ++l) {
+    V k[kOrder];
+    matrix_column(c, l, k);
+    q[l] = horner(k, column.x);
+  }
+  replace_edge_columns<kWatertight>(c, column, q);
+}
+
+/// As above; dq is the polynomial of the u derivative, which on an edge u = const still comes from
+/// the patch, because the edge's control points do not determine it.
+template <bool kWatertight, typename V>
+SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                         V q[kOrder], V dq[kOrder]) {
+  for (std::size_t l = 0; l < kOrder; ++l) {
+    V k[kOrder];
+    matrix_column(c, l, k);
+    q[l] = horner(k, column.x, dq[l]);
+  }
+  replace_edge_columns<kWatertight>(c, column, q);
+}
+
+/// Position on the edge v = 0 or 1 (`edge` = kEdgeV0 or kEdgeV1); corners are control points.
+template <typename V>
+SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                  std::size_t edge) {
+  V k[kOrder];
+  for (std::size_t i = 0; i < kOrder; ++i) {
+    k[i] = broadcast<V>(c.edge[i * kEdges + edge]);
+  }
+  return column.edges.replace(horner(k, column.x), c.corner + detail::corner_index(0, edge));
+}
+
+template <typename V>
+SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                  std::size_t edge, V& du) {
+  V k[kOrder];
+  for (std::size_t i = 0; i < kOrder; ++i) {
+    k[i] = broadcast<V>(c.edge[i * kEdges + edge]);
+  }
+  return column.edges.replace(horner(k, column.x, du), c.corner + detail::corner_index(0, edge));
+}
+
+/// N = du x dv and |N|^2.
+template <typename V>
+SIMDBEZIER_INLINE V cross_product(const V du[3], const V dv[3], V n[3]) {
+  n[0] = msub(du[1], dv[2], du[2] * dv[1]);
+  n[1] = msub(du[2], dv[0], du[0] * dv[2]);
+  n[2] = msub(du[0], dv[1], du[1] * dv[0]);
+  return madd(n[0], n[0], madd(n[1], n[1], n[2] * n[2]));
+}
+
+/// IEEE square root and division: reproducible, unlike the reciprocal estimates, and hidden behind
+/// the other arithmetic.
+template <typename V>
+SIMDBEZIER_INLINE void normalise(V n[3], V squared_length) {
+  const V inverse = broadcast<V>(ScalarOf<V>(1)) / square_root(squared_length);
+  for (int c = 0; c < 3; ++c) {
+    n[c] = n[c] * inverse;
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,202 @@
+// The grid call: checks, the plan, work cut into (patch, strip of rows), kernels.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <new>
+
+#include <simdbezier/evaluate.hpp>
+
+#include "kernels/batch.hpp"
+#include "kernels/dispatch.hpp"
+#include "kernels/fp_environment.hpp"
+#include "kernels/grid_plan.hpp"
+#include "kernels/normal_fallback.hpp"
+#include "kernels/patch_storage.hpp"
+#include "kernels/staging.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// Staged strips stay in L1; direct ones only bound how much one thread takes of a huge grid.
+constexpr std::size_t kStagedSamples = 1024;
+constexpr std::size_t kDirectSamples = 65536;
+
+/// One grid call after its checks; worker() runs on every thread.
+template <typename T>
+class GridCall {
+public:
+  GridCall(const PatchStorage<T>& patches, std::size_t first_patch, const GridPlan<T>& plan,
+           const Outputs<T>& out, bool watertight, const KernelTable<T>& table) noexcept
+      : patches_(patches), first_patch_(first_patch), plan_(plan), out_(out),
+        kernel_(table.grid[output_set(out)][watertight ? 1 : 0]),
+        staging_(out, std::max(kStagedSamples, plan.nu())) {
+    const std::size_t samples = staging_.staged() ? kStagedSamples : kDirectSamples;
+    strip_rows_ = std::clamp<std::size_t>(samples / plan.nu(), 1, plan.nv());
+    strips_ = (plan.nv() + strip_rows_ - 1) / strip_rows_;
+  }
+
+  [[nodiscard]] std::size_t strips() const noexcept { return strips_; }
+  [[nodiscard]] std::size_t scratch_size() const noexcept { return staging_.scratch_size(); }
+  [[nodiscard]] std::size_t strip_rows() const noexcept { return strip_rows_; }
+
+  /// Units [begin, end) of patch-major (patch, strip) pairs. run: strip_rows() values.
+  Isa worker(std::size_t begin, std::size_t end, T* scratch, std::uint32_t* run) const noexcept {
+    Isa executed = Isa::automatic;
+    for (std::size_t unit = begin; unit < end;) {
+      const std::size_t patch = unit / strips_;
+      const std::size_t strip = unit % strips_;
+      // Whole patches without staging go to the kernel in one call.
+      const bool together = strips_ == 1 && !staging_.staged();
+      const std::size_t count = together ? end - unit : 1;
+      executed = run_strip(patch, count, strip, scratch, run);
+      unit += count;
+    }
+    return executed;
+  }
+
+private:
+  Isa run_strip(std::size_t patch, std::size_t count, std::size_t strip, T* scratch,
+                std::uint32_t* run) const noexcept {
+    const std::size_t first_row = strip * strip_rows_;
+    const std::size_t last_row = std::min(plan_.nv(), first_row + strip_rows_);
+    const std::size_t sample = (patch * plan_.nv() + first_row) * plan_.nu();
+    const std::size_t at = first_patch_ + patch;
+    plan_.fill_runs(first_row, last_row, run);
+    GridTask<T> task{};
+    task.coefficients = patches_.coefficients + at * kCoefficients;
+    task.edges = patches_.edges + at * kEdgeBlock;
+    task.control_points = patches_.control_points + at * kCoefficients;
+    task.normal_floor = patches_.normal_floor + at;
+    task.patch_count = count;
+    task.x = plan_.x();
+    task.nu = plan_.nu();
+    task.y = plan_.y() + first_row;
+    task.row_kind = plan_.row_kind() + first_row;
+    task.run = run;
+    task.row_count = last_row - first_row;
+    task.patch_step = plan_.nv() * plan_.nu();
+    task.resolve_normal = resolve_normal<T>;
+    if (out_.status != nullptr) {
+      task.status = out_.status + sample;
+      for (std::size_t p = 0; p < count; ++p) {
+        prefill_status(task, task.status + p * task.patch_step);
+      }
+    }
+    staging_.bind(task, sample, scratch);
+    kernel_(task);
+    staging_.flush(sample, task.row_count * task.nu, scratch);
+    return task.executed;
+  }
+
+  static void prefill_status(const GridTask<T>& task, SampleStatus* status) noexcept {
+    for (std::size_t j = 0; j < task.row_count; ++j) {
+      for (std::size_t i = 0; i < task.nu; ++i) {
+        const bool finite = !std::isnan(task.x[i]) && !std::isnan(task.y[j]);
+        status[j * task.nu + i] = finite ? SampleStatus::regular : SampleStatus::non_finite;
+      }
+    }
+  }
+
+  const PatchStorage<T>& patches_;
+  std::size_t first_patch_;
+  const GridPlan<T>& plan_;
+  const Outputs<T>& out_;
+  void (*kernel_)(GridTask<T>&);
+  Staging<T> staging_;
+  std::size_t strip_rows_ = 1;
+  std::size_t strips_ = 1;
+};
+
+/// The runs of a small grid live on the stack.
+constexpr std::size_t kInlineRows = 256;
+
+template <typename T>
+Status run_grid(const GridCall<T>& call, std::size_t patches, const Options& options) noexcept {
+  const std::size_t units = patches * call.strips();
+  const int threads = thread_count(options.threads, units);
+  // Each thread's scratch begins on a cache line of its own.
+  const std::size_t planes = (call.scratch_size() * sizeof(T) + 63) / 64 * 64;
+  const std::size_t runs = call.strip_rows() > kInlineRows
+                               ? (call.strip_rows() * sizeof(std::uint32_t) + 63) / 64 * 64
+                               : 0;
+  const std::size_t bytes = planes + runs;
+  std::unique_ptr<void, FreeAligned> scratch;
+  if (bytes > 0) {
+    scratch.reset(::operator new (bytes* static_cast<std::size_t>(threads), std::align_val_t{64},
+                                  std::nothrow));
+    if (scratch == nullptr) {
+      return Status::out_of_memory;
+    }
+  }
+  Isa executed = Isa::automatic;
+  auto body = [&](int worker, std::size_t begin, std::size_t end) {
+    std::uint32_t inline_run[kInlineRows];
+    auto* const own = static_cast<unsigned char*>(scratch.get()) +
+                      (bytes > 0 ? static_cast<std::size_t>(worker) * bytes : 0);
+    auto* const run = runs > 0 ? reinterpret_cast<std::uint32_t*>(own + planes) : inline_run;
+    const Isa ran = call.worker(begin, end, reinterpret_cast<T*>(own), run);
+    if (worker == 0) {
+      executed = ran;
+    }
+  };
+  for_blocks(units, threads, BlockBody(body));
+  if (options.executed != nullptr) {
+    *options.executed = executed;
+  }
+  return Status::ok;
+}
+
+} // namespace
+} // namespace detail
+
+template <typename T>
+T to_centred(double u) noexcept {
+  return static_cast<T>(std::fma(2.0, u, -1.0));
+}
+
+template <typename T>
+Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<T>& out,
+                     const Options& options) noexcept {
+  Isa isa = Isa::automatic;
+  const Status resolved = resolve_isa(options.isa, isa);
+  if (resolved != Status::ok) {
+    return resolved;
+  }
+  constexpr auto kAll = static_cast<std::size_t>(-1);
+  if (options.first_patch > set.size()) {
+    return Status::bad_patch_range;
+  }
+  const std::size_t rest = set.size() - options.first_patch;
+  const std::size_t patches = options.patch_count == kAll ? rest : options.patch_count;
+  if (patches > rest) {
+    return Status::bad_patch_range;
+  }
+  std::size_t samples = 0;
+  if (__builtin_mul_overflow(grid.nu, grid.nv, &samples) ||
+      __builtin_mul_overflow(samples, patches, &samples)) {
+    return Status::size_overflow;
+  }
+  const Status usable = detail::check_outputs(out, samples);
+  if (usable != Status::ok) {
+    return usable;
+  }
+  const detail::DefaultFpEnvironment environment;
+  detail::GridPlan<T> plan;
+  const Status planned = plan.build(grid);
+  if (planned != Status::ok || patches == 0) {
+    return planned;
+  }
+  const detail::GridCall<T> call(*set.storage(), options.first_patch, plan, out, options.watertight,
+                                 detail::kernel_table<T>(isa));
+  return detail::run_grid(call, patches, options);
+}
+
+template SIMDBEZIER_API float to_centred<float>(double) noexcept;
+template SIMDBEZIER_API double to_centred<double>(double) noexcept;
+template SIMDBEZIER_API Status evaluate_grid(const PatchSet<float>&, const Grid<float>&,
+                                             const Outputs<float>&, const Options&) noexcept;
+template SIMDBEZIER_API Status evaluate_grid(const PatchSet<double>&, const Grid<double>&,
+                                             const Outputs<double>&, const Options&) noexcept;
+
+} // namespace simdbezier

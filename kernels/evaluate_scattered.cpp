@@ -1,0 +1,143 @@
+// The scattered call: checks, pieces of samples with converted parameters, kernels.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <new>
+
+#include <simdbezier/evaluate.hpp>
+
+#include "kernels/batch.hpp"
+#include "kernels/dispatch.hpp"
+#include "kernels/grid_plan.hpp"
+#include "kernels/normal_fallback.hpp"
+#include "kernels/patch_storage.hpp"
+#include "kernels/staging.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// Samples converted and, where outputs are strided, staged at a time.
+constexpr std::size_t kPiece = 512;
+
+template <typename T>
+Status check_samples(const PatchSet<T>& set, const Samples<T>& samples) noexcept {
+  if (samples.count == 0) {
+    return Status::ok;
+  }
+  if (samples.patch == nullptr || samples.u == nullptr || samples.v == nullptr) {
+    return Status::null_input;
+  }
+  const std::uint32_t highest = *std::max_element(samples.patch, samples.patch + samples.count);
+  return highest < set.size() ? Status::ok : Status::bad_patch_index;
+}
+
+template <typename T>
+struct ScatteredCall {
+  const PatchStorage<T>& patches;
+  const Samples<T>& samples;
+  const Outputs<T>& out;
+  void (*kernel)(ScatteredTask<T>&);
+  Staging<T> staging;
+
+  Isa worker(std::size_t begin, std::size_t end, T* scratch) const noexcept {
+    Isa executed = Isa::automatic;
+    for (std::size_t piece = begin; piece < end; ++piece) {
+      const std::size_t first = piece * kPiece;
+      executed = run_piece(first, std::min(kPiece, samples.count - first), scratch);
+    }
+    return executed;
+  }
+
+  Isa run_piece(std::size_t first, std::size_t count, T* scratch) const noexcept {
+    T x[kPiece];
+    T y[kPiece];
+    for (std::size_t k = 0; k < count; ++k) {
+      x[k] = half_centred(samples.u[first + k], samples.parameters);
+      y[k] = half_centred(samples.v[first + k], samples.parameters);
+    }
+    ScatteredTask<T> task{};
+    task.coefficients = patches.coefficients;
+    task.edges = patches.edges;
+    task.control_points = patches.control_points;
+    task.normal_floor = patches.normal_floor;
+    task.patch = samples.patch + first;
+    task.x = x;
+    task.y = y;
+    task.count = count;
+    task.resolve_normal = resolve_normal<T>;
+    if (out.status != nullptr) {
+      task.status = out.status + first;
+      for (std::size_t k = 0; k < count; ++k) {
+        const bool finite = !std::isnan(x[k]) && !std::isnan(y[k]);
+        task.status[k] = finite ? SampleStatus::regular : SampleStatus::non_finite;
+      }
+    }
+    staging.bind(task, first, scratch);
+    kernel(task);
+    staging.flush(first, count, scratch);
+    return task.executed;
+  }
+};
+
+template <typename T>
+Status run_scattered(const ScatteredCall<T>& call, const Options& options) noexcept {
+  const std::size_t pieces = call.samples.count / kPiece + (call.samples.count % kPiece != 0);
+  const int threads = thread_count(options.threads, pieces);
+  const std::size_t bytes = (call.staging.scratch_size() * sizeof(T) + 63) / 64 * 64;
+  std::unique_ptr<void, FreeAligned> scratch;
+  if (bytes > 0) {
+    scratch.reset(::operator new (bytes* static_cast<std::size_t>(threads), std::align_val_t{64},
+                                  std::nothrow));
+    if (scratch == nullptr) {
+      return Status::out_of_memory;
+    }
+  }
+  Isa executed = Isa::automatic;
+  auto body = [&](int worker, std::size_t begin, std::size_t end) {
+    auto* const own = static_cast<unsigned char*>(scratch.get()) +
+                      (bytes > 0 ? static_cast<std::size_t>(worker) * bytes : 0);
+    const Isa ran = call.worker(begin, end, reinterpret_cast<T*>(own));
+    if (worker == 0) {
+      executed = ran;
+    }
+  };
+  for_blocks(pieces, threads, BlockBody(body));
+  if (options.executed != nullptr) {
+    *options.executed = executed;
+  }
+  return Status::ok;
+}
+
+} // namespace
+} // namespace detail
+
+template <typename T>
+Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, const Outputs<T>& out,
+                          const Options& options) noexcept {
+  Isa isa = Isa::automatic;
+  const Status resolved = resolve_isa(options.isa, isa);
+  if (resolved != Status::ok) {
+    return resolved;
+  }
+  const Status writable = detail::check_outputs(out, samples.count);
+  if (writable != Status::ok) {
+    return writable;
+  }
+  const Status readable = detail::check_samples(set, samples);
+  if (readable != Status::ok || samples.count == 0) {
+    return readable;
+  }
+  const auto& table = detail::kernel_table<T>(isa);
+  const detail::ScatteredCall<T> call{*set.storage(), samples, out,
+                                      table.scattered[options.watertight ? 1 : 0],
+                                      detail::Staging<T>(out, detail::kPiece)};
+  return detail::run_scattered(call, options);
+}
+
+template SIMDBEZIER_API Status evaluate_scattered(const PatchSet<float>&, const Samples<float>&,
+                                                  const Outputs<float>&, const Options&) noexcept;
+template SIMDBEZIER_API Status evaluate_scattered(const PatchSet<double>&, const Samples<double>&,
+                                                  const Outputs<double>&, const Options&) noexcept;
+
+} // namespace simdbezier

@@ -1,0 +1,42 @@
+// The floating-point environment of a call: round to nearest, denormals kept, whatever the caller
+// or a worker thread had set. Results would otherwise depend on it.
+#pragma once
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#else
+#include <cfenv>
+#endif
+
+namespace simdbezier::detail {
+
+#if defined(__x86_64__)
+// MXCSR directly: fesetenv would also reload the x87 state, which costs as much as a small patch.
+class DefaultFpEnvironment {
+public:
+  DefaultFpEnvironment() noexcept : saved_(_mm_getcsr()) { _mm_setcsr(kDefault); }
+  ~DefaultFpEnvironment() { _mm_setcsr(saved_); }
+  DefaultFpEnvironment(const DefaultFpEnvironment&) = delete;
+  DefaultFpEnvironment& operator=(const DefaultFpEnvironment&) = delete;
+
+private:
+  static constexpr unsigned kDefault = 0x1f80; // nearest, FTZ and DAZ off, exceptions masked
+  unsigned saved_;
+};
+#else
+class DefaultFpEnvironment {
+public:
+  DefaultFpEnvironment() noexcept {
+    std::fegetenv(&saved_);
+    std::fesetenv(FE_DFL_ENV);
+  }
+  ~DefaultFpEnvironment() { std::fesetenv(&saved_); }
+  DefaultFpEnvironment(const DefaultFpEnvironment&) = delete;
+  DefaultFpEnvironment& operator=(const DefaultFpEnvironment&) = delete;
+
+private:
+  std::fenv_t saved_;
+};
+#endif
+
+} // namespace simdbezier::detail

@@ -1,0 +1,312 @@
+// Grid kernels, strategy "rows": lanes = u. The columns' polynomials in Y stay in registers while
+// the rows are swept, so a position costs 3 madd, with first derivatives 8, a component.
+//
+// Without normals one component is swept after the other (4 or 8 registers, one to three store
+// streams); normals need all three at once (24 registers, which AVX2 keeps partly in L1).
+#pragma once
+
+#include "kernels/bicubic.hpp"
+#include "kernels/kernel_table.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::GridTask;
+using detail::RowKind;
+
+/// Walks over a task's runs of rows of one kind, first row to last. Everything is read into locals:
+/// a store of a vector may alias the task as far as compilers know.
+template <typename T>
+class Runs {
+public:
+  explicit SIMDBEZIER_INLINE Runs(const GridTask<T>& task)
+      : y_(task.y), kind_(task.row_kind), run_(task.run), end_(task.y + task.row_count) {}
+  SIMDBEZIER_INLINE bool more() const { return y_ != end_; }
+  SIMDBEZIER_INLINE const T* y() const { return y_; }
+  SIMDBEZIER_INLINE std::size_t rows() const { return *run_; }
+  SIMDBEZIER_INLINE RowKind kind() const { return *kind_; }
+  SIMDBEZIER_INLINE void next() {
+    const std::size_t rows = *run_;
+    y_ += rows;
+    kind_ += rows;
+    run_ += rows;
+  }
+
+private:
+  const T* y_;
+  const RowKind* kind_;
+  const std::uint32_t* run_;
+  const T* end_;
+};
+
+SIMDBEZIER_INLINE bool is_edge(RowKind kind) {
+  return kind == RowKind::edge_v0 || kind == RowKind::edge_v1;
+}
+
+SIMDBEZIER_INLINE std::size_t edge_of(RowKind kind) {
+  return kind == RowKind::edge_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
+}
+
+/// Stores a full register, or its first `active` lanes at the end of a row.
+template <bool kFull, typename V>
+SIMDBEZIER_INLINE void store_lanes(ScalarOf<V>* to, V value, std::size_t active) {
+  if constexpr (kFull) {
+    store_vector(to, value);
+  } else {
+    store_first(to, value, active);
+  }
+}
+
+template <bool kFull, typename V>
+SIMDBEZIER_INLINE void store_if_wanted(ScalarOf<V>* plane, std::size_t at, V value,
+                                       std::size_t active) {
+  if (plane != nullptr) {
+    store_lanes<kFull>(plane + at, value, active);
+  }
+}
+
+/// Positions of one component: one register of columns, all rows.
+template <bool kWatertight, bool kFull, typename V>
+SIMDBEZIER_INLINE void sweep_position(const GridTask<ScalarOf<V>>& task,
+                                      const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                      ScalarOf<V>* to, std::size_t active) {
+  V q[kOrder];
+  column_polynomial<kWatertight>(c, column, q);
+  const std::size_t nu = task.nu;
+  for (Runs runs(task); runs.more(); runs.next()) {
+    const ScalarOf<V>* y = runs.y();
+    const ScalarOf<V>* const end = y + runs.rows();
+    if (kWatertight && is_edge(runs.kind())) {
+      const V p = edge_position(c, column, edge_of(runs.kind()));
+      for (; y != end; ++y, to += nu) {
+        store_lanes<kFull>(to, p, active);
+      }
+    } else {
+      for (; y != end; ++y, to += nu) {
+        store_lanes<kFull>(to, horner(q, broadcast<V>(*y)), active);
+      }
+    }
+  }
+}
+
+/// Position and both derivatives of one component at one row; kEdge: on the edge v = 0 or 1.
+template <bool kEdge, typename V>
+SIMDBEZIER_INLINE V jet(const Component<ScalarOf<V>>& c, const Column<V>& column, const V q[kOrder],
+                        const V dq[kOrder], V y, std::size_t edge, V& du, V& dv) {
+  const V p = horner(q, y, dv);
+  if constexpr (kEdge) {
+    return edge_position(c, column, edge, du);
+  }
+  du = horner(dq, y);
+  return p;
+}
+
+/// Where the samples of one component go.
+template <typename T>
+struct JetPlanes {
+  T* position;
+  T* du;
+  T* dv;
+};
+
+template <bool kEdge, bool kFull, typename V>
+SIMDBEZIER_INLINE void derivative_rows(const Runs<ScalarOf<V>>& runs,
+                                       const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                       const V q[kOrder], const V dq[kOrder],
+                                       const JetPlanes<ScalarOf<V>>& to, std::size_t at,
+                                       std::size_t nu, std::size_t active) {
+  const std::size_t edge = edge_of(runs.kind());
+  const ScalarOf<V>* const end = runs.y() + runs.rows();
+  for (const ScalarOf<V>* y = runs.y(); y != end; ++y, at += nu) {
+    V du;
+    V dv;
+    const V p = jet<kEdge>(c, column, q, dq, broadcast<V>(*y), edge, du, dv);
+    store_lanes<kFull>(to.position + at, p, active);
+    store_lanes<kFull>(to.du + at, du, active);
+    store_lanes<kFull>(to.dv + at, dv, active);
+  }
+}
+
+template <bool kWatertight, bool kFull, typename V>
+SIMDBEZIER_INLINE void sweep_derivatives(const GridTask<ScalarOf<V>>& task,
+                                         const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                         const JetPlanes<ScalarOf<V>>& to, std::size_t active) {
+  V q[kOrder];
+  V dq[kOrder];
+  column_polynomial<kWatertight>(c, column, q, dq);
+  const std::size_t nu = task.nu;
+  std::size_t at = 0;
+  for (Runs runs(task); runs.more(); runs.next()) {
+    if (kWatertight && is_edge(runs.kind())) {
+      derivative_rows<true, kFull>(runs, c, column, q, dq, to, at, nu, active);
+    } else {
+      derivative_rows<false, kFull>(runs, c, column, q, dq, to, at, nu, active);
+    }
+    at += runs.rows() * nu;
+  }
+}
+
+/// What the rows of one register of columns have in common.
+template <typename V>
+struct NormalColumns {
+  using T = ScalarOf<V>;
+
+  const GridTask<T>& task;
+  std::size_t patch;
+  std::size_t first; ///< column
+  std::size_t active;
+  Component<T> component[3];
+  Column<V> column;
+  V q[3][kOrder];
+  V dq[3][kOrder];
+
+  SIMDBEZIER_INLINE NormalColumns(const GridTask<T>& the_task, std::size_t the_patch,
+                                  std::size_t first_column, std::size_t active_lanes)
+      : task(the_task), patch(the_patch), first(first_column),
+        active(active_lanes), component{component_at(0), component_at(1), component_at(2)},
+        column(load_vector<V>(the_task.x + first_column)) {}
+
+private:
+  SIMDBEZIER_INLINE Component<T> component_at(std::size_t c) const {
+    return Component<T>(task.coefficients + patch * detail::kCoefficients,
+                        task.edges + patch * detail::kEdgeBlock, c);
+  }
+};
+
+/// The lanes whose normal did not pass the quick test, one by one. Rare, so kept out of line;
+/// vectors come by value, or the fast path would have to keep them in memory.
+template <typename V>
+__attribute__((noinline, cold)) void
+resolve_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch, std::size_t first,
+                std::size_t active, std::size_t at, const ScalarOf<V>* y, V du0, V du1, V du2,
+                V dv0, V dv1, V dv2, V squared, V floor) {
+  using T = ScalarOf<V>;
+  const V vectors[8] = {du0, du1, du2, dv0, dv1, dv2, squared, floor};
+  alignas(64) T lanes[8][kLanes<V>];
+  for (int i = 0; i < 8; ++i) {
+    store_vector(lanes[i], vectors[i]);
+  }
+  for (std::size_t i = 0; i < active; ++i) {
+    if (lanes[6][i] > lanes[7][i]) {
+      continue;
+    }
+    const detail::NormalQuery<T> query{task.control_points + patch * detail::kCoefficients,
+                                       task.x[first + i],
+                                       *y,
+                                       {lanes[0][i], lanes[1][i], lanes[2][i]},
+                                       {lanes[3][i], lanes[4][i], lanes[5][i]}};
+    T normal[3];
+    const SampleStatus status = task.resolve_normal(query, normal);
+    for (int c = 0; c < 3; ++c) {
+      task.normal.component[c][at + i] = normal[c];
+    }
+    if (task.status != nullptr) {
+      task.status[at + i] = status;
+    }
+  }
+}
+
+/// One run of rows; kAny: groups with null planes are computed and dropped.
+template <bool kEdge, bool kFull, bool kAny, typename V>
+SIMDBEZIER_INLINE void normal_rows(const Runs<ScalarOf<V>>& runs, const NormalColumns<V>& s,
+                                   V floor, std::size_t at) {
+  const detail::Planes<ScalarOf<V>> position = s.task.position;
+  const detail::Planes<ScalarOf<V>> normal = s.task.normal;
+  const std::size_t nu = s.task.nu;
+  const std::size_t edge = edge_of(runs.kind());
+  const ScalarOf<V>* const end = runs.y() + runs.rows();
+  for (const ScalarOf<V>* y = runs.y(); y != end; ++y, at += nu) {
+    V du[3];
+    V dv[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const V p = jet<kEdge>(s.component[c], s.column, s.q[c], s.dq[c], broadcast<V>(*y), edge,
+                             du[c], dv[c]);
+      if constexpr (kAny) {
+        store_if_wanted<kFull>(position.component[c], at, p, s.active);
+        store_if_wanted<kFull>(s.task.du.component[c], at, du[c], s.active);
+        store_if_wanted<kFull>(s.task.dv.component[c], at, dv[c], s.active);
+      } else {
+        store_lanes<kFull>(position.component[c] + at, p, s.active);
+      }
+    }
+    if (kAny && !normal.wanted()) {
+      continue;
+    }
+    V n[3];
+    const V squared = cross_product(du, dv, n);
+    normalise(n, squared);
+    for (std::size_t c = 0; c < 3; ++c) {
+      store_lanes<kFull>(normal.component[c] + at, n[c], s.active);
+    }
+    if (!all_of<V>(squared > floor)) [[unlikely]] {
+      resolve_normals(s.task, s.patch, s.first, s.active, at, y, du[0], du[1], du[2], dv[0], dv[1],
+                      dv[2], squared, floor);
+    }
+  }
+}
+
+/// All three components and their cross product.
+template <bool kWatertight, bool kFull, bool kAny, typename V>
+SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch,
+                                     std::size_t first, std::size_t active) {
+  using T = ScalarOf<V>;
+  NormalColumns<V> s(task, patch, first, active);
+  for (std::size_t c = 0; c < 3; ++c) {
+    column_polynomial<kWatertight>(s.component[c], s.column, s.q[c], s.dq[c]);
+  }
+  // A column outside of [0,1] may have derivatives of any size: its normals take a second look.
+  const V never = broadcast<V>(static_cast<T>(__builtin_inf()));
+  const V half = broadcast<V>(T(0.5));
+  const V floor = select_where<V>((s.column.x <= half) & (s.column.x >= -half),
+                                  broadcast<V>(task.normal_floor[patch]), never);
+  std::size_t at = patch * task.patch_step + first;
+  for (Runs runs(task); runs.more(); runs.next()) {
+    if (kWatertight && is_edge(runs.kind())) {
+      normal_rows<true, kFull, kAny>(runs, s, floor, at);
+    } else {
+      normal_rows<false, kFull, kAny>(runs, s, runs.kind() == RowKind::outside ? never : floor, at);
+    }
+    at += runs.rows() * task.nu;
+  }
+}
+
+/// One register of columns of one patch.
+template <detail::OutputSet kOutputs, bool kWatertight, bool kFull, typename V>
+SIMDBEZIER_INLINE void evaluate_columns(const GridTask<ScalarOf<V>>& task, std::size_t patch,
+                                        std::size_t first, std::size_t active) {
+  using T = ScalarOf<V>;
+  if constexpr (kOutputs == detail::kPositionNormal || kOutputs == detail::kAnyOutputs) {
+    sweep_normals<kWatertight, kFull, kOutputs == detail::kAnyOutputs, V>(task, patch, first,
+                                                                          active);
+  } else {
+    const Column<V> column(load_vector<V>(task.x + first));
+    const std::size_t at = patch * task.patch_step + first;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Component<T> component(task.coefficients + patch * detail::kCoefficients,
+                                   task.edges + patch * detail::kEdgeBlock, c);
+      T* const position = task.position.component[c] + at;
+      if constexpr (kOutputs == detail::kPosition) {
+        sweep_position<kWatertight, kFull>(task, component, column, position, active);
+      } else {
+        const JetPlanes<T> to{position, task.du.component[c] + at, task.dv.component[c] + at};
+        sweep_derivatives<kWatertight, kFull>(task, component, column, to, active);
+      }
+    }
+  }
+}
+
+template <typename T, detail::OutputSet kOutputs, bool kWatertight>
+void grid_kernel(GridTask<T>& task) {
+  using V = vec<T>;
+  task.executed = Isa::SIMDBEZIER_ISA;
+  const std::size_t full = task.nu / kLanes<V> * kLanes<V>;
+  for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
+    for (std::size_t first = 0; first < full; first += kLanes<V>) {
+      evaluate_columns<kOutputs, kWatertight, true, V>(task, patch, first, kLanes<V>);
+    }
+    if (full < task.nu) {
+      evaluate_columns<kOutputs, kWatertight, false, V>(task, patch, full, task.nu - full);
+    }
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,99 @@
+// See grid_plan.hpp.
+#include "kernels/grid_plan.hpp"
+
+#include <cmath>
+#include <limits>
+#include <new>
+
+namespace simdbezier::detail {
+namespace {
+
+/// x_i = (2i - N) / N by one correctly rounded division, so that x_i = -x_{N-i} exactly; halved.
+template <typename T>
+T uniform_parameter(std::size_t i, std::size_t count) {
+  const std::size_t intervals = count - 1;
+  const T numerator =
+      static_cast<T>(static_cast<std::int64_t>(2 * i) - static_cast<std::int64_t>(intervals));
+  return numerator / static_cast<T>(intervals) * T(0.5);
+}
+
+template <typename T>
+void fill_parameters(const T* given, std::size_t count, Parameters parameters, T* out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    out[i] = given == nullptr ? uniform_parameter<T>(i, count) : half_centred(given[i], parameters);
+  }
+}
+
+template <typename T>
+RowKind kind_of(T y) {
+  if (y == T(-0.5)) {
+    return RowKind::edge_v0;
+  }
+  if (y == T(0.5)) {
+    return RowKind::edge_v1;
+  }
+  return std::fabs(y) < T(0.5) ? RowKind::interior : RowKind::outside;
+}
+
+} // namespace
+
+template <typename T>
+T half_centred(T value, Parameters parameters) noexcept {
+  if (!std::isfinite(value)) {
+    return std::numeric_limits<T>::quiet_NaN();
+  }
+  return parameters == Parameters::unit ? value - T(0.5) : value * T(0.5);
+}
+
+template <typename T>
+Status GridPlan<T>::build(const Grid<T>& grid) noexcept {
+  // Above this, sample indices and numerators would leave 63 bits, and runs 32.
+  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() - kMaxLanes;
+  if (grid.nu < (grid.u == nullptr ? 2U : 1U) || grid.nv < (grid.v == nullptr ? 2U : 1U)) {
+    return Status::bad_grid;
+  }
+  if (grid.nu > kMost || grid.nv > kMost) {
+    return Status::size_overflow;
+  }
+  nu_ = grid.nu;
+  nv_ = grid.nv;
+  x_ = inline_x_;
+  y_ = inline_y_;
+  kind_ = inline_kind_;
+  if (nu_ > kInline || nv_ > kInline) {
+    const std::size_t values = nu_ + kMaxLanes + nv_;
+    heap_.reset(new (std::nothrow) unsigned char[values * sizeof(T) + nv_]);
+    if (heap_ == nullptr) {
+      return Status::out_of_memory;
+    }
+    x_ = reinterpret_cast<T*>(heap_.get());
+    y_ = x_ + nu_ + kMaxLanes;
+    kind_ = reinterpret_cast<RowKind*>(y_ + nv_);
+  }
+  fill_parameters(grid.u, nu_, grid.parameters, x_);
+  fill_parameters(grid.v, nv_, grid.parameters, y_);
+  // Lanes behind the last column repeat it, so that they trigger nothing that it does not.
+  for (std::size_t i = 0; i < kMaxLanes; ++i) {
+    x_[nu_ + i] = x_[nu_ - 1];
+  }
+  for (std::size_t j = 0; j < nv_; ++j) {
+    kind_[j] = kind_of(y_[j]);
+  }
+  return Status::ok;
+}
+
+template <typename T>
+void GridPlan<T>::fill_runs(std::size_t first, std::size_t last,
+                            std::uint32_t* run) const noexcept {
+  for (std::size_t j = last; j-- > first;) {
+    const bool same = j + 1 < last && kind_[j] == kind_[j + 1];
+    run[j - first] = same ? run[j - first + 1] + 1 : 1;
+  }
+}
+
+template class GridPlan<float>;
+template class GridPlan<double>;
+template float half_centred(float, Parameters) noexcept;
+template double half_centred(double, Parameters) noexcept;
+
+} // namespace simdbezier::detail

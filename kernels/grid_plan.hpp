@@ -1,0 +1,49 @@
+// What all patches of a grid call have in common: parameters, and which rows are edges.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include <simdbezier/evaluate.hpp>
+
+#include "kernels/kernel_table.hpp"
+
+namespace simdbezier::detail {
+
+/// Half-centred parameters of a grid, in the form in which kernels read them. Small grids need no
+/// allocation: for a few patches it would cost as much as the evaluation.
+template <typename T>
+class GridPlan {
+public:
+  /// Checks the grid and fills the plan. Returns ok | bad_grid | size_overflow | out_of_memory.
+  [[nodiscard]] Status build(const Grid<T>& grid) noexcept;
+
+  [[nodiscard]] std::size_t nu() const noexcept { return nu_; }
+  [[nodiscard]] std::size_t nv() const noexcept { return nv_; }
+  [[nodiscard]] const T* x() const noexcept { return x_; }
+  [[nodiscard]] const T* y() const noexcept { return y_; }
+  [[nodiscard]] const RowKind* row_kind() const noexcept { return kind_; }
+
+  /// For rows [first, last): how many rows of the same kind follow inside of them.
+  void fill_runs(std::size_t first, std::size_t last, std::uint32_t* run) const noexcept;
+
+private:
+  static constexpr std::size_t kInline = 128;
+
+  std::size_t nu_ = 0;
+  std::size_t nv_ = 0;
+  T* x_ = nullptr;
+  T* y_ = nullptr;
+  RowKind* kind_ = nullptr;
+  std::unique_ptr<unsigned char[]> heap_;
+  alignas(64) T inline_x_[kInline + kMaxLanes];
+  alignas(64) T inline_y_[kInline];
+  RowKind inline_kind_[kInline];
+};
+
+/// Half-centred X = u - 1/2 (exactly half of 2u - 1 rounded once); nan where u is not finite.
+template <typename T>
+T half_centred(T value, Parameters parameters) noexcept;
+
+} // namespace simdbezier::detail

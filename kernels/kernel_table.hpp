@@ -1,0 +1,111 @@
+// The contract between the base code and the kernels of one instruction set. No xsimd in here.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <simdbezier/evaluate.hpp>
+
+namespace simdbezier::detail {
+
+/// Three planes of one output group; null where the group was not asked for.
+template <typename T>
+struct Planes {
+  T* component[3] = {nullptr, nullptr, nullptr};
+  [[nodiscard]] bool wanted() const noexcept { return component[0] != nullptr; }
+};
+
+/// A sample whose |du x dv|^2 did not pass the quick test.
+template <typename T>
+struct NormalQuery {
+  const T* control_points; ///< of its patch, [j][i][component]
+  T x;                     ///< half-centred parameters
+  T y;
+  T du[3];
+  T dv[3];
+};
+
+/// Writes the unit normal (or zero, or nan at nan parameters); see normal_fallback.hpp.
+template <typename T>
+using ResolveNormal = SampleStatus (*)(const NormalQuery<T>& query, T normal[3]);
+
+/// How a row of samples is evaluated.
+enum class RowKind : std::uint8_t {
+  interior,
+  edge_v0, ///< Y is exactly -1/2
+  edge_v1, ///< Y is exactly 1/2
+  outside  ///< |Y| > 1/2 or nan: the interior's formula, every normal takes a second look
+};
+
+/// Consecutive patches on consecutive rows of one grid.
+///
+/// Sample (patch, row, column) of the task goes to plane[patch * patch_step + row * nu + column],
+/// counted from the task's first patch and first row.
+template <typename T>
+struct GridTask {
+  const T* coefficients;
+  const T* edges;
+  const T* control_points;
+  const T* normal_floor;
+  std::size_t patch_count;
+
+  const T* x; ///< nu values, then padding up to a multiple of kMaxLanes
+  std::size_t nu;
+  const T* y;               ///< row_count values
+  const RowKind* row_kind;  ///< row_count values
+  const std::uint32_t* run; ///< how many rows of the same kind follow, this one included
+  std::size_t row_count;
+
+  Planes<T> position;
+  Planes<T> du;
+  Planes<T> dv;
+  Planes<T> normal;
+  SampleStatus* status; ///< may be null; filled beforehand, changed where a normal is unusual
+  std::size_t patch_step;
+  ResolveNormal<T> resolve_normal;
+  Isa executed; ///< written by the kernel
+};
+
+/// Scattered samples with unit-stride outputs.
+template <typename T>
+struct ScatteredTask {
+  const T* coefficients;
+  const T* edges;
+  const T* control_points;
+  const T* normal_floor;
+
+  const std::uint32_t* patch;
+  const T* x; ///< half-centred
+  const T* y;
+  std::size_t count;
+
+  Planes<T> position;
+  Planes<T> du;
+  Planes<T> dv;
+  Planes<T> normal;
+  SampleStatus* status;
+  ResolveNormal<T> resolve_normal;
+  Isa executed;
+};
+
+/// X arrays are padded so that the widest kernel may read past the last column.
+inline constexpr std::size_t kMaxLanes = 16;
+
+/// Which outputs a kernel is compiled for.
+enum OutputSet : std::size_t {
+  kPosition,
+  kPositionNormal,
+  kPositionDerivatives,
+  kAnyOutputs, ///< all groups computed, those with null planes not stored
+  kOutputSets
+};
+
+template <typename T>
+struct KernelTable {
+  Isa isa;
+  std::size_t lanes;
+  void (*grid[kOutputSets][2])(GridTask<T>& task); ///< [outputs][watertight]
+  void (*scattered[2])(ScatteredTask<T>& task);    ///< [watertight]
+};
+
+} // namespace simdbezier::detail

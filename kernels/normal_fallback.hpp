@@ -1,0 +1,25 @@
+// Normals where |du x dv| is too small to trust.
+#pragma once
+
+#include "kernels/kernel_table.hpp"
+
+namespace simdbezier::detail {
+
+/// The value of |du x dv|^2 above which the plain cross product is good: 2^-20 of what the
+/// hodographs allow, or infinity where the squares could leave the range of T.
+/// control_points: one patch, [j][i][component].
+template <typename T>
+T normal_floor(const T* control_points) noexcept;
+
+/// Second look at one sample, in double, the same on every instruction set. In order:
+///   1. the plain cross product, scaled by powers of two, where it stands clear of the rounding
+///      errors of du and dv: |N| > c (|du|' |dv| + |dv|' |du|), primes being hodograph bounds;
+///   2. the same with du and dv recomputed from the control points (float only);
+///   3. the limit from inside the patch to first order, N + K/8, K the derivative of du x dv
+///      towards the centre;
+///   4. the cross product at a parameter pulled 2^-12 towards the centre;
+///   5. zero: the patch is a point or a line there.
+template <typename T>
+SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept;
+
+} // namespace simdbezier::detail

@@ -1,0 +1,47 @@
+// The packed arrays behind a PatchSet, and their byte layout.
+//
+// Parameters inside the library are half-centred: X = u - 1/2 in [-1/2, 1/2]. Coefficients are
+// those of the centred form times 2^(k+l), so every intermediate is an exact power of two times
+// the one in x = 2u-1, and derivatives with respect to u and v need no factor 2.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+
+#include <simdbezier/status.hpp>
+
+namespace simdbezier::detail {
+
+inline constexpr std::size_t kComponents = 3;
+inline constexpr std::size_t kOrder = 4; // degree 3
+
+/// Per patch [component][power k of X][power l of Y]: for float one cache line a component, in
+/// which 128 bits hold the powers of Y that belong to one power of X.
+inline constexpr std::size_t kCoefficients = kComponents * kOrder * kOrder;
+
+/// Edges and corners of a patch, read for boundary samples only.
+/// [component][power][edge v=0, v=1, u=0, u=1], then [component][corner], then padding to 64.
+inline constexpr std::size_t kEdgeBlock = 64;
+inline constexpr std::size_t kEdges = 4;
+inline constexpr std::size_t kCornersAt = kComponents * kOrder * kEdges;
+enum Edge : std::size_t { kEdgeV0, kEdgeV1, kEdgeU0, kEdgeU1 };
+
+/// Corner (u,v) stands at corner[v * 2 + u].
+inline constexpr std::size_t corner_index(std::size_t u, std::size_t v) { return v * 2 + u; }
+
+struct FreeAligned {
+  void operator()(void* memory) const noexcept { ::operator delete (memory, std::align_val_t{64}); }
+};
+
+template <typename T>
+struct PatchStorage {
+  std::size_t count = 0;
+  std::unique_ptr<void, FreeAligned> memory;
+  T* coefficients = nullptr;   ///< count * kCoefficients, 64-byte aligned
+  T* edges = nullptr;          ///< count * kEdgeBlock, 64-byte aligned
+  T* control_points = nullptr; ///< count * 48, [j][i][component]; read where a normal degenerates
+  T* normal_floor = nullptr;   ///< count; |du x dv|^2 above it needs no second look
+};
+
+} // namespace simdbezier::detail

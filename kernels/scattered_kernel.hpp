@@ -1,0 +1,99 @@
+// Scattered samples, one at a time, in the grid's order of operations: V = T.
+#pragma once
+
+#include "kernels/bicubic.hpp"
+#include "kernels/kernel_table.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::ScatteredTask;
+
+template <typename T>
+SIMDBEZIER_INLINE void store_point(const detail::Planes<T>& planes, std::size_t at,
+                                   const T value[3]) {
+  if (planes.wanted()) {
+    for (int c = 0; c < 3; ++c) {
+      planes.component[c][at] = value[c];
+    }
+  }
+}
+
+/// Positions and, with kJet, both derivatives of one sample.
+template <bool kWatertight, bool kJet, typename T>
+SIMDBEZIER_INLINE void evaluate_sample(const T* coefficients, const T* edges, T x, T y, T p[3],
+                                       T du[3], T dv[3]) {
+  const Column<T> column(x);
+  const bool at_v0 = y == T(-0.5);
+  const bool on_edge = kWatertight && (at_v0 || y == T(0.5));
+  const std::size_t edge = at_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Component<T> component(coefficients, edges, c);
+    T q[kOrder];
+    if constexpr (kJet) {
+      T dq[kOrder];
+      column_polynomial<kWatertight>(component, column, q, dq);
+      p[c] = horner(q, y, dv[c]);
+      if (on_edge) {
+        p[c] = edge_position(component, column, edge, du[c]);
+      } else {
+        du[c] = horner(dq, y);
+      }
+    } else if (on_edge) {
+      p[c] = edge_position(component, column, edge);
+    } else {
+      column_polynomial<kWatertight>(component, column, q);
+      p[c] = horner(q, y);
+    }
+  }
+}
+
+template <typename T>
+SIMDBEZIER_INLINE void store_normal(const ScatteredTask<T>& task, std::size_t k, const T du[3],
+                                    const T dv[3]) {
+  const std::size_t patch = task.patch[k];
+  const T x = task.x[k];
+  const T y = task.y[k];
+  T n[3];
+  const T squared = cross_product(du, dv, n);
+  const bool inside = x <= T(0.5) && x >= T(-0.5) && y <= T(0.5) && y >= T(-0.5);
+  if (inside && squared > task.normal_floor[patch]) {
+    normalise(n, squared);
+  } else {
+    const detail::NormalQuery<T> query{task.control_points + patch * detail::kCoefficients,
+                                       x,
+                                       y,
+                                       {du[0], du[1], du[2]},
+                                       {dv[0], dv[1], dv[2]}};
+    const SampleStatus status = task.resolve_normal(query, n);
+    if (task.status != nullptr) {
+      task.status[k] = status;
+    }
+  }
+  store_point(task.normal, k, n);
+}
+
+template <typename T, bool kWatertight>
+void scattered_kernel(ScatteredTask<T>& task) {
+  task.executed = Isa::SIMDBEZIER_ISA;
+  const bool jet = task.du.wanted() || task.dv.wanted() || task.normal.wanted();
+  for (std::size_t k = 0; k < task.count; ++k) {
+    const T* const coefficients = task.coefficients + task.patch[k] * detail::kCoefficients;
+    const T* const edges = task.edges + task.patch[k] * detail::kEdgeBlock;
+    T p[3];
+    T du[3];
+    T dv[3];
+    if (jet) {
+      evaluate_sample<kWatertight, true>(coefficients, edges, task.x[k], task.y[k], p, du, dv);
+      store_point(task.du, k, du);
+      store_point(task.dv, k, dv);
+      if (task.normal.wanted()) {
+        store_normal(task, k, du, dv);
+      }
+    } else {
+      evaluate_sample<kWatertight, false>(coefficients, edges, task.x[k], task.y[k], p, du, dv);
+    }
+    store_point(task.position, k, p);
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,129 @@
+// Outputs as kernels see them: planes with unit stride. Groups with another stride are computed
+// into a thread's own planes first and copied from there.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+#include <simdbezier/evaluate.hpp>
+
+#include "kernels/kernel_table.hpp"
+
+namespace simdbezier::detail {
+
+/// The vector groups of an Outputs, in a fixed order.
+inline constexpr std::size_t kGroups = 4;
+
+template <typename T>
+class Staging {
+public:
+  /// plane_samples: how many samples one staged piece holds at the most.
+  Staging(const Outputs<T>& out, std::size_t plane_samples) noexcept
+      : group_{&out.position, &out.du, &out.dv, &out.normal}, plane_samples_(plane_samples) {}
+
+  [[nodiscard]] bool staged() const noexcept {
+    for (const Vectors<T>* group : group_) {
+      if (is_staged(*group)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// T values of scratch that one thread needs.
+  [[nodiscard]] std::size_t scratch_size() const noexcept {
+    std::size_t groups = 0;
+    for (const Vectors<T>* group : group_) {
+      groups += is_staged(*group) ? 1 : 0;
+    }
+    return groups * 3 * plane_samples_;
+  }
+
+  /// Points a task at the samples that begin at `first`.
+  template <typename Task>
+  void bind(Task& task, std::size_t first, T* scratch) const noexcept {
+    Planes<T>* const planes[kGroups] = {&task.position, &task.du, &task.dv, &task.normal};
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      T* const caller[3] = {group_[g]->x, group_[g]->y, group_[g]->z};
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (is_staged(*group_[g])) {
+          planes[g]->component[c] = scratch;
+          scratch += plane_samples_;
+        } else if (group_[g]->wanted()) {
+          planes[g]->component[c] = caller[c] + first;
+        }
+      }
+    }
+  }
+
+  /// Copies `count` staged samples to the caller's places.
+  void flush(std::size_t first, std::size_t count, const T* scratch) const noexcept {
+    for (const Vectors<T>* group : group_) {
+      if (!is_staged(*group)) {
+        continue;
+      }
+      const std::ptrdiff_t stride = group->stride;
+      const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(first) * stride;
+      T* x = group->x + offset;
+      T* y = group->y + offset;
+      T* z = group->z + offset;
+      for (std::size_t k = 0; k < count; ++k, x += stride, y += stride, z += stride) {
+        *x = scratch[k];
+        *y = scratch[k + plane_samples_];
+        *z = scratch[k + 2 * plane_samples_];
+      }
+      scratch += 3 * plane_samples_;
+    }
+  }
+
+private:
+  static bool is_staged(const Vectors<T>& group) noexcept {
+    return group.wanted() && group.stride != 1;
+  }
+
+  const Vectors<T>* group_[kGroups];
+  std::size_t plane_samples_;
+};
+
+/// ok | null_output | bad_stride | size_overflow, for `samples` samples.
+template <typename T>
+[[nodiscard]] Status check_outputs(const Outputs<T>& out, std::size_t samples) noexcept {
+  constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(T);
+  bool any = false;
+  for (const Vectors<T>* group : {&out.position, &out.du, &out.dv, &out.normal}) {
+    if (!group->wanted()) {
+      continue;
+    }
+    any = true;
+    if (group->x == nullptr || group->y == nullptr || group->z == nullptr) {
+      return Status::null_output;
+    }
+    const bool triples = group->y == group->x + 1 && group->z == group->x + 2;
+    if (group->stride == 0 ||
+        (samples > 1 && triples && group->stride > -3 && group->stride < 3)) {
+      return Status::bad_stride;
+    }
+    const std::size_t stride = group->stride > 0
+                                   ? static_cast<std::size_t>(group->stride)
+                                   : std::size_t(0) - static_cast<std::size_t>(group->stride);
+    if (samples > kMost / stride) {
+      return Status::size_overflow;
+    }
+  }
+  return any ? Status::ok : Status::null_output;
+}
+
+/// The narrowest kernel that computes what is asked for.
+template <typename T>
+[[nodiscard]] OutputSet output_set(const Outputs<T>& out) noexcept {
+  const bool p = out.position.wanted();
+  const bool du = out.du.wanted();
+  const bool dv = out.dv.wanted();
+  const bool n = out.normal.wanted();
+  if (p && !du && !dv) {
+    return n ? kPositionNormal : kPosition;
+  }
+  return p && du && dv && !n ? kPositionDerivatives : kAnyOutputs;
+}
+
+} // namespace simdbezier::detail

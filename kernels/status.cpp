@@ -1,0 +1,40 @@
+// Status texts.
+#include <simdbezier/status.hpp>
+
+namespace simdbezier {
+
+std::string_view to_string(Status status) noexcept {
+  switch (status) {
+  case Status::ok:
+    return "ok";
+  case Status::null_input:
+    return "a required input pointer is null";
+  case Status::null_output:
+    return "no output was asked for, or one of its planes is null";
+  case Status::bad_degree:
+    return "the degrees are not supported (bicubic only: 3 x 3)";
+  case Status::bad_stride:
+    return "a stride lets two values share one place";
+  case Status::non_finite_input:
+    return "a control point is nan or infinite";
+  case Status::coefficient_overflow:
+    return "the coefficients of a patch exceed the range of the number type";
+  case Status::bad_grid:
+    return "a uniform grid needs at least 2 x 2 samples, a given one 1 x 1";
+  case Status::bad_patch_range:
+    return "patches outside of the set were asked for";
+  case Status::bad_patch_index:
+    return "a sample names a patch outside of the set";
+  case Status::size_overflow:
+    return "the number of samples exceeds what memory can address";
+  case Status::unknown_isa:
+    return "SIMDBEZIER_ISA names no instruction set";
+  case Status::unsupported_isa:
+    return "the instruction set is not in this build or not in this machine";
+  case Status::out_of_memory:
+    return "out of memory";
+  }
+  return "unknown status";
+}
+
+} // namespace simdbezier
