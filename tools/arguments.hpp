@@ -1,0 +1,36 @@
+// The command line, understood.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tools/csv.hpp>
+#include <tools/grid_blocks.hpp>
+#include <tools/patch_file.hpp>
+
+namespace simdbezier::tools {
+
+enum class Command : std::uint8_t { tessellate, evaluate, info };
+enum class Precision : std::uint8_t { f32, f64 };
+
+struct Arguments {
+  Command command = Command::info;
+  std::string in;
+  PatchFormat format = PatchFormat::by_name;
+  std::string out;
+  GridSize grid;
+  std::optional<std::string> samples; ///< evaluate: a file instead of the grid
+  Precision precision = Precision::f32;
+  std::vector<OutputGroup> outputs; ///< evaluate: in column order, no duplicates
+  int threads = 0;                  ///< 0: all
+  bool normals = true;
+  bool json = false;
+};
+
+/// Nothing where help or the version was asked for, which has then been printed.
+/// Throws Failure with exit code 2 on bad usage.
+[[nodiscard]] std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
+
+} // namespace simdbezier::tools

@@ -1,0 +1,158 @@
+// simdbezier evaluate: values at samples, as CSV.
+#include <tools/commands.hpp>
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <tools/library_status.hpp>
+#include <tools/progress.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+// Results lie as the columns do: the groups asked for side by side, one row a sample.
+template <typename T>
+class ResultTable {
+public:
+  explicit ResultTable(const std::vector<OutputGroup>& groups) : groups_(groups) {}
+
+  Outputs<T> resize(std::size_t samples) {
+    values_.resize(samples * stride());
+    Outputs<T> out;
+    for (std::size_t k = 0; k < groups_.size(); ++k) {
+      const auto columns =
+          Vectors<T>::xyz(values_.data() + 3 * k, static_cast<std::ptrdiff_t>(stride()));
+      switch (groups_[k]) {
+      case OutputGroup::position:
+        out.position = columns;
+        break;
+      case OutputGroup::du:
+        out.du = columns;
+        break;
+      case OutputGroup::dv:
+        out.dv = columns;
+        break;
+      case OutputGroup::normal:
+        out.normal = columns;
+        break;
+      }
+    }
+    return out;
+  }
+  [[nodiscard]] std::span<const T> row(std::size_t sample) const {
+    return std::span(values_).subspan(sample * stride(), stride());
+  }
+
+private:
+  [[nodiscard]] std::size_t stride() const noexcept { return 3 * groups_.size(); }
+
+  std::vector<OutputGroup> groups_;
+  std::vector<T> values_;
+};
+
+// i/N in double, which is what the grid's x_i = (2i-N)/N is in u.
+double grid_parameter(std::size_t i, std::size_t count) {
+  return static_cast<double>(i) / static_cast<double>(count - 1);
+}
+
+template <typename T>
+void evaluate_on_grid(const Arguments& arguments, const PatchSet<T>& set) {
+  const GridSize grid = arguments.grid;
+  const std::uint64_t samples =
+      checked_sample_count(set.size(), grid, 3 * arguments.outputs.size() * sizeof(T));
+  const GridEvaluator<T> evaluator(set, grid, arguments.threads);
+  OutputFile file(arguments.out);
+  file.expect_room(samples * (6 + 6 * arguments.outputs.size())); // "0,0,0" and ",0,0,0" a group
+  ResultWriter writer(file, false, arguments.outputs);
+  ResultTable<T> table(arguments.outputs);
+  Progress progress(samples, arguments.out != "-");
+  for_each_block(set.size(), grid, [&](const GridBlock& block) {
+    evaluator.evaluate(block, table.resize(block.samples(grid)));
+    std::size_t k = 0;
+    for (std::size_t p = block.first_patch; p < block.first_patch + block.patch_count; ++p) {
+      for (std::size_t j = block.first_row; j < block.first_row + block.row_count; ++j) {
+        for (std::size_t i = 0; i < grid.nu; ++i, ++k) {
+          const CsvSample sample{static_cast<std::uint32_t>(p), grid_parameter(i, grid.nu),
+                                 grid_parameter(j, grid.nv)};
+          writer.line(sample, table.row(k));
+        }
+      }
+    }
+    progress.advance(block.samples(grid));
+  });
+  file.commit();
+}
+
+/// As many samples as fit into one call.
+template <typename T>
+struct SampleBlock {
+  static constexpr std::size_t kMost = std::size_t{1} << 16;
+  std::vector<CsvSample> given;
+  std::vector<std::uint32_t> patch;
+  std::vector<T> x;
+  std::vector<T> y;
+
+  /// False at the end of the file.
+  bool read(SampleReader& reader) {
+    given.clear(), patch.clear(), x.clear(), y.clear();
+    while (given.size() < kMost) {
+      const auto sample = reader.next();
+      if (!sample) {
+        break;
+      }
+      given.push_back(*sample);
+      patch.push_back(sample->patch);
+      x.push_back(centred(reader, sample->u));
+      y.push_back(centred(reader, sample->v));
+    }
+    return !given.empty();
+  }
+
+private:
+  static T centred(const SampleReader& reader, double u) {
+    const T x = reader.centred() ? static_cast<T>(u) : to_centred<T>(u);
+    if (!std::isfinite(x)) {
+      reader.refuse(u, sizeof(T) == sizeof(float) ? "f32" : "f64");
+    }
+    return x;
+  }
+};
+
+template <typename T>
+void evaluate_samples(const Arguments& arguments, const PatchSet<T>& set) {
+  SampleReader reader(*arguments.samples, set.size());
+  OutputFile file(arguments.out);
+  ResultWriter writer(file, reader.centred(), arguments.outputs);
+  ResultTable<T> table(arguments.outputs);
+  Progress progress(0, arguments.out != "-");
+  Options options;
+  options.threads = arguments.threads;
+  for (SampleBlock<T> block; block.read(reader);) {
+    const std::size_t count = block.given.size();
+    const Samples<T> samples{count, block.patch.data(), block.x.data(), block.y.data(),
+                             Parameters::centred};
+    check(evaluate_scattered(set, samples, table.resize(count), options));
+    for (std::size_t k = 0; k < count; ++k) {
+      writer.line(block.given[k], table.row(k));
+    }
+    progress.advance(count);
+  }
+  file.commit();
+}
+
+template <typename T>
+void evaluate(const Arguments& arguments) {
+  const PatchSet<T> set = pack_patches<T>(read_patches(arguments.in, arguments.format));
+  arguments.samples ? evaluate_samples(arguments, set) : evaluate_on_grid(arguments, set);
+}
+
+} // namespace
+
+void run_evaluate(const Arguments& arguments) {
+  chosen_isa();
+  arguments.precision == Precision::f32 ? evaluate<float>(arguments) : evaluate<double>(arguments);
+}
+
+} // namespace simdbezier::tools

@@ -1,0 +1,12 @@
+// What the program does. All throw Failure.
+#pragma once
+
+#include <tools/arguments.hpp>
+
+namespace simdbezier::tools {
+
+void run_tessellate(const Arguments& arguments);
+void run_evaluate(const Arguments& arguments);
+void run_info(const Arguments& arguments);
+
+} // namespace simdbezier::tools

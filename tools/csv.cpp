@@ -1,0 +1,115 @@
+#include <tools/csv.hpp>
+
+#include <algorithm>
+#include <array>
+
+#include <tools/failure.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+constexpr std::size_t kLongestLine = 4096;
+constexpr std::array<std::string_view, kOutputGroups> kColumns = {",x,y,z", ",dux,duy,duz",
+                                                                  ",dvx,dvy,dvz", ",nx,ny,nz"};
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r";
+  const std::size_t first = text.find_first_not_of(kSpace);
+  return first == std::string_view::npos
+             ? std::string_view{}
+             : text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+}
+
+// The fields of a line, trimmed; their number may be anything, three of them are kept.
+struct Fields {
+  explicit Fields(std::string_view line) {
+    for (bool more = true; more; ++count) {
+      const std::size_t comma = line.find(',');
+      more = comma != std::string_view::npos;
+      if (count < value.size()) {
+        value[count] = trimmed(line.substr(0, comma));
+      }
+      line.remove_prefix(more ? comma + 1 : line.size());
+    }
+  }
+  std::array<std::string_view, 3> value;
+  std::size_t count = 0;
+};
+
+} // namespace
+
+SampleReader::SampleReader(const std::string& path, std::size_t patches)
+    : input_(path), patches_(patches) {
+  const std::string expected = "the header patch,u,v or patch,x,y";
+  if (!next_line()) {
+    fail(expected, "the end of the file");
+  }
+  const Fields fields(line_);
+  const bool unit = fields.value == std::array<std::string_view, 3>{"patch", "u", "v"};
+  centred_ = fields.value == std::array<std::string_view, 3>{"patch", "x", "y"};
+  if (fields.count != 3 || !(unit || centred_)) {
+    fail(expected, in_quotes(line_));
+  }
+}
+
+std::optional<CsvSample> SampleReader::next() {
+  if (!next_line()) {
+    return std::nullopt;
+  }
+  const Fields fields(line_);
+  if (fields.count != 3) {
+    fail("3 fields", std::to_string(fields.count) + " in " + in_quotes(line_));
+  }
+  const auto patch = parse_integer(fields.value[0]);
+  if (!patch || *patch >= patches_) {
+    fail("a patch number from 0 to " + std::to_string(patches_ - 1), in_quotes(fields.value[0]));
+  }
+  return CsvSample{static_cast<std::uint32_t>(*patch), parameter(fields.value[1]),
+                   parameter(fields.value[2])};
+}
+
+void SampleReader::refuse(double parameter, const std::string& precision) const {
+  fail("a parameter within the range of " + precision, shortest(parameter));
+}
+
+double SampleReader::parameter(std::string_view field) const {
+  const auto value = parse_finite(field);
+  if (!value) {
+    fail("a finite number", describe_non_number(field));
+  }
+  return *value;
+}
+
+bool SampleReader::next_line() {
+  do {
+    line_.clear();
+    int c = input_.get();
+    if (c == TextInput::kEnd) {
+      return false;
+    }
+    for (; c != '\n' && c != TextInput::kEnd; c = input_.get()) {
+      if (line_.size() == kLongestLine) {
+        fail("a line of at most " + std::to_string(kLongestLine) + " characters", in_quotes(line_));
+      }
+      line_.push_back(static_cast<char>(c));
+    }
+  } while (trimmed(line_).empty());
+  line_ = trimmed(line_);
+  return true;
+}
+
+void SampleReader::fail(const std::string& expected, const std::string& found) const {
+  bad_input_at(input_.name(), input_.line(), expected, found);
+}
+
+ResultWriter::ResultWriter(OutputFile& file, bool centred, std::span<const OutputGroup> groups)
+    : file_(file) {
+  file_.text(centred ? "patch,x,y" : "patch,u,v");
+  for (const OutputGroup group : groups) {
+    file_.text(kColumns[static_cast<std::size_t>(group)]);
+  }
+  file_.character('\n');
+}
+
+} // namespace simdbezier::tools

@@ -1,0 +1,78 @@
+// Samples in and results out as comma-separated values.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <tools/output_file.hpp>
+#include <tools/text_input.hpp>
+
+namespace simdbezier::tools {
+
+/// One sample as its line gives it; u and v are centred where the header says patch,x,y.
+struct CsvSample {
+  std::uint32_t patch = 0;
+  double u = 0;
+  double v = 0;
+};
+
+/// Reads a file with the header patch,u,v or patch,x,y, line by line.
+/// Throws Failure with file and line on anything else.
+class SampleReader {
+public:
+  /// Patch numbers must be below `patches`.
+  SampleReader(const std::string& path, std::size_t patches);
+
+  [[nodiscard]] bool centred() const noexcept { return centred_; }
+  /// The next sample, or nothing at the end.
+  [[nodiscard]] std::optional<CsvSample> next();
+  /// Throws the Failure for a parameter of the last sample that the precision asked for cannot
+  /// hold.
+  [[noreturn]] void refuse(double parameter, const std::string& precision) const;
+
+private:
+  bool next_line();
+  [[nodiscard]] double parameter(std::string_view field) const;
+  [[noreturn]] void fail(const std::string& expected, const std::string& found) const;
+
+  TextInput input_;
+  std::string line_;
+  std::size_t patches_;
+  bool centred_ = false;
+};
+
+/// Groups of three result columns, in the order in which they are written.
+enum class OutputGroup : std::uint8_t { position, du, dv, normal };
+inline constexpr std::size_t kOutputGroups = 4;
+
+/// Writes the header and one line per sample, numbers so that they read back to the same bits.
+class ResultWriter {
+public:
+  ResultWriter(OutputFile& file, bool centred, std::span<const OutputGroup> groups);
+
+  template <typename T>
+  void line(const CsvSample& sample, std::span<const T> values) {
+    file_.number(sample.patch);
+    separated(sample.u);
+    separated(sample.v);
+    for (const T value : values) {
+      separated(value);
+    }
+    file_.character('\n');
+  }
+
+private:
+  template <typename T>
+  void separated(T value) {
+    file_.character(',');
+    file_.number(value);
+  }
+
+  OutputFile& file_;
+};
+
+} // namespace simdbezier::tools

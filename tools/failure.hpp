@@ -1,0 +1,29 @@
+// How the program's own errors travel to main(), which prints each as one line.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace simdbezier::tools {
+
+/// An error with the exit code that it means: 1 bad input or failed write, 2 bad usage.
+class Failure : public std::runtime_error {
+public:
+  Failure(int exit_code, const std::string& message)
+      : std::runtime_error(message), exit_code_(exit_code) {}
+  [[nodiscard]] int exit_code() const noexcept { return exit_code_; }
+
+private:
+  int exit_code_;
+};
+
+[[noreturn]] inline void bad_input(const std::string& message) { throw Failure(1, message); }
+[[noreturn]] inline void bad_usage(const std::string& message) { throw Failure(2, message); }
+
+/// "FILE:LINE: expected …, found …".
+[[noreturn]] inline void bad_input_at(const std::string& file, std::size_t line,
+                                      const std::string& expected, const std::string& found) {
+  bad_input(file + ":" + std::to_string(line) + ": expected " + expected + ", found " + found);
+}
+
+} // namespace simdbezier::tools

@@ -1,0 +1,61 @@
+#include <tools/grid_blocks.hpp>
+
+#include <string>
+
+#include <tools/failure.hpp>
+#include <tools/library_status.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+// (2i-N)/N by one division, as the library defines its uniform grid: equal bits.
+template <typename T>
+std::vector<T> uniform_parameters(std::size_t count) {
+  std::vector<T> x(count);
+  const auto intervals = static_cast<std::ptrdiff_t>(count - 1);
+  for (std::ptrdiff_t i = 0; i <= intervals; ++i) {
+    x[static_cast<std::size_t>(i)] = static_cast<T>(2 * i - intervals) / static_cast<T>(intervals);
+  }
+  return x;
+}
+
+} // namespace
+
+std::uint64_t checked_sample_count(std::size_t patches, const GridSize& grid,
+                                   std::size_t bytes_per_sample) {
+  std::uint64_t samples = 0;
+  std::uint64_t bytes = 0;
+  if (__builtin_mul_overflow(patches, grid.nu, &samples) ||
+      __builtin_mul_overflow(samples, grid.nv, &samples) ||
+      __builtin_mul_overflow(samples, bytes_per_sample, &bytes) || bytes > kMostBytes) {
+    bad_usage("--grid: expected at most " + std::to_string(kMostBytes) +
+              " bytes of results, found " + std::to_string(patches) + " patches of " +
+              std::to_string(grid.nu) + "x" + std::to_string(grid.nv) + " samples of " +
+              std::to_string(bytes_per_sample) + " bytes");
+  }
+  return samples;
+}
+
+template <typename T>
+GridEvaluator<T>::GridEvaluator(const PatchSet<T>& set, const GridSize& grid, int threads)
+    : set_(set), grid_(grid), threads_(threads), x_(uniform_parameters<T>(grid.nu)),
+      y_(uniform_parameters<T>(grid.nv)) {}
+
+template <typename T>
+void GridEvaluator<T>::evaluate(const GridBlock& block, const Outputs<T>& out) const {
+  Options options;
+  options.threads = threads_;
+  options.first_patch = block.first_patch;
+  options.patch_count = block.patch_count;
+  Grid<T> grid = Grid<T>::uniform(grid_.nu, grid_.nv);
+  if (block.row_count != grid_.nv) {
+    grid = {grid_.nu, block.row_count, x_.data(), y_.data() + block.first_row, Parameters::centred};
+  }
+  check(evaluate_grid(set_, grid, out, options));
+}
+
+template class GridEvaluator<float>;
+template class GridEvaluator<double>;
+
+} // namespace simdbezier::tools

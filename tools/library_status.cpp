@@ -1,0 +1,44 @@
+#include <tools/library_status.hpp>
+
+#include <cstdlib>
+#include <string>
+
+#include <tools/failure.hpp>
+#include <tools/text_input.hpp>
+
+namespace simdbezier::tools {
+
+std::string available_isa_names(std::string_view separator) {
+  std::string names;
+  for (const Isa isa : available_isas()) {
+    names += names.empty() ? "" : separator;
+    names += to_string(isa);
+  }
+  return names;
+}
+
+void check(Status status) {
+  switch (status) {
+  case Status::ok:
+    return;
+  case Status::unknown_isa:
+  case Status::unsupported_isa: {
+    const char* const value = std::getenv("SIMDBEZIER_ISA");
+    bad_usage("SIMDBEZIER_ISA: expected one of " + available_isa_names(", ") + ", found " +
+              in_quotes(value == nullptr ? "" : value) +
+              (status == Status::unknown_isa ? "" : ", which is not available here"));
+  }
+  case Status::out_of_memory:
+    bad_input("not enough memory");
+  default:
+    bad_input(std::string(to_string(status)));
+  }
+}
+
+Isa chosen_isa() {
+  Isa isa = Isa::automatic;
+  check(resolve_isa(Isa::automatic, isa));
+  return isa;
+}
+
+} // namespace simdbezier::tools

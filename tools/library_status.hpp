@@ -1,0 +1,21 @@
+// What the library's answers mean to a user.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <simdbezier/simdbezier.hpp>
+
+namespace simdbezier::tools {
+
+/// Does nothing on ok, otherwise throws the Failure that the status means to a user.
+void check(Status status);
+
+/// The instruction set that evaluate calls will run on. Throws Failure (bad usage) naming
+/// SIMDBEZIER_ISA where that is not available.
+Isa chosen_isa();
+
+/// The names of the instruction sets that there are, narrowest first.
+[[nodiscard]] std::string available_isa_names(std::string_view separator);
+
+} // namespace simdbezier::tools

@@ -1,0 +1,79 @@
+// Files that appear complete or not at all.
+#pragma once
+
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace simdbezier::tools {
+
+/// Writes to a temporary file beside `path`, which commit() renames to it; without commit() the
+/// temporary goes away and an existing file stays as it was. Links are followed. "-", devices and
+/// pipes have no name to rename and are written as they are. Every failure throws Failure.
+class OutputFile {
+public:
+  explicit OutputFile(std::string path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// Fails at once where the file system has no room for that much.
+  void expect_room(std::uintmax_t bytes) const;
+
+  void text(std::string_view text) { bytes(text.data(), text.size()); }
+  void character(char c) { *room(1) = c, ++used_; }
+  void bytes(const void* data, std::size_t size);
+
+  /// Shortest decimals that read back to the same bits (integers: all digits).
+  template <typename T>
+  void number(T value) {
+    char* const first = room(kLongestNumber);
+    used_ +=
+        static_cast<std::size_t>(std::to_chars(first, first + kLongestNumber, value).ptr - first);
+  }
+
+  void commit();
+
+private:
+  static constexpr std::size_t kLongestNumber = 32;
+  static constexpr std::size_t kBufferSize = std::size_t{1} << 18;
+
+  [[noreturn]] void fail(const std::string& what, const std::string& found) const;
+  void open_directly();
+  void open_temporary();
+  void flush();
+  char* room(std::size_t size) {
+    if (kBufferSize - used_ < size) {
+      flush();
+    }
+    return buffer_.data() + used_;
+  }
+
+  std::string path_;
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+  std::FILE* file_ = nullptr;
+  std::vector<char> buffer_;
+  std::size_t used_ = 0;
+};
+
+/// An interrupted or terminated program removes its temporary file; a file that outgrows its
+/// limit is a failed write. To be called once, by main().
+void handle_signals();
+
+/// True for "-", devices and pipes, which have no temporary file.
+[[nodiscard]] bool is_written_directly(const std::string& path);
+
+/// What follows the last dot of a file's name, in lower case, without the dot.
+[[nodiscard]] std::string extension_of(const std::string& path);
+
+/// The shortest decimals that read back to the same value.
+[[nodiscard]] std::string shortest(double value);
+
+} // namespace simdbezier::tools

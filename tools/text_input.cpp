@@ -1,0 +1,165 @@
+#include <tools/text_input.hpp>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include <tools/failure.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+constexpr std::size_t kBufferSize = std::size_t{1} << 16;
+constexpr std::size_t kLongestWord = 512; // exact decimals of any double fit
+
+bool is_space(int c) {
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+}
+
+// from_chars() takes no plus sign; one is allowed in our formats, "+-1" is not.
+std::string_view without_plus(std::string_view word) {
+  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+  return plus ? word.substr(1) : word;
+}
+
+struct ParsedNumber {
+  bool is_number = false;
+  double value = 0;
+};
+
+ParsedNumber parse_number(std::string_view word) {
+  word = without_plus(word);
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (end != word.data() + word.size() || error == std::errc::invalid_argument) {
+    return {};
+  }
+  if (error == std::errc::result_out_of_range) {
+    // from_chars() does not tell too large from too small.
+    value = std::strtod(std::string(word).c_str(), nullptr);
+  }
+  return {true, value};
+}
+
+} // namespace
+
+void TextInput::Close::operator()(std::FILE* file) const noexcept {
+  if (file != stdin) {
+    std::fclose(file);
+  }
+}
+
+TextInput::TextInput(const std::string& path)
+    : name_(path == "-" ? "standard input" : path), buffer_(kBufferSize) {
+  if (path == "-") {
+    file_.reset(stdin);
+    return;
+  }
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    bad_input(path + ": expected a file, found a directory");
+  }
+  file_.reset(std::fopen(path.c_str(), "rb"));
+  if (!file_) {
+    bad_input(path + ": expected a readable file, found " + in_quotes(std::strerror(errno)));
+  }
+}
+
+bool TextInput::fill() {
+  next_ = 0;
+  end_ = std::fread(buffer_.data(), 1, buffer_.size(), file_.get());
+  if (end_ == 0 && std::ferror(file_.get()) != 0) {
+    bad_input_at(name_, line_, "readable text", in_quotes(std::strerror(errno)));
+  }
+  return end_ != 0;
+}
+
+std::optional<std::string_view> Tokenizer::next() {
+  int c = input_.get();
+  while (is_space(c)) {
+    c = input_.get();
+  }
+  line_ = input_.line();
+  word_.clear();
+  while (c != TextInput::kEnd && !is_space(c) && word_.size() < kLongestWord) {
+    word_.push_back(static_cast<char>(c));
+    c = input_.get();
+  }
+  if (word_.empty()) {
+    return std::nullopt;
+  }
+  if (word_.size() == kLongestWord) {
+    word_.push_back('~');
+  }
+  return word_;
+}
+
+std::optional<double> Tokenizer::coordinate() {
+  const auto word = next();
+  if (!word) {
+    return std::nullopt;
+  }
+  const auto value = parse_finite(*word);
+  if (!value) {
+    bad_input_at(name(), line(), "a finite number", describe_non_number(*word));
+  }
+  return value;
+}
+
+std::size_t Tokenizer::patch_count() {
+  const auto word = next();
+  if (!word) {
+    bad_input_at(name(), line(), "the number of patches", "the end of the file");
+  }
+  const auto count = parse_integer(*word);
+  if (!count || *count == 0) {
+    bad_input_at(name(), line(), "the number of patches (1 or more)", in_quotes(*word));
+  }
+  return *count;
+}
+
+std::optional<double> parse_finite(std::string_view word) {
+  const ParsedNumber number = parse_number(word);
+  if (!number.is_number || !std::isfinite(number.value)) {
+    return std::nullopt;
+  }
+  return number.value;
+}
+
+std::optional<std::uint64_t> parse_integer(std::string_view word) {
+  word = without_plus(word);
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || end != word.data() + word.size()) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::string in_quotes(std::string_view word) {
+  constexpr std::size_t kShown = 40;
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string result = "'";
+  for (const char c : word.substr(0, kShown)) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code >= 0x20 && code < 0x7f) {
+      result.push_back(c);
+    } else {
+      result.append({'\\', 'x', kDigits[code >> 4], kDigits[code & 15]});
+    }
+  }
+  return result + (word.size() > kShown ? "…'" : "'");
+}
+
+std::string describe_non_number(std::string_view word) {
+  const bool too_large =
+      parse_number(word).is_number && word.find_first_of("0123456789") != std::string_view::npos;
+  return in_quotes(word) + (too_large ? ", which is too large for a double" : "");
+}
+
+} // namespace simdbezier::tools
