@@ -1,0 +1,57 @@
+// Patches as text, for tests that need a file of their own.
+#pragma once
+
+#include <charconv>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tests/support/net.hpp"
+
+namespace simdbezier::tests {
+
+/// The unit square in the plane z = 0: S(u,v) = (u, v, 0), normal +z.
+[[nodiscard]] inline Net flat_net() {
+  Net net;
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      net.at(j, i) = {i / 3.0, j / 3.0, 0};
+    }
+  }
+  return net;
+}
+
+/// Different control points for every number.
+[[nodiscard]] inline Net distinct_net(int number) {
+  Net net;
+  for (int k = 0; k < 16; ++k) {
+    const double value = number * 100 + k;
+    net.points[static_cast<std::size_t>(k)] = {value, value / 7, -value};
+  }
+  return net;
+}
+
+[[nodiscard]] inline std::string number_text(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+/// Sixteen lines of x y z.
+[[nodiscard]] inline std::string points_text(const Net& net) {
+  std::string text;
+  for (const Vector3& point : net.points) {
+    text +=
+        number_text(point[0]) + " " + number_text(point[1]) + " " + number_text(point[2]) + "\n";
+  }
+  return text;
+}
+
+[[nodiscard]] inline std::string bez_text(std::span<const Net> nets) {
+  std::string text = std::to_string(nets.size()) + "\n";
+  for (const Net& net : nets) {
+    text += points_text(net);
+  }
+  return text;
+}
+
+} // namespace simdbezier::tests

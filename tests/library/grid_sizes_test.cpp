@@ -1,0 +1,169 @@
+// Every grid width around the register widths and every choice of outputs. Accuracy is measured
+// elsewhere, at scattered samples too; here a grid must give the scattered call's bits, whatever
+// its size, and write nothing outside of its outputs.
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/evaluation.hpp"
+#include "tests/support/isa_fixture.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+std::vector<Net> wavy_nets(std::size_t count) {
+  std::vector<Net> nets(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    for (std::size_t k = 0; k < 16; ++k) {
+      const double bump = std::sin(1.7 * static_cast<double>(k + 3 * n));
+      nets[n].points[k] = {static_cast<double>(k % 4) + 0.2 * bump,
+                           static_cast<double>(k / 4) - 0.1 * bump, bump};
+    }
+  }
+  return nets;
+}
+
+/// (2i-N)/N, as the library documents uniform grids; one sample: off the middle.
+template <typename T>
+std::vector<T> centred_parameters(std::size_t count) {
+  std::vector<T> x(count, static_cast<T>(0.25));
+  const auto intervals = static_cast<T>(count - 1);
+  for (std::size_t i = 0; count > 1 && i < count; ++i) {
+    x[i] = (static_cast<T>(2 * i) - intervals) / intervals;
+  }
+  return x;
+}
+
+/// Planes in heap blocks of exactly their size, so that sanitizers see one element too many.
+template <typename T>
+class ExactPlanes {
+public:
+  ExactPlanes(std::size_t count, unsigned groups) : count_(count) {
+    for (std::size_t plane = 0; plane < 12; ++plane) {
+      if ((groups >> (plane / 3) & 1U) != 0) {
+        planes_[plane] = std::make_unique<T[]>(count);
+      }
+    }
+  }
+  Outputs<T> outputs() {
+    Outputs<T> out;
+    Vectors<T>* const group[4] = {&out.position, &out.du, &out.dv, &out.normal};
+    for (std::size_t g = 0; g < 4; ++g) {
+      *group[g] = Vectors<T>::planes(planes_[3 * g].get(), planes_[3 * g + 1].get(),
+                                     planes_[3 * g + 2].get());
+    }
+    return out;
+  }
+  /// Values that differ from those of `all`, of the groups that both hold.
+  std::size_t different_from(const Planes<T>& all) const {
+    std::size_t different = 0;
+    for (std::size_t plane = 0; plane < 12; ++plane) {
+      for (std::size_t k = 0; planes_[plane] != nullptr && k < count_; ++k) {
+        different += same_bits(planes_[plane][k], all.at(plane / 3, plane % 3, k)) ? 0 : 1;
+      }
+    }
+    return different;
+  }
+
+private:
+  std::size_t count_;
+  std::unique_ptr<T[]> planes_[12];
+};
+
+template <typename T>
+SampleArrays<T> as_samples(std::size_t patches, const std::vector<T>& x, const std::vector<T>& y) {
+  SampleArrays<T> samples;
+  for (std::size_t p = 0; p < patches; ++p) {
+    for (const T b : y) {
+      for (const T a : x) {
+        samples.add(p, a, b);
+      }
+    }
+  }
+  return samples;
+}
+
+constexpr std::size_t kPatches = 3;
+
+template <typename T>
+class Sizes : public IsaTest {
+protected:
+  void check(std::size_t nu, std::size_t nv, unsigned groups, int threads, bool uniform) {
+    const auto x = centred_parameters<T>(nu);
+    const auto y = centred_parameters<T>(nv);
+    const auto samples = as_samples(kPatches, x, y);
+    Planes<T> expected(kPatches * nu * nv);
+    scattered(set_, samples.view(Parameters::centred), expected.outputs());
+    ExactPlanes<T> found(kPatches * nu * nv, groups);
+    Grid<T> samples_of_grid{nu, nv, x.data(), y.data(), Parameters::centred};
+    if (uniform) {
+      samples_of_grid = Grid<T>::uniform(nu, nv);
+    }
+    Options options;
+    options.threads = threads;
+    grid(set_, samples_of_grid, found.outputs(), options);
+    EXPECT_EQ(found.different_from(expected), 0U)
+        << nu << "x" << nv << " groups " << groups << " threads " << threads
+        << (uniform ? " uniform" : " given");
+  }
+
+private:
+  PatchSet<T> set_ = packed<T>(wavy_nets(kPatches));
+};
+
+constexpr unsigned kAllGroups = 15;
+
+template <typename T>
+class EverySize : public Sizes<T> {
+protected:
+  void widths() {
+    for (std::size_t nu = 1; nu <= 40; ++nu) {
+      for (const std::size_t nv : {std::size_t{1}, std::size_t{2}, std::size_t{5}, nu}) {
+        // 1 position, 9 with normal, 7 with derivatives, all: one kernel each.
+        for (const unsigned groups : {1U, 9U, 7U, kAllGroups}) {
+          this->check(nu, nv, groups, 1, false);
+        }
+      }
+    }
+  }
+  void groups() {
+    for (unsigned groups = 1; groups <= kAllGroups; ++groups) {
+      for (const std::size_t nu : {4U, 9U, 16U, 19U}) {
+        this->check(nu, 6, groups, 1, true);
+      }
+    }
+  }
+  void threads() {
+    for (const int threads : {0, 1, 2, 3, 7, 64}) {
+      for (const unsigned groups : {1U, 9U, 7U, kAllGroups}) {
+        this->check(21, 13, groups, threads, true);
+      }
+    }
+  }
+  /// Larger than what a plan keeps inline, and than one strip.
+  void large() {
+    this->check(300, 280, kAllGroups, 2, true);
+    this->check(2, 700, 1, 2, true);
+    this->check(1500, 3, 9, 1, true);
+  }
+};
+
+using EverySizeF32 = EverySize<float>;
+using EverySizeF64 = EverySize<double>;
+INSTANTIATE_FOR_EVERY_ISA(EverySizeF32);
+INSTANTIATE_FOR_EVERY_ISA(EverySizeF64);
+
+TEST_P(EverySizeF32, widths_1_to_40) { widths(); }
+TEST_P(EverySizeF64, widths_1_to_40) { widths(); }
+TEST_P(EverySizeF32, every_choice_of_groups) { groups(); }
+TEST_P(EverySizeF64, every_choice_of_groups) { groups(); }
+TEST_P(EverySizeF32, any_number_of_threads) { threads(); }
+TEST_P(EverySizeF64, any_number_of_threads) { threads(); }
+TEST_P(EverySizeF32, large_grids) { large(); }
+TEST_P(EverySizeF64, large_grids) { large(); }
+
+} // namespace
+} // namespace simdbezier::tests

@@ -1,0 +1,132 @@
+// Thin helpers over the public calls: pack nets, own the outputs, compare them bit by bit.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <simdbezier/simdbezier.hpp>
+
+#include "tests/support/hash.hpp"
+#include "tests/support/net.hpp"
+
+namespace simdbezier::tests {
+
+/// Packs nets of one degree; throws where the library refuses them, which fails the test.
+template <typename T>
+[[nodiscard]] PatchSet<T> packed(std::span<const Net> nets) {
+  const std::vector<T> points = packed_points<T>(nets);
+  const ControlNets<T> view{points.data(), nets.size()};
+  PatchSet<T> set;
+  const PackReport report = pack(view, set);
+  if (!report) {
+    throw std::runtime_error("pack: " + std::string(to_string(report.status)) + " at patch " +
+                             std::to_string(report.patch));
+  }
+  return set;
+}
+
+/// Which groups a call asks for.
+struct Wanted {
+  bool position = true;
+  bool tangents = true;
+  bool normal = true;
+  bool status = true;
+};
+
+/// Twelve planes and the status plane, prefilled with a value no result has.
+template <typename T>
+class Planes {
+public:
+  explicit Planes(std::size_t count, Wanted wanted = {})
+      : count_(count), wanted_(wanted), values_(12 * count, static_cast<T>(-777)),
+        status_(count, static_cast<SampleStatus>(77)) {}
+
+  [[nodiscard]] Outputs<T> outputs() {
+    Outputs<T> out;
+    if (wanted_.position) {
+      out.position = group(0);
+    }
+    if (wanted_.tangents) {
+      out.du = group(1);
+      out.dv = group(2);
+    }
+    if (wanted_.normal) {
+      out.normal = group(3);
+    }
+    out.status = wanted_.status ? status_.data() : nullptr;
+    return out;
+  }
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] Wanted wanted() const { return wanted_; }
+  [[nodiscard]] const std::vector<T>& values() const { return values_; }
+  [[nodiscard]] const std::vector<SampleStatus>& status() const { return status_; }
+
+  /// Groups: 0 position, 1 du, 2 dv, 3 normal.
+  [[nodiscard]] T at(std::size_t group, std::size_t component, std::size_t k) const {
+    return values_[(3 * group + component) * count_ + k];
+  }
+  [[nodiscard]] std::array<T, 3> vector(std::size_t group, std::size_t k) const {
+    return {at(group, 0, k), at(group, 1, k), at(group, 2, k)};
+  }
+
+  /// Hash over samples in order, all groups of one sample together.
+  [[nodiscard]] std::uint64_t hash() const {
+    Fnv1a hash;
+    for (std::size_t k = 0; k < count_; ++k) {
+      for (std::size_t plane = 0; plane < 12; ++plane) {
+        hash.add(values_[plane * count_ + k]);
+      }
+      hash.add(static_cast<unsigned char>(status_[k]));
+    }
+    return hash.value();
+  }
+
+private:
+  [[nodiscard]] Vectors<T> group(std::size_t index) {
+    T* first = values_.data() + 3 * index * count_;
+    return Vectors<T>::planes(first, first + count_, first + 2 * count_);
+  }
+
+  std::size_t count_;
+  Wanted wanted_;
+  std::vector<T> values_;
+  std::vector<SampleStatus> status_;
+};
+
+/// How many values and statuses of two results differ in their bits.
+template <typename T>
+[[nodiscard]] std::size_t differing_values(const Planes<T>& a, const Planes<T>& b) {
+  std::size_t different = 0;
+  for (std::size_t k = 0; k < a.values().size(); ++k) {
+    different += same_bits(a.values()[k], b.values()[k]) ? 0 : 1;
+  }
+  for (std::size_t k = 0; k < a.count(); ++k) {
+    different += a.status()[k] == b.status()[k] ? 0 : 1;
+  }
+  return different;
+}
+
+/// Scattered parameters in the three arrays that the call takes.
+template <typename T>
+struct SampleArrays {
+  std::vector<std::uint32_t> patch;
+  std::vector<T> u;
+  std::vector<T> v;
+
+  void add(std::size_t p, T first, T second) {
+    patch.push_back(static_cast<std::uint32_t>(p));
+    u.push_back(first);
+    v.push_back(second);
+  }
+  [[nodiscard]] Samples<T> view(Parameters parameters) const {
+    return {patch.size(), patch.data(), u.data(), v.data(), parameters};
+  }
+};
+
+} // namespace simdbezier::tests

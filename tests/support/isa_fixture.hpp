@@ -1,0 +1,70 @@
+// GoogleTest bodies that run on every instruction set of the machine, and prove that they did.
+//
+//     using PositionTest = IsaTest;
+//     TEST_P(PositionTest, MeetsItsBound) { grid(set, Grid<float>::uniform(9, 9), out); }
+//     INSTANTIATE_FOR_EVERY_ISA(PositionTest);
+#pragma once
+
+#include <span>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <simdbezier/simdbezier.hpp>
+
+namespace simdbezier::tests {
+
+/// Evaluate calls go through grid() and scattered(), which force the instruction set under test
+/// and check the name that the kernel itself wrote. A body that made no such call fails: it would
+/// pass on an instruction set it never ran on.
+class IsaTest : public ::testing::TestWithParam<Isa> {
+protected:
+  [[nodiscard]] static Isa isa() { return GetParam(); }
+
+  template <typename T>
+  void grid(const PatchSet<T>& set, const Grid<T>& samples, const Outputs<T>& out,
+            Options options = {}) {
+    Isa executed = Isa::automatic;
+    options.isa = isa();
+    options.executed = &executed;
+    const Status status = evaluate_grid(set, samples, out, options);
+    expect_ran(status, executed);
+  }
+
+  template <typename T>
+  void scattered(const PatchSet<T>& set, const Samples<T>& samples, const Outputs<T>& out,
+                 Options options = {}) {
+    Isa executed = Isa::automatic;
+    options.isa = isa();
+    options.executed = &executed;
+    const Status status = evaluate_scattered(set, samples, out, options);
+    expect_ran(status, executed);
+  }
+
+  /// For calls that take their own path to the library (other evaluators, other threads).
+  void expect_ran(Status status, Isa executed) {
+    EXPECT_EQ(to_string(status), to_string(Status::ok));
+    EXPECT_EQ(to_string(executed), to_string(isa())) << "another instruction set ran";
+    calls_ += executed == isa() ? 1 : 0;
+  }
+
+  void TearDown() override {
+    if (!IsSkipped()) {
+      EXPECT_GT(calls_, 0) << "no evaluate call ran on " << to_string(isa());
+    }
+  }
+
+private:
+  int calls_ = 0;
+};
+
+[[nodiscard]] inline std::string isa_test_name(const ::testing::TestParamInfo<Isa>& info) {
+  return std::string(to_string(info.param));
+}
+
+#define INSTANTIATE_FOR_EVERY_ISA(suite)                                                           \
+  INSTANTIATE_TEST_SUITE_P(Isa, suite,                                                             \
+                           ::testing::ValuesIn(available_isas().begin(), available_isas().end()),  \
+                           ::simdbezier::tests::isa_test_name)
+
+} // namespace simdbezier::tests
