@@ -8,12 +8,14 @@
 #pragma once
 
 #include "kernels/isa/arch.hpp"
+#include "kernels/kernel_table.hpp"
 #include "kernels/patch_storage.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::kEdges;
 using detail::kOrder;
+using detail::Scheme;
 
 /// c[0] + t c[1] + t^2 c[2] + t^3 c[3]
 template <typename V>
@@ -49,18 +51,24 @@ struct Component {
   const T* matrix; ///< [k][l]
   const T* edge;   ///< [power][edge]
   const T* corner; ///< [corner]
+  const T*
+      origin; ///< of the patch, and from kEdgeOriginsAt on of its edges; read with origins only
 
-  SIMDBEZIER_INLINE Component(const T* coefficients, const T* edges, std::size_t component)
-      : matrix(coefficients + component * kOrder * kOrder),
-        edge(edges + component * kOrder * kEdges),
-        corner(edges + detail::kCornersAt + component * kEdges) {}
+  /// task: any that holds coefficients, edges and origins.
+  template <typename Task>
+  SIMDBEZIER_INLINE Component(const Task& task, std::size_t patch, std::size_t component)
+      : matrix(task.coefficients + patch * detail::kCoefficients + component * kOrder * kOrder),
+        edge(task.edges + patch * detail::kEdgeBlock + component * kOrder * kEdges),
+        corner(task.edges + patch * detail::kEdgeBlock + detail::kCornersAt + component * kEdges),
+        origin(task.origins + patch * detail::kOriginBlock +
+               component * detail::kOriginsPerComponent) {}
 };
 
 /// The polynomial in Y that a column is, for position and v derivative.
-template <bool kWatertight, typename V>
+template <Scheme kScheme, typename V>
 SIMDBEZIER_INLINE void replace_edge_columns(const Component<ScalarOf<V>>& c,
                                             const Column<V>& column, V q[kOrder]) {
-  if (kWatertight && column.on_edge) {
+  if (is_watertight(kScheme) && column.on_edge) {
     for (std::size_t l = 0; l < kOrder; ++l) {
       q[l] = column.edges.replace(q[l], c.edge + l * kEdges + detail::kEdgeU0);
     }
@@ -74,7 +82,7 @@ SIMDBEZIER_INLINE void matrix_column(const Component<ScalarOf<V>>& c, std::size_
   }
 }
 
-template <bool kWatertight, typename V>
+template <Scheme kScheme, typename V>
 SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                          V q[kOrder]) {
   for (std::size_t l = 0; l < kOrder; ++l) {
@@ -82,12 +90,12 @@ SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const 
     matrix_column(c, l, k);
     q[l] = horner(k, column.x);
   }
-  replace_edge_columns<kWatertight>(c, column, q);
+  replace_edge_columns<kScheme>(c, column, q);
 }
 
 /// As above; dq is the polynomial of the u derivative, which on an edge u = const still comes from
 /// the patch, because the edge's control points do not determine it.
-template <bool kWatertight, typename V>
+template <Scheme kScheme, typename V>
 SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                          V q[kOrder], V dq[kOrder]) {
   for (std::size_t l = 0; l < kOrder; ++l) {
@@ -95,28 +103,61 @@ SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const 
     matrix_column(c, l, k);
     q[l] = horner(k, column.x, dq[l]);
   }
-  replace_edge_columns<kWatertight>(c, column, q);
+  replace_edge_columns<kScheme>(c, column, q);
 }
 
-/// Position on the edge v = 0 or 1 (`edge` = kEdgeV0 or kEdgeV1); corners are control points.
+/// What a column's positions are relative to; a column on an edge u = const has that edge's origin.
+template <Scheme kScheme, typename V>
+SIMDBEZIER_INLINE V column_origin(const Component<ScalarOf<V>>& c, const Column<V>& column) {
+  if constexpr (!has_origins(kScheme)) {
+    return column.x; // not used
+  }
+  const V inside = broadcast<V>(c.origin[0]);
+  constexpr std::size_t kAt = detail::kEdgeOriginsAt + detail::kEdgeU0;
+  return is_watertight(kScheme) ? column.edges.replace(inside, c.origin + kAt) : inside;
+}
+
+/// Origins are added last, so that far away only this addition rounds at the size of the result.
+template <Scheme kScheme, typename V>
+SIMDBEZIER_INLINE V with_origin(V p, V origin) {
+  if constexpr (has_origins(kScheme)) {
+    return p + origin;
+  }
+  return p;
+}
+
 template <typename V>
+SIMDBEZIER_INLINE void edge_cubic(const Component<ScalarOf<V>>& c, std::size_t edge, V k[kOrder]) {
+  for (std::size_t i = 0; i < kOrder; ++i) {
+    k[i] = broadcast<V>(c.edge[i * kEdges + edge]);
+  }
+}
+
+/// From the value of the edge's cubic to the position: origin added, corners as stored.
+template <Scheme kScheme, typename V>
+SIMDBEZIER_INLINE V finished_edge(const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                  std::size_t edge, V value) {
+  if constexpr (has_origins(kScheme)) {
+    value = value + broadcast<V>(c.origin[detail::kEdgeOriginsAt + edge]);
+  }
+  return column.edges.replace(value, c.corner + detail::corner_index(0, edge));
+}
+
+/// Position on the edge v = 0 or 1 (`edge` = kEdgeV0 or kEdgeV1).
+template <Scheme kScheme, typename V>
 SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                   std::size_t edge) {
   V k[kOrder];
-  for (std::size_t i = 0; i < kOrder; ++i) {
-    k[i] = broadcast<V>(c.edge[i * kEdges + edge]);
-  }
-  return column.edges.replace(horner(k, column.x), c.corner + detail::corner_index(0, edge));
+  edge_cubic(c, edge, k);
+  return finished_edge<kScheme>(c, column, edge, horner(k, column.x));
 }
 
-template <typename V>
+template <Scheme kScheme, typename V>
 SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                   std::size_t edge, V& du) {
   V k[kOrder];
-  for (std::size_t i = 0; i < kOrder; ++i) {
-    k[i] = broadcast<V>(c.edge[i * kEdges + edge]);
-  }
-  return column.edges.replace(horner(k, column.x, du), c.corner + detail::corner_index(0, edge));
+  edge_cubic(c, edge, k);
+  return finished_edge<kScheme>(c, column, edge, horner(k, column.x, du));
 }
 
 /// N = du x dv and |N|^2.

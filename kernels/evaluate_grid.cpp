@@ -29,7 +29,7 @@ public:
   GridCall(const PatchStorage<T>& patches, std::size_t first_patch, const GridPlan<T>& plan,
            const Outputs<T>& out, bool watertight, const KernelTable<T>& table) noexcept
       : patches_(patches), first_patch_(first_patch), plan_(plan), out_(out),
-        kernel_(table.grid[output_set(out)][watertight ? 1 : 0]),
+        kernel_(table.grid[output_set(out)][scheme(watertight, patches.origins != nullptr)]),
         staging_(out, std::max(kStagedSamples, plan.nu())) {
     const std::size_t samples = staging_.staged() ? kStagedSamples : kDirectSamples;
     strip_rows_ = std::clamp<std::size_t>(samples / plan.nu(), 1, plan.nv());
@@ -67,6 +67,7 @@ private:
     task.coefficients = patches_.coefficients + at * kCoefficients;
     task.edges = patches_.edges + at * kEdgeBlock;
     task.control_points = patches_.control_points + at * kCoefficients;
+    task.origins = patches_.origins == nullptr ? nullptr : patches_.origins + at * kOriginBlock;
     task.normal_floor = patches_.normal_floor + at;
     task.patch_count = count;
     task.x = plan_.x();

@@ -60,6 +60,7 @@ struct ScatteredCall {
     task.coefficients = patches.coefficients;
     task.edges = patches.edges;
     task.control_points = patches.control_points;
+    task.origins = patches.origins;
     task.normal_floor = patches.normal_floor;
     task.patch = samples.patch + first;
     task.x = x;
@@ -129,9 +130,10 @@ Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, con
     return readable;
   }
   const auto& table = detail::kernel_table<T>(isa);
-  const detail::ScatteredCall<T> call{*set.storage(), samples, out,
-                                      table.scattered[options.watertight ? 1 : 0],
-                                      detail::Staging<T>(out, detail::kPiece)};
+  const detail::ScatteredCall<T> call{
+      *set.storage(), samples, out,
+      table.scattered[detail::scheme(options.watertight, set.has_local_origins())],
+      detail::Staging<T>(out, detail::kPiece)};
   return detail::run_scattered(call, options);
 }
 

@@ -65,40 +65,55 @@ SIMDBEZIER_INLINE void store_if_wanted(ScalarOf<V>* plane, std::size_t at, V val
 }
 
 /// Positions of one component: one register of columns, all rows.
-template <bool kWatertight, bool kFull, typename V>
+template <Scheme kScheme, bool kFull, typename V>
 SIMDBEZIER_INLINE void sweep_position(const GridTask<ScalarOf<V>>& task,
                                       const Component<ScalarOf<V>>& c, const Column<V>& column,
                                       ScalarOf<V>* to, std::size_t active) {
   V q[kOrder];
-  column_polynomial<kWatertight>(c, column, q);
+  column_polynomial<kScheme>(c, column, q);
+  const V origin = column_origin<kScheme>(c, column);
   const std::size_t nu = task.nu;
   for (Runs runs(task); runs.more(); runs.next()) {
     const ScalarOf<V>* y = runs.y();
     const ScalarOf<V>* const end = y + runs.rows();
-    if (kWatertight && is_edge(runs.kind())) {
-      const V p = edge_position(c, column, edge_of(runs.kind()));
+    if (is_watertight(kScheme) && is_edge(runs.kind())) {
+      const V p = edge_position<kScheme>(c, column, edge_of(runs.kind()));
       for (; y != end; ++y, to += nu) {
         store_lanes<kFull>(to, p, active);
       }
     } else {
       for (; y != end; ++y, to += nu) {
-        store_lanes<kFull>(to, horner(q, broadcast<V>(*y)), active);
+        const V p = with_origin<kScheme>(horner(q, broadcast<V>(*y)), origin);
+        store_lanes<kFull>(to, p, active);
       }
     }
   }
 }
 
-/// Position and both derivatives of one component at one row; kEdge: on the edge v = 0 or 1.
-template <bool kEdge, typename V>
-SIMDBEZIER_INLINE V jet(const Component<ScalarOf<V>>& c, const Column<V>& column, const V q[kOrder],
-                        const V dq[kOrder], V y, std::size_t edge, V& du, V& dv) {
-  const V p = horner(q, y, dv);
-  if constexpr (kEdge) {
-    return edge_position(c, column, edge, du);
+/// A register of columns as cubics in Y: one component's positions and u derivatives.
+template <Scheme kScheme, typename V>
+struct JetColumns {
+  V q[kOrder];
+  V dq[kOrder];
+  V origin;
+
+  SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const Column<V>& column) {
+    column_polynomial<kScheme>(c, column, q, dq);
+    origin = column_origin<kScheme>(c, column);
   }
-  du = horner(dq, y);
-  return p;
-}
+
+  /// Position and both derivatives at one row; kEdge: on the edge v = 0 or 1.
+  template <bool kEdge>
+  SIMDBEZIER_INLINE V at(const Component<ScalarOf<V>>& c, const Column<V>& column, V y,
+                         std::size_t edge, V& du, V& dv) const {
+    const V p = horner(q, y, dv);
+    if constexpr (kEdge) {
+      return edge_position<kScheme>(c, column, edge, du);
+    }
+    du = horner(dq, y);
+    return with_origin<kScheme>(p, origin);
+  }
+};
 
 /// Where the samples of one component go.
 template <typename T>
@@ -108,10 +123,10 @@ struct JetPlanes {
   T* dv;
 };
 
-template <bool kEdge, bool kFull, typename V>
+template <bool kEdge, bool kFull, Scheme kScheme, typename V>
 SIMDBEZIER_INLINE void derivative_rows(const Runs<ScalarOf<V>>& runs,
                                        const Component<ScalarOf<V>>& c, const Column<V>& column,
-                                       const V q[kOrder], const V dq[kOrder],
+                                       const JetColumns<kScheme, V>& columns,
                                        const JetPlanes<ScalarOf<V>>& to, std::size_t at,
                                        std::size_t nu, std::size_t active) {
   const std::size_t edge = edge_of(runs.kind());
@@ -119,34 +134,33 @@ SIMDBEZIER_INLINE void derivative_rows(const Runs<ScalarOf<V>>& runs,
   for (const ScalarOf<V>* y = runs.y(); y != end; ++y, at += nu) {
     V du;
     V dv;
-    const V p = jet<kEdge>(c, column, q, dq, broadcast<V>(*y), edge, du, dv);
+    const V p = columns.template at<kEdge>(c, column, broadcast<V>(*y), edge, du, dv);
     store_lanes<kFull>(to.position + at, p, active);
     store_lanes<kFull>(to.du + at, du, active);
     store_lanes<kFull>(to.dv + at, dv, active);
   }
 }
 
-template <bool kWatertight, bool kFull, typename V>
+template <Scheme kScheme, bool kFull, typename V>
 SIMDBEZIER_INLINE void sweep_derivatives(const GridTask<ScalarOf<V>>& task,
                                          const Component<ScalarOf<V>>& c, const Column<V>& column,
                                          const JetPlanes<ScalarOf<V>>& to, std::size_t active) {
-  V q[kOrder];
-  V dq[kOrder];
-  column_polynomial<kWatertight>(c, column, q, dq);
+  JetColumns<kScheme, V> columns;
+  columns.build(c, column);
   const std::size_t nu = task.nu;
   std::size_t at = 0;
   for (Runs runs(task); runs.more(); runs.next()) {
-    if (kWatertight && is_edge(runs.kind())) {
-      derivative_rows<true, kFull>(runs, c, column, q, dq, to, at, nu, active);
+    if (is_watertight(kScheme) && is_edge(runs.kind())) {
+      derivative_rows<true, kFull>(runs, c, column, columns, to, at, nu, active);
     } else {
-      derivative_rows<false, kFull>(runs, c, column, q, dq, to, at, nu, active);
+      derivative_rows<false, kFull>(runs, c, column, columns, to, at, nu, active);
     }
     at += runs.rows() * nu;
   }
 }
 
 /// What the rows of one register of columns have in common.
-template <typename V>
+template <Scheme kScheme, typename V>
 struct NormalColumns {
   using T = ScalarOf<V>;
 
@@ -156,19 +170,18 @@ struct NormalColumns {
   std::size_t active;
   Component<T> component[3];
   Column<V> column;
-  V q[3][kOrder];
-  V dq[3][kOrder];
+  JetColumns<kScheme, V> jet[3];
 
   SIMDBEZIER_INLINE NormalColumns(const GridTask<T>& the_task, std::size_t the_patch,
                                   std::size_t first_column, std::size_t active_lanes)
       : task(the_task), patch(the_patch), first(first_column),
-        active(active_lanes), component{component_at(0), component_at(1), component_at(2)},
-        column(load_vector<V>(the_task.x + first_column)) {}
-
-private:
-  SIMDBEZIER_INLINE Component<T> component_at(std::size_t c) const {
-    return Component<T>(task.coefficients + patch * detail::kCoefficients,
-                        task.edges + patch * detail::kEdgeBlock, c);
+        active(active_lanes), component{{the_task, the_patch, 0},
+                                        {the_task, the_patch, 1},
+                                        {the_task, the_patch, 2}},
+        column(load_vector<V>(the_task.x + first_column)) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      jet[c].build(component[c], column);
+    }
   }
 };
 
@@ -206,9 +219,9 @@ resolve_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch, std::size_
 }
 
 /// One run of rows; kAny: groups with null planes are computed and dropped.
-template <bool kEdge, bool kFull, bool kAny, typename V>
-SIMDBEZIER_INLINE void normal_rows(const Runs<ScalarOf<V>>& runs, const NormalColumns<V>& s,
-                                   V floor, std::size_t at) {
+template <bool kEdge, bool kFull, bool kAny, Scheme kScheme, typename V>
+SIMDBEZIER_INLINE void normal_rows(const Runs<ScalarOf<V>>& runs,
+                                   const NormalColumns<kScheme, V>& s, V floor, std::size_t at) {
   const detail::Planes<ScalarOf<V>> position = s.task.position;
   const detail::Planes<ScalarOf<V>> normal = s.task.normal;
   const std::size_t nu = s.task.nu;
@@ -218,8 +231,8 @@ SIMDBEZIER_INLINE void normal_rows(const Runs<ScalarOf<V>>& runs, const NormalCo
     V du[3];
     V dv[3];
     for (std::size_t c = 0; c < 3; ++c) {
-      const V p = jet<kEdge>(s.component[c], s.column, s.q[c], s.dq[c], broadcast<V>(*y), edge,
-                             du[c], dv[c]);
+      const V p = s.jet[c].template at<kEdge>(s.component[c], s.column, broadcast<V>(*y), edge,
+                                              du[c], dv[c]);
       if constexpr (kAny) {
         store_if_wanted<kFull>(position.component[c], at, p, s.active);
         store_if_wanted<kFull>(s.task.du.component[c], at, du[c], s.active);
@@ -245,14 +258,11 @@ SIMDBEZIER_INLINE void normal_rows(const Runs<ScalarOf<V>>& runs, const NormalCo
 }
 
 /// All three components and their cross product.
-template <bool kWatertight, bool kFull, bool kAny, typename V>
+template <Scheme kScheme, bool kFull, bool kAny, typename V>
 SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch,
                                      std::size_t first, std::size_t active) {
   using T = ScalarOf<V>;
-  NormalColumns<V> s(task, patch, first, active);
-  for (std::size_t c = 0; c < 3; ++c) {
-    column_polynomial<kWatertight>(s.component[c], s.column, s.q[c], s.dq[c]);
-  }
+  const NormalColumns<kScheme, V> s(task, patch, first, active);
   // A column outside of [0,1] may have derivatives of any size: its normals take a second look.
   const V never = broadcast<V>(static_cast<T>(__builtin_inf()));
   const V half = broadcast<V>(T(0.5));
@@ -260,7 +270,7 @@ SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task, std::siz
                                   broadcast<V>(task.normal_floor[patch]), never);
   std::size_t at = patch * task.patch_step + first;
   for (Runs runs(task); runs.more(); runs.next()) {
-    if (kWatertight && is_edge(runs.kind())) {
+    if (is_watertight(kScheme) && is_edge(runs.kind())) {
       normal_rows<true, kFull, kAny>(runs, s, floor, at);
     } else {
       normal_rows<false, kFull, kAny>(runs, s, runs.kind() == RowKind::outside ? never : floor, at);
@@ -270,41 +280,39 @@ SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task, std::siz
 }
 
 /// One register of columns of one patch.
-template <detail::OutputSet kOutputs, bool kWatertight, bool kFull, typename V>
+template <detail::OutputSet kOutputs, Scheme kScheme, bool kFull, typename V>
 SIMDBEZIER_INLINE void evaluate_columns(const GridTask<ScalarOf<V>>& task, std::size_t patch,
                                         std::size_t first, std::size_t active) {
   using T = ScalarOf<V>;
   if constexpr (kOutputs == detail::kPositionNormal || kOutputs == detail::kAnyOutputs) {
-    sweep_normals<kWatertight, kFull, kOutputs == detail::kAnyOutputs, V>(task, patch, first,
-                                                                          active);
+    sweep_normals<kScheme, kFull, kOutputs == detail::kAnyOutputs, V>(task, patch, first, active);
   } else {
     const Column<V> column(load_vector<V>(task.x + first));
     const std::size_t at = patch * task.patch_step + first;
     for (std::size_t c = 0; c < 3; ++c) {
-      const Component<T> component(task.coefficients + patch * detail::kCoefficients,
-                                   task.edges + patch * detail::kEdgeBlock, c);
+      const Component<T> component(task, patch, c);
       T* const position = task.position.component[c] + at;
       if constexpr (kOutputs == detail::kPosition) {
-        sweep_position<kWatertight, kFull>(task, component, column, position, active);
+        sweep_position<kScheme, kFull>(task, component, column, position, active);
       } else {
         const JetPlanes<T> to{position, task.du.component[c] + at, task.dv.component[c] + at};
-        sweep_derivatives<kWatertight, kFull>(task, component, column, to, active);
+        sweep_derivatives<kScheme, kFull>(task, component, column, to, active);
       }
     }
   }
 }
 
-template <typename T, detail::OutputSet kOutputs, bool kWatertight>
+template <typename T, detail::OutputSet kOutputs, Scheme kScheme>
 void grid_kernel(GridTask<T>& task) {
   using V = vec<T>;
   task.executed = Isa::SIMDBEZIER_ISA;
   const std::size_t full = task.nu / kLanes<V> * kLanes<V>;
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
     for (std::size_t first = 0; first < full; first += kLanes<V>) {
-      evaluate_columns<kOutputs, kWatertight, true, V>(task, patch, first, kLanes<V>);
+      evaluate_columns<kOutputs, kScheme, true, V>(task, patch, first, kLanes<V>);
     }
     if (full < task.nu) {
-      evaluate_columns<kOutputs, kWatertight, false, V>(task, patch, full, task.nu - full);
+      evaluate_columns<kOutputs, kScheme, false, V>(task, patch, full, task.nu - full);
     }
   }
 }

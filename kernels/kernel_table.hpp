@@ -46,6 +46,7 @@ struct GridTask {
   const T* coefficients;
   const T* edges;
   const T* control_points;
+  const T* origins; ///< null where the set has none
   const T* normal_floor;
   std::size_t patch_count;
 
@@ -72,6 +73,7 @@ struct ScatteredTask {
   const T* coefficients;
   const T* edges;
   const T* control_points;
+  const T* origins; ///< null where the set has none
   const T* normal_floor;
 
   const std::uint32_t* patch;
@@ -100,12 +102,22 @@ enum OutputSet : std::size_t {
   kOutputSets
 };
 
+/// What positions are made of: the interior's formula everywhere, edges from their own control
+/// points, and these around local origins.
+enum Scheme : std::size_t { kOpen, kOpenOrigin, kWatertight, kWatertightOrigin, kSchemes };
+
+inline constexpr Scheme scheme(bool watertight, bool origins) {
+  return watertight ? (origins ? kWatertightOrigin : kWatertight) : (origins ? kOpenOrigin : kOpen);
+}
+inline constexpr bool is_watertight(Scheme s) { return s == kWatertight || s == kWatertightOrigin; }
+inline constexpr bool has_origins(Scheme s) { return s == kOpenOrigin || s == kWatertightOrigin; }
+
 template <typename T>
 struct KernelTable {
   Isa isa;
   std::size_t lanes;
-  void (*grid[kOutputSets][2])(GridTask<T>& task); ///< [outputs][watertight]
-  void (*scattered[2])(ScatteredTask<T>& task);    ///< [watertight]
+  void (*grid[kOutputSets][kSchemes])(GridTask<T>& task);
+  void (*scattered[kSchemes])(ScatteredTask<T>& task);
 };
 
 } // namespace simdbezier::detail

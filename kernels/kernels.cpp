@@ -5,21 +5,23 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-template <typename T, detail::OutputSet kOutputs>
-constexpr void fill_grid(detail::KernelTable<T>& table) {
-  table.grid[kOutputs][false] = grid_kernel<T, kOutputs, false>;
-  table.grid[kOutputs][true] = grid_kernel<T, kOutputs, true>;
+template <typename T, detail::Scheme kScheme>
+constexpr void fill_scheme(detail::KernelTable<T>& table) {
+  table.grid[detail::kPosition][kScheme] = grid_kernel<T, detail::kPosition, kScheme>;
+  table.grid[detail::kPositionNormal][kScheme] = grid_kernel<T, detail::kPositionNormal, kScheme>;
+  table.grid[detail::kPositionDerivatives][kScheme] =
+      grid_kernel<T, detail::kPositionDerivatives, kScheme>;
+  table.grid[detail::kAnyOutputs][kScheme] = grid_kernel<T, detail::kAnyOutputs, kScheme>;
+  table.scattered[kScheme] = scattered_kernel<T, kScheme>;
 }
 
 template <typename T>
 constexpr detail::KernelTable<T> make_table() {
   detail::KernelTable<T> table{Isa::SIMDBEZIER_ISA, kLanes<vec<T>>, {}, {}};
-  fill_grid<T, detail::kPosition>(table);
-  fill_grid<T, detail::kPositionNormal>(table);
-  fill_grid<T, detail::kPositionDerivatives>(table);
-  fill_grid<T, detail::kAnyOutputs>(table);
-  table.scattered[false] = scattered_kernel<T, false>;
-  table.scattered[true] = scattered_kernel<T, true>;
+  fill_scheme<T, detail::kOpen>(table);
+  fill_scheme<T, detail::kOpenOrigin>(table);
+  fill_scheme<T, detail::kWatertight>(table);
+  fill_scheme<T, detail::kWatertightOrigin>(table);
   return table;
 }
 

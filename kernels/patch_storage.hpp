@@ -27,6 +27,12 @@ inline constexpr std::size_t kEdges = 4;
 inline constexpr std::size_t kCornersAt = kComponents * kOrder * kEdges;
 enum Edge : std::size_t { kEdgeV0, kEdgeV1, kEdgeU0, kEdgeU1 };
 
+/// Per patch [component][8]: the patch's own origin, three places unused, the origins of its four
+/// edges in their order. Present in sets packed with local origins only.
+inline constexpr std::size_t kOriginBlock = 24;
+inline constexpr std::size_t kOriginsPerComponent = 8;
+inline constexpr std::size_t kEdgeOriginsAt = 4;
+
 /// Corner (u,v) stands at corner[v * 2 + u].
 inline constexpr std::size_t corner_index(std::size_t u, std::size_t v) { return v * 2 + u; }
 
@@ -41,6 +47,7 @@ struct PatchStorage {
   T* coefficients = nullptr;   ///< count * kCoefficients, 64-byte aligned
   T* edges = nullptr;          ///< count * kEdgeBlock, 64-byte aligned
   T* control_points = nullptr; ///< count * 48, [j][i][component]; read where a normal degenerates
+  T* origins = nullptr;        ///< count * kOriginBlock, or null
   T* normal_floor = nullptr;   ///< count; |du x dv|^2 above it needs no second look
 };
 

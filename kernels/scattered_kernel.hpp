@@ -19,30 +19,32 @@ SIMDBEZIER_INLINE void store_point(const detail::Planes<T>& planes, std::size_t 
 }
 
 /// Positions and, with kJet, both derivatives of one sample.
-template <bool kWatertight, bool kJet, typename T>
-SIMDBEZIER_INLINE void evaluate_sample(const T* coefficients, const T* edges, T x, T y, T p[3],
-                                       T du[3], T dv[3]) {
-  const Column<T> column(x);
+template <Scheme kScheme, bool kJet, typename T>
+SIMDBEZIER_INLINE void evaluate_sample(const ScatteredTask<T>& task, std::size_t k, T p[3], T du[3],
+                                       T dv[3]) {
+  const T y = task.y[k];
+  const Column<T> column(task.x[k]);
   const bool at_v0 = y == T(-0.5);
-  const bool on_edge = kWatertight && (at_v0 || y == T(0.5));
+  const bool on_edge = is_watertight(kScheme) && (at_v0 || y == T(0.5));
   const std::size_t edge = at_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
   for (std::size_t c = 0; c < 3; ++c) {
-    const Component<T> component(coefficients, edges, c);
+    const Component<T> component(task, task.patch[k], c);
+    const T origin = column_origin<kScheme>(component, column);
     T q[kOrder];
     if constexpr (kJet) {
       T dq[kOrder];
-      column_polynomial<kWatertight>(component, column, q, dq);
-      p[c] = horner(q, y, dv[c]);
+      column_polynomial<kScheme>(component, column, q, dq);
+      p[c] = with_origin<kScheme>(horner(q, y, dv[c]), origin);
       if (on_edge) {
-        p[c] = edge_position(component, column, edge, du[c]);
+        p[c] = edge_position<kScheme>(component, column, edge, du[c]);
       } else {
         du[c] = horner(dq, y);
       }
     } else if (on_edge) {
-      p[c] = edge_position(component, column, edge);
+      p[c] = edge_position<kScheme>(component, column, edge);
     } else {
-      column_polynomial<kWatertight>(component, column, q);
-      p[c] = horner(q, y);
+      column_polynomial<kScheme>(component, column, q);
+      p[c] = with_origin<kScheme>(horner(q, y), origin);
     }
   }
 }
@@ -72,25 +74,23 @@ SIMDBEZIER_INLINE void store_normal(const ScatteredTask<T>& task, std::size_t k,
   store_point(task.normal, k, n);
 }
 
-template <typename T, bool kWatertight>
+template <typename T, Scheme kScheme>
 void scattered_kernel(ScatteredTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
   const bool jet = task.du.wanted() || task.dv.wanted() || task.normal.wanted();
   for (std::size_t k = 0; k < task.count; ++k) {
-    const T* const coefficients = task.coefficients + task.patch[k] * detail::kCoefficients;
-    const T* const edges = task.edges + task.patch[k] * detail::kEdgeBlock;
     T p[3];
     T du[3];
     T dv[3];
     if (jet) {
-      evaluate_sample<kWatertight, true>(coefficients, edges, task.x[k], task.y[k], p, du, dv);
+      evaluate_sample<kScheme, true>(task, k, p, du, dv);
       store_point(task.du, k, du);
       store_point(task.dv, k, dv);
       if (task.normal.wanted()) {
         store_normal(task, k, du, dv);
       }
     } else {
-      evaluate_sample<kWatertight, false>(coefficients, edges, task.x[k], task.y[k], p, du, dv);
+      evaluate_sample<kScheme, false>(task, k, p, du, dv);
     }
     store_point(task.position, k, p);
   }

@@ -99,8 +99,7 @@ template <typename T>
       return Status::null_output;
     }
     const bool triples = group->y == group->x + 1 && group->z == group->x + 2;
-    if (group->stride == 0 ||
-        (samples > 1 && triples && group->stride > -3 && group->stride < 3)) {
+    if (group->stride == 0 || (samples > 1 && triples && group->stride > -3 && group->stride < 3)) {
       return Status::bad_stride;
     }
     const std::size_t stride = group->stride > 0

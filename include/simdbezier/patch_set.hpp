@@ -38,6 +38,9 @@ public:
   [[nodiscard]] SIMDBEZIER_API std::size_t size() const noexcept;
   [[nodiscard]] bool empty() const noexcept { return size() == 0; }
 
+  /// Whether the set was packed with PackOptions::local_origin.
+  [[nodiscard]] SIMDBEZIER_API bool has_local_origins() const noexcept;
+
   /// For the library's own use: the packed arrays (null for an empty set).
   [[nodiscard]] const detail::PatchStorage<T>* storage() const noexcept { return storage_.get(); }
   explicit PatchSet(std::shared_ptr<const detail::PatchStorage<T>> storage) noexcept
@@ -47,20 +50,34 @@ private:
   std::shared_ptr<const detail::PatchStorage<T>> storage_;
 };
 
+/// How control points become coefficients. The defaults suit nets near the origin.
+struct PackOptions {
+  /// Positions are formed around an origin of each patch's (and each edge's) own, added last: one
+  /// more addition a component and sample, 0.8 u max|P| instead of 2 u far from the origin, at most
+  /// one rounding more near it. Worth it where the distance is more than about four times the size
+  /// of a patch. Both sides of a shared edge must be packed with the same choice.
+  bool local_origin = false;
+  /// Positions come out relative to this point, which is subtracted from the control points in
+  /// double (or wider) before anything is rounded to T. One point for all sets that share edges.
+  double relative_to[3] = {0, 0, 0};
+};
+
 /// Forms the coefficient matrices C = A P A^T of all patches, A being the basis change from
 /// Bernstein to powers of the centred parameter; edge cubics from each edge's own four control
 /// points; and the corners.
 ///
 /// nets:       S = float or double, see ControlNets; the memory may be freed after the call.
 /// set:        replaced on ok, left as it was otherwise.
+/// options:    see PackOptions; a relative_to that is not finite is non_finite_input.
 /// Numerics:   S = float: formed in double, S = double: in double-double; rounded once to T.
 ///             Results do not depend on the instruction set. -0 in the input becomes +0.
-/// Allocation: one block of about 180 T per patch. Threads: runs on the caller's.
+/// Allocation: one block of about 160 T per patch. Threads: runs on the caller's.
 /// Returns:    ok | null_input | bad_degree | bad_stride | non_finite_input |
 ///             coefficient_overflow | size_overflow | out_of_memory.
 /// Cost:       O(count); about 50 ns (float) or 500 ns (double) a patch.
 template <typename T, typename S>
-[[nodiscard]] PackReport pack(const ControlNets<S>& nets, PatchSet<T>& set) noexcept;
+[[nodiscard]] PackReport pack(const ControlNets<S>& nets, PatchSet<T>& set,
+                              const PackOptions& options = {}) noexcept;
 
 extern template class PatchSet<float>;
 extern template class PatchSet<double>;

@@ -1,6 +1,7 @@
 // simdbezier: many Bézier patches at many parameters in one call.
 #pragma once
 
+#include <simdbezier/certificate.hpp>  // IWYU pragma: export
 #include <simdbezier/control_nets.hpp> // IWYU pragma: export
 #include <simdbezier/evaluate.hpp>     // IWYU pragma: export
 #include <simdbezier/isa.hpp>          // IWYU pragma: export
