@@ -173,7 +173,7 @@ SIMDBEZIER_INLINE V cross_product(const V du[3], const V dv[3], V n[3]) {
 /// the other arithmetic.
 template <typename V>
 SIMDBEZIER_INLINE void normalise(V n[3], V squared_length) {
-  const V inverse = broadcast<V>(ScalarOf<V>(1)) / square_root(squared_length);
+  const V inverse = divide(broadcast<V>(ScalarOf<V>(1)), square_root(squared_length));
   for (int c = 0; c < 3; ++c) {
     n[c] = n[c] * inverse;
   }

@@ -3,6 +3,8 @@
 // A kernel is written over a value type V, which is vec<T> (one register) or T itself (one sample,
 // same operations, same bits). Only this file knows xsimd's versions and raw intrinsics.
 //   - xsimd::fma on AVX-512 is not fused before xsimd 11, so the intrinsic is called directly;
+//   - sqrt and division of floats on NEON are estimates in xsimd 8, not the correctly rounded
+//   values;
 //   - masked stores exist only from xsimd 14;
 //   - argument-dependent lookup finds xsimd's load and store, which want alignment: ours have names
 //     of their own;
@@ -146,14 +148,44 @@ SIMDBEZIER_INLINE V msub(V a, V b, V c) {
   }
 }
 
+#if defined(SIMDBEZIER_KERNELS_NEON64)
+SIMDBEZIER_INLINE vec<float> vector_sqrt(vec<float> a) { return vec<float>(vsqrtq_f32(a)); }
+SIMDBEZIER_INLINE vec<double> vector_sqrt(vec<double> a) { return vec<double>(vsqrtq_f64(a)); }
+SIMDBEZIER_INLINE vec<float> vector_divide(vec<float> a, vec<float> b) {
+  return vec<float>(vdivq_f32(a, b));
+}
+SIMDBEZIER_INLINE vec<double> vector_divide(vec<double> a, vec<double> b) {
+  return vec<double>(vdivq_f64(a, b));
+}
+#elif !defined(SIMDBEZIER_KERNELS_SCALAR)
+template <typename V>
+SIMDBEZIER_INLINE V vector_sqrt(V a) {
+  return sqrt(a);
+}
+template <typename V>
+SIMDBEZIER_INLINE V vector_divide(V a, V b) {
+  return a / b;
+}
+#endif
+
+/// Correctly rounded, on every instruction set.
 template <typename V>
 SIMDBEZIER_INLINE V square_root(V a) {
   if constexpr (!kIsScalar<V>) {
-    return sqrt(a);
+    return vector_sqrt(a);
   } else if constexpr (sizeof(V) == sizeof(float)) {
     return __builtin_sqrtf(a);
   } else {
     return __builtin_sqrt(a);
+  }
+}
+
+template <typename V>
+SIMDBEZIER_INLINE V divide(V a, V b) {
+  if constexpr (kIsScalar<V>) {
+    return a / b;
+  } else {
+    return vector_divide(a, b);
   }
 }
 

@@ -1,0 +1,52 @@
+# See CMakeLists.txt beside this file. OTHER is gcc, clang or aarch64.
+set(configure -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF -DSIMDBEZIER_BUILD_TOOLS=OFF
+              -DSIMDBEZIER_BUILD_BENCH=OFF)
+set(emulator)
+set(compiler_of_gcc g++)
+set(compiler_of_clang clang++)
+set(compiler_of_aarch64 aarch64-linux-gnu-g++)
+find_program(compiler ${compiler_of_${OTHER}})
+if(NOT compiler)
+  message("skipped: ${compiler_of_${OTHER}} is not installed")
+  return()
+endif()
+if(OTHER STREQUAL "aarch64")
+  find_program(emulator_program qemu-aarch64)
+  if(NOT emulator_program)
+    message("skipped: qemu-aarch64 is not installed")
+    return()
+  endif()
+  set(emulator ${emulator_program} -L /usr/aarch64-linux-gnu)
+  # Only xsimd may come from the host's include folder, whose other headers are the host's own.
+  file(COPY ${XSIMD_INCLUDE_DIR}/xsimd DESTINATION ${WORK}/include)
+  list(APPEND configure -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64
+       -DSIMDBEZIER_XSIMD_INCLUDE_DIR=${WORK}/include)
+endif()
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output
+                  ERROR_VARIABLE errors)
+  if(NOT result EQUAL 0)
+    string(REPLACE ";" " " command "${ARGN}")
+    message(FATAL_ERROR "${command}: ${result}\n${output}${errors}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_CXX_COMPILER=${compiler}
+    ${configure})
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${compiler} -std=c++20 -O1 -ffp-contract=off -DSIMDBEZIER_STATIC
+    -DSIMDBEZIER_SHARED_DATA="" -I${SOURCE} -I${SOURCE}/include
+    ${SOURCE}/tests/determinism/determinism_hash.cpp ${WORK}/build/libsimdbezier.a -fopenmp -o
+    ${WORK}/determinism_hash)
+run(${emulator} ${WORK}/determinism_hash)
+set(there "${output}")
+run(${HASH})
+if(there STREQUAL "")
+  message(FATAL_ERROR "no hashes were printed")
+endif()
+if(NOT there STREQUAL output)
+  message(FATAL_ERROR "bits differ.\nThis build:\n${output}\n${OTHER}:\n${there}")
+endif()
+message("equal bits:\n${there}")
