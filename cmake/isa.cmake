@@ -25,9 +25,10 @@ function(simdbezier_isa_flags name result)
   endforeach()
 endfunction()
 
-# Compiles kernels/kernels.cpp once per instruction set and appends the objects to `target`,
-# which learns of each through a macro SIMDBEZIER_HAS_<NAME>.
+# Compiles kernels/kernels.cpp once per instruction set, appends the objects to `target` and lists
+# them for kernels/dispatch.cpp in isa_list.inc.
 function(simdbezier_add_isa_kernels target)
+  set(entries "")
   foreach(row IN LISTS SIMDBEZIER_ISA_TABLE)
     string(REPLACE "|" ";" fields "${row};")
     list(GET fields 0 name)
@@ -39,7 +40,7 @@ function(simdbezier_add_isa_kernels target)
     target_compile_definitions(${object} PRIVATE SIMDBEZIER_ISA=${name} SIMDBEZIER_ARCH=${arch}
                                                  SIMDBEZIER_KERNELS_${upper})
     # Without optimisation xsimd's small functions leave weak symbols behind that the linker could
-    # hand to objects of another instruction set (tests/check_symbols.cmake watches over it).
+    # hand to objects of another instruction set (tests/library/check_symbols.cmake watches).
     # No errno: sqrt becomes one instruction. No exceptions: their personality routine would be one
     # more symbol to merge. g++ 12 warns about its own _mm512_undefined_ps (GCC bug 105593).
     target_compile_options(
@@ -48,6 +49,9 @@ function(simdbezier_add_isa_kernels target)
     target_link_libraries(${object} PRIVATE simdbezier_private_flags simdbezier_xsimd)
     set_target_properties(${object} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
-    target_compile_definitions(${target} PRIVATE SIMDBEZIER_HAS_${upper})
+    string(APPEND entries "SIMDBEZIER_ISA_ENTRY(${name})\n")
   endforeach()
+  set(generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
+  file(CONFIGURE OUTPUT ${generated}/isa_list.inc CONTENT "${entries}")
+  target_include_directories(${target} PRIVATE ${generated})
 endfunction()

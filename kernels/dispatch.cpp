@@ -1,5 +1,5 @@
-// Instruction sets by name, and the choice of one. The list of those that this build contains
-// comes from cmake/isa.cmake through the SIMDBEZIER_HAS_ macros.
+// Instruction sets by name, and the choice of one. isa_list.inc is written by cmake/isa.cmake: one
+// SIMDBEZIER_ISA_ENTRY(name) for each instruction set of this build, narrowest first.
 #include "kernels/dispatch.hpp"
 
 #include <array>
@@ -7,27 +7,13 @@
 
 namespace simdbezier {
 
-#define SIMDBEZIER_DECLARE(isa)                                                                    \
+#define SIMDBEZIER_ISA_ENTRY(isa)                                                                  \
   namespace isa_##isa {                                                                            \
-    extern const detail::KernelTable<float> table_f32;                                             \
-    extern const detail::KernelTable<double> table_f64;                                            \
+  extern const detail::KernelTable<float> table_f32;                                               \
+  extern const detail::KernelTable<double> table_f64;                                              \
   }
-#if defined(SIMDBEZIER_HAS_SCALAR)
-SIMDBEZIER_DECLARE(scalar)
-#endif
-#if defined(SIMDBEZIER_HAS_SSE2)
-SIMDBEZIER_DECLARE(sse2)
-#endif
-#if defined(SIMDBEZIER_HAS_AVX2)
-SIMDBEZIER_DECLARE(avx2)
-#endif
-#if defined(SIMDBEZIER_HAS_AVX512)
-SIMDBEZIER_DECLARE(avx512)
-#endif
-#if defined(SIMDBEZIER_HAS_NEON64)
-SIMDBEZIER_DECLARE(neon64)
-#endif
-#undef SIMDBEZIER_DECLARE
+#include "isa_list.inc"
+#undef SIMDBEZIER_ISA_ENTRY
 
 namespace {
 
@@ -36,23 +22,11 @@ struct Tables {
   const detail::KernelTable<double>* f64;
 };
 
+#define SIMDBEZIER_ISA_ENTRY(isa) {&isa_##isa::table_f32, &isa_##isa::table_f64},
 constexpr Tables kTables[] = {
-#if defined(SIMDBEZIER_HAS_SCALAR)
-    {&isa_scalar::table_f32, &isa_scalar::table_f64},
-#endif
-#if defined(SIMDBEZIER_HAS_SSE2)
-    {&isa_sse2::table_f32, &isa_sse2::table_f64},
-#endif
-#if defined(SIMDBEZIER_HAS_AVX2)
-    {&isa_avx2::table_f32, &isa_avx2::table_f64},
-#endif
-#if defined(SIMDBEZIER_HAS_AVX512)
-    {&isa_avx512::table_f32, &isa_avx512::table_f64},
-#endif
-#if defined(SIMDBEZIER_HAS_NEON64)
-    {&isa_neon64::table_f32, &isa_neon64::table_f64},
-#endif
+#include "isa_list.inc"
 };
+#undef SIMDBEZIER_ISA_ENTRY
 
 struct IsaName {
   Isa isa;
