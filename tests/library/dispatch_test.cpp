@@ -1,6 +1,5 @@
 // Names, availability and choice of instruction sets.
 #include <algorithm>
-#include <cstdlib>
 #include <string_view>
 #include <vector>
 
@@ -67,29 +66,6 @@ TEST(Dispatch, every_status_has_a_text_of_its_own) {
     EXPECT_EQ(std::count(texts.begin(), texts.end(), text), 0) << text;
     texts.push_back(text);
   }
-}
-
-// The two below are run by ctest with SIMDBEZIER_ISA set (see CMakeLists.txt).
-TEST(Dispatch, DISABLED_environment_gives_unknown_isa) {
-  ASSERT_NE(std::getenv("SIMDBEZIER_ISA"), nullptr);
-  Isa chosen = Isa::neon64;
-  EXPECT_EQ(simdbezier::resolve_isa(Isa::automatic, chosen), Status::unknown_isa);
-  EXPECT_EQ(chosen, Isa::neon64);
-  const float points[48] = {};
-  simdbezier::PatchSet<float> set;
-  ASSERT_TRUE(simdbezier::pack(simdbezier::ControlNets<float>{points, 1}, set));
-  float xyz[12] = {};
-  simdbezier::Outputs<float> out;
-  out.position = simdbezier::Vectors<float>::xyz(xyz);
-  EXPECT_EQ(simdbezier::evaluate_grid(set, simdbezier::Grid<float>::uniform(2, 2), out),
-            Status::unknown_isa);
-}
-
-TEST(Dispatch, DISABLED_environment_gives_ok) {
-  ASSERT_STREQ(std::getenv("SIMDBEZIER_ISA"), "scalar");
-  Isa chosen = Isa::automatic;
-  EXPECT_EQ(simdbezier::resolve_isa(Isa::automatic, chosen), Status::ok);
-  EXPECT_EQ(chosen, Isa::scalar);
 }
 
 } // namespace
