@@ -6,6 +6,23 @@
 
 #include <simdbezier/simdbezier.hpp>
 
+namespace {
+
+const char* name_of(simdbezier::Status status) {
+  switch (status) {
+  case simdbezier::Status::ok:
+    return "ok";
+  case simdbezier::Status::unknown_isa:
+    return "unknown_isa";
+  case simdbezier::Status::unsupported_isa:
+    return "unsupported_isa";
+  default:
+    return "other";
+  }
+}
+
+} // namespace
+
 int main(int argc, char** argv) {
   using namespace simdbezier;
   if (argc != 2 || setenv("SIMDBEZIER_ISA", argv[1], 1) != 0) {
@@ -25,8 +42,7 @@ int main(int argc, char** argv) {
   Options options;
   options.executed = &executed;
   const Status evaluated = evaluate_grid(set, Grid<float>::uniform(2, 2), out, options);
-  std::printf("%d %d %s %s %s\n", static_cast<int>(resolved), static_cast<int>(evaluated),
-              to_string(chosen).data(), to_string(executed).data(),
-              xyz[0] == 1 ? "untouched" : "written");
+  std::printf("%s %s %s %s %s\n", name_of(resolved), name_of(evaluated), to_string(chosen).data(),
+              to_string(executed).data(), xyz[0] == 1 ? "untouched" : "written");
   return 0;
 }
