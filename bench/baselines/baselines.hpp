@@ -1,0 +1,31 @@
+// The two competitors, compiled once per instruction set.
+#pragma once
+
+#include "bench/grid_job.hpp"
+
+namespace simdbezier_bench {
+
+/// The competitors at the widest instruction set that this build and this machine share.
+template <typename T>
+struct Baselines {
+  void (*de_casteljau)(const GridJob<T>& job) = nullptr;   ///< AoS out
+  void (*autovectorised)(const GridJob<T>& job) = nullptr; ///< SoA out
+};
+
+template <typename T>
+Baselines<T> widest_baselines();
+
+/// Largest n that autovectorised accepts: its scratch is on the stack.
+constexpr std::size_t kMaxGridSize = 64;
+
+// Definitions live in namespaces named after the instruction set, so that no two objects ever
+// offer the linker the same symbol.
+#define SIMDBEZIER_BENCH_DECLARE_BASELINES(isa)                                                    \
+  namespace isa {                                                                                  \
+  void de_casteljau(const GridJob<float>& job);                                                    \
+  void de_casteljau(const GridJob<double>& job);                                                   \
+  void autovectorised(const GridJob<float>& job);                                                  \
+  void autovectorised(const GridJob<double>& job);                                                 \
+  }
+
+} // namespace simdbezier_bench

@@ -1,0 +1,161 @@
+// limit/…: what the machine can do, measured in the same run as the rows it limits.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <simdbezier/isa.hpp>
+
+#include "bench/limits/limit_kernels.hpp"
+#include "bench/rows.hpp"
+#include "bench/shared_data.hpp"
+#include "simdbezier_bench/isa_list.hpp"
+
+namespace simdbezier_bench {
+
+SIMDBEZIER_BENCH_EACH_ISA(SIMDBEZIER_BENCH_DECLARE_LIMITS)
+
+namespace {
+
+constexpr std::size_t kRounds = 4096;
+constexpr std::size_t kHornerBytes = 32 * kHornerBlockBytes; // half of a small first-level cache
+
+template <typename T>
+std::string type_name() {
+  return sizeof(T) == 4 ? "f32" : "f64";
+}
+
+template <typename T>
+void register_multiply_add(const std::string& isa, LimitKernels<T> kernels) {
+  auto run = [kernels](benchmark::State& state) {
+    alignas(64) T sink[16];
+    const auto items = static_cast<double>(kRounds * kernels.multiply_add(1, sink));
+    time_calls(state, 1, items, 0, [&] {
+      kernels.multiply_add(kRounds, sink);
+      benchmark::DoNotOptimize(sink);
+    });
+    // From 0, a number of steps x/2 + 1 bring every lane to 2.
+    if (sink[0] != T(24)) {
+      fail_row(state, "wrong sum of the chains");
+    }
+  };
+  benchmark::RegisterBenchmark(("limit/fma/" + type_name<T>() + "/" + isa).c_str(), run)
+      ->Unit(benchmark::kMicrosecond);
+}
+
+template <typename T>
+void register_horner(const std::string& call, const std::string& isa, LimitKernels<T> kernels) {
+  auto run = [kernels](benchmark::State& state) {
+    constexpr std::size_t kCount = kHornerBytes / sizeof(T);
+    T* const out = reinterpret_cast<T*>(output_buffer());
+    if (out == nullptr) {
+      return fail_row(state, "no memory for the output");
+    }
+    const T inputs[kHornerInputs] = {1, 2, 3, 4, T(0.5)};
+    for (std::size_t k = 0; k < kCount; ++k) {
+      out[k] = 0;
+    }
+    kernels.horner_store(out, kCount, inputs);
+    for (std::size_t k = 0; k < kCount; ++k) {
+      if (out[k] != T(3.25)) { // 1 + 2/2 + 3/4 + 4/8
+        return fail_row(state, "wrong value of the cubic");
+      }
+    }
+    time_calls(state, 1, static_cast<double>(kCount) / 3, static_cast<double>(kHornerBytes),
+               [&] { kernels.horner_store(out, kCount, inputs); });
+  };
+  benchmark::RegisterBenchmark(("limit/" + call + "/" + type_name<T>() + "/" + isa).c_str(), run)
+      ->Unit(benchmark::kMicrosecond);
+}
+
+template <typename T>
+void register_arithmetic(const std::string& isa, LimitKernels<T> fused, LimitKernels<T> separate) {
+  register_multiply_add(isa, fused);
+  register_horner("horner_store", isa, fused);
+  register_horner("horner_store_muladd", isa, separate);
+}
+
+void register_fill(const std::string& call, int threads,
+                   void (*fill)(unsigned char*, std::size_t)) {
+  auto run = [threads, fill](benchmark::State& state) {
+    unsigned char* const out = output_buffer();
+    if (out == nullptr) {
+      return fail_row(state, "no memory for the output");
+    }
+    const std::size_t share = kMemoryBytes / static_cast<std::size_t>(threads) / 4096 * 4096;
+    const auto bytes = static_cast<double>(share) * threads;
+    time_calls(state, threads, bytes / 12, bytes, [&] { // 12 bytes: one f32 position
+      if (threads == 1) {
+        fill(out, share);
+      } else {
+#pragma omp parallel for num_threads(threads) schedule(static, 1)
+        for (int k = 0; k < threads; ++k) {
+          fill(out + static_cast<std::size_t>(k) * share, share);
+        }
+      }
+    });
+    for (std::size_t k = 0; k < share * static_cast<std::size_t>(threads); k += 4096) {
+      if (*reinterpret_cast<const double*>(out + k) != 1.5) {
+        return fail_row(state, "memory was not filled");
+      }
+    }
+  };
+  const std::string name = "limit/" + call + "/threads:" + std::to_string(threads);
+  benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
+}
+
+// Three lines a sample in random order: what a scattered call reads when the patches are in memory.
+void random_lines(benchmark::State& state) {
+  constexpr std::size_t kPatches = 1'000'000;
+  constexpr std::size_t kPatchBytes = 3 * kLineBytes;
+  constexpr std::size_t kSamples = std::size_t{1} << 20;
+  constexpr std::size_t kAhead = 48; // samples; from 4 to 96 it makes little difference
+  static_assert(kPatches * kPatchBytes <= kMemoryBytes);
+  const unsigned char* const patches = output_buffer();
+  if (patches == nullptr) {
+    return fail_row(state, "no memory for the patches");
+  }
+  std::vector<std::uint32_t> ids(kSamples + kAhead);
+  std::uint64_t seed = 1;
+  for (std::uint32_t& id : ids) {
+    seed = seed * 6364136223846793005U + 1442695040888963407U;
+    id = static_cast<std::uint32_t>((seed >> 32) % kPatches);
+  }
+  time_calls(state, 1, kSamples, static_cast<double>(kSamples * kPatchBytes), [&] {
+    std::uint64_t sum = 0;
+    for (std::size_t k = 0; k < kSamples; ++k) {
+      const unsigned char* const ahead = patches + ids[k + kAhead] * kPatchBytes;
+      const unsigned char* const here = patches + ids[k] * kPatchBytes;
+      for (std::size_t line = 0; line < kPatchBytes; line += kLineBytes) {
+        __builtin_prefetch(ahead + line);
+        sum += *reinterpret_cast<const std::uint64_t*>(here + line);
+      }
+    }
+    benchmark::DoNotOptimize(sum);
+  });
+}
+
+} // namespace
+
+void register_limit_rows() {
+  FillKernels fill;
+  for (const simdbezier::Isa isa : simdbezier::available_isas()) { // narrowest first
+    const std::string name(simdbezier::to_string(isa));
+#define SIMDBEZIER_BENCH_REGISTER(isa_name)                                                        \
+  if (name == #isa_name) {                                                                         \
+    register_arithmetic<float>(name, isa_name::fused::limits(0.0F),                                \
+                               isa_name::separate::limits(0.0F));                                  \
+    register_arithmetic<double>(name, isa_name::fused::limits(0.0),                                \
+                                isa_name::separate::limits(0.0));                                  \
+    fill = isa_name::fills();                                                                      \
+  }
+    SIMDBEZIER_BENCH_EACH_ISA(SIMDBEZIER_BENCH_REGISTER)
+#undef SIMDBEZIER_BENCH_REGISTER
+  }
+  for (int threads = 1; threads <= max_threads(); ++threads) {
+    register_fill("fill_stream", threads, fill.stream);
+    register_fill("fill_plain", threads, fill.plain);
+  }
+  benchmark::RegisterBenchmark("limit/random_lines", random_lines)->Unit(benchmark::kMillisecond);
+}
+
+} // namespace simdbezier_bench

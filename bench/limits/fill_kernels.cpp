@@ -1,0 +1,69 @@
+// Filling memory with whole registers: past the caches, and through them.
+#include "bench/limits/limit_kernels.hpp"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#include "bench/limits/registers.hpp"
+
+namespace simdbezier_bench {
+namespace SIMDBEZIER_BENCH_ISA {
+namespace {
+
+// The pattern must not be one byte repeated: such a loop becomes a call of memset(), which takes
+// its own decisions about the caches.
+constexpr double kPattern = 1.5;
+
+void fill_plain(unsigned char* out, std::size_t bytes) {
+  using V = RegisterOf<double>;
+  V value = V{} + kPattern;
+  hide(value);
+  for (unsigned char* const end = out + bytes; out != end; out += sizeof(V)) {
+    *reinterpret_cast<V*>(out) = value;
+  }
+}
+
+#if defined(__x86_64__) && !defined(SIMDBEZIER_BENCH_SCALAR)
+[[gnu::always_inline]] inline void stream_one(unsigned char* out) {
+#if defined(__AVX512F__)
+  _mm512_stream_pd(reinterpret_cast<double*>(out), _mm512_set1_pd(kPattern));
+#elif defined(__AVX2__)
+  _mm256_stream_pd(reinterpret_cast<double*>(out), _mm256_set1_pd(kPattern));
+#else
+  _mm_stream_pd(reinterpret_cast<double*>(out), _mm_set1_pd(kPattern));
+#endif
+}
+
+// A line is always completed at once: half lines are streamed at a third of the speed.
+void fill_stream(unsigned char* out, std::size_t bytes) {
+  constexpr std::size_t kStep = sizeof(RegisterOf<double>);
+  for (unsigned char* const end = out + bytes; out != end; out += 64) {
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < 64; k += kStep) {
+      stream_one(out + k);
+    }
+  }
+  _mm_sfence();
+}
+#elif defined(__aarch64__) && !defined(SIMDBEZIER_BENCH_SCALAR)
+void fill_stream(unsigned char* out, std::size_t bytes) {
+  const RegisterOf<double> value = RegisterOf<double>{} + kPattern;
+  for (unsigned char* const end = out + bytes; out != end; out += 64) {
+    asm volatile("stnp %q0, %q0, [%1]\n\tstnp %q0, %q0, [%1, #32]"
+                 :
+                 : "w"(value), "r"(out)
+                 : "memory");
+  }
+}
+#else
+constexpr auto fill_stream = fill_plain; // no such store here
+#endif
+
+} // namespace
+
+FillKernels fills();
+FillKernels fills() { return {fill_stream, fill_plain}; }
+
+} // namespace SIMDBEZIER_BENCH_ISA
+} // namespace simdbezier_bench

@@ -1,0 +1,42 @@
+// What the machine can do at best, one loop a question, compiled once per instruction set.
+#pragma once
+
+#include <cstddef>
+
+namespace simdbezier_bench {
+
+/// Arithmetic limits of one type on one instruction set.
+template <typename T>
+struct LimitKernels {
+  /// Runs `rounds` rounds of independent multiply-add chains in registers; returns how many
+  /// multiply-adds a round holds, lanes counted.
+  std::size_t (*multiply_add)(std::size_t rounds, T* sink) = nullptr;
+  /// Three-step Horner from registers, one store a result: out[k] for k < count, a multiple of
+  /// kHornerBlockBytes in bytes. out is 64-byte aligned; inputs: c0 to c3, x.
+  void (*horner_store)(T* out, std::size_t count, const T* inputs) = nullptr;
+};
+
+/// Rates at which memory can be filled; `bytes` is a multiple of 256, `out` 64-byte aligned.
+struct FillKernels {
+  void (*stream)(unsigned char* out, std::size_t bytes) = nullptr; ///< past the caches
+  void (*plain)(unsigned char* out, std::size_t bytes) = nullptr;
+};
+
+constexpr std::size_t kHornerInputs = 5;
+constexpr std::size_t kHornerBlockBytes = 512;
+
+/// `fused` objects may contract a multiplication and an addition, `separate` ones may not.
+#define SIMDBEZIER_BENCH_DECLARE_LIMITS(isa)                                                       \
+  namespace isa {                                                                                  \
+  namespace fused {                                                                                \
+  LimitKernels<float> limits(float);                                                               \
+  LimitKernels<double> limits(double);                                                             \
+  }                                                                                                \
+  namespace separate {                                                                             \
+  LimitKernels<float> limits(float);                                                               \
+  LimitKernels<double> limits(double);                                                             \
+  }                                                                                                \
+  FillKernels fills();                                                                             \
+  }
+
+} // namespace simdbezier_bench

@@ -1,0 +1,24 @@
+// Patch data of the benchmarks: random smooth bicubic nets, the same on every machine and run.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace simdbezier_bench {
+
+constexpr std::size_t kValuesPerPatch = 48; ///< 4 x 4 points of x y z
+
+/// Nets [patch][j][i][xyz]: a unit parallelogram somewhere in a cube, its points displaced by a
+/// tenth, so that normals are regular everywhere. A net depends on its index only, not on count.
+template <typename T>
+std::vector<T> random_nets(std::size_t count);
+
+/// Power-basis coefficients [patch][power of v][xyz][power of u], formed in double, rounded once.
+template <typename T>
+std::vector<T> power_basis(const std::vector<T>& nets);
+
+/// The n values i / (n-1).
+template <typename T>
+std::vector<T> uniform_parameters(std::size_t n);
+
+} // namespace simdbezier_bench

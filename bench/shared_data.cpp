@@ -1,0 +1,77 @@
+#include "bench/shared_data.hpp"
+
+#include <cstdlib>
+#include <cstring>
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace simdbezier_bench {
+namespace {
+
+// Room for one patch more than kMemoryBytes holds, and for the gaps between planes.
+constexpr std::size_t kBufferBytes = kMemoryBytes + (std::size_t{2} << 20);
+constexpr std::size_t kHugePage = std::size_t{2} << 20;
+
+template <typename T>
+std::vector<T>& nets_at_least(std::size_t count) {
+  static std::vector<T> nets;
+  if (nets.size() < count * kValuesPerPatch) {
+    nets = {}; // before the larger one is made: these are hundreds of megabytes
+    nets = random_nets<T>(count);
+  }
+  return nets;
+}
+
+} // namespace
+
+unsigned char* output_buffer() {
+  static unsigned char* const buffer = [] {
+    void* memory = std::aligned_alloc(kHugePage, kBufferBytes);
+    if (memory != nullptr) {
+#if defined(__linux__)
+      madvise(memory, kBufferBytes, MADV_HUGEPAGE);
+#endif
+      std::memset(memory, 0, kBufferBytes);
+    }
+    return static_cast<unsigned char*>(memory);
+  }();
+  return buffer;
+}
+
+template <typename T>
+const T* shared_nets(std::size_t count) {
+  return nets_at_least<T>(count).data();
+}
+
+template <typename T>
+const T* shared_power_basis(std::size_t count) {
+  static std::vector<T> coefficients;
+  if (coefficients.size() < count * kValuesPerPatch) {
+    coefficients = {};
+    coefficients = power_basis(nets_at_least<T>(count));
+  }
+  return coefficients.data();
+}
+
+template <typename T>
+const simdbezier::PatchSet<T>& shared_patch_set(std::size_t count) {
+  static simdbezier::PatchSet<T> set;
+  if (set.size() < count) {
+    set = {};
+    simdbezier::ControlNets<T> nets;
+    nets.points = shared_nets<T>(count);
+    nets.count = count;
+    (void)simdbezier::pack(nets, set); // on failure the set stays empty, which the row reports
+  }
+  return set;
+}
+
+template const float* shared_nets<float>(std::size_t);
+template const double* shared_nets<double>(std::size_t);
+template const float* shared_power_basis<float>(std::size_t);
+template const double* shared_power_basis<double>(std::size_t);
+template const simdbezier::PatchSet<float>& shared_patch_set<float>(std::size_t);
+template const simdbezier::PatchSet<double>& shared_patch_set<double>(std::size_t);
+
+} // namespace simdbezier_bench

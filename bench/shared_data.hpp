@@ -1,0 +1,30 @@
+// What rows share: inputs that are made once and kept, and the one output buffer.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <simdbezier/simdbezier.hpp>
+
+#include "bench/patches.hpp"
+
+namespace simdbezier_bench {
+
+constexpr std::size_t kCacheBytes = std::size_t{256} << 10;
+constexpr std::size_t kMemoryBytes = std::size_t{256} << 20;
+constexpr std::size_t kLineBytes = 64;
+
+/// The output buffer: kMemoryBytes and some, huge pages where the system has them, touched.
+/// Null when the memory cannot be had.
+unsigned char* output_buffer();
+
+/// The first `count` or more patches, in each of the three forms. Grows on demand; a larger count
+/// keeps the earlier patches as they are. An empty result means that packing failed.
+template <typename T>
+const T* shared_nets(std::size_t count);
+template <typename T>
+const T* shared_power_basis(std::size_t count);
+template <typename T>
+const simdbezier::PatchSet<T>& shared_patch_set(std::size_t count);
+
+} // namespace simdbezier_bench
