@@ -3,7 +3,7 @@
 # interleaved run and prints patches, samples, samples/s and the ratio.
 set -euo pipefail
 build=${1:?usage: bench/demo.sh BUILD_DIR}
-isa=$("$build/simdbezier" info builtin:teapot --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["isa"]["chosen"])')
+isa=$("$build/simdbezier" info builtin:teapot --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["instruction_sets"]["chosen"])')
 report=$(mktemp)
 trap 'rm -f "$report"' EXIT
 "$build/simdbezier_bench" --benchmark_filter="^grid/position(_normal)?/f32/($isa|de_casteljau)/16x16/cache/threads:1\$" \

@@ -82,6 +82,7 @@ TEST(InstructionSet, UnknownOrUnavailableIsBadUsage) {
   const TemporaryFolder folder;
   const std::vector<std::vector<std::string>> commands = {
       {"info", "builtin:teapot"},
+      {"tessellate", folder.path("absent.bez"), "-o", folder.path("out.ply")}, // before any work
       {"tessellate", "builtin:teapot", "-o", folder.path("out.ply")},
       {"evaluate", "builtin:teapot", "-o", folder.path("out.csv")},
       {"evaluate", "builtin:teapot", "-o", "-"}};

@@ -75,6 +75,49 @@ bool parse_obj_line(std::istringstream line, ParsedMesh& mesh) {
   return !line.fail() && !(line >> rest);
 }
 
+struct PlyHeader {
+  std::size_t size = 0; // bytes
+  std::size_t vertices = 0;
+  std::size_t faces = 0;
+  bool normals = false;
+  std::string scalar;
+};
+
+// Reads the numbers, then demands that the header is, line by line, the one that goes with them.
+PlyHeader parse_ply_header(const std::string& bytes) {
+  PlyHeader header;
+  std::istringstream text(bytes);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line) && line != "end_header";) {
+    lines.push_back(line);
+  }
+  header.size = static_cast<std::size_t>(text.tellg());
+  header.normals = lines.size() > 6 && lines[6].ends_with(" nx");
+  if (lines.size() != (header.normals ? 11U : 8U)) {
+    ADD_FAILURE() << "a PLY header of " << lines.size() << " lines";
+    header.size = bytes.size();
+    return header;
+  }
+  header.scalar = lines[3] == "property double x" ? "double" : "float";
+  const std::string property = "property " + header.scalar + " ";
+  const std::string& faces = lines[lines.size() - 2];
+  header.vertices = std::strtoull(lines[2].c_str() + sizeof "element vertex", nullptr, 10);
+  header.faces = std::strtoull(faces.c_str() + sizeof "element face", nullptr, 10);
+  std::vector<std::string> expected = {"ply",
+                                       "format binary_little_endian 1.0",
+                                       "element vertex " + std::to_string(header.vertices),
+                                       property + "x",
+                                       property + "y",
+                                       property + "z"};
+  if (header.normals) {
+    expected.insert(expected.end(), {property + "nx", property + "ny", property + "nz"});
+  }
+  expected.push_back("element face " + std::to_string(header.faces));
+  expected.push_back("property list uchar int vertex_indices");
+  EXPECT_EQ(lines, expected);
+  return header;
+}
+
 } // namespace
 
 ParsedMesh parse_obj(const std::string& text) {
@@ -91,57 +134,29 @@ ParsedMesh parse_obj(const std::string& text) {
 
 ParsedMesh parse_ply(const std::string& bytes) {
   ParsedMesh mesh;
-  std::istringstream head(bytes);
-  std::string line;
-  std::vector<std::string> lines;
-  while (std::getline(head, line) && line != "end_header") {
-    lines.push_back(line);
-  }
-  const bool normals = lines.size() > 6 && lines[6].ends_with(" nx");
-  if (lines.size() != (normals ? 11U : 8U)) {
-    ADD_FAILURE() << "a PLY header of " << lines.size() << " lines";
-    return {};
-  }
-  mesh.scalar = lines[3] == "property double x" ? "double" : "float";
-  const std::string property = "property " + mesh.scalar + " ";
-  const std::size_t vertices =
-      std::strtoull(lines[2].c_str() + sizeof "element vertex", nullptr, 10);
-  const std::string& faces_line = lines[lines.size() - 2];
-  const std::size_t faces = std::strtoull(faces_line.c_str() + sizeof "element face", nullptr, 10);
-  std::vector<std::string> expected = {"ply",
-                                       "format binary_little_endian 1.0",
-                                       "element vertex " + std::to_string(vertices),
-                                       property + "x",
-                                       property + "y",
-                                       property + "z"};
-  if (normals) {
-    expected.insert(expected.end(), {property + "nx", property + "ny", property + "nz"});
-  }
-  expected.push_back("element face " + std::to_string(faces));
-  expected.push_back("property list uchar int vertex_indices");
-  EXPECT_EQ(lines, expected);
-
-  Bytes data(bytes, static_cast<std::size_t>(head.tellg()));
+  const PlyHeader header = parse_ply_header(bytes);
+  mesh.scalar = header.scalar;
+  Bytes data(bytes, header.size);
   const auto vector = [&] {
     return mesh.scalar == "float" ? take_vector<float>(data) : take_vector<double>(data);
   };
-  for (std::size_t k = 0; k < vertices && data.rest() > 0; ++k) {
+  for (std::size_t k = 0; k < header.vertices && data.rest() > 0; ++k) {
     mesh.positions.push_back(vector());
-    if (normals) {
+    if (header.normals) {
       mesh.normals.push_back(vector());
     }
   }
-  for (std::size_t k = 0; k < faces && data.rest() > 0; ++k) {
+  for (std::size_t k = 0; k < header.faces && data.rest() > 0; ++k) {
     EXPECT_EQ(data.take<unsigned char>(), 3);
     std::array<std::size_t, 3> corners{};
     for (std::size_t& corner : corners) {
       corner = static_cast<std::size_t>(data.take<std::int32_t>());
-      EXPECT_LT(corner, vertices);
+      EXPECT_LT(corner, header.vertices);
     }
     mesh.triangles.push_back(corners);
   }
-  EXPECT_EQ(mesh.positions.size(), vertices);
-  EXPECT_EQ(mesh.triangles.size(), faces);
+  EXPECT_EQ(mesh.positions.size(), header.vertices);
+  EXPECT_EQ(mesh.triangles.size(), header.faces);
   EXPECT_EQ(data.rest(), 0U);
   return mesh;
 }

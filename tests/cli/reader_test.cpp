@@ -172,7 +172,7 @@ std::vector<BadFile> bad_files() {
        ":1: expected the number of patches (1 or more), found '\\x7fELF\\x00\\x01\\x02'"},
       {"BinaryInside", "bez", replaced(bez, "201 ", std::string("\0\r\x1b[2J ", 7)),
        ":19: expected a finite number, found '\\x00'"},
-      {"EndlessWord", "bez", "2\n" + std::string(100000, '1'), ":2: expected a finite number"},
+      {"EndlessWord", "bez", "2\n" + std::string(100000, '0'), ":2: expected a finite number"},
       {"Compressed", "gz", "\x1f\x8b", ": expected a .bez or .bpt file, found a compressed one"},
   };
 }
@@ -226,6 +226,17 @@ TEST(Reader, RefusesWhatIsNoReadableFile) {
       expect_failure(run(arguments), 1, found);
     }
   }
+}
+
+TEST(Reader, RefusesAFileWithoutPermission) {
+  const TemporaryFolder folder;
+  const std::string in = folder.write("in.bez", "1\n");
+  std::filesystem::permissions(in, std::filesystem::perms::none);
+  if (!read_file(in).empty()) {
+    GTEST_SKIP() << "this user may read every file";
+  }
+  expect_failure(run({"info", in}), 1,
+                 in + ": expected a readable file, found 'Permission denied'");
 }
 
 TEST(Reader, KeepsOneLineWhenAFileNameHasMore) {
