@@ -9,8 +9,8 @@ namespace simdbezier {
 
 #define SIMDBEZIER_ISA_ENTRY(isa)                                                                  \
   namespace isa_##isa {                                                                            \
-  extern const detail::KernelTable<float> table_f32;                                               \
-  extern const detail::KernelTable<double> table_f64;                                              \
+    extern const detail::KernelTable<float> table_f32;                                             \
+    extern const detail::KernelTable<double> table_f64;                                            \
   }
 #include "isa_list.inc"
 #undef SIMDBEZIER_ISA_ENTRY

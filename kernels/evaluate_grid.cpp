@@ -40,8 +40,8 @@ public:
   [[nodiscard]] std::size_t scratch_size() const noexcept { return staging_.scratch_size(); }
   [[nodiscard]] std::size_t strip_rows() const noexcept { return strip_rows_; }
 
-  /// Units [begin, end) of patch-major (patch, strip) pairs. run: strip_rows() values.
-  Isa worker(std::size_t begin, std::size_t end, T* scratch, std::uint32_t* run) const noexcept {
+  /// Units [begin, end) of patch-major (patch, strip) pairs. runs: room for strip_rows().
+  Isa worker(std::size_t begin, std::size_t end, T* scratch, RowRun<T>* runs) const noexcept {
     Isa executed = Isa::automatic;
     for (std::size_t unit = begin; unit < end;) {
       const std::size_t patch = unit / strips_;
@@ -49,7 +49,7 @@ public:
       // Whole patches without staging go to the kernel in one call.
       const bool together = strips_ == 1 && !staging_.staged();
       const std::size_t count = together ? end - unit : 1;
-      executed = run_strip(patch, count, strip, scratch, run);
+      executed = run_strip(patch, count, strip, scratch, runs);
       unit += count;
     }
     return executed;
@@ -57,12 +57,11 @@ public:
 
 private:
   Isa run_strip(std::size_t patch, std::size_t count, std::size_t strip, T* scratch,
-                std::uint32_t* run) const noexcept {
+                RowRun<T>* runs) const noexcept {
     const std::size_t first_row = strip * strip_rows_;
     const std::size_t last_row = std::min(plan_.nv(), first_row + strip_rows_);
     const std::size_t sample = (patch * plan_.nv() + first_row) * plan_.nu();
     const std::size_t at = first_patch_ + patch;
-    plan_.fill_runs(first_row, last_row, run);
     GridTask<T> task{};
     task.coefficients = patches_.coefficients + at * kCoefficients;
     task.edges = patches_.edges + at * kEdgeBlock;
@@ -72,10 +71,8 @@ private:
     task.patch_count = count;
     task.x = plan_.x();
     task.nu = plan_.nu();
-    task.y = plan_.y() + first_row;
-    task.row_kind = plan_.row_kind() + first_row;
-    task.run = run;
-    task.row_count = last_row - first_row;
+    task.runs = runs;
+    task.run_count = plan_.fill_runs(first_row, last_row, runs);
     task.patch_step = plan_.nv() * plan_.nu();
     task.resolve_normal = resolve_normal<T>;
     if (out_.status != nullptr) {
@@ -86,15 +83,18 @@ private:
     }
     staging_.bind(task, sample, scratch);
     kernel_(task);
-    staging_.flush(sample, task.row_count * task.nu, scratch);
+    staging_.flush(sample, (last_row - first_row) * task.nu, scratch);
     return task.executed;
   }
 
   static void prefill_status(const GridTask<T>& task, SampleStatus* status) noexcept {
-    for (std::size_t j = 0; j < task.row_count; ++j) {
-      for (std::size_t i = 0; i < task.nu; ++i) {
-        const bool finite = !std::isnan(task.x[i]) && !std::isnan(task.y[j]);
-        status[j * task.nu + i] = finite ? SampleStatus::regular : SampleStatus::non_finite;
+    for (std::size_t r = 0; r < task.run_count; ++r) {
+      const RowRun<T>& run = task.runs[r];
+      for (std::size_t j = 0; j < run.rows; ++j, status += task.nu) {
+        for (std::size_t i = 0; i < task.nu; ++i) {
+          const bool finite = !std::isnan(task.x[i]) && !std::isnan(run.y[j]);
+          status[i] = finite ? SampleStatus::regular : SampleStatus::non_finite;
+        }
       }
     }
   }
@@ -110,7 +110,7 @@ private:
 };
 
 /// The runs of a small grid live on the stack.
-constexpr std::size_t kInlineRows = 256;
+constexpr std::size_t kInlineRows = 128;
 
 template <typename T>
 Status run_grid(const GridCall<T>& call, std::size_t patches, const Options& options) noexcept {
@@ -132,11 +132,11 @@ Status run_grid(const GridCall<T>& call, std::size_t patches, const Options& opt
   }
   Isa executed = Isa::automatic;
   auto body = [&](int worker, std::size_t begin, std::size_t end) {
-    std::uint32_t inline_run[kInlineRows];
+    RowRun<T> inline_runs[kInlineRows];
     auto* const own = static_cast<unsigned char*>(scratch.get()) +
                       (bytes > 0 ? static_cast<std::size_t>(worker) * bytes : 0);
-    auto* const run = runs > 0 ? reinterpret_cast<std::uint32_t*>(own + planes) : inline_run;
-    const Isa ran = call.worker(begin, end, reinterpret_cast<T*>(own), run);
+    auto* const own_runs = runs > 0 ? reinterpret_cast<RowRun<T>*>(own + planes) : inline_runs;
+    const Isa ran = call.worker(begin, end, reinterpret_cast<T*>(own), own_runs);
     if (worker == 0) {
       executed = ran;
     }

@@ -12,31 +12,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::GridTask;
 using detail::RowKind;
-
-/// Walks over a task's runs of rows of one kind, first row to last. Everything is read into locals:
-/// a store of a vector may alias the task as far as compilers know.
-template <typename T>
-class Runs {
-public:
-  explicit SIMDBEZIER_INLINE Runs(const GridTask<T>& task)
-      : y_(task.y), kind_(task.row_kind), run_(task.run), end_(task.y + task.row_count) {}
-  SIMDBEZIER_INLINE bool more() const { return y_ != end_; }
-  SIMDBEZIER_INLINE const T* y() const { return y_; }
-  SIMDBEZIER_INLINE std::size_t rows() const { return *run_; }
-  SIMDBEZIER_INLINE RowKind kind() const { return *kind_; }
-  SIMDBEZIER_INLINE void next() {
-    const std::size_t rows = *run_;
-    y_ += rows;
-    kind_ += rows;
-    run_ += rows;
-  }
-
-private:
-  const T* y_;
-  const RowKind* kind_;
-  const std::uint32_t* run_;
-  const T* end_;
-};
+using detail::RowRun;
 
 SIMDBEZIER_INLINE bool is_edge(RowKind kind) {
   return kind == RowKind::edge_v0 || kind == RowKind::edge_v1;
@@ -73,11 +49,12 @@ SIMDBEZIER_INLINE void sweep_position(const GridTask<ScalarOf<V>>& task,
   column_polynomial<kScheme>(c, column, q);
   const V origin = column_origin<kScheme>(c, column);
   const std::size_t nu = task.nu;
-  for (Runs runs(task); runs.more(); runs.next()) {
-    const ScalarOf<V>* y = runs.y();
-    const ScalarOf<V>* const end = y + runs.rows();
-    if (is_watertight(kScheme) && is_edge(runs.kind())) {
-      const V p = edge_position<kScheme>(c, column, edge_of(runs.kind()));
+  const RowRun<ScalarOf<V>>* const last_run = task.runs + task.run_count;
+  for (const RowRun<ScalarOf<V>>* run = task.runs; run != last_run; ++run) {
+    const ScalarOf<V>* y = run->y;
+    const ScalarOf<V>* const end = y + run->rows;
+    if (is_watertight(kScheme) && is_edge(run->kind)) {
+      const V p = edge_position<kScheme>(c, column, edge_of(run->kind));
       for (; y != end; ++y, to += nu) {
         store_lanes<kFull>(to, p, active);
       }
@@ -124,14 +101,14 @@ struct JetPlanes {
 };
 
 template <bool kEdge, bool kFull, Scheme kScheme, typename V>
-SIMDBEZIER_INLINE void derivative_rows(const Runs<ScalarOf<V>>& runs,
+SIMDBEZIER_INLINE void derivative_rows(const RowRun<ScalarOf<V>>& run,
                                        const Component<ScalarOf<V>>& c, const Column<V>& column,
                                        const JetColumns<kScheme, V>& columns,
                                        const JetPlanes<ScalarOf<V>>& to, std::size_t at,
                                        std::size_t nu, std::size_t active) {
-  const std::size_t edge = edge_of(runs.kind());
-  const ScalarOf<V>* const end = runs.y() + runs.rows();
-  for (const ScalarOf<V>* y = runs.y(); y != end; ++y, at += nu) {
+  const std::size_t edge = edge_of(run.kind);
+  const ScalarOf<V>* const end = run.y + run.rows;
+  for (const ScalarOf<V>* y = run.y; y != end; ++y, at += nu) {
     V du;
     V dv;
     const V p = columns.template at<kEdge>(c, column, broadcast<V>(*y), edge, du, dv);
@@ -149,13 +126,14 @@ SIMDBEZIER_INLINE void sweep_derivatives(const GridTask<ScalarOf<V>>& task,
   columns.build(c, column);
   const std::size_t nu = task.nu;
   std::size_t at = 0;
-  for (Runs runs(task); runs.more(); runs.next()) {
-    if (is_watertight(kScheme) && is_edge(runs.kind())) {
-      derivative_rows<true, kFull>(runs, c, column, columns, to, at, nu, active);
+  const RowRun<ScalarOf<V>>* const last_run = task.runs + task.run_count;
+  for (const RowRun<ScalarOf<V>>* run = task.runs; run != last_run; ++run) {
+    if (is_watertight(kScheme) && is_edge(run->kind)) {
+      derivative_rows<true, kFull>(*run, c, column, columns, to, at, nu, active);
     } else {
-      derivative_rows<false, kFull>(runs, c, column, columns, to, at, nu, active);
+      derivative_rows<false, kFull>(*run, c, column, columns, to, at, nu, active);
     }
-    at += runs.rows() * nu;
+    at += run->rows * nu;
   }
 }
 
@@ -220,14 +198,14 @@ resolve_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch, std::size_
 
 /// One run of rows; kAny: groups with null planes are computed and dropped.
 template <bool kEdge, bool kFull, bool kAny, Scheme kScheme, typename V>
-SIMDBEZIER_INLINE void normal_rows(const Runs<ScalarOf<V>>& runs,
+SIMDBEZIER_INLINE void normal_rows(const RowRun<ScalarOf<V>>& run,
                                    const NormalColumns<kScheme, V>& s, V floor, std::size_t at) {
   const detail::Planes<ScalarOf<V>> position = s.task.position;
   const detail::Planes<ScalarOf<V>> normal = s.task.normal;
   const std::size_t nu = s.task.nu;
-  const std::size_t edge = edge_of(runs.kind());
-  const ScalarOf<V>* const end = runs.y() + runs.rows();
-  for (const ScalarOf<V>* y = runs.y(); y != end; ++y, at += nu) {
+  const std::size_t edge = edge_of(run.kind);
+  const ScalarOf<V>* const end = run.y + run.rows;
+  for (const ScalarOf<V>* y = run.y; y != end; ++y, at += nu) {
     V du[3];
     V dv[3];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -269,13 +247,14 @@ SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task, std::siz
   const V floor = select_where<V>((s.column.x <= half) & (s.column.x >= -half),
                                   broadcast<V>(task.normal_floor[patch]), never);
   std::size_t at = patch * task.patch_step + first;
-  for (Runs runs(task); runs.more(); runs.next()) {
-    if (is_watertight(kScheme) && is_edge(runs.kind())) {
-      normal_rows<true, kFull, kAny>(runs, s, floor, at);
+  const RowRun<ScalarOf<V>>* const last_run = task.runs + task.run_count;
+  for (const RowRun<ScalarOf<V>>* run = task.runs; run != last_run; ++run) {
+    if (is_watertight(kScheme) && is_edge(run->kind)) {
+      normal_rows<true, kFull, kAny>(*run, s, floor, at);
     } else {
-      normal_rows<false, kFull, kAny>(runs, s, runs.kind() == RowKind::outside ? never : floor, at);
+      normal_rows<false, kFull, kAny>(*run, s, run->kind == RowKind::outside ? never : floor, at);
     }
-    at += runs.rows() * task.nu;
+    at += run->rows * task.nu;
   }
 }
 

@@ -59,16 +59,14 @@ Status GridPlan<T>::build(const Grid<T>& grid) noexcept {
   nv_ = grid.nv;
   x_ = inline_x_;
   y_ = inline_y_;
-  kind_ = inline_kind_;
   if (nu_ > kInline || nv_ > kInline) {
     const std::size_t values = nu_ + kMaxLanes + nv_;
-    heap_.reset(new (std::nothrow) unsigned char[values * sizeof(T) + nv_]);
+    heap_.reset(new (std::nothrow) T[values]);
     if (heap_ == nullptr) {
       return Status::out_of_memory;
     }
-    x_ = reinterpret_cast<T*>(heap_.get());
+    x_ = heap_.get();
     y_ = x_ + nu_ + kMaxLanes;
-    kind_ = reinterpret_cast<RowKind*>(y_ + nv_);
   }
   fill_parameters(grid.u, nu_, grid.parameters, x_);
   fill_parameters(grid.v, nv_, grid.parameters, y_);
@@ -76,19 +74,22 @@ Status GridPlan<T>::build(const Grid<T>& grid) noexcept {
   for (std::size_t i = 0; i < kMaxLanes; ++i) {
     x_[nu_ + i] = x_[nu_ - 1];
   }
-  for (std::size_t j = 0; j < nv_; ++j) {
-    kind_[j] = kind_of(y_[j]);
-  }
   return Status::ok;
 }
 
 template <typename T>
-void GridPlan<T>::fill_runs(std::size_t first, std::size_t last,
-                            std::uint32_t* run) const noexcept {
-  for (std::size_t j = last; j-- > first;) {
-    const bool same = j + 1 < last && kind_[j] == kind_[j + 1];
-    run[j - first] = same ? run[j - first + 1] + 1 : 1;
+std::size_t GridPlan<T>::fill_runs(std::size_t first, std::size_t last,
+                                   RowRun<T>* runs) const noexcept {
+  std::size_t count = 0;
+  for (std::size_t j = first; j < last; ++j) {
+    const RowKind kind = kind_of(y_[j]);
+    if (count > 0 && runs[count - 1].kind == kind) {
+      ++runs[count - 1].rows;
+    } else {
+      runs[count++] = {y_ + j, 1, kind};
+    }
   }
+  return count;
 }
 
 template class GridPlan<float>;

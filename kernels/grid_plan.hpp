@@ -22,11 +22,10 @@ public:
   [[nodiscard]] std::size_t nu() const noexcept { return nu_; }
   [[nodiscard]] std::size_t nv() const noexcept { return nv_; }
   [[nodiscard]] const T* x() const noexcept { return x_; }
-  [[nodiscard]] const T* y() const noexcept { return y_; }
-  [[nodiscard]] const RowKind* row_kind() const noexcept { return kind_; }
 
-  /// For rows [first, last): how many rows of the same kind follow inside of them.
-  void fill_runs(std::size_t first, std::size_t last, std::uint32_t* run) const noexcept;
+  /// Describes rows [first, last) by runs, of which there is room for last - first; returns how
+  /// many there are.
+  std::size_t fill_runs(std::size_t first, std::size_t last, RowRun<T>* runs) const noexcept;
 
 private:
   static constexpr std::size_t kInline = 128;
@@ -35,11 +34,9 @@ private:
   std::size_t nv_ = 0;
   T* x_ = nullptr;
   T* y_ = nullptr;
-  RowKind* kind_ = nullptr;
-  std::unique_ptr<unsigned char[]> heap_;
+  std::unique_ptr<T[]> heap_;
   alignas(64) T inline_x_[kInline + kMaxLanes];
   alignas(64) T inline_y_[kInline];
-  RowKind inline_kind_[kInline];
 };
 
 /// Half-centred X = u - 1/2 (exactly half of 2u - 1 rounded once); nan where u is not finite.

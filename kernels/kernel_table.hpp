@@ -37,6 +37,14 @@ enum class RowKind : std::uint8_t {
   outside  ///< |Y| > 1/2 or nan: the interior's formula, every normal takes a second look
 };
 
+/// Consecutive rows of one kind.
+template <typename T>
+struct RowRun {
+  const T* y; ///< `rows` half-centred parameters
+  std::uint32_t rows;
+  RowKind kind;
+};
+
 /// Consecutive patches on consecutive rows of one grid.
 ///
 /// Sample (patch, row, column) of the task goes to plane[patch * patch_step + row * nu + column],
@@ -50,12 +58,10 @@ struct GridTask {
   const T* normal_floor;
   std::size_t patch_count;
 
-  const T* x; ///< nu values, then padding up to a multiple of kMaxLanes
+  const T* x; ///< nu values, then kMaxLanes more that repeat the last one
   std::size_t nu;
-  const T* y;               ///< row_count values
-  const RowKind* row_kind;  ///< row_count values
-  const std::uint32_t* run; ///< how many rows of the same kind follow, this one included
-  std::size_t row_count;
+  const RowRun<T>* runs; ///< the rows, first to last
+  std::size_t run_count;
 
   Planes<T> position;
   Planes<T> du;
