@@ -165,9 +165,11 @@ bool is_clear(const Frame& frame, Vector du, Vector dv, Vector n, double c) {
   return is_finite(n) && length(n) > c * (su * length(dv) + sv * length(du));
 }
 
+/// A tangent is wrong by k u times its hodograph bound, k <= 18, and 5 at the most in every family
+/// that was measured; relative to |N| that turns the normal by k u / c. Hence c = 2^-10 for float:
+/// 0.02 degrees at k = 5.
 template <typename T>
-inline constexpr double kKernelError = sizeof(T) == sizeof(float) ? 0x1.6a09e667f3bcdp-13 // 2^-12.5
-                                                                  : 0x1p-41;
+inline constexpr double kKernelError = sizeof(T) == sizeof(float) ? 0x1p-10 : 0x1p-41;
 inline constexpr double kDoubleError = 0x1p-41;
 
 } // namespace
@@ -177,6 +179,9 @@ T normal_floor(const T* control_points) noexcept {
   constexpr T kNever = std::numeric_limits<T>::infinity();
   constexpr int kLowest = sizeof(T) == sizeof(float) ? -40 : -450;
   constexpr int kHighest = sizeof(T) == sizeof(float) ? 50 : 480;
+  // As kKernelError, in one compare: |N| > 2^-7 of the hodographs' powers of two, which are up to
+  // four times smaller than the hodographs' product.
+  constexpr int kFloor = sizeof(T) == sizeof(float) ? -14 : -40;
   double size_u = 0;
   double size_v = 0;
   for (int j = 0; j < 4; ++j) {
@@ -197,7 +202,7 @@ T normal_floor(const T* control_points) noexcept {
   if (!in_range(eu) || !in_range(ev) || eu + ev < kLowest || eu + ev > kHighest) {
     return kNever;
   }
-  return std::scalbn(T(1), 2 * (eu + ev) - 20);
+  return std::scalbn(T(1), 2 * (eu + ev) + kFloor);
 }
 
 template <typename T>

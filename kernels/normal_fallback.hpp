@@ -5,8 +5,8 @@
 
 namespace simdbezier::detail {
 
-/// The value of |du x dv|^2 above which the plain cross product is good: 2^-20 of what the
-/// hodographs allow, or infinity where the squares could leave the range of T.
+/// The value of |du x dv|^2 above which the plain cross product is good (2^-14 for float, 2^-40 for
+/// double, of what the hodographs allow), or infinity where the squares could leave the range of T.
 /// control_points: one patch, [j][i][component].
 template <typename T>
 T normal_floor(const T* control_points) noexcept;

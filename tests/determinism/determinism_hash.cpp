@@ -75,10 +75,14 @@ private:
 
 template <typename T>
 void run(const char* type, Report& report) {
-  const PatchSet<T> set = packed<T>(mixed_nets(kPatches));
+  const std::vector<Net> nets = mixed_nets(kPatches);
+  const PatchSet<T> set = packed<T>(nets);
+  const PatchSet<T> local = packed<T>(nets, {.local_origin = true});
   for (const Isa isa : available_isas()) {
     report.add(isa, std::string(type) + " grid", grid_hash(set, isa));
     report.add(isa, std::string(type) + " scattered", scattered_hash(set, isa));
+    report.add(isa, std::string(type) + " grid_local_origin", grid_hash(local, isa));
+    report.add(isa, std::string(type) + " scattered_local_origin", scattered_hash(local, isa));
   }
 }
 

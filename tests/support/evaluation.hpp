@@ -18,11 +18,11 @@ namespace simdbezier::tests {
 
 /// Packs nets of one degree; throws where the library refuses them, which fails the test.
 template <typename T>
-[[nodiscard]] PatchSet<T> packed(std::span<const Net> nets) {
+[[nodiscard]] PatchSet<T> packed(std::span<const Net> nets, const PackOptions& options = {}) {
   const std::vector<T> points = packed_points<T>(nets);
   const ControlNets<T> view{points.data(), nets.size()};
   PatchSet<T> set;
-  const PackReport report = pack(view, set);
+  const PackReport report = pack(view, set, options);
   if (!report) {
     throw std::runtime_error("pack: " + std::string(to_string(report.status)) + " at patch " +
                              std::to_string(report.patch));

@@ -1,6 +1,7 @@
 // Control nets of every shape the suite uses, each a function of a random stream.
 //
-// Only + - * / and sqrt, so that a seed gives the same net on every machine and library.
+// Only + - * / and sqrt, and draws only in statements of their own or braced lists, whose order is
+// fixed: a seed gives the same net with every compiler, on every machine.
 #pragma once
 
 #include <array>
@@ -96,7 +97,8 @@ template <typename Make>
 }
 
 [[nodiscard]] inline Net offset_net(Random& random, double distance) {
-  return translated(wave_net(random),
+  const Net net = wave_net(random);
+  return translated(net,
                     {distance * random.sign(), distance * random.sign(), distance * random.sign()});
 }
 
@@ -147,7 +149,8 @@ template <typename Make>
     return Vector3{radius * along, radius * (1.5 - 0.5 * along * along),
                    bend * kParabola[static_cast<std::size_t>(ring)] + cone * radius};
   });
-  net = translated(rotated(net, random_rotation(random)), {random.symmetric(), 1.5, 0.25});
+  net = rotated(net, random_rotation(random));
+  net = translated(net, {random.symmetric(), 1.5, 0.25});
   for (int k = 1; k <= 3; ++k) {
     side_point(net, side, k) = side_point(net, side, 0);
   }

@@ -38,9 +38,9 @@ template <typename T>
 class GridScatteredTest : public IsaTest {
 protected:
   template <typename T>
-  void expect_equal() {
+  void expect_equal(const PackOptions& packing = {}) {
     const std::vector<Net> nets = mixed_nets(17);
-    const PatchSet<T> set = packed<T>(nets);
+    const PatchSet<T> set = packed<T>(nets, packing);
     for (const GridCase& shape : kGridCases) {
       const std::size_t count = nets.size() * shape.nu * shape.nv;
       Planes<T> from_grid(count);
@@ -56,6 +56,12 @@ protected:
 
 TEST_P(GridScatteredTest, EqualBitsFloat) { expect_equal<float>(); }
 TEST_P(GridScatteredTest, EqualBitsDouble) { expect_equal<double>(); }
+TEST_P(GridScatteredTest, EqualBitsLocalOriginsFloat) {
+  expect_equal<float>({.local_origin = true});
+}
+TEST_P(GridScatteredTest, EqualBitsLocalOriginsDouble) {
+  expect_equal<double>({.local_origin = true});
+}
 INSTANTIATE_FOR_EVERY_ISA(GridScatteredTest);
 
 /// Each instruction set against the first of its class.
@@ -71,9 +77,9 @@ protected:
   }
 
   template <typename T>
-  void expect_equal() {
+  void expect_equal(const PackOptions& packing = {}) {
     const std::vector<Net> nets = mixed_nets(33);
-    const PatchSet<T> set = packed<T>(nets);
+    const PatchSet<T> set = packed<T>(nets, packing);
     for (const GridCase& shape : kGridCases) {
       const std::size_t count = nets.size() * shape.nu * shape.nv;
       const Grid<T> samples = Grid<T>::uniform(shape.nu, shape.nv);
@@ -91,6 +97,8 @@ protected:
 
 TEST_P(ClassTest, EqualBitsFloat) { expect_equal<float>(); }
 TEST_P(ClassTest, EqualBitsDouble) { expect_equal<double>(); }
+TEST_P(ClassTest, EqualBitsLocalOriginsFloat) { expect_equal<float>({.local_origin = true}); }
+TEST_P(ClassTest, EqualBitsLocalOriginsDouble) { expect_equal<double>({.local_origin = true}); }
 INSTANTIATE_FOR_EVERY_ISA(ClassTest);
 
 // The counterproof: between the classes the comparison does find differences.

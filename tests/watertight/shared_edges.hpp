@@ -51,7 +51,8 @@ inline constexpr int kPlacements = 8;
 }
 
 [[nodiscard]] inline Edge make_edge(EdgeKind kind, Random& random) {
-  const double offset = random.sign() * std::ldexp(1e6, -random.integer(0, 20));
+  const double distance = std::ldexp(1e6, -random.integer(0, 20));
+  const double offset = distance * random.sign();
   Edge edge;
   for (Vector3& point : edge) {
     for (double& value : point) {

@@ -1,0 +1,143 @@
+// The gates of the accuracy suite on a small sample of every family: short enough for every run.
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/accuracy/library_evaluator.hpp"
+#include "tests/accuracy/measure.hpp"
+#include "tests/accuracy/scalar_evaluators.hpp"
+#include "tests/support/isa_fixture.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+constexpr std::size_t kNets = 76; // all scales of "scaled" in steps, all grades of "graded"
+constexpr std::size_t kSamplesPerNet = 24;
+
+/// The smaller RMS of the two forms of de Casteljau's algorithm.
+template <typename T, bool kFused>
+[[nodiscard]] double de_casteljau_rms(const Family<T>& family, const Reference& at_unit) {
+  ScalarEvaluator<T, DeCasteljau<T, WeightedLerp<T, kFused>>> weighted;
+  ScalarEvaluator<T, DeCasteljau<T, DifferenceLerp<T, kFused>>> difference;
+  return std::min(measure(weighted, family, at_unit)[Quantity::position].rms(),
+                  measure(difference, family, at_unit)[Quantity::position].rms());
+}
+
+/// Families with the oracle's answers and de Casteljau's RMS, made once for all instruction sets.
+template <typename T>
+struct Prepared {
+  std::vector<Family<T>> families = all_families<T>(kNets, kSamplesPerNet);
+  std::vector<Reference> references;
+  std::vector<std::array<double, 2>> de_casteljau; ///< [0] rounded twice, [1] fused
+
+  Prepared() {
+    for (const Family<T>& family : families) {
+      references.push_back(make_reference(family, true));
+      const Reference at_unit = make_reference(family, false);
+      de_casteljau.push_back({de_casteljau_rms<T, false>(family, at_unit),
+                              de_casteljau_rms<T, true>(family, at_unit)});
+    }
+  }
+};
+
+template <typename T>
+[[nodiscard]] const Prepared<T>& prepared() {
+  static const Prepared<T> instance;
+  return instance;
+}
+
+[[nodiscard]] std::string describe(const std::string& family, Quantity quantity,
+                                   const Metric& metric) {
+  char text[200];
+  std::snprintf(text, sizeof text, "%s %s: max %.3g, rms %.3g, worst at net %zu, x %a, y %a",
+                family.c_str(), kQuantityNames[static_cast<std::size_t>(quantity)], metric.max,
+                metric.rms(), metric.worst.net, metric.worst.x, metric.worst.y);
+  return text;
+}
+
+class AccuracyTest : public IsaTest {
+protected:
+  template <typename T>
+  void expect_gates() {
+    const bool fma = fuses_multiply_add(isa());
+    for (std::size_t f = 0; f < prepared<T>().families.size(); ++f) {
+      const Family<T>& family = prepared<T>().families[f];
+      LibraryEvaluator<T> evaluator(isa());
+      const Measurement measured = measure(evaluator, family, prepared<T>().references[f]);
+      expect_ran(Status::ok, evaluator.executed());
+      expect_bounds(family.name, measured);
+      // The hill-climbed nets are worst for this scheme, and harmless for de Casteljau.
+      if (family.name == "worst") {
+        EXPECT_GT(measured[Quantity::position].max, fma ? 8 : 3) << "the nets have lost their bite";
+      } else {
+        EXPECT_LE(measured[Quantity::position].rms(),
+                  kRmsAgainstDeCasteljau * prepared<T>().de_casteljau[f][fma ? 1 : 0])
+            << family.name << ": G5, RMS against the best de Casteljau";
+      }
+    }
+  }
+
+  template <typename T>
+  void expect_certificates(const PackOptions& packing);
+
+  static void expect_bounds(const std::string& family, const Measurement& measured) {
+    for (const Quantity quantity :
+         {Quantity::position, Quantity::du, Quantity::dv, Quantity::normal}) {
+      EXPECT_LE(measured[quantity].max_ratio, 1.0)
+          << "G1, " << describe(family, quantity, measured[quantity]);
+    }
+    EXPECT_LE(measured[Quantity::limit].max, kLimitDegrees)
+        << "G6, " << describe(family, Quantity::limit, measured[Quantity::limit]);
+    EXPECT_EQ(measured.nan_values, 0u) << family;
+    EXPECT_EQ(measured.bad_lengths, 0u) << family;
+    EXPECT_EQ(measured.missed_limits, 0u) << family;
+  }
+};
+
+// Certificates come with the set; both ways of packing are held to them.
+template <typename T>
+void AccuracyTest::expect_certificates(const PackOptions& packing) {
+  double tightest = 0;
+  for (std::size_t f = 0; f < prepared<T>().families.size(); ++f) {
+    const Family<T>& family = prepared<T>().families[f];
+    LibraryEvaluator<T> evaluator(isa(), packing);
+    const Measurement measured = measure(evaluator, family, prepared<T>().references[f]);
+    expect_ran(Status::ok, evaluator.executed());
+    for (const Quantity quantity : {Quantity::position, Quantity::du, Quantity::dv}) {
+      const double ratio = measured[quantity].max_certificate_ratio;
+      EXPECT_LE(ratio, 1.0) << "certificate, "
+                            << describe(family.name, quantity, measured[quantity]);
+      EXPECT_LE(measured[quantity].max_ratio, 1.0) << "G1, " << family.name;
+      tightest = std::max(tightest, ratio);
+    }
+  }
+  EXPECT_GT(tightest, 0.1) << "certificates this wide say nothing";
+}
+
+TEST_P(AccuracyTest, CertificatesFloat) { expect_certificates<float>({}); }
+TEST_P(AccuracyTest, CertificatesDouble) { expect_certificates<double>({}); }
+TEST_P(AccuracyTest, LocalOriginsFloat) { expect_certificates<float>({.local_origin = true}); }
+TEST_P(AccuracyTest, LocalOriginsDouble) { expect_certificates<double>({.local_origin = true}); }
+
+// Far from the origin the last addition is all that is left: numerics.md measures 0.75 u.
+TEST_P(AccuracyTest, LocalOriginsRoundOnceFarAway) {
+  for (std::size_t f = 0; f < prepared<float>().families.size(); ++f) {
+    const Family<float>& family = prepared<float>().families[f];
+    if (family.name == "off1e3" || family.name == "off1e6") {
+      LibraryEvaluator<float> evaluator(isa(), {.local_origin = true});
+      const Measurement measured = measure(evaluator, family, prepared<float>().references[f]);
+      expect_ran(Status::ok, evaluator.executed());
+      EXPECT_LE(measured[Quantity::position].max, 0.8) << family.name;
+    }
+  }
+}
+
+TEST_P(AccuracyTest, EveryFamilyFloat) { expect_gates<float>(); }
+TEST_P(AccuracyTest, EveryFamilyDouble) { expect_gates<double>(); }
+INSTANTIATE_FOR_EVERY_ISA(AccuracyTest);
+
+} // namespace
+} // namespace simdbezier::tests

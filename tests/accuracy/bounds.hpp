@@ -1,0 +1,52 @@
+// The error bounds that results are judged by, in units of the unit roundoff u.
+//
+// Each is a certified maximum of the scheme's first-order running-error formula over all control
+// nets and parameters (numerics.md section 1.4), rounded up; bounds_test.cpp maximises the
+// formulas again, over all extreme nets, and compares.
+#pragma once
+
+namespace simdbezier::tests {
+
+/// |error of P| <= K u max|b|, per component.
+inline constexpr double kPositionBoundFma = 21;   // formula: 20.19
+inline constexpr double kPositionBoundNoFma = 32; // formula: 30.81
+
+/// |error of dS/du, dS/dv| <= D u max|hodograph|, per component.
+inline constexpr double kDerivativeBoundFma = 18;   // formula: 17.33
+inline constexpr double kDerivativeBoundNoFma = 26; // formula: 25.08
+
+[[nodiscard]] constexpr double position_bound(bool fma) {
+  return fma ? kPositionBoundFma : kPositionBoundNoFma;
+}
+[[nodiscard]] constexpr double derivative_bound(bool fma) {
+  return fma ? kDerivativeBoundFma : kDerivativeBoundNoFma;
+}
+
+/// With a local origin O the bound is u|P| + K u max|b-O|; O lies in the hull of the control
+/// points, so |b-O| <= 2 max|b|.
+[[nodiscard]] constexpr double position_bound_with_origin(bool fma) {
+  return 2 * position_bound(fma) + 1;
+}
+
+/// The unit normal inherits the tangents' errors times its conditioning. With every component of
+/// a tangent within D u H, the tangent is within sqrt(3) D u H; kappa = (Hu|dv| + Hv|du|)/|du x dv|
+/// carries that to the direction. The cross product itself adds at most 3 u |du||dv| / |du x dv|
+/// <= 3 sqrt(3) kappa / 2 u (|du| <= sqrt(3) Hu), and normalising 3 u.
+[[nodiscard]] constexpr double normal_bound(bool fma, double kappa) {
+  return (1.7321 * derivative_bound(fma) + 2.6) * kappa + 3;
+}
+
+/// G6: what a normal may miss its limit by, in degrees, where the cross product vanishes to first
+/// order (stage 2 of the recipe) and where it does to higher order or nearly so (stage 3).
+inline constexpr double kLimitDegrees = 1e-3;
+inline constexpr double kDegenerateDegrees = 0.02;
+
+/// What any normal may be off by, in degrees: the quick test |du x dv| > 2^-10 leaves conditioning
+/// up to 2^14, whose errors of at most 2 u kappa come to 0.1 degree in float; beyond that the
+/// library must have noticed.
+inline constexpr double kPlainDegrees = 0.1;
+
+/// G5: RMS error at most so many times that of the best scalar de Casteljau (degree <= 3).
+inline constexpr double kRmsAgainstDeCasteljau = 1.25;
+
+} // namespace simdbezier::tests

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Seeds four faults into copies of the library, one at a time, and requires the named test to fail:
+# a check that cannot fail is worth nothing. Run by hand after changing kernels or checks.
+#
+#     tests/accuracy/seed_faults.sh [FAULT]
+#
+# Exit 0: every fault was caught; 1: one was not, or its place in the sources was not found.
+set -euo pipefail
+
+root=$(cd "$(dirname "$0")/../.." && pwd)
+data=${SIMDBEZIER_SHARED_DATA:-$root/../shared/data}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# fault | file | substitution | test program | tests that must fail
+faults=(
+  "contraction|kernels/isa/arch.hpp|s/return a \* b + c;/if constexpr (kIsScalar<V>) { return scalar_fma(a, b, c); } else { return a * b + c; }/|watertight/test_watertight|*ClassTest*sse2"
+  "no_corner_store|kernels/bicubic.hpp|s/return column.edges.replace(value, c.corner.*/return value;/|watertight/test_watertight|*SharedEdges*"
+  "reciprocal_step|kernels/grid_plan.cpp|s/numerator \/ static_cast<T>(intervals)/numerator * (T(1) \/ static_cast<T>(intervals))/|watertight/test_watertight|*SharedEdges*"
+  "coefficients_in_float|kernels/pack.cpp|s/std::is_same_v<S, float>, double, DoubleDouble>/std::is_same_v<S, float>, float, DoubleDouble>/|accuracy/test_accuracy|*EveryFamilyFloat*"
+)
+
+# Copies the sources anew and builds one test program of the copy.
+build_copy() { # fault file substitution program
+  rm -rf "$work/source"
+  mkdir -p "$work/source"
+  (cd "$root" && tar cf - --exclude=./build* --exclude=./.git .) | tar xf - -C "$work/source"
+  if [[ -n $3 ]]; then
+    sed -i "$3" "$work/source/$2"
+    if cmp -s "$root/$2" "$work/source/$2"; then
+      echo "$1: nothing to substitute in $2" >&2
+      return 1
+    fi
+  fi
+  cmake -S "$work/source" -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DSIMDBEZIER_BUILD_TESTS=ON \
+        -DSIMDBEZIER_BUILD_BENCH=OFF -DSIMDBEZIER_SHARED_DATA="$data" >"$work/log" 2>&1 &&
+    cmake --build "$work/build" -j2 --target "${4##*/}" >>"$work/log" 2>&1 ||
+    { tail -20 "$work/log" >&2; return 1; }
+}
+
+status=0
+for row in "${faults[@]}"; do
+  IFS='|' read -r fault file substitution program filter <<<"$row"
+  [[ $# -eq 0 || $1 == "$fault" ]] || continue
+  build_copy "$fault" "$file" "$substitution" "$program" || { status=1; continue; }
+  if "$work/build/tests/$program" --gtest_filter="$filter" >"$work/log" 2>&1; then
+    echo "$fault: NOT caught by $program --gtest_filter='$filter'"
+    status=1
+  else
+    echo "$fault: caught by $(grep -m1 -oE 'FAILED  \] [A-Za-z/.0-9_]+' "$work/log" | cut -c11-)"
+  fi
+done
+exit $status
