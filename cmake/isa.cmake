@@ -1,11 +1,13 @@
 # The instruction sets: the only place in the project with -m flags.
 # One row each: name | xsimd architecture tag | compiler flags. Narrowest first.
+# Tuned for generic machines, g++ 12 spills addresses to vector registers, where they queue behind
+# the arithmetic: 18 % of the derivatives' speed on AVX-512.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   set(SIMDBEZIER_ISA_TABLE
       "scalar|void|"
       "sse2|xsimd::sse2|-msse2"
-      "avx2|xsimd::fma3<xsimd::avx2>|-mavx2 -mfma"
-      "avx512|xsimd::avx512bw|-mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mavx2 -mfma")
+      "avx2|xsimd::fma3<xsimd::avx2>|-mavx2 -mfma -mtune=haswell"
+      "avx512|xsimd::avx512bw|-mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mavx2 -mfma -mtune=haswell")
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
   set(SIMDBEZIER_ISA_TABLE "scalar|void|" "neon64|xsimd::neon64|")
 else()

@@ -37,12 +37,12 @@ template <typename V>
 struct Column {
   V x;
   PairSelector<V> edges;
-  bool on_edge;
+  bool on_edge; ///< false: no lane is on an edge u = const
 
   explicit SIMDBEZIER_INLINE Column(V half_centred)
       : x(half_centred),
         edges(x == broadcast<V>(ScalarOf<V>(-0.5)), x == broadcast<V>(ScalarOf<V>(0.5))),
-        on_edge(edges.any()) {}
+        on_edge(edges.worthwhile()) {}
 };
 
 /// The coefficients of one component of one patch.

@@ -226,7 +226,8 @@ class PairSelector {
 public:
   SIMDBEZIER_INLINE PairSelector(MaskOf<V> first, MaskOf<V> second)
       : first_(first), second_(second) {}
-  SIMDBEZIER_INLINE bool any() const { return any_of<V>(first_ | second_); }
+  /// Whether replace() can change anything; true where finding out costs more than replacing.
+  SIMDBEZIER_INLINE bool worthwhile() const { return any_of<V>(first_ | second_); }
   SIMDBEZIER_INLINE V replace(V inside, const ScalarOf<V>* pair) const {
     return select_where<V>(first_, broadcast<V>(pair[0]),
                            select_where<V>(second_, broadcast<V>(pair[1]), inside));
@@ -246,7 +247,7 @@ public:
   SIMDBEZIER_INLINE PairSelector(MaskOf<vec<float>> first, MaskOf<vec<float>> second)
       : lanes_(static_cast<__mmask16>(__mmask16(first) | __mmask16(second))),
         index_(_mm512_maskz_set1_epi32(__mmask16(second), 1)) {}
-  SIMDBEZIER_INLINE bool any() const { return lanes_ != 0; }
+  SIMDBEZIER_INLINE bool worthwhile() const { return true; }
   SIMDBEZIER_INLINE vec<float> replace(vec<float> inside, const float* pair) const {
     double both;
     __builtin_memcpy(&both, pair, sizeof(both));
@@ -265,7 +266,7 @@ public:
   SIMDBEZIER_INLINE PairSelector(MaskOf<vec<double>> first, MaskOf<vec<double>> second)
       : lanes_(static_cast<__mmask8>(__mmask8(first) | __mmask8(second))),
         index_(_mm512_maskz_set1_epi64(__mmask8(second), 2)) {}
-  SIMDBEZIER_INLINE bool any() const { return lanes_ != 0; }
+  SIMDBEZIER_INLINE bool worthwhile() const { return true; }
   SIMDBEZIER_INLINE vec<double> replace(vec<double> inside, const double* pair) const {
     const __m512d pairs = _mm512_broadcast_f64x2(_mm_loadu_pd(pair));
     return vec<double>(_mm512_mask_permutevar_pd(inside, lanes_, pairs, index_));
