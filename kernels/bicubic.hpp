@@ -7,7 +7,7 @@
 // Where X (Y) is exactly -1/2 or 1/2 the edge's own cubic takes the place of the column (row).
 #pragma once
 
-#include "kernels/isa/arch.hpp"
+#include "kernels/isa/lanes.hpp"
 #include "kernels/kernel_table.hpp"
 #include "kernels/patch_storage.hpp"
 

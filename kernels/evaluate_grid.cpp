@@ -1,8 +1,6 @@
 // The grid call: checks, the plan, work cut into (patch, strip of rows), kernels.
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <new>
 
 #include <simdbezier/evaluate.hpp>
 
@@ -114,38 +112,17 @@ constexpr std::size_t kInlineRows = 128;
 
 template <typename T>
 Status run_grid(const GridCall<T>& call, std::size_t patches, const Options& options) noexcept {
-  const std::size_t units = patches * call.strips();
-  const int threads = thread_count(options.threads, units);
-  // Each thread's scratch begins on a cache line of its own.
+  // A thread's planes, and behind them its list of runs where the stack is too small for it.
   const std::size_t planes = (call.scratch_size() * sizeof(T) + 63) / 64 * 64;
-  const std::size_t runs = call.strip_rows() > kInlineRows
-                               ? (call.strip_rows() * sizeof(std::uint32_t) + 63) / 64 * 64
-                               : 0;
-  const std::size_t bytes = planes + runs;
-  std::unique_ptr<void, FreeAligned> scratch;
-  if (bytes > 0) {
-    scratch.reset(::operator new (bytes* static_cast<std::size_t>(threads), std::align_val_t{64},
-                                  std::nothrow));
-    if (scratch == nullptr) {
-      return Status::out_of_memory;
-    }
-  }
-  Isa executed = Isa::automatic;
-  auto body = [&](int worker, std::size_t begin, std::size_t end) {
-    RowRun<T> inline_runs[kInlineRows];
-    auto* const own = static_cast<unsigned char*>(scratch.get()) +
-                      (bytes > 0 ? static_cast<std::size_t>(worker) * bytes : 0);
-    auto* const own_runs = runs > 0 ? reinterpret_cast<RowRun<T>*>(own + planes) : inline_runs;
-    const Isa ran = call.worker(begin, end, reinterpret_cast<T*>(own), own_runs);
-    if (worker == 0) {
-      executed = ran;
-    }
-  };
-  for_blocks(units, threads, BlockBody(body));
-  if (options.executed != nullptr) {
-    *options.executed = executed;
-  }
-  return Status::ok;
+  const std::size_t runs =
+      call.strip_rows() > kInlineRows ? call.strip_rows() * sizeof(RowRun<T>) : 0;
+  return run_blocks(patches * call.strips(), options, planes + runs,
+                    [&](std::size_t begin, std::size_t end, unsigned char* scratch) {
+                      RowRun<T> inline_runs[kInlineRows];
+                      auto* const own_runs =
+                          runs > 0 ? reinterpret_cast<RowRun<T>*>(scratch + planes) : inline_runs;
+                      return call.worker(begin, end, reinterpret_cast<T*>(scratch), own_runs);
+                    });
 }
 
 } // namespace

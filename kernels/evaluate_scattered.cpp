@@ -1,8 +1,6 @@
 // The scattered call: checks, pieces of samples with converted parameters, kernels.
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <new>
 
 #include <simdbezier/evaluate.hpp>
 
@@ -81,35 +79,6 @@ struct ScatteredCall {
   }
 };
 
-template <typename T>
-Status run_scattered(const ScatteredCall<T>& call, const Options& options) noexcept {
-  const std::size_t pieces = call.samples.count / kPiece + (call.samples.count % kPiece != 0);
-  const int threads = thread_count(options.threads, pieces);
-  const std::size_t bytes = (call.staging.scratch_size() * sizeof(T) + 63) / 64 * 64;
-  std::unique_ptr<void, FreeAligned> scratch;
-  if (bytes > 0) {
-    scratch.reset(::operator new (bytes* static_cast<std::size_t>(threads), std::align_val_t{64},
-                                  std::nothrow));
-    if (scratch == nullptr) {
-      return Status::out_of_memory;
-    }
-  }
-  Isa executed = Isa::automatic;
-  auto body = [&](int worker, std::size_t begin, std::size_t end) {
-    auto* const own = static_cast<unsigned char*>(scratch.get()) +
-                      (bytes > 0 ? static_cast<std::size_t>(worker) * bytes : 0);
-    const Isa ran = call.worker(begin, end, reinterpret_cast<T*>(own));
-    if (worker == 0) {
-      executed = ran;
-    }
-  };
-  for_blocks(pieces, threads, BlockBody(body));
-  if (options.executed != nullptr) {
-    *options.executed = executed;
-  }
-  return Status::ok;
-}
-
 } // namespace
 } // namespace detail
 
@@ -134,7 +103,12 @@ Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, con
       *set.storage(), samples, out,
       table.scattered[detail::scheme(options.watertight, set.has_local_origins())],
       detail::Staging<T>(out, detail::kPiece)};
-  return detail::run_scattered(call, options);
+  const std::size_t pieces =
+      samples.count / detail::kPiece + (samples.count % detail::kPiece != 0 ? 1 : 0);
+  return detail::run_blocks(pieces, options, call.staging.scratch_size() * sizeof(T),
+                            [&](std::size_t begin, std::size_t end, unsigned char* scratch) {
+                              return call.worker(begin, end, reinterpret_cast<T*>(scratch));
+                            });
 }
 
 template SIMDBEZIER_API Status evaluate_scattered(const PatchSet<float>&, const Samples<float>&,
