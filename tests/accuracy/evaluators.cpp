@@ -21,6 +21,9 @@ void add_others([[maybe_unused]] Evaluators<double>& list) {
 #if defined(SIMDBEZIER_WITH_SISL)
   add_sisl(list);
 #endif
+#if defined(SIMDBEZIER_WITH_VTK)
+  add_vtk(list);
+#endif
 }
 
 } // namespace

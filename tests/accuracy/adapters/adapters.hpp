@@ -10,6 +10,7 @@ namespace simdbezier::tests {
 void add_opensubdiv(Evaluators<float>& list);
 void add_opencascade(Evaluators<double>& list);
 void add_sisl(Evaluators<double>& list);
+void add_vtk(Evaluators<double>& list);
 
 /// The normal as their users form it: the cross product of the tangents, divided by its length.
 template <typename T>
