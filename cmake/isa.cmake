@@ -46,11 +46,13 @@ function(simdbezier_add_isa_kernels target)
     # -O3 in every other build: below it g++ 12 keeps the registers' arrays in memory, which costs a
     # factor of two. No errno: sqrt becomes one instruction. No exceptions: their personality routine would be one
     # more symbol to merge. g++ 12 warns about its own _mm512_undefined_ps (GCC bug 105593).
-    # The undefined behaviour sanitizer would take minutes to compile what is inlined here.
     target_compile_options(
       ${object} PRIVATE ${flags} $<IF:$<CONFIG:Debug>,-O1,-O3> -fno-math-errno -fno-exceptions
-                        $<$<BOOL:${SIMDBEZIER_SANITIZE}>:-fno-sanitize=undefined>
                         $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    if(SIMDBEZIER_SANITIZE)
+      # The undefined behaviour sanitizer would take minutes to compile what is inlined here.
+      target_compile_options(${object} PRIVATE -fno-sanitize=undefined)
+    endif()
     target_link_libraries(${object} PRIVATE simdbezier_private_flags simdbezier_xsimd)
     set_target_properties(${object} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)

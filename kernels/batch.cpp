@@ -2,6 +2,8 @@
 // every call of equal shape.
 #include "kernels/batch.hpp"
 
+#include <algorithm>
+
 #include <omp.h>
 
 #include "kernels/fp_environment.hpp"
@@ -13,6 +15,8 @@ int thread_count(int requested, std::size_t units) noexcept {
   if (requested <= 0) {
     threads = omp_in_parallel() != 0 ? 1 : omp_get_max_threads();
   }
+  // The runtime ends the process when the system refuses it a thread; more than these gain nothing.
+  threads = std::min(threads, std::max({16, 2 * omp_get_num_procs(), omp_get_max_threads()}));
   if (threads > 1 && units < static_cast<std::size_t>(threads)) {
     threads = static_cast<int>(units);
   }

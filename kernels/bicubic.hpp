@@ -48,11 +48,11 @@ struct Column {
 /// The coefficients of one component of one patch.
 template <typename T>
 struct Component {
-  const T* matrix; ///< [k][l]
-  const T* edge;   ///< [power][edge]
-  const T* corner; ///< [corner]
-  const T*
-      origin; ///< of the patch, and from kEdgeOriginsAt on of its edges; read with origins only
+  const T* matrix;       ///< [k][l]
+  const T* edge;         ///< [power][edge]
+  const T* corner;       ///< [corner]
+  const T* origins;      ///< of the set; null where it has none
+  std::size_t origin_at; ///< of this component in there
 
   /// task: any that holds coefficients, edges and origins.
   template <typename Task>
@@ -60,8 +60,11 @@ struct Component {
       : matrix(task.coefficients + patch * detail::kCoefficients + component * kOrder * kOrder),
         edge(task.edges + patch * detail::kEdgeBlock + component * kOrder * kEdges),
         corner(task.edges + patch * detail::kEdgeBlock + detail::kCornersAt + component * kEdges),
-        origin(task.origins + patch * detail::kOriginBlock +
-               component * detail::kOriginsPerComponent) {}
+        origins(task.origins),
+        origin_at(patch * detail::kOriginBlock + component * detail::kOriginsPerComponent) {}
+
+  /// Of the patch, and from kEdgeOriginsAt on of its edges; for sets with origins only.
+  SIMDBEZIER_INLINE const T* origin() const { return origins + origin_at; }
 };
 
 /// The polynomial in Y that a column is, for position and v derivative.
@@ -112,9 +115,9 @@ SIMDBEZIER_INLINE V column_origin(const Component<ScalarOf<V>>& c, const Column<
   if constexpr (!has_origins(kScheme)) {
     return column.x; // not used
   }
-  const V inside = broadcast<V>(c.origin[0]);
+  const V inside = broadcast<V>(c.origin()[0]);
   constexpr std::size_t kAt = detail::kEdgeOriginsAt + detail::kEdgeU0;
-  return is_watertight(kScheme) ? column.edges.replace(inside, c.origin + kAt) : inside;
+  return is_watertight(kScheme) ? column.edges.replace(inside, c.origin() + kAt) : inside;
 }
 
 /// Origins are added last, so that far away only this addition rounds at the size of the result.
@@ -138,7 +141,7 @@ template <Scheme kScheme, typename V>
 SIMDBEZIER_INLINE V finished_edge(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                   std::size_t edge, V value) {
   if constexpr (has_origins(kScheme)) {
-    value = value + broadcast<V>(c.origin[detail::kEdgeOriginsAt + edge]);
+    value = value + broadcast<V>(c.origin()[detail::kEdgeOriginsAt + edge]);
   }
   return column.edges.replace(value, c.corner + detail::corner_index(0, edge));
 }

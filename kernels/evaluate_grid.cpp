@@ -130,6 +130,7 @@ Status run_grid(const GridCall<T>& call, std::size_t patches, const Options& opt
 
 template <typename T>
 T to_centred(double u) noexcept {
+  const detail::DefaultFpEnvironment environment;
   return static_cast<T>(std::fma(2.0, u, -1.0));
 }
 

@@ -26,8 +26,6 @@ double length(Vector a) { return std::sqrt(squared_length(a)); }
 double max_norm(Vector a) {
   return std::max(std::fabs(a.x), std::max(std::fabs(a.y), std::fabs(a.z)));
 }
-bool is_finite(Vector a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
-
 template <typename T>
 Vector point(const T* control_points, int j, int i) {
   const T* const p = control_points + (j * 4 + i) * 3;
@@ -150,7 +148,7 @@ Jet jet(const Frame& frame, double x, double y) {
 
 template <typename T>
 SampleStatus write(Vector direction, T normal[3], SampleStatus status) {
-  const double inverse = 1 / length(direction);
+  const double inverse = 1 / length(direction); // finite, and far from 0: callers saw to it
   normal[0] = static_cast<T>(direction.x * inverse);
   normal[1] = static_cast<T>(direction.y * inverse);
   normal[2] = static_cast<T>(direction.z * inverse);
@@ -162,7 +160,7 @@ SampleStatus write(Vector direction, T normal[3], SampleStatus status) {
 bool is_clear(const Frame& frame, Vector du, Vector dv, Vector n, double c) {
   const double su = frame.size_u * frame.scale_u;
   const double sv = frame.size_v * frame.scale_v;
-  return is_finite(n) && length(n) > c * (su * length(dv) + sv * length(du));
+  return std::isfinite(length(n)) && length(n) > c * (su * length(dv) + sv * length(du));
 }
 
 /// A tangent is wrong by k u times its hodograph bound, k <= 18, and 5 at the most in every family
@@ -218,7 +216,8 @@ SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept {
   if (frame.size_u == 0 || frame.size_v == 0) {
     return SampleStatus::degenerate;
   }
-  {
+  const bool inside = std::fabs(x) <= 0.5 && std::fabs(y) <= 0.5;
+  if (inside) {
     const double su = frame.scale * frame.scale_u;
     const double sv = frame.scale * frame.scale_v;
     const Vector du = su * Vector{query.du[0], query.du[1], query.du[2]};
@@ -230,6 +229,11 @@ SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept {
   }
   const Jet d = jet(frame, x, y);
   const Vector n = cross(d.u, d.v);
+  if (!inside) {
+    // Hodographs bound nothing out here, and there is no inside to take a limit from.
+    const bool clear = std::isfinite(length(n)) && length(n) > 0x1p-20 * length(d.u) * length(d.v);
+    return clear ? write(n, normal, SampleStatus::regular) : SampleStatus::degenerate;
+  }
   if (is_clear(frame, d.u, d.v, n, kDoubleError)) {
     return write(n, normal, SampleStatus::regular);
   }
@@ -239,13 +243,13 @@ SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept {
   const Vector toward_u = (a)*d.uu + (b * frame.scale_u) * d.uv;
   const Vector toward_v = (a * frame.scale_v) * d.uv + (b)*d.vv;
   const Vector limit = n + 0.125 * (cross(d.u, toward_v) - cross(d.v, toward_u));
-  if (is_finite(limit) && squared_length(limit) > 0x1p-22) {
+  if (squared_length(limit) > 0x1p-22) {
     return write(limit, normal, SampleStatus::limit);
   }
   constexpr double kPull = 1 - 0x1p-12;
   const Jet pulled = jet(frame, x * kPull, y * kPull);
   const Vector near = cross(pulled.u, pulled.v);
-  if (is_finite(near) && length(near) > 0x1p-40) {
+  if (length(near) > 0x1p-40) {
     return write(near, normal, SampleStatus::limit);
   }
   return SampleStatus::degenerate;

@@ -19,6 +19,7 @@ T normal_floor(const T* control_points) noexcept;
 ///      towards the centre;
 ///   4. the cross product at a parameter pulled 2^-12 towards the centre;
 ///   5. zero: the patch is a point or a line there.
+/// Outside of [0,1] only the cross product in double, where du and dv are not nearly parallel.
 template <typename T>
 SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept;
 

@@ -62,15 +62,11 @@ public:
       if (!is_staged(*group)) {
         continue;
       }
-      const std::ptrdiff_t stride = group->stride;
-      const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(first) * stride;
-      T* x = group->x + offset;
-      T* y = group->y + offset;
-      T* z = group->z + offset;
-      for (std::size_t k = 0; k < count; ++k, x += stride, y += stride, z += stride) {
-        *x = scratch[k];
-        *y = scratch[k + plane_samples_];
-        *z = scratch[k + 2 * plane_samples_];
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(first + k) * group->stride;
+        group->x[at] = scratch[k];
+        group->y[at] = scratch[k + plane_samples_];
+        group->z[at] = scratch[k + 2 * plane_samples_];
       }
       scratch += 3 * plane_samples_;
     }

@@ -23,7 +23,8 @@ struct ErrorBounds {
 ///              without FMA; one more for the coefficient itself; with local origins u (|O| + the
 ///              sum above without its constant) for the last addition. Denormals add 64 of the
 ///              smallest one. (First-order running error analysis; 1.01 covers the higher orders.)
-/// Relative to: the control points as packed (T or wider), less PackOptions::relative_to. Where u
+/// Relative to: the control points less PackOptions::relative_to, as that difference was rounded
+///              (to double where T and S are float, else to about 2^-104). Where u
 ///              is given instead of x = 2u-1, its rounding moves the sample by at most u_T/2 in x.
 /// isa:         decides between the FMA and the other class; automatic as in resolve_isa().
 /// Returns all zero for a patch outside of the set, and infinities where `isa` cannot be resolved.

@@ -3,6 +3,7 @@
 // its size, and write nothing outside of its outputs.
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <memory>
 #include <vector>
 
@@ -92,8 +93,13 @@ template <typename T>
 class Sizes : public IsaTest {
 protected:
   void check(std::size_t nu, std::size_t nv, unsigned groups, int threads, bool uniform) {
-    const auto x = centred_parameters<T>(nu);
-    const auto y = centred_parameters<T>(nv);
+    compare(centred_parameters<T>(nu), centred_parameters<T>(nv), groups, threads, uniform);
+  }
+
+  void compare(const std::vector<T>& x, const std::vector<T>& y, unsigned groups, int threads,
+               bool uniform) {
+    const std::size_t nu = x.size();
+    const std::size_t nv = y.size();
     const auto samples = as_samples(kPatches, x, y);
     Planes<T> expected(kPatches * nu * nv);
     scattered(set_, samples.view(Parameters::centred), expected.outputs());
@@ -143,6 +149,20 @@ protected:
       }
     }
   }
+  /// Rows that change their kind all the time: edge, interior, outside, edge, …
+  void mixed_rows() {
+    for (const std::size_t nv : {7U, 127U, 128U, 129U, 600U, 3000U}) {
+      std::vector<T> y(nv);
+      constexpr T kKinds[] = {T(-1), T(0.5), T(1), T(1.25), T(-1), T(-1), T(0)};
+      for (std::size_t j = 0; j < nv; ++j) {
+        y[j] = kKinds[j % std::size(kKinds)];
+      }
+      for (const int threads : {1, 3}) {
+        this->compare(centred_parameters<T>(3), y, kAllGroups, threads, false);
+        this->compare(centred_parameters<T>(3), y, 1, threads, false);
+      }
+    }
+  }
   /// Larger than what a plan keeps inline, and than one strip.
   void large() {
     this->check(300, 280, kAllGroups, 2, true);
@@ -162,6 +182,8 @@ TEST_P(EverySizeF32, every_choice_of_groups) { groups(); }
 TEST_P(EverySizeF64, every_choice_of_groups) { groups(); }
 TEST_P(EverySizeF32, any_number_of_threads) { threads(); }
 TEST_P(EverySizeF64, any_number_of_threads) { threads(); }
+TEST_P(EverySizeF32, rows_of_mixed_kinds) { mixed_rows(); }
+TEST_P(EverySizeF64, rows_of_mixed_kinds) { mixed_rows(); }
 TEST_P(EverySizeF32, large_grids) { large(); }
 TEST_P(EverySizeF64, large_grids) { large(); }
 
