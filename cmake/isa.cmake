@@ -50,8 +50,8 @@ function(simdbezier_add_isa_kernels target)
       ${object} PRIVATE ${flags} $<IF:$<CONFIG:Debug>,-O1,-O3> -fno-math-errno -fno-exceptions
                         $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     if(SIMDBEZIER_SANITIZE)
-      # The undefined behaviour sanitizer would take minutes to compile what is inlined here.
-      target_compile_options(${object} PRIVATE -fno-sanitize=undefined)
+      # All that is inlined here would take a sanitizing compiler minutes.
+      target_compile_options(${object} PRIVATE -O1 -fno-sanitize=undefined)
     endif()
     target_link_libraries(${object} PRIVATE simdbezier_private_flags simdbezier_xsimd)
     set_target_properties(${object} PROPERTIES POSITION_INDEPENDENT_CODE ON)
