@@ -11,12 +11,16 @@
 namespace simdbezier::detail {
 
 int thread_count(int requested, std::size_t units) noexcept {
-  int threads = requested;
+  if (requested == 1) {
+    return 1;
+  }
+  // The runtime ends the process when the system refuses it a thread, and more than these gain
+  // nothing. Asked once: the answer takes a system call.
+  static const int most = std::max({16, 2 * omp_get_num_procs(), omp_get_max_threads()});
+  int threads = std::min(requested, most);
   if (requested <= 0) {
     threads = omp_in_parallel() != 0 ? 1 : omp_get_max_threads();
   }
-  // The runtime ends the process when the system refuses it a thread; more than these gain nothing.
-  threads = std::min(threads, std::max({16, 2 * omp_get_num_procs(), omp_get_max_threads()}));
   if (threads > 1 && units < static_cast<std::size_t>(threads)) {
     threads = static_cast<int>(units);
   }
