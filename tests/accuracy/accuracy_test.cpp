@@ -122,7 +122,7 @@ TEST_P(AccuracyTest, CertificatesDouble) { expect_certificates<double>({}); }
 TEST_P(AccuracyTest, LocalOriginsFloat) { expect_certificates<float>({.local_origin = true}); }
 TEST_P(AccuracyTest, LocalOriginsDouble) { expect_certificates<double>({.local_origin = true}); }
 
-// Far from the origin the last addition is all that is left: numerics.md measures 0.75 u.
+// Far from the origin the last addition is all that is left: 0.75 u were measured.
 TEST_P(AccuracyTest, LocalOriginsRoundOnceFarAway) {
   for (std::size_t f = 0; f < prepared<float>().families.size(); ++f) {
     const Family<float>& family = prepared<float>().families[f];

@@ -1,7 +1,7 @@
 // The error bounds that results are judged by, in units of the unit roundoff u.
 //
 // Each is a certified maximum of the scheme's first-order running-error formula over all control
-// nets and parameters (numerics.md section 1.4), rounded up; bounds_test.cpp maximises the
+// nets and parameters (docs/accuracy.md), rounded up; bounds_test.cpp maximises the
 // formulas again, over all extreme nets, and compares.
 #pragma once
 

@@ -44,7 +44,7 @@ struct DegenerateCase {
   double degrees; ///< allowed angle to the limit
 };
 
-// The rows of numerics.md section 3 that do not need the teapot.
+// Degenerate nets that do not need the teapot.
 const DegenerateCase kDegenerateCases[] = {
     {"first_edge_point_doubled",
      [] { return with(dish(), [](Net& n) { n.at(0, 1) = n.at(0, 0); }); }, Sampled::corner,

@@ -214,7 +214,7 @@ struct Growth {
   return growth;
 }
 
-// The pointwise bound of numerics.md section 1.4, which holds for any x, y: a term passes at most
+// The pointwise bound (docs/accuracy.md), which holds for any x, y: a term passes at most
 // 7 roundings (3 fused operations each way and the coefficient's own), 13 without fusing; two
 // more (four) for a derivative.
 template <typename T>

@@ -38,7 +38,7 @@ struct Parameters2 {
   T y = -1;
 };
 
-/// The conversion that design.md pins: fma(2, u, -1) in double, rounded once to T.
+/// The documented conversion: fma(2, u, -1) in double, rounded once to T.
 template <typename T>
 [[nodiscard]] inline T centred_from_unit(T u) {
   return static_cast<T>(std::fma(2.0, static_cast<double>(u), -1.0));

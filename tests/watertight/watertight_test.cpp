@@ -153,7 +153,7 @@ TEST_P(WatertightTest, RelativeWithLocalOriginsDouble) {
 }
 
 // The counterproof: with watertight edges off this very comparison finds more than a third of the
-// samples different and corners wrong (numerics.md section 2: 61 %).
+// samples different and corners wrong (61 % in a study).
 TEST_P(WatertightTest, ComparisonSeesOpenEdges) {
   const Tally tally = run<float>(20'000, {{}, {.threads = 1, .watertight = false}});
   EXPECT_GT(tally.different, tally.samples / 3);
