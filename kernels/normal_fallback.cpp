@@ -54,12 +54,9 @@ struct Frame {
     if (size == 0) {
       return;
     }
-    // Halved once more, so that differences cannot overflow; in two steps because the inverse of
-    // a denormal is out of range.
+    // Halved once more, so that differences cannot overflow.
     const int exponent = -std::ilogb(size) - 1;
-    scale = std::scalbn(1.0, std::min(exponent, 1000));
-    const double rest = std::scalbn(1.0, exponent - std::min(exponent, 1000));
-    scale *= rest;
+    scale = std::scalbn(1.0, exponent);
     const auto scaled_point = [&](int j, int i) {
       const Vector p = point(control_points, j, i);
       return Vector{std::scalbn(p.x, exponent), std::scalbn(p.y, exponent),

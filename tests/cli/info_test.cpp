@@ -5,6 +5,7 @@
 
 #include "tests/cli/program.hpp"
 #include "tests/cli/sample_nets.hpp"
+#include "tests/support/net_shapes.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -68,20 +69,6 @@ TEST(Info, SaysTheSameInWords) {
   }
 }
 
-// The control points of one edge: rows v = 0 and v = 1, columns u = 0 and u = 1.
-Vector3& edge_point(Net& net, int edge, int k) {
-  switch (edge) {
-  case 0:
-    return net.at(0, k);
-  case 1:
-    return net.at(3, k);
-  case 2:
-    return net.at(k, 0);
-  default:
-    return net.at(k, 3);
-  }
-}
-
 TEST(Info, FindsSharedEdgesInEveryOrientation) {
   for (int edge_a = 0; edge_a < 4; ++edge_a) {
     for (int edge_b = 0; edge_b < 4; ++edge_b) {
@@ -89,7 +76,7 @@ TEST(Info, FindsSharedEdgesInEveryOrientation) {
         Net a = distinct_net(1);
         Net b = distinct_net(2);
         for (int k = 0; k < 4; ++k) {
-          edge_point(b, edge_b, reversed ? 3 - k : k) = edge_point(a, edge_a, k);
+          side_point(b, edge_b, reversed ? 3 - k : k) = side_point(a, edge_a, k);
         }
         EXPECT_EQ(edges_of({a, b}), (Edges{2, 6, 0})) << edge_a << " " << edge_b << reversed;
       }
