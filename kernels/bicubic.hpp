@@ -32,6 +32,22 @@ SIMDBEZIER_INLINE V horner(const V c[kOrder], V t, V& derivative) {
   return madd(b0, t, c[0]);
 }
 
+/// The derivative alone.
+template <typename V>
+SIMDBEZIER_INLINE V horner_slope(const V c[kOrder], V t) {
+  V slope;
+  horner(c, t, slope);
+  return slope;
+}
+
+/// The second derivative: two more synthetic divisions, and a factor 2 that rounds nothing.
+template <typename V>
+SIMDBEZIER_INLINE V horner_second(const V c[kOrder], V t) {
+  const V b1 = madd(c[3], t, c[2]);
+  const V half = madd(c[3], t, madd(c[3], t, b1));
+  return half + half;
+}
+
 /// One column position X, or a register of them, and which lanes lie on the edges u = 0 and u = 1.
 template <typename V>
 struct Column {
@@ -109,6 +125,30 @@ SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const 
   replace_edge_columns<kScheme>(c, column, q);
 }
 
+/// What second derivatives are made of: q as above, dq and ddq of the patch.
+template <typename V>
+struct SecondColumns {
+  V q[kOrder];
+  V dq[kOrder];
+  V ddq[kOrder];
+
+  template <Scheme kScheme>
+  SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const Column<V>& column) {
+    for (std::size_t l = 0; l < kOrder; ++l) {
+      V k[kOrder];
+      matrix_column(c, l, k);
+      q[l] = horner(k, column.x, dq[l]);
+      ddq[l] = horner_second(k, column.x);
+    }
+    replace_edge_columns<kScheme>(c, column, q);
+  }
+
+  /// Away from the edges v = 0 and 1, where duu comes from the edge: edge_second().
+  SIMDBEZIER_INLINE V duu(V y) const { return horner(ddq, y); }
+  SIMDBEZIER_INLINE V duv(V y) const { return horner_slope(dq, y); }
+  SIMDBEZIER_INLINE V dvv(V y) const { return horner_second(q, y); }
+};
+
 /// What a column's positions are relative to; a column on an edge u = const has that edge's origin.
 template <Scheme kScheme, typename V>
 SIMDBEZIER_INLINE V column_origin(const Component<ScalarOf<V>>& c, const Column<V>& column) {
@@ -161,6 +201,15 @@ SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<
   V k[kOrder];
   edge_cubic(c, edge, k);
   return finished_edge<kScheme>(c, column, edge, horner(k, column.x, du));
+}
+
+/// d2S/du2 on the edge v = 0 or 1.
+template <typename V>
+SIMDBEZIER_INLINE V edge_second(const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                std::size_t edge) {
+  V k[kOrder];
+  edge_cubic(c, edge, k);
+  return horner_second(k, column.x);
 }
 
 /// N = du x dv and |N|^2.

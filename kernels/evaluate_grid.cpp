@@ -27,8 +27,8 @@ public:
   GridCall(const PatchStorage<T>& patches, std::size_t first_patch, const GridPlan<T>& plan,
            const Outputs<T>& out, bool watertight, const KernelTable<T>& table) noexcept
       : patches_(patches), first_patch_(first_patch), plan_(plan), out_(out),
-        kernel_(table.grid[output_set(out)][scheme(watertight, patches.origins != nullptr)]),
-        staging_(out, std::max(kStagedSamples, plan.nu())) {
+        choice_(choose_kernels(out)), table_(table),
+        scheme_(scheme(watertight, patches.origins != nullptr)), staging_(out, std::max(kStagedSamples, plan.nu())) {
     const std::size_t samples = staging_.staged() ? kStagedSamples : kDirectSamples;
     strip_rows_ = std::clamp<std::size_t>(samples / plan.nu(), 1, plan.nv());
     strips_ = (plan.nv() + strip_rows_ - 1) / strip_rows_;
@@ -80,7 +80,12 @@ private:
       }
     }
     staging_.bind(task, sample, scratch);
-    kernel_(task);
+    if (choice_.first) {
+      table_.grid[choice_.outputs][scheme_](task);
+    }
+    if (choice_.second) {
+      table_.grid[kSecondDerivatives][scheme_](task);
+    }
     staging_.flush(sample, (last_row - first_row) * task.nu, scratch);
     return task.executed;
   }
@@ -101,7 +106,9 @@ private:
   std::size_t first_patch_;
   const GridPlan<T>& plan_;
   const Outputs<T>& out_;
-  void (*kernel_)(GridTask<T>&);
+  KernelChoice choice_;
+  const KernelTable<T>& table_;
+  Scheme scheme_;
   Staging<T> staging_;
   std::size_t strip_rows_ = 1;
   std::size_t strips_ = 1;

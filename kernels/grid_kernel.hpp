@@ -6,6 +6,7 @@
 #pragma once
 
 #include "kernels/bicubic.hpp"
+#include "kernels/drain_kernel.hpp"
 #include "kernels/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -64,6 +65,7 @@ SIMDBEZIER_INLINE void sweep_position(const GridTask<ScalarOf<V>>& task,
         store_lanes<kFull>(to, p, active);
       }
     }
+    pace(task.drain, run->rows * active);
   }
 }
 
@@ -134,6 +136,33 @@ SIMDBEZIER_INLINE void sweep_derivatives(const GridTask<ScalarOf<V>>& task,
       derivative_rows<false, kFull>(*run, c, column, columns, to, at, nu, active);
     }
     at += run->rows * nu;
+    pace(task.drain, run->rows * active * 3);
+  }
+}
+
+/// Second derivatives of one component.
+template <Scheme kScheme, bool kFull, typename V>
+SIMDBEZIER_INLINE void sweep_second(const GridTask<ScalarOf<V>>& task,
+                                    const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                    std::size_t component, std::size_t at, std::size_t active) {
+  using T = ScalarOf<V>;
+  SecondColumns<V> columns;
+  columns.template build<kScheme>(c, column);
+  T* const duu = task.out[detail::kDuuGroup].component[component];
+  T* const duv = task.out[detail::kDuvGroup].component[component];
+  T* const dvv = task.out[detail::kDvvGroup].component[component];
+  const RowRun<T>* const last_run = task.runs + task.run_count;
+  for (const RowRun<T>* run = task.runs; run != last_run; ++run) {
+    const bool edge = is_watertight(kScheme) && is_edge(run->kind);
+    const V edge_duu = edge ? edge_second(c, column, edge_of(run->kind)) : column.x;
+    const T* const end = run->y + run->rows;
+    for (const T* y = run->y; y != end; ++y, at += task.nu) {
+      const V row = broadcast<V>(*y);
+      store_if_wanted<kFull>(duu, at, edge ? edge_duu : columns.duu(row), active);
+      store_if_wanted<kFull>(duv, at, columns.duv(row), active);
+      store_if_wanted<kFull>(dvv, at, columns.dvv(row), active);
+    }
+    pace(task.drain, run->rows * active * 3);
   }
 }
 
@@ -188,7 +217,7 @@ resolve_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch, std::size_
     T normal[3];
     const SampleStatus status = task.resolve_normal(query, normal);
     for (int c = 0; c < 3; ++c) {
-      task.normal.component[c][at + i] = normal[c];
+      task.out[detail::kNormalGroup].component[c][at + i] = normal[c];
     }
     if (task.status != nullptr) {
       task.status[at + i] = status;
@@ -200,8 +229,8 @@ resolve_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch, std::size_
 template <bool kEdge, bool kFull, bool kAny, Scheme kScheme, typename V>
 SIMDBEZIER_INLINE void normal_rows(const RowRun<ScalarOf<V>>& run,
                                    const NormalColumns<kScheme, V>& s, V floor, std::size_t at) {
-  const detail::Planes<ScalarOf<V>> position = s.task.position;
-  const detail::Planes<ScalarOf<V>> normal = s.task.normal;
+  const detail::Planes<ScalarOf<V>> position = s.task.out[detail::kPositionGroup];
+  const detail::Planes<ScalarOf<V>> normal = s.task.out[detail::kNormalGroup];
   const std::size_t nu = s.task.nu;
   const std::size_t edge = edge_of(run.kind);
   const ScalarOf<V>* const end = run.y + run.rows;
@@ -213,8 +242,8 @@ SIMDBEZIER_INLINE void normal_rows(const RowRun<ScalarOf<V>>& run,
                                               du[c], dv[c]);
       if constexpr (kAny) {
         store_if_wanted<kFull>(position.component[c], at, p, s.active);
-        store_if_wanted<kFull>(s.task.du.component[c], at, du[c], s.active);
-        store_if_wanted<kFull>(s.task.dv.component[c], at, dv[c], s.active);
+        store_if_wanted<kFull>(s.task.out[detail::kDuGroup].component[c], at, du[c], s.active);
+        store_if_wanted<kFull>(s.task.out[detail::kDvGroup].component[c], at, dv[c], s.active);
       } else {
         store_lanes<kFull>(position.component[c] + at, p, s.active);
       }
@@ -255,6 +284,7 @@ SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task, std::siz
       normal_rows<false, kFull, kAny>(*run, s, run->kind == RowKind::outside ? never : floor, at);
     }
     at += run->rows * task.nu;
+    pace(task.drain, run->rows * active * (kAny ? 12 : 6));
   }
 }
 
@@ -270,11 +300,14 @@ SIMDBEZIER_INLINE void evaluate_columns(const GridTask<ScalarOf<V>>& task, std::
     const std::size_t at = patch * task.patch_step + first;
     for (std::size_t c = 0; c < 3; ++c) {
       const Component<T> component(task, patch, c);
-      T* const position = task.position.component[c] + at;
+      T* const position = task.out[detail::kPositionGroup].component[c] + at;
       if constexpr (kOutputs == detail::kPosition) {
         sweep_position<kScheme, kFull>(task, component, column, position, active);
+      } else if constexpr (kOutputs == detail::kSecondDerivatives) {
+        sweep_second<kScheme, kFull>(task, component, column, c, at, active);
       } else {
-        const JetPlanes<T> to{position, task.du.component[c] + at, task.dv.component[c] + at};
+        const JetPlanes<T> to{position, task.out[detail::kDuGroup].component[c] + at,
+                              task.out[detail::kDvGroup].component[c] + at};
         sweep_derivatives<kScheme, kFull>(task, component, column, to, active);
       }
     }

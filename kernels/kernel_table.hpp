@@ -8,7 +8,19 @@
 
 namespace simdbezier::detail {
 
-/// Three planes of one output group; null where the group was not asked for.
+/// The vector-valued outputs, in the order of Outputs.
+enum Group : std::size_t {
+  kPositionGroup,
+  kDuGroup,
+  kDvGroup,
+  kDuuGroup,
+  kDuvGroup,
+  kDvvGroup,
+  kNormalGroup,
+  kGroups
+};
+
+/// Three planes of one output group, unit stride; null where the group was not asked for.
 template <typename T>
 struct Planes {
   T* component[3] = {nullptr, nullptr, nullptr};
@@ -45,6 +57,10 @@ struct RowRun {
   RowKind kind;
 };
 
+/// Finished samples on their way from staging to the caller's memory; see drain.hpp.
+template <typename T>
+struct DrainQueue;
+
 /// Consecutive patches on consecutive rows of one grid.
 ///
 /// Sample (patch, row, column) of the task goes to plane[patch * patch_step + row * nu + column],
@@ -63,13 +79,11 @@ struct GridTask {
   const RowRun<T>* runs; ///< the rows, first to last
   std::size_t run_count;
 
-  Planes<T> position;
-  Planes<T> du;
-  Planes<T> dv;
-  Planes<T> normal;
+  Planes<T> out[kGroups];
   SampleStatus* status; ///< may be null; filled beforehand, changed where a normal is unusual
   std::size_t patch_step;
   ResolveNormal<T> resolve_normal;
+  DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see pace()
   Isa executed; ///< written by the kernel
 };
 
@@ -87,10 +101,7 @@ struct ScatteredTask {
   const T* y;
   std::size_t count;
 
-  Planes<T> position;
-  Planes<T> du;
-  Planes<T> dv;
-  Planes<T> normal;
+  Planes<T> out[kGroups];
   SampleStatus* status;
   ResolveNormal<T> resolve_normal;
   Isa executed;
@@ -104,7 +115,8 @@ enum OutputSet : std::size_t {
   kPosition,
   kPositionNormal,
   kPositionDerivatives,
-  kAnyOutputs, ///< all groups computed, those with null planes not stored
+  kAnyOutputs,        ///< position, du, dv, normal: all computed, null groups not stored
+  kSecondDerivatives, ///< duu, duv, dvv: all computed, null groups not stored
   kOutputSets
 };
 

@@ -12,6 +12,8 @@ constexpr void fill_scheme(detail::KernelTable<T>& table) {
   table.grid[detail::kPositionDerivatives][kScheme] =
       grid_kernel<T, detail::kPositionDerivatives, kScheme>;
   table.grid[detail::kAnyOutputs][kScheme] = grid_kernel<T, detail::kAnyOutputs, kScheme>;
+  table.grid[detail::kSecondDerivatives][kScheme] =
+      grid_kernel<T, detail::kSecondDerivatives, kScheme>;
   table.scattered[kScheme] = scattered_kernel<T, kScheme>;
 }
 

@@ -71,28 +71,58 @@ SIMDBEZIER_INLINE void store_normal(const ScatteredTask<T>& task, std::size_t k,
       task.status[k] = status;
     }
   }
-  store_point(task.normal, k, n);
+  store_point(task.out[detail::kNormalGroup], k, n);
+}
+
+/// Second derivatives of one sample.
+template <Scheme kScheme, typename T>
+SIMDBEZIER_INLINE void evaluate_second(const ScatteredTask<T>& task, std::size_t k) {
+  const T y = task.y[k];
+  const Column<T> column(task.x[k]);
+  const bool at_v0 = y == T(-0.5);
+  const bool on_edge = is_watertight(kScheme) && (at_v0 || y == T(0.5));
+  const std::size_t edge = at_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
+  T duu[3];
+  T duv[3];
+  T dvv[3];
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Component<T> component(task, task.patch[k], c);
+    SecondColumns<T> columns;
+    columns.template build<kScheme>(component, column);
+    duu[c] = on_edge ? edge_second(component, column, edge) : columns.duu(y);
+    duv[c] = columns.duv(y);
+    dvv[c] = columns.dvv(y);
+  }
+  store_point(task.out[detail::kDuuGroup], k, duu);
+  store_point(task.out[detail::kDuvGroup], k, duv);
+  store_point(task.out[detail::kDvvGroup], k, dvv);
 }
 
 template <typename T, Scheme kScheme>
 void scattered_kernel(ScatteredTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
-  const bool jet = task.du.wanted() || task.dv.wanted() || task.normal.wanted();
+  const bool jet = task.out[detail::kDuGroup].wanted() || task.out[detail::kDvGroup].wanted() ||
+                   task.out[detail::kNormalGroup].wanted();
+  const bool second = task.out[detail::kDuuGroup].wanted() ||
+                      task.out[detail::kDuvGroup].wanted() || task.out[detail::kDvvGroup].wanted();
   for (std::size_t k = 0; k < task.count; ++k) {
     T p[3];
     T du[3];
     T dv[3];
     if (jet) {
       evaluate_sample<kScheme, true>(task, k, p, du, dv);
-      store_point(task.du, k, du);
-      store_point(task.dv, k, dv);
-      if (task.normal.wanted()) {
+      store_point(task.out[detail::kDuGroup], k, du);
+      store_point(task.out[detail::kDvGroup], k, dv);
+      if (task.out[detail::kNormalGroup].wanted()) {
         store_normal(task, k, du, dv);
       }
     } else {
       evaluate_sample<kScheme, false>(task, k, p, du, dv);
     }
-    store_point(task.position, k, p);
+    store_point(task.out[detail::kPositionGroup], k, p);
+    if (second) {
+      evaluate_second<kScheme>(task, k);
+    }
   }
 }
 

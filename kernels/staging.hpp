@@ -11,15 +11,23 @@
 
 namespace simdbezier::detail {
 
-/// The vector groups of an Outputs, in a fixed order.
-inline constexpr std::size_t kGroups = 4;
+/// The vector groups of an Outputs, by Group.
+template <typename T>
+struct OutputGroups {
+  const Vectors<T>* group[kGroups];
+  explicit OutputGroups(const Outputs<T>& out) noexcept
+      : group{&out.position, &out.du,  &out.dv,    &out.duu,
+              &out.duv,      &out.dvv, &out.normal} {}
+  [[nodiscard]] const Vectors<T>* const* begin() const noexcept { return group; }
+  [[nodiscard]] const Vectors<T>* const* end() const noexcept { return group + kGroups; }
+};
 
 template <typename T>
 class Staging {
 public:
   /// plane_samples: how many samples one staged piece holds at the most.
   Staging(const Outputs<T>& out, std::size_t plane_samples) noexcept
-      : group_{&out.position, &out.du, &out.dv, &out.normal}, plane_samples_(plane_samples) {}
+      : group_(out), plane_samples_(plane_samples) {}
 
   [[nodiscard]] bool staged() const noexcept {
     for (const Vectors<T>* group : group_) {
@@ -42,15 +50,15 @@ public:
   /// Points a task at the samples that begin at `first`.
   template <typename Task>
   void bind(Task& task, std::size_t first, T* scratch) const noexcept {
-    Planes<T>* const planes[kGroups] = {&task.position, &task.du, &task.dv, &task.normal};
     for (std::size_t g = 0; g < kGroups; ++g) {
-      T* const caller[3] = {group_[g]->x, group_[g]->y, group_[g]->z};
+      const Vectors<T>& group = *group_.group[g];
+      T* const caller[3] = {group.x, group.y, group.z};
       for (std::size_t c = 0; c < 3; ++c) {
-        if (is_staged(*group_[g])) {
-          planes[g]->component[c] = scratch;
+        if (is_staged(group)) {
+          task.out[g].component[c] = scratch;
           scratch += plane_samples_;
-        } else if (group_[g]->wanted()) {
-          planes[g]->component[c] = caller[c] + first;
+        } else if (group.wanted()) {
+          task.out[g].component[c] = caller[c] + first;
         }
       }
     }
@@ -77,7 +85,7 @@ private:
     return group.wanted() && group.stride != 1;
   }
 
-  const Vectors<T>* group_[kGroups];
+  OutputGroups<T> group_;
   std::size_t plane_samples_;
 };
 
@@ -86,7 +94,7 @@ template <typename T>
 [[nodiscard]] Status check_outputs(const Outputs<T>& out, std::size_t samples) noexcept {
   constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(T);
   bool any = false;
-  for (const Vectors<T>* group : {&out.position, &out.du, &out.dv, &out.normal}) {
+  for (const Vectors<T>* group : OutputGroups<T>(out)) {
     if (!group->wanted()) {
       continue;
     }
@@ -108,17 +116,28 @@ template <typename T>
   return any ? Status::ok : Status::null_output;
 }
 
-/// The narrowest kernel that computes what is asked for.
+/// The kernels of one call: the narrowest that compute what is asked for.
+struct KernelChoice {
+  bool first = false; ///< position, du, dv, normal
+  OutputSet outputs = kPosition;
+  bool second = false; ///< duu, duv, dvv
+};
+
 template <typename T>
-[[nodiscard]] OutputSet output_set(const Outputs<T>& out) noexcept {
+[[nodiscard]] KernelChoice choose_kernels(const Outputs<T>& out) noexcept {
   const bool p = out.position.wanted();
   const bool du = out.du.wanted();
   const bool dv = out.dv.wanted();
   const bool n = out.normal.wanted();
+  KernelChoice choice;
+  choice.first = p || du || dv || n;
+  choice.second = out.duu.wanted() || out.duv.wanted() || out.dvv.wanted();
   if (p && !du && !dv) {
-    return n ? kPositionNormal : kPosition;
+    choice.outputs = n ? kPositionNormal : kPosition;
+  } else {
+    choice.outputs = p && du && dv && !n ? kPositionDerivatives : kAnyOutputs;
   }
-  return p && du && dv && !n ? kPositionDerivatives : kAnyOutputs;
+  return choice;
 }
 
 } // namespace simdbezier::detail

@@ -15,6 +15,10 @@ std::string_view to_string(Status status) noexcept {
     return "the degrees are not supported (bicubic only: 3 x 3)";
   case Status::bad_stride:
     return "a stride lets two values share one place";
+  case Status::overlapping_outputs:
+    return "two outputs share memory, or an output lies in an input";
+  case Status::bad_offsets:
+    return "the offsets do not leave every patch room for its samples";
   case Status::non_finite_input:
     return "a control point is nan or infinite";
   case Status::coefficient_overflow:

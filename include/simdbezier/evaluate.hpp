@@ -13,6 +13,9 @@
 //   Bits        equal for any thread count, batch size, place in the batch, layout, alignment and
 //               compiler, and for all instruction sets of one class (see Isa).
 //   Allocation  scratch per thread and per call only, none per sample. Nothing throws.
+//   Layouts     planes of unit stride are written directly; any other is formed in registers from
+//               planes in the first-level cache. Packed planes, packed triples and vertices without
+//               gaps are the fast ones.
 #pragma once
 
 #include <cstddef>
@@ -87,13 +90,26 @@ enum class SampleStatus : std::uint8_t {
 
 /// The outputs of a call; every group is optional, at least one vector group is required.
 /// Grid calls: sample index = (patch - first_patch) * nu * nv + iv * nu + iu.
+/// Groups may share memory only as members of one vertex: equal strides, no common element.
 template <typename T>
 struct Outputs {
   Vectors<T> position; ///< S(u,v)
   Vectors<T> du;       ///< dS/du
   Vectors<T> dv;       ///< dS/dv
+  Vectors<T> duu;      ///< d2S/du2
+  Vectors<T> duv;      ///< d2S/dudv
+  Vectors<T> dvv;      ///< d2S/dv2
   Vectors<T> normal;   ///< dS/du x dS/dv, unit length or zero, never nan at finite parameters
   SampleStatus* status = nullptr; ///< one value a sample, unit stride
+};
+
+/// Where the outputs should end up. Streaming stores bypass the caches: a third faster to memory,
+/// much slower for whoever reads the result at once. They take effect where the output consists of
+/// packed planes, packed triples or vertices without gaps; any alignment of T will do.
+enum class Destination : std::uint8_t {
+  automatic, ///< memory where a call writes more than half of the last-level cache, else cache
+  cache,     ///< plain stores
+  memory     ///< streaming stores, completed before the call returns
 };
 
 /// How a call runs. The defaults are what most callers want.
@@ -102,6 +118,7 @@ struct Options {
   bool watertight = true;      ///< false: edges and corners come from the interior's formula
   Isa isa = Isa::automatic;    ///< see resolve_isa()
   Isa* executed = nullptr;     ///< where given, the kernel that ran writes its own name here
+  Destination destination = Destination::automatic;
   std::size_t first_patch = 0; ///< grid calls: the first patch to evaluate
   std::size_t patch_count = static_cast<std::size_t>(-1); ///< grid calls: -1: up to the last
 };
@@ -110,7 +127,7 @@ struct Options {
 ///
 /// Positions are S = sum_l y^l sum_k C[l][k] x^k by Horner's rule in x, then in y: 3 fused
 /// multiply-adds a component and sample; first derivatives by synthetic division, 5 more.
-/// Returns ok | null_output | bad_stride | bad_grid | bad_patch_range | size_overflow | unknown_isa
+/// Returns ok | null_output | bad_stride | overlapping_outputs | bad_grid | bad_patch_range | size_overflow | unknown_isa
 /// | unsupported_isa | out_of_memory. On an error nothing has been written.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid,
@@ -119,7 +136,7 @@ template <typename T>
 
 /// Evaluates single samples, in the grid's own order of operations: where the centred parameters
 /// are equal, the bits are.
-/// Returns ok | null_input | null_output | bad_stride | bad_patch_index | unknown_isa |
+/// Returns ok | null_input | null_output | bad_stride | overlapping_outputs | bad_patch_index | unknown_isa |
 /// unsupported_isa | size_overflow | out_of_memory. On an error nothing has been written.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_scattered(const PatchSet<T>& set,

@@ -14,6 +14,8 @@ enum class Status : std::uint8_t {
   null_output,          ///< no output group was asked for, or a group names only some of its planes
   bad_degree,           ///< the degrees are not supported
   bad_stride,           ///< the strides let two values share one place
+  overlapping_outputs,  ///< two outputs share memory, or an output lies in an input
+  bad_offsets,          ///< per-patch offsets do not ascend far enough for the patches' samples
   non_finite_input,     ///< a control point is nan or infinite
   coefficient_overflow, ///< the control points are finite, but their coefficients are not
   bad_grid,             ///< a uniform grid needs 2 samples or more in each direction, a given one 1

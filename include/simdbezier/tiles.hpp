@@ -1,0 +1,84 @@
+// Tiles: a grid's samples, handed to the caller while they are still in the cache.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+
+#include <simdbezier/evaluate.hpp>
+
+namespace simdbezier {
+
+/// How the groups of a tile lie in memory.
+enum class TileLayout : std::uint8_t {
+  planes,     ///< SoA: every component a plane of its own, 64-byte aligned
+  xyz,        ///< AoS: every group packed x y z triples, 64-byte aligned
+  interleaved ///< one vertex a sample: the wanted groups' triples in the order of Outputs, no gaps
+};
+
+/// Which outputs a tile holds, and how.
+struct TileFormat {
+  bool position = true;
+  bool du = false;
+  bool dv = false;
+  bool duu = false;
+  bool duv = false;
+  bool dvv = false;
+  bool normal = false;
+  bool status = false; ///< of normals, see SampleStatus
+  TileLayout layout = TileLayout::planes;
+  /// The most samples in one tile; 0: what fits a quarter of the second-level cache. A tile holds
+  /// whole patches where one fits, else whole rows of one patch, at least one row.
+  std::size_t samples = 0;
+};
+
+/// Finished samples: rows [first_row, first_row + row_count) of patches
+/// [first_patch, first_patch + patch_count), patch after patch, row after row, u fastest. Several
+/// patches come with all of their rows.
+template <typename T>
+struct Tile {
+  std::size_t first_patch = 0; ///< index in the set
+  std::size_t patch_count = 0;
+  std::size_t first_row = 0;
+  std::size_t row_count = 0;
+  std::size_t nu = 0;      ///< samples in a row
+  std::size_t samples = 0; ///< patch_count * row_count * nu
+  int worker = 0;          ///< number of the thread, from 0; no two calls at once share it
+  Outputs<T> out;          ///< the tile's own memory; the caller may change it, not keep it
+};
+
+/// A borrowed callable `void(const Tile<T>&)`. It must outlive the call and must not throw.
+template <typename T>
+class TileFunction {
+public:
+  template <typename F>
+    requires std::is_invocable_v<F&, const Tile<T>&> &&
+             (!std::is_same_v<std::remove_cvref_t<F>, TileFunction>)
+  TileFunction(F&& function) noexcept // NOLINT: implicit on purpose
+      : context_(const_cast<void*>(static_cast<const void*>(std::addressof(function)))),
+        call_([](void* context, const Tile<T>& tile) {
+          (*static_cast<std::remove_reference_t<F>*>(context))(tile);
+        }) {}
+  void operator()(const Tile<T>& tile) const { call_(context_, tile); }
+
+private:
+  void* context_;
+  void (*call_)(void*, const Tile<T>&);
+};
+
+/// Evaluates every patch of the set on one grid, tile by tile, and hands each tile to `function` on
+/// the thread that made it, so that it is read from that thread's cache. Every sample arrives once;
+/// each worker's tiles ascend, the order between workers is not fixed. Values are those of
+/// evaluate_grid(), bit for bit. Options::destination has no meaning here.
+/// Allocation: one tile and its staging a thread.
+/// Returns ok | null_output (the format wants no vector) | bad_grid | bad_patch_range |
+/// size_overflow | unknown_isa | unsupported_isa | out_of_memory. On an error no tile was handed
+/// out.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API Status
+evaluate_tiles(const PatchSet<T>& set, const Grid<T>& grid, const TileFormat& format,
+               std::type_identity_t<TileFunction<T>> function,
+               const Options& options = {}) noexcept;
+
+} // namespace simdbezier
