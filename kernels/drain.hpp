@@ -7,27 +7,30 @@
 
 namespace simdbezier::detail {
 
-/// Samples per step of a drain: whole cache lines of every layout.
+/// Samples that a drain passes on at a time: whole cache lines in every layout.
 template <typename T>
-inline constexpr std::size_t kDrainSamples = 64 / sizeof(T);
+inline constexpr std::size_t kDrainStep = 64 / sizeof(T);
+
+inline constexpr std::size_t kMostMembers = 3 * kGroups;
 
 /// One output stream: planes of staged samples that become consecutive records.
 template <typename T>
 struct DrainStream {
-  const T* plane[3 * kGroups]; ///< in the order of the record's members
-  std::size_t members;         ///< planes
-  T* to;                       ///< where the next record goes
-  std::size_t steps;           ///< of kDrainSamples records each
+  const T* plane[kMostMembers]; ///< the next sample of each member, in the record's order
+  std::size_t members;
+  T* to;                 ///< the next record's first member
+  std::ptrdiff_t stride; ///< from one record to the next, in elements
+  bool streaming;        ///< by stores that bypass the caches: no gaps, `to` at a line's start
+  std::size_t steps;     ///< of kDrainStep records each
 };
 
-/// Streams, passed on one after the other: bursts to one place keep write buffers short.
+/// Streams, passed on one after the other: bursts to one place suit write buffers.
 template <typename T>
 struct DrainQueue {
-  DrainStream<T> stream[3 * kGroups];
+  DrainStream<T> stream[kMostMembers];
   std::size_t streams = 0;
   std::size_t current = 0; ///< all before it are finished
   std::size_t owed = 0;    ///< values that the kernel has computed and the queue not yet matched
-  bool streaming = false;  ///< by stores that bypass the caches
 };
 
 } // namespace simdbezier::detail

@@ -1,12 +1,129 @@
-// Passing staged samples on, in whole cache lines, between the rows that are being computed.
+// Passing staged samples on: planes as they are, or as records that are put together in registers.
+//
+// Whole cache lines only. In a streaming store nothing may come between the parts of a line, and
+// streams alternate rarely; either costs more than half of the speed of memory.
 #pragma once
 
+#include <algorithm>
+
 #include "kernels/drain.hpp"
-#include "kernels/isa/lanes.hpp"
+#include "kernels/isa/interleave.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::DrainQueue;
+using detail::DrainStream;
+using detail::kDrainStep;
+
+template <bool kStreaming, typename T>
+SIMDBEZIER_INLINE void drain_plane(const DrainStream<T>& s, std::size_t steps) {
+  const T* from = s.plane[0];
+  T* to = s.to;
+  for (std::size_t k = 0; k < steps; ++k, from += kDrainStep<T>, to += kDrainStep<T>) {
+    copy_line<kStreaming>(from, to);
+  }
+}
+
+template <bool kStreaming, typename T>
+SIMDBEZIER_INLINE void drain_triples(const DrainStream<T>& s, std::size_t steps) {
+  T* to = s.to;
+  for (std::size_t k = 0; k < steps * kDrainStep<T>; k += kDrainStep<T>) {
+    interleave_3<kStreaming>(s.plane[0] + k, s.plane[1] + k, s.plane[2] + k, to + 3 * k);
+  }
+}
+
+template <bool kStreaming, typename T>
+SIMDBEZIER_INLINE void drain_sextuples(const DrainStream<T>& s, std::size_t steps) {
+  for (std::size_t k = 0; k < steps * kDrainStep<T>; k += kDrainStep<T>) {
+    const T* const from[6] = {s.plane[0] + k, s.plane[1] + k, s.plane[2] + k,
+                              s.plane[3] + k, s.plane[4] + k, s.plane[5] + k};
+    interleave_6<kStreaming>(from, s.to + 6 * k);
+  }
+}
+
+/// Records of any length, at any distance.
+template <typename T>
+SIMDBEZIER_INLINE void drain_records(const DrainStream<T>& s, std::size_t at, T* to,
+                                     std::ptrdiff_t stride) {
+  std::size_t member = 0;
+  for (; member + kGroupLanes<T> <= s.members; member += kGroupLanes<T>) {
+    interleave_group<kGroupLanes<T>>(s.plane + member, at, to + member, stride);
+  }
+  if constexpr (kGroupLanes<T> == 4) {
+    const std::size_t rest = s.members - member;
+    if (rest == 3) {
+      interleave_group<3>(s.plane + member, at, to + member, stride);
+    } else if (rest == 2) {
+      interleave_group<2>(s.plane + member, at, to + member, stride);
+    } else if (rest == 1) {
+      interleave_group<1>(s.plane + member, at, to + member, stride);
+    }
+  } else if (member < s.members) {
+    interleave_group<1>(s.plane + member, at, to + member, stride);
+  }
+}
+
+/// Records without gaps by way of a buffer, so that they leave in whole lines. Two buffers: a line
+/// read back at once would wait for the small stores that made it.
+template <typename T>
+SIMDBEZIER_INLINE void drain_buffered(const DrainStream<T>& s, std::size_t steps) {
+  alignas(64) T buffer[2][kDrainStep<T> * detail::kMostMembers];
+  const std::size_t step = kDrainStep<T> * s.members;
+  for (std::size_t k = 0; k <= steps; ++k) {
+    if (k < steps) {
+      drain_records(s, k * kDrainStep<T>, buffer[k % 2], s.stride);
+    }
+    if (k > 0) {
+      const T* const from = buffer[(k - 1) % 2];
+      for (std::size_t line = 0; line < step; line += kDrainStep<T>) {
+        copy_line<true>(from + line, s.to + (k - 1) * step + line);
+      }
+    }
+  }
+}
+
+template <typename T>
+SIMDBEZIER_INLINE void drain_stream(DrainStream<T>& s, std::size_t steps) {
+  const bool packed = s.stride == static_cast<std::ptrdiff_t>(s.members);
+  if (s.members == 1 && packed) {
+    s.streaming ? drain_plane<true>(s, steps) : drain_plane<false>(s, steps);
+  } else if (s.members == 3 && packed) {
+    s.streaming ? drain_triples<true>(s, steps) : drain_triples<false>(s, steps);
+  } else if (s.members == 6 && packed) {
+    s.streaming ? drain_sextuples<true>(s, steps) : drain_sextuples<false>(s, steps);
+  } else if (s.streaming) {
+    drain_buffered(s, steps);
+  } else {
+    for (std::size_t k = 0; k < steps * kDrainStep<T>; k += kDrainStep<T>) {
+      drain_records(s, k, s.to + static_cast<std::ptrdiff_t>(k) * s.stride, s.stride);
+    }
+  }
+  const std::size_t samples = steps * kDrainStep<T>;
+  for (std::size_t m = 0; m < s.members; ++m) {
+    s.plane[m] += samples;
+  }
+  s.to += static_cast<std::ptrdiff_t>(samples) * s.stride;
+  s.steps -= steps;
+}
+
+/// Passes on what `owed` values pay for. Out of line: the registers of a kernel's rows then wait in
+/// the first-level cache, which is cheaper than keeping some free for this.
+template <typename T>
+__attribute__((noinline)) void drain_owed(DrainQueue<T>& queue) {
+  while (queue.current < queue.streams) {
+    DrainStream<T>& stream = queue.stream[queue.current];
+    const std::size_t step = kDrainStep<T> * stream.members;
+    const std::size_t steps = std::min(queue.owed / step, stream.steps);
+    if (steps > 0) {
+      drain_stream(stream, steps);
+      queue.owed -= steps * step;
+    }
+    if (stream.steps > 0) {
+      return;
+    }
+    ++queue.current;
+  }
+}
 
 /// To be called by kernels after every few rows: `values` of T have been written since the last
 /// call. Passes about as many on, so that memory and arithmetic overlap.
@@ -14,7 +131,16 @@ template <typename T>
 SIMDBEZIER_INLINE void pace(DrainQueue<T>* drain, std::size_t values) {
   if (drain != nullptr) [[unlikely]] {
     drain->owed += values;
+    drain_owed(*drain);
   }
+}
+
+/// Passes on all that is left.
+template <typename T>
+void drain_all(DrainQueue<T>& queue) {
+  queue.owed = ~std::size_t(0) / 2;
+  drain_owed(queue);
+  queue.owed = 0;
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

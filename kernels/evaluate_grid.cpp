@@ -5,132 +5,79 @@
 #include <simdbezier/evaluate.hpp>
 
 #include "kernels/batch.hpp"
+#include "kernels/delivery.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/fp_environment.hpp"
-#include "kernels/grid_plan.hpp"
-#include "kernels/normal_fallback.hpp"
-#include "kernels/patch_storage.hpp"
-#include "kernels/staging.hpp"
+#include "kernels/grid_evaluator.hpp"
+#include "kernels/grid_request.hpp"
 
 namespace simdbezier {
 namespace detail {
 namespace {
 
-/// Staged strips stay in L1; direct ones only bound how much one thread takes of a huge grid.
-constexpr std::size_t kStagedSamples = 1024;
+/// Pieces that kernels write directly; bounds only how much one thread takes of a huge grid.
 constexpr std::size_t kDirectSamples = 65536;
 
 /// One grid call after its checks; worker() runs on every thread.
 template <typename T>
 class GridCall {
 public:
-  GridCall(const PatchStorage<T>& patches, std::size_t first_patch, const GridPlan<T>& plan,
-           const Outputs<T>& out, bool watertight, const KernelTable<T>& table) noexcept
-      : patches_(patches), first_patch_(first_patch), plan_(plan), out_(out),
-        choice_(choose_kernels(out)), table_(table),
-        scheme_(scheme(watertight, patches.origins != nullptr)), staging_(out, std::max(kStagedSamples, plan.nu())) {
-    const std::size_t samples = staging_.staged() ? kStagedSamples : kDirectSamples;
+  GridCall(const GridKernels<T>& kernels, std::size_t first_patch, const GridPlan<T>& plan,
+           const OutputPlan<T>& outputs) noexcept
+      : kernels_(kernels), first_patch_(first_patch), plan_(plan), outputs_(outputs) {
+    const std::size_t samples =
+        outputs.staged() ? Delivery<T>::chunk_samples(outputs) : kDirectSamples;
     strip_rows_ = std::clamp<std::size_t>(samples / plan.nu(), 1, plan.nv());
     strips_ = (plan.nv() + strip_rows_ - 1) / strip_rows_;
+    const std::size_t patch_samples = plan.nu() * plan.nv();
+    together_ = strips_ > 1        ? 1
+                : outputs.staged() ? std::max<std::size_t>(samples / patch_samples, 1)
+                                   : ~std::size_t(0);
+    chunk_samples_ = strips_ > 1 ? strip_rows_ * plan.nu() : together_ * patch_samples;
+    delivery_bytes_ = (Delivery<T>::scratch_bytes(outputs, chunk_samples_) + 63) / 64 * 64;
   }
 
+  /// Pieces of work in each patch.
   [[nodiscard]] std::size_t strips() const noexcept { return strips_; }
-  [[nodiscard]] std::size_t scratch_size() const noexcept { return staging_.scratch_size(); }
-  [[nodiscard]] std::size_t strip_rows() const noexcept { return strip_rows_; }
+  [[nodiscard]] std::size_t scratch_bytes() const noexcept {
+    return delivery_bytes_ + GridEvaluator<T>::scratch_bytes(strip_rows_);
+  }
 
-  /// Units [begin, end) of patch-major (patch, strip) pairs. runs: room for strip_rows().
-  Isa worker(std::size_t begin, std::size_t end, T* scratch, RowRun<T>* runs) const noexcept {
-    Isa executed = Isa::automatic;
+  /// Units [begin, end) of patch-major (patch, strip) pairs.
+  Isa worker(std::size_t begin, std::size_t end, unsigned char* scratch) const noexcept {
+    GridEvaluator<T> evaluator(kernels_, strip_rows_,
+                               scratch == nullptr ? nullptr : scratch + delivery_bytes_);
+    Delivery<T> delivery(outputs_, *kernels_.table, chunk_samples_, scratch);
     for (std::size_t unit = begin; unit < end;) {
       const std::size_t patch = unit / strips_;
-      const std::size_t strip = unit % strips_;
-      // Whole patches without staging go to the kernel in one call.
-      const bool together = strips_ == 1 && !staging_.staged();
-      const std::size_t count = together ? end - unit : 1;
-      executed = run_strip(patch, count, strip, scratch, runs);
-      unit += count;
+      const std::size_t first_row = unit % strips_ * strip_rows_;
+      const std::size_t patches = std::min(together_, end - unit);
+      const GridPiece piece{first_patch_ + patch, patches, first_row,
+                            std::min(plan_.nv(), first_row + strip_rows_)};
+      const std::size_t sample = (patch * plan_.nv() + first_row) * plan_.nu();
+      SampleStatus* const status =
+          outputs_.out().status == nullptr ? nullptr : outputs_.out().status + sample;
+      Planes<T> planes[kGroups];
+      delivery.begin(sample, planes);
+      evaluator.run(plan_, piece, planes, status, delivery.queue());
+      delivery.end(patches * (piece.last_row - piece.first_row) * plan_.nu());
+      unit += patches;
     }
-    return executed;
+    delivery.finish();
+    return evaluator.executed();
   }
 
 private:
-  Isa run_strip(std::size_t patch, std::size_t count, std::size_t strip, T* scratch,
-                RowRun<T>* runs) const noexcept {
-    const std::size_t first_row = strip * strip_rows_;
-    const std::size_t last_row = std::min(plan_.nv(), first_row + strip_rows_);
-    const std::size_t sample = (patch * plan_.nv() + first_row) * plan_.nu();
-    const std::size_t at = first_patch_ + patch;
-    GridTask<T> task{};
-    task.coefficients = patches_.coefficients + at * kCoefficients;
-    task.edges = patches_.edges + at * kEdgeBlock;
-    task.control_points = patches_.control_points + at * kCoefficients;
-    task.origins = patches_.origins == nullptr ? nullptr : patches_.origins + at * kOriginBlock;
-    task.normal_floor = patches_.normal_floor + at;
-    task.patch_count = count;
-    task.x = plan_.x();
-    task.nu = plan_.nu();
-    task.runs = runs;
-    task.run_count = plan_.fill_runs(first_row, last_row, runs);
-    task.patch_step = plan_.nv() * plan_.nu();
-    task.resolve_normal = resolve_normal<T>;
-    if (out_.status != nullptr) {
-      task.status = out_.status + sample;
-      for (std::size_t p = 0; p < count; ++p) {
-        prefill_status(task, task.status + p * task.patch_step);
-      }
-    }
-    staging_.bind(task, sample, scratch);
-    if (choice_.first) {
-      table_.grid[choice_.outputs][scheme_](task);
-    }
-    if (choice_.second) {
-      table_.grid[kSecondDerivatives][scheme_](task);
-    }
-    staging_.flush(sample, (last_row - first_row) * task.nu, scratch);
-    return task.executed;
-  }
-
-  static void prefill_status(const GridTask<T>& task, SampleStatus* status) noexcept {
-    for (std::size_t r = 0; r < task.run_count; ++r) {
-      const RowRun<T>& run = task.runs[r];
-      for (std::size_t j = 0; j < run.rows; ++j, status += task.nu) {
-        for (std::size_t i = 0; i < task.nu; ++i) {
-          const bool finite = !std::isnan(task.x[i]) && !std::isnan(run.y[j]);
-          status[i] = finite ? SampleStatus::regular : SampleStatus::non_finite;
-        }
-      }
-    }
-  }
-
-  const PatchStorage<T>& patches_;
+  const GridKernels<T>& kernels_;
   std::size_t first_patch_;
   const GridPlan<T>& plan_;
-  const Outputs<T>& out_;
-  KernelChoice choice_;
-  const KernelTable<T>& table_;
-  Scheme scheme_;
-  Staging<T> staging_;
+  const OutputPlan<T>& outputs_;
   std::size_t strip_rows_ = 1;
   std::size_t strips_ = 1;
+  std::size_t together_ = 1; ///< patches in a piece
+  std::size_t chunk_samples_ = 0;
+  std::size_t delivery_bytes_ = 0;
 };
-
-/// The runs of a small grid live on the stack.
-constexpr std::size_t kInlineRows = 128;
-
-template <typename T>
-Status run_grid(const GridCall<T>& call, std::size_t patches, const Options& options) noexcept {
-  // A thread's planes, and behind them its list of runs where the stack is too small for it.
-  const std::size_t planes = (call.scratch_size() * sizeof(T) + 63) / 64 * 64;
-  const std::size_t runs =
-      call.strip_rows() > kInlineRows ? call.strip_rows() * sizeof(RowRun<T>) : 0;
-  return run_blocks(patches * call.strips(), options, planes + runs,
-                    [&](std::size_t begin, std::size_t end, unsigned char* scratch) {
-                      RowRun<T> inline_runs[kInlineRows];
-                      auto* const own_runs =
-                          runs > 0 ? reinterpret_cast<RowRun<T>*>(scratch + planes) : inline_runs;
-                      return call.worker(begin, end, reinterpret_cast<T*>(scratch), own_runs);
-                    });
-}
 
 } // namespace
 } // namespace detail
@@ -144,38 +91,36 @@ T to_centred(double u) noexcept {
 template <typename T>
 Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<T>& out,
                      const Options& options) noexcept {
-  Isa isa = Isa::automatic;
-  const Status resolved = resolve_isa(options.isa, isa);
+  detail::GridRequest request;
+  const Status resolved = detail::resolve_request(set.size(), options, request);
   if (resolved != Status::ok) {
     return resolved;
   }
-  constexpr auto kAll = static_cast<std::size_t>(-1);
-  if (options.first_patch > set.size()) {
-    return Status::bad_patch_range;
-  }
-  const std::size_t rest = set.size() - options.first_patch;
-  const std::size_t patches = options.patch_count == kAll ? rest : options.patch_count;
-  if (patches > rest) {
-    return Status::bad_patch_range;
-  }
   std::size_t samples = 0;
   if (__builtin_mul_overflow(grid.nu, grid.nv, &samples) ||
-      __builtin_mul_overflow(samples, patches, &samples)) {
+      __builtin_mul_overflow(samples, request.patches, &samples)) {
     return Status::size_overflow;
   }
-  const Status usable = detail::check_outputs(out, samples);
+  const detail::InputRange inputs[] = {{grid.u, grid.nu * sizeof(T)},
+                                       {grid.v, grid.nv * sizeof(T)}};
+  const Status usable = detail::check_outputs(out, samples, inputs, std::size(inputs));
   if (usable != Status::ok) {
     return usable;
   }
   const detail::DefaultFpEnvironment environment;
   detail::GridPlan<T> plan;
   const Status planned = plan.build(grid);
-  if (planned != Status::ok || patches == 0) {
+  if (planned != Status::ok || request.patches == 0) {
     return planned;
   }
-  const detail::GridCall<T> call(*set.storage(), options.first_patch, plan, out, options.watertight,
-                                 detail::kernel_table<T>(isa));
-  return detail::run_grid(call, patches, options);
+  const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa), out,
+                                       options.watertight);
+  const detail::OutputPlan<T> outputs(out, samples, options.destination);
+  const detail::GridCall<T> call(kernels, request.first_patch, plan, outputs);
+  return detail::run_blocks(request.patches * call.strips(), options, call.scratch_bytes(),
+                            [&](std::size_t begin, std::size_t end, unsigned char* scratch) {
+                              return call.worker(begin, end, scratch);
+                            });
 }
 
 template SIMDBEZIER_API float to_centred<float>(double) noexcept;

@@ -5,11 +5,11 @@
 #include <simdbezier/evaluate.hpp>
 
 #include "kernels/batch.hpp"
+#include "kernels/delivery.hpp"
 #include "kernels/dispatch.hpp"
 #include "kernels/grid_plan.hpp"
 #include "kernels/normal_fallback.hpp"
 #include "kernels/patch_storage.hpp"
-#include "kernels/staging.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -34,20 +34,22 @@ template <typename T>
 struct ScatteredCall {
   const PatchStorage<T>& patches;
   const Samples<T>& samples;
-  const Outputs<T>& out;
-  void (*kernel)(ScatteredTask<T>&);
-  Staging<T> staging;
+  const OutputPlan<T>& outputs;
+  const KernelTable<T>& table;
+  Scheme scheme;
 
-  Isa worker(std::size_t begin, std::size_t end, T* scratch) const noexcept {
+  Isa worker(std::size_t begin, std::size_t end, unsigned char* scratch) const noexcept {
     Isa executed = Isa::automatic;
+    Delivery<T> delivery(outputs, table, kPiece, scratch);
     for (std::size_t piece = begin; piece < end; ++piece) {
       const std::size_t first = piece * kPiece;
-      executed = run_piece(first, std::min(kPiece, samples.count - first), scratch);
+      executed = run_piece(first, std::min(kPiece, samples.count - first), delivery);
     }
+    delivery.finish();
     return executed;
   }
 
-  Isa run_piece(std::size_t first, std::size_t count, T* scratch) const noexcept {
+  Isa run_piece(std::size_t first, std::size_t count, Delivery<T>& delivery) const noexcept {
     T x[kPiece];
     T y[kPiece];
     for (std::size_t k = 0; k < count; ++k) {
@@ -65,16 +67,16 @@ struct ScatteredCall {
     task.y = y;
     task.count = count;
     task.resolve_normal = resolve_normal<T>;
-    if (out.status != nullptr) {
-      task.status = out.status + first;
+    if (outputs.out().status != nullptr) {
+      task.status = outputs.out().status + first;
       for (std::size_t k = 0; k < count; ++k) {
         const bool finite = !std::isnan(x[k]) && !std::isnan(y[k]);
         task.status[k] = finite ? SampleStatus::regular : SampleStatus::non_finite;
       }
     }
-    staging.bind(task, first, scratch);
-    kernel(task);
-    staging.flush(first, count, scratch);
+    delivery.begin(first, task.out);
+    table.scattered[scheme](task);
+    delivery.end(count);
     return task.executed;
   }
 };
@@ -90,7 +92,10 @@ Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, con
   if (resolved != Status::ok) {
     return resolved;
   }
-  const Status writable = detail::check_outputs(out, samples.count);
+  const detail::InputRange inputs[] = {{samples.patch, samples.count * sizeof(std::uint32_t)},
+                                       {samples.u, samples.count * sizeof(T)},
+                                       {samples.v, samples.count * sizeof(T)}};
+  const Status writable = detail::check_outputs(out, samples.count, inputs, std::size(inputs));
   if (writable != Status::ok) {
     return writable;
   }
@@ -98,16 +103,16 @@ Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, con
   if (readable != Status::ok || samples.count == 0) {
     return readable;
   }
-  const auto& table = detail::kernel_table<T>(isa);
-  const detail::ScatteredCall<T> call{
-      *set.storage(), samples, out,
-      table.scattered[detail::scheme(options.watertight, set.has_local_origins())],
-      detail::Staging<T>(out, detail::kPiece)};
+  const detail::OutputPlan<T> outputs(out, samples.count, options.destination);
+  const detail::ScatteredCall<T> call{*set.storage(), samples, outputs,
+                                      detail::kernel_table<T>(isa),
+                                      detail::scheme(options.watertight, set.has_local_origins())};
   const std::size_t pieces =
       samples.count / detail::kPiece + (samples.count % detail::kPiece != 0 ? 1 : 0);
-  return detail::run_blocks(pieces, options, call.staging.scratch_size() * sizeof(T),
-                            [&](std::size_t begin, std::size_t end, unsigned char* scratch) {
-                              return call.worker(begin, end, reinterpret_cast<T*>(scratch));
+  const std::size_t scratch = detail::Delivery<T>::scratch_bytes(outputs, detail::kPiece);
+  return detail::run_blocks(pieces, options, scratch,
+                            [&](std::size_t begin, std::size_t end, unsigned char* own) {
+                              return call.worker(begin, end, own);
                             });
 }
 

@@ -78,12 +78,12 @@ Status GridPlan<T>::build(const Grid<T>& grid) noexcept {
 }
 
 template <typename T>
-std::size_t GridPlan<T>::fill_runs(std::size_t first, std::size_t last,
+std::size_t GridPlan<T>::fill_runs(std::size_t first, std::size_t last, std::size_t most,
                                    RowRun<T>* runs) const noexcept {
   std::size_t count = 0;
   for (std::size_t j = first; j < last; ++j) {
     const RowKind kind = kind_of(y_[j]);
-    if (count > 0 && runs[count - 1].kind == kind) {
+    if (count > 0 && runs[count - 1].kind == kind && runs[count - 1].rows < most) {
       ++runs[count - 1].rows;
     } else {
       runs[count++] = {y_ + j, 1, kind};

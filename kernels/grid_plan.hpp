@@ -23,9 +23,10 @@ public:
   [[nodiscard]] std::size_t nv() const noexcept { return nv_; }
   [[nodiscard]] const T* x() const noexcept { return x_; }
 
-  /// Describes rows [first, last) by runs, of which there is room for last - first; returns how
-  /// many there are.
-  std::size_t fill_runs(std::size_t first, std::size_t last, RowRun<T>* runs) const noexcept;
+  /// Describes rows [first, last) by runs of `most` rows at the most; there is room for last -
+  /// first runs. Returns how many there are.
+  std::size_t fill_runs(std::size_t first, std::size_t last, std::size_t most,
+                        RowRun<T>* runs) const noexcept;
 
 private:
   static constexpr std::size_t kInline = 128;

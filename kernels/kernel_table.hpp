@@ -84,7 +84,7 @@ struct GridTask {
   std::size_t patch_step;
   ResolveNormal<T> resolve_normal;
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see pace()
-  Isa executed; ///< written by the kernel
+  Isa executed;         ///< written by the kernel
 };
 
 /// Scattered samples with unit-stride outputs.
@@ -136,6 +136,8 @@ struct KernelTable {
   std::size_t lanes;
   void (*grid[kOutputSets][kSchemes])(GridTask<T>& task);
   void (*scattered[kSchemes])(ScatteredTask<T>& task);
+  void (*drain)(DrainQueue<T>& queue); ///< passes on all that is left
+  void (*fence)();                     ///< completes streaming stores
 };
 
 } // namespace simdbezier::detail

@@ -19,7 +19,8 @@ constexpr void fill_scheme(detail::KernelTable<T>& table) {
 
 template <typename T>
 constexpr detail::KernelTable<T> make_table() {
-  detail::KernelTable<T> table{Isa::SIMDBEZIER_ISA, kLanes<vec<T>>, {}, {}};
+  detail::KernelTable<T> table{Isa::SIMDBEZIER_ISA, kLanes<vec<T>>, {}, {},
+                               drain_all<T>,        streaming_fence};
   fill_scheme<T, detail::kOpen>(table);
   fill_scheme<T, detail::kOpenOrigin>(table);
   fill_scheme<T, detail::kWatertight>(table);

@@ -114,10 +114,10 @@ enum class Destination : std::uint8_t {
 
 /// How a call runs. The defaults are what most callers want.
 struct Options {
-  int threads = 0;             ///< 0: OpenMP's default; 1: no OpenMP region; most: 16 or two a core
-  bool watertight = true;      ///< false: edges and corners come from the interior's formula
-  Isa isa = Isa::automatic;    ///< see resolve_isa()
-  Isa* executed = nullptr;     ///< where given, the kernel that ran writes its own name here
+  int threads = 0;          ///< 0: OpenMP's default; 1: no OpenMP region; most: 16 or two a core
+  bool watertight = true;   ///< false: edges and corners come from the interior's formula
+  Isa isa = Isa::automatic; ///< see resolve_isa()
+  Isa* executed = nullptr;  ///< where given, the kernel that ran writes its own name here
   Destination destination = Destination::automatic;
   std::size_t first_patch = 0; ///< grid calls: the first patch to evaluate
   std::size_t patch_count = static_cast<std::size_t>(-1); ///< grid calls: -1: up to the last
@@ -127,8 +127,9 @@ struct Options {
 ///
 /// Positions are S = sum_l y^l sum_k C[l][k] x^k by Horner's rule in x, then in y: 3 fused
 /// multiply-adds a component and sample; first derivatives by synthetic division, 5 more.
-/// Returns ok | null_output | bad_stride | overlapping_outputs | bad_grid | bad_patch_range | size_overflow | unknown_isa
-/// | unsupported_isa | out_of_memory. On an error nothing has been written.
+/// Returns ok | null_output | bad_stride | overlapping_outputs | bad_grid | bad_patch_range |
+/// size_overflow | unknown_isa | unsupported_isa | out_of_memory. On an error nothing has been
+/// written.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid,
                                                   const Outputs<T>& out,
@@ -136,8 +137,9 @@ template <typename T>
 
 /// Evaluates single samples, in the grid's own order of operations: where the centred parameters
 /// are equal, the bits are.
-/// Returns ok | null_input | null_output | bad_stride | overlapping_outputs | bad_patch_index | unknown_isa |
-/// unsupported_isa | size_overflow | out_of_memory. On an error nothing has been written.
+/// Returns ok | null_input | null_output | bad_stride | overlapping_outputs | bad_patch_index |
+/// unknown_isa | unsupported_isa | size_overflow | out_of_memory. On an error nothing has been
+/// written.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_scattered(const PatchSet<T>& set,
                                                        const Samples<T>& samples,

@@ -53,13 +53,13 @@ template <typename T>
 class TileFunction {
 public:
   template <typename F>
-    requires std::is_invocable_v<F&, const Tile<T>&> &&
-             (!std::is_same_v<std::remove_cvref_t<F>, TileFunction>)
-  TileFunction(F&& function) noexcept // NOLINT: implicit on purpose
+  requires std::is_invocable_v < F&, const Tile<T>
+  & > &&(!std::is_same_v<std::remove_cvref_t<F>, TileFunction>)
+          TileFunction(F&& function) noexcept // NOLINT: implicit on purpose
       : context_(const_cast<void*>(static_cast<const void*>(std::addressof(function)))),
-        call_([](void* context, const Tile<T>& tile) {
-          (*static_cast<std::remove_reference_t<F>*>(context))(tile);
-        }) {}
+  call_([](void* context, const Tile<T>& tile) {
+    (*static_cast<std::remove_reference_t<F>*>(context))(tile);
+  }) {}
   void operator()(const Tile<T>& tile) const { call_(context_, tile); }
 
 private:
@@ -76,9 +76,9 @@ private:
 /// size_overflow | unknown_isa | unsupported_isa | out_of_memory. On an error no tile was handed
 /// out.
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API Status
-evaluate_tiles(const PatchSet<T>& set, const Grid<T>& grid, const TileFormat& format,
-               std::type_identity_t<TileFunction<T>> function,
-               const Options& options = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Status evaluate_tiles(const PatchSet<T>& set, const Grid<T>& grid,
+                                                   const TileFormat& format,
+                                                   std::type_identity_t<TileFunction<T>> function,
+                                                   const Options& options = {}) noexcept;
 
 } // namespace simdbezier

@@ -1,0 +1,87 @@
+// See grid_evaluator.hpp.
+#include "kernels/grid_evaluator.hpp"
+
+#include <cmath>
+
+#include "kernels/normal_fallback.hpp"
+
+namespace simdbezier::detail {
+namespace {
+
+/// While a drain goes on beside the kernel, it gets its turn after so many rows.
+constexpr std::size_t kPacedRows = 4;
+
+template <typename T>
+void prefill_status(const GridTask<T>& task, SampleStatus* status) noexcept {
+  for (std::size_t r = 0; r < task.run_count; ++r) {
+    const RowRun<T>& run = task.runs[r];
+    for (std::size_t j = 0; j < run.rows; ++j, status += task.nu) {
+      for (std::size_t i = 0; i < task.nu; ++i) {
+        const bool finite = !std::isnan(task.x[i]) && !std::isnan(run.y[j]);
+        status[i] = finite ? SampleStatus::regular : SampleStatus::non_finite;
+      }
+    }
+  }
+}
+
+} // namespace
+
+template <typename T>
+std::size_t GridEvaluator<T>::scratch_bytes(std::size_t rows) noexcept {
+  return rows > kInlineRows ? rows * sizeof(RowRun<T>) : 0;
+}
+
+template <typename T>
+GridEvaluator<T>::GridEvaluator(const GridKernels<T>& kernels, std::size_t rows,
+                                void* scratch) noexcept
+    : kernels_(kernels),
+      runs_(rows > kInlineRows ? static_cast<RowRun<T>*>(scratch) : inline_runs_) {}
+
+template <typename T>
+void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
+                           const Planes<T> out[kGroups], SampleStatus* status,
+                           DrainQueue<T>* drain) noexcept {
+  if (plan_ != &plan || first_row_ != piece.first_row || last_row_ != piece.last_row) {
+    plan_ = &plan;
+    first_row_ = piece.first_row;
+    last_row_ = piece.last_row;
+    run_count_ = plan.fill_runs(first_row_, last_row_,
+                                drain == nullptr ? last_row_ - first_row_ : kPacedRows, runs_);
+  }
+  const PatchStorage<T>& set = *kernels_.patches;
+  GridTask<T> task{};
+  task.coefficients = set.coefficients + piece.patch * kCoefficients;
+  task.edges = set.edges + piece.patch * kEdgeBlock;
+  task.control_points = set.control_points + piece.patch * kCoefficients;
+  task.origins = set.origins == nullptr ? nullptr : set.origins + piece.patch * kOriginBlock;
+  task.normal_floor = set.normal_floor + piece.patch;
+  task.patch_count = piece.patches;
+  task.x = plan.x();
+  task.nu = plan.nu();
+  task.runs = runs_;
+  task.run_count = run_count_;
+  for (std::size_t g = 0; g < kGroups; ++g) {
+    task.out[g] = out[g];
+  }
+  task.status = status;
+  task.patch_step = (last_row_ - first_row_) * plan.nu();
+  task.resolve_normal = resolve_normal<T>;
+  task.drain = drain;
+  if (status != nullptr) {
+    for (std::size_t p = 0; p < piece.patches; ++p) {
+      prefill_status(task, status + p * task.patch_step);
+    }
+  }
+  if (kernels_.choice.first) {
+    kernels_.table->grid[kernels_.choice.outputs][kernels_.scheme](task);
+  }
+  if (kernels_.choice.second) {
+    kernels_.table->grid[kSecondDerivatives][kernels_.scheme](task);
+  }
+  executed_ = task.executed;
+}
+
+template class GridEvaluator<float>;
+template class GridEvaluator<double>;
+
+} // namespace simdbezier::detail

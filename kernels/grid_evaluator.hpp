@@ -1,0 +1,66 @@
+// What the grid calls share: one thread's kernels on rows of consecutive patches.
+#pragma once
+
+#include <cstddef>
+
+#include "kernels/grid_plan.hpp"
+#include "kernels/kernel_table.hpp"
+#include "kernels/output_plan.hpp"
+#include "kernels/patch_storage.hpp"
+
+namespace simdbezier::detail {
+
+/// Patches [patch, patch + patches) of a set, all on rows [first_row, last_row) of one grid.
+struct GridPiece {
+  std::size_t patch;
+  std::size_t patches;
+  std::size_t first_row;
+  std::size_t last_row;
+};
+
+/// The kernels of one call.
+template <typename T>
+struct GridKernels {
+  const PatchStorage<T>* patches;
+  const KernelTable<T>* table;
+  KernelChoice choice;
+  Scheme scheme;
+
+  GridKernels(const PatchStorage<T>& set, const KernelTable<T>& kernels, const Outputs<T>& out,
+              bool watertight) noexcept
+      : patches(&set), table(&kernels), choice(choose_kernels(out)),
+        scheme(detail::scheme(watertight, set.origins != nullptr)) {}
+};
+
+/// One thread's evaluator. Remembers the rows of the last piece, which most often are those of the
+/// next one.
+template <typename T>
+class GridEvaluator {
+public:
+  /// Bytes of scratch for pieces of up to `rows` rows.
+  [[nodiscard]] static std::size_t scratch_bytes(std::size_t rows) noexcept;
+
+  /// rows: the most in one piece. scratch: aligned to 64 bytes; null where none is needed.
+  GridEvaluator(const GridKernels<T>& kernels, std::size_t rows, void* scratch) noexcept;
+
+  /// Evaluates a piece into planes that begin with its first sample; status and drain may be null.
+  void run(const GridPlan<T>& plan, const GridPiece& piece, const Planes<T> out[kGroups],
+           SampleStatus* status, DrainQueue<T>* drain) noexcept;
+
+  /// Of the kernels that ran.
+  [[nodiscard]] Isa executed() const noexcept { return executed_; }
+
+private:
+  static constexpr std::size_t kInlineRows = 128;
+
+  const GridKernels<T>& kernels_;
+  RowRun<T>* runs_;
+  std::size_t run_count_ = 0;
+  const GridPlan<T>* plan_ = nullptr; ///< of runs_, with the two below
+  std::size_t first_row_ = 0;
+  std::size_t last_row_ = 0;
+  Isa executed_ = Isa::automatic;
+  RowRun<T> inline_runs_[kInlineRows];
+};
+
+} // namespace simdbezier::detail

@@ -1,0 +1,246 @@
+// Cache lines to memory, and planes into records by shuffles.
+//
+// Written with the compilers' portable shuffles, over 512-bit vectors where the instruction set has
+// them and over 128-bit ones elsewhere: wider vectors without 512-bit permutes gain nothing on
+// stores that memory limits.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+
+#include "kernels/isa/arch.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+inline constexpr std::size_t kWideBytes = 64;
+#else
+inline constexpr std::size_t kWideBytes = 16;
+#endif
+
+template <typename T, std::size_t kBytes>
+struct VectorOf {
+  typedef T type __attribute__((vector_size(kBytes)));
+};
+/// What lines are moved in, and 128 bits of it.
+template <typename T>
+using Wide = typename VectorOf<T, kWideBytes>::type;
+template <typename T>
+using Quad = typename VectorOf<T, 16>::type;
+
+template <typename T>
+inline constexpr std::size_t kWideLanes = kWideBytes / sizeof(T);
+/// Values in 128 bits.
+template <typename T>
+inline constexpr std::size_t kGroupLanes = 16 / sizeof(T);
+
+template <typename Vector, typename T>
+SIMDBEZIER_INLINE Vector load_any(const T* from) {
+  Vector value;
+  __builtin_memcpy(&value, from, sizeof(value));
+  return value;
+}
+
+/// Streaming: `to` is aligned to the vector; takes effect on x86 only.
+template <bool kStreaming, typename Vector, typename T>
+SIMDBEZIER_INLINE void store_any(T* to, Vector value) {
+#if defined(__x86_64__) && !defined(SIMDBEZIER_KERNELS_SCALAR)
+  if constexpr (kStreaming && sizeof(Vector) == 16) {
+    __m128 bits;
+    __builtin_memcpy(&bits, &value, sizeof(bits));
+    _mm_stream_ps(reinterpret_cast<float*>(to), bits);
+    return;
+  }
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  if constexpr (kStreaming && sizeof(Vector) == 64) {
+    __m512 bits;
+    __builtin_memcpy(&bits, &value, sizeof(bits));
+    _mm512_stream_ps(reinterpret_cast<float*>(to), bits);
+    return;
+  }
+#endif
+#endif
+  __builtin_memcpy(to, &value, sizeof(value));
+}
+
+/// Makes streaming stores of this thread visible before whatever it does next.
+inline void streaming_fence() {
+#if defined(__x86_64__)
+  __builtin_ia32_sfence();
+#endif
+}
+
+template <bool kStreaming, typename T>
+SIMDBEZIER_INLINE void copy_line(const T* from, T* to) {
+  constexpr std::size_t kParts = 64 / kWideBytes;
+  Wide<T> part[kParts];
+  for (std::size_t k = 0; k < kParts; ++k) {
+    part[k] = load_any<Wide<T>>(from + k * kWideLanes<T>);
+  }
+  for (std::size_t k = 0; k < kParts; ++k) {
+    store_any<kStreaming>(to + k * kWideLanes<T>, part[k]);
+  }
+}
+
+// Triples ----------------------------------------------------------------------------------------
+
+/// Element e of x y z x y z … comes from plane e % 3 at e / 3.
+SIMDBEZIER_INLINE constexpr int from_xy(std::size_t e, std::size_t lanes) {
+  return static_cast<int>(e % 3 == 2 ? 0 : e / 3 + (e % 3) * lanes);
+}
+SIMDBEZIER_INLINE constexpr int with_z(std::size_t lane, std::size_t e, std::size_t lanes) {
+  return static_cast<int>(e % 3 == 2 ? e / 3 + lanes : lane);
+}
+
+template <typename T, std::size_t kOut, std::size_t... kLane>
+SIMDBEZIER_INLINE Wide<T> triple_part(Wide<T> x, Wide<T> y, Wide<T> z,
+                                      std::index_sequence<kLane...>) {
+  constexpr std::size_t kN = kWideLanes<T>;
+  const Wide<T> xy = __builtin_shufflevector(x, y, from_xy(kOut * kN + kLane, kN)...);
+  return __builtin_shufflevector(xy, z, with_z(kLane, kOut * kN + kLane, kN)...);
+}
+
+/// kDrainStep samples of three planes to packed triples.
+template <bool kStreaming, typename T>
+SIMDBEZIER_INLINE void interleave_3(const T* x, const T* y, const T* z, T* to) {
+  constexpr std::size_t kN = kWideLanes<T>;
+  constexpr auto kLanes = std::make_index_sequence<kN>{};
+  for (std::size_t k = 0; k < 64 / sizeof(T); k += kN, to += 3 * kN) {
+    const Wide<T> a = load_any<Wide<T>>(x + k);
+    const Wide<T> b = load_any<Wide<T>>(y + k);
+    const Wide<T> c = load_any<Wide<T>>(z + k);
+    store_any<kStreaming>(to, triple_part<T, 0>(a, b, c, kLanes));
+    store_any<kStreaming>(to + kN, triple_part<T, 1>(a, b, c, kLanes));
+    store_any<kStreaming>(to + 2 * kN, triple_part<T, 2>(a, b, c, kLanes));
+  }
+}
+
+// Groups of members ------------------------------------------------------------------------------
+
+/// Members [0, kCount) of kDrainStep records, kCount <= kGroupLanes: transposed in 128 bits.
+template <std::size_t kCount, typename T>
+SIMDBEZIER_INLINE void interleave_group(const T* const* plane, std::size_t at, T* to,
+                                        std::ptrdiff_t stride) {
+  constexpr std::size_t kN = kGroupLanes<T>;
+  for (std::size_t k = 0; k < 64 / sizeof(T); k += kN) {
+    Quad<T> record[kN];
+    if constexpr (kN == 4) {
+      Quad<T> p[4] = {};
+      for (std::size_t m = 0; m < kCount; ++m) {
+        p[m] = load_any<Quad<T>>(plane[m] + at + k);
+      }
+      const Quad<T> low01 = __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5);
+      const Quad<T> high01 = __builtin_shufflevector(p[0], p[1], 2, 6, 3, 7);
+      const Quad<T> low23 = __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5);
+      const Quad<T> high23 = __builtin_shufflevector(p[2], p[3], 2, 6, 3, 7);
+      record[0] = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
+      record[1] = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
+      record[2] = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
+      record[3] = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
+    } else {
+      const Quad<T> p = load_any<Quad<T>>(plane[0] + at + k);
+      const Quad<T> q = kCount == 2 ? load_any<Quad<T>>(plane[kCount - 1] + at + k) : p;
+      record[0] = __builtin_shufflevector(p, q, 0, 2);
+      record[1] = __builtin_shufflevector(p, q, 1, 3);
+    }
+    for (std::size_t r = 0; r < kN; ++r, to += stride) {
+      // Nothing behind the last member: it may be the caller's.
+      __builtin_memcpy(to, &record[r], kCount * sizeof(T));
+    }
+  }
+}
+
+// Sextuples --------------------------------------------------------------------------------------
+
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+/// 128-bit parts A and B of a, then C and D of b.
+template <int kA, int kB, int kC, int kD>
+SIMDBEZIER_INLINE __m512d parts(__m512d a, __m512d b) {
+  return _mm512_shuffle_f64x2(a, b, kA | kB << 2 | kC << 4 | kD << 6);
+}
+
+/// Part p of u[k] becomes part 6p+k of the six results: 12 shuffles across lanes.
+template <bool kStreaming, typename T>
+SIMDBEZIER_INLINE void store_transposed_parts(const __m512d u[6], T* to) {
+  constexpr std::size_t kN = kWideLanes<T>;
+  const __m512d low01 = parts<0, 1, 0, 1>(u[0], u[1]);
+  const __m512d low23 = parts<0, 1, 0, 1>(u[2], u[3]);
+  const __m512d low45 = parts<0, 1, 0, 1>(u[4], u[5]);
+  const __m512d high01 = parts<2, 3, 2, 3>(u[0], u[1]);
+  const __m512d high23 = parts<2, 3, 2, 3>(u[2], u[3]);
+  const __m512d high45 = parts<2, 3, 2, 3>(u[4], u[5]);
+  const __m512d out[6] = {parts<0, 2, 0, 2>(low01, low23),   parts<0, 2, 1, 3>(low45, low01),
+                          parts<1, 3, 1, 3>(low23, low45),   parts<0, 2, 0, 2>(high01, high23),
+                          parts<0, 2, 1, 3>(high45, high01), parts<1, 3, 1, 3>(high23, high45)};
+  for (std::size_t k = 0; k < 6; ++k) {
+    store_any<kStreaming>(to + k * kN, out[k]);
+  }
+}
+
+/// Six planes to packed records. Within 128 bits first, where shuffles do not compete with
+/// multiply-adds, then across.
+template <bool kStreaming>
+SIMDBEZIER_INLINE void interleave_6(const float* const from[6], float* to) {
+  __m512d low[3]; // samples 0 1 of every four: members 2m, 2m+1
+  __m512d high[3];
+  for (std::size_t m = 0; m < 3; ++m) {
+    const __m512 a = _mm512_loadu_ps(from[2 * m]);
+    const __m512 b = _mm512_loadu_ps(from[2 * m + 1]);
+    low[m] = _mm512_castps_pd(_mm512_unpacklo_ps(a, b));
+    high[m] = _mm512_castps_pd(_mm512_unpackhi_ps(a, b));
+  }
+  const __m512d u[6] = {
+      _mm512_unpacklo_pd(low[0], low[1]),        _mm512_shuffle_pd(low[2], low[0], 0xaa),
+      _mm512_unpackhi_pd(low[1], low[2]),        _mm512_unpacklo_pd(high[0], high[1]),
+      _mm512_shuffle_pd(high[2], high[0], 0xaa), _mm512_unpackhi_pd(high[1], high[2])};
+  store_transposed_parts<kStreaming>(u, to);
+}
+
+template <bool kStreaming>
+SIMDBEZIER_INLINE void interleave_6(const double* const from[6], double* to) {
+  __m512d u[6];
+  for (std::size_t m = 0; m < 3; ++m) {
+    const __m512d a = _mm512_loadu_pd(from[2 * m]);
+    const __m512d b = _mm512_loadu_pd(from[2 * m + 1]);
+    u[m] = _mm512_unpacklo_pd(a, b);
+    u[m + 3] = _mm512_unpackhi_pd(a, b);
+  }
+  store_transposed_parts<kStreaming>(u, to);
+}
+#else
+/// Six planes to packed records, in pairs of members.
+template <bool kStreaming, typename T>
+SIMDBEZIER_INLINE void interleave_6(const T* const from[6], T* to) {
+  constexpr std::size_t kN = kGroupLanes<T>;
+  for (std::size_t k = 0; k < 64 / sizeof(T); k += kN) {
+    Quad<T> p[6];
+    for (std::size_t m = 0; m < 6; ++m) {
+      p[m] = load_any<Quad<T>>(from[m] + k);
+    }
+    Quad<T> out[6];
+    if constexpr (kN == 4) {
+      const auto put = [&out](std::size_t first, Quad<T> a, Quad<T> b, Quad<T> c) {
+        out[first] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
+        out[first + 1] = __builtin_shufflevector(c, a, 0, 1, 6, 7);
+        out[first + 2] = __builtin_shufflevector(b, c, 2, 3, 6, 7);
+      };
+      put(0, __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5), // samples 0 and 1
+          __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5),
+          __builtin_shufflevector(p[4], p[5], 0, 4, 1, 5));
+      put(3, __builtin_shufflevector(p[0], p[1], 2, 6, 3, 7), // samples 2 and 3
+          __builtin_shufflevector(p[2], p[3], 2, 6, 3, 7),
+          __builtin_shufflevector(p[4], p[5], 2, 6, 3, 7));
+    } else {
+      for (std::size_t m = 0; m < 3; ++m) {
+        out[m] = __builtin_shufflevector(p[2 * m], p[2 * m + 1], 0, 2);
+        out[m + 3] = __builtin_shufflevector(p[2 * m], p[2 * m + 1], 1, 3);
+      }
+    }
+    for (std::size_t m = 0; m < 6; ++m, to += kN) {
+      store_any<kStreaming>(to, out[m]);
+    }
+  }
+}
+#endif
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

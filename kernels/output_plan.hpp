@@ -1,0 +1,90 @@
+// A call's outputs: checked, and cut into what kernels write directly and what is staged first.
+#pragma once
+
+#include <cstddef>
+
+#include <simdbezier/evaluate.hpp>
+
+#include "kernels/drain.hpp"
+#include "kernels/kernel_table.hpp"
+
+namespace simdbezier::detail {
+
+/// The vector groups of an Outputs, by Group.
+template <typename T>
+struct OutputGroups {
+  const Vectors<T>* group[kGroups];
+  explicit OutputGroups(const Outputs<T>& out) noexcept
+      : group{&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv, &out.normal} {}
+};
+
+/// A range of memory that a call reads.
+struct InputRange {
+  const void* begin = nullptr;
+  std::size_t bytes = 0;
+};
+
+/// ok | null_output | bad_stride | overlapping_outputs | size_overflow, for `samples` samples.
+/// Groups of different strides must not share a range of memory at all.
+template <typename T>
+[[nodiscard]] Status check_outputs(const Outputs<T>& out, std::size_t samples,
+                                   const InputRange* inputs, std::size_t input_count) noexcept;
+
+/// The kernels of one call: the narrowest that compute what is asked for.
+struct KernelChoice {
+  bool first = false; ///< position, du, dv, normal
+  OutputSet outputs = kPosition;
+  bool second = false; ///< duu, duv, dvv
+};
+
+template <typename T>
+[[nodiscard]] KernelChoice choose_kernels(const Outputs<T>& out) noexcept;
+
+/// Consecutive records in the caller's memory: a plane, triples, vertices, or the members of
+/// vertices that lie side by side.
+template <typename T>
+struct StreamShape {
+  std::size_t plane[kMostMembers]; ///< staged planes, in the order of their places in the record
+  std::size_t members = 0;
+  T* first = nullptr;        ///< member 0 of record 0
+  std::ptrdiff_t stride = 0; ///< in elements
+  bool streaming = false;
+
+  /// Records before the first one that begins a cache line; kDrainStep where none does.
+  [[nodiscard]] std::size_t records_to_line(std::size_t record) const noexcept;
+};
+
+/// How the outputs of one call are delivered.
+template <typename T>
+class OutputPlan {
+public:
+  /// out: checked, and alive as long as the plan.
+  OutputPlan(const Outputs<T>& out, std::size_t samples, Destination destination) noexcept;
+
+  [[nodiscard]] const Outputs<T>& out() const noexcept { return out_; }
+  [[nodiscard]] bool staged() const noexcept { return staged_planes_ > 0; }
+  [[nodiscard]] bool streaming() const noexcept { return streaming_; }
+  [[nodiscard]] std::size_t staged_planes() const noexcept { return staged_planes_; }
+  /// Component c of group g is staged plane 3 * staged_group(g) + c, or written directly where
+  /// the group is not staged.
+  [[nodiscard]] bool is_staged(std::size_t group) const noexcept {
+    return group_index_[group] < kGroups;
+  }
+  [[nodiscard]] std::size_t staged_group(std::size_t group) const noexcept {
+    return group_index_[group];
+  }
+  [[nodiscard]] std::size_t streams() const noexcept { return streams_; }
+  [[nodiscard]] const StreamShape<T>& stream(std::size_t k) const noexcept { return stream_[k]; }
+
+private:
+  void add_streams() noexcept;
+
+  const Outputs<T>& out_;
+  bool streaming_ = false;
+  std::size_t staged_planes_ = 0;
+  std::size_t group_index_[kGroups];
+  std::size_t streams_ = 0;
+  StreamShape<T> stream_[kMostMembers];
+};
+
+} // namespace simdbezier::detail
