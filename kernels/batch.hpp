@@ -36,9 +36,9 @@ private:
 /// floating-point environment. One thread: on the caller's, without an OpenMP region.
 void for_blocks(std::size_t units, int threads, BlockBody body) noexcept;
 
-/// Runs an evaluate call: `Isa work(begin, end, unsigned char* scratch)` on every thread's share of
-/// the units, each with `scratch_bytes` of its own from a cache line of its own, and reports the
-/// instruction set that ran. Returns ok | out_of_memory, before anything is written.
+/// Runs an evaluate call: `Isa work(worker, begin, end, unsigned char* scratch)` on every thread's
+/// share of the units, each with `scratch_bytes` of its own from a cache line of its own, and
+/// reports the instruction set that ran. Returns ok | out_of_memory, before anything is written.
 template <typename Work>
 Status run_blocks(std::size_t units, const Options& options, std::size_t scratch_bytes,
                   const Work& work) noexcept {
@@ -56,7 +56,7 @@ Status run_blocks(std::size_t units, const Options& options, std::size_t scratch
   auto body = [&](int worker, std::size_t begin, std::size_t end) {
     auto* const own = static_cast<unsigned char*>(scratch.get());
     const std::size_t offset = static_cast<std::size_t>(worker) * bytes;
-    const Isa ran = work(begin, end, own == nullptr ? nullptr : own + offset);
+    const Isa ran = work(worker, begin, end, own == nullptr ? nullptr : own + offset);
     if (worker == 0) {
       executed = ran;
     }

@@ -7,8 +7,10 @@
 namespace simdbezier::detail {
 namespace {
 
-/// Two of these, and what a kernel reads, share a first-level cache.
+/// What a kernel writes and a drain reads at once stays in a first-level cache.
 constexpr std::size_t kStagingBytes = std::size_t{20} << 10;
+/// Streaming hides the second-level cache behind memory; long chunks save starts and ends.
+constexpr std::size_t kStreamingBytes = std::size_t{160} << 10;
 
 /// A step of room in front of each plane, and a line more than needed, so that planes of a round
 /// number of samples do not compete for the same sets of the cache.
@@ -22,12 +24,14 @@ constexpr std::size_t plane_step(std::size_t samples) noexcept {
 
 template <typename T>
 std::size_t Delivery<T>::chunk_samples(const OutputPlan<T>& plan) noexcept {
-  return kStagingBytes / sizeof(T) / std::max<std::size_t>(plan.staged_planes(), 3);
+  const std::size_t bytes = plan.streaming() ? kStreamingBytes : kStagingBytes;
+  return bytes / sizeof(T) / std::max<std::size_t>(plan.staged_planes(), 3);
 }
 
 template <typename T>
-std::size_t Delivery<T>::scratch_bytes(const OutputPlan<T>& plan, std::size_t samples) noexcept {
-  return plan.staged_planes() * plane_step<T>(samples) * sizeof(T) * (plan.streaming() ? 2 : 1);
+std::size_t Delivery<T>::scratch_bytes(std::size_t staged_planes, bool streaming,
+                                       std::size_t samples) noexcept {
+  return staged_planes * plane_step<T>(samples) * sizeof(T) * (streaming ? 2 : 1);
 }
 
 template <typename T>

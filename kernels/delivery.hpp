@@ -18,7 +18,7 @@ public:
   /// Samples that one chunk may hold, for staging that stays in a first-level cache.
   [[nodiscard]] static std::size_t chunk_samples(const OutputPlan<T>& plan) noexcept;
   /// Bytes of scratch that a thread needs for chunks of up to `samples`; 64-byte aligned.
-  [[nodiscard]] static std::size_t scratch_bytes(const OutputPlan<T>& plan,
+  [[nodiscard]] static std::size_t scratch_bytes(std::size_t staged_planes, bool streaming,
                                                  std::size_t samples) noexcept;
 
   Delivery(const OutputPlan<T>& plan, const KernelTable<T>& table, std::size_t samples,

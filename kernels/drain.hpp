@@ -11,6 +11,10 @@ namespace simdbezier::detail {
 template <typename T>
 inline constexpr std::size_t kDrainStep = 64 / sizeof(T);
 
+/// Values that a kernel computes before it passes any on: 32 lines.
+template <typename T>
+inline constexpr std::size_t kDrainBurst = 32 * kDrainStep<T>;
+
 inline constexpr std::size_t kMostMembers = 3 * kGroups;
 
 /// One output stream: planes of staged samples that become consecutive records.

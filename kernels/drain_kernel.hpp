@@ -66,7 +66,7 @@ SIMDBEZIER_INLINE void drain_records(const DrainStream<T>& s, std::size_t at, T*
 /// Records without gaps by way of a buffer, so that they leave in whole lines. Two buffers: a line
 /// read back at once would wait for the small stores that made it.
 template <typename T>
-SIMDBEZIER_INLINE void drain_buffered(const DrainStream<T>& s, std::size_t steps) {
+__attribute__((noinline)) void drain_buffered(const DrainStream<T>& s, std::size_t steps) {
   alignas(64) T buffer[2][kDrainStep<T> * detail::kMostMembers];
   const std::size_t step = kDrainStep<T> * s.members;
   for (std::size_t k = 0; k <= steps; ++k) {
@@ -83,7 +83,14 @@ SIMDBEZIER_INLINE void drain_buffered(const DrainStream<T>& s, std::size_t steps
 }
 
 template <typename T>
-SIMDBEZIER_INLINE void drain_stream(DrainStream<T>& s, std::size_t steps) {
+__attribute__((noinline)) void drain_with_gaps(const DrainStream<T>& s, std::size_t steps) {
+  for (std::size_t k = 0; k < steps * kDrainStep<T>; k += kDrainStep<T>) {
+    drain_records(s, k, s.to + static_cast<std::ptrdiff_t>(k) * s.stride, s.stride);
+  }
+}
+
+template <typename T>
+SIMDBEZIER_INLINE void drain_steps(const DrainStream<T>& s, std::size_t steps) {
   const bool packed = s.stride == static_cast<std::ptrdiff_t>(s.members);
   if (s.members == 1 && packed) {
     s.streaming ? drain_plane<true>(s, steps) : drain_plane<false>(s, steps);
@@ -94,16 +101,8 @@ SIMDBEZIER_INLINE void drain_stream(DrainStream<T>& s, std::size_t steps) {
   } else if (s.streaming) {
     drain_buffered(s, steps);
   } else {
-    for (std::size_t k = 0; k < steps * kDrainStep<T>; k += kDrainStep<T>) {
-      drain_records(s, k, s.to + static_cast<std::ptrdiff_t>(k) * s.stride, s.stride);
-    }
+    drain_with_gaps(s, steps);
   }
-  const std::size_t samples = steps * kDrainStep<T>;
-  for (std::size_t m = 0; m < s.members; ++m) {
-    s.plane[m] += samples;
-  }
-  s.to += static_cast<std::ptrdiff_t>(samples) * s.stride;
-  s.steps -= steps;
 }
 
 /// Passes on what `owed` values pay for. Out of line: the registers of a kernel's rows then wait in
@@ -113,33 +112,48 @@ __attribute__((noinline)) void drain_owed(DrainQueue<T>& queue) {
   while (queue.current < queue.streams) {
     DrainStream<T>& stream = queue.stream[queue.current];
     const std::size_t step = kDrainStep<T> * stream.members;
-    const std::size_t steps = std::min(queue.owed / step, stream.steps);
+    std::size_t steps = 0;
+    for (; steps < stream.steps && queue.owed >= step; ++steps) { // cheaper than to divide
+      queue.owed -= step;
+    }
     if (steps > 0) {
-      drain_stream(stream, steps);
-      queue.owed -= steps * step;
+      drain_steps(stream, steps);
+      const std::size_t samples = steps * kDrainStep<T>;
+      for (std::size_t m = 0; m < stream.members; ++m) {
+        stream.plane[m] += samples;
+      }
+      stream.to += static_cast<std::ptrdiff_t>(samples) * stream.stride;
+      stream.steps -= steps;
     }
     if (stream.steps > 0) {
       return;
     }
     ++queue.current;
   }
+  queue.owed = 0;
 }
 
 /// To be called by kernels after every few rows: `values` of T have been written since the last
-/// call. Passes about as many on, so that memory and arithmetic overlap.
+/// call. Passes about as many on, so that memory and arithmetic overlap; not one line at a time,
+/// since every call costs as much as several.
 template <typename T>
 SIMDBEZIER_INLINE void pace(DrainQueue<T>* drain, std::size_t values) {
   if (drain != nullptr) [[unlikely]] {
     drain->owed += values;
-    drain_owed(*drain);
+    if (drain->owed >= detail::kDrainBurst<T>) {
+      drain_owed(*drain);
+    }
   }
 }
 
 /// Passes on all that is left.
 template <typename T>
 void drain_all(DrainQueue<T>& queue) {
-  queue.owed = ~std::size_t(0) / 2;
-  drain_owed(queue);
+  for (; queue.current < queue.streams; ++queue.current) {
+    DrainStream<T>& stream = queue.stream[queue.current];
+    drain_steps(stream, stream.steps);
+    stream.steps = 0;
+  }
   queue.owed = 0;
 }
 

@@ -34,7 +34,10 @@ public:
                 : outputs.staged() ? std::max<std::size_t>(samples / patch_samples, 1)
                                    : ~std::size_t(0);
     chunk_samples_ = strips_ > 1 ? strip_rows_ * plan.nu() : together_ * patch_samples;
-    delivery_bytes_ = (Delivery<T>::scratch_bytes(outputs, chunk_samples_) + 63) / 64 * 64;
+    delivery_bytes_ =
+        (Delivery<T>::scratch_bytes(outputs.staged_planes(), outputs.streaming(), chunk_samples_) +
+         63) /
+        64 * 64;
   }
 
   /// Pieces of work in each patch.
@@ -113,12 +116,12 @@ Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<
   if (planned != Status::ok || request.patches == 0) {
     return planned;
   }
-  const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa), out,
-                                       options.watertight);
+  const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa),
+                                       detail::wanted_groups(out), options.watertight);
   const detail::OutputPlan<T> outputs(out, samples, options.destination);
   const detail::GridCall<T> call(kernels, request.first_patch, plan, outputs);
   return detail::run_blocks(request.patches * call.strips(), options, call.scratch_bytes(),
-                            [&](std::size_t begin, std::size_t end, unsigned char* scratch) {
+                            [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
                               return call.worker(begin, end, scratch);
                             });
 }

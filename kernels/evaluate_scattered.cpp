@@ -109,9 +109,10 @@ Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, con
                                       detail::scheme(options.watertight, set.has_local_origins())};
   const std::size_t pieces =
       samples.count / detail::kPiece + (samples.count % detail::kPiece != 0 ? 1 : 0);
-  const std::size_t scratch = detail::Delivery<T>::scratch_bytes(outputs, detail::kPiece);
+  const std::size_t scratch = detail::Delivery<T>::scratch_bytes(
+      outputs.staged_planes(), outputs.streaming(), detail::kPiece);
   return detail::run_blocks(pieces, options, scratch,
-                            [&](std::size_t begin, std::size_t end, unsigned char* own) {
+                            [&](int, std::size_t begin, std::size_t end, unsigned char* own) {
                               return call.worker(begin, end, own);
                             });
 }

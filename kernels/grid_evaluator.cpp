@@ -9,7 +9,7 @@ namespace simdbezier::detail {
 namespace {
 
 /// While a drain goes on beside the kernel, it gets its turn after so many rows.
-constexpr std::size_t kPacedRows = 4;
+constexpr std::size_t kPacedRows = 16;
 
 template <typename T>
 void prefill_status(const GridTask<T>& task, SampleStatus* status) noexcept {
@@ -41,8 +41,10 @@ template <typename T>
 void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
                            const Planes<T> out[kGroups], SampleStatus* status,
                            DrainQueue<T>* drain) noexcept {
-  if (plan_ != &plan || first_row_ != piece.first_row || last_row_ != piece.last_row) {
+  if (plan_ != &plan || generation_ != plan.generation() || first_row_ != piece.first_row ||
+      last_row_ != piece.last_row) {
     plan_ = &plan;
+    generation_ = plan.generation();
     first_row_ = piece.first_row;
     last_row_ = piece.last_row;
     run_count_ = plan.fill_runs(first_row_, last_row_,

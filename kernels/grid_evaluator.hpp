@@ -26,9 +26,9 @@ struct GridKernels {
   KernelChoice choice;
   Scheme scheme;
 
-  GridKernels(const PatchStorage<T>& set, const KernelTable<T>& kernels, const Outputs<T>& out,
+  GridKernels(const PatchStorage<T>& set, const KernelTable<T>& kernels, const WantedGroups& wanted,
               bool watertight) noexcept
-      : patches(&set), table(&kernels), choice(choose_kernels(out)),
+      : patches(&set), table(&kernels), choice(choose_kernels(wanted)),
         scheme(detail::scheme(watertight, set.origins != nullptr)) {}
 };
 
@@ -56,7 +56,8 @@ private:
   const GridKernels<T>& kernels_;
   RowRun<T>* runs_;
   std::size_t run_count_ = 0;
-  const GridPlan<T>* plan_ = nullptr; ///< of runs_, with the two below
+  const GridPlan<T>* plan_ = nullptr; ///< of runs_, with the three below
+  std::uint32_t generation_ = 0;
   std::size_t first_row_ = 0;
   std::size_t last_row_ = 0;
   Isa executed_ = Isa::automatic;

@@ -55,6 +55,7 @@ Status GridPlan<T>::build(const Grid<T>& grid) noexcept {
   if (grid.nu > kMost || grid.nv > kMost) {
     return Status::size_overflow;
   }
+  ++generation_;
   nu_ = grid.nu;
   nv_ = grid.nv;
   x_ = inline_x_;

@@ -22,6 +22,8 @@ public:
   [[nodiscard]] std::size_t nu() const noexcept { return nu_; }
   [[nodiscard]] std::size_t nv() const noexcept { return nv_; }
   [[nodiscard]] const T* x() const noexcept { return x_; }
+  /// Changes with every build().
+  [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
 
   /// Describes rows [first, last) by runs of `most` rows at the most; there is room for last -
   /// first runs. Returns how many there are.
@@ -33,6 +35,7 @@ private:
 
   std::size_t nu_ = 0;
   std::size_t nv_ = 0;
+  std::uint32_t generation_ = 0;
   T* x_ = nullptr;
   T* y_ = nullptr;
   std::unique_ptr<T[]> heap_;

@@ -122,14 +122,23 @@ Status check_outputs(const Outputs<T>& out, std::size_t samples, const InputRang
 }
 
 template <typename T>
-KernelChoice choose_kernels(const Outputs<T>& out) noexcept {
-  const bool p = out.position.wanted();
-  const bool du = out.du.wanted();
-  const bool dv = out.dv.wanted();
-  const bool n = out.normal.wanted();
+WantedGroups wanted_groups(const Outputs<T>& out) noexcept {
+  const OutputGroups<T> groups(out);
+  WantedGroups wanted{};
+  for (std::size_t g = 0; g < kGroups; ++g) {
+    wanted.group[g] = groups.group[g]->wanted();
+  }
+  return wanted;
+}
+
+KernelChoice choose_kernels(const WantedGroups& wanted) noexcept {
+  const bool p = wanted.group[kPositionGroup];
+  const bool du = wanted.group[kDuGroup];
+  const bool dv = wanted.group[kDvGroup];
+  const bool n = wanted.group[kNormalGroup];
   KernelChoice choice;
   choice.first = p || du || dv || n;
-  choice.second = out.duu.wanted() || out.duv.wanted() || out.dvv.wanted();
+  choice.second = wanted.group[kDuuGroup] || wanted.group[kDuvGroup] || wanted.group[kDvvGroup];
   if (p && !du && !dv) {
     choice.outputs = n ? kPositionNormal : kPosition;
   } else {
@@ -210,7 +219,7 @@ void OutputPlan<T>::add_streams() noexcept {
 #define SIMDBEZIER_INSTANTIATE(T)                                                                  \
   template Status check_outputs(const Outputs<T>&, std::size_t, const InputRange*,                 \
                                 std::size_t) noexcept;                                             \
-  template KernelChoice choose_kernels(const Outputs<T>&) noexcept;                                \
+  template WantedGroups wanted_groups(const Outputs<T>&) noexcept;                                 \
   template struct StreamShape<T>;                                                                  \
   template class OutputPlan<T>;
 SIMDBEZIER_INSTANTIATE(float)

@@ -37,8 +37,15 @@ struct KernelChoice {
   bool second = false; ///< duu, duv, dvv
 };
 
+/// Which groups a call wants.
+struct WantedGroups {
+  bool group[kGroups];
+};
+
 template <typename T>
-[[nodiscard]] KernelChoice choose_kernels(const Outputs<T>& out) noexcept;
+[[nodiscard]] WantedGroups wanted_groups(const Outputs<T>& out) noexcept;
+
+[[nodiscard]] KernelChoice choose_kernels(const WantedGroups& wanted) noexcept;
 
 /// Consecutive records in the caller's memory: a plane, triples, vertices, or the members of
 /// vertices that lie side by side.

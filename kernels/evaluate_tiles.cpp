@@ -1,0 +1,226 @@
+// The tiles call: as the grid call, but into each thread's own memory, and then to the caller.
+#include <algorithm>
+
+#include <simdbezier/tiles.hpp>
+
+#include "kernels/batch.hpp"
+#include "kernels/delivery.hpp"
+#include "kernels/dispatch.hpp"
+#include "kernels/fp_environment.hpp"
+#include "kernels/grid_evaluator.hpp"
+#include "kernels/grid_request.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+constexpr std::size_t to_line(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
+
+std::size_t vector_groups(const TileFormat& format) noexcept {
+  return static_cast<std::size_t>(format.position) + static_cast<std::size_t>(format.du) +
+         static_cast<std::size_t>(format.dv) + static_cast<std::size_t>(format.duu) +
+         static_cast<std::size_t>(format.duv) + static_cast<std::size_t>(format.dvv) +
+         static_cast<std::size_t>(format.normal);
+}
+
+/// Which samples one tile holds.
+struct TileShape {
+  std::size_t rows = 0;    ///< of one patch
+  std::size_t strips = 0;  ///< tiles that one patch takes
+  std::size_t patches = 1; ///< in one tile, where one strip is all of a patch
+  std::size_t samples = 0; ///< the most
+};
+
+template <typename T>
+bool choose_shape(std::size_t nu, std::size_t nv, std::size_t patches, const TileFormat& format,
+                  TileShape& shape) noexcept {
+  const std::size_t bytes = 3 * vector_groups(format) * sizeof(T);
+  const std::size_t most = std::max<std::size_t>(
+      format.samples != 0 ? format.samples : second_level_cache() / 4 / bytes, 1);
+  shape.rows = std::clamp<std::size_t>(most / nu, 1, nv);
+  shape.strips = (nv + shape.rows - 1) / shape.rows;
+  shape.rows = (nv + shape.strips - 1) / shape.strips; // even strips
+  shape.strips = (nv + shape.rows - 1) / shape.rows;
+  shape.patches = shape.strips > 1 ? 1
+                                   : std::clamp<std::size_t>(most / (nu * nv), 1,
+                                                             std::max<std::size_t>(patches, 1));
+  return !__builtin_mul_overflow(shape.rows * nu, shape.patches, &shape.samples) &&
+         shape.samples <= static_cast<std::size_t>(-1) / 4 / bytes;
+}
+
+/// The places of one tile's samples.
+template <typename T>
+class TileMemory {
+public:
+  TileMemory(const TileFormat& format, std::size_t samples) noexcept
+      : format_(format), samples_(samples) {}
+
+  [[nodiscard]] std::size_t bytes() const noexcept {
+    const std::size_t groups = vector_groups(format_);
+    std::size_t bytes = format_.status ? to_line(samples_) : 0;
+    switch (format_.layout) {
+    case TileLayout::planes:
+      return bytes + 3 * groups * taken(samples_);
+    case TileLayout::xyz:
+      return bytes + groups * taken(3 * samples_);
+    default:
+      return bytes + taken(3 * groups * samples_);
+    }
+  }
+
+  [[nodiscard]] Outputs<T> place(unsigned char* memory) const noexcept {
+    Outputs<T> out;
+    const bool wanted[kGroups] = {format_.position, format_.du,  format_.dv,    format_.duu,
+                                  format_.duv,      format_.dvv, format_.normal};
+    Vectors<T>* const group[kGroups] = {&out.position, &out.du,  &out.dv,    &out.duu,
+                                        &out.duv,      &out.dvv, &out.normal};
+    const std::size_t members = 3 * vector_groups(format_);
+    std::size_t at = 0;
+    std::size_t member = 0;
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      if (!wanted[g]) {
+        continue;
+      }
+      if (format_.layout == TileLayout::planes) {
+        T* plane[3];
+        for (T*& p : plane) {
+          p = take(memory, at, samples_);
+        }
+        *group[g] = Vectors<T>::planes(plane[0], plane[1], plane[2]);
+      } else if (format_.layout == TileLayout::xyz) {
+        *group[g] = Vectors<T>::xyz(take(memory, at, 3 * samples_));
+      } else {
+        T* const vertices = reinterpret_cast<T*>(memory);
+        *group[g] = Vectors<T>::xyz(vertices + member, static_cast<std::ptrdiff_t>(members));
+        member += 3;
+      }
+    }
+    if (member > 0) {
+      take(memory, at, member * samples_);
+    }
+    if (format_.status) {
+      out.status = reinterpret_cast<SampleStatus*>(memory + at);
+    }
+    return out;
+  }
+
+private:
+  /// A line more than needed: planes of a round number of samples would compete for the same sets
+  /// of the cache.
+  static std::size_t taken(std::size_t values) noexcept { return to_line(values * sizeof(T)) + 64; }
+  static T* take(unsigned char* memory, std::size_t& at, std::size_t values) noexcept {
+    T* const place = reinterpret_cast<T*>(memory + at);
+    at += taken(values);
+    return place;
+  }
+
+  const TileFormat& format_;
+  std::size_t samples_;
+};
+
+/// One tiles call after its checks; worker() runs on every thread.
+template <typename T>
+struct TilesCall {
+  const GridKernels<T>& kernels;
+  std::size_t first_patch;
+  const GridPlan<T>& plan;
+  const TileFormat& format;
+  TileShape shape;
+  TileFunction<T> function;
+  std::size_t tile_bytes;
+  std::size_t staging_bytes;
+
+  /// Units [begin, end) of patch-major (patch, strip) pairs.
+  Isa worker(int number, std::size_t begin, std::size_t end,
+             unsigned char* scratch) const noexcept {
+    Tile<T> tile;
+    tile.nu = plan.nu();
+    tile.worker = number;
+    // A copy: the caller may change what it is given.
+    const Outputs<T> places = TileMemory<T>(format, shape.samples).place(scratch);
+    const OutputPlan<T> outputs(places, shape.samples, Destination::cache);
+    Delivery<T> delivery(outputs, *kernels.table, shape.samples, scratch + tile_bytes);
+    GridEvaluator<T> evaluator(kernels, shape.rows, scratch + tile_bytes + staging_bytes);
+    for (std::size_t unit = begin; unit < end;) {
+      const std::size_t patches = std::min(shape.patches, end - unit);
+      const std::size_t first_row = unit % shape.strips * shape.rows;
+      const GridPiece piece{first_patch + unit / shape.strips, patches, first_row,
+                            std::min(plan.nv(), first_row + shape.rows)};
+      tile.first_patch = piece.patch;
+      tile.patch_count = patches;
+      tile.first_row = first_row;
+      tile.row_count = piece.last_row - first_row;
+      tile.samples = patches * tile.row_count * tile.nu;
+      tile.out = places;
+      Planes<T> planes[kGroups];
+      delivery.begin(0, planes);
+      evaluator.run(plan, piece, planes, places.status, nullptr);
+      delivery.end(tile.samples);
+      delivery.finish();
+      function(tile);
+      unit += patches;
+    }
+    return evaluator.executed();
+  }
+};
+
+template <typename T>
+Status run_tiles(const GridKernels<T>& kernels, const GridRequest& request, const GridPlan<T>& plan,
+                 const TileFormat& format, const TileShape& shape, TileFunction<T> function,
+                 const Options& options) noexcept {
+  const std::size_t tile_bytes = to_line(TileMemory<T>(format, shape.samples).bytes());
+  const std::size_t staged = format.layout == TileLayout::planes ? 0 : 3 * vector_groups(format);
+  const std::size_t staging_bytes =
+      to_line(Delivery<T>::scratch_bytes(staged, false, shape.samples));
+  const TilesCall<T> call{kernels,  request.first_patch, plan,         format, shape,
+                          function, tile_bytes,          staging_bytes};
+  const std::size_t scratch =
+      tile_bytes + staging_bytes + GridEvaluator<T>::scratch_bytes(shape.rows);
+  return run_blocks(request.patches * shape.strips, options, scratch,
+                    [&](int worker, std::size_t begin, std::size_t end, unsigned char* own) {
+                      return call.worker(worker, begin, end, own);
+                    });
+}
+
+} // namespace
+} // namespace detail
+
+template <typename T>
+Status evaluate_tiles(const PatchSet<T>& set, const Grid<T>& grid, const TileFormat& format,
+                      std::type_identity_t<TileFunction<T>> function,
+                      const Options& options) noexcept {
+  detail::GridRequest request;
+  const Status resolved = detail::resolve_request(set.size(), options, request);
+  if (resolved != Status::ok) {
+    return resolved;
+  }
+  if (detail::vector_groups(format) == 0) {
+    return Status::null_output;
+  }
+  const detail::DefaultFpEnvironment environment;
+  detail::GridPlan<T> plan;
+  const Status planned = plan.build(grid);
+  if (planned != Status::ok || request.patches == 0) {
+    return planned;
+  }
+  detail::TileShape shape;
+  if (!detail::choose_shape<T>(grid.nu, grid.nv, request.patches, format, shape)) {
+    return Status::size_overflow;
+  }
+  const detail::WantedGroups wanted{
+      {format.position, format.du, format.dv, format.duu, format.duv, format.dvv, format.normal}};
+  const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa), wanted,
+                                       options.watertight);
+  return detail::run_tiles<T>(kernels, request, plan, format, shape, function, options);
+}
+
+template SIMDBEZIER_API Status evaluate_tiles(const PatchSet<float>&, const Grid<float>&,
+                                              const TileFormat&,
+                                              std::type_identity_t<TileFunction<float>>,
+                                              const Options&) noexcept;
+template SIMDBEZIER_API Status evaluate_tiles(const PatchSet<double>&, const Grid<double>&,
+                                              const TileFormat&,
+                                              std::type_identity_t<TileFunction<double>>,
+                                              const Options&) noexcept;
+
+} // namespace simdbezier
