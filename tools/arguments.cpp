@@ -69,18 +69,16 @@ PatchFormat parse_format(const std::string& option) {
 }
 
 std::vector<OutputGroup> parse_outputs(const std::string& option) {
-  constexpr std::array<std::string_view, kOutputGroups> kNames = {"position", "du", "dv", "normal"};
-  constexpr std::array<std::string_view, 3> kLaterNames = {"duu", "duv", "dvv"};
+  constexpr std::array<std::string_view, kOutputGroups> kNames = {"position", "du",  "dv",    "duu",
+                                                                  "duv",      "dvv", "normal"};
   std::vector<OutputGroup> groups;
   for (std::size_t first = 0; first <= option.size();) {
     const std::size_t comma = std::min(option.find(',', first), option.size());
     const std::string name = option.substr(first, comma - first);
     const auto* const found = std::ranges::find(kNames, name);
-    if (std::ranges::find(kLaterNames, name) != kLaterNames.end()) {
-      bad_usage("--outputs: " + name + " is not supported yet");
-    }
     if (found == kNames.end()) {
-      bad_usage("--outputs: expected position, du, dv, normal separated by commas, found " +
+      bad_usage("--outputs: expected position, du, dv, duu, duv, dvv, normal separated by commas, "
+                "found " +
                 in_quotes(option));
     }
     groups.push_back(static_cast<OutputGroup>(found - kNames.begin()));
@@ -168,7 +166,8 @@ CLI::App* add_evaluate(CLI::App& app, Words& words) {
       ->excludes("--grid");
   add_evaluation(*command, words);
   command->add_option("--outputs", words.outputs,
-                      "of position, du, dv, normal, separated by commas (default position)");
+                      "of position, du, dv, duu, duv, dvv, normal, separated by commas (default "
+                      "position)");
   return command;
 }
 

@@ -24,20 +24,7 @@ public:
     for (std::size_t k = 0; k < groups_.size(); ++k) {
       const auto columns =
           Vectors<T>::xyz(values_.data() + 3 * k, static_cast<std::ptrdiff_t>(stride()));
-      switch (groups_[k]) {
-      case OutputGroup::position:
-        out.position = columns;
-        break;
-      case OutputGroup::du:
-        out.du = columns;
-        break;
-      case OutputGroup::dv:
-        out.dv = columns;
-        break;
-      case OutputGroup::normal:
-        out.normal = columns;
-        break;
-      }
+      group_of(out, groups_[k]) = columns;
     }
     return out;
   }
@@ -46,6 +33,11 @@ public:
   }
 
 private:
+  static Vectors<T>& group_of(Outputs<T>& out, OutputGroup group) {
+    Vectors<T>* const members[kOutputGroups] = {&out.position, &out.du,  &out.dv,    &out.duu,
+                                                &out.duv,      &out.dvv, &out.normal};
+    return *members[static_cast<std::size_t>(group)];
+  }
   [[nodiscard]] std::size_t stride() const noexcept { return 3 * groups_.size(); }
 
   std::vector<OutputGroup> groups_;

@@ -10,8 +10,9 @@ namespace simdbezier::tools {
 namespace {
 
 constexpr std::size_t kLongestLine = 4096;
-constexpr std::array<std::string_view, kOutputGroups> kColumns = {",x,y,z", ",dux,duy,duz",
-                                                                  ",dvx,dvy,dvz", ",nx,ny,nz"};
+constexpr std::array<std::string_view, kOutputGroups> kColumns = {
+    ",x,y,z",          ",dux,duy,duz",    ",dvx,dvy,dvz", ",duux,duuy,duuz",
+    ",duvx,duvy,duvz", ",dvvx,dvvy,dvvz", ",nx,ny,nz"};
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kSpace = " \t\r";

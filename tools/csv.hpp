@@ -46,8 +46,8 @@ private:
 };
 
 /// Groups of three result columns, in the order in which they are written.
-enum class OutputGroup : std::uint8_t { position, du, dv, normal };
-inline constexpr std::size_t kOutputGroups = 4;
+enum class OutputGroup : std::uint8_t { position, du, dv, duu, duv, dvv, normal };
+inline constexpr std::size_t kOutputGroups = 7;
 
 /// Writes the header and one line per sample, numbers so that they read back to the same bits.
 class ResultWriter {

@@ -84,8 +84,8 @@ protected:
   void expect_certificates(const PackOptions& packing);
 
   static void expect_bounds(const std::string& family, const Measurement& measured) {
-    for (const Quantity quantity :
-         {Quantity::position, Quantity::du, Quantity::dv, Quantity::normal}) {
+    for (const Quantity quantity : {Quantity::position, Quantity::du, Quantity::dv, Quantity::duu,
+                                    Quantity::duv, Quantity::dvv, Quantity::normal}) {
       EXPECT_LE(measured[quantity].max_ratio, 1.0)
           << "G1, " << describe(family, quantity, measured[quantity]);
     }

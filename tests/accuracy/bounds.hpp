@@ -15,11 +15,23 @@ inline constexpr double kPositionBoundNoFma = 32; // formula: 30.81
 inline constexpr double kDerivativeBoundFma = 18;   // formula: 17.33
 inline constexpr double kDerivativeBoundNoFma = 26; // formula: 25.08
 
+/// |error of d2S/du2, d2S/dudv, d2S/dv2| <= D2 u max|second hodograph|, per component, the second
+/// hodograph being that of the hodograph: 6 (b[i+2] - 2 b[i+1] + b[i]), and 9 times the mixed
+/// differences. A second derivative reads only those coefficients that are linear in it (k >= 2,
+/// or k, l >= 1, or l >= 2), and its chain is the first derivative's with one synthetic division
+/// more and one step less, so it has the same formula. On an edge it is that of a net which does
+/// not change across the edge.
+inline constexpr double kSecondDerivativeBoundFma = 15;   // formula: 14.25
+inline constexpr double kSecondDerivativeBoundNoFma = 21; // formula: 20.00
+
 [[nodiscard]] constexpr double position_bound(bool fma) {
   return fma ? kPositionBoundFma : kPositionBoundNoFma;
 }
 [[nodiscard]] constexpr double derivative_bound(bool fma) {
   return fma ? kDerivativeBoundFma : kDerivativeBoundNoFma;
+}
+[[nodiscard]] constexpr double second_derivative_bound(bool fma) {
+  return fma ? kSecondDerivativeBoundFma : kSecondDerivativeBoundNoFma;
 }
 
 /// With a local origin O the bound is u|P| + K u max|b-O|; O lies in the hull of the control

@@ -30,17 +30,18 @@ struct Tracked {
   return {sum, inherited + std::abs(sum) + (fma ? 0 : std::abs(product))};
 }
 
-/// A polynomial's value and slope by Horner's rule and synthetic division.
+/// A polynomial's value, slope and half second derivative by Horner's rule and synthetic division.
 struct ValueSlope {
   Tracked value;
   Tracked slope;
+  Tracked half_second;
 };
 
 [[nodiscard]] ValueSlope horner(bool fma, const std::array<Tracked, 4>& a, double x) {
   const Tracked r2 = madd(fma, a[3], x, a[2]);
   const Tracked r1 = madd(fma, r2, x, a[1]);
   const Tracked s1 = madd(fma, a[3], x, r2);
-  return {madd(fma, r1, x, a[0]), madd(fma, s1, x, r1)};
+  return {madd(fma, r1, x, a[0]), madd(fma, s1, x, r1), madd(fma, a[3], x, s1)};
 }
 
 using Points = std::array<std::array<double, 4>, 4>; // [j][i]
@@ -54,6 +55,9 @@ struct Bounds {
   double position = 0;
   double inner = 0; ///< the derivative by the variable that Horner's rule takes first
   double outer = 0;
+  double duu = 0;
+  double duv = 0;
+  double dvv = 0;
 };
 
 /// The running-error bounds at one net and parameter; each coefficient is rounded once.
@@ -71,15 +75,20 @@ struct Bounds {
   }
   std::array<Tracked, 4> values;
   std::array<Tracked, 4> slopes;
+  std::array<Tracked, 4> half_seconds;
   for (std::size_t l = 0; l < 4; ++l) {
     const ValueSlope row = horner(
         fma, {coefficients[0][l], coefficients[1][l], coefficients[2][l], coefficients[3][l]}, x);
     values[l] = row.value;
     slopes[l] = row.slope;
+    half_seconds[l] = row.half_second;
   }
   const ValueSlope outer = horner(fma, values, y);
-  // dS/du = 2 dS/dx
-  return {outer.value.error, 2 * horner(fma, slopes, y).value.error, 2 * outer.slope.error};
+  const ValueSlope slope = horner(fma, slopes, y);
+  // dS/du = 2 dS/dx, d2S/du2 = 4 d2S/dx2
+  return {outer.value.error,     2 * slope.value.error,
+          2 * outer.slope.error, 8 * horner(fma, half_seconds, y).value.error,
+          4 * slope.slope.error, 8 * outer.half_second.error};
 }
 
 /// The net of all values 1 or -1 given by the bits.
@@ -97,6 +106,29 @@ struct Bounds {
   for (unsigned k = 0; k < 12; ++k) {
     const double step = (((bits >> k) & 1) != 0 ? -1 : 1) / 3.0;
     points[k / 3][k % 3 + 1] = points[k / 3][k % 3] + step;
+  }
+  return points;
+}
+
+/// A net whose second hodograph in u has the values 1 or -1 given by 8 bits.
+[[nodiscard]] Points integrated_twice(unsigned bits) {
+  Points points{};
+  for (unsigned k = 0; k < 8; ++k) {
+    auto& row = points[k / 2];
+    const double bend = (((bits >> k) & 1) != 0 ? -1 : 1) / 6.0;
+    row[k % 2 + 2] = 2 * row[k % 2 + 1] - row[k % 2] + bend;
+  }
+  return points;
+}
+
+/// A net whose mixed hodograph has the values 1 or -1 given by 9 bits.
+[[nodiscard]] Points integrated_in_both(unsigned bits) {
+  Points points{};
+  for (unsigned k = 0; k < 9; ++k) {
+    const std::size_t j = k / 3;
+    const std::size_t i = k % 3;
+    const double twist = (((bits >> k) & 1) != 0 ? -1 : 1) / 9.0;
+    points[j + 1][i + 1] = points[j + 1][i] + points[j][i + 1] - points[j][i] + twist;
   }
   return points;
 }
@@ -126,6 +158,13 @@ constexpr double kGrid[] = {0, 0.5, 0.75, 0.9, 1};
         largest.inner = std::max(largest.inner, running_errors(fma, net, x, y).inner);
         largest.outer = std::max(largest.outer, running_errors(fma, transposed(net), x, y).outer);
       }
+      for (unsigned bits = 0; bits < 0x100; ++bits) {
+        const Points net = integrated_twice(bits);
+        const Points twisted = integrated_in_both(bits); // bit 8 clear: up to the sign
+        largest.duu = std::max(largest.duu, running_errors(fma, net, x, y).duu);
+        largest.duv = std::max(largest.duv, running_errors(fma, twisted, x, y).duv);
+        largest.dvv = std::max(largest.dvv, running_errors(fma, transposed(net), x, y).dvv);
+      }
     }
   }
   return largest;
@@ -147,8 +186,13 @@ TEST_P(BoundTest, CoversTheRunningError) {
   const double derivative = std::max(found.inner, found.outer);
   EXPECT_LE(derivative, derivative_bound(fma));
   EXPECT_GT(derivative, derivative_bound(fma) - 2);
-  std::printf("%s: position %.2f, inner derivative %.2f, outer derivative %.2f\n", GetParam().name,
-              found.position, found.inner, found.outer);
+  const double second = std::max({found.duu, found.duv, found.dvv});
+  EXPECT_LE(second, second_derivative_bound(fma));
+  EXPECT_GT(second, second_derivative_bound(fma) - 2);
+  std::printf("%s: position %.2f, inner derivative %.2f, outer derivative %.2f, duu %.2f, "
+              "duv %.2f, dvv %.2f\n",
+              GetParam().name, found.position, found.inner, found.outer, found.duu, found.duv,
+              found.dvv);
 }
 
 INSTANTIATE_TEST_SUITE_P(Classes, BoundTest,

@@ -24,6 +24,9 @@ struct Result {
   T position[3];
   T du[3];
   T dv[3];
+  T duu[3];
+  T duv[3];
+  T dvv[3];
   T normal[3];
   SampleStatus status;
 };
@@ -40,6 +43,7 @@ struct Capabilities {
   bool position = true;
   bool tangents = true;
   bool normal = true;
+  bool second_derivatives = false;
 };
 
 /// Whose bits and bounds an evaluator shares.

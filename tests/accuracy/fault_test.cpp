@@ -61,6 +61,9 @@ protected:
           different += same_bits(planes.at(0, c, at), sample.position) ? 0 : 1;
           different += same_bits(planes.at(1, c, at), sample.du) ? 0 : 1;
           different += same_bits(planes.at(2, c, at), sample.dv) ? 0 : 1;
+          different += same_bits(planes.at(4, c, at), sample.duu) ? 0 : 1;
+          different += same_bits(planes.at(5, c, at), sample.duv) ? 0 : 1;
+          different += same_bits(planes.at(6, c, at), sample.dvv) ? 0 : 1;
         }
       }
     }
@@ -72,7 +75,7 @@ protected:
     const std::vector<Net> nets = mixed_nets(40);
     for (const int n : {9, 16, 21}) {
       const auto count = static_cast<std::size_t>(n);
-      Planes<T> planes(nets.size() * count * count);
+      Planes<T> planes(nets.size() * count * count, {.second = true});
       grid(packed<T>(nets), Grid<T>::uniform(count, count), planes.outputs());
       const std::size_t different = fuses_multiply_add(isa())
                                         ? differing<T, true>(nets, planes, n, fault)

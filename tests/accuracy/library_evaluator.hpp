@@ -19,6 +19,7 @@ public:
   [[nodiscard]] ResultClass result_class() const override {
     return fuses_multiply_add(isa_) ? ResultClass::fma : ResultClass::nofma;
   }
+  [[nodiscard]] Capabilities capabilities() const override { return {.second_derivatives = true}; }
   [[nodiscard]] bool reads_centred() const override { return true; }
   [[nodiscard]] std::string variant() const override {
     return packing_.local_origin ? "+origin" : "";
@@ -39,7 +40,7 @@ public:
   void evaluate(const Net& net, std::span<const Parameters2<T>> at, int grid,
                 std::span<Result<T>> results) override {
     const PatchSet<T> set = packed<T>(std::span(&net, 1), packing_);
-    Planes<T> planes(at.size());
+    Planes<T> planes(at.size(), {.second = true});
     const Options options{.threads = 1, .isa = isa_, .executed = &executed_};
     const Status status =
         grid > 0 ? run_grid(set, grid, planes, options) : run_scattered(set, at, planes, options);
@@ -53,6 +54,9 @@ public:
         results[k].du[c] = planes.at(1, c, k);
         results[k].dv[c] = planes.at(2, c, k);
         results[k].normal[c] = planes.at(3, c, k);
+        results[k].duu[c] = planes.at(4, c, k);
+        results[k].duv[c] = planes.at(5, c, k);
+        results[k].dvv[c] = planes.at(6, c, k);
       }
       results[k].status = planes.status()[k];
     }

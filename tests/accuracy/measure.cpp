@@ -23,12 +23,18 @@ struct NetScales {
   Vector3 position;
   Vector3 du;
   Vector3 dv;
+  Vector3 duu;
+  Vector3 duv;
+  Vector3 dvv;
 };
 
 [[nodiscard]] NetScales scales_of(const Net& net) {
   return {{largest_coordinate(net, 0), largest_coordinate(net, 1), largest_coordinate(net, 2)},
           largest_hodographs_u(net),
-          largest_hodographs_v(net)};
+          largest_hodographs_v(net),
+          largest_hodographs(net, {2, 0}),
+          largest_hodographs(net, {1, 1}),
+          largest_hodographs(net, {0, 2})};
 }
 
 [[nodiscard]] Vector3 condition_of(const Net& net, OracleParameter u, OracleParameter v) {
@@ -76,6 +82,12 @@ public:
       add_vector(Quantity::du, result.du, truth.sample.du, scales.du, derivative_bound(fma_));
       add_vector(Quantity::dv, result.dv, truth.sample.dv, scales.dv, derivative_bound(fma_));
     }
+    if (gives.second_derivatives) {
+      const double bound = second_derivative_bound(fma_);
+      add_vector(Quantity::duu, result.duu, truth.sample.duu, scales.duu, bound);
+      add_vector(Quantity::duv, result.duv, truth.sample.duv, scales.duv, bound);
+      add_vector(Quantity::dvv, result.dvv, truth.sample.dvv, scales.dvv, bound);
+    }
     if (gives.normal) {
       add_normal(truth, result);
     }
@@ -115,15 +127,29 @@ private:
       const double units = relative(error, kUnitRoundoff<T> * own_scale);
       where_.component = static_cast<int>(c);
       metric.add(units, units / bound, where_);
-      if (certificate_) {
-        const double* own = quantity == Quantity::position ? certificate_->position
-                            : quantity == Quantity::du     ? certificate_->du
-                                                           : certificate_->dv;
+      if (const double* const own = certified(quantity)) {
         metric.max_certificate_ratio =
             std::max(metric.max_certificate_ratio, relative(error, own[c]));
       }
       metric.hash.add(value[c]);
       measurement_.nan_values += std::isnan(value[c]) ? 1 : 0;
+    }
+  }
+
+  /// The evaluator's own bounds, or null where it gives none.
+  [[nodiscard]] const double* certified(Quantity quantity) const {
+    if (!certificate_) {
+      return nullptr;
+    }
+    switch (quantity) {
+    case Quantity::position:
+      return certificate_->position;
+    case Quantity::du:
+      return certificate_->du;
+    case Quantity::dv:
+      return certificate_->dv;
+    default:
+      return nullptr;
     }
   }
 

@@ -20,13 +20,16 @@ enum class Quantity : std::uint8_t {
   position,     ///< P: error / (u max|b|)
   du,           ///< Du: error / (u max|hodograph|)
   dv,           ///< Dv
+  duu,          ///< Duu: error / (u max|second hodograph|)
+  duv,          ///< Duv
+  dvv,          ///< Dvv
   normal,       ///< N: |n - true n| / u where the surface has a normal
   normal_kappa, ///< Nk: the same divided by its conditioning kappa
   limit         ///< L: angle to the limit in degrees where du x dv vanishes
 };
-inline constexpr std::size_t kQuantities = 6;
-inline constexpr std::array<const char*, kQuantities> kQuantityNames{"P", "Du", "Dv",
-                                                                     "N", "Nk", "L"};
+inline constexpr std::size_t kQuantities = 9;
+inline constexpr std::array<const char*, kQuantities> kQuantityNames{
+    "P", "Du", "Dv", "Duu", "Duv", "Dvv", "N", "Nk", "L"};
 
 /// Where a maximum was found.
 struct Worst {

@@ -32,6 +32,9 @@ public:
     T position;
     T du;
     T dv;
+    T duu;
+    T duv;
+    T dvv;
   };
 
   Model(const Net& net, std::size_t component, Fault fault) : fault_(fault) {
@@ -55,10 +58,12 @@ public:
   [[nodiscard]] Sample evaluate(T x, T y) const {
     std::array<T, 4> along_y;
     std::array<T, 4> slope_x;
+    std::array<T, 4> half_second_x;
     for (std::size_t l = 0; l < 4; ++l) {
       const ValueSlope row = horner({inner_[0][l], inner_[1][l], inner_[2][l], inner_[3][l]}, x);
       along_y[l] = row.value;
       slope_x[l] = row.slope;
+      half_second_x[l] = row.half_second;
     }
     const bool on_u = x == -1 || x == 1;
     const bool on_v = y == -1 || y == 1;
@@ -66,11 +71,15 @@ public:
       along_y = edges_[x < 0 ? 2 : 3];
     }
     const ValueSlope outer = horner(along_y, y);
-    Sample sample{outer.value, 2 * horner(slope_x, y).value, 2 * outer.slope};
+    const ValueSlope slope = horner(slope_x, y);
+    Sample sample{outer.value,     2 * slope.value,
+                  2 * outer.slope, 8 * horner(half_second_x, y).value,
+                  4 * slope.slope, 8 * outer.half_second};
     if (on_v) {
       const ValueSlope edge = horner(edges_[y < 0 ? 0 : 1], x);
       sample.position = edge.value;
       sample.du = 2 * edge.slope;
+      sample.duu = 8 * edge.half_second;
     }
     if (on_u && on_v && fault_ != Fault::no_corner_store) {
       sample.position = corners_[(y < 0 ? 0u : 2u) + (x < 0 ? 0u : 1u)];
@@ -82,6 +91,7 @@ private:
   struct ValueSlope {
     T value;
     T slope;
+    T half_second;
   };
 
   [[nodiscard]] static T madd(T a, T x, T c) {
@@ -103,7 +113,8 @@ private:
   [[nodiscard]] ValueSlope horner(const std::array<T, 4>& a, T x) const {
     const T r2 = madd(a[3], x, a[2]);
     const T r1 = madd(r2, x, a[1]);
-    return {last(r1, x, a[0]), madd(madd(a[3], x, r2), x, r1)};
+    const T s1 = madd(a[3], x, r2);
+    return {last(r1, x, a[0]), madd(s1, x, r1), madd(a[3], x, s1)};
   }
 
   [[nodiscard]] static T to_type(double value) { return static_cast<T>(value); }

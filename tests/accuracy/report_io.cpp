@@ -85,9 +85,10 @@ void write_text(const std::string& text, const std::string& path) {
 } // namespace
 
 void print_table(const Report& report) {
-  std::printf("max/RMS errors. P: u max|b|, Du Dv: u max|hodograph|, N: u, Nk: u kappa, L: degrees "
-              "to the limit\n%-28s %-24s",
-              "family", "evaluator");
+  std::printf(
+      "max/RMS errors. P: u max|b|, Du to Dvv: u max|hodograph|, N: u, Nk: u kappa, L: degrees "
+      "to the limit\n%-28s %-24s",
+      "family", "evaluator");
   for (const char* quantity : kQuantityNames) {
     std::printf(" %16s", quantity);
   }

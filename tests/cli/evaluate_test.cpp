@@ -21,6 +21,8 @@ std::string evaluate(std::vector<std::string> arguments, const std::string& inpu
   return outcome.out;
 }
 
+constexpr const char* kEverything = "position,du,dv,duu,duv,dvv,normal";
+
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 std::vector<std::string> fields(const std::string& line) {
@@ -67,9 +69,12 @@ TEST(Evaluate, WritesColumnsInTheirOrderWhateverTheOrderAskedFor) {
       {"dv,du", ",dux,duy,duz,dvx,dvy,dvz"},
       {"normal,position", ",x,y,z,nx,ny,nz"},
       {"normal,dv,position,du", ",x,y,z,dux,duy,duz,dvx,dvy,dvz,nx,ny,nz"},
-      {"du,du", ",dux,duy,duz"}};
-  const ParsedCsv all =
-      parse_csv(evaluate({"builtin:teapot", "--outputs", "position,du,dv,normal"}));
+      {"du,du", ",dux,duy,duz"},
+      {"duv", ",duvx,duvy,duvz"},
+      {"dvv,duu,dvv", ",duux,duuy,duuz,dvvx,dvvy,dvvz"},
+      {"normal,dvv,duv,duu,dv,du,position",
+       ",x,y,z,dux,duy,duz,dvx,dvy,dvz,duux,duuy,duuz,duvx,duvy,duvz,dvvx,dvvy,dvvz,nx,ny,nz"}};
+  const ParsedCsv all = parse_csv(evaluate({"builtin:teapot", "--outputs", kEverything}));
   const std::vector<std::string> names = fields(all.header);
   for (const auto& [outputs, columns] : cases) {
     const ParsedCsv csv = parse_csv(evaluate({"builtin:teapot", "--outputs", outputs}));
@@ -100,13 +105,29 @@ TEST(Evaluate, GivesValuesOfAKnownSurface) {
   }
 }
 
+// S = (u + u^2 v, v + u v^2, u^2 + 3 u v - v^2 / 2): every second derivative is another one.
+TEST(Evaluate, GivesSecondDerivativesOfAKnownSurface) {
+  const TemporaryFolder folder;
+  const std::vector<Net> nets = {quadratic_net()};
+  const std::string in = folder.write("in.bez", bez_text(nets));
+  const ParsedCsv csv =
+      parse_csv(evaluate({in, "--grid", "5x4", "--outputs", "duu,duv,dvv", "--precision", "f64"}));
+  ASSERT_EQ(csv.rows.size(), 20U);
+  for (const auto& row : csv.rows) {
+    const double u = row[1];
+    const double v = row[2];
+    const std::vector<double> expected = {2 * v, 0, 2, 2 * u, 2 * v, 3, 0, 2 * u, -1};
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      EXPECT_NEAR(row[3 + k], expected[k], 1e-13) << "column " << k << " at " << u << ", " << v;
+    }
+  }
+}
+
 TEST(Evaluate, GridFedBackGivesTheSameBits) {
   for (const char* const grid : {"16", "7x5", "33x2", "100"}) {
-    const std::string csv =
-        evaluate({"builtin:teapot", "--grid", grid, "--outputs", "position,du,dv,normal"});
+    const std::string csv = evaluate({"builtin:teapot", "--grid", grid, "--outputs", kEverything});
     const std::string again =
-        evaluate({"builtin:teapot", "--samples", "-", "--outputs", "position,du,dv,normal"},
-                 samples_of(csv));
+        evaluate({"builtin:teapot", "--samples", "-", "--outputs", kEverything}, samples_of(csv));
     EXPECT_TRUE(csv == again) << grid;
   }
 }

@@ -21,6 +21,22 @@ namespace simdbezier::tests {
   return net;
 }
 
+/// S(u,v) = (u + u^2 v, v + u v^2, u^2 + 3 u v - v^2 / 2); as cubics, u has the control values i/3
+/// and u^2 has 0, 0, 1/3, 1.
+[[nodiscard]] inline Net quadratic_net() {
+  constexpr double kSquare[] = {0, 0, 1 / 3.0, 1};
+  Net net;
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      const double u = i / 3.0;
+      const double v = j / 3.0;
+      net.at(j, i) = {u + kSquare[i] * v, v + u * kSquare[j],
+                      kSquare[i] + 3 * u * v - kSquare[j] / 2};
+    }
+  }
+  return net;
+}
+
 /// Different control points for every number.
 [[nodiscard]] inline Net distinct_net(int number) {
   Net net;

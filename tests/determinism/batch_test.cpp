@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kPatches = 70;
 constexpr int kThreadCounts[] = {1, 2, 7};
+constexpr Wanted kEverything{.second = true};
 // W-1, W, W+1 for all lane counts (2, 4, 8, 16), and more than any block.
 constexpr std::size_t kBatchSizes[] = {1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 32, 33, 1000};
 
@@ -21,19 +22,19 @@ protected:
     const std::vector<Net> nets = mixed_nets(kPatches);
     const PatchSet<T> set = packed<T>(nets);
     const SampleArrays<T> samples = random_samples<T>(kPatches, 20'000);
-    Planes<T> scattered_reference(samples.patch.size());
+    Planes<T> scattered_reference(samples.patch.size(), kEverything);
     scattered(set, samples.view(Parameters::centred), scattered_reference.outputs(),
               {.threads = 1});
     for (const int threads : kThreadCounts) {
-      Planes<T> planes(samples.patch.size());
+      Planes<T> planes(samples.patch.size(), kEverything);
       scattered(set, samples.view(Parameters::centred), planes.outputs(), {.threads = threads});
       EXPECT_EQ(differing_values(planes, scattered_reference), 0u) << threads << " threads";
     }
     for (const auto& [nu, nv] : kWorkGrids) {
-      Planes<T> reference(kPatches * nu * nv);
+      Planes<T> reference(kPatches * nu * nv, kEverything);
       grid(set, Grid<T>::uniform(nu, nv), reference.outputs(), {.threads = 1});
       for (const int threads : kThreadCounts) {
-        Planes<T> planes(kPatches * nu * nv);
+        Planes<T> planes(kPatches * nu * nv, kEverything);
         grid(set, Grid<T>::uniform(nu, nv), planes.outputs(), {.threads = threads});
         EXPECT_EQ(differing_values(planes, reference), 0u)
             << threads << " threads, grid " << nu << " x " << nv;
@@ -45,7 +46,7 @@ protected:
   template <typename T>
   [[nodiscard]] Planes<T> in_pieces(std::span<const Net> nets, std::size_t size, std::size_t nu,
                                     std::size_t nv) {
-    Planes<T> planes(nets.size() * nu * nv);
+    Planes<T> planes(nets.size() * nu * nv, kEverything);
     for (std::size_t first = 0; first < nets.size(); first += size) {
       const auto piece = nets.subspan(first, std::min(size, nets.size() - first));
       grid(packed<T>(piece), Grid<T>::uniform(nu, nv), advanced(planes.outputs(), first * nu * nv),
@@ -72,7 +73,7 @@ protected:
     const PatchSet<T> set = packed<T>(nets);
     const SampleArrays<T> samples = random_samples<T>(kPatches, 3000);
     const auto in_steps = [&](std::size_t size) {
-      Planes<T> planes(samples.patch.size());
+      Planes<T> planes(samples.patch.size(), kEverything);
       for (std::size_t first = 0; first < planes.count(); first += size) {
         scattered(set, part_of(samples, first, std::min(size, planes.count() - first)),
                   advanced(planes.outputs(), first), {.threads = 1});
@@ -92,9 +93,9 @@ protected:
     const PatchSet<T> set = packed<T>(nets);
     for (const auto& [nu, nv] : kWorkGrids) {
       const std::size_t samples = nu * nv;
-      Planes<T> reference(kPatches * samples);
+      Planes<T> reference(kPatches * samples, kEverything);
       grid(set, Grid<T>::uniform(nu, nv), reference.outputs(), {.threads = 1});
-      Planes<T> planes(kPatches * samples);
+      Planes<T> planes(kPatches * samples, kEverything);
       for (std::size_t first = 0, count = 1; first < kPatches; first += count++) {
         const std::size_t length = std::min(count, kPatches - first);
         grid(set, Grid<T>::uniform(nu, nv), advanced(planes.outputs(), first * samples),

@@ -7,6 +7,7 @@
 // With --isa the lines of single instruction sets are printed as well.
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <map>
 #include <string>
 
@@ -18,10 +19,10 @@ namespace {
 constexpr std::size_t kPatches = 64;
 
 template <typename T>
-[[nodiscard]] std::uint64_t grid_hash(const PatchSet<T>& set, Isa isa) {
+[[nodiscard]] std::uint64_t grid_hash(const PatchSet<T>& set, Isa isa, bool second = false) {
   Fnv1a hash;
   for (const auto& [nu, nv] : kWorkGrids) {
-    Planes<T> planes(kPatches * nu * nv);
+    Planes<T> planes(kPatches * nu * nv, {.second = second});
     const Status status =
         evaluate_grid(set, Grid<T>::uniform(nu, nv), planes.outputs(), {.threads = 2, .isa = isa});
     hash.add(static_cast<int>(status));
@@ -31,12 +32,68 @@ template <typename T>
 }
 
 template <typename T>
-[[nodiscard]] std::uint64_t scattered_hash(const PatchSet<T>& set, Isa isa) {
+[[nodiscard]] std::uint64_t scattered_hash(const PatchSet<T>& set, Isa isa, bool second = false) {
   const SampleArrays<T> samples = random_samples<T>(kPatches, 20'000);
-  Planes<T> planes(samples.patch.size());
+  Planes<T> planes(samples.patch.size(), {.second = second});
   const Status status = evaluate_scattered(set, samples.view(Parameters::centred), planes.outputs(),
                                            {.threads = 2, .isa = isa});
   return status == Status::ok ? planes.hash() : 0;
+}
+
+/// All members of a vertex, streamed.
+template <typename T>
+[[nodiscard]] std::uint64_t vertices_hash(const PatchSet<T>& set, Isa isa) {
+  constexpr std::size_t n = 17;
+  std::vector<T> vertices(21 * kPatches * n * n);
+  Outputs<T> out;
+  Vectors<T>* const members[] = {&out.position, &out.du,  &out.dv,    &out.duu,
+                                 &out.duv,      &out.dvv, &out.normal};
+  for (std::size_t g = 0; g < std::size(members); ++g) {
+    *members[g] = Vectors<T>::xyz(vertices.data() + 3 * g, 21);
+  }
+  Fnv1a hash;
+  hash.add(static_cast<int>(
+      evaluate_grid(set, Grid<T>::uniform(n, n), out,
+                    {.threads = 2, .isa = isa, .destination = Destination::memory})));
+  hash.add_all(std::span<const T>(vertices));
+  return hash.value();
+}
+
+template <typename T>
+[[nodiscard]] std::uint64_t patch_grids_hash(const PatchSet<T>& set, Isa isa) {
+  std::vector<std::uint32_t> nu;
+  std::vector<std::uint32_t> nv;
+  std::size_t samples = 0;
+  for (std::uint32_t k = 0; k < kPatches; ++k) {
+    nu.push_back(2 + k % 33);
+    nv.push_back(2 + k % 7);
+    samples += std::size_t{nu.back()} * nv.back();
+  }
+  Planes<T> planes(samples, {.second = true});
+  const Status status = evaluate_patch_grids(set, {nu.data(), nv.data(), nullptr}, planes.outputs(),
+                                             {.threads = 2, .isa = isa});
+  return status == Status::ok ? planes.hash() : 0;
+}
+
+/// On one thread tiles come in order.
+template <typename T>
+[[nodiscard]] std::uint64_t tiles_hash(const PatchSet<T>& set, Isa isa) {
+  Fnv1a hash;
+  const auto add = [&](const Tile<T>& tile) {
+    for (const Vectors<T>* const group : {&tile.out.position, &tile.out.duv, &tile.out.normal}) {
+      for (std::size_t k = 0; k < tile.samples; ++k) {
+        const auto at = static_cast<std::ptrdiff_t>(k) * group->stride;
+        hash.add(group->x[at]), hash.add(group->y[at]), hash.add(group->z[at]);
+      }
+    }
+  };
+  TileFormat format;
+  format.duv = format.normal = true;
+  format.layout = TileLayout::interleaved;
+  format.samples = 1000;
+  hash.add(static_cast<int>(
+      evaluate_tiles(set, Grid<T>::uniform(17, 9), format, add, {.threads = 1, .isa = isa})));
+  return hash.value();
 }
 
 /// Keeps the first hash of a key; false where a later one differs.
@@ -81,6 +138,11 @@ void run(const char* type, Report& report) {
   for (const Isa isa : available_isas()) {
     report.add(isa, std::string(type) + " grid", grid_hash(set, isa));
     report.add(isa, std::string(type) + " scattered", scattered_hash(set, isa));
+    report.add(isa, std::string(type) + " grid_second", grid_hash(set, isa, true));
+    report.add(isa, std::string(type) + " scattered_second", scattered_hash(set, isa, true));
+    report.add(isa, std::string(type) + " vertices", vertices_hash(set, isa));
+    report.add(isa, std::string(type) + " patch_grids", patch_grids_hash(set, isa));
+    report.add(isa, std::string(type) + " tiles", tiles_hash(set, isa));
     report.add(isa, std::string(type) + " grid_local_origin", grid_hash(local, isa));
     report.add(isa, std::string(type) + " scattered_local_origin", scattered_hash(local, isa));
   }

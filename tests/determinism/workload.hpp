@@ -49,6 +49,9 @@ template <typename T>
   move(out.position);
   move(out.du);
   move(out.dv);
+  move(out.duu);
+  move(out.duv);
+  move(out.dvv);
   move(out.normal);
   out.status = out.status != nullptr ? out.status + count : nullptr;
   return out;

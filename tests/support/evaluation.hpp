@@ -36,14 +36,17 @@ struct Wanted {
   bool tangents = true;
   bool normal = true;
   bool status = true;
+  bool second = false; ///< duu, duv, dvv
 };
 
-/// Twelve planes and the status plane, prefilled with a value no result has.
+/// Twelve planes (21 with second derivatives) and the status plane, prefilled with a value no
+/// result has.
 template <typename T>
 class Planes {
 public:
   explicit Planes(std::size_t count, Wanted wanted = {})
-      : count_(count), wanted_(wanted), values_(12 * count, static_cast<T>(-777)),
+      : count_(count), wanted_(wanted),
+        values_((wanted.second ? 21 : 12) * count, static_cast<T>(-777)),
         status_(count, static_cast<SampleStatus>(77)) {}
 
   [[nodiscard]] Outputs<T> outputs() {
@@ -58,6 +61,11 @@ public:
     if (wanted_.normal) {
       out.normal = group(3);
     }
+    if (wanted_.second) {
+      out.duu = group(4);
+      out.duv = group(5);
+      out.dvv = group(6);
+    }
     out.status = wanted_.status ? status_.data() : nullptr;
     return out;
   }
@@ -67,9 +75,12 @@ public:
   [[nodiscard]] const std::vector<T>& values() const { return values_; }
   [[nodiscard]] const std::vector<SampleStatus>& status() const { return status_; }
 
-  /// Groups: 0 position, 1 du, 2 dv, 3 normal.
+  /// Groups: 0 position, 1 du, 2 dv, 3 normal; where they were asked for 4 duu, 5 duv, 6 dvv.
   [[nodiscard]] T at(std::size_t group, std::size_t component, std::size_t k) const {
     return values_[(3 * group + component) * count_ + k];
+  }
+  [[nodiscard]] const T* plane(std::size_t group, std::size_t component) const {
+    return values_.data() + (3 * group + component) * count_;
   }
   [[nodiscard]] std::array<T, 3> vector(std::size_t group, std::size_t k) const {
     return {at(group, 0, k), at(group, 1, k), at(group, 2, k)};
@@ -79,8 +90,8 @@ public:
   [[nodiscard]] std::uint64_t hash() const {
     Fnv1a hash;
     for (std::size_t k = 0; k < count_; ++k) {
-      for (std::size_t plane = 0; plane < 12; ++plane) {
-        hash.add(values_[plane * count_ + k]);
+      for (std::size_t at = k; at < values_.size(); at += count_) {
+        hash.add(values_[at]);
       }
       hash.add(static_cast<unsigned char>(status_[k]));
     }

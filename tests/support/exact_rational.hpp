@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,26 +28,39 @@ struct ExactSample {
   Vector3q position;
   Vector3q du;
   Vector3q dv;
+  Vector3q duu;
   Vector3q duv;
+  Vector3q dvv;
 };
 
-/// Value and derivative of a curve whose control values are given, by de Casteljau's algorithm.
-[[nodiscard]] inline std::pair<Rational, Rational> exact_curve(std::vector<Rational> values,
-                                                               const Rational& t) {
+/// A curve at one parameter.
+struct ExactCurve {
+  Rational value;
+  Rational first = 0;
+  Rational second = 0;
+};
+
+/// The curve whose control values are given, by de Casteljau's algorithm.
+[[nodiscard]] inline ExactCurve exact_curve(std::vector<Rational> values, const Rational& t) {
   const std::size_t degree = values.size() - 1;
-  Rational derivative = 0;
+  ExactCurve result;
   for (std::size_t level = degree; level >= 1; --level) {
+    if (level == 2) {
+      result.second = Rational(static_cast<unsigned long>(degree * (degree - 1))) *
+                      ((values[2] - values[1]) - (values[1] - values[0]));
+    }
     if (level == 1) {
-      derivative = Rational(static_cast<unsigned long>(degree)) * (values[1] - values[0]);
+      result.first = Rational(static_cast<unsigned long>(degree)) * (values[1] - values[0]);
     }
     for (std::size_t i = 0; i < level; ++i) {
       values[i] += t * (values[i + 1] - values[i]);
     }
   }
-  return {values[0], derivative};
+  result.value = values[0];
+  return result;
 }
 
-/// Position, tangents and twist at centred parameters.
+/// Position and all derivatives up to the second at centred parameters.
 [[nodiscard]] inline ExactSample exact_sample(const Net& net, double x, double y) {
   const Rational u = (1 + exact(x)) / 2;
   const Rational v = (1 + exact(y)) / 2;
@@ -56,17 +68,25 @@ struct ExactSample {
   for (std::size_t c = 0; c < 3; ++c) {
     std::vector<Rational> values;
     std::vector<Rational> slopes;
+    std::vector<Rational> seconds;
     for (int j = 0; j <= net.degree_v; ++j) {
       std::vector<Rational> row;
       for (int i = 0; i <= net.degree_u; ++i) {
         row.push_back(exact(net.at(j, i)[c]));
       }
-      auto [value, slope] = exact_curve(std::move(row), u);
-      values.push_back(std::move(value));
-      slopes.push_back(std::move(slope));
+      const ExactCurve along_u = exact_curve(std::move(row), u);
+      values.push_back(along_u.value);
+      slopes.push_back(along_u.first);
+      seconds.push_back(along_u.second);
     }
-    std::tie(result.position[c], result.dv[c]) = exact_curve(std::move(values), v);
-    std::tie(result.du[c], result.duv[c]) = exact_curve(std::move(slopes), v);
+    const ExactCurve along_v = exact_curve(std::move(values), v);
+    result.position[c] = along_v.value;
+    result.dv[c] = along_v.first;
+    result.dvv[c] = along_v.second;
+    const ExactCurve slope = exact_curve(std::move(slopes), v);
+    result.du[c] = slope.value;
+    result.duv[c] = slope.first;
+    result.duu[c] = exact_curve(std::move(seconds), v).value;
   }
   return result;
 }

@@ -14,9 +14,9 @@
 
 namespace simdbezier::tests {
 
-/// Evaluate calls go through grid() and scattered(), which force the instruction set under test
-/// and check the name that the kernel itself wrote. A body that made no such call fails: it would
-/// pass on an instruction set it never ran on.
+/// Evaluate calls go through grid(), scattered() and so on, which force the instruction set under
+/// test and check the name that the kernel itself wrote. A body that made no such call fails: it
+/// would pass on an instruction set it never ran on.
 class IsaTest : public ::testing::TestWithParam<Isa> {
 protected:
   [[nodiscard]] static Isa isa() { return GetParam(); }
@@ -38,6 +38,26 @@ protected:
     options.isa = isa();
     options.executed = &executed;
     const Status status = evaluate_scattered(set, samples, out, options);
+    expect_ran(status, executed);
+  }
+
+  template <typename T>
+  void tiles(const PatchSet<T>& set, const Grid<T>& samples, const TileFormat& format,
+             TileFunction<T> function, Options options = {}) {
+    Isa executed = Isa::automatic;
+    options.isa = isa();
+    options.executed = &executed;
+    const Status status = evaluate_tiles(set, samples, format, function, options);
+    expect_ran(status, executed);
+  }
+
+  template <typename T>
+  void patch_grids(const PatchSet<T>& set, const PatchGrids& grids, const Outputs<T>& out,
+                   Options options = {}) {
+    Isa executed = Isa::automatic;
+    options.isa = isa();
+    options.executed = &executed;
+    const Status status = evaluate_patch_grids(set, grids, out, options);
     expect_ran(status, executed);
   }
 

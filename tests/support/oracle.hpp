@@ -33,7 +33,9 @@ struct OracleSample {
   Vector3dd position;
   Vector3dd du;
   Vector3dd dv;
+  Vector3dd duu;
   Vector3dd duv;
+  Vector3dd dvv;
 };
 
 struct OracleNormal {
@@ -59,26 +61,51 @@ struct OracleNormal {
   return weights;
 }
 
-/// The order of differentiation in each direction, 0 or 1.
+/// The order of differentiation in each direction.
 struct Derivative {
   int u = 0;
   int v = 0;
 };
 
-/// A control value of the hodograph: differences in u and/or v, exact up to 2^-106.
+/// A control value of the hodograph of that order: differences of control points times falling
+/// factorials of the degrees. Single differences are exact, further ones up to 2^-106.
 [[nodiscard]] inline DoubleDouble hodograph_value(const Net& net, int j, int i, std::size_t c,
                                                   Derivative order) {
-  const auto difference_u = [&](int row) {
-    return order.u == 0 ? DoubleDouble(net.at(row, i)[c])
-                        : two_sum(net.at(row, i + 1)[c], -net.at(row, i)[c]) *
-                              static_cast<double>(net.degree_u);
-  };
-  return order.v == 0 ? difference_u(j)
-                      : (difference_u(j + 1) - difference_u(j)) * static_cast<double>(net.degree_v);
+  if (order.v > 0) {
+    const Derivative less{order.u, order.v - 1};
+    return (hodograph_value(net, j + 1, i, c, less) - hodograph_value(net, j, i, c, less)) *
+           static_cast<double>(net.degree_v - less.v);
+  }
+  if (order.u > 0) {
+    const Derivative less{order.u - 1, 0};
+    return (hodograph_value(net, j, i + 1, c, less) - hodograph_value(net, j, i, c, less)) *
+           static_cast<double>(net.degree_u - less.u);
+  }
+  return net.at(j, i)[c];
+}
+
+/// The largest of them in one component: what errors of that derivative are relative to.
+[[nodiscard]] inline double largest_hodograph(const Net& net, std::size_t component,
+                                              Derivative order) {
+  double largest = 0;
+  for (int j = 0; j <= net.degree_v - order.v; ++j) {
+    for (int i = 0; i <= net.degree_u - order.u; ++i) {
+      largest =
+          std::max(largest, std::abs(hodograph_value(net, j, i, component, order).to_double()));
+    }
+  }
+  return largest;
+}
+[[nodiscard]] inline Vector3 largest_hodographs(const Net& net, Derivative order) {
+  return {largest_hodograph(net, 0, order), largest_hodograph(net, 1, order),
+          largest_hodograph(net, 2, order)};
 }
 
 [[nodiscard]] inline Vector3dd oracle_derivative(const Net& net, OracleParameter u,
                                                  OracleParameter v, Derivative order) {
+  if (order.u > net.degree_u || order.v > net.degree_v) {
+    return {};
+  }
   const auto weights_u = bernstein_weights(net.degree_u - order.u, u);
   const auto weights_v = bernstein_weights(net.degree_v - order.v, v);
   Vector3dd sum{};
@@ -100,7 +127,8 @@ struct Derivative {
 [[nodiscard]] inline OracleSample oracle_sample(const Net& net, OracleParameter u,
                                                 OracleParameter v) {
   return {oracle_derivative(net, u, v, {0, 0}), oracle_derivative(net, u, v, {1, 0}),
-          oracle_derivative(net, u, v, {0, 1}), oracle_derivative(net, u, v, {1, 1})};
+          oracle_derivative(net, u, v, {0, 1}), oracle_derivative(net, u, v, {2, 0}),
+          oracle_derivative(net, u, v, {1, 1}), oracle_derivative(net, u, v, {0, 2})};
 }
 
 [[nodiscard]] inline OracleSample oracle_sample(const Net& net, double x, double y) {

@@ -53,7 +53,9 @@ constexpr OracleCase kOracleCases[] = {
         {worst, relative_error(oracle.position[c], truth.position[c], largest_coordinate(net, c)),
          relative_error(oracle.du[c], truth.du[c], hodograph_u),
          relative_error(oracle.dv[c], truth.dv[c], hodograph_v),
-         relative_error(oracle.duv[c], truth.duv[c], net.degree_v * hodograph_u)});
+         relative_error(oracle.duu[c], truth.duu[c], net.degree_u * hodograph_u),
+         relative_error(oracle.duv[c], truth.duv[c], net.degree_v * hodograph_u),
+         relative_error(oracle.dvv[c], truth.dvv[c], net.degree_v * hodograph_v)});
   }
   return worst;
 }
