@@ -1,44 +1,78 @@
-// Sums carried in two doubles, for packing double control points. Only what packing needs: every
-// factor of the basis change is 3 or a power of two, so there is no general product.
+// Sums carried in two doubles, for packing double control points; lanes are independent. Only what
+// packing needs: every factor of the basis change is 3 or a power of two, so there is no general
+// product.
 // Source: T. J. Dekker, "A floating-point technique for extending the available precision",
 // Numerische Mathematik 18 (1971); two_sum after D. E. Knuth, TAOCP vol. 2, 4.2.2.
 #pragma once
 
-namespace simdbezier::detail {
+#include "kernels/isa/transpose.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 struct DoubleDouble {
-  double high = 0;
-  double low = 0;
-
-  DoubleDouble() = default;
-  DoubleDouble(double value) noexcept : high(value) {} // NOLINT(google-explicit-constructor)
-  DoubleDouble(double h, double l) noexcept : high(h), low(l) {}
-
-  explicit operator double() const noexcept { return high + low; }
-  explicit operator float() const noexcept { return static_cast<float>(high + low); }
-
-  friend DoubleDouble operator-(DoubleDouble a) noexcept { return {-a.high, -a.low}; }
-
-  /// Commutative and odd, which edge coefficients rely on: both sides of a reversed edge must get
-  /// the same bits.
-  friend DoubleDouble operator+(DoubleDouble a, DoubleDouble b) noexcept {
-    const double sum = a.high + b.high;
-    const double part = sum - a.high;
-    const double error = (a.high - (sum - part)) + (b.high - part);
-    const double tail = error + (a.low + b.low);
-    const double rounded = sum + tail;
-    return {rounded, tail - (rounded - sum)};
-  }
-  friend DoubleDouble operator-(DoubleDouble a, DoubleDouble b) noexcept { return a + (-b); }
-
-  /// Times a power of two.
-  friend DoubleDouble scaled(DoubleDouble a, double power) noexcept {
-    return {a.high * power, a.low * power};
-  }
-  friend DoubleDouble tripled(DoubleDouble a) noexcept { return scaled(a, 2) + a; }
+  Wide high;
+  Wide low;
 };
 
-inline double scaled(double a, double power) noexcept { return a * power; }
-inline double tripled(double a) noexcept { return 3 * a; }
+/// a + b without error. Commutative and odd, which edge coefficients rely on: both sides of a
+/// reversed edge must get the same bits.
+SIMDBEZIER_INLINE DoubleDouble two_sum(Wide a, Wide b) {
+  const Wide sum = a + b;
+  const Wide part = sum - a;
+  return {sum, (a - (sum - part)) + (b - part)};
+}
+/// a - b without error: two_sum(a, -b) operation by operation.
+SIMDBEZIER_INLINE DoubleDouble two_difference(Wide a, Wide b) {
+  const Wide sum = a - b;
+  const Wide part = sum - a;
+  return {sum, (a - (sum - part)) - (b + part)};
+}
+SIMDBEZIER_INLINE DoubleDouble renormalised(DoubleDouble high, Wide low) {
+  const Wide tail = high.low + low;
+  const Wide rounded = high.high + tail;
+  return {rounded, tail - (rounded - high.high)};
+}
 
-} // namespace simdbezier::detail
+// What a sum is carried in: the first argument says so. Values that are single doubles (low parts
+// zero) need no renormalisation: the sum is already the rounded one.
+template <typename W>
+SIMDBEZIER_INLINE W sum_of(Wide a, Wide b) {
+  if constexpr (sizeof(W) == sizeof(Wide)) {
+    return a + b;
+  } else {
+    return two_sum(a, b);
+  }
+}
+template <typename W>
+SIMDBEZIER_INLINE W difference_of(Wide a, Wide b) {
+  if constexpr (sizeof(W) == sizeof(Wide)) {
+    return a - b;
+  } else {
+    return two_difference(a, b);
+  }
+}
+template <typename W>
+SIMDBEZIER_INLINE W sum_of(DoubleDouble a, DoubleDouble b) {
+  return renormalised(two_sum(a.high, b.high), a.low + b.low);
+}
+template <typename W>
+SIMDBEZIER_INLINE W difference_of(DoubleDouble a, DoubleDouble b) {
+  return renormalised(two_difference(a.high, b.high), a.low - b.low);
+}
+
+/// 3 a, and that times a power of two.
+SIMDBEZIER_INLINE Wide tripled(Wide a) { return Wide(3.0) * a; }
+SIMDBEZIER_INLINE DoubleDouble tripled(DoubleDouble a) {
+  const Wide two(2.0);
+  return sum_of<DoubleDouble>(DoubleDouble{two * a.high, two * a.low}, a);
+}
+SIMDBEZIER_INLINE Wide scaled(Wide a, double power) { return a * Wide(power); }
+SIMDBEZIER_INLINE DoubleDouble scaled(DoubleDouble a, double power) {
+  return {a.high * Wide(power), a.low * Wide(power)};
+}
+
+/// Rounded to one double.
+SIMDBEZIER_INLINE Wide to_wide(Wide a) { return a; }
+SIMDBEZIER_INLINE Wide to_wide(DoubleDouble a) { return a.high + a.low; }
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -130,6 +130,34 @@ inline constexpr Scheme scheme(bool watertight, bool origins) {
 inline constexpr bool is_watertight(Scheme s) { return s == kWatertight || s == kWatertightOrigin; }
 inline constexpr bool has_origins(Scheme s) { return s == kOpenOrigin || s == kWatertightOrigin; }
 
+/// Nets to pack, and where the arrays of patch 0 begin.
+template <typename T, typename S>
+struct PackTask {
+  const S* points;
+  std::ptrdiff_t patch_stride;
+  std::ptrdiff_t row_stride;
+  std::ptrdiff_t point_stride;
+  std::ptrdiff_t component_stride;
+  double relative_to[3];
+
+  T* coefficients;
+  T* edges;
+  T* control_points;
+  T* origins; ///< null where none are wanted
+  T* normal_floor;
+};
+
+/// Patches [begin, end) have been packed, but something among them may not be finite, and what
+/// follows them has not been looked at. begin == end where all is well.
+struct PackDoubt {
+  std::size_t begin;
+  std::size_t end;
+};
+
+/// Packs patches [begin, end).
+template <typename T, typename S>
+using PackKernel = PackDoubt (*)(const PackTask<T, S>& task, std::size_t begin, std::size_t end);
+
 template <typename T>
 struct KernelTable {
   Isa isa;
@@ -138,6 +166,8 @@ struct KernelTable {
   void (*scattered[kSchemes])(ScatteredTask<T>& task);
   void (*drain)(DrainQueue<T>& queue); ///< passes on all that is left
   void (*fence)();                     ///< completes streaming stores
+  PackKernel<T, float> pack_f32;
+  PackKernel<T, double> pack_f64;
 };
 
 } // namespace simdbezier::detail

@@ -1,6 +1,7 @@
 // Compiled once per instruction set (cmake/isa.cmake): fills this instruction set's tables.
 // Only the tables leave this object; they are constants, so nothing runs at load time.
 #include "kernels/grid_kernel.hpp"
+#include "kernels/pack_kernel.hpp"
 #include "kernels/scattered_kernel.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -19,8 +20,13 @@ constexpr void fill_scheme(detail::KernelTable<T>& table) {
 
 template <typename T>
 constexpr detail::KernelTable<T> make_table() {
-  detail::KernelTable<T> table{Isa::SIMDBEZIER_ISA, kLanes<vec<T>>, {}, {},
-                               drain_all<T>,        streaming_fence};
+  detail::KernelTable<T> table{};
+  table.isa = Isa::SIMDBEZIER_ISA;
+  table.lanes = kLanes<vec<T>>;
+  table.drain = drain_all<T>;
+  table.fence = streaming_fence;
+  table.pack_f32 = pack_kernel<T, float>;
+  table.pack_f64 = pack_kernel<T, double>;
   fill_scheme<T, detail::kOpen>(table);
   fill_scheme<T, detail::kOpenOrigin>(table);
   fill_scheme<T, detail::kWatertight>(table);

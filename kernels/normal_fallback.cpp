@@ -170,37 +170,6 @@ inline constexpr double kDoubleError = 0x1p-41;
 } // namespace
 
 template <typename T>
-T normal_floor(const T* control_points) noexcept {
-  constexpr T kNever = std::numeric_limits<T>::infinity();
-  constexpr int kLowest = sizeof(T) == sizeof(float) ? -40 : -450;
-  constexpr int kHighest = sizeof(T) == sizeof(float) ? 50 : 480;
-  // As kKernelError, in one compare: |N| > 2^-7 of the hodographs' powers of two, which are up to
-  // four times smaller than the hodographs' product.
-  constexpr int kFloor = sizeof(T) == sizeof(float) ? -14 : -40;
-  double size_u = 0;
-  double size_v = 0;
-  for (int j = 0; j < 4; ++j) {
-    for (int i = 0; i < 3; ++i) {
-      size_u =
-          std::max(size_u, max_norm(point(control_points, j, i + 1) - point(control_points, j, i)));
-      size_v =
-          std::max(size_v, max_norm(point(control_points, i + 1, j) - point(control_points, i, j)));
-    }
-  }
-  if (!(size_u > 0 && size_v > 0 && size_u < 0x1p1000 && size_v < 0x1p1000)) {
-    return kNever;
-  }
-  const int eu = std::ilogb(3 * size_u);
-  const int ev = std::ilogb(3 * size_v);
-  // Each factor and the product must leave room for squares above and below.
-  const auto in_range = [](int e) { return e >= 2 * kLowest && e <= 2 * kHighest; };
-  if (!in_range(eu) || !in_range(ev) || eu + ev < kLowest || eu + ev > kHighest) {
-    return kNever;
-  }
-  return std::scalbn(T(1), 2 * (eu + ev) + kFloor);
-}
-
-template <typename T>
 SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept {
   const auto x = static_cast<double>(query.x);
   const auto y = static_cast<double>(query.y);
@@ -252,8 +221,6 @@ SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept {
   return SampleStatus::degenerate;
 }
 
-template float normal_floor(const float*) noexcept;
-template double normal_floor(const double*) noexcept;
 template SampleStatus resolve_normal(const NormalQuery<float>&, float[3]) noexcept;
 template SampleStatus resolve_normal(const NormalQuery<double>&, double[3]) noexcept;
 

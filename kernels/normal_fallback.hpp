@@ -5,12 +5,6 @@
 
 namespace simdbezier::detail {
 
-/// The value of |du x dv|^2 above which the plain cross product is good (2^-14 for float, 2^-40 for
-/// double, of what the hodographs allow), or infinity where the squares could leave the range of T.
-/// control_points: one patch, [j][i][component].
-template <typename T>
-T normal_floor(const T* control_points) noexcept;
-
 /// Second look at one sample, in double, the same on every instruction set. In order:
 ///   1. the plain cross product, scaled by powers of two, where it stands clear of the rounding
 ///      errors of du and dv: |N| > c (|du|' |dv| + |dv|' |du|), primes being hodograph bounds;

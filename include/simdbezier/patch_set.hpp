@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <simdbezier/control_nets.hpp>
+#include <simdbezier/isa.hpp>
 #include <simdbezier/status.hpp>
 
 namespace simdbezier {
@@ -60,6 +61,8 @@ struct PackOptions {
   /// Positions come out relative to this point, which is subtracted from the control points in
   /// double (or wider) before anything is rounded to T. One point for all sets that share edges.
   double relative_to[3] = {0, 0, 0};
+  int threads = 1;          ///< as in Options: 0: OpenMP's default; 1: no OpenMP region
+  Isa isa = Isa::automatic; ///< see resolve_isa(); results do not depend on it
 };
 
 /// Forms the coefficient matrices C = A P A^T of all patches, A being the basis change from
@@ -70,11 +73,14 @@ struct PackOptions {
 /// set:        replaced on ok, left as it was otherwise.
 /// options:    see PackOptions; a relative_to that is not finite is non_finite_input.
 /// Numerics:   S = float: formed in double, S = double: in double-double; rounded once to T.
-///             Results do not depend on the instruction set. -0 in the input becomes +0.
-/// Allocation: one block of about 160 T per patch. Threads: runs on the caller's.
+///             Results depend neither on the instruction set nor on threads. -0 in the input
+///             becomes +0.
+/// Allocation: one block of about 160 T per patch. Threads: see PackOptions::threads.
 /// Returns:    ok | null_input | bad_degree | bad_stride | non_finite_input |
-///             coefficient_overflow | size_overflow | out_of_memory.
-/// Cost:       O(count); about 50 ns (float) or 500 ns (double) a patch.
+///             coefficient_overflow | size_overflow | unsupported_isa | out_of_memory. A wrong
+///             SIMDBEZIER_ISA is ignored here.
+/// Cost:       O(count); in cache on AVX-512 about 22 ns (float) or 100 ns (double) a patch. New
+///             memory costs several times that: a set of many megabytes is bound by page faults.
 template <typename T, typename S>
 [[nodiscard]] PackReport pack(const ControlNets<S>& nets, PatchSet<T>& set,
                               const PackOptions& options = {}) noexcept;

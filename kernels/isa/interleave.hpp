@@ -13,9 +13,9 @@
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-inline constexpr std::size_t kWideBytes = 64;
+inline constexpr std::size_t kPartBytes = 64;
 #else
-inline constexpr std::size_t kWideBytes = 16;
+inline constexpr std::size_t kPartBytes = 16;
 #endif
 
 template <typename T, std::size_t kBytes>
@@ -24,12 +24,12 @@ struct VectorOf {
 };
 /// What lines are moved in, and 128 bits of it.
 template <typename T>
-using Wide = typename VectorOf<T, kWideBytes>::type;
+using LinePart = typename VectorOf<T, kPartBytes>::type;
 template <typename T>
-using Quad = typename VectorOf<T, 16>::type;
+using Part128 = typename VectorOf<T, 16>::type;
 
 template <typename T>
-inline constexpr std::size_t kWideLanes = kWideBytes / sizeof(T);
+inline constexpr std::size_t kPartLanes = kPartBytes / sizeof(T);
 /// Values in 128 bits.
 template <typename T>
 inline constexpr std::size_t kGroupLanes = 16 / sizeof(T);
@@ -72,13 +72,13 @@ inline void streaming_fence() {
 
 template <bool kStreaming, typename T>
 SIMDBEZIER_INLINE void copy_line(const T* from, T* to) {
-  constexpr std::size_t kParts = 64 / kWideBytes;
-  Wide<T> part[kParts];
+  constexpr std::size_t kParts = 64 / kPartBytes;
+  LinePart<T> part[kParts];
   for (std::size_t k = 0; k < kParts; ++k) {
-    part[k] = load_any<Wide<T>>(from + k * kWideLanes<T>);
+    part[k] = load_any<LinePart<T>>(from + k * kPartLanes<T>);
   }
   for (std::size_t k = 0; k < kParts; ++k) {
-    store_any<kStreaming>(to + k * kWideLanes<T>, part[k]);
+    store_any<kStreaming>(to + k * kPartLanes<T>, part[k]);
   }
 }
 
@@ -93,22 +93,22 @@ SIMDBEZIER_INLINE constexpr int with_z(std::size_t lane, std::size_t e, std::siz
 }
 
 template <typename T, std::size_t kOut, std::size_t... kLane>
-SIMDBEZIER_INLINE Wide<T> triple_part(Wide<T> x, Wide<T> y, Wide<T> z,
-                                      std::index_sequence<kLane...>) {
-  constexpr std::size_t kN = kWideLanes<T>;
-  const Wide<T> xy = __builtin_shufflevector(x, y, from_xy(kOut * kN + kLane, kN)...);
+SIMDBEZIER_INLINE LinePart<T> triple_part(LinePart<T> x, LinePart<T> y, LinePart<T> z,
+                                          std::index_sequence<kLane...>) {
+  constexpr std::size_t kN = kPartLanes<T>;
+  const LinePart<T> xy = __builtin_shufflevector(x, y, from_xy(kOut * kN + kLane, kN)...);
   return __builtin_shufflevector(xy, z, with_z(kLane, kOut * kN + kLane, kN)...);
 }
 
 /// kDrainStep samples of three planes to packed triples.
 template <bool kStreaming, typename T>
 SIMDBEZIER_INLINE void interleave_3(const T* x, const T* y, const T* z, T* to) {
-  constexpr std::size_t kN = kWideLanes<T>;
+  constexpr std::size_t kN = kPartLanes<T>;
   constexpr auto kLanes = std::make_index_sequence<kN>{};
   for (std::size_t k = 0; k < 64 / sizeof(T); k += kN, to += 3 * kN) {
-    const Wide<T> a = load_any<Wide<T>>(x + k);
-    const Wide<T> b = load_any<Wide<T>>(y + k);
-    const Wide<T> c = load_any<Wide<T>>(z + k);
+    const LinePart<T> a = load_any<LinePart<T>>(x + k);
+    const LinePart<T> b = load_any<LinePart<T>>(y + k);
+    const LinePart<T> c = load_any<LinePart<T>>(z + k);
     store_any<kStreaming>(to, triple_part<T, 0>(a, b, c, kLanes));
     store_any<kStreaming>(to + kN, triple_part<T, 1>(a, b, c, kLanes));
     store_any<kStreaming>(to + 2 * kN, triple_part<T, 2>(a, b, c, kLanes));
@@ -123,23 +123,23 @@ SIMDBEZIER_INLINE void interleave_group(const T* const* plane, std::size_t at, T
                                         std::ptrdiff_t stride) {
   constexpr std::size_t kN = kGroupLanes<T>;
   for (std::size_t k = 0; k < 64 / sizeof(T); k += kN) {
-    Quad<T> record[kN];
+    Part128<T> record[kN];
     if constexpr (kN == 4) {
-      Quad<T> p[4] = {};
+      Part128<T> p[4] = {};
       for (std::size_t m = 0; m < kCount; ++m) {
-        p[m] = load_any<Quad<T>>(plane[m] + at + k);
+        p[m] = load_any<Part128<T>>(plane[m] + at + k);
       }
-      const Quad<T> low01 = __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5);
-      const Quad<T> high01 = __builtin_shufflevector(p[0], p[1], 2, 6, 3, 7);
-      const Quad<T> low23 = __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5);
-      const Quad<T> high23 = __builtin_shufflevector(p[2], p[3], 2, 6, 3, 7);
+      const Part128<T> low01 = __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5);
+      const Part128<T> high01 = __builtin_shufflevector(p[0], p[1], 2, 6, 3, 7);
+      const Part128<T> low23 = __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5);
+      const Part128<T> high23 = __builtin_shufflevector(p[2], p[3], 2, 6, 3, 7);
       record[0] = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
       record[1] = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
       record[2] = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
       record[3] = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
     } else {
-      const Quad<T> p = load_any<Quad<T>>(plane[0] + at + k);
-      const Quad<T> q = kCount == 2 ? load_any<Quad<T>>(plane[kCount - 1] + at + k) : p;
+      const Part128<T> p = load_any<Part128<T>>(plane[0] + at + k);
+      const Part128<T> q = kCount == 2 ? load_any<Part128<T>>(plane[kCount - 1] + at + k) : p;
       record[0] = __builtin_shufflevector(p, q, 0, 2);
       record[1] = __builtin_shufflevector(p, q, 1, 3);
     }
@@ -162,7 +162,7 @@ SIMDBEZIER_INLINE __m512d parts(__m512d a, __m512d b) {
 /// Part p of u[k] becomes part 6p+k of the six results: 12 shuffles across lanes.
 template <bool kStreaming, typename T>
 SIMDBEZIER_INLINE void store_transposed_parts(const __m512d u[6], T* to) {
-  constexpr std::size_t kN = kWideLanes<T>;
+  constexpr std::size_t kN = kPartLanes<T>;
   const __m512d low01 = parts<0, 1, 0, 1>(u[0], u[1]);
   const __m512d low23 = parts<0, 1, 0, 1>(u[2], u[3]);
   const __m512d low45 = parts<0, 1, 0, 1>(u[4], u[5]);
@@ -213,13 +213,13 @@ template <bool kStreaming, typename T>
 SIMDBEZIER_INLINE void interleave_6(const T* const from[6], T* to) {
   constexpr std::size_t kN = kGroupLanes<T>;
   for (std::size_t k = 0; k < 64 / sizeof(T); k += kN) {
-    Quad<T> p[6];
+    Part128<T> p[6];
     for (std::size_t m = 0; m < 6; ++m) {
-      p[m] = load_any<Quad<T>>(from[m] + k);
+      p[m] = load_any<Part128<T>>(from[m] + k);
     }
-    Quad<T> out[6];
+    Part128<T> out[6];
     if constexpr (kN == 4) {
-      const auto put = [&out](std::size_t first, Quad<T> a, Quad<T> b, Quad<T> c) {
+      const auto put = [&out](std::size_t first, Part128<T> a, Part128<T> b, Part128<T> c) {
         out[first] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
         out[first + 1] = __builtin_shufflevector(c, a, 0, 1, 6, 7);
         out[first + 2] = __builtin_shufflevector(b, c, 2, 3, 6, 7);
