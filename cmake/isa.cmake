@@ -45,10 +45,13 @@ function(simdbezier_add_isa_kernels target)
     # hand to objects of another instruction set (tests/library/check_symbols.cmake watches).
     # -O3 in every other build: below it g++ 12 keeps the registers' arrays in memory, which costs a
     # factor of two. No errno: sqrt becomes one instruction. No exceptions: their personality routine would be one
-    # more symbol to merge. g++ 12 warns about its own _mm512_undefined_ps (GCC bug 105593).
+    # more symbol to merge. Without -fno-ivopts and -fno-tree-pre g++ 12 makes many addresses of a
+    # sweep's few, most of them on the stack: 10 % of the speed of 8 x 8 and 17 x 17 positions.
+    # g++ 12 warns about its own _mm512_undefined_ps (GCC bug 105593).
     target_compile_options(
       ${object} PRIVATE ${flags} $<IF:$<CONFIG:Debug>,-O1,-O3> -fno-math-errno -fno-exceptions
-                        $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>)
+                        "$<$<CXX_COMPILER_ID:GNU>:-fno-ivopts;-fno-tree-pre>"
+                        "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>")
     if(SIMDBEZIER_SANITIZE)
       # All that is inlined here would take a sanitizing compiler minutes.
       target_compile_options(${object} PRIVATE -O1 -fno-sanitize=undefined)

@@ -61,7 +61,7 @@ Status GridPlan<T>::build(const Grid<T>& grid) noexcept {
   x_ = inline_x_;
   y_ = inline_y_;
   if (nu_ > kInline || nv_ > kInline) {
-    const std::size_t values = nu_ + kMaxLanes + nv_;
+    const std::size_t values = nu_ + nv_ + 2 * kMaxLanes;
     heap_.reset(new (std::nothrow) T[values]);
     if (heap_ == nullptr) {
       return Status::out_of_memory;
@@ -71,9 +71,10 @@ Status GridPlan<T>::build(const Grid<T>& grid) noexcept {
   }
   fill_parameters(grid.u, nu_, grid.parameters, x_);
   fill_parameters(grid.v, nv_, grid.parameters, y_);
-  // Lanes behind the last column repeat it, so that they trigger nothing that it does not.
+  // Lanes behind the last column or row repeat it, so that they trigger nothing that it does not.
   for (std::size_t i = 0; i < kMaxLanes; ++i) {
     x_[nu_ + i] = x_[nu_ - 1];
+    y_[nv_ + i] = y_[nv_ - 1];
   }
   return Status::ok;
 }

@@ -40,7 +40,7 @@ private:
   T* y_ = nullptr;
   std::unique_ptr<T[]> heap_;
   alignas(64) T inline_x_[kInline + kMaxLanes];
-  alignas(64) T inline_y_[kInline];
+  alignas(64) T inline_y_[kInline + kMaxLanes];
 };
 
 /// Half-centred X = u - 1/2 (exactly half of 2u - 1 rounded once); nan where u is not finite.

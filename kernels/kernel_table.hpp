@@ -52,7 +52,7 @@ enum class RowKind : std::uint8_t {
 /// Consecutive rows of one kind.
 template <typename T>
 struct RowRun {
-  const T* y; ///< `rows` half-centred parameters
+  const T* y; ///< `rows` half-centred parameters, then at least kMaxLanes more readable values
   std::uint32_t rows;
   RowKind kind;
 };
@@ -107,7 +107,7 @@ struct ScatteredTask {
   Isa executed;
 };
 
-/// X arrays are padded so that the widest kernel may read past the last column.
+/// X and Y arrays are padded so that the widest kernel may read past the last column or row.
 inline constexpr std::size_t kMaxLanes = 16;
 
 /// Which outputs a kernel is compiled for.

@@ -25,6 +25,8 @@
 #define SIMDBEZIER_ISA_NAMESPACE SIMDBEZIER_PASTE(isa_, SIMDBEZIER_ISA)
 
 #define SIMDBEZIER_INLINE inline __attribute__((always_inline))
+/// The same for lambdas: [&](int a) SIMDBEZIER_INLINE_LAMBDA { … }
+#define SIMDBEZIER_INLINE_LAMBDA __attribute__((always_inline))
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

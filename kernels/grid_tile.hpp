@@ -1,0 +1,286 @@
+// Which samples of a grid stand in the lanes of a register.
+//
+// A tile is one register of columns, swept along v: kRows rows of lanes/kRows columns at a time.
+//   kRows = 1      the bulk of a row; `kWhole` false: its masked end
+//   kRows = 2, 4   the last lanes/2 or lanes/4 columns, which would leave most lanes empty
+//   kRows = lanes  a single column, into consecutive values; `kWhole`: whole registers, also past
+//                  its end (values that masked stores wrote cannot be read back at once)
+// A single column behind whole registers is computed by a tile of its own into a buffer (`kExtra`),
+// from where it is moved to the rows' ends as they are stored: stores to one place after the other.
+// With several rows in a register, both edges v = const share one: v = 0 in its first half, v = 1
+// in its second.
+#pragma once
+
+#include "kernels/bicubic.hpp"
+#include "kernels/isa/row_groups.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::GridTask;
+using detail::RowKind;
+using detail::RowRun;
+
+SIMDBEZIER_INLINE bool is_edge(RowKind kind) {
+  return kind == RowKind::edge_v0 || kind == RowKind::edge_v1;
+}
+
+SIMDBEZIER_INLINE std::size_t edge_of(RowKind kind) {
+  return kind == RowKind::edge_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
+}
+
+/// Rows that a tile sweeps in one go: one on an edge, some that are not, one on an edge. A usual
+/// grid is one such piece.
+template <typename T>
+struct RowPiece {
+  std::size_t first = 0; ///< row
+  bool lead = false;     ///< whether there is a first row on an edge, and which
+  RowKind lead_kind = RowKind::edge_v0;
+  RowRun<T> middle{nullptr, 0, RowKind::interior};
+  bool trail = false;
+  RowKind trail_kind = RowKind::edge_v1;
+
+  [[nodiscard]] SIMDBEZIER_INLINE std::size_t rows() const {
+    return std::size_t{middle.rows} + (lead ? 1 : 0) + (trail ? 1 : 0);
+  }
+};
+
+/// Cuts the rows of a task into pieces.
+template <Scheme kScheme, typename T>
+class RowPieces {
+public:
+  /// most: rows of a piece.
+  SIMDBEZIER_INLINE RowPieces(const GridTask<T>& task, std::size_t most)
+      : run_(task.runs), last_(task.runs + task.run_count), left_(run_->rows), most_(most - 2) {}
+
+  [[nodiscard]] SIMDBEZIER_INLINE bool more() const { return run_ != last_; }
+
+  SIMDBEZIER_INLINE RowPiece<T> next() {
+    RowPiece<T> piece;
+    piece.first = row_;
+    piece.lead = take_edge(piece.lead_kind);
+    if (more() && !at_edge()) {
+      piece.middle = {run_->y + (run_->rows - left_), 0, run_->kind};
+      const bool outside = run_->kind == RowKind::outside;
+      while (more() && !at_edge() && (run_->kind == RowKind::outside) == outside &&
+             piece.middle.rows < most_) {
+        const std::size_t room = most_ - piece.middle.rows;
+        piece.middle.rows += static_cast<std::uint32_t>(take(left_ < room ? left_ : room));
+      }
+    }
+    piece.trail = take_edge(piece.trail_kind);
+    row_ += piece.rows();
+    return piece;
+  }
+
+private:
+  /// Where edges are not special, they are as good as any row.
+  [[nodiscard]] SIMDBEZIER_INLINE bool at_edge() const {
+    return is_watertight(kScheme) && is_edge(run_->kind);
+  }
+  SIMDBEZIER_INLINE bool take_edge(RowKind& kind) {
+    if (!more() || !at_edge()) {
+      return false;
+    }
+    kind = run_->kind;
+    take(1);
+    return true;
+  }
+  SIMDBEZIER_INLINE std::size_t take(std::size_t rows) {
+    left_ -= rows;
+    if (left_ == 0 && ++run_ != last_) {
+      left_ = run_->rows;
+    }
+    return rows;
+  }
+
+  const RowRun<T>* run_;
+  const RowRun<T>* last_;
+  std::size_t left_; ///< rows of *run_
+  std::size_t most_; ///< in the middle of a piece
+  std::size_t row_ = 0;
+};
+
+/// The lanes that are corners of the patch, where both edges v = const share a register.
+template <typename V>
+struct SharedCorners {
+  PairSelector<V> at_v0;
+  PairSelector<V> at_v1;
+
+  static SIMDBEZIER_INLINE MaskOf<V> first_half() {
+    const ScalarOf<V> halves[2] = {0, 1};
+    return RowGroups<2, V>::spread(halves) == broadcast<V>(ScalarOf<V>(0));
+  }
+  SIMDBEZIER_INLINE SharedCorners(V x, MaskOf<V> half)
+      : at_v0((x == broadcast<V>(ScalarOf<V>(-0.5))) & half,
+              (x == broadcast<V>(ScalarOf<V>(0.5))) & half),
+        at_v1((x == broadcast<V>(ScalarOf<V>(-0.5))) & !half,
+              (x == broadcast<V>(ScalarOf<V>(0.5))) & !half) {}
+  explicit SIMDBEZIER_INLINE SharedCorners(V x) : SharedCorners(x, first_half()) {}
+
+  SIMDBEZIER_INLINE V replace(V value, const ScalarOf<V>* corner) const {
+    return at_v0.replace(at_v1.replace(value, corner + detail::corner_index(0, 1)),
+                         corner + detail::corner_index(0, 0));
+  }
+};
+
+struct NoSharedCorners {
+  template <typename V>
+  explicit SIMDBEZIER_INLINE NoSharedCorners(V /*x*/) {}
+};
+
+template <std::size_t kRows, bool kWhole, bool kExtra, typename V>
+struct Tile {
+  using T = ScalarOf<V>;
+  using Vector = V;
+  static constexpr bool kBuffered = kExtra;
+  using Groups = RowGroups<kRows, V>;
+  static constexpr std::size_t kColumns = kLanes<V> / kRows;
+  static constexpr bool kShared = kRows > 1; ///< edges v = const share a register
+
+  std::size_t first;  ///< column
+  std::size_t active; ///< columns of kColumns that exist
+  Column<V> column;
+  std::conditional_t<kShared, SharedCorners<V>, NoSharedCorners> corners;
+
+  SIMDBEZIER_INLINE Tile(const T* x, std::size_t first_column, std::size_t active_columns)
+      : first(first_column), active(active_columns), column(Groups::repeat(x + first_column)),
+        corners(column.x) {}
+
+  /// The first `rows` rows of `value`, `step` samples from one to the next. extra: what follows
+  /// them in kExtra tiles.
+  SIMDBEZIER_INLINE void store(T* to, std::size_t step, V value, std::size_t rows,
+                               const T* extra) const {
+    if constexpr (kRows == kLanes<V>) {
+      if (kWhole || rows == kRows) {
+        store_vector(to, value);
+      } else {
+        store_first(to, value, rows);
+      }
+    } else if constexpr (kRows == 1) {
+      if constexpr (kWhole) {
+        store_vector(to, value);
+      } else {
+        store_first(to, value, active);
+      }
+    } else if (kWhole && rows == kRows) {
+      Groups::store_all(to, step, value);
+    } else {
+      Groups::store_some(to, step, value, active, rows);
+    }
+    if constexpr (kExtra) {
+      for (std::size_t r = 0; r < rows; ++r) {
+        move_value(to + r * step + kColumns, extra + r);
+      }
+    }
+  }
+  SIMDBEZIER_INLINE void store_if_wanted(T* plane, std::size_t at, std::size_t step, V value,
+                                         std::size_t rows) const {
+    if (plane != nullptr) {
+      store(plane + at, step, value, rows, nullptr);
+    }
+  }
+
+  /// First of the lanes in which an edge v = const stands.
+  static SIMDBEZIER_INLINE std::size_t edge_lane(RowKind kind) {
+    return kShared && kind == RowKind::edge_v1 ? kLanes<V> / 2 : 0;
+  }
+  SIMDBEZIER_INLINE void store_edge(T* to, V value, RowKind kind, const T* extra) const {
+    if constexpr (!kShared) {
+      store(to, 0, value, 1, extra);
+      return;
+    } else if (kind == RowKind::edge_v0) {
+      store_lanes_from<kColumns, 0>(to, value, active);
+    } else {
+      store_lanes_from<kColumns, kLanes<V> / 2>(to, value, active);
+    }
+    if constexpr (kExtra) {
+      move_value(to + kColumns, extra);
+    }
+  }
+  SIMDBEZIER_INLINE void store_edge_if_wanted(T* plane, std::size_t at, V value,
+                                              RowKind kind) const {
+    if (plane != nullptr) {
+      store_edge(plane + at, value, kind, nullptr);
+    }
+  }
+
+  /// Positions on the edge `edge`, or on both where they share a register; and du.
+  template <Scheme kScheme>
+  SIMDBEZIER_INLINE V edge_rows(const Component<T>& c, std::size_t edge, V& du) const {
+    if constexpr (!kShared) {
+      return edge_position<kScheme>(c, column, edge, du);
+    } else {
+      V k[kOrder];
+      shared_edges(c, k);
+      return finish<kScheme>(c, horner(k, column.x, du));
+    }
+  }
+  template <Scheme kScheme>
+  SIMDBEZIER_INLINE V edge_rows(const Component<T>& c, std::size_t edge) const {
+    if constexpr (!kShared) {
+      return edge_position<kScheme>(c, column, edge);
+    } else {
+      V k[kOrder];
+      shared_edges(c, k);
+      return finish<kScheme>(c, horner(k, column.x));
+    }
+  }
+  SIMDBEZIER_INLINE V edge_rows_second(const Component<T>& c, std::size_t edge) const {
+    if constexpr (!kShared) {
+      return edge_second(c, column, edge);
+    } else {
+      V k[kOrder];
+      shared_edges(c, k);
+      return horner_second(k, column.x);
+    }
+  }
+  /// Their Y.
+  static SIMDBEZIER_INLINE V edge_y(std::size_t edge) {
+    constexpr T kBoth[2] = {T(-0.5), T(0.5)};
+    if constexpr (kShared) {
+      return RowGroups<2, V>::spread(kBoth);
+    }
+    return broadcast<V>(kBoth[edge]);
+  }
+
+private:
+  static SIMDBEZIER_INLINE void shared_edges(const Component<T>& c, V k[kOrder]) {
+    for (std::size_t i = 0; i < kOrder; ++i) {
+      k[i] = RowGroups<2, V>::spread(c.edge + i * kEdges + detail::kEdgeV0);
+    }
+  }
+  template <Scheme kScheme>
+  SIMDBEZIER_INLINE V finish(const Component<T>& c, V value) const {
+    if constexpr (has_origins(kScheme)) {
+      constexpr std::size_t kAt = detail::kEdgeOriginsAt + detail::kEdgeV0;
+      value = value + RowGroups<2, V>::spread(c.origin() + kAt);
+    }
+    return corners.replace(value, c.corner);
+  }
+};
+
+/// All rows of a piece, from sample `at` of the planes on: edge(kind, at, row) for edges,
+/// interior(y, at, row, rows) for as many rows as a register holds.
+template <Scheme kScheme, std::size_t kRows, typename T, typename Edge, typename Interior>
+SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::size_t nu, Edge edge,
+                                Interior interior) {
+  std::size_t row = 0;
+  if (is_watertight(kScheme) && piece.lead) {
+    edge(piece.lead_kind, at, row++);
+    at += nu;
+  }
+  const T* y = piece.middle.y;
+  for (std::size_t left = piece.middle.rows; left > 0;) {
+    const std::size_t rows = left < kRows ? left : kRows;
+    interior(y, at, row, rows);
+    at += rows * nu;
+    y += rows;
+    row += rows;
+    left -= rows;
+  }
+  if (is_watertight(kScheme) && piece.trail) {
+    edge(piece.trail_kind, at, row);
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
