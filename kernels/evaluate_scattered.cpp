@@ -1,13 +1,11 @@
-// The scattered call: checks, pieces of samples with converted parameters, kernels.
+// The scattered call: checks, then pieces of samples for the kernels.
 #include <algorithm>
-#include <cmath>
 
 #include <simdbezier/evaluate.hpp>
 
 #include "kernels/batch.hpp"
 #include "kernels/delivery.hpp"
 #include "kernels/dispatch.hpp"
-#include "kernels/grid_plan.hpp"
 #include "kernels/normal_fallback.hpp"
 #include "kernels/patch_storage.hpp"
 
@@ -15,18 +13,24 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-/// Samples converted and, where outputs are strided, staged at a time.
-constexpr std::size_t kPiece = 512;
+/// Samples that a kernel evaluates at a time. Fewer where it stages its outputs, which then stay in
+/// the first-level cache; otherwise so many that preparing a task does not show.
+constexpr std::size_t kPiece = 2048;
+constexpr std::size_t kStagedPiece = 512;
+
+/// Sets of coefficients up to this size are taken to stay in the second-level cache.
+constexpr std::size_t kCachedBytes = std::size_t{1} << 20;
 
 template <typename T>
-Status check_samples(const PatchSet<T>& set, const Samples<T>& samples) noexcept {
+Status check_samples(const PatchSet<T>& set, const Samples<T>& samples,
+                     const KernelTable<T>& table) noexcept {
   if (samples.count == 0) {
     return Status::ok;
   }
   if (samples.patch == nullptr || samples.u == nullptr || samples.v == nullptr) {
     return Status::null_input;
   }
-  const std::uint32_t highest = *std::max_element(samples.patch, samples.patch + samples.count);
+  const std::uint32_t highest = table.highest_index(samples.patch, samples.count);
   return highest < set.size() ? Status::ok : Status::bad_patch_index;
 }
 
@@ -37,25 +41,20 @@ struct ScatteredCall {
   const OutputPlan<T>& outputs;
   const KernelTable<T>& table;
   Scheme scheme;
+  std::size_t piece_samples;
 
   Isa worker(std::size_t begin, std::size_t end, unsigned char* scratch) const noexcept {
     Isa executed = Isa::automatic;
-    Delivery<T> delivery(outputs, table, kPiece, scratch);
+    Delivery<T> delivery(outputs, table, piece_samples, scratch);
     for (std::size_t piece = begin; piece < end; ++piece) {
-      const std::size_t first = piece * kPiece;
-      executed = run_piece(first, std::min(kPiece, samples.count - first), delivery);
+      const std::size_t first = piece * piece_samples;
+      executed = run_piece(first, std::min(piece_samples, samples.count - first), delivery);
     }
     delivery.finish();
     return executed;
   }
 
   Isa run_piece(std::size_t first, std::size_t count, Delivery<T>& delivery) const noexcept {
-    T x[kPiece];
-    T y[kPiece];
-    for (std::size_t k = 0; k < count; ++k) {
-      x[k] = half_centred(samples.u[first + k], samples.parameters);
-      y[k] = half_centred(samples.v[first + k], samples.parameters);
-    }
     ScatteredTask<T> task{};
     task.coefficients = patches.coefficients;
     task.edges = patches.edges;
@@ -63,16 +62,17 @@ struct ScatteredCall {
     task.origins = patches.origins;
     task.normal_floor = patches.normal_floor;
     task.patch = samples.patch + first;
-    task.x = x;
-    task.y = y;
+    task.u = samples.u + first;
+    task.v = samples.v + first;
+    task.shift = samples.parameters == Parameters::unit ? T(0.5) : T(0);
+    task.scale = samples.parameters == Parameters::unit ? T(1) : T(0.5);
     task.count = count;
+    task.patches_known = samples.count - first;
+    task.prefetch = patches.count > kCachedBytes / (kCoefficients * sizeof(T));
     task.resolve_normal = resolve_normal<T>;
     if (outputs.out().status != nullptr) {
       task.status = outputs.out().status + first;
-      for (std::size_t k = 0; k < count; ++k) {
-        const bool finite = !std::isnan(x[k]) && !std::isnan(y[k]);
-        task.status[k] = finite ? SampleStatus::regular : SampleStatus::non_finite;
-      }
+      std::fill_n(task.status, count, SampleStatus::regular);
     }
     delivery.begin(first, task.out);
     table.scattered[scheme](task);
@@ -99,18 +99,22 @@ Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, con
   if (writable != Status::ok) {
     return writable;
   }
-  const Status readable = detail::check_samples(set, samples);
+  const detail::KernelTable<T>& table = detail::kernel_table<T>(isa);
+  const Status readable = detail::check_samples(set, samples, table);
   if (readable != Status::ok || samples.count == 0) {
     return readable;
   }
   const detail::OutputPlan<T> outputs(out, samples.count, options.destination);
-  const detail::ScatteredCall<T> call{*set.storage(), samples, outputs,
-                                      detail::kernel_table<T>(isa),
-                                      detail::scheme(options.watertight, set.has_local_origins())};
-  const std::size_t pieces =
-      samples.count / detail::kPiece + (samples.count % detail::kPiece != 0 ? 1 : 0);
+  const std::size_t piece = outputs.staged() ? detail::kStagedPiece : detail::kPiece;
+  const detail::ScatteredCall<T> call{*set.storage(),
+                                      samples,
+                                      outputs,
+                                      table,
+                                      detail::scheme(options.watertight, set.has_local_origins()),
+                                      piece};
+  const std::size_t pieces = samples.count / piece + (samples.count % piece != 0 ? 1 : 0);
   const std::size_t scratch = detail::Delivery<T>::scratch_bytes(
-      outputs.staged_planes(), outputs.streaming(), detail::kPiece);
+      outputs.staged_planes(), outputs.streaming(), piece);
   return detail::run_blocks(pieces, options, scratch,
                             [&](int, std::size_t begin, std::size_t end, unsigned char* own) {
                               return call.worker(begin, end, own);

@@ -97,14 +97,18 @@ struct ScatteredTask {
   const T* normal_floor;
 
   const std::uint32_t* patch;
-  const T* x; ///< half-centred
-  const T* y;
+  const T* u; ///< as given; half-centred parameters are (u - shift) * scale
+  const T* v;
+  T shift;
+  T scale;
   std::size_t count;
+  std::size_t patches_known; ///< how many of `patch` may be read: those of later tasks as well
+  bool prefetch;             ///< the set's coefficients do not fit the second-level cache
 
   Planes<T> out[kGroups];
-  SampleStatus* status;
+  SampleStatus* status; ///< may be null; `regular` beforehand, changed where a sample is not
   ResolveNormal<T> resolve_normal;
-  Isa executed;
+  Isa executed; ///< written by the kernel
 };
 
 /// X and Y arrays are padded so that the widest kernel may read past the last column or row.
@@ -166,6 +170,7 @@ struct KernelTable {
   void (*scattered[kSchemes])(ScatteredTask<T>& task);
   void (*drain)(DrainQueue<T>& queue); ///< passes on all that is left
   void (*fence)();                     ///< completes streaming stores
+  std::uint32_t (*highest_index)(const std::uint32_t* index, std::size_t count);
   PackKernel<T, float> pack_f32;
   PackKernel<T, double> pack_f64;
 };

@@ -23,6 +23,7 @@ constexpr detail::KernelTable<T> make_table() {
   detail::KernelTable<T> table{};
   table.isa = Isa::SIMDBEZIER_ISA;
   table.lanes = kLanes<vec<T>>;
+  table.highest_index = highest_index;
   table.drain = drain_all<T>;
   table.fence = streaming_fence;
   table.pack_f32 = pack_kernel<T, float>;

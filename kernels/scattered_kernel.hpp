@@ -1,128 +1,98 @@
-// Scattered samples, one at a time, in the grid's order of operations: V = T.
+// Scattered samples: chooses a strategy for every register of them.
 #pragma once
 
-#include "kernels/bicubic.hpp"
-#include "kernels/kernel_table.hpp"
+#include "kernels/scattered_mixed.hpp"
+#include "kernels/scattered_runs.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-using detail::ScatteredTask;
-
-template <typename T>
-SIMDBEZIER_INLINE void store_point(const detail::Planes<T>& planes, std::size_t at,
-                                   const T value[3]) {
-  if (planes.wanted()) {
-    for (int c = 0; c < 3; ++c) {
-      planes.component[c][at] = value[c];
-    }
+/// 0 where there is none. Here because vectors of unsigned integers have a maximum in the wider
+/// instruction sets only.
+inline std::uint32_t highest_index(const std::uint32_t* index, std::size_t count) {
+  std::uint32_t highest = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    highest = highest > index[k] ? highest : index[k];
   }
+  return highest;
 }
 
-/// Positions and, with kJet, both derivatives of one sample.
-template <Scheme kScheme, bool kJet, typename T>
-SIMDBEZIER_INLINE void evaluate_sample(const ScatteredTask<T>& task, std::size_t k, T p[3], T du[3],
-                                       T dv[3]) {
-  const T y = task.y[k];
-  const Column<T> column(task.x[k]);
-  const bool at_v0 = y == T(-0.5);
-  const bool on_edge = is_watertight(kScheme) && (at_v0 || y == T(0.5));
-  const std::size_t edge = at_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Component<T> component(task, task.patch[k], c);
-    const T origin = column_origin<kScheme>(component, column);
-    T q[kOrder];
-    if constexpr (kJet) {
-      T dq[kOrder];
-      column_polynomial<kScheme>(component, column, q, dq);
-      p[c] = with_origin<kScheme>(horner(q, y, dv[c]), origin);
-      if (on_edge) {
-        p[c] = edge_position<kScheme>(component, column, edge, du[c]);
-      } else {
-        du[c] = horner(dq, y);
+/// The last samples, fewer than a register: the register is filled with copies of the last one.
+template <Scheme kScheme, Outcome kOutcome, typename V>
+__attribute__((noinline)) void evaluate_rest(const ScatteredTask<ScalarOf<V>>& task,
+                                             std::size_t first) {
+  using T = ScalarOf<V>;
+  const std::size_t active = task.count - first;
+  alignas(64) T u[kLanes<V>];
+  alignas(64) T v[kLanes<V>];
+  std::uint32_t patch[kLanes<V>];
+  for (std::size_t i = 0; i < kLanes<V>; ++i) {
+    const std::size_t from = first + (i < active ? i : active - 1);
+    u[i] = task.u[from];
+    v[i] = task.v[from];
+    patch[i] = task.patch[from];
+  }
+  evaluate_mixed<kScheme, kOutcome>(Block<false, V>(task, first, active, u, v), patch);
+}
+
+template <Scheme kScheme, Outcome kOutcome, typename V>
+SIMDBEZIER_INLINE void evaluate_samples(const ScatteredTask<ScalarOf<V>>& task) {
+  constexpr std::size_t kWide = kOutcome == kPositions ? 2 : 1; // registers for a long run
+  constexpr std::size_t kN = kLanes<V>;
+  const auto block = [&](std::size_t k) __attribute__((always_inline)) {
+    return Block<true, V>(task, k, kN, task.u + k, task.v + k);
+  };
+  std::size_t k = 0;
+  while (k + kN <= task.count) {
+    const std::uint32_t* const patch = task.patch + k;
+    if (!all_equal<kN>(patch, *patch)) {
+      if (task.prefetch) {
+        prefetch_mixed<V>(task, k);
       }
-    } else if (on_edge) {
-      p[c] = edge_position<kScheme>(component, column, edge);
-    } else {
-      column_polynomial<kScheme>(component, column, q);
-      p[c] = with_origin<kScheme>(horner(q, y), origin);
+      evaluate_mixed<kScheme, kOutcome>(block(k), patch);
+      k += kN;
+      continue;
     }
+    if constexpr (kWide == 2) {
+      if (k + 2 * kN <= task.count && all_equal<kN>(patch + kN, *patch)) {
+        const Block<true, V> pair[2] = {block(k), block(k + kN)};
+        evaluate_run<kScheme, kOutcome, 2>(pair, *patch);
+        k += 2 * kN;
+        continue;
+      }
+    }
+    const Block<true, V> single[1] = {block(k)};
+    evaluate_run<kScheme, kOutcome, 1>(single, *patch);
+    k += kN;
+  }
+  if (k < task.count) {
+    evaluate_rest<kScheme, kOutcome, V>(task, k);
   }
 }
 
-template <typename T>
-SIMDBEZIER_INLINE void store_normal(const ScatteredTask<T>& task, std::size_t k, const T du[3],
-                                    const T dv[3]) {
-  const std::size_t patch = task.patch[k];
-  const T x = task.x[k];
-  const T y = task.y[k];
-  T n[3];
-  const T squared = cross_product(du, dv, n);
-  const bool inside = x <= T(0.5) && x >= T(-0.5) && y <= T(0.5) && y >= T(-0.5);
-  if (inside && squared > task.normal_floor[patch]) {
-    normalise(n, squared);
+template <Scheme kScheme, Outcome kOutcome, typename T>
+__attribute__((noinline)) void evaluate_outcome(const ScatteredTask<T>& task) {
+  if constexpr (kIsScalar<vec<T>>) {
+    for (std::size_t k = 0; k < task.count; ++k) {
+      evaluate_sample<kScheme, kOutcome == kSecondOrder>(task, k);
+    }
   } else {
-    const detail::NormalQuery<T> query{task.control_points + patch * detail::kCoefficients,
-                                       x,
-                                       y,
-                                       {du[0], du[1], du[2]},
-                                       {dv[0], dv[1], dv[2]}};
-    const SampleStatus status = task.resolve_normal(query, n);
-    if (task.status != nullptr) {
-      task.status[k] = status;
-    }
+    evaluate_samples<kScheme, kOutcome, vec<T>>(task);
   }
-  store_point(task.out[detail::kNormalGroup], k, n);
-}
-
-/// Second derivatives of one sample.
-template <Scheme kScheme, typename T>
-SIMDBEZIER_INLINE void evaluate_second(const ScatteredTask<T>& task, std::size_t k) {
-  const T y = task.y[k];
-  const Column<T> column(task.x[k]);
-  const bool at_v0 = y == T(-0.5);
-  const bool on_edge = is_watertight(kScheme) && (at_v0 || y == T(0.5));
-  const std::size_t edge = at_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
-  T duu[3];
-  T duv[3];
-  T dvv[3];
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Component<T> component(task, task.patch[k], c);
-    SecondColumns<T> columns;
-    columns.template build<kScheme>(component, column);
-    duu[c] = on_edge ? edge_second(component, column, edge) : columns.duu(y);
-    duv[c] = columns.duv(y);
-    dvv[c] = columns.dvv(y);
-  }
-  store_point(task.out[detail::kDuuGroup], k, duu);
-  store_point(task.out[detail::kDuvGroup], k, duv);
-  store_point(task.out[detail::kDvvGroup], k, dvv);
 }
 
 template <typename T, Scheme kScheme>
 void scattered_kernel(ScatteredTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
-  const bool jet = task.out[detail::kDuGroup].wanted() || task.out[detail::kDvGroup].wanted() ||
-                   task.out[detail::kNormalGroup].wanted();
-  const bool second = task.out[detail::kDuuGroup].wanted() ||
-                      task.out[detail::kDuvGroup].wanted() || task.out[detail::kDvvGroup].wanted();
-  for (std::size_t k = 0; k < task.count; ++k) {
-    T p[3];
-    T du[3];
-    T dv[3];
-    if (jet) {
-      evaluate_sample<kScheme, true>(task, k, p, du, dv);
-      store_point(task.out[detail::kDuGroup], k, du);
-      store_point(task.out[detail::kDvGroup], k, dv);
-      if (task.out[detail::kNormalGroup].wanted()) {
-        store_normal(task, k, du, dv);
-      }
-    } else {
-      evaluate_sample<kScheme, false>(task, k, p, du, dv);
-    }
-    store_point(task.out[detail::kPositionGroup], k, p);
-    if (second) {
-      evaluate_second<kScheme>(task, k);
-    }
+  const auto wanted = [&](detail::Group group) __attribute__((always_inline)) {
+    return task.out[group].wanted();
+  };
+  if (wanted(detail::kDuGroup) || wanted(detail::kDvGroup) || wanted(detail::kNormalGroup)) {
+    evaluate_outcome<kScheme, kFirstOrder>(task);
+  } else if (wanted(detail::kPositionGroup)) {
+    evaluate_outcome<kScheme, kPositions>(task);
+  }
+  if (wanted(detail::kDuuGroup) || wanted(detail::kDuvGroup) || wanted(detail::kDvvGroup)) {
+    evaluate_outcome<kScheme, kSecondOrder>(task);
   }
 }
 

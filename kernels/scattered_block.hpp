@@ -1,0 +1,178 @@
+// One register of scattered samples: from parameters to outputs, whatever way the columns'
+// polynomials come about (scattered_runs.hpp: samples of one patch; scattered_mixed.hpp: of any).
+//
+// Registers run the interior's formula. Samples on edges and others that it does not fit are rare:
+// they are found by one comparison and evaluated again, one by one.
+#pragma once
+
+#include "kernels/isa/quads.hpp"
+#include "kernels/scattered_sample.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// What a kernel computes; the value is the number of polynomials in Y that a column needs.
+enum Outcome : std::size_t {
+  kPositions = 1,  ///< q
+  kFirstOrder = 2, ///< q, dq: positions, du, dv, normals
+  kSecondOrder = 3 ///< q, dq, ddq: second derivatives
+};
+
+/// q, its derivative in X, and its second derivative, as far as they are needed.
+template <Outcome kOutcome, typename V>
+struct Polynomials {
+  V power[kOutcome][kOrder];
+
+  /// Coefficient l of all of them: Horner in X.
+  SIMDBEZIER_INLINE void set(std::size_t l, const V k[kOrder], V x) {
+    if constexpr (kOutcome == kPositions) {
+      power[0][l] = horner(k, x);
+    } else {
+      power[0][l] = horner(k, x, power[1][l]);
+    }
+    if constexpr (kOutcome == kSecondOrder) {
+      power[2][l] = horner_second(k, x);
+    }
+  }
+};
+
+/// The samples that stand in one register: `active` of them, from the task's sample `first` on.
+template <bool kFull, typename V>
+struct Block {
+  using T = ScalarOf<V>;
+
+  const ScatteredTask<T>& task;
+  std::size_t first;
+  std::size_t active;
+  V x;
+  V y;
+
+  /// u, v: one register each; those of the samples, or copies behind which there is more.
+  SIMDBEZIER_INLINE Block(const ScatteredTask<T>& the_task, std::size_t first_sample,
+                          std::size_t samples, const T* u, const T* v)
+      : task(the_task), first(first_sample), active(samples),
+        x(half_centred(the_task, load_vector<V>(u))), y(half_centred(the_task, load_vector<V>(v))) {
+  }
+
+  SIMDBEZIER_INLINE void store(T* plane, V value) const {
+    if constexpr (kFull) {
+      store_vector(plane + first, value);
+    } else {
+      store_first(plane + first, value, active);
+    }
+  }
+  SIMDBEZIER_INLINE void store_if_wanted(detail::Group group, std::size_t component,
+                                         V value) const {
+    compute_here(value);
+    T* const plane = task.out[group].component[component];
+    if (plane != nullptr) {
+      store(plane, value);
+    }
+  }
+
+  /// Strictly inside of the patch: nothing special about any sample.
+  SIMDBEZIER_INLINE MaskOf<V> interior() const {
+    const V half = broadcast<V>(T(0.5));
+    return (x < half) & (x > -half) & (y < half) & (y > -half);
+  }
+};
+
+/// What is left to do about a block once its three components are known.
+template <Outcome kOutcome, typename V>
+struct Tangents {
+  V du[3];
+  V dv[3];
+};
+
+/// Horner in Y for one component.
+template <Scheme kScheme, Outcome kOutcome, bool kFull, typename V>
+SIMDBEZIER_INLINE void finish_component(const Block<kFull, V>& block,
+                                        const Polynomials<kOutcome, V>& q, std::size_t c, V origin,
+                                        Tangents<kOutcome, V>& tangents) {
+  if constexpr (kOutcome == kPositions) {
+    block.store(block.task.out[detail::kPositionGroup].component[c],
+                with_origin<kScheme>(horner(q.power[0], block.y), origin));
+  } else if constexpr (kOutcome == kFirstOrder) {
+    const V p = horner(q.power[0], block.y, tangents.dv[c]);
+    tangents.du[c] = horner(q.power[1], block.y);
+    block.store_if_wanted(detail::kPositionGroup, c, with_origin<kScheme>(p, origin));
+    block.store_if_wanted(detail::kDuGroup, c, tangents.du[c]);
+    block.store_if_wanted(detail::kDvGroup, c, tangents.dv[c]);
+  } else {
+    block.store_if_wanted(detail::kDuuGroup, c, horner(q.power[2], block.y));
+    block.store_if_wanted(detail::kDuvGroup, c, horner_slope(q.power[1], block.y));
+    block.store_if_wanted(detail::kDvvGroup, c, horner_second(q.power[0], block.y));
+  }
+}
+
+/// The samples of a block that the interior's formula does not fit, or whose normal did not pass
+/// the quick test. Vectors come by value, or the fast path would have to keep them in memory.
+template <Scheme kScheme, Outcome kOutcome, typename V>
+__attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf<V>>& task,
+                                                    std::size_t first, std::size_t active, V x, V y,
+                                                    V squared, V floor) {
+  using T = ScalarOf<V>;
+  const V vectors[4] = {x, y, squared, floor};
+  alignas(64) T lanes[4][kLanes<V>];
+  for (int i = 0; i < 4; ++i) {
+    store_vector(lanes[i], vectors[i]);
+  }
+  for (std::size_t i = 0; i < active; ++i) {
+    const T ax = lanes[0][i] < 0 ? -lanes[0][i] : lanes[0][i];
+    const T ay = lanes[1][i] < 0 ? -lanes[1][i] : lanes[1][i];
+    const bool edge = is_watertight(kScheme) && (ax == T(0.5) || ay == T(0.5));
+    const bool finite = ax - ax == T(0) && ay - ay == T(0);
+    const bool normal = lanes[2][i] > lanes[3][i] && ax <= T(0.5) && ay <= T(0.5);
+    if (edge || !finite || !normal) {
+      evaluate_sample<kScheme, kOutcome == kSecondOrder>(task, first + i);
+    }
+  }
+}
+
+/// As above for outputs that are no normals: outside of the patch the formula holds, too.
+template <Scheme kScheme, Outcome kOutcome, typename V>
+__attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf<V>>& task,
+                                                    std::size_t first, std::size_t active, V x,
+                                                    V y) {
+  using T = ScalarOf<V>;
+  alignas(64) T lanes[2][kLanes<V>];
+  store_vector(lanes[0], x);
+  store_vector(lanes[1], y);
+  for (std::size_t i = 0; i < active; ++i) {
+    const T ax = lanes[0][i] < 0 ? -lanes[0][i] : lanes[0][i];
+    const T ay = lanes[1][i] < 0 ? -lanes[1][i] : lanes[1][i];
+    const bool edge = is_watertight(kScheme) && (ax == T(0.5) || ay == T(0.5));
+    if (edge || ax - ax != T(0) || ay - ay != T(0)) {
+      evaluate_sample<kScheme, kOutcome == kSecondOrder>(task, first + i);
+    }
+  }
+}
+
+/// Normals, where they are wanted, and the samples that have to be evaluated again.
+/// floor: normal_floor of the samples' patches; a function, because most outputs need none.
+template <Scheme kScheme, Outcome kOutcome, bool kFull, typename V, typename Floor>
+SIMDBEZIER_INLINE void finish_block(const Block<kFull, V>& block,
+                                    const Tangents<kOutcome, V>& tangents, const Floor& floor) {
+  const auto& task = block.task;
+  const MaskOf<V> interior = block.interior();
+  if constexpr (kOutcome == kFirstOrder) {
+    if (task.out[detail::kNormalGroup].wanted()) {
+      V n[3];
+      const V squared = cross_product(tangents.du, tangents.dv, n);
+      normalise(n, squared);
+      for (std::size_t c = 0; c < 3; ++c) {
+        block.store(task.out[detail::kNormalGroup].component[c], n[c]);
+      }
+      const V enough = floor();
+      if (!all_of<V>(interior & (squared > enough))) [[unlikely]] {
+        evaluate_again<kScheme, kOutcome>(task, block.first, block.active, block.x, block.y,
+                                          squared, enough);
+      }
+      return;
+    }
+  }
+  if (!all_of<V>(interior)) [[unlikely]] {
+    evaluate_again<kScheme, kOutcome>(task, block.first, block.active, block.x, block.y);
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,39 @@
+// Consecutive samples of one patch: lanes = samples, coefficients broadcast.
+#pragma once
+
+#include "kernels/scattered_block.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// kRegisters blocks share every broadcast: with one of them, loads would be the limit.
+template <Scheme kScheme, Outcome kOutcome, std::size_t kRegisters, bool kFull, typename V>
+SIMDBEZIER_INLINE void evaluate_run(const Block<kFull, V> block[kRegisters], std::size_t patch) {
+  const auto& task = block[0].task;
+  Tangents<kOutcome, V> tangents[kRegisters];
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Component<ScalarOf<V>> component(task, patch, c);
+    Polynomials<kOutcome, V> q[kRegisters];
+    for (std::size_t l = 0; l < kOrder; ++l) {
+      V k[kOrder];
+      matrix_column(component, l, k);
+      for (std::size_t r = 0; r < kRegisters; ++r) {
+        q[r].set(l, k, block[r].x);
+      }
+    }
+    V origin = block[0].x; // not used
+    if constexpr (has_origins(kScheme)) {
+      origin = broadcast<V>(component.origin()[0]);
+    }
+    for (std::size_t r = 0; r < kRegisters; ++r) {
+      finish_component<kScheme>(block[r], q[r], c, origin, tangents[r]);
+    }
+  }
+  for (std::size_t r = 0; r < kRegisters; ++r) {
+    finish_block<kScheme>(
+        block[r], tangents[r], [&]() __attribute__((always_inline)) {
+          return broadcast<V>(task.normal_floor[patch]);
+        });
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
