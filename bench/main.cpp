@@ -1,7 +1,9 @@
 // simdbezier_bench: every row of design section "Benchmark names"; see README.md beside this file.
-#include <algorithm>
 #include <atomic>
-#include <thread>
+#include <string>
+#include <vector>
+
+#include <omp.h>
 
 #include "bench/machine.hpp"
 #include "bench/rows.hpp"
@@ -13,7 +15,7 @@ std::atomic<bool> failed{false};
 
 } // namespace
 
-int max_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int max_threads() { return omp_get_num_procs(); }
 
 void fail_row(benchmark::State& state, const std::string& message) {
   failed = true;
@@ -22,16 +24,34 @@ void fail_row(benchmark::State& state, const std::string& message) {
 
 bool any_row_failed() { return failed; }
 
+std::string RowName::text() const {
+  const char* const names[] = {"position", "position_normal", "position_derivatives",
+                               "second_derivatives"};
+  return call + "/" + names[static_cast<int>(outputs)] + (single ? "/f32/" : "/f64/") + who + "/" +
+         std::to_string(nu) + "x" + std::to_string(nv) +
+         (place == Place::cache ? "/cache" : "/memory") + "/threads:" + std::to_string(threads);
+}
+
 } // namespace simdbezier_bench
 
 int main(int argc, char** argv) {
   using namespace simdbezier_bench;
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+  // Google Benchmark's half second a row would take an hour; a later flag has the last word.
+  std::string min_time = "--benchmark_min_time=0.05";
+  std::vector<char*> arguments(argv, argv + argc);
+  arguments.insert(arguments.begin() + (argc > 0 ? 1 : 0), min_time.data());
+  arguments.push_back(nullptr);
+  int count = argc + 1;
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) {
     return 2;
   }
   add_machine_context();
   register_grid_rows();
+  register_tile_rows();
+  register_scattered_rows();
+  register_pack_rows();
+  register_peer_rows();
   register_limit_rows();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

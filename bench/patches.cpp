@@ -118,6 +118,15 @@ std::vector<T> power_basis(const std::vector<T>& nets) {
   return coefficients;
 }
 
+std::vector<double> random_units(std::size_t count, std::uint64_t seed) {
+  Random random(~seed); // far from the nets' seeds
+  std::vector<double> values(count);
+  for (double& value : values) {
+    value = 0.5 + 0.5 * random.next();
+  }
+  return values;
+}
+
 template <typename T>
 std::vector<T> uniform_parameters(std::size_t n) {
   std::vector<T> values(n);

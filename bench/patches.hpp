@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace simdbezier_bench {
@@ -16,6 +17,9 @@ std::vector<T> random_nets(std::size_t count);
 /// Power-basis coefficients [patch][power of v][xyz][power of u], formed in double, rounded once.
 template <typename T>
 std::vector<T> power_basis(const std::vector<T>& nets);
+
+/// `count` values in [0, 1), another series for every seed.
+std::vector<double> random_units(std::size_t count, std::uint64_t seed);
 
 /// The n values i / (n-1).
 template <typename T>

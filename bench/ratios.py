@@ -1,48 +1,30 @@
 #!/usr/bin/env python3
-"""Ratios of the library's rows to the baselines of the same run.
+"""Ratios of the library's rows to baselines and limits of the same run.
 
 usage: ratios.py RUN.json [REGEX]
 
-Reads what `simdbezier_bench --benchmark_out=RUN.json` wrote and prints, for each row of the
-library whose name matches REGEX (default: all): median samples/s, spread over the repetitions
-((max - min) / median), and the ratios of medians to its de_casteljau and autovectorised rows.
-Rows of several threads are compared with the baselines' one thread, and rows with further
-segments (watertight:off) with the baselines' plain row. Baselines and limits are listed below.
+Reads what `simdbezier_bench --benchmark_out=RUN.json` or measure.py wrote and prints the rows whose
+name matches REGEX (default: all), family by family: median samples/s, spread over the repetitions
+((max - min) / median), and ratios of medians:
+
+  de_casteljau    to the baseline on the same grid or the same samples, one thread, its own layout
+  autovectorised  likewise
+  limit           cache, positions: to limit/horner_store of the type and instruction set
+                  memory: bytes written to those of limit/fill_stream with as many threads
+                  random samples, patches in memory: to limit/random_lines (192 bytes a patch: f32)
+  cache row       tiles: to the grid row in cache of the same size
+  threads:1       to the same row with one thread
+  16x16 grid      pack: time a patch to that of its 256 positions (grid row in cache)
 """
 
-import json
 import re
-import statistics
 import sys
 
+sys.dont_write_bytecode = True  # results.py is imported from the source tree
+from results import Name, limit_of, natural_order, read  # noqa: E402
+
 BASELINES = ("de_casteljau", "autovectorised")
-
-
-def read_samples(path):
-    """Row name -> samples/s of its repetitions (or, failing those, of its median)."""
-    with open(path, encoding="utf-8") as file:
-        entries = json.load(file)["benchmarks"]
-    repetitions, medians = {}, {}
-    for entry in entries:
-        if entry.get("error_occurred") or "items_per_second" not in entry:
-            continue
-        name = entry.get("run_name", entry["name"])
-        if entry.get("run_type") != "aggregate":
-            repetitions.setdefault(name, []).append(entry["items_per_second"])
-        elif entry.get("aggregate_name") == "median":
-            medians[name] = [entry["items_per_second"]]
-    return {**medians, **repetitions}
-
-
-def baseline_name(row, baseline):
-    """grid/position/f32/avx512/16x16/cache/threads:2/… -> the baseline's row, one thread."""
-    call, outputs, value_type, _, size, destination = row.split("/")[:6]
-    return "/".join((call, outputs, value_type, baseline, size, destination, "threads:1"))
-
-
-def natural_order(name):
-    """Sorts 8x8 before 16x16."""
-    return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", name)]
+INSTRUCTION_SETS = ("scalar", "sse2", "avx2", "avx512", "neon64")
 
 
 def rate(value):
@@ -52,17 +34,82 @@ def rate(value):
     return f"{value:.3f} /s"
 
 
-def table(rows):
+def table(title, columns, rows):
+    rows = [[title, "samples", "spread", *columns], *rows]
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     for row in rows:
         cells = [cell.rjust(width) for cell, width in zip(row[1:], widths[1:])]
         print("  ".join([row[0].ljust(widths[0])] + cells).rstrip())
+    print()
 
 
-def spread(values):
-    if len(values) < 2:
-        return "-"
-    return f"{(max(values) - min(values)) / statistics.median(values):.1%}"
+class Ratios:
+    def __init__(self, rows):
+        self.rows = rows
+
+    def median(self, name):
+        return self.rows[name].median if name in self.rows else None
+
+    def to_baseline(self, row, baseline):
+        keys = {key: value for key, value in row.keys.items() if key == "patches"}
+        return self.median(row.text(who=baseline, threads=1, keys=keys))
+
+    def to_limit(self, row):
+        share = self.rows[row.text()].share
+        if share is not None:
+            return self.median(row.text()) / share
+        name, scale = limit_of(row.text()) or ("", 1)
+        limit = self.median(name)
+        return limit and limit * scale
+
+    def to_one_thread(self, row):
+        return self.median(row.text(threads=1)) if row.threads > 1 else None
+
+    def to_cache_row(self, row):
+        return self.median(row.text(call="grid", threads=1, keys={}))
+
+    def to_grid(self, row):
+        """256 positions take as long as this many patches a second."""
+        grid = self.median(row.text(call="grid", size="16x16", place="cache", threads=1, keys={}))
+        return grid and grid / 256
+
+    def cells(self, row, columns):
+        references = {"limit": self.to_limit, "threads:1": self.to_one_thread,
+                      "cache row": self.to_cache_row, "16x16 grid": self.to_grid}
+        cells = []
+        own = self.median(row.text())
+        for column in columns:
+            reference = (self.to_baseline(row, column) if column in BASELINES
+                         else references[column](row))
+            if not reference:
+                cells.append("-")
+            elif column == "16x16 grid":
+                cells.append(f"{reference / own:.2f}x")
+            elif column in ("limit", "cache row"):
+                cells.append(f"{own / reference:.3f}")
+            else:
+                cells.append(f"{own / reference:.2f}x")
+        return cells
+
+
+FAMILIES = {
+    "grid, cache": (*BASELINES, "limit"),
+    "grid, memory": (*BASELINES, "limit", "threads:1"),
+    "tiles": ("cache row", "threads:1"),
+    "scattered_sorted": ("de_casteljau", "threads:1"),
+    "scattered_random": ("de_casteljau", "limit", "threads:1"),
+    "pack": ("16x16 grid",),
+}
+
+
+def family_of(name):
+    """The family of a row of the library; None for baselines, other libraries and limits."""
+    if name.startswith("limit/"):
+        return None
+    row = Name(name)
+    if row.who not in INSTRUCTION_SETS:
+        return None
+    return f"grid, {row.place}" if row.call == "grid" else row.call
 
 
 def main(arguments):
@@ -70,36 +117,27 @@ def main(arguments):
         print(__doc__.strip(), file=sys.stderr)
         return 2
     try:
-        samples = read_samples(arguments[0])
+        _, rows = read(arguments[0])
         wanted = re.compile(arguments[1] if len(arguments) == 2 else "")
     except (OSError, ValueError, KeyError, TypeError, re.error) as error:
         print(f"ratios.py: {arguments[0]}: {error!r}", file=sys.stderr)
         return 1
 
-    median = {name: statistics.median(values) for name, values in samples.items()}
-    library, others = [], []
-    for name in sorted(samples, key=natural_order):
-        values = samples[name]
-        if not wanted.search(name):
-            continue
-        cells = [name, rate(median[name]), spread(values)]
-        if not name.startswith("grid/") or name.split("/")[3] in BASELINES:
-            others.append(cells)
-            continue
-        for baseline in BASELINES:
-            reference = median.get(baseline_name(name, baseline))
-            cells.append(f"{median[name] / reference:.2f}x" if reference else "-")
-        library.append(cells)
-
-    if not library and not others:
+    ratios = Ratios(rows)
+    printed = {family: [] for family in (*FAMILIES, None)}
+    for name in sorted(filter(wanted.search, rows), key=natural_order):
+        family = family_of(name)
+        spread = rows[name].spread
+        cells = [name, rate(rows[name].median), "-" if spread is None else f"{spread:.1%}"]
+        if family is not None:
+            cells += ratios.cells(Name(name), FAMILIES[family])
+        printed[family].append(cells)
+    if not any(printed.values()):
         print("ratios.py: no rows", file=sys.stderr)
         return 1
-    if library:
-        table([["row", "samples", "spread", *BASELINES], *library])
-    if library and others:
-        print()
-    if others:
-        table([["baselines and limits", "samples", "spread"], *others])
+    for family, lines in printed.items():
+        if lines:
+            table(family or "baselines, other libraries, limits", FAMILIES.get(family, ()), lines)
     return 0
 
 

@@ -1,23 +1,41 @@
 // The independent reference: a plain Bernstein sum in double, one sample at a time.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
-#include "bench/grid_job.hpp"
+#include "bench/job.hpp"
 
 namespace simdbezier_bench {
 
-/// Overwrites the samples that check_grid() will look at, so that what an earlier row left behind
-/// cannot pass for a result. `interleaved`: groups are x y z triples instead of planes.
-template <typename T>
-void poison_grid(const GridJob<T>& job, bool interleaved);
+// These are checks against wrong results, with room for the power basis' poor rounding; accuracy
+// itself is measured by the tests. Nets are control points [patch][j][i][xyz]. Every check returns
+// an empty string, or one line that names the first sample in error.
 
-/// Compares a job's output with the reference at all samples of up to 64 patches, spread evenly.
-/// `nets`: control points [patch][j][i][xyz] of the job's patches.
-/// Returns an empty string, or one line that names the first sample in error. This is a check
-/// against wrong results, with room for the power basis' poor rounding; accuracy itself is measured
-/// by the tests.
+/// Compares sample `index` of `results` with the patch `net` at (u, v). `patch` and `sample` are
+/// for the message.
 template <typename T>
-std::string check_grid(const GridJob<T>& job, const T* nets, bool interleaved);
+std::string check_sample(const Results<T>& results, std::size_t index, const T* net, double u,
+                         double v, std::size_t patch, std::size_t sample);
+
+/// Overwrites samples [first, last), so that what an earlier row left behind cannot pass for a
+/// result.
+template <typename T>
+void poison(const Results<T>& results, std::size_t first, std::size_t last);
+
+/// The patches of a grid that are looked at: all of a few, else 64 that include both ends.
+bool is_checked(std::size_t patch, std::size_t patches);
+
+/// All samples of the checked patches of a grid.
+template <typename T>
+void poison_grid(const GridJob<T>& job);
+template <typename T>
+std::string check_grid(const GridJob<T>& job, const T* nets);
+
+/// Some 4000 scattered samples, spread evenly; all are poisoned.
+template <typename T>
+void poison_scattered(const ScatteredJob<T>& job);
+template <typename T>
+std::string check_scattered(const ScatteredJob<T>& job, const T* nets);
 
 } // namespace simdbezier_bench

@@ -2,14 +2,38 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <string>
 
 #include <benchmark/benchmark.h>
 
+#include "bench/job.hpp"
+#include "bench/shared_data.hpp"
+
 namespace simdbezier_bench {
 
 void register_grid_rows();
+void register_tile_rows();
+void register_scattered_rows();
+void register_pack_rows();
+void register_peer_rows();
 void register_limit_rows();
+
+enum class Place { cache, memory };
+
+/// <call>/<outputs>/<type>/<who>/<nu>x<nv>/<place>/threads:<t>
+struct RowName {
+  std::string call;
+  OutputGroups outputs = OutputGroups::position;
+  bool single = true;   ///< f32, else f64
+  std::string who = {}; ///< instruction set, baseline or peer
+  std::size_t nu = 1;
+  std::size_t nv = 1;
+  Place place = Place::cache;
+  int threads = 1;
+
+  [[nodiscard]] std::string text() const;
+};
 
 /// Every core that this process may use: 1 under `taskset -c 1`.
 int max_threads();
@@ -39,6 +63,29 @@ void time_calls(benchmark::State& state, int threads, double items, double bytes
   if (bytes > 0) {
     state.counters["bytes_per_second"] = Counter(scale * bytes, flags, Counter::kIs1024);
   }
+}
+
+/// Registers a row. make() gives what is timed: an object with operator()(), items() and bytes() of
+/// one call, and check(), which runs it once and returns an empty string or why it must not be
+/// timed.
+template <typename Make>
+void register_row(const std::string& name, benchmark::TimeUnit unit, int threads, Make make) {
+  const auto checked = std::make_shared<bool>(false); // once a process, not once a repetition
+  auto run = [threads, make, checked](benchmark::State& state) {
+    if (output_buffer() == nullptr) {
+      return fail_row(state, "no memory for the output");
+    }
+    auto row = make();
+    if (!*checked) {
+      const std::string failure = row.check();
+      if (!failure.empty()) {
+        return fail_row(state, failure);
+      }
+      *checked = true;
+    }
+    time_calls(state, threads, row.items(), row.bytes(), [&row] { row(); });
+  };
+  benchmark::RegisterBenchmark(name.c_str(), run)->Unit(unit);
 }
 
 } // namespace simdbezier_bench

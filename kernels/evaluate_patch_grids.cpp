@@ -27,9 +27,11 @@ struct Samples {
   const std::size_t* offset = nullptr;
   std::size_t extent = 0; ///< one more than the highest index
   std::size_t most_nu = 0;
+  std::size_t most_nv = 0;
 };
 
 /// ok | null_input | bad_grid | bad_offsets | size_overflow | out_of_memory
+template <typename T>
 Status count_samples(const PatchGrids& grids, std::size_t patches, Samples& samples) noexcept {
   if (patches > 0 && (grids.nu == nullptr || grids.nv == nullptr)) {
     return Status::null_input;
@@ -48,11 +50,15 @@ Status count_samples(const PatchGrids& grids, std::size_t patches, Samples& samp
     if (nu < 2 || nv < 2) {
       return Status::bad_grid;
     }
+    if (std::max(nu, nv) > GridPlan<T>::kMost) {
+      return Status::size_overflow;
+    }
     const std::size_t count = nu * nv; // of two 32-bit values
     if (__builtin_add_overflow(samples.before[k], count, &samples.before[k + 1])) {
       return Status::size_overflow;
     }
     samples.most_nu = std::max(samples.most_nu, nu);
+    samples.most_nv = std::max(samples.most_nv, nv);
     if (grids.offset != nullptr) {
       if (grids.offset[k] < samples.extent) {
         return Status::bad_offsets;
@@ -67,22 +73,22 @@ Status count_samples(const PatchGrids& grids, std::size_t patches, Samples& samp
   return Status::ok;
 }
 
-/// Plans by size: neighbours often share theirs.
+/// Plans by size: neighbours often share theirs. Grids too large for a plan's own room share one
+/// piece of memory, so that nothing can fail once samples are being written.
 template <typename T>
 class PlanCache {
 public:
-  /// Null where memory is short.
-  const GridPlan<T>* find(std::size_t nu, std::size_t nv) noexcept {
-    Entry& entry = entry_[(nu * 5 + nv) % kEntries];
+  explicit PlanCache(T* memory) noexcept : memory_(memory) {}
+
+  const GridPlan<T>& find(std::size_t nu, std::size_t nv) noexcept {
+    const bool large = !GridPlan<T>::fits_inline(nu, nv);
+    Entry& entry = large ? large_ : entry_[(nu * 5 + nv) % kEntries];
     if (entry.nu != nu || entry.nv != nv) {
-      entry.nu = 0;
-      if (entry.plan.build(Grid<T>::uniform(nu, nv)) != Status::ok) {
-        return nullptr;
-      }
+      [[maybe_unused]] const Status built = entry.plan.build(Grid<T>::uniform(nu, nv), memory_);
       entry.nu = nu;
       entry.nv = nv;
     }
-    return &entry.plan;
+    return entry.plan;
   }
 
 private:
@@ -92,6 +98,8 @@ private:
     std::size_t nu = 0;
     std::size_t nv = 0;
   };
+  T* memory_;
+  Entry large_;
   Entry entry_[kEntries];
 };
 
@@ -113,13 +121,13 @@ public:
   }
 
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
-    return delivery_bytes_ + GridEvaluator<T>::scratch_bytes(kMostRows);
+    return delivery_bytes_ + plan_bytes_ + GridEvaluator<T>::scratch_bytes(kMostRows);
   }
 
   /// The rows that begin with samples [begin, end), counted without gaps.
   Isa worker(std::size_t begin, std::size_t end, unsigned char* scratch) const noexcept {
-    PlanCache<T> plans;
-    GridEvaluator<T> evaluator(kernels_, kMostRows, scratch + delivery_bytes_);
+    PlanCache<T> plans(reinterpret_cast<T*>(scratch + delivery_bytes_));
+    GridEvaluator<T> evaluator(kernels_, kMostRows, scratch + delivery_bytes_ + plan_bytes_);
     Delivery<T> delivery(outputs_, *kernels_.table, chunk_samples_, scratch);
     const std::size_t* const before = samples_.before.get();
     std::size_t k =
@@ -130,11 +138,11 @@ public:
       const auto rows_before = [&](std::size_t sample) {
         return sample <= before[k] ? 0 : std::min(nv, (sample - before[k] + nu - 1) / nu);
       };
-      const GridPlan<T>* const plan = plans.find(nu, nv);
+      const GridPlan<T>& plan = plans.find(nu, nv);
       for (std::size_t row = rows_before(begin), last = rows_before(end); row < last;) {
         const std::size_t rows =
             std::min({last - row, std::max<std::size_t>(piece_samples_ / nu, 1), kMostRows});
-        run_piece(*plan, k, row, rows, evaluator, delivery);
+        run_piece(plan, k, row, rows, evaluator, delivery);
         row += rows;
       }
     }
@@ -163,6 +171,7 @@ private:
   std::size_t piece_samples_;
   std::size_t chunk_samples_;
   std::size_t delivery_bytes_ = 0;
+  std::size_t plan_bytes_ = 0; ///< parameters of the largest grid
 };
 
 } // namespace
@@ -177,7 +186,7 @@ Status evaluate_patch_grids(const PatchSet<T>& set, const PatchGrids& grids, con
     return resolved;
   }
   detail::Samples samples;
-  const Status counted = detail::count_samples(grids, request.patches, samples);
+  const Status counted = detail::count_samples<T>(grids, request.patches, samples);
   if (counted != Status::ok) {
     return counted;
   }

@@ -113,8 +113,8 @@ Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, con
                                       detail::scheme(options.watertight, set.has_local_origins()),
                                       piece};
   const std::size_t pieces = samples.count / piece + (samples.count % piece != 0 ? 1 : 0);
-  const std::size_t scratch = detail::Delivery<T>::scratch_bytes(
-      outputs.staged_planes(), outputs.streaming(), piece);
+  const std::size_t scratch =
+      detail::Delivery<T>::scratch_bytes(outputs.staged_planes(), outputs.streaming(), piece);
   return detail::run_blocks(pieces, options, scratch,
                             [&](int, std::size_t begin, std::size_t end, unsigned char* own) {
                               return call.worker(begin, end, own);

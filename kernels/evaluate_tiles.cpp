@@ -23,6 +23,9 @@ std::size_t vector_groups(const TileFormat& format) noexcept {
          static_cast<std::size_t>(format.normal);
 }
 
+/// Half of a common first-level cache: the caller reads what has just been written.
+constexpr std::size_t kTileBytes = std::size_t{24} << 10;
+
 /// Which samples one tile holds.
 struct TileShape {
   std::size_t rows = 0;    ///< of one patch
@@ -35,8 +38,8 @@ template <typename T>
 bool choose_shape(std::size_t nu, std::size_t nv, std::size_t patches, const TileFormat& format,
                   TileShape& shape) noexcept {
   const std::size_t bytes = 3 * vector_groups(format) * sizeof(T);
-  const std::size_t most = std::max<std::size_t>(
-      format.samples != 0 ? format.samples : second_level_cache() / 4 / bytes, 1);
+  const std::size_t most =
+      std::max<std::size_t>(format.samples != 0 ? format.samples : kTileBytes / bytes, 1);
   shape.rows = std::clamp<std::size_t>(most / nu, 1, nv);
   shape.strips = (nv + shape.rows - 1) / shape.rows;
   shape.rows = (nv + shape.strips - 1) / shape.strips; // even strips

@@ -3,13 +3,11 @@
 
 #include <cmath>
 
+#include "kernels/dispatch.hpp"
 #include "kernels/normal_fallback.hpp"
 
 namespace simdbezier::detail {
 namespace {
-
-/// While a drain goes on beside the kernel, it gets its turn after so many rows.
-constexpr std::size_t kPacedRows = 16;
 
 template <typename T>
 void prefill_status(const GridTask<T>& task, SampleStatus* status) noexcept {
@@ -47,8 +45,7 @@ void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
     generation_ = plan.generation();
     first_row_ = piece.first_row;
     last_row_ = piece.last_row;
-    run_count_ = plan.fill_runs(first_row_, last_row_,
-                                drain == nullptr ? last_row_ - first_row_ : kPacedRows, runs_);
+    run_count_ = plan.fill_runs(first_row_, last_row_, runs_);
   }
   const PatchStorage<T>& set = *kernels_.patches;
   GridTask<T> task{};
@@ -69,6 +66,7 @@ void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
   task.patch_step = (last_row_ - first_row_) * plan.nu();
   task.resolve_normal = resolve_normal<T>;
   task.drain = drain;
+  task.prefetch = set.count > second_level_cache() / ((kCoefficients + kEdgeBlock) * sizeof(T));
   if (status != nullptr) {
     for (std::size_t p = 0; p < piece.patches; ++p) {
       prefill_status(task, status + p * task.patch_step);

@@ -46,9 +46,7 @@ T half_centred(T value, Parameters parameters) noexcept {
 }
 
 template <typename T>
-Status GridPlan<T>::build(const Grid<T>& grid) noexcept {
-  // Above this, sample indices and numerators would leave 63 bits, and runs 32.
-  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() - kMaxLanes;
+Status GridPlan<T>::build(const Grid<T>& grid, T* memory) noexcept {
   if (grid.nu < (grid.u == nullptr ? 2U : 1U) || grid.nv < (grid.v == nullptr ? 2U : 1U)) {
     return Status::bad_grid;
   }
@@ -60,13 +58,15 @@ Status GridPlan<T>::build(const Grid<T>& grid) noexcept {
   nv_ = grid.nv;
   x_ = inline_x_;
   y_ = inline_y_;
-  if (nu_ > kInline || nv_ > kInline) {
-    const std::size_t values = nu_ + nv_ + 2 * kMaxLanes;
-    heap_.reset(new (std::nothrow) T[values]);
-    if (heap_ == nullptr) {
+  if (!fits_inline(nu_, nv_)) {
+    if (memory == nullptr) {
+      heap_.reset(new (std::nothrow) T[memory_values(nu_, nv_)]);
+      memory = heap_.get();
+    }
+    if (memory == nullptr) {
       return Status::out_of_memory;
     }
-    x_ = heap_.get();
+    x_ = memory;
     y_ = x_ + nu_ + kMaxLanes;
   }
   fill_parameters(grid.u, nu_, grid.parameters, x_);
@@ -80,12 +80,17 @@ Status GridPlan<T>::build(const Grid<T>& grid) noexcept {
 }
 
 template <typename T>
-std::size_t GridPlan<T>::fill_runs(std::size_t first, std::size_t last, std::size_t most,
+std::size_t GridPlan<T>::memory_values(std::size_t nu, std::size_t nv) noexcept {
+  return nu + nv + 2 * kMaxLanes;
+}
+
+template <typename T>
+std::size_t GridPlan<T>::fill_runs(std::size_t first, std::size_t last,
                                    RowRun<T>* runs) const noexcept {
   std::size_t count = 0;
   for (std::size_t j = first; j < last; ++j) {
     const RowKind kind = kind_of(y_[j]);
-    if (count > 0 && runs[count - 1].kind == kind && runs[count - 1].rows < most) {
+    if (count > 0 && runs[count - 1].kind == kind) {
       ++runs[count - 1].rows;
     } else {
       runs[count++] = {y_ + j, 1, kind};

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 #include <simdbezier/evaluate.hpp>
@@ -16,8 +17,18 @@ namespace simdbezier::detail {
 template <typename T>
 class GridPlan {
 public:
-  /// Checks the grid and fills the plan. Returns ok | bad_grid | size_overflow | out_of_memory.
-  [[nodiscard]] Status build(const Grid<T>& grid) noexcept;
+  /// Samples in a row or column: above this, indices and numerators would leave 63 bits, and
+  /// runs 32.
+  static constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() - kMaxLanes;
+  /// Whether a plan needs no memory besides its own.
+  [[nodiscard]] static bool fits_inline(std::size_t nu, std::size_t nv) noexcept {
+    return nu <= kInline && nv <= kInline;
+  }
+
+  /// Checks the grid and fills the plan. Returns ok | bad_grid | size_overflow | out_of_memory; the
+  /// last not where `memory` has room for memory_values() of the grid.
+  [[nodiscard]] Status build(const Grid<T>& grid, T* memory = nullptr) noexcept;
+  [[nodiscard]] static std::size_t memory_values(std::size_t nu, std::size_t nv) noexcept;
 
   [[nodiscard]] std::size_t nu() const noexcept { return nu_; }
   [[nodiscard]] std::size_t nv() const noexcept { return nv_; }
@@ -25,10 +36,9 @@ public:
   /// Changes with every build().
   [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
 
-  /// Describes rows [first, last) by runs of `most` rows at the most; there is room for last -
-  /// first runs. Returns how many there are.
-  std::size_t fill_runs(std::size_t first, std::size_t last, std::size_t most,
-                        RowRun<T>* runs) const noexcept;
+  /// Describes rows [first, last) by runs, of which there is room for last - first; returns how
+  /// many there are.
+  std::size_t fill_runs(std::size_t first, std::size_t last, RowRun<T>* runs) const noexcept;
 
 private:
   static constexpr std::size_t kInline = 128;

@@ -83,6 +83,7 @@ struct GridTask {
   SampleStatus* status; ///< may be null; filled beforehand, changed where a normal is unusual
   std::size_t patch_step;
   ResolveNormal<T> resolve_normal;
+  bool prefetch;        ///< the set does not fit the second-level cache
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see pace()
   Isa executed;         ///< written by the kernel
 };

@@ -1,22 +1,24 @@
 // The two competitors, compiled once per instruction set.
 #pragma once
 
-#include "bench/grid_job.hpp"
+#include "bench/job.hpp"
 
 namespace simdbezier_bench {
 
 /// The competitors at the widest instruction set that this build and this machine share.
 template <typename T>
 struct Baselines {
-  void (*de_casteljau)(const GridJob<T>& job) = nullptr;   ///< AoS out
-  void (*autovectorised)(const GridJob<T>& job) = nullptr; ///< SoA out
+  void (*de_casteljau)(const GridJob<T>& job) = nullptr;                ///< AoS out
+  void (*de_casteljau_scattered)(const ScatteredJob<T>& job) = nullptr; ///< AoS out
+  void (*autovectorised)(const GridJob<T>& job) = nullptr;              ///< SoA out
 };
 
 template <typename T>
 Baselines<T> widest_baselines();
 
-/// Largest n that autovectorised accepts: its scratch is on the stack.
-constexpr std::size_t kMaxGridSize = 64;
+/// Largest nu (and nv, where nu is below 8) that autovectorised accepts: its scratch is on the
+/// stack.
+constexpr std::size_t kMaxGridSize = 80;
 
 // Definitions live in namespaces named after the instruction set, so that no two objects ever
 // offer the linker the same symbol.
@@ -24,6 +26,8 @@ constexpr std::size_t kMaxGridSize = 64;
   namespace isa {                                                                                  \
   void de_casteljau(const GridJob<float>& job);                                                    \
   void de_casteljau(const GridJob<double>& job);                                                   \
+  void de_casteljau_scattered(const ScatteredJob<float>& job);                                     \
+  void de_casteljau_scattered(const ScatteredJob<double>& job);                                    \
   void autovectorised(const GridJob<float>& job);                                                  \
   void autovectorised(const GridJob<double>& job);                                                 \
   }

@@ -8,47 +8,26 @@
 
 #include <cmath>
 
-// g++ 12 leaves the loop over samples alone; clang must be told.
-#if defined(__clang__)
-#define BENCH_PER_SAMPLE _Pragma("clang loop vectorize(disable)")
-#else
-#define BENCH_PER_SAMPLE
-#endif
+#include "bench/baselines/cubic.hpp"
 
 namespace simdbezier_bench {
 namespace SIMDBEZIER_BENCH_ISA {
 namespace {
 
-template <typename T>
-[[gnu::always_inline]] inline T interpolate(T t, T a, T b) {
-  return a + t * (b - a);
-}
-
-/// The value at t; `slope` receives a third of the derivative.
-template <typename T>
-[[gnu::always_inline]] inline T cubic(T t, T b0, T b1, T b2, T b3, T& slope) {
-  const T b01 = interpolate(t, b0, b1);
-  const T b12 = interpolate(t, b1, b2);
-  const T b23 = interpolate(t, b2, b3);
-  const T b012 = interpolate(t, b01, b12);
-  const T b123 = interpolate(t, b12, b23);
-  slope = b123 - b012;
-  return b012 + t * slope;
-}
-
 // The loops below hold the whole of a sample's arithmetic and take their pointers as parameters:
 // split into further functions, the same code is a quarter slower with g++ 12.
 template <typename T>
-void positions(const GridJob<T>& job, const T* __restrict nets, const T* __restrict parameters,
-               T* __restrict position) {
-  const std::size_t n = job.n;
+void positions(const GridJob<T>& job, const T* __restrict nets, const T* __restrict us,
+               const T* __restrict vs, T* __restrict position) {
+  const std::size_t nu = job.nu;
+  const std::size_t nv = job.nv;
   for (std::size_t patch = 0; patch < job.patches; ++patch) {
     const T* const net = nets + 48 * patch;
-    for (std::size_t iv = 0; iv < n; ++iv) {
-      const T v = parameters[iv];
+    for (std::size_t iv = 0; iv < nv; ++iv) {
+      const T v = vs[iv];
       BENCH_PER_SAMPLE
-      for (std::size_t iu = 0; iu < n; ++iu) {
-        const T u = parameters[iu];
+      for (std::size_t iu = 0; iu < nu; ++iu) {
+        const T u = us[iu];
         for (int c = 0; c < 3; ++c) {
           const T* const b = net + c;
           T row[4];
@@ -67,17 +46,18 @@ void positions(const GridJob<T>& job, const T* __restrict nets, const T* __restr
 // Both tangents take a second pass in v: one over the points on the rows, which gives the position
 // and dv, and one over the rows' own last differences, which gives du.
 template <OutputGroups kGroups, typename T>
-void positions_and_tangents(const GridJob<T>& job, const T* __restrict nets,
-                            const T* __restrict parameters, T* __restrict position,
-                            T* __restrict second, T* __restrict third) {
-  const std::size_t n = job.n;
+void positions_and_tangents(const GridJob<T>& job, const T* __restrict nets, const T* __restrict us,
+                            const T* __restrict vs, T* __restrict position, T* __restrict second,
+                            T* __restrict third) {
+  const std::size_t nu = job.nu;
+  const std::size_t nv = job.nv;
   for (std::size_t patch = 0; patch < job.patches; ++patch) {
     const T* const net = nets + 48 * patch;
-    for (std::size_t iv = 0; iv < n; ++iv) {
-      const T v = parameters[iv];
+    for (std::size_t iv = 0; iv < nv; ++iv) {
+      const T v = vs[iv];
       BENCH_PER_SAMPLE
-      for (std::size_t iu = 0; iu < n; ++iu) {
-        const T u = parameters[iu];
+      for (std::size_t iu = 0; iu < nu; ++iu) {
+        const T u = us[iu];
         T du[3]; // thirds of the derivatives
         T dv[3];
         for (int c = 0; c < 3; ++c) {
@@ -114,18 +94,63 @@ void positions_and_tangents(const GridJob<T>& job, const T* __restrict nets,
   }
 }
 
+// Second derivatives: the rows' values, last differences and second differences, each by a pass in
+// v that keeps as many differences as are wanted.
+template <typename T>
+void second_derivatives(const GridJob<T>& job, const T* __restrict nets, const T* __restrict us,
+                        const T* __restrict vs, T* __restrict position, T* __restrict out_du,
+                        T* __restrict out_dv, T* __restrict duu, T* __restrict duv,
+                        T* __restrict dvv) {
+  const std::size_t nu = job.nu;
+  const std::size_t nv = job.nv;
+  std::size_t k = 0;
+  for (std::size_t patch = 0; patch < job.patches; ++patch) {
+    const T* const net = nets + 48 * patch;
+    for (std::size_t iv = 0; iv < nv; ++iv) {
+      const T v = vs[iv];
+      BENCH_PER_SAMPLE
+      for (std::size_t iu = 0; iu < nu; ++iu) {
+        const T u = us[iu];
+        for (std::size_t c = 0; c < 3; ++c) {
+          const T* const b = net + c;
+          T row[4];
+          T row_du[4];
+          T row_duu[4];
+          for (int j = 0; j < 4; ++j) {
+            row[j] = cubic2(u, b[12 * j], b[12 * j + 3], b[12 * j + 6], b[12 * j + 9], row_du[j],
+                            row_duu[j]);
+          }
+          T slope;
+          T mixed;
+          T curvature;
+          T unused;
+          position[k + c] = cubic2(v, row[0], row[1], row[2], row[3], slope, curvature);
+          out_du[k + c] = 3 * cubic(v, row_du[0], row_du[1], row_du[2], row_du[3], mixed);
+          out_dv[k + c] = 3 * slope;
+          duu[k + c] = 6 * cubic(v, row_duu[0], row_duu[1], row_duu[2], row_duu[3], unused);
+          duv[k + c] = 9 * mixed;
+          dvv[k + c] = 6 * curvature;
+        }
+        k += 3;
+      }
+    }
+  }
+}
+
 template <typename T>
 void dispatch(const GridJob<T>& job) {
-  T* const* const p = job.planes;
-  switch (job.groups) {
+  T* const* const p = job.out.component;
+  switch (job.out.groups) {
   case OutputGroups::position:
-    return positions(job, job.input, job.parameters, p[0]);
+    return positions(job, job.input, job.u, job.v, p[0]);
   case OutputGroups::position_normal:
-    return positions_and_tangents<OutputGroups::position_normal>(job, job.input, job.parameters,
-                                                                 p[0], p[3], p[6]);
+    return positions_and_tangents<OutputGroups::position_normal>(job, job.input, job.u, job.v, p[0],
+                                                                 p[3], p[6]);
   case OutputGroups::position_derivatives:
-    return positions_and_tangents<OutputGroups::position_derivatives>(
-        job, job.input, job.parameters, p[0], p[3], p[6]);
+    return positions_and_tangents<OutputGroups::position_derivatives>(job, job.input, job.u, job.v,
+                                                                      p[0], p[3], p[6]);
+  case OutputGroups::second_derivatives:
+    return second_derivatives(job, job.input, job.u, job.v, p[0], p[3], p[6], p[9], p[12], p[15]);
   }
 }
 

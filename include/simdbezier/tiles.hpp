@@ -28,7 +28,7 @@ struct TileFormat {
   bool normal = false;
   bool status = false; ///< of normals, see SampleStatus
   TileLayout layout = TileLayout::planes;
-  /// The most samples in one tile; 0: what fits a quarter of the second-level cache. A tile holds
+  /// The most samples in one tile; 0: what fits half of a first-level cache. A tile holds
   /// whole patches where one fits, else whole rows of one patch, at least one row.
   std::size_t samples = 0;
 };
@@ -48,18 +48,25 @@ struct Tile {
   Outputs<T> out;          ///< the tile's own memory; the caller may change it, not keep it
 };
 
-/// A borrowed callable `void(const Tile<T>&)`. It must outlive the call and must not throw.
+template <typename T>
+class TileFunction;
+
+template <typename F, typename T>
+concept TileCallable = std::is_invocable_v < F&,
+        const Tile<T>
+& > ;
+
+/// A borrowed callable `void(const Tile<T>&)`. It must outlive the call and must not throw; it runs
+/// in the library's floating-point environment (round to nearest, denormals kept).
 template <typename T>
 class TileFunction {
 public:
-  template <typename F>
-  requires std::is_invocable_v < F&, const Tile<T>
-  & > &&(!std::is_same_v<std::remove_cvref_t<F>, TileFunction>)
-          TileFunction(F&& function) noexcept // NOLINT: implicit on purpose
+  template <TileCallable<T> F>
+  TileFunction(F&& function) noexcept // NOLINT: implicit on purpose
       : context_(const_cast<void*>(static_cast<const void*>(std::addressof(function)))),
-  call_([](void* context, const Tile<T>& tile) {
-    (*static_cast<std::remove_reference_t<F>*>(context))(tile);
-  }) {}
+        call_([](void* context, const Tile<T>& tile) {
+          (*static_cast<std::remove_reference_t<F>*>(context))(tile);
+        }) {}
   void operator()(const Tile<T>& tile) const { call_(context_, tile); }
 
 private:

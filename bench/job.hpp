@@ -1,0 +1,56 @@
+// What one call computes, in terms that the library's rows and the baselines share.
+// Objects of every instruction set include this file: plain data only, nothing with a body that
+// the linker could take from the wrong object.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace simdbezier_bench {
+
+/// The second derivatives come with everything before them: position, du, dv, duu, duv, dvv.
+enum class OutputGroups { position, position_normal, position_derivatives, second_derivatives };
+
+constexpr std::size_t kMostGroups = 6;
+
+constexpr std::size_t group_count(OutputGroups groups) {
+  constexpr std::size_t kCounts[] = {1, 2, 3, kMostGroups};
+  return kCounts[static_cast<int>(groups)];
+}
+
+/// Where results lie: component c of group g of sample k is component[3 * g + c][k * stride], the
+/// groups in the order of OutputGroups' names. Planes: stride 1; x y z triples: stride 3, and the
+/// components of a group follow each other; vertices: stride 3 * group_count.
+template <typename T>
+struct Results {
+  OutputGroups groups = OutputGroups::position;
+  T* component[3 * kMostGroups] = {};
+  std::size_t stride = 1;
+};
+
+/// Every patch of a batch on one uniform nu x nv grid, u fastest, patch after patch.
+template <typename T>
+struct GridJob {
+  std::size_t patches = 0;
+  std::size_t nu = 0;
+  std::size_t nv = 0;
+  /// 48 values a patch: control points [j][i][xyz] for de_casteljau, power-basis coefficients
+  /// [power of v][xyz][power of u] for autovectorised.
+  const T* input = nullptr;
+  const T* u = nullptr; ///< i / (nu-1)
+  const T* v = nullptr; ///< i / (nv-1)
+  Results<T> out;       ///< triples for de_casteljau, planes for autovectorised
+};
+
+/// Single samples: sample k lies on patch[k] at (u[k], v[k]).
+template <typename T>
+struct ScatteredJob {
+  std::size_t count = 0;
+  const T* nets = nullptr; ///< control points [patch][j][i][xyz]
+  const std::uint32_t* patch = nullptr;
+  const T* u = nullptr;
+  const T* v = nullptr;
+  Results<T> out; ///< triples for de_casteljau
+};
+
+} // namespace simdbezier_bench

@@ -1,0 +1,71 @@
+// What the library's rows have in common: outputs in its terms, and the proof of what ran.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include <simdbezier/simdbezier.hpp>
+
+#include "bench/job.hpp"
+
+namespace simdbezier_bench {
+
+template <typename T>
+using GroupMember = simdbezier::Vectors<T> simdbezier::Outputs<T>::*;
+
+/// The groups of the library's Outputs, in the order of the name.
+template <typename T>
+std::span<const GroupMember<T>> members_of(OutputGroups groups) {
+  using Out = simdbezier::Outputs<T>;
+  static constexpr GroupMember<T> kDerivatives[] = {&Out::position, &Out::du,  &Out::dv,
+                                                    &Out::duu,      &Out::duv, &Out::dvv};
+  static constexpr GroupMember<T> kNormal[] = {&Out::position, &Out::normal};
+  if (groups == OutputGroups::position_normal) {
+    return kNormal;
+  }
+  return std::span(kDerivatives).first(group_count(groups));
+}
+
+template <typename T>
+simdbezier::Outputs<T> library_outputs(const Results<T>& results) {
+  simdbezier::Outputs<T> out;
+  T* const* p = results.component;
+  for (const GroupMember<T> member : members_of<T>(results.groups)) {
+    out.*member = {p[0], p[1], p[2], static_cast<std::ptrdiff_t>(results.stride)};
+    p += 3;
+  }
+  return out;
+}
+
+template <typename T>
+Results<T> results_of(const simdbezier::Outputs<T>& out, OutputGroups groups) {
+  Results<T> results;
+  results.groups = groups;
+  T** p = results.component;
+  for (const GroupMember<T> member : members_of<T>(groups)) {
+    const simdbezier::Vectors<T>& group = out.*member;
+    *p++ = group.x;
+    *p++ = group.y;
+    *p++ = group.z;
+    results.stride = static_cast<std::size_t>(group.stride);
+  }
+  return results;
+}
+
+/// Runs call(options), which returns a Status; empty, or what went wrong: an error, or another
+/// instruction set than options.isa.
+template <typename Call>
+std::string run_verified(simdbezier::Options options, Call call) {
+  simdbezier::Isa executed = simdbezier::Isa::automatic;
+  options.executed = &executed;
+  const simdbezier::Status status = call(options);
+  if (status != simdbezier::Status::ok) {
+    return std::string(simdbezier::to_string(status));
+  }
+  if (executed != options.isa) {
+    return "another instruction set ran: " + std::string(simdbezier::to_string(executed));
+  }
+  return {};
+}
+
+} // namespace simdbezier_bench

@@ -1,0 +1,145 @@
+// pack/position/<type>/<isa>/4x4/<destination>/threads:1: from control points to a PatchSet.
+#include <string>
+
+#include <simdbezier/simdbezier.hpp>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+#include "bench/library_call.hpp"
+#include "bench/place.hpp"
+#include "bench/reference.hpp"
+#include "bench/rows.hpp"
+#include "bench/shared_data.hpp"
+
+namespace simdbezier_bench {
+namespace {
+
+using simdbezier::Isa;
+
+constexpr std::size_t kCached = 256;     ///< nets and set: 160 KB in float, 320 KB in double
+constexpr std::size_t kMemory = 300'000; ///< 190 and 380 MB
+
+/// Rows name the instruction set that was asked for, where packing can be told one.
+template <typename Options>
+constexpr bool kTakesIsa = requires(Options options) {
+  options.isa;
+};
+
+template <typename Options>
+void ask_for(Options& options, Isa isa) {
+  if constexpr (kTakesIsa<Options>) {
+    options.isa = isa;
+  }
+}
+
+/// Keeps freed memory in the process: a set of 300 000 patches would otherwise come from the system
+/// and go back there every time, and the row would measure page faults.
+void keep_freed_memory() {
+#if defined(__GLIBC__)
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
+}
+
+void free_memory_as_usual() {
+#if defined(__GLIBC__)
+  mallopt(M_MMAP_MAX, 65536);
+  mallopt(M_TRIM_THRESHOLD, 1 << 25);
+  malloc_trim(0);
+#endif
+}
+
+template <typename T>
+class PackCall {
+public:
+  PackCall(Isa isa, std::size_t patches) : isa_(isa), patches_(patches) {
+    nets_.points = shared_nets<T>(patches);
+    nets_.count = patches;
+    ask_for(options_, isa);
+    keep_freed_memory();
+    // The first sets' pages come from the system; a few later, freed blocks are found again.
+    for (int k = 0; k < 4; ++k) {
+      (*this)();
+    }
+  }
+  PackCall(const PackCall&) = delete;
+  PackCall& operator=(const PackCall&) = delete;
+  ~PackCall() {
+    set_ = {};
+    free_memory_as_usual();
+  }
+
+  void operator()() {
+    set_ = {}; // its memory is the next one's
+    (void)simdbezier::pack(nets_, set_, options_);
+  }
+
+  /// A set is opaque: the positions of a small grid, which determine the patch, are compared.
+  std::string check() {
+    set_ = {};
+    if (const simdbezier::PackReport report = simdbezier::pack(nets_, set_, options_); !report) {
+      return std::string(simdbezier::to_string(report.status));
+    }
+    constexpr std::size_t kSize = 4;
+    GridJob<T> job;
+    job.patches = patches_;
+    job.nu = job.nv = kSize;
+    job.out = place_results<T>(OutputGroups::position, patches_ * kSize * kSize, Layout::planes);
+    poison_grid(job);
+    simdbezier::Options options;
+    options.threads = 1;
+    options.isa = isa_;
+    const std::string failure = run_verified(options, [&](const auto& verified) {
+      return simdbezier::evaluate_grid(set_, simdbezier::Grid<T>::uniform(kSize, kSize),
+                                       library_outputs(job.out), verified);
+    });
+    return failure.empty() ? check_grid(job, shared_nets<T>(patches_)) : failure;
+  }
+
+  [[nodiscard]] double items() const { return static_cast<double>(patches_); }
+  [[nodiscard]] double bytes() const { return 0; }
+
+private:
+  Isa isa_;
+  std::size_t patches_;
+  simdbezier::ControlNets<T> nets_;
+  simdbezier::PackOptions options_;
+  simdbezier::PatchSet<T> set_;
+};
+
+template <typename T>
+void add_type() {
+  constexpr bool kEach = kTakesIsa<simdbezier::PackOptions>;
+  Isa chosen = Isa::automatic;
+  const bool known = simdbezier::resolve_isa(Isa::automatic, chosen) == simdbezier::Status::ok;
+  for (const Isa isa : simdbezier::available_isas()) {
+    if (!kEach && !(known && isa == chosen)) {
+      continue;
+    }
+    for (const Place place : {Place::cache, Place::memory}) {
+      const RowName name{"pack",
+                         OutputGroups::position,
+                         sizeof(T) == 4,
+                         std::string(simdbezier::to_string(isa)),
+                         4,
+                         4,
+                         place,
+                         1};
+      const std::size_t patches = place == Place::cache ? kCached : kMemory;
+      register_row(name.text(),
+                   place == Place::cache ? benchmark::kMicrosecond : benchmark::kMillisecond, 1,
+                   [isa, patches] { return PackCall<T>(isa, patches); });
+    }
+  }
+}
+
+} // namespace
+
+void register_pack_rows() {
+  add_type<float>();
+  add_type<double>();
+}
+
+} // namespace simdbezier_bench
