@@ -23,7 +23,6 @@ constexpr std::size_t kMostRows = 1024;
 /// The sizes of a call, and where each patch's samples begin.
 struct Samples {
   std::unique_ptr<std::size_t[]> before; ///< samples in the patches before each one; count + 1
-  std::unique_ptr<std::size_t[]> packed; ///< offsets where the caller gave none
   const std::size_t* offset = nullptr;
   std::size_t extent = 0; ///< one more than the highest index
   std::size_t most_nu = 0;

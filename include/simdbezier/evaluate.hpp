@@ -7,7 +7,8 @@
 //               (64 bytes are faster).
 //   Accuracy    |error| <= 21 u max|P| a component on FMA instruction sets, 32 u without, at the
 //               centred parameters as rounded (u = 2^-24 float, 2^-53 double); first derivatives
-//               <= 18 u max|hodograph control vector| on FMA instruction sets.
+//               <= 18 u max|hodograph control vector| on FMA instruction sets; second ones 15 u
+//               (21 u without FMA) max|control vector of the second hodograph|.
 //   Watertight  positions on an edge depend only on that edge's four control points and are
 //               bit-equal on both sides whatever the orientation; corners are control points.
 //   Bits        equal for any thread count, batch size, place in the batch, layout, alignment and

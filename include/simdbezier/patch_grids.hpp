@@ -21,7 +21,8 @@ struct PatchGrids {
 /// Evaluates patches [first_patch, first_patch + patch_count) of the set, each on its own grid.
 /// Values are those of evaluate_grid() on each patch alone, bit for bit. Work is divided between
 /// threads by samples, a dense patch's rows among several of them.
-/// Allocation: 8 bytes a patch (16 with null offset) and scratch per thread, a call.
+/// Outputs count as overlapping where their whole ranges do, from index 0 to the last sample.
+/// Allocation: 8 bytes a patch and scratch per thread, a call.
 /// Returns ok | null_input (nu or nv, with patches to evaluate) | null_output | bad_stride |
 /// overlapping_outputs | bad_grid | bad_offsets | bad_patch_range | size_overflow | unknown_isa |
 /// unsupported_isa | out_of_memory. On an error nothing has been written.
