@@ -145,11 +145,10 @@ void Delivery<T>::flush() noexcept {
 
 template <typename T>
 void Delivery<T>::finish() noexcept {
-  if (!plan_.staged()) {
-    return;
+  if (plan_.staged()) {
+    table_.drain(queue_);
+    flush();
   }
-  table_.drain(queue_);
-  flush();
   if (plan_.streaming()) {
     table_.fence();
   }

@@ -27,7 +27,9 @@ public:
   /// Where the kernel is to put a chunk whose first sample has the caller's index `sample`.
   void begin(std::size_t sample, Planes<T> planes[kGroups]) noexcept;
   /// What the kernel passes on meanwhile; null where there is nothing to overlap.
-  [[nodiscard]] DrainQueue<T>* queue() noexcept { return plan_.streaming() ? &queue_ : nullptr; }
+  [[nodiscard]] DrainQueue<T>* queue() noexcept {
+    return plan_.streaming() && plan_.staged() ? &queue_ : nullptr;
+  }
   /// The chunk is computed: `count` samples.
   void end(std::size_t count) noexcept;
   /// After the last chunk: nothing is left behind, streaming stores are complete.

@@ -62,7 +62,8 @@ public:
           outputs_.out().status == nullptr ? nullptr : outputs_.out().status + sample;
       Planes<T> planes[kGroups];
       delivery.begin(sample, planes);
-      evaluator.run(plan_, piece, planes, status, delivery.queue());
+      evaluator.run(plan_, piece, planes, status, delivery.queue(),
+                    outputs_.streaming() && !outputs_.staged());
       delivery.end(patches * (piece.last_row - piece.first_row) * plan_.nu());
       unit += patches;
     }
@@ -118,7 +119,8 @@ Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<
   }
   const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa),
                                        detail::wanted_groups(out), options.watertight);
-  const detail::OutputPlan<T> outputs(out, samples, options.destination);
+  detail::OutputPlan<T> outputs(out, samples, options.destination);
+  outputs.stream_directly(grid.nu, kernels.table->lanes);
   const detail::GridCall<T> call(kernels, request.first_patch, plan, outputs);
   return detail::run_blocks(request.patches * call.strips(), options, call.scratch_bytes(),
                             [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {

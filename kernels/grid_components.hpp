@@ -5,21 +5,22 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, typename V>
+template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
 SIMDBEZIER_INLINE void sweep_position(const RowPiece<ScalarOf<V>>& piece,
                                       const Component<ScalarOf<V>>& c,
-                                      const Tile<kRows, kWhole, kExtra, V>& tile, std::size_t nu,
-                                      ScalarOf<V>* to, const ScalarOf<V>* extra) {
+                                      const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
+                                      std::size_t nu, ScalarOf<V>* to, const ScalarOf<V>* extra) {
   using T = ScalarOf<V>;
   V q[kOrder];
   column_polynomial<kScheme>(c, tile.column, q);
   const V origin = column_origin<kScheme>(c, tile.column);
-  const V shared =
-      (Tile<kRows, kWhole, kExtra, V>::kShared) ? tile.template edge_rows<kScheme>(c, 0) : origin;
+  const V shared = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
+                       ? tile.template edge_rows<kScheme>(c, 0)
+                       : origin;
   for_rows<kScheme, kRows>(
       piece, 0, nu,
       [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
-        const V p = (Tile<kRows, kWhole, kExtra, V>::kShared)
+        const V p = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
                         ? shared
                         : tile.template edge_rows<kScheme>(c, edge_of(kind));
         tile.store_edge(to + at, p, kind, extra + row);
@@ -75,22 +76,22 @@ struct JetPlanes {
   T* dv;
 };
 
-template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, typename V>
+template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
 SIMDBEZIER_INLINE void
 sweep_derivatives(const RowPiece<ScalarOf<V>>& piece, const Component<ScalarOf<V>>& c,
-                  const Tile<kRows, kWhole, kExtra, V>& tile, std::size_t nu,
+                  const Tile<kRows, kWhole, kExtra, V, kStreams>& tile, std::size_t nu,
                   const JetPlanes<ScalarOf<V>>& to, const JetPlanes<const ScalarOf<V>>& extra) {
   using T = ScalarOf<V>;
   JetColumns<kScheme, V> columns;
   columns.build(c, tile.column);
   Jet<V> shared;
-  if constexpr (is_watertight(kScheme) && (Tile<kRows, kWhole, kExtra, V>::kShared)) {
+  if constexpr (is_watertight(kScheme) && (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)) {
     shared = columns.edge(c, tile, 0);
   }
   for_rows<kScheme, kRows>(
       piece, 0, nu,
       [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
-        const Jet<V> jet = (Tile<kRows, kWhole, kExtra, V>::kShared)
+        const Jet<V> jet = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
                                ? shared
                                : columns.edge(c, tile, edge_of(kind));
         tile.store_edge(to.position + at, jet.p, kind, extra.position + row);
@@ -106,10 +107,10 @@ sweep_derivatives(const RowPiece<ScalarOf<V>>& piece, const Component<ScalarOf<V
 }
 
 /// Groups with null planes are computed and dropped.
-template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, typename V>
+template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
 SIMDBEZIER_INLINE void
 sweep_second(const GridTask<ScalarOf<V>>& task, const RowPiece<ScalarOf<V>>& piece,
-             const Component<ScalarOf<V>>& c, const Tile<kRows, kWhole, kExtra, V>& tile,
+             const Component<ScalarOf<V>>& c, const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
              std::size_t component, std::size_t first) {
   using T = ScalarOf<V>;
   SecondColumns<V> columns;

@@ -37,8 +37,8 @@ GridEvaluator<T>::GridEvaluator(const GridKernels<T>& kernels, std::size_t rows,
 
 template <typename T>
 void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
-                           const Planes<T> out[kGroups], SampleStatus* status,
-                           DrainQueue<T>* drain) noexcept {
+                           const Planes<T> out[kGroups], SampleStatus* status, DrainQueue<T>* drain,
+                           bool streaming) noexcept {
   if (plan_ != &plan || generation_ != plan.generation() || first_row_ != piece.first_row ||
       last_row_ != piece.last_row) {
     plan_ = &plan;
@@ -66,6 +66,7 @@ void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
   task.patch_step = (last_row_ - first_row_) * plan.nu();
   task.resolve_normal = resolve_normal<T>;
   task.drain = drain;
+  task.streaming = streaming;
   task.prefetch = set.count > second_level_cache() / ((kCoefficients + kEdgeBlock) * sizeof(T));
   if (status != nullptr) {
     for (std::size_t p = 0; p < piece.patches; ++p) {

@@ -44,8 +44,9 @@ public:
   GridEvaluator(const GridKernels<T>& kernels, std::size_t rows, void* scratch) noexcept;
 
   /// Evaluates a piece into planes that begin with its first sample; status and drain may be null.
+  /// streaming: see OutputPlan::stream_directly().
   void run(const GridPlan<T>& plan, const GridPiece& piece, const Planes<T> out[kGroups],
-           SampleStatus* status, DrainQueue<T>* drain) noexcept;
+           SampleStatus* status, DrainQueue<T>* drain, bool streaming = false) noexcept;
 
   /// Of the kernels that ran.
   [[nodiscard]] Isa executed() const noexcept { return executed_; }

@@ -187,6 +187,14 @@ SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<ve
   };
   // A single column goes along with the last whole register.
   const std::size_t plain = split.column && split.full > 0 ? split.full - kL : split.full;
+  if constexpr (kLineWide<V> && kSeveralTiles<kOutputs>) {
+    if (task.streaming) [[unlikely]] { // whole registers only
+      for (std::size_t first = 0; first < plain; first += kL) {
+        sweep(std::type_identity<Tile<1, true, false, V, true>>{}, first, kL);
+      }
+      return;
+    }
+  }
   for (std::size_t first = 0; first < plain; first += kL) {
     sweep(std::type_identity<Tile<1, true, false, V>>{}, first, kL);
   }

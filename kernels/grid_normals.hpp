@@ -73,13 +73,14 @@ struct NormalExtra {
 
 /// What the rows of one tile have in common; kAny: groups with null planes are computed and
 /// dropped.
-template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, bool kAny, typename V>
+template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, bool kAny, typename V,
+          bool kStreams>
 struct NormalSweep {
   using T = ScalarOf<V>;
 
   const GridTask<T>& task;
   const GridTask<T>& shared_task; ///< the same, whose address may leave
-  const Tile<kRows, kWhole, kExtra, V>& tile;
+  const Tile<kRows, kWhole, kExtra, V, kStreams>& tile;
   std::size_t patch;
   std::size_t status_step; ///< statuses from one sample of the planes to the next
   NormalExtra<T> extra;
@@ -87,7 +88,7 @@ struct NormalSweep {
   JetColumns<kScheme, V> columns[3];
 
   SIMDBEZIER_INLINE NormalSweep(const GridTask<T>& the_task, const GridTask<T>& the_shared_task,
-                                const Tile<kRows, kWhole, kExtra, V>& the_tile,
+                                const Tile<kRows, kWhole, kExtra, V, kStreams>& the_tile,
                                 std::size_t the_patch, std::size_t the_status_step,
                                 const NormalExtra<T>& the_extra)
       : task(the_task), shared_task(the_shared_task), tile(the_tile), patch(the_patch),
@@ -177,15 +178,16 @@ private:
   }
 };
 
-template <Scheme kScheme, bool kAny, std::size_t kRows, bool kWhole, bool kExtra, typename V>
+template <Scheme kScheme, bool kAny, std::size_t kRows, bool kWhole, bool kExtra, typename V,
+          bool kStreams>
 SIMDBEZIER_INLINE void
 sweep_normals(const GridTask<ScalarOf<V>>& task, const GridTask<ScalarOf<V>>& shared_task,
-              const RowPiece<ScalarOf<V>>& piece, const Tile<kRows, kWhole, kExtra, V>& tile,
-              std::size_t patch, std::size_t first, std::size_t status_step,
-              const NormalExtra<ScalarOf<V>>& extra) {
+              const RowPiece<ScalarOf<V>>& piece,
+              const Tile<kRows, kWhole, kExtra, V, kStreams>& tile, std::size_t patch,
+              std::size_t first, std::size_t status_step, const NormalExtra<ScalarOf<V>>& extra) {
   using T = ScalarOf<V>;
-  const NormalSweep<kScheme, kRows, kWhole, kExtra, kAny, V> sweep(task, shared_task, tile, patch,
-                                                                   status_step, extra);
+  const NormalSweep<kScheme, kRows, kWhole, kExtra, kAny, V, kStreams> sweep(
+      task, shared_task, tile, patch, status_step, extra);
   // A column outside of [0,1] may have derivatives of any size: its normals take a second look.
   const V never = broadcast<V>(static_cast<T>(__builtin_inf()));
   const V half = broadcast<V>(T(0.5));
@@ -193,14 +195,15 @@ sweep_normals(const GridTask<ScalarOf<V>>& task, const GridTask<ScalarOf<V>>& sh
                                   broadcast<V>(task.normal_floor[patch]), never);
   const V middle_floor = piece.middle.kind == RowKind::outside ? never : floor;
   NormalSamples<V> shared;
-  if constexpr (is_watertight(kScheme) && (Tile<kRows, kWhole, kExtra, V>::kShared)) {
+  if constexpr (is_watertight(kScheme) && (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)) {
     shared = sweep.edge(0);
   }
   for_rows<kScheme, kRows>(
       piece, first, task.nu,
       [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
-        sweep.store_edge((Tile<kRows, kWhole, kExtra, V>::kShared) ? shared
-                                                                   : sweep.edge(edge_of(kind)),
+        sweep.store_edge((Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
+                             ? shared
+                             : sweep.edge(edge_of(kind)),
                          kind, at, row, floor);
       },
       [&](const T* y, std::size_t at, std::size_t row, std::size_t rows)

@@ -128,8 +128,9 @@ struct NoSharedCorners {
   explicit SIMDBEZIER_INLINE NoSharedCorners(V /*x*/) {}
 };
 
-template <std::size_t kRows, bool kWhole, bool kExtra, typename V>
+template <std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams = false>
 struct Tile {
+  static_assert(!kStreams || (kRows == 1 && kWhole && !kExtra));
   using T = ScalarOf<V>;
   using Vector = V;
   static constexpr bool kBuffered = kExtra;
@@ -157,7 +158,9 @@ struct Tile {
         store_first(to, value, rows);
       }
     } else if constexpr (kRows == 1) {
-      if constexpr (kWhole) {
+      if constexpr (kStreams) {
+        store_streaming(to, value);
+      } else if constexpr (kWhole) {
         store_vector(to, value);
       } else {
         store_first(to, value, active);

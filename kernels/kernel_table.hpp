@@ -84,6 +84,7 @@ struct GridTask {
   std::size_t patch_step;
   ResolveNormal<T> resolve_normal;
   bool prefetch;        ///< the set does not fit the second-level cache
+  bool streaming;       ///< rows are whole cache lines, to be stored past the caches
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see pace()
   Isa executed;         ///< written by the kernel
 };

@@ -180,6 +180,26 @@ OutputPlan<T>::OutputPlan(const Outputs<T>& out, std::size_t samples,
   add_streams();
 }
 
+template <typename T>
+void OutputPlan<T>::stream_directly(std::size_t row, std::size_t lanes) noexcept {
+  const KernelChoice choice = choose_kernels(wanted_groups(out_));
+  bool possible = streaming_ && !choice.second && choice.outputs != kAnyOutputs &&
+                  lanes * sizeof(T) == 64 && row % lanes == 0;
+  for (const Vectors<T>* group : OutputGroups<T>(out_).group) {
+    if (possible && group->wanted()) {
+      possible = group->stride == 1;
+      for (const T* const plane : {group->x, group->y, group->z}) {
+        possible = possible && reinterpret_cast<std::uintptr_t>(plane) % 64 == 0;
+      }
+    }
+  }
+  if (possible) {
+    staged_planes_ = 0;
+    streams_ = 0;
+    std::fill_n(group_index_, kGroups, static_cast<std::size_t>(kGroups));
+  }
+}
+
 /// Members that lie side by side in one vertex become one stream.
 template <typename T>
 void OutputPlan<T>::add_streams() noexcept {

@@ -71,6 +71,9 @@ public:
   [[nodiscard]] const Outputs<T>& out() const noexcept { return out_; }
   [[nodiscard]] bool staged() const noexcept { return staged_planes_ > 0; }
   [[nodiscard]] bool streaming() const noexcept { return streaming_; }
+  /// Gives staging up where kernels can stream by themselves: rows of `row` samples that are whole
+  /// registers and whole cache lines.
+  void stream_directly(std::size_t row, std::size_t lanes) noexcept;
   [[nodiscard]] std::size_t staged_planes() const noexcept { return staged_planes_; }
   /// Component c of group g is staged plane 3 * staged_group(g) + c, or written directly where
   /// the group is not staged.

@@ -115,6 +115,25 @@ SIMDBEZIER_INLINE void store_vector(ScalarOf<V>* to, V value) {
   }
 }
 
+/// Whether one register is one cache line: only then may a kernel stream by itself. Half a line
+/// that is streamed alone costs three times as much.
+template <typename V>
+inline constexpr bool kLineWide = kLanes<V> * sizeof(ScalarOf<V>) == 64;
+
+/// Past the caches; `to` at a line's start. The call ends with streaming_fence().
+template <typename V>
+SIMDBEZIER_INLINE void store_streaming(ScalarOf<V>* to, V value) {
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  if constexpr (sizeof(ScalarOf<V>) == sizeof(float)) {
+    _mm512_stream_ps(to, value);
+  } else {
+    _mm512_stream_pd(to, value);
+  }
+#else
+  store_vector(to, value);
+#endif
+}
+
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 SIMDBEZIER_INLINE void masked_store(float* to, vec<float> value, std::size_t n) {
   _mm512_mask_storeu_ps(to, static_cast<__mmask16>((1U << n) - 1U), value);
