@@ -11,6 +11,9 @@
 
 namespace simdbezier::detail {
 
+/// Bytes rounded up to whole cache lines.
+constexpr std::size_t whole_lines(std::size_t bytes) noexcept { return (bytes + 63) / 64 * 64; }
+
 /// How many threads to use for `units` pieces of work: `requested`, or OpenMP's default where it
 /// is 0 or negative; 1 inside a parallel region of the caller; never more than there are units.
 int thread_count(int requested, std::size_t units) noexcept;
@@ -43,7 +46,7 @@ template <typename Work>
 Status run_blocks(std::size_t units, const Options& options, std::size_t scratch_bytes,
                   const Work& work) noexcept {
   const int threads = thread_count(options.threads, units);
-  const std::size_t bytes = (scratch_bytes + 63) / 64 * 64;
+  const std::size_t bytes = whole_lines(scratch_bytes);
   std::unique_ptr<void, FreeAligned> scratch;
   if (bytes > 0) {
     scratch.reset(::operator new (bytes* static_cast<std::size_t>(threads), std::align_val_t{64},

@@ -34,10 +34,8 @@ public:
                 : outputs.staged() ? std::max<std::size_t>(samples / patch_samples, 1)
                                    : ~std::size_t(0);
     chunk_samples_ = strips_ > 1 ? strip_rows_ * plan.nu() : together_ * patch_samples;
-    delivery_bytes_ =
-        (Delivery<T>::scratch_bytes(outputs.staged_planes(), outputs.streaming(), chunk_samples_) +
-         63) /
-        64 * 64;
+    delivery_bytes_ = whole_lines(
+        Delivery<T>::scratch_bytes(outputs.staged_planes(), outputs.streaming(), chunk_samples_));
   }
 
   /// Pieces of work in each patch.

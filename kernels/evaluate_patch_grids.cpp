@@ -113,10 +113,10 @@ public:
         samples_(samples), outputs_(outputs),
         piece_samples_(outputs.staged() ? Delivery<T>::chunk_samples(outputs) : kDirectSamples),
         chunk_samples_(std::max(piece_samples_, samples.most_nu)) {
-    delivery_bytes_ =
-        (Delivery<T>::scratch_bytes(outputs.staged_planes(), outputs.streaming(), chunk_samples_) +
-         63) /
-        64 * 64;
+    delivery_bytes_ = whole_lines(
+        Delivery<T>::scratch_bytes(outputs.staged_planes(), outputs.streaming(), chunk_samples_));
+    plan_bytes_ =
+        whole_lines(GridPlan<T>::memory_values(samples.most_nu, samples.most_nv) * sizeof(T));
   }
 
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {

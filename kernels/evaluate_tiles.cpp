@@ -14,8 +14,6 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-constexpr std::size_t to_line(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
-
 std::size_t vector_groups(const TileFormat& format) noexcept {
   return static_cast<std::size_t>(format.position) + static_cast<std::size_t>(format.du) +
          static_cast<std::size_t>(format.dv) + static_cast<std::size_t>(format.duu) +
@@ -60,7 +58,7 @@ public:
 
   [[nodiscard]] std::size_t bytes() const noexcept {
     const std::size_t groups = vector_groups(format_);
-    std::size_t bytes = format_.status ? to_line(samples_) : 0;
+    std::size_t bytes = format_.status ? whole_lines(samples_) : 0;
     switch (format_.layout) {
     case TileLayout::planes:
       return bytes + 3 * groups * taken(samples_);
@@ -110,7 +108,9 @@ public:
 private:
   /// A line more than needed: planes of a round number of samples would compete for the same sets
   /// of the cache.
-  static std::size_t taken(std::size_t values) noexcept { return to_line(values * sizeof(T)) + 64; }
+  static std::size_t taken(std::size_t values) noexcept {
+    return whole_lines(values * sizeof(T)) + 64;
+  }
   static T* take(unsigned char* memory, std::size_t& at, std::size_t values) noexcept {
     T* const place = reinterpret_cast<T*>(memory + at);
     at += taken(values);
@@ -171,10 +171,10 @@ template <typename T>
 Status run_tiles(const GridKernels<T>& kernels, const GridRequest& request, const GridPlan<T>& plan,
                  const TileFormat& format, const TileShape& shape, TileFunction<T> function,
                  const Options& options) noexcept {
-  const std::size_t tile_bytes = to_line(TileMemory<T>(format, shape.samples).bytes());
+  const std::size_t tile_bytes = whole_lines(TileMemory<T>(format, shape.samples).bytes());
   const std::size_t staged = format.layout == TileLayout::planes ? 0 : 3 * vector_groups(format);
   const std::size_t staging_bytes =
-      to_line(Delivery<T>::scratch_bytes(staged, false, shape.samples));
+      whole_lines(Delivery<T>::scratch_bytes(staged, false, shape.samples));
   const TilesCall<T> call{kernels,  request.first_patch, plan,         format, shape,
                           function, tile_bytes,          staging_bytes};
   const std::size_t scratch =
