@@ -50,7 +50,7 @@ function(simdbezier_add_isa_kernels target)
     # g++ 12 warns about its own _mm512_undefined_ps (GCC bug 105593).
     target_compile_options(
       ${object} PRIVATE ${flags} $<IF:$<CONFIG:Debug>,-O1,-O3> -fno-math-errno -fno-exceptions
-                        "$<$<CXX_COMPILER_ID:GNU>:-fno-ivopts;-fno-tree-pre>"
+                        "$<$<CXX_COMPILER_ID:GNU>:-fno-ivopts;-fno-tree-pre;-fno-tree-slp-vectorize>"
                         "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>")
     if(SIMDBEZIER_SANITIZE)
       # All that is inlined here would take a sanitizing compiler minutes.

@@ -40,6 +40,14 @@ Delivery<T>::Delivery(const OutputPlan<T>& plan, const KernelTable<T>& table, st
     : plan_(plan), table_(table), plane_step_(plane_step<T>(samples)), expected_(~std::size_t(0)) {
   staging_[0] = static_cast<T*>(scratch);
   staging_[1] = plan.streaming() ? staging_[0] + plan.staged_planes() * plane_step_ : staging_[0];
+  for (buffer_ = 2; buffer_-- > 0;) {
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      for (std::size_t c = 0; c < 3 && plan.is_staged(g); ++c) {
+        planes_[buffer_][g].component[c] = plane(3 * plan.staged_group(g) + c);
+      }
+    }
+  }
+  buffer_ = 0;
 }
 
 template <typename T>
@@ -48,22 +56,23 @@ T* Delivery<T>::plane(std::size_t index) const noexcept {
 }
 
 template <typename T>
-void Delivery<T>::begin(std::size_t sample, Planes<T> planes[kGroups]) noexcept {
+const Planes<T>* Delivery<T>::begin(std::size_t sample) noexcept {
   if (plan_.staged() && sample != expected_) {
     flush();
     restart(sample);
   }
   expected_ = sample;
+  Planes<T>* const planes = planes_[buffer_];
   const OutputGroups<T> groups(plan_.out());
   for (std::size_t g = 0; g < kGroups; ++g) {
     const Vectors<T>& group = *groups.group[g];
-    T* const caller[3] = {group.x, group.y, group.z};
-    for (std::size_t c = 0; c < 3; ++c) {
-      planes[g].component[c] = plan_.is_staged(g) ? plane(3 * plan_.staged_group(g) + c)
-                               : group.wanted()   ? caller[c] + sample
-                                                  : nullptr;
+    if (group.wanted() && !plan_.is_staged(g)) {
+      planes[g].component[0] = group.x + sample;
+      planes[g].component[1] = group.y + sample;
+      planes[g].component[2] = group.z + sample;
     }
   }
+  return planes;
 }
 
 template <typename T>
@@ -116,6 +125,7 @@ void Delivery<T>::end(std::size_t count) noexcept {
     stream.stride = shape.stride;
     stream.streaming = shape.streaming;
     stream.to = shape.first + static_cast<std::ptrdiff_t>(state.next) * shape.stride;
+    stream.at = 0;
     stream.steps = records / kDrainStep<T>;
     for (std::size_t m = 0; m < shape.members; ++m) {
       stream.plane[m] = plane(shape.plane[m]) + from;

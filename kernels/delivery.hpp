@@ -24,8 +24,9 @@ public:
   Delivery(const OutputPlan<T>& plan, const KernelTable<T>& table, std::size_t samples,
            void* scratch) noexcept;
 
-  /// Where the kernel is to put a chunk whose first sample has the caller's index `sample`.
-  void begin(std::size_t sample, Planes<T> planes[kGroups]) noexcept;
+  /// Where the kernel is to put a chunk whose first sample has the caller's index `sample`: kGroups
+  /// of planes, null where not wanted, until end().
+  const Planes<T>* begin(std::size_t sample) noexcept;
   /// What the kernel passes on meanwhile; null where there is nothing to overlap.
   [[nodiscard]] DrainQueue<T>* queue() noexcept {
     return plan_.streaming() && plan_.staged() ? &queue_ : nullptr;
@@ -55,6 +56,7 @@ private:
   std::size_t buffer_ = 0;
   std::size_t expected_; ///< sample with which a chunk that continues this one begins
   State state_[kMostMembers];
+  Planes<T> planes_[2][kGroups];
   DrainQueue<T> queue_;
 };
 

@@ -17,10 +17,15 @@ inline constexpr std::size_t kDrainBurst = 32 * kDrainStep<T>;
 
 inline constexpr std::size_t kMostMembers = 3 * kGroups;
 
+// Streaming stores leave the processor's store queue slowly, and in order. A load that wants two
+// recent stores at once has to wait for all that stand before them, hundreds of cycles: what is
+// written for each chunk is therefore read in the same pieces, or was written one chunk earlier.
+
 /// One output stream: planes of staged samples that become consecutive records.
 template <typename T>
 struct DrainStream {
-  const T* plane[kMostMembers]; ///< the next sample of each member, in the record's order
+  const T* plane[kMostMembers]; ///< the first sample of each member, in the record's order
+  std::size_t at;               ///< samples passed on
   std::size_t members;
   T* to;                 ///< the next record's first member
   std::ptrdiff_t stride; ///< from one record to the next, in elements

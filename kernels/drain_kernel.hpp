@@ -17,7 +17,7 @@ using detail::kDrainStep;
 
 template <bool kStreaming, typename T>
 SIMDBEZIER_INLINE void drain_plane(const DrainStream<T>& s, std::size_t steps) {
-  const T* from = s.plane[0];
+  const T* from = s.plane[0] + s.at;
   T* to = s.to;
   for (std::size_t k = 0; k < steps; ++k, from += kDrainStep<T>, to += kDrainStep<T>) {
     copy_line<kStreaming>(from, to);
@@ -26,18 +26,21 @@ SIMDBEZIER_INLINE void drain_plane(const DrainStream<T>& s, std::size_t steps) {
 
 template <bool kStreaming, typename T>
 SIMDBEZIER_INLINE void drain_triples(const DrainStream<T>& s, std::size_t steps) {
-  T* to = s.to;
+  const T* const x = s.plane[0] + s.at;
+  const T* const y = s.plane[1] + s.at;
+  const T* const z = s.plane[2] + s.at;
+  T* const to = s.to;
   for (std::size_t k = 0; k < steps * kDrainStep<T>; k += kDrainStep<T>) {
-    interleave_3<kStreaming>(s.plane[0] + k, s.plane[1] + k, s.plane[2] + k, to + 3 * k);
+    interleave_3<kStreaming>(x + k, y + k, z + k, to + 3 * k);
   }
 }
 
 template <bool kStreaming, typename T>
 SIMDBEZIER_INLINE void drain_sextuples(const DrainStream<T>& s, std::size_t steps) {
-  for (std::size_t k = 0; k < steps * kDrainStep<T>; k += kDrainStep<T>) {
+  for (std::size_t k = s.at; k < s.at + steps * kDrainStep<T>; k += kDrainStep<T>) {
     const T* const from[6] = {s.plane[0] + k, s.plane[1] + k, s.plane[2] + k,
                               s.plane[3] + k, s.plane[4] + k, s.plane[5] + k};
-    interleave_6<kStreaming>(from, s.to + 6 * k);
+    interleave_6<kStreaming>(from, s.to + 6 * (k - s.at));
   }
 }
 
@@ -71,7 +74,7 @@ __attribute__((noinline)) void drain_buffered(const DrainStream<T>& s, std::size
   const std::size_t step = kDrainStep<T> * s.members;
   for (std::size_t k = 0; k <= steps; ++k) {
     if (k < steps) {
-      drain_records(s, k * kDrainStep<T>, buffer[k % 2], s.stride);
+      drain_records(s, s.at + k * kDrainStep<T>, buffer[k % 2], s.stride);
     }
     if (k > 0) {
       const T* const from = buffer[(k - 1) % 2];
@@ -85,7 +88,7 @@ __attribute__((noinline)) void drain_buffered(const DrainStream<T>& s, std::size
 template <typename T>
 __attribute__((noinline)) void drain_with_gaps(const DrainStream<T>& s, std::size_t steps) {
   for (std::size_t k = 0; k < steps * kDrainStep<T>; k += kDrainStep<T>) {
-    drain_records(s, k, s.to + static_cast<std::ptrdiff_t>(k) * s.stride, s.stride);
+    drain_records(s, s.at + k, s.to + static_cast<std::ptrdiff_t>(k) * s.stride, s.stride);
   }
 }
 
@@ -112,16 +115,12 @@ __attribute__((noinline)) void drain_owed(DrainQueue<T>& queue) {
   while (queue.current < queue.streams) {
     DrainStream<T>& stream = queue.stream[queue.current];
     const std::size_t step = kDrainStep<T> * stream.members;
-    std::size_t steps = 0;
-    for (; steps < stream.steps && queue.owed >= step; ++steps) { // cheaper than to divide
-      queue.owed -= step;
-    }
+    const std::size_t steps = std::min(queue.owed / step, stream.steps);
+    queue.owed -= steps * step;
     if (steps > 0) {
       drain_steps(stream, steps);
       const std::size_t samples = steps * kDrainStep<T>;
-      for (std::size_t m = 0; m < stream.members; ++m) {
-        stream.plane[m] += samples;
-      }
+      stream.at += samples;
       stream.to += static_cast<std::ptrdiff_t>(samples) * stream.stride;
       stream.steps -= steps;
     }

@@ -58,8 +58,7 @@ public:
       const std::size_t sample = (patch * plan_.nv() + first_row) * plan_.nu();
       SampleStatus* const status =
           outputs_.out().status == nullptr ? nullptr : outputs_.out().status + sample;
-      Planes<T> planes[kGroups];
-      delivery.begin(sample, planes);
+      const Planes<T>* const planes = delivery.begin(sample);
       evaluator.run(plan_, piece, planes, status, delivery.queue(),
                     outputs_.streaming() && !outputs_.staged());
       delivery.end(patches * (piece.last_row - piece.first_row) * plan_.nu());

@@ -154,8 +154,7 @@ private:
                  GridEvaluator<T>& evaluator, Delivery<T>& delivery) const noexcept {
     const std::size_t sample = samples_.offset[k] + row * plan.nu();
     SampleStatus* const status = outputs_.out().status;
-    Planes<T> planes[kGroups];
-    delivery.begin(sample, planes);
+    const Planes<T>* const planes = delivery.begin(sample);
     evaluator.run(plan, {first_patch_ + k, 1, row, row + rows}, planes,
                   status == nullptr ? nullptr : status + sample, delivery.queue());
     delivery.end(rows * plan.nu());

@@ -74,7 +74,7 @@ struct ScatteredCall {
       task.status = outputs.out().status + first;
       std::fill_n(task.status, count, SampleStatus::regular);
     }
-    delivery.begin(first, task.out);
+    std::copy_n(delivery.begin(first), kGroups, task.out);
     table.scattered[scheme](task);
     delivery.end(count);
     return task.executed;

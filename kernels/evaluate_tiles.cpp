@@ -155,8 +155,7 @@ struct TilesCall {
       tile.row_count = piece.last_row - first_row;
       tile.samples = patches * tile.row_count * tile.nu;
       tile.out = places;
-      Planes<T> planes[kGroups];
-      delivery.begin(0, planes);
+      const Planes<T>* const planes = delivery.begin(0);
       evaluator.run(plan, piece, planes, places.status, nullptr);
       delivery.end(tile.samples);
       delivery.finish();

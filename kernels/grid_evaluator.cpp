@@ -48,7 +48,7 @@ void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
     run_count_ = plan.fill_runs(first_row_, last_row_, runs_);
   }
   const PatchStorage<T>& set = *kernels_.patches;
-  GridTask<T> task{};
+  GridTask<T>& task = task_;
   task.coefficients = set.coefficients + piece.patch * kCoefficients;
   task.edges = set.edges + piece.patch * kEdgeBlock;
   task.control_points = set.control_points + piece.patch * kCoefficients;
@@ -79,7 +79,6 @@ void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
   if (kernels_.choice.second) {
     kernels_.table->grid[kSecondDerivatives][kernels_.scheme](task);
   }
-  executed_ = task.executed;
 }
 
 template class GridEvaluator<float>;

@@ -49,7 +49,7 @@ public:
            SampleStatus* status, DrainQueue<T>* drain, bool streaming = false) noexcept;
 
   /// Of the kernels that ran.
-  [[nodiscard]] Isa executed() const noexcept { return executed_; }
+  [[nodiscard]] Isa executed() const noexcept { return task_.executed; }
 
 private:
   static constexpr std::size_t kInlineRows = 128;
@@ -61,7 +61,7 @@ private:
   std::uint32_t generation_ = 0;
   std::size_t first_row_ = 0;
   std::size_t last_row_ = 0;
-  Isa executed_ = Isa::automatic;
+  GridTask<T> task_{};
   RowRun<T> inline_runs_[kInlineRows];
 };
 
