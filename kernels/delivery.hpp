@@ -27,6 +27,8 @@ public:
   /// Where the kernel is to put a chunk whose first sample has the caller's index `sample`: kGroups
   /// of planes, null where not wanted, until end().
   const Planes<T>* begin(std::size_t sample) noexcept;
+  /// Those of the chunk after it, where all of them are staged.
+  [[nodiscard]] const Planes<T>* next() const noexcept { return planes_[1 - buffer_]; }
   /// What the kernel passes on meanwhile; null where there is nothing to overlap.
   [[nodiscard]] DrainQueue<T>* queue() noexcept {
     return plan_.streaming() && plan_.staged() ? &queue_ : nullptr;

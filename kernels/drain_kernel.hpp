@@ -44,6 +44,15 @@ SIMDBEZIER_INLINE void drain_sextuples(const DrainStream<T>& s, std::size_t step
   }
 }
 
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+template <bool kStreaming, typename T>
+__attribute__((noinline)) void drain_nonuples(const DrainStream<T>& s, std::size_t steps) {
+  for (std::size_t k = 0; k < steps * kDrainStep<T>; k += kDrainStep<T>) {
+    interleave_9<kStreaming>(s.plane, s.at + k, s.to + 9 * k);
+  }
+}
+#endif
+
 /// Records of any length, at any distance.
 template <typename T>
 SIMDBEZIER_INLINE void drain_records(const DrainStream<T>& s, std::size_t at, T* to,
@@ -101,6 +110,10 @@ SIMDBEZIER_INLINE void drain_steps(const DrainStream<T>& s, std::size_t steps) {
     s.streaming ? drain_triples<true>(s, steps) : drain_triples<false>(s, steps);
   } else if (s.members == 6 && packed) {
     s.streaming ? drain_sextuples<true>(s, steps) : drain_sextuples<false>(s, steps);
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  } else if (s.members == 9 && packed) {
+    s.streaming ? drain_nonuples<true>(s, steps) : drain_nonuples<false>(s, steps);
+#endif
   } else if (s.streaming) {
     drain_buffered(s, steps);
   } else {

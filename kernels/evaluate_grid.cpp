@@ -59,8 +59,9 @@ public:
       SampleStatus* const status =
           outputs_.out().status == nullptr ? nullptr : outputs_.out().status + sample;
       const Planes<T>* const planes = delivery.begin(sample);
-      evaluator.run(plan_, piece, planes, status, delivery.queue(),
-                    outputs_.streaming() && !outputs_.staged());
+      evaluator.run(plan_, piece,
+                    {planes, status, delivery.queue(), outputs_.streaming() && !outputs_.staged(),
+                     delivery.next()});
       delivery.end(patches * (piece.last_row - piece.first_row) * plan_.nu());
       unit += patches;
     }

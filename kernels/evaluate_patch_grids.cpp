@@ -155,8 +155,9 @@ private:
     const std::size_t sample = samples_.offset[k] + row * plan.nu();
     SampleStatus* const status = outputs_.out().status;
     const Planes<T>* const planes = delivery.begin(sample);
-    evaluator.run(plan, {first_patch_ + k, 1, row, row + rows}, planes,
-                  status == nullptr ? nullptr : status + sample, delivery.queue());
+    evaluator.run(plan, {first_patch_ + k, 1, row, row + rows},
+                  {planes, status == nullptr ? nullptr : status + sample, delivery.queue(), false,
+                   delivery.next()});
     delivery.end(rows * plan.nu());
   }
 

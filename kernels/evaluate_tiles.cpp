@@ -156,7 +156,7 @@ struct TilesCall {
       tile.samples = patches * tile.row_count * tile.nu;
       tile.out = places;
       const Planes<T>* const planes = delivery.begin(0);
-      evaluator.run(plan, piece, planes, places.status, nullptr);
+      evaluator.run(plan, piece, {.planes = planes, .status = places.status});
       delivery.end(tile.samples);
       delivery.finish();
       function(tile);

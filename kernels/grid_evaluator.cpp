@@ -36,19 +36,9 @@ GridEvaluator<T>::GridEvaluator(const GridKernels<T>& kernels, std::size_t rows,
       runs_(rows > kInlineRows ? static_cast<RowRun<T>*>(scratch) : inline_runs_) {}
 
 template <typename T>
-void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
-                           const Planes<T> out[kGroups], SampleStatus* status, DrainQueue<T>* drain,
-                           bool streaming) noexcept {
-  if (plan_ != &plan || generation_ != plan.generation() || first_row_ != piece.first_row ||
-      last_row_ != piece.last_row) {
-    plan_ = &plan;
-    generation_ = plan.generation();
-    first_row_ = piece.first_row;
-    last_row_ = piece.last_row;
-    run_count_ = plan.fill_runs(first_row_, last_row_, runs_);
-  }
+void GridEvaluator<T>::fill(GridTask<T>& task, const GridPlan<T>& plan, const GridPiece& piece,
+                            const Target& to) const noexcept {
   const PatchStorage<T>& set = *kernels_.patches;
-  GridTask<T>& task = task_;
   task.coefficients = set.coefficients + piece.patch * kCoefficients;
   task.edges = set.edges + piece.patch * kEdgeBlock;
   task.control_points = set.control_points + piece.patch * kCoefficients;
@@ -60,17 +50,44 @@ void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
   task.runs = runs_;
   task.run_count = run_count_;
   for (std::size_t g = 0; g < kGroups; ++g) {
-    task.out[g] = out[g];
+    task.out[g] = to.planes[g];
   }
-  task.status = status;
-  task.patch_step = (last_row_ - first_row_) * plan.nu();
+  task.status = to.status;
+  task.patch_step = (piece.last_row - piece.first_row) * plan.nu();
   task.resolve_normal = resolve_normal<T>;
-  task.drain = drain;
-  task.streaming = streaming;
   task.prefetch = set.count > second_level_cache() / ((kCoefficients + kEdgeBlock) * sizeof(T));
-  if (status != nullptr) {
+  task.streaming = to.streaming;
+  task.drain = to.drain;
+}
+
+template <typename T>
+void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
+                           const Target& to) noexcept {
+  if (plan_ != &plan || generation_ != plan.generation() || first_row_ != piece.first_row ||
+      last_row_ != piece.last_row) {
+    plan_ = &plan;
+    generation_ = plan.generation();
+    first_row_ = piece.first_row;
+    last_row_ = piece.last_row;
+    run_count_ = plan.fill_runs(first_row_, last_row_, runs_);
+    guessed_ = false;
+  }
+  GridTask<T>& task = task_[turn_];
+  if (!guessed_ || !(guess_ == piece) || to.status != nullptr) {
+    fill(task, plan, piece, to);
+  }
+  guessed_ = to.drain != nullptr && to.next != nullptr;
+  if (guessed_) {
+    guess_ = piece;
+    guess_.patch += piece.patches;
+    Target next = to;
+    next.planes = to.next;
+    turn_ = 1 - turn_;
+    fill(task_[turn_], plan, guess_, next);
+  }
+  if (to.status != nullptr) {
     for (std::size_t p = 0; p < piece.patches; ++p) {
-      prefill_status(task, status + p * task.patch_step);
+      prefill_status(task, to.status + p * task.patch_step);
     }
   }
   if (kernels_.choice.first) {
@@ -79,6 +96,7 @@ void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
   if (kernels_.choice.second) {
     kernels_.table->grid[kSecondDerivatives][kernels_.scheme](task);
   }
+  executed_ = task.executed;
 }
 
 template class GridEvaluator<float>;

@@ -16,6 +16,8 @@ struct GridPiece {
   std::size_t patches;
   std::size_t first_row;
   std::size_t last_row;
+
+  friend bool operator==(const GridPiece&, const GridPiece&) = default;
 };
 
 /// The kernels of one call.
@@ -43,16 +45,24 @@ public:
   /// rows: the most in one piece. scratch: aligned to 64 bytes; null where none is needed.
   GridEvaluator(const GridKernels<T>& kernels, std::size_t rows, void* scratch) noexcept;
 
-  /// Evaluates a piece into planes that begin with its first sample; status and drain may be null.
-  /// streaming: see OutputPlan::stream_directly().
-  void run(const GridPlan<T>& plan, const GridPiece& piece, const Planes<T> out[kGroups],
-           SampleStatus* status, DrainQueue<T>* drain, bool streaming = false) noexcept;
+  /// Where a piece goes: planes that begin with its first sample.
+  struct Target {
+    const Planes<T>* planes = nullptr; ///< kGroups
+    SampleStatus* status = nullptr;    ///< may be null
+    DrainQueue<T>* drain = nullptr;    ///< may be null
+    bool streaming = false;            ///< see OutputPlan::stream_directly()
+    const Planes<T>* next = nullptr;   ///< with a drain: the planes of the piece after this one
+  };
+  void run(const GridPlan<T>& plan, const GridPiece& piece, const Target& to) noexcept;
 
   /// Of the kernels that ran.
-  [[nodiscard]] Isa executed() const noexcept { return task_.executed; }
+  [[nodiscard]] Isa executed() const noexcept { return executed_; }
 
 private:
   static constexpr std::size_t kInlineRows = 128;
+
+  void fill(GridTask<T>& task, const GridPlan<T>& plan, const GridPiece& piece,
+            const Target& to) const noexcept;
 
   const GridKernels<T>& kernels_;
   RowRun<T>* runs_;
@@ -61,7 +71,13 @@ private:
   std::uint32_t generation_ = 0;
   std::size_t first_row_ = 0;
   std::size_t last_row_ = 0;
-  GridTask<T> task_{};
+  Isa executed_ = Isa::automatic;
+  // A task is copied in large pieces by the kernels, so with streaming stores it is written one
+  // piece ahead, as a guess (see drain.hpp).
+  GridTask<T> task_[2] = {};
+  std::size_t turn_ = 0;
+  bool guessed_ = false;
+  GridPiece guess_{};
   RowRun<T> inline_runs_[kInlineRows];
 };
 

@@ -115,6 +115,51 @@ SIMDBEZIER_INLINE void interleave_3(const T* x, const T* y, const T* z, T* to) {
   }
 }
 
+// Nonuples ---------------------------------------------------------------------------------------
+
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+/// Where lane `lane` of result kOut of kMembers planes comes from, once the planes before `plane`
+/// are in place: from the plane itself (second operand) or from what is there (first).
+template <std::size_t kMembers, std::size_t kOut>
+SIMDBEZIER_INLINE constexpr int merged(std::size_t lane, std::size_t plane, std::size_t lanes) {
+  const std::size_t e = kOut * lanes + lane;
+  return static_cast<int>(e % kMembers == plane ? lanes + e / kMembers : lane);
+}
+
+template <std::size_t kMembers, std::size_t kOut, std::size_t kPlane, typename T,
+          std::size_t... kLane>
+SIMDBEZIER_INLINE LinePart<T> merge_planes(LinePart<T> value, const LinePart<T> plane[kMembers],
+                                           std::index_sequence<kLane...> lanes) {
+  if constexpr (kPlane == kMembers) {
+    return value;
+  } else {
+    value = __builtin_shufflevector(value, plane[kPlane],
+                                    merged<kMembers, kOut>(kLane, kPlane, sizeof...(kLane))...);
+    return merge_planes<kMembers, kOut, kPlane + 1, T>(value, plane, lanes);
+  }
+}
+
+template <bool kStreaming, std::size_t kMembers, typename T, std::size_t... kOut>
+SIMDBEZIER_INLINE void store_merged(const LinePart<T> plane[kMembers], T* to,
+                                    std::index_sequence<kOut...>) {
+  constexpr auto kLanes = std::make_index_sequence<kPartLanes<T>>{};
+  (store_any<kStreaming>(to + kOut * kPartLanes<T>,
+                         merge_planes<kMembers, kOut, 0, T>(plane[0], plane, kLanes)),
+   ...);
+}
+
+/// Nine planes (position, du, dv) to packed records: nine shuffles a line are less than the time
+/// that the line takes to memory.
+template <bool kStreaming, typename T>
+SIMDBEZIER_INLINE void interleave_9(const T* const* plane, std::size_t at, T* to) {
+  LinePart<T> p[9];
+  for (std::size_t m = 0; m < 9; ++m) {
+    p[m] = load_any<LinePart<T>>(plane[m] + at);
+  }
+  store_merged<kStreaming, 9>(p, to, std::make_index_sequence<9>{});
+}
+#endif
+
 // Groups of members ------------------------------------------------------------------------------
 
 /// Members [0, kCount) of kDrainStep records, kCount <= kGroupLanes: transposed in 128 bits.
