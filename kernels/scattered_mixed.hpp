@@ -84,7 +84,7 @@ SIMDBEZIER_INLINE void prefetch_mixed(const ScatteredTask<ScalarOf<V>>& task, st
   using T = ScalarOf<V>;
   constexpr std::size_t kAhead = 48;
   constexpr std::size_t kLine = 64 / sizeof(T);
-  if (k + kAhead + kLanes < V >> task.patches_known) {
+  if (task.patches_known < k + kAhead + kLanes<V>) {
     return;
   }
   const std::uint32_t* const patch = task.patch + k + kAhead;
