@@ -104,7 +104,9 @@ Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, con
   if (readable != Status::ok || samples.count == 0) {
     return readable;
   }
-  const detail::OutputPlan<T> outputs(out, samples.count, options.destination);
+  const detail::OutputPlan<T> outputs(
+      out, samples.count,
+      options.destination == Destination::memory ? Destination::memory : Destination::cache);
   const std::size_t piece = outputs.staged() ? detail::kStagedPiece : detail::kPiece;
   const detail::ScatteredCall<T> call{*set.storage(),
                                       samples,

@@ -108,9 +108,10 @@ struct Outputs {
 /// much slower for whoever reads the result at once. They take effect where the output consists of
 /// packed planes, packed triples or vertices without gaps; any alignment of T will do.
 enum class Destination : std::uint8_t {
-  automatic, ///< memory where a call writes more than half of the last-level cache, else cache
-  cache,     ///< plain stores
-  memory     ///< streaming stores, completed before the call returns
+  automatic, ///< memory where a grid call writes more than half of the last-level cache, else
+             ///< cache; scattered samples take longer to compute than plain stores take to memory
+  cache, ///< plain stores
+  memory ///< streaming stores, completed before the call returns
 };
 
 /// How a call runs. The defaults are what most callers want.
