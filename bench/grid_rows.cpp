@@ -119,10 +119,8 @@ public:
     poison_grid(job_);
     std::string failure;
     if (row_.algorithm == Algorithm::library) {
-      failure =
-          set_->size() < job_.patches
-              ? "the patches could not be packed"
-              : run_verified(options_, [this](const auto& options) { return evaluate(options); });
+      failure = run_verified(*set_, job_.patches, options_,
+                             [this](const auto& options) { return evaluate(options); });
     } else if (run_ == nullptr) {
       failure = "this machine has none of the baselines' instruction sets";
     } else {

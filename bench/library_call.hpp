@@ -68,4 +68,11 @@ std::string run_verified(simdbezier::Options options, Call call) {
   return {};
 }
 
+/// As above, of a call that reads `patches` patches of a set.
+template <typename T, typename Call>
+std::string run_verified(const simdbezier::PatchSet<T>& set, std::size_t patches,
+                         const simdbezier::Options& options, Call call) {
+  return set.size() < patches ? "the patches could not be packed" : run_verified(options, call);
+}
+
 } // namespace simdbezier_bench

@@ -100,10 +100,8 @@ public:
     poison_scattered(job_);
     std::string failure;
     if (row_.library) {
-      failure =
-          set_->size() < row_.patches
-              ? "the patches could not be packed"
-              : run_verified(options_, [this](const auto& options) { return evaluate(options); });
+      failure = run_verified(*set_, row_.patches, options_,
+                             [this](const auto& options) { return evaluate(options); });
     } else if (run_ == nullptr) {
       failure = "this machine has none of the baselines' instruction sets";
     } else {

@@ -94,14 +94,11 @@ public:
   }
 
   std::string check() {
-    if (set_->size() < patches_) {
-      return "the patches could not be packed";
-    }
     const T* const nets = shared_nets<T>(patches_);
     std::atomic<std::size_t> samples{0};
     std::mutex mutex;
     std::string wrong;
-    std::string failure = run_verified(options_, [&](const auto& options) {
+    std::string failure = run_verified(*set_, patches_, options_, [&](const auto& options) {
       return evaluate(options, [&](const Tile<T>& tile) {
         samples += tile.samples;
         const std::string found = check_tile(tile, nets);

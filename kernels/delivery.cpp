@@ -12,6 +12,9 @@ constexpr std::size_t kStagingBytes = std::size_t{20} << 10;
 /// Streaming hides the second-level cache behind memory; long chunks save starts and ends.
 constexpr std::size_t kStreamingBytes = std::size_t{160} << 10;
 
+/// Pieces that kernels write directly; bounds only how much one thread takes of a huge grid.
+constexpr std::size_t kDirectSamples = 65536;
+
 /// A step of room in front of each plane, and a line more than needed, so that planes of a round
 /// number of samples do not compete for the same sets of the cache.
 template <typename T>
@@ -24,8 +27,11 @@ constexpr std::size_t plane_step(std::size_t samples) noexcept {
 
 template <typename T>
 std::size_t Delivery<T>::chunk_samples(const OutputPlan<T>& plan) noexcept {
+  if (!plan.staged()) {
+    return kDirectSamples;
+  }
   const std::size_t bytes = plan.streaming() ? kStreamingBytes : kStagingBytes;
-  return bytes / sizeof(T) / std::max<std::size_t>(plan.staged_planes(), 3);
+  return bytes / sizeof(T) / plan.staged_planes();
 }
 
 template <typename T>

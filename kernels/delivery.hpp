@@ -15,7 +15,7 @@ namespace simdbezier::detail {
 template <typename T>
 class Delivery {
 public:
-  /// Samples that one chunk may hold, for staging that stays in a first-level cache.
+  /// Samples that one chunk should hold.
   [[nodiscard]] static std::size_t chunk_samples(const OutputPlan<T>& plan) noexcept;
   /// Bytes of scratch that a thread needs for chunks of up to `samples`; 64-byte aligned.
   [[nodiscard]] static std::size_t scratch_bytes(std::size_t staged_planes, bool streaming,

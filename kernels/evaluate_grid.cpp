@@ -15,9 +15,6 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-/// Pieces that kernels write directly; bounds only how much one thread takes of a huge grid.
-constexpr std::size_t kDirectSamples = 65536;
-
 /// One grid call after its checks; worker() runs on every thread.
 template <typename T>
 class GridCall {
@@ -25,8 +22,7 @@ public:
   GridCall(const GridKernels<T>& kernels, std::size_t first_patch, const GridPlan<T>& plan,
            const OutputPlan<T>& outputs) noexcept
       : kernels_(kernels), first_patch_(first_patch), plan_(plan), outputs_(outputs) {
-    const std::size_t samples =
-        outputs.staged() ? Delivery<T>::chunk_samples(outputs) : kDirectSamples;
+    const std::size_t samples = Delivery<T>::chunk_samples(outputs);
     strip_rows_ = std::clamp<std::size_t>(samples / plan.nu(), 1, plan.nv());
     strips_ = (plan.nv() + strip_rows_ - 1) / strip_rows_;
     const std::size_t patch_samples = plan.nu() * plan.nv();

@@ -17,7 +17,6 @@ namespace detail {
 namespace {
 
 /// Rows of one patch that a kernel takes at once.
-constexpr std::size_t kDirectSamples = 65536;
 constexpr std::size_t kMostRows = 1024;
 
 /// The sizes of a call, and where each patch's samples begin.
@@ -80,26 +79,19 @@ public:
   explicit PlanCache(T* memory) noexcept : memory_(memory) {}
 
   const GridPlan<T>& find(std::size_t nu, std::size_t nv) noexcept {
-    const bool large = !GridPlan<T>::fits_inline(nu, nv);
-    Entry& entry = large ? large_ : entry_[(nu * 5 + nv) % kEntries];
-    if (entry.nu != nu || entry.nv != nv) {
-      [[maybe_unused]] const Status built = entry.plan.build(Grid<T>::uniform(nu, nv), memory_);
-      entry.nu = nu;
-      entry.nv = nv;
+    GridPlan<T>& plan =
+        GridPlan<T>::fits_inline(nu, nv) ? plan_[(nu * 5 + nv) % kPlans] : large_plan_;
+    if (plan.nu() != nu || plan.nv() != nv) {
+      [[maybe_unused]] const Status built = plan.build(Grid<T>::uniform(nu, nv), memory_);
     }
-    return entry.plan;
+    return plan;
   }
 
 private:
-  static constexpr std::size_t kEntries = 16;
-  struct Entry {
-    GridPlan<T> plan;
-    std::size_t nu = 0;
-    std::size_t nv = 0;
-  };
+  static constexpr std::size_t kPlans = 16;
   T* memory_;
-  Entry large_;
-  Entry entry_[kEntries];
+  GridPlan<T> large_plan_;
+  GridPlan<T> plan_[kPlans];
 };
 
 /// One call after its checks; worker() runs on every thread.
@@ -110,8 +102,7 @@ public:
                  const PatchGrids& grids, const Samples& samples,
                  const OutputPlan<T>& outputs) noexcept
       : kernels_(kernels), first_patch_(first_patch), patches_(patches), grids_(grids),
-        samples_(samples), outputs_(outputs),
-        piece_samples_(outputs.staged() ? Delivery<T>::chunk_samples(outputs) : kDirectSamples),
+        samples_(samples), outputs_(outputs), piece_samples_(Delivery<T>::chunk_samples(outputs)),
         chunk_samples_(std::max(piece_samples_, samples.most_nu)) {
     delivery_bytes_ = whole_lines(
         Delivery<T>::scratch_bytes(outputs.staged_planes(), outputs.streaming(), chunk_samples_));

@@ -18,9 +18,6 @@ namespace {
 constexpr std::size_t kPiece = 2048;
 constexpr std::size_t kStagedPiece = 512;
 
-/// Sets of coefficients up to this size are taken to stay in the second-level cache.
-constexpr std::size_t kCachedBytes = std::size_t{1} << 20;
-
 template <typename T>
 Status check_samples(const PatchSet<T>& set, const Samples<T>& samples,
                      const KernelTable<T>& table) noexcept {
@@ -68,7 +65,7 @@ struct ScatteredCall {
     task.scale = samples.parameters == Parameters::unit ? T(1) : T(0.5);
     task.count = count;
     task.patches_known = samples.count - first;
-    task.prefetch = patches.count > kCachedBytes / (kCoefficients * sizeof(T));
+    task.prefetch = patches.count > second_level_cache() / (kCoefficients * sizeof(T));
     task.resolve_normal = resolve_normal<T>;
     if (outputs.out().status != nullptr) {
       task.status = outputs.out().status + first;

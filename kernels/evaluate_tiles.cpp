@@ -14,11 +14,14 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
+WantedGroups groups_of(const TileFormat& format) noexcept {
+  return {
+      {format.position, format.du, format.dv, format.duu, format.duv, format.dvv, format.normal}};
+}
+
 std::size_t vector_groups(const TileFormat& format) noexcept {
-  return static_cast<std::size_t>(format.position) + static_cast<std::size_t>(format.du) +
-         static_cast<std::size_t>(format.dv) + static_cast<std::size_t>(format.duu) +
-         static_cast<std::size_t>(format.duv) + static_cast<std::size_t>(format.dvv) +
-         static_cast<std::size_t>(format.normal);
+  const WantedGroups wanted = groups_of(format);
+  return static_cast<std::size_t>(std::count(wanted.group, wanted.group + kGroups, true));
 }
 
 /// Half of a common first-level cache: the caller reads what has just been written.
@@ -71,15 +74,14 @@ public:
 
   [[nodiscard]] Outputs<T> place(unsigned char* memory) const noexcept {
     Outputs<T> out;
-    const bool wanted[kGroups] = {format_.position, format_.du,  format_.dv,    format_.duu,
-                                  format_.duv,      format_.dvv, format_.normal};
+    const WantedGroups wanted = groups_of(format_);
     Vectors<T>* const group[kGroups] = {&out.position, &out.du,  &out.dv,    &out.duu,
                                         &out.duv,      &out.dvv, &out.normal};
     const std::size_t members = 3 * vector_groups(format_);
     std::size_t at = 0;
     std::size_t member = 0;
     for (std::size_t g = 0; g < kGroups; ++g) {
-      if (!wanted[g]) {
+      if (!wanted.group[g]) {
         continue;
       }
       if (format_.layout == TileLayout::planes) {
@@ -209,10 +211,8 @@ Status evaluate_tiles(const PatchSet<T>& set, const Grid<T>& grid, const TileFor
   if (!detail::choose_shape<T>(grid.nu, grid.nv, request.patches, format, shape)) {
     return Status::size_overflow;
   }
-  const detail::WantedGroups wanted{
-      {format.position, format.du, format.dv, format.duu, format.duv, format.dvv, format.normal}};
-  const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa), wanted,
-                                       options.watertight);
+  const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa),
+                                       detail::groups_of(format), options.watertight);
   return detail::run_tiles<T>(kernels, request, plan, format, shape, function, options);
 }
 

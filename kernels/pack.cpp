@@ -12,7 +12,6 @@
 
 #include "kernels/batch.hpp"
 #include "kernels/dispatch.hpp"
-#include "kernels/fp_environment.hpp"
 #include "kernels/patch_storage.hpp"
 
 namespace simdbezier {
