@@ -27,7 +27,7 @@ function(simdbezier_isa_flags name result)
   endforeach()
 endfunction()
 
-# Compiles kernels/kernels.cpp once per instruction set, appends the objects to `target` and lists
+# Compiles the kernels once per instruction set, appends the objects to `target` and lists
 # them for kernels/dispatch.cpp in isa_list.inc.
 function(simdbezier_add_isa_kernels target)
   set(entries "")
@@ -38,7 +38,9 @@ function(simdbezier_add_isa_kernels target)
     simdbezier_isa_flags(${name} flags)
     string(TOUPPER ${name} upper)
     set(object simdbezier_kernels_${name})
-    add_library(${object} OBJECT ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../kernels/kernels.cpp)
+    set(sources kernels.cpp shapes.cpp curves.cpp nets.cpp)
+    list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../kernels/)
+    add_library(${object} OBJECT ${sources})
     target_compile_definitions(${object} PRIVATE SIMDBEZIER_ISA=${name} SIMDBEZIER_ARCH=${arch}
                                                  SIMDBEZIER_KERNELS_${upper})
     # Without optimisation xsimd's small functions leave weak symbols behind that the linker could

@@ -74,7 +74,7 @@ ErrorBounds error_bounds(const PatchSet<T>& set, std::size_t patch, Isa isa) noe
     return bounds;
   }
   const detail::DefaultFpEnvironment environment;
-  const detail::PatchStorage<T>& storage = *set.storage();
+  const detail::PatchStorage<T>& storage = set.storage()->buckets[0];
   const double per_step = fuses_multiply_add(chosen) ? 1 : 2;
   const double unit = 1.01 * detail::kUnitRoundoff<T>;
   const double denormals = 64 * static_cast<double>(std::numeric_limits<T>::denorm_min());

@@ -111,7 +111,7 @@ Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<
   if (planned != Status::ok || request.patches == 0) {
     return planned;
   }
-  const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa),
+  const detail::GridKernels<T> kernels(set.storage()->buckets[0], detail::kernel_table<T>(request.isa),
                                        detail::wanted_groups(out), options.watertight);
   detail::OutputPlan<T> outputs(out, samples, options.destination);
   outputs.stream_directly(grid.nu, kernels.table->lanes);

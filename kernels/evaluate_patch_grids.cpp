@@ -188,7 +188,7 @@ Status evaluate_patch_grids(const PatchSet<T>& set, const PatchGrids& grids, con
     return usable;
   }
   const detail::DefaultFpEnvironment environment;
-  const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa),
+  const detail::GridKernels<T> kernels(set.storage()->buckets[0], detail::kernel_table<T>(request.isa),
                                        detail::wanted_groups(out), options.watertight);
   const std::size_t total = samples.before[request.patches];
   const detail::OutputPlan<T> outputs(out, total, options.destination);

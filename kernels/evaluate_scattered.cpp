@@ -53,6 +53,7 @@ struct ScatteredCall {
 
   Isa run_piece(std::size_t first, std::size_t count, Delivery<T>& delivery) const noexcept {
     ScatteredTask<T> task{};
+    task.shape = &patches.shape;
     task.coefficients = patches.coefficients;
     task.edges = patches.edges;
     task.control_points = patches.control_points;
@@ -105,7 +106,7 @@ Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, con
       out, samples.count,
       options.destination == Destination::memory ? Destination::memory : Destination::cache);
   const std::size_t piece = outputs.staged() ? detail::kStagedPiece : detail::kPiece;
-  const detail::ScatteredCall<T> call{*set.storage(),
+  const detail::ScatteredCall<T> call{set.storage()->buckets[0],
                                       samples,
                                       outputs,
                                       table,

@@ -211,7 +211,7 @@ Status evaluate_tiles(const PatchSet<T>& set, const Grid<T>& grid, const TileFor
   if (!detail::choose_shape<T>(grid.nu, grid.nv, request.patches, format, shape)) {
     return Status::size_overflow;
   }
-  const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa),
+  const detail::GridKernels<T> kernels(set.storage()->buckets[0], detail::kernel_table<T>(request.isa),
                                        detail::groups_of(format), options.watertight);
   return detail::run_tiles<T>(kernels, request, plan, format, shape, function, options);
 }

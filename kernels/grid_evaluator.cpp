@@ -39,10 +39,12 @@ template <typename T>
 void GridEvaluator<T>::fill(GridTask<T>& task, const GridPlan<T>& plan, const GridPiece& piece,
                             const Target& to) const noexcept {
   const PatchStorage<T>& set = *kernels_.patches;
-  task.coefficients = set.coefficients + piece.patch * kCoefficients;
-  task.edges = set.edges + piece.patch * kEdgeBlock;
-  task.control_points = set.control_points + piece.patch * kCoefficients;
-  task.origins = set.origins == nullptr ? nullptr : set.origins + piece.patch * kOriginBlock;
+  task.shape = &set.shape;
+  task.coefficients = set.coefficients + piece.patch * set.shape.coefficients();
+  task.edges = set.edges + piece.patch * set.shape.edges();
+  task.control_points = set.control_points + piece.patch * set.shape.control_values();
+  task.origins =
+      set.origins == nullptr ? nullptr : set.origins + piece.patch * set.shape.origins();
   task.normal_floor = set.normal_floor + piece.patch;
   task.patch_count = piece.patches;
   task.x = plan.x();

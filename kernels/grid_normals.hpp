@@ -33,7 +33,8 @@ resolve_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch, Suspects s
     if (lanes[6][i] > lanes[7][i]) {
       continue;
     }
-    const detail::NormalQuery<T> query{task.control_points + patch * detail::kCoefficients,
+    const detail::NormalQuery<T> query{task.shape,
+                                       task.control_points + patch * detail::kCoefficients,
                                        lanes[8][i],
                                        lanes[9][i],
                                        {lanes[0][i], lanes[1][i], lanes[2][i]},

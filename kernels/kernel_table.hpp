@@ -6,6 +6,8 @@
 
 #include <simdbezier/evaluate.hpp>
 
+#include "kernels/net_shape.hpp"
+
 namespace simdbezier::detail {
 
 /// The vector-valued outputs, in the order of Outputs.
@@ -27,10 +29,14 @@ struct Planes {
   [[nodiscard]] bool wanted() const noexcept { return component[0] != nullptr; }
 };
 
+/// The curvatures, in the order of Curvatures.
+inline constexpr std::size_t kCurvatures = 4;
+
 /// A sample whose |du x dv|^2 did not pass the quick test.
 template <typename T>
 struct NormalQuery {
-  const T* control_points; ///< of its patch, [j][i][component]
+  const NetShape* shape;
+  const T* control_points; ///< of its patch, [j][i][channel]
   T x;                     ///< half-centred parameters
   T y;
   T du[3];
@@ -67,6 +73,7 @@ struct DrainQueue;
 /// counted from the task's first patch and first row.
 template <typename T>
 struct GridTask {
+  const NetShape* shape;
   const T* coefficients;
   const T* edges;
   const T* control_points;
@@ -80,6 +87,8 @@ struct GridTask {
   std::size_t run_count;
 
   Planes<T> out[kGroups];
+  T* curvature[kCurvatures]; ///< null where not wanted; read by the kernels of any shape only
+  std::size_t first_component; ///< the component that goes to component[0]; likewise
   SampleStatus* status; ///< may be null; filled beforehand, changed where a normal is unusual
   std::size_t patch_step;
   ResolveNormal<T> resolve_normal;
@@ -92,6 +101,7 @@ struct GridTask {
 /// Scattered samples with unit-stride outputs.
 template <typename T>
 struct ScatteredTask {
+  const NetShape* shape;
   const T* coefficients;
   const T* edges;
   const T* control_points;
@@ -108,6 +118,8 @@ struct ScatteredTask {
   bool prefetch;             ///< the set's coefficients do not fit the second-level cache
 
   Planes<T> out[kGroups];
+  T* curvature[kCurvatures];   ///< as in GridTask
+  std::size_t first_component; ///< likewise
   SampleStatus* status; ///< may be null; `regular` beforehand, changed where a sample is not
   ResolveNormal<T> resolve_normal;
   Isa executed; ///< written by the kernel
@@ -164,6 +176,41 @@ struct PackDoubt {
 template <typename T, typename S>
 using PackKernel = PackDoubt (*)(const PackTask<T, S>& task, std::size_t begin, std::size_t end);
 
+/// Nets of any shape to pack, and where the arrays of patch 0 begin.
+template <typename T, typename S>
+struct NetPackTask {
+  ControlNets<S> nets;
+  NetShape shape;
+  double relative_to[3]; ///< of the first three components
+
+  T* coefficients;
+  T* edges;
+  T* control_points;
+  T* origins; ///< null where none are wanted
+  T* normal_floor;
+};
+
+template <typename T, typename S>
+using NetPackKernel = PackDoubt (*)(const NetPackTask<T, S>& task, std::size_t begin,
+                                    std::size_t end);
+
+/// Kernels for patches of any shape. They read NetShape where those of KernelTable know theirs, but
+/// the tasks are the same, and so are the bits where both can run.
+template <typename T>
+struct ShapeTable {
+  void (*grid)(GridTask<T>& task, Scheme scheme); ///< all outputs that the task wants
+  void (*scattered)(ScatteredTask<T>& task, Scheme scheme);
+  NetPackKernel<T, float> pack_f32;
+  NetPackKernel<T, double> pack_f64;
+};
+
+/// Kernels for curves (curve_table.hpp), and for operations on control nets (net_table.hpp).
+template <typename T>
+struct CurveTable;
+template <typename T>
+struct NetTable;
+
+/// Kernels for bicubic patches in space, and the way to all others.
 template <typename T>
 struct KernelTable {
   Isa isa;
@@ -175,6 +222,9 @@ struct KernelTable {
   std::uint32_t (*highest_index)(const std::uint32_t* index, std::size_t count);
   PackKernel<T, float> pack_f32;
   PackKernel<T, double> pack_f64;
+  const ShapeTable<T>* shapes;
+  const CurveTable<T>* curves;
+  const NetTable<T>* nets;
 };
 
 } // namespace simdbezier::detail

@@ -1,5 +1,6 @@
 // Compiled once per instruction set (cmake/isa.cmake): fills this instruction set's tables.
-// Only the tables leave this object; they are constants, so nothing runs at load time.
+// Only the tables leave this object; they are constants, so nothing runs at load time. shapes.cpp,
+// curves.cpp and nets.cpp are compiled the same way.
 #include "kernels/grid_kernel.hpp"
 #include "kernels/pack_kernel.hpp"
 #include "kernels/scattered_kernel.hpp"
@@ -18,6 +19,14 @@ constexpr void fill_scheme(detail::KernelTable<T>& table) {
   table.scattered[kScheme] = scattered_kernel<T, kScheme>;
 }
 
+// Of the other objects of this instruction set.
+extern const detail::ShapeTable<float> shape_table_f32;
+extern const detail::ShapeTable<double> shape_table_f64;
+extern const detail::CurveTable<float> curve_table_f32;
+extern const detail::CurveTable<double> curve_table_f64;
+extern const detail::NetTable<float> net_table_f32;
+extern const detail::NetTable<double> net_table_f64;
+
 template <typename T>
 constexpr detail::KernelTable<T> make_table() {
   detail::KernelTable<T> table{};
@@ -35,9 +44,25 @@ constexpr detail::KernelTable<T> make_table() {
   return table;
 }
 
+constexpr detail::KernelTable<float> make_table_f32() {
+  detail::KernelTable<float> table = make_table<float>();
+  table.shapes = &shape_table_f32;
+  table.curves = &curve_table_f32;
+  table.nets = &net_table_f32;
+  return table;
+}
+
+constexpr detail::KernelTable<double> make_table_f64() {
+  detail::KernelTable<double> table = make_table<double>();
+  table.shapes = &shape_table_f64;
+  table.curves = &curve_table_f64;
+  table.nets = &net_table_f64;
+  return table;
+}
+
 extern const detail::KernelTable<float> table_f32;
 extern const detail::KernelTable<double> table_f64;
-constinit const detail::KernelTable<float> table_f32 = make_table<float>();
-constinit const detail::KernelTable<double> table_f64 = make_table<double>();
+constinit const detail::KernelTable<float> table_f32 = make_table_f32();
+constinit const detail::KernelTable<double> table_f64 = make_table_f64();
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -158,7 +158,7 @@ std::size_t PatchSet<T>::size() const noexcept {
 
 template <typename T>
 bool PatchSet<T>::has_local_origins() const noexcept {
-  return storage_ != nullptr && storage_->origins != nullptr;
+  return storage_ != nullptr && storage_->buckets[0].origins != nullptr;
 }
 
 template <typename T, typename S>
@@ -181,12 +181,15 @@ PackReport pack(const ControlNets<S>& nets, PatchSet<T>& set, const PackOptions&
     }
     isa = available_isas().back(); // a wrong SIMDBEZIER_ISA is for evaluate calls to report
   }
-  auto storage = std::make_shared<detail::PatchStorage<T>>();
-  const Status allocated = detail::allocate(nets.count, options.local_origin, *storage);
+  auto storage = std::make_shared<detail::SetStorage<T>>();
+  storage->count = nets.count;
+  storage->buckets.resize(1);
+  const Status allocated =
+      detail::allocate(nets.count, options.local_origin, storage->buckets[0]);
   if (allocated != Status::ok) {
     return {allocated};
   }
-  const PackReport report = detail::pack_all(nets, options, isa, *storage);
+  const PackReport report = detail::pack_all(nets, options, isa, storage->buckets[0]);
   if (!report) {
     return report;
   }

@@ -6,13 +6,19 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
 
+#include <vector>
+
 #include <simdbezier/status.hpp>
+
+#include "kernels/net_shape.hpp"
 
 namespace simdbezier::detail {
 
+// The constants below are those of bicubic patches in space; NetShape has them for all others.
 inline constexpr std::size_t kComponents = 3;
 inline constexpr std::size_t kOrder = 4; // degree 3
 
@@ -40,15 +46,36 @@ struct FreeAligned {
   void operator()(void* memory) const noexcept { ::operator delete (memory, std::align_val_t{64}); }
 };
 
+/// Patches of one shape.
 template <typename T>
 struct PatchStorage {
+  NetShape shape;
   std::size_t count = 0;
   std::unique_ptr<void, FreeAligned> memory;
-  T* coefficients = nullptr;   ///< count * kCoefficients, 64-byte aligned
-  T* edges = nullptr;          ///< count * kEdgeBlock, 64-byte aligned
-  T* control_points = nullptr; ///< count * 48, [j][i][component]; read where a normal degenerates
-  T* origins = nullptr;        ///< count * kOriginBlock, or null
+  T* coefficients = nullptr;   ///< count * shape.coefficients(), 64-byte aligned
+  T* edges = nullptr;          ///< count * shape.edges(), 64-byte aligned
+  T* control_points = nullptr; ///< count * shape.control_values(); read where a normal degenerates
+  T* origins = nullptr;        ///< count * shape.origins(), or null
   T* normal_floor = nullptr;   ///< count; |du x dv|^2 above it needs no second look
+  std::unique_ptr<std::size_t[]> number; ///< of each patch in the set, ascending; null: its index
 };
+
+/// Where a patch of a set of several shapes is.
+struct PatchPlace {
+  std::uint32_t bucket;
+  std::size_t index;
+};
+
+/// What a PatchSet holds: one bucket for each shape that occurs.
+template <typename T>
+struct SetStorage {
+  std::size_t count = 0;
+  std::vector<PatchStorage<T>> buckets; ///< at least one
+  std::unique_ptr<PatchPlace[]> places; ///< of every patch; null where there is one bucket
+};
+
+static_assert(NetShape{}.is_bicubic() && NetShape{}.coefficients() == kCoefficients &&
+              NetShape{}.edges() == kEdgeBlock && NetShape{}.corners_at() == kCornersAt &&
+              NetShape{}.origins() == kOriginBlock && NetShape{}.control_values() == kCoefficients);
 
 } // namespace simdbezier::detail

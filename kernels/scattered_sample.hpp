@@ -57,7 +57,8 @@ SIMDBEZIER_INLINE void store_normal(const ScatteredTask<T>& task, std::size_t k,
   if (inside && squared > task.normal_floor[place.patch]) {
     normalise(n, squared);
   } else {
-    const detail::NormalQuery<T> query{task.control_points + place.patch * detail::kCoefficients,
+    const detail::NormalQuery<T> query{task.shape,
+                                       task.control_points + place.patch * detail::kCoefficients,
                                        x,
                                        y,
                                        {du[0], du[1], du[2]},

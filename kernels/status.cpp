@@ -12,7 +12,11 @@ std::string_view to_string(Status status) noexcept {
   case Status::null_output:
     return "no output was asked for, or one of its planes is null";
   case Status::bad_degree:
-    return "the degrees are not supported (bicubic only: 3 x 3)";
+    return "a degree is below 1 or above 15";
+  case Status::bad_components:
+    return "the components are not 1 to 16, differ, or an output needs exactly three";
+  case Status::bad_weight:
+    return "a weight is not positive and finite";
   case Status::bad_stride:
     return "a stride lets two values share one place";
   case Status::overlapping_outputs:

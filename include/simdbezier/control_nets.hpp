@@ -2,31 +2,57 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace simdbezier {
 
-/// Non-owning description of `count` control nets with equal degrees and three components.
+/// The highest degree in each direction, and the most components of a point.
+inline constexpr int kMostDegree = 15;
+inline constexpr int kMostComponents = 16;
+
+/// Whether points carry a weight, as one more value behind their components, and in which form.
+enum class Weights : std::uint8_t {
+  none,       ///< polynomial
+  cartesian,  ///< x y z w: the point is (x, y, z)
+  homogeneous ///< wx wy wz w: the point is (wx/w, wy/w, wz/w)
+};
+
+/// Non-owning description of `count` control nets with equal degrees and components.
 ///
 ///     v ^  P[3][0] P[3][1] P[3][2] P[3][3]      row j runs in v, column i runs in u, u fastest
 ///       |  P[2][0]    …                         S(u,v) = sum_j sum_i P[j][i] B_i(u) B_j(v)
 ///       |  P[1][0]    …
-///       |  P[0][0] P[0][1] P[0][2] P[0][3]
+///       |  P[0][0] P[0][1] P[0][2] P[0][3]      with weights, (sum w P B B) / (sum w B B)
 ///       +--------------------------------> u
 ///
 /// Component c of point P[j][i] of patch p is
 ///     points[p * patch_stride + j * row_stride + i * point_stride + c * component_stride]
-/// with all strides in elements of S. The default describes x y z triples, packed, patch after
-/// patch, which is the order of `.bez` and `.bpt` files. The memory is read during pack() only.
+/// with all strides in elements of S; the weight stands where component `components` would. The
+/// default describes bicubic x y z triples, packed, patch after patch, which is the order of `.bez`
+/// and `.bpt` files; packed() describes other degrees and components. The memory is read during
+/// calls only.
 template <typename S>
 struct ControlNets {
   const S* points = nullptr; ///< may be null only when count is 0
   std::size_t count = 0;     ///< number of patches
-  int degree_u = 3;          ///< degree along a row
-  int degree_v = 3;          ///< degree across rows
+  int degree_u = 3;          ///< degree along a row, 1 to kMostDegree
+  int degree_v = 3;          ///< degree across rows, 1 to kMostDegree
   std::ptrdiff_t patch_stride = 48;
   std::ptrdiff_t row_stride = 12;
   std::ptrdiff_t point_stride = 3;
   std::ptrdiff_t component_stride = 1;
+  int components = 3; ///< 1 to kMostComponents, without the weight
+  Weights weights = Weights::none;
+
+  /// Points with all of their values side by side, row after row, patch after patch.
+  [[nodiscard]] static constexpr ControlNets packed(const S* points, std::size_t count,
+                                                    int degree_u, int degree_v, int components = 3,
+                                                    Weights weights = Weights::none) noexcept {
+    const std::ptrdiff_t point = components + (weights == Weights::none ? 0 : 1);
+    const std::ptrdiff_t row = (degree_u + 1) * point;
+    return {points, count, degree_u,   degree_v, (degree_v + 1) * row, row, point,
+            1,      components, weights};
+  }
 };
 
 } // namespace simdbezier

@@ -81,6 +81,19 @@ struct Vectors {
   }
 };
 
+/// Where the curvatures of a surface go: one value a sample each, unit stride; null: not asked for.
+template <typename T>
+struct Curvatures {
+  T* gaussian = nullptr; ///< K = (LN - M^2) / (EG - F^2)
+  T* mean = nullptr;     ///< H = (EN - 2FM + GL) / (2 (EG - F^2)), positive towards the normal
+  T* minimum = nullptr;  ///< principal curvature H - sqrt(H^2 - K)
+  T* maximum = nullptr;  ///< principal curvature H + sqrt(H^2 - K)
+
+  [[nodiscard]] constexpr bool wanted() const noexcept {
+    return gaussian != nullptr || mean != nullptr || minimum != nullptr || maximum != nullptr;
+  }
+};
+
 /// What was found at one sample.
 enum class SampleStatus : std::uint8_t {
   regular,    ///< every output is what its formula says
@@ -102,6 +115,9 @@ struct Outputs {
   Vectors<T> dvv;      ///< d2S/dv2
   Vectors<T> normal;   ///< dS/du x dS/dv, unit length or zero, never nan at finite parameters
   SampleStatus* status = nullptr; ///< one value a sample, unit stride
+  /// Of sets with three components. From first and second derivatives in the same pass; nan where
+  /// du x dv is zero. Source: M. P. do Carmo, Differential Geometry of Curves and Surfaces, 3.3.
+  Curvatures<T> curvature;
 };
 
 /// Where the outputs should end up. Streaming stores bypass the caches: a third faster to memory,
@@ -121,6 +137,10 @@ struct Options {
   Isa isa = Isa::automatic; ///< see resolve_isa()
   Isa* executed = nullptr;  ///< where given, the kernel that ran writes its own name here
   Destination destination = Destination::automatic;
+  /// The component that comes out as x; the next ones as y and z. Sets of up to two components
+  /// have null z (and y) pointers, as do calls for the last components of sets with more than
+  /// three; normals and curvatures exist for sets of three only.
+  int first_component = 0;
   std::size_t first_patch = 0; ///< grid calls: the first patch to evaluate
   std::size_t patch_count = static_cast<std::size_t>(-1); ///< grid calls: -1: up to the last
 };

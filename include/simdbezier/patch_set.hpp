@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include <simdbezier/control_nets.hpp>
@@ -13,7 +14,7 @@ namespace simdbezier {
 
 namespace detail {
 template <typename T>
-struct PatchStorage;
+struct SetStorage;
 }
 
 /// Where packing stopped. On ok the other members are 0.
@@ -21,12 +22,23 @@ struct PackReport {
   Status status = Status::ok;
   std::size_t patch = 0; ///< first patch at fault
   int point = 0;         ///< its control point j*(degree_u+1)+i (0 for coefficient_overflow)
-  int component = 0;     ///< 0, 1, 2 for x, y, z
+  int component = 0;     ///< 0, 1, 2 for x, y, z; the number of components for a weight
 
   [[nodiscard]] explicit operator bool() const noexcept { return status == Status::ok; }
 };
 
-/// Bicubic patches as centred coefficient matrices, one per component, T = float or double.
+/// What one patch of a set is.
+struct PatchShape {
+  int degree_u = 3;
+  int degree_v = 3;
+  int components = 3;
+  bool rational = false;
+
+  friend bool operator==(const PatchShape&, const PatchShape&) = default;
+};
+
+/// Patches as centred coefficient matrices, one per component, T = float or double. Their degrees
+/// may differ, and some may be rational; they all have the same number of components.
 ///
 /// Immutable: any number of threads may evaluate one set at once. Copies share the storage and
 /// cost one reference count. A default-constructed set holds no patches.
@@ -39,16 +51,21 @@ public:
   [[nodiscard]] SIMDBEZIER_API std::size_t size() const noexcept;
   [[nodiscard]] bool empty() const noexcept { return size() == 0; }
 
+  /// Components of every point; 3 for an empty set.
+  [[nodiscard]] SIMDBEZIER_API int components() const noexcept;
+  /// Degrees, components and weights of one patch; all of 0 outside of the set.
+  [[nodiscard]] SIMDBEZIER_API PatchShape shape(std::size_t patch) const noexcept;
+
   /// Whether the set was packed with PackOptions::local_origin.
   [[nodiscard]] SIMDBEZIER_API bool has_local_origins() const noexcept;
 
   /// For the library's own use: the packed arrays (null for an empty set).
-  [[nodiscard]] const detail::PatchStorage<T>* storage() const noexcept { return storage_.get(); }
-  explicit PatchSet(std::shared_ptr<const detail::PatchStorage<T>> storage) noexcept
+  [[nodiscard]] const detail::SetStorage<T>* storage() const noexcept { return storage_.get(); }
+  explicit PatchSet(std::shared_ptr<const detail::SetStorage<T>> storage) noexcept
       : storage_(std::move(storage)) {}
 
 private:
-  std::shared_ptr<const detail::PatchStorage<T>> storage_;
+  std::shared_ptr<const detail::SetStorage<T>> storage_;
 };
 
 /// How control points become coefficients. The defaults suit nets near the origin.

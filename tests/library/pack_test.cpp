@@ -34,8 +34,8 @@ std::vector<T> random_points(std::size_t count, double size) {
 template <typename T>
 void expect_same(const PatchSet<T>& a, const PatchSet<T>& b, const std::string& what) {
   ASSERT_EQ(a.size(), b.size()) << what;
-  const detail::PatchStorage<T>& s = *a.storage();
-  const detail::PatchStorage<T>& t = *b.storage();
+  const detail::PatchStorage<T>& s = a.storage()->buckets[0];
+  const detail::PatchStorage<T>& t = b.storage()->buckets[0];
   const auto same = [&](const T* x, const T* y, std::size_t n) {
     return (x == nullptr && y == nullptr) || std::memcmp(x, y, a.size() * n * sizeof(T)) == 0;
   };
@@ -113,7 +113,7 @@ double worst_in_half_ulps(Isa isa) {
       sum += kBasis[k][p % 4] * kBasis[l][p / 4] *
              exact(static_cast<double>(points[e / kNet * kNet + 3 * p + c]));
     }
-    const T got = set.storage()->coefficients[e];
+    const T got = set.storage()->buckets[0].coefficients[e];
     const T ulp =
         std::nextafter(std::fabs(got), std::numeric_limits<T>::infinity()) - std::fabs(got);
     const Rational error = abs(sum - exact(static_cast<double>(got)));
