@@ -1,10 +1,11 @@
-// See certificate.hpp. Computed from the coefficients on demand: they are all it depends on.
+// See certificate.hpp. Computed from the packed values on demand: they are all it depends on.
 #include <simdbezier/certificate.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "kernels/certificate_sums.hpp"
 #include "kernels/fp_environment.hpp"
 #include "kernels/patch_storage.hpp"
 
@@ -12,50 +13,183 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-// Roundings (of the FMA class) that the term of a power passes through on its way to the result.
-constexpr double kHornerRoundings[kOrder] = {1, 2, 3, 3};
-constexpr double kDivisionRoundings[kOrder] = {0, 2, 3, 3};
-
-template <typename T>
-constexpr double kUnitRoundoff = std::numeric_limits<T>::epsilon() / 2;
-
-struct Sums {
-  double position = 0; ///< sum of (roundings + 1) |term|
+/// Bounds of one component.
+struct Bound {
+  double position = 0;
   double du = 0;
   double dv = 0;
-  double size = 0; ///< sum of |term|: bounds |S|
+
+  void include(const Bound& other) {
+    position = std::max(position, other.position);
+    du = std::max(du, other.du);
+    dv = std::max(dv, other.dv);
+  }
 };
 
-/// Terms at |X| = |Y| = 1/2: C_kl 2^-(k+l), and for derivatives k C_kl 2^-(k+l-1).
 template <typename T>
-Sums weighted_sums(const T* matrix, double roundings_per_step) {
-  Sums sums;
-  for (std::size_t k = 0; k < kOrder; ++k) {
-    for (std::size_t l = 0; l < kOrder; ++l) {
-      const double c = std::fabs(static_cast<double>(matrix[k * kOrder + l]));
-      const double term = std::ldexp(c, -static_cast<int>(k + l));
-      const double hk = roundings_per_step * kHornerRoundings[k];
-      const double hl = roundings_per_step * kHornerRoundings[l];
-      const double dk = roundings_per_step * kDivisionRoundings[k];
-      const double dl = roundings_per_step * kDivisionRoundings[l];
-      sums.size += term;
-      sums.position += (hk + hl + 1) * term;
-      sums.du += 2 * static_cast<double>(k) * (dk + hl + 1) * term;
-      sums.dv += 2 * static_cast<double>(l) * (hk + dl + 1) * term;
-    }
-  }
-  return sums;
-}
+class Certificate {
+public:
+  Certificate(const PatchStorage<T>& storage, std::size_t index, double per_step)
+      : storage_(storage), shape_(storage.shape),
+        index_(index), u_{shape_.order_u(), shape_.cells_u() == 2, per_step}, v_{shape_.order_v(),
+                                                                                 shape_.cells_v() ==
+                                                                                     2,
+                                                                                 per_step},
+        per_step_(per_step) {}
 
-/// The largest |origin| of a patch and its edges.
-template <typename T>
-double largest_origin(const T* origins) {
-  double largest = 0;
-  for (std::size_t i = 0; i < kOriginsPerComponent; ++i) {
-    largest = std::max(largest, std::fabs(static_cast<double>(origins[i])));
+  [[nodiscard]] Bound component(std::size_t c) const {
+    Bound bound;
+    for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
+      // A polynomial's edges have no terms that its matrix has not; a quotient's, around an origin
+      // of their own, may have.
+      bound.include(shape_.rational ? quotient(cell, c, matrix(cell, c), matrix(cell, weight()), 0)
+                                    : polynomial(cell, c));
+      for (std::size_t e = 0; shape_.rational && e < kEdges; ++e) {
+        bound.include(
+            quotient(cell, c, edge(cell, c, e), edge(cell, weight(), e), kEdgeOriginsAt + e));
+      }
+    }
+    bound.du *= static_cast<double>(shape_.cells_u());
+    bound.dv *= static_cast<double>(shape_.cells_v());
+    return bound;
   }
-  return largest;
-}
+
+private:
+  static constexpr double kUnit = std::numeric_limits<T>::epsilon() / 2;
+  /// First order in u, and what the higher orders add.
+  static constexpr double kRoundings = 1.01 * kUnit;
+  static constexpr double kDenormals =
+      64 * static_cast<double>(std::numeric_limits<T>::denorm_min());
+
+  [[nodiscard]] std::size_t weight() const { return static_cast<std::size_t>(shape_.components); }
+
+  [[nodiscard]] TermSums matrix(std::size_t cell, std::size_t channel) const {
+    const T* const c = storage_.coefficients + index_ * shape_.coefficients() +
+                       cell * shape_.cell_coefficients() + channel * shape_.matrix();
+    return {u_, v_, [&](std::size_t k, std::size_t l) { return c[k * shape_.order_v() + l]; }};
+  }
+  [[nodiscard]] TermSums edge(std::size_t cell, std::size_t channel, std::size_t e) const {
+    const T* const c = storage_.edges + index_ * shape_.edges() + cell * shape_.cell_edges() +
+                       channel * shape_.edge_powers() * kEdges + e;
+    const bool along_u = e == kEdgeV0 || e == kEdgeV1;
+    constexpr DirectionRoundings kNone;
+    return {along_u ? u_ : kNone, along_u ? kNone : v_,
+            [&](std::size_t k, std::size_t l) { return c[(k + l) * kEdges]; }};
+  }
+  [[nodiscard]] double origin(std::size_t cell, std::size_t channel, std::size_t at) const {
+    return storage_.origins == nullptr
+               ? 0
+               : static_cast<double>(
+                     storage_.origins[index_ * shape_.origins() + cell * shape_.cell_origins() +
+                                      channel * kOriginsPerComponent + at]);
+  }
+  [[nodiscard]] double control_value(std::size_t point, std::size_t channel) const {
+    return static_cast<double>(storage_.control_points[index_ * shape_.control_values() +
+                                                       point * shape_.channels() + channel]);
+  }
+
+  /// What coefficients miss from the start, in all terms together: they are sums of up to 2^(m+n)
+  /// control values in double where T is float and in double-double else, rounded at every one of
+  /// about 2 (m + n) levels. Only products and halvings do not come out exact there.
+  [[nodiscard]] double carried(double largest) const {
+    const int degrees = shape_.degree_u + shape_.degree_v;
+    const double unit = sizeof(T) == sizeof(float) ? 0x1p-53 : 0x1p-104;
+    return std::ldexp(unit * (2 * degrees + 4) * largest, degrees) +
+           std::ldexp(std::numeric_limits<double>::denorm_min(), degrees + 6);
+  }
+  /// Largest |value| of a channel's control points.
+  [[nodiscard]] double largest(std::size_t channel) const {
+    double most = 0;
+    for (std::size_t k = 0; k < shape_.points(); ++k) {
+      most = std::max(most, std::fabs(control_value(k, channel)));
+    }
+    return most;
+  }
+
+  [[nodiscard]] Bound polynomial(std::size_t cell, std::size_t c) const {
+    const TermSums sums = matrix(cell, c);
+    double position = sums.value;
+    if (storage_.origins != nullptr) {
+      double most = 0;
+      for (std::size_t i = 0; i < kOriginsPerComponent; ++i) {
+        most = std::max(most, std::fabs(origin(cell, c, i)));
+      }
+      position += sums.size + most;
+    }
+    const double lost = shape_.cells() == 1 ? 0 : carried(largest(c));
+    return {kRoundings * position + kDenormals + lost,
+            kRoundings * sums.du + kDenormals + 2 * shape_.degree_u * lost,
+            kRoundings * sums.dv + kDenormals + 2 * shape_.degree_v * lost};
+  }
+
+  /// Bounds of S = h / w around an origin O, S_u = (h_u - S w_u) / w and S_v, from those of h, w
+  /// and their derivatives: each operation's error and what it inherits.
+  [[nodiscard]] Bound quotient(std::size_t cell, std::size_t c, const TermSums& h,
+                               const TermSums& w, std::size_t origin_at) const {
+    const double around = origin(cell, c, origin_at);
+    const double reach = reach_from(c, around); // bounds |S|
+    const double most_w = largest(weight());
+    const double lost_w = carried(most_w);
+    const double lost_h = carried((largest(c) + std::fabs(around)) * most_w);
+    const double error_h = kRoundings * h.value + kDenormals + lost_h;
+    const double error_w = kRoundings * w.value + kDenormals + lost_w;
+    const double lowest = lowest_weight(w, error_w);
+    if (!(lowest > 0)) {
+      constexpr double kUnknown = std::numeric_limits<double>::infinity();
+      return {kUnknown, kUnknown, kUnknown};
+    }
+    // The reciprocal of w and its product with h round once each.
+    const double error_s =
+        (error_h + reach * error_w) / lowest + 2 * kRoundings * reach + kDenormals;
+    const auto slope = [&](double size_h, double size_w, double sum_h, double sum_w, int degree) {
+      const double factor = 2.0 * degree;
+      const double error_hu = kRoundings * sum_h + kDenormals + factor * lost_h;
+      const double error_wu = kRoundings * sum_w + kDenormals + factor * lost_w;
+      const double numerator = size_h + reach * size_w;
+      const double error = error_hu + size_w * error_s + reach * error_wu +
+                           kRoundings * per_step_ * numerator + kDenormals;
+      const double most = numerator / lowest; // bounds |S_u|
+      return 1.01 * (error + most * error_w) / lowest + 2 * kRoundings * most + kDenormals;
+    };
+    Bound bound;
+    bound.position = 1.01 * error_s;
+    if (storage_.origins != nullptr) {
+      const double size = std::fabs(around) + reach;
+      bound.position =
+          std::max(bound.position + kRoundings * size, 2 * kRoundings * size); // corner
+    }
+    bound.du = slope(h.size_u, w.size_u, h.du, w.du, shape_.degree_u);
+    bound.dv = slope(h.size_v, w.size_v, h.dv, w.dv, shape_.degree_v);
+    return bound;
+  }
+
+  /// Bounds |S - origin|: the patch lies in the hull of its control points.
+  [[nodiscard]] double reach_from(std::size_t c, double around) const {
+    double reach = 0;
+    for (std::size_t k = 0; k < shape_.points(); ++k) {
+      const double point = control_value(k, c);
+      reach = std::max(reach, std::fabs(point - around) + 8 * kUnit * std::fabs(point));
+    }
+    return reach;
+  }
+
+  /// A lower bound of w as computed: the least of its control values, or what the other terms leave
+  /// of its constant.
+  [[nodiscard]] double lowest_weight(const TermSums& w, double error) const {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < shape_.points(); ++k) {
+      lowest = std::min(lowest, control_value(k, weight()));
+    }
+    return std::max(lowest * (1 - 4 * kUnit), 2 * w.constant - w.size - error) - error;
+  }
+
+  const PatchStorage<T>& storage_;
+  const NetShape& shape_;
+  std::size_t index_;
+  DirectionRoundings u_;
+  DirectionRoundings v_;
+  double per_step_;
+};
 
 } // namespace
 } // namespace detail
@@ -65,32 +199,25 @@ ErrorBounds error_bounds(const PatchSet<T>& set, std::size_t patch, Isa isa) noe
   ErrorBounds bounds;
   Isa chosen = Isa::automatic;
   if (resolve_isa(isa, chosen) != Status::ok) {
-    std::fill_n(bounds.position, 3, std::numeric_limits<double>::infinity());
-    std::fill_n(bounds.du, 3, std::numeric_limits<double>::infinity());
-    std::fill_n(bounds.dv, 3, std::numeric_limits<double>::infinity());
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    std::fill(std::begin(bounds.position), std::end(bounds.position), kUnknown);
+    std::fill(std::begin(bounds.du), std::end(bounds.du), kUnknown);
+    std::fill(std::begin(bounds.dv), std::end(bounds.dv), kUnknown);
     return bounds;
   }
   if (patch >= set.size()) {
     return bounds;
   }
   const detail::DefaultFpEnvironment environment;
-  const detail::PatchStorage<T>& storage = set.storage()->buckets[0];
-  const double per_step = fuses_multiply_add(chosen) ? 1 : 2;
-  const double unit = 1.01 * detail::kUnitRoundoff<T>;
-  const double denormals = 64 * static_cast<double>(std::numeric_limits<T>::denorm_min());
-  for (std::size_t c = 0; c < detail::kComponents; ++c) {
-    const T* const matrix =
-        storage.coefficients + patch * detail::kCoefficients + c * detail::kOrder * detail::kOrder;
-    const detail::Sums sums = detail::weighted_sums(matrix, per_step);
-    double position = sums.position;
-    if (storage.origins != nullptr) {
-      const T* const origins =
-          storage.origins + patch * detail::kOriginBlock + c * detail::kOriginsPerComponent;
-      position += sums.size + detail::largest_origin(origins);
-    }
-    bounds.position[c] = unit * position + denormals;
-    bounds.du[c] = unit * sums.du + denormals;
-    bounds.dv[c] = unit * sums.dv + denormals;
+  const detail::PatchPlace place = set.storage()->place(patch);
+  const detail::PatchStorage<T>& storage = set.storage()->buckets[place.bucket];
+  const detail::Certificate<T> certificate(storage, place.index,
+                                           fuses_multiply_add(chosen) ? 1 : 2);
+  for (int c = 0; c < storage.shape.components; ++c) {
+    const detail::Bound bound = certificate.component(static_cast<std::size_t>(c));
+    bounds.position[c] = bound.position;
+    bounds.du[c] = bound.du;
+    bounds.dv[c] = bound.dv;
   }
   return bounds;
 }
@@ -100,7 +227,8 @@ double largest_position_bound(const PatchSet<T>& set, Isa isa) noexcept {
   double largest = 0;
   for (std::size_t patch = 0; patch < set.size(); ++patch) {
     const ErrorBounds bounds = error_bounds(set, patch, isa);
-    largest = std::max({largest, bounds.position[0], bounds.position[1], bounds.position[2]});
+    largest = std::max(largest,
+                       *std::max_element(std::begin(bounds.position), std::end(bounds.position)));
   }
   return largest;
 }

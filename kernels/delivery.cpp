@@ -46,10 +46,11 @@ Delivery<T>::Delivery(const OutputPlan<T>& plan, const KernelTable<T>& table, st
     : plan_(plan), table_(table), plane_step_(plane_step<T>(samples)), expected_(~std::size_t(0)) {
   staging_[0] = static_cast<T*>(scratch);
   staging_[1] = plan.streaming() ? staging_[0] + plan.staged_planes() * plane_step_ : staging_[0];
+  const OutputGroups<T> groups(plan.out());
   for (buffer_ = 2; buffer_-- > 0;) {
     for (std::size_t g = 0; g < kGroups; ++g) {
-      for (std::size_t c = 0; c < 3 && plan.is_staged(g); ++c) {
-        planes_[buffer_][g].component[c] = plane(3 * plan.staged_group(g) + c);
+      for (std::size_t c = 0; c < plan.dimension() && plan.is_staged(g); ++c) {
+        planes_[buffer_][g].component[c] = plane(plan.dimension() * plan.staged_group(g) + c);
       }
     }
   }
@@ -73,9 +74,10 @@ const Planes<T>* Delivery<T>::begin(std::size_t sample) noexcept {
   for (std::size_t g = 0; g < kGroups; ++g) {
     const Vectors<T>& group = *groups.group[g];
     if (group.wanted() && !plan_.is_staged(g)) {
-      planes[g].component[0] = group.x + sample;
-      planes[g].component[1] = group.y + sample;
-      planes[g].component[2] = group.z + sample;
+      T* const first[3] = {group.x, group.y, group.z};
+      for (std::size_t c = 0; c < plan_.dimension(); ++c) {
+        planes[g].component[c] = first[c] + sample;
+      }
     }
   }
   return planes;

@@ -1,8 +1,7 @@
-// Sums carried in two doubles, for packing double control points; lanes are independent. Only what
-// packing needs: every factor of the basis change is 3 or a power of two, so there is no general
-// product.
-// Source: T. J. Dekker, "A floating-point technique for extending the available precision",
-// Numerische Mathematik 18 (1971); two_sum after D. E. Knuth, TAOCP vol. 2, 4.2.2.
+// Sums and products carried in two doubles, for packing double control points; lanes are
+// independent. Only what packing needs. Nothing is fused: the bits are the same on every
+// instruction set. Source: T. J. Dekker, "A floating-point technique for extending the available
+// precision", Numerische Mathematik 18 (1971); two_sum after D. E. Knuth, TAOCP vol. 2, 4.2.2.
 #pragma once
 
 #include "kernels/isa/transpose.hpp"
@@ -69,6 +68,32 @@ SIMDBEZIER_INLINE DoubleDouble tripled(DoubleDouble a) {
 SIMDBEZIER_INLINE Wide scaled(Wide a, double power) { return a * Wide(power); }
 SIMDBEZIER_INLINE DoubleDouble scaled(DoubleDouble a, double power) {
   return {a.high * Wide(power), a.low * Wide(power)};
+}
+
+/// a * b, exact but for 2^-106 of it where both halves have all of their bits; odd in a and in b.
+SIMDBEZIER_INLINE DoubleDouble two_product(Wide a, Wide b) {
+  const Wide a0 = leading_bits(a);
+  const Wide b0 = leading_bits(b);
+  const Wide a1 = a - a0;
+  const Wide b1 = b - b0;
+  const Wide rounded = a * b;
+  return {rounded, (((a0 * b0 - rounded) + a0 * b1) + a1 * b0) + a1 * b1};
+}
+
+/// a * b where b is a single double.
+SIMDBEZIER_INLINE Wide product(Wide a, Wide b) { return a * b; }
+SIMDBEZIER_INLINE DoubleDouble product(DoubleDouble a, Wide b) {
+  return renormalised(two_product(a.high, b), a.low * b);
+}
+
+/// A single double, carried.
+template <typename W>
+SIMDBEZIER_INLINE W carried(Wide a) {
+  if constexpr (sizeof(W) == sizeof(Wide)) {
+    return a;
+  } else {
+    return {a, Wide(0.0)};
+  }
 }
 
 /// Rounded to one double.

@@ -55,9 +55,12 @@ public:
       SampleStatus* const status =
           outputs_.out().status == nullptr ? nullptr : outputs_.out().status + sample;
       const Planes<T>* const planes = delivery.begin(sample);
-      evaluator.run(plan_, piece,
-                    {planes, status, delivery.queue(), outputs_.streaming() && !outputs_.staged(),
-                     delivery.next()});
+      typename GridEvaluator<T>::Target to{.planes = planes, .status = status};
+      to.set_curvature(outputs_.out().curvature, sample);
+      to.drain = delivery.queue();
+      to.streaming = outputs_.streaming() && !outputs_.staged();
+      to.next = delivery.next();
+      evaluator.run(plan_, piece, to);
       delivery.end(patches * (piece.last_row - piece.first_row) * plan_.nu());
       unit += patches;
     }
@@ -90,7 +93,7 @@ template <typename T>
 Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<T>& out,
                      const Options& options) noexcept {
   detail::GridRequest request;
-  const Status resolved = detail::resolve_request(set.size(), options, request);
+  const Status resolved = detail::resolve_request(set, options, request);
   if (resolved != Status::ok) {
     return resolved;
   }
@@ -101,7 +104,8 @@ Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<
   }
   const detail::InputRange inputs[] = {{grid.u, grid.nu * sizeof(T)},
                                        {grid.v, grid.nv * sizeof(T)}};
-  const Status usable = detail::check_outputs(out, samples, inputs, std::size(inputs));
+  const Status usable = detail::check_outputs(out, samples, request.components.dimension,
+                                              request.components.space, inputs, std::size(inputs));
   if (usable != Status::ok) {
     return usable;
   }
@@ -111,10 +115,13 @@ Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<
   if (planned != Status::ok || request.patches == 0) {
     return planned;
   }
-  const detail::GridKernels<T> kernels(set.storage()->buckets[0], detail::kernel_table<T>(request.isa),
-                                       detail::wanted_groups(out), options.watertight);
+  const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa),
+                                       detail::wanted_groups(out), out.curvature.wanted(),
+                                       request.components, options.watertight);
   detail::OutputPlan<T> outputs(out, samples, options.destination);
-  outputs.stream_directly(grid.nu, kernels.table->lanes);
+  if (kernels.bicubic()) {
+    outputs.stream_directly(grid.nu, kernels.table->lanes);
+  }
   const detail::GridCall<T> call(kernels, request.first_patch, plan, outputs);
   return detail::run_blocks(request.patches * call.strips(), options, call.scratch_bytes(),
                             [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {

@@ -146,9 +146,12 @@ private:
     const std::size_t sample = samples_.offset[k] + row * plan.nu();
     SampleStatus* const status = outputs_.out().status;
     const Planes<T>* const planes = delivery.begin(sample);
-    evaluator.run(plan, {first_patch_ + k, 1, row, row + rows},
-                  {planes, status == nullptr ? nullptr : status + sample, delivery.queue(), false,
-                   delivery.next()});
+    typename GridEvaluator<T>::Target to{.planes = planes};
+    to.status = status == nullptr ? nullptr : status + sample;
+    to.set_curvature(outputs_.out().curvature, sample);
+    to.drain = delivery.queue();
+    to.next = delivery.next();
+    evaluator.run(plan, {first_patch_ + k, 1, row, row + rows}, to);
     delivery.end(rows * plan.nu());
   }
 
@@ -171,7 +174,7 @@ template <typename T>
 Status evaluate_patch_grids(const PatchSet<T>& set, const PatchGrids& grids, const Outputs<T>& out,
                             const Options& options) noexcept {
   detail::GridRequest request;
-  const Status resolved = detail::resolve_request(set.size(), options, request);
+  const Status resolved = detail::resolve_request(set, options, request);
   if (resolved != Status::ok) {
     return resolved;
   }
@@ -183,13 +186,15 @@ Status evaluate_patch_grids(const PatchSet<T>& set, const PatchGrids& grids, con
   const detail::InputRange inputs[] = {{grids.nu, request.patches * sizeof(std::uint32_t)},
                                        {grids.nv, request.patches * sizeof(std::uint32_t)},
                                        {grids.offset, request.patches * sizeof(std::size_t)}};
-  const Status usable = detail::check_outputs(out, samples.extent, inputs, std::size(inputs));
+  const Status usable = detail::check_outputs(out, samples.extent, request.components.dimension,
+                                              request.components.space, inputs, std::size(inputs));
   if (usable != Status::ok || request.patches == 0) {
     return usable;
   }
   const detail::DefaultFpEnvironment environment;
-  const detail::GridKernels<T> kernels(set.storage()->buckets[0], detail::kernel_table<T>(request.isa),
-                                       detail::wanted_groups(out), options.watertight);
+  const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa),
+                                       detail::wanted_groups(out), out.curvature.wanted(),
+                                       request.components, options.watertight);
   const std::size_t total = samples.before[request.patches];
   const detail::OutputPlan<T> outputs(out, total, options.destination);
   const detail::PatchGridsCall<T> call(kernels, request.first_patch, request.patches, grids,

@@ -6,6 +6,7 @@
 #include "kernels/batch.hpp"
 #include "kernels/delivery.hpp"
 #include "kernels/dispatch.hpp"
+#include "kernels/grid_request.hpp"
 #include "kernels/normal_fallback.hpp"
 #include "kernels/patch_storage.hpp"
 
@@ -33,25 +34,65 @@ Status check_samples(const PatchSet<T>& set, const Samples<T>& samples,
 
 template <typename T>
 struct ScatteredCall {
-  const PatchStorage<T>& patches;
+  const SetStorage<T>& set;
   const Samples<T>& samples;
   const OutputPlan<T>& outputs;
   const KernelTable<T>& table;
   Scheme scheme;
+  std::size_t first_component;
+  bool any_shape; ///< bicubic patches take the kernels of any shape, too
   std::size_t piece_samples;
+
+  /// Room for the indices of a piece's patches in their buckets.
+  [[nodiscard]] std::size_t index_bytes() const noexcept {
+    return set.places == nullptr ? 0 : whole_lines(piece_samples * sizeof(std::uint32_t));
+  }
 
   Isa worker(std::size_t begin, std::size_t end, unsigned char* scratch) const noexcept {
     Isa executed = Isa::automatic;
-    Delivery<T> delivery(outputs, table, piece_samples, scratch);
+    auto* const index = reinterpret_cast<std::uint32_t*>(scratch);
+    Delivery<T> delivery(outputs, table, piece_samples,
+                         scratch == nullptr ? nullptr : scratch + index_bytes());
     for (std::size_t piece = begin; piece < end; ++piece) {
       const std::size_t first = piece * piece_samples;
-      executed = run_piece(first, std::min(piece_samples, samples.count - first), delivery);
+      const std::size_t count = std::min(piece_samples, samples.count - first);
+      if (outputs.out().status != nullptr) {
+        std::fill_n(outputs.out().status + first, count, SampleStatus::regular);
+      }
+      const Planes<T>* const planes = delivery.begin(first);
+      executed = set.places == nullptr
+                     ? run_bucket(set.buckets[0], samples.patch + first, first, count, planes, 0)
+                     : run_mixed(first, count, planes, index);
+      delivery.end(count);
     }
     delivery.finish();
     return executed;
   }
 
-  Isa run_piece(std::size_t first, std::size_t count, Delivery<T>& delivery) const noexcept {
+  /// Consecutive samples on patches of one shape go to a kernel together.
+  Isa run_mixed(std::size_t first, std::size_t count, const Planes<T>* planes,
+                std::uint32_t* index) const noexcept {
+    Isa executed = Isa::automatic;
+    for (std::size_t k = 0; k < count;) {
+      const std::uint32_t bucket = set.places[samples.patch[first + k]].bucket;
+      std::size_t last = k;
+      for (; last < count; ++last) {
+        const PatchPlace place = set.places[samples.patch[first + last]];
+        if (place.bucket != bucket) {
+          break;
+        }
+        index[last] = static_cast<std::uint32_t>(place.index);
+      }
+      executed = run_bucket(set.buckets[bucket], index + k, first + k, last - k, planes, k);
+      k = last;
+    }
+    return executed;
+  }
+
+  /// Samples [first, first + count) of the call on the bucket's patches `patch`; their results go
+  /// to the planes from `at` on.
+  Isa run_bucket(const PatchStorage<T>& patches, const std::uint32_t* patch, std::size_t first,
+                 std::size_t count, const Planes<T>* planes, std::size_t at) const noexcept {
     ScatteredTask<T> task{};
     task.shape = &patches.shape;
     task.coefficients = patches.coefficients;
@@ -59,22 +100,32 @@ struct ScatteredCall {
     task.control_points = patches.control_points;
     task.origins = patches.origins;
     task.normal_floor = patches.normal_floor;
-    task.patch = samples.patch + first;
+    task.patch = patch;
     task.u = samples.u + first;
     task.v = samples.v + first;
     task.shift = samples.parameters == Parameters::unit ? T(0.5) : T(0);
     task.scale = samples.parameters == Parameters::unit ? T(1) : T(0.5);
     task.count = count;
-    task.patches_known = samples.count - first;
+    task.patches_known = set.places == nullptr ? samples.count - first : count;
     task.prefetch = patches.count > second_level_cache() / (kCoefficients * sizeof(T));
     task.resolve_normal = resolve_normal<T>;
-    if (outputs.out().status != nullptr) {
-      task.status = outputs.out().status + first;
-      std::fill_n(task.status, count, SampleStatus::regular);
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        T* const plane = planes[g].component[c];
+        task.out[g].component[c] = plane == nullptr ? nullptr : plane + at;
+      }
     }
-    std::copy_n(delivery.begin(first), kGroups, task.out);
-    table.scattered[scheme](task);
-    delivery.end(count);
+    const CurvaturePlanes<T> curvature(outputs.out().curvature);
+    for (std::size_t c = 0; c < kCurvatures; ++c) {
+      task.curvature[c] = curvature.plane[c] == nullptr ? nullptr : curvature.plane[c] + first;
+    }
+    task.first_component = first_component;
+    task.status = outputs.out().status == nullptr ? nullptr : outputs.out().status + first;
+    if (any_shape || !patches.shape.is_bicubic()) {
+      table.shapes->scattered(task, scheme);
+    } else {
+      table.scattered[scheme](task);
+    }
     return task.executed;
   }
 };
@@ -93,7 +144,12 @@ Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, con
   const detail::InputRange inputs[] = {{samples.patch, samples.count * sizeof(std::uint32_t)},
                                        {samples.u, samples.count * sizeof(T)},
                                        {samples.v, samples.count * sizeof(T)}};
-  const Status writable = detail::check_outputs(out, samples.count, inputs, std::size(inputs));
+  detail::Components components;
+  if (!components.choose(set.components(), options.first_component)) {
+    return Status::bad_components;
+  }
+  const Status writable = detail::check_outputs(out, samples.count, components.dimension,
+                                                components.space, inputs, std::size(inputs));
   if (writable != Status::ok) {
     return writable;
   }
@@ -106,14 +162,17 @@ Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, con
       out, samples.count,
       options.destination == Destination::memory ? Destination::memory : Destination::cache);
   const std::size_t piece = outputs.staged() ? detail::kStagedPiece : detail::kPiece;
-  const detail::ScatteredCall<T> call{set.storage()->buckets[0],
+  const detail::ScatteredCall<T> call{*set.storage(),
                                       samples,
                                       outputs,
                                       table,
                                       detail::scheme(options.watertight, set.has_local_origins()),
+                                      components.first,
+                                      out.curvature.wanted() || !components.space,
                                       piece};
   const std::size_t pieces = samples.count / piece + (samples.count % piece != 0 ? 1 : 0);
   const std::size_t scratch =
+      call.index_bytes() +
       detail::Delivery<T>::scratch_bytes(outputs.staged_planes(), outputs.streaming(), piece);
   return detail::run_blocks(pieces, options, scratch,
                             [&](int, std::size_t begin, std::size_t end, unsigned char* own) {

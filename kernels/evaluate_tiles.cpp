@@ -19,9 +19,11 @@ WantedGroups groups_of(const TileFormat& format) noexcept {
       {format.position, format.du, format.dv, format.duu, format.duv, format.dvv, format.normal}};
 }
 
-std::size_t vector_groups(const TileFormat& format) noexcept {
+/// Values of all wanted vectors of one sample.
+std::size_t vector_values(const TileFormat& format, std::size_t dimension) noexcept {
   const WantedGroups wanted = groups_of(format);
-  return static_cast<std::size_t>(std::count(wanted.group, wanted.group + kGroups, true));
+  const auto groups = std::count(wanted.group, wanted.group + kGroups, true);
+  return dimension * static_cast<std::size_t>(groups);
 }
 
 /// Half of a common first-level cache: the caller reads what has just been written.
@@ -36,9 +38,9 @@ struct TileShape {
 };
 
 template <typename T>
-bool choose_shape(std::size_t nu, std::size_t nv, std::size_t patches, const TileFormat& format,
-                  TileShape& shape) noexcept {
-  const std::size_t bytes = 3 * vector_groups(format) * sizeof(T);
+bool choose_shape(std::size_t nu, std::size_t nv, std::size_t patches, std::size_t values,
+                  const TileFormat& format, TileShape& shape) noexcept {
+  const std::size_t bytes = values * sizeof(T);
   const std::size_t most =
       std::max<std::size_t>(format.samples != 0 ? format.samples : kTileBytes / bytes, 1);
   shape.rows = std::clamp<std::size_t>(most / nu, 1, nv);
@@ -56,19 +58,20 @@ bool choose_shape(std::size_t nu, std::size_t nv, std::size_t patches, const Til
 template <typename T>
 class TileMemory {
 public:
-  TileMemory(const TileFormat& format, std::size_t samples) noexcept
-      : format_(format), samples_(samples) {}
+  TileMemory(const TileFormat& format, std::size_t dimension, std::size_t samples) noexcept
+      : format_(format), dimension_(dimension), samples_(samples) {}
 
   [[nodiscard]] std::size_t bytes() const noexcept {
-    const std::size_t groups = vector_groups(format_);
-    std::size_t bytes = format_.status ? whole_lines(samples_) : 0;
+    const std::size_t values = vector_values(format_, dimension_);
+    const std::size_t bytes = (format_.status ? whole_lines(samples_) : 0) +
+                              (format_.curvature ? kCurvatures * taken(samples_) : 0);
     switch (format_.layout) {
     case TileLayout::planes:
-      return bytes + 3 * groups * taken(samples_);
+      return bytes + values * taken(samples_);
     case TileLayout::xyz:
-      return bytes + groups * taken(3 * samples_);
+      return bytes + values / dimension_ * taken(dimension_ * samples_);
     default:
-      return bytes + taken(3 * groups * samples_);
+      return bytes + taken(values * samples_);
     }
   }
 
@@ -77,7 +80,7 @@ public:
     const WantedGroups wanted = groups_of(format_);
     Vectors<T>* const group[kGroups] = {&out.position, &out.du,  &out.dv,    &out.duu,
                                         &out.duv,      &out.dvv, &out.normal};
-    const std::size_t members = 3 * vector_groups(format_);
+    const std::size_t members = vector_values(format_, dimension_);
     std::size_t at = 0;
     std::size_t member = 0;
     for (std::size_t g = 0; g < kGroups; ++g) {
@@ -85,21 +88,26 @@ public:
         continue;
       }
       if (format_.layout == TileLayout::planes) {
-        T* plane[3];
-        for (T*& p : plane) {
-          p = take(memory, at, samples_);
+        T* plane[3] = {nullptr, nullptr, nullptr};
+        for (std::size_t c = 0; c < dimension_; ++c) {
+          plane[c] = take(memory, at, samples_);
         }
         *group[g] = Vectors<T>::planes(plane[0], plane[1], plane[2]);
       } else if (format_.layout == TileLayout::xyz) {
-        *group[g] = Vectors<T>::xyz(take(memory, at, 3 * samples_));
+        *group[g] = records(take(memory, at, dimension_ * samples_), dimension_);
       } else {
-        T* const vertices = reinterpret_cast<T*>(memory);
-        *group[g] = Vectors<T>::xyz(vertices + member, static_cast<std::ptrdiff_t>(members));
-        member += 3;
+        *group[g] = records(reinterpret_cast<T*>(memory) + member, members);
+        member += dimension_;
       }
     }
     if (member > 0) {
       take(memory, at, member * samples_);
+    }
+    if (format_.curvature) {
+      for (T** const plane : {&out.curvature.gaussian, &out.curvature.mean, &out.curvature.minimum,
+                              &out.curvature.maximum}) {
+        *plane = take(memory, at, samples_);
+      }
     }
     if (format_.status) {
       out.status = reinterpret_cast<SampleStatus*>(memory + at);
@@ -119,7 +127,13 @@ private:
     return place;
   }
 
+  [[nodiscard]] Vectors<T> records(T* first, std::size_t stride) const noexcept {
+    return {first, dimension_ > 1 ? first + 1 : nullptr, dimension_ > 2 ? first + 2 : nullptr,
+            static_cast<std::ptrdiff_t>(stride)};
+  }
+
   const TileFormat& format_;
+  std::size_t dimension_;
   std::size_t samples_;
 };
 
@@ -130,6 +144,7 @@ struct TilesCall {
   std::size_t first_patch;
   const GridPlan<T>& plan;
   const TileFormat& format;
+  std::size_t dimension;
   TileShape shape;
   TileFunction<T> function;
   std::size_t tile_bytes;
@@ -142,7 +157,7 @@ struct TilesCall {
     tile.nu = plan.nu();
     tile.worker = number;
     // A copy: the caller may change what it is given.
-    const Outputs<T> places = TileMemory<T>(format, shape.samples).place(scratch);
+    const Outputs<T> places = TileMemory<T>(format, dimension, shape.samples).place(scratch);
     const OutputPlan<T> outputs(places, shape.samples, Destination::cache);
     Delivery<T> delivery(outputs, *kernels.table, shape.samples, scratch + tile_bytes);
     GridEvaluator<T> evaluator(kernels, shape.rows, scratch + tile_bytes + staging_bytes);
@@ -158,7 +173,9 @@ struct TilesCall {
       tile.samples = patches * tile.row_count * tile.nu;
       tile.out = places;
       const Planes<T>* const planes = delivery.begin(0);
-      evaluator.run(plan, piece, {.planes = planes, .status = places.status});
+      typename GridEvaluator<T>::Target to{.planes = planes, .status = places.status};
+      to.set_curvature(places.curvature, 0);
+      evaluator.run(plan, piece, to);
       delivery.end(tile.samples);
       delivery.finish();
       function(tile);
@@ -172,11 +189,14 @@ template <typename T>
 Status run_tiles(const GridKernels<T>& kernels, const GridRequest& request, const GridPlan<T>& plan,
                  const TileFormat& format, const TileShape& shape, TileFunction<T> function,
                  const Options& options) noexcept {
-  const std::size_t tile_bytes = whole_lines(TileMemory<T>(format, shape.samples).bytes());
-  const std::size_t staged = format.layout == TileLayout::planes ? 0 : 3 * vector_groups(format);
+  const std::size_t dimension = request.components.dimension;
+  const std::size_t tile_bytes =
+      whole_lines(TileMemory<T>(format, dimension, shape.samples).bytes());
+  const std::size_t staged =
+      format.layout == TileLayout::planes ? 0 : vector_values(format, dimension);
   const std::size_t staging_bytes =
       whole_lines(Delivery<T>::scratch_bytes(staged, false, shape.samples));
-  const TilesCall<T> call{kernels,  request.first_patch, plan,         format, shape,
+  const TilesCall<T> call{kernels,  request.first_patch, plan,         format, dimension, shape,
                           function, tile_bytes,          staging_bytes};
   const std::size_t scratch =
       tile_bytes + staging_bytes + GridEvaluator<T>::scratch_bytes(shape.rows);
@@ -194,12 +214,18 @@ Status evaluate_tiles(const PatchSet<T>& set, const Grid<T>& grid, const TileFor
                       std::type_identity_t<TileFunction<T>> function,
                       const Options& options) noexcept {
   detail::GridRequest request;
-  const Status resolved = detail::resolve_request(set.size(), options, request);
+  const Status resolved = detail::resolve_request(set, options, request);
   if (resolved != Status::ok) {
     return resolved;
   }
-  if (detail::vector_groups(format) == 0) {
+  const detail::Components& components = request.components;
+  const std::size_t values = detail::vector_values(format, components.dimension) +
+                             (format.curvature ? detail::kCurvatures : 0);
+  if (values == 0) {
     return Status::null_output;
+  }
+  if (!components.space && (format.normal || format.curvature)) {
+    return Status::bad_components;
   }
   const detail::DefaultFpEnvironment environment;
   detail::GridPlan<T> plan;
@@ -208,11 +234,12 @@ Status evaluate_tiles(const PatchSet<T>& set, const Grid<T>& grid, const TileFor
     return planned;
   }
   detail::TileShape shape;
-  if (!detail::choose_shape<T>(grid.nu, grid.nv, request.patches, format, shape)) {
+  if (!detail::choose_shape<T>(grid.nu, grid.nv, request.patches, values, format, shape)) {
     return Status::size_overflow;
   }
-  const detail::GridKernels<T> kernels(set.storage()->buckets[0], detail::kernel_table<T>(request.isa),
-                                       detail::groups_of(format), options.watertight);
+  const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa),
+                                       detail::groups_of(format), format.curvature, components,
+                                       options.watertight);
   return detail::run_tiles<T>(kernels, request, plan, format, shape, function, options);
 }
 

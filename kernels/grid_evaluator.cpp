@@ -1,6 +1,7 @@
 // See grid_evaluator.hpp.
 #include "kernels/grid_evaluator.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernels/dispatch.hpp"
@@ -36,15 +37,13 @@ GridEvaluator<T>::GridEvaluator(const GridKernels<T>& kernels, std::size_t rows,
       runs_(rows > kInlineRows ? static_cast<RowRun<T>*>(scratch) : inline_runs_) {}
 
 template <typename T>
-void GridEvaluator<T>::fill(GridTask<T>& task, const GridPlan<T>& plan, const GridPiece& piece,
-                            const Target& to) const noexcept {
-  const PatchStorage<T>& set = *kernels_.patches;
+void GridEvaluator<T>::fill(GridTask<T>& task, const PatchStorage<T>& set, const GridPlan<T>& plan,
+                            const GridPiece& piece, const Target& to) const noexcept {
   task.shape = &set.shape;
   task.coefficients = set.coefficients + piece.patch * set.shape.coefficients();
   task.edges = set.edges + piece.patch * set.shape.edges();
   task.control_points = set.control_points + piece.patch * set.shape.control_values();
-  task.origins =
-      set.origins == nullptr ? nullptr : set.origins + piece.patch * set.shape.origins();
+  task.origins = set.origins == nullptr ? nullptr : set.origins + piece.patch * set.shape.origins();
   task.normal_floor = set.normal_floor + piece.patch;
   task.patch_count = piece.patches;
   task.x = plan.x();
@@ -54,10 +53,13 @@ void GridEvaluator<T>::fill(GridTask<T>& task, const GridPlan<T>& plan, const Gr
   for (std::size_t g = 0; g < kGroups; ++g) {
     task.out[g] = to.planes[g];
   }
+  std::copy_n(to.curvature, kCurvatures, task.curvature);
+  task.first_component = kernels_.first_component;
   task.status = to.status;
   task.patch_step = (piece.last_row - piece.first_row) * plan.nu();
   task.resolve_normal = resolve_normal<T>;
-  task.prefetch = set.count > second_level_cache() / ((kCoefficients + kEdgeBlock) * sizeof(T));
+  task.prefetch = set.count > second_level_cache() /
+                                  ((set.shape.coefficients() + set.shape.edges()) * sizeof(T));
   task.streaming = to.streaming;
   task.drain = to.drain;
 }
@@ -74,9 +76,52 @@ void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
     run_count_ = plan.fill_runs(first_row_, last_row_, runs_);
     guessed_ = false;
   }
+  if (kernels_.set->places != nullptr) {
+    run_mixed(plan, piece, to);
+  } else {
+    run_bucket(kernels_.set->buckets[0], plan, piece, to);
+  }
+}
+
+/// Patches of one shape that are stored one after the other go to a kernel together.
+template <typename T>
+void GridEvaluator<T>::run_mixed(const GridPlan<T>& plan, const GridPiece& piece,
+                                 const Target& to) noexcept {
+  const PatchPlace* const places = kernels_.set->places.get() + piece.patch;
+  const std::size_t patch_samples = (piece.last_row - piece.first_row) * plan.nu();
+  for (std::size_t k = 0; k < piece.patches;) {
+    std::size_t last = k + 1;
+    while (last < piece.patches && places[last].bucket == places[k].bucket &&
+           places[last].index == places[k].index + (last - k)) {
+      ++last;
+    }
+    Planes<T> planes[kGroups];
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        T* const plane = to.planes[g].component[c];
+        planes[g].component[c] = plane == nullptr ? nullptr : plane + k * patch_samples;
+      }
+    }
+    Target part{planes, nullptr, {}, to.drain, false, nullptr};
+    if (to.status != nullptr) {
+      part.status = to.status + k * patch_samples;
+    }
+    for (std::size_t c = 0; c < kCurvatures; ++c) {
+      part.curvature[c] =
+          to.curvature[c] == nullptr ? nullptr : to.curvature[c] + k * patch_samples;
+    }
+    run_bucket(kernels_.set->buckets[places[k].bucket], plan,
+               {places[k].index, last - k, piece.first_row, piece.last_row}, part);
+    k = last;
+  }
+}
+
+template <typename T>
+void GridEvaluator<T>::run_bucket(const PatchStorage<T>& bucket, const GridPlan<T>& plan,
+                                  const GridPiece& piece, const Target& to) noexcept {
   GridTask<T>& task = task_[turn_];
-  if (!guessed_ || !(guess_ == piece) || to.status != nullptr) {
-    fill(task, plan, piece, to);
+  if (!guessed_ || !(guess_ == piece) || to.status != nullptr || kernels_.any_shape) {
+    fill(task, bucket, plan, piece, to);
   }
   guessed_ = to.drain != nullptr && to.next != nullptr;
   if (guessed_) {
@@ -85,12 +130,17 @@ void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
     Target next = to;
     next.planes = to.next;
     turn_ = 1 - turn_;
-    fill(task_[turn_], plan, guess_, next);
+    fill(task_[turn_], bucket, plan, guess_, next);
   }
   if (to.status != nullptr) {
     for (std::size_t p = 0; p < piece.patches; ++p) {
       prefill_status(task, to.status + p * task.patch_step);
     }
+  }
+  if (kernels_.any_shape || !bucket.shape.is_bicubic()) {
+    kernels_.table->shapes->grid(task, kernels_.scheme);
+    executed_ = task.executed;
+    return;
   }
   if (kernels_.choice.first) {
     kernels_.table->grid[kernels_.choice.outputs][kernels_.scheme](task);

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "kernels/grid_plan.hpp"
+#include "kernels/grid_request.hpp"
 #include "kernels/kernel_table.hpp"
 #include "kernels/output_plan.hpp"
 #include "kernels/patch_storage.hpp"
@@ -23,15 +24,24 @@ struct GridPiece {
 /// The kernels of one call.
 template <typename T>
 struct GridKernels {
-  const PatchStorage<T>* patches;
+  const SetStorage<T>* set;
   const KernelTable<T>* table;
   KernelChoice choice;
   Scheme scheme;
+  std::size_t first_component;
+  bool any_shape; ///< bicubic patches take the kernels of any shape, too
 
-  GridKernels(const PatchStorage<T>& set, const KernelTable<T>& kernels, const WantedGroups& wanted,
+  GridKernels(const SetStorage<T>& storage, const KernelTable<T>& kernels,
+              const WantedGroups& wanted, bool curvature, const Components& components,
               bool watertight) noexcept
-      : patches(&set), table(&kernels), choice(choose_kernels(wanted)),
-        scheme(detail::scheme(watertight, set.origins != nullptr)) {}
+      : set(&storage), table(&kernels), choice(choose_kernels(wanted)),
+        scheme(detail::scheme(watertight, storage.buckets[0].origins != nullptr)),
+        first_component(components.first), any_shape(curvature || !components.space) {}
+
+  /// Whether all patches are bicubic, and evaluated as such.
+  [[nodiscard]] bool bicubic() const noexcept {
+    return !any_shape && set->places == nullptr && set->buckets[0].shape.is_bicubic();
+  }
 };
 
 /// One thread's evaluator. Remembers the rows of the last piece, which most often are those of the
@@ -49,9 +59,18 @@ public:
   struct Target {
     const Planes<T>* planes = nullptr; ///< kGroups
     SampleStatus* status = nullptr;    ///< may be null
+    T* curvature[kCurvatures] = {};    ///< may be null
     DrainQueue<T>* drain = nullptr;    ///< may be null
     bool streaming = false;            ///< see OutputPlan::stream_directly()
     const Planes<T>* next = nullptr;   ///< with a drain: the planes of the piece after this one
+
+    /// The caller's curvatures from a sample on.
+    void set_curvature(const Curvatures<T>& out, std::size_t sample) noexcept {
+      const CurvaturePlanes<T> from(out);
+      for (std::size_t k = 0; k < kCurvatures; ++k) {
+        curvature[k] = from.plane[k] == nullptr ? nullptr : from.plane[k] + sample;
+      }
+    }
   };
   void run(const GridPlan<T>& plan, const GridPiece& piece, const Target& to) noexcept;
 
@@ -61,8 +80,12 @@ public:
 private:
   static constexpr std::size_t kInlineRows = 128;
 
-  void fill(GridTask<T>& task, const GridPlan<T>& plan, const GridPiece& piece,
-            const Target& to) const noexcept;
+  /// bucket, piece.patch: where the piece's patches are stored.
+  void fill(GridTask<T>& task, const PatchStorage<T>& bucket, const GridPlan<T>& plan,
+            const GridPiece& piece, const Target& to) const noexcept;
+  void run_bucket(const PatchStorage<T>& bucket, const GridPlan<T>& plan, const GridPiece& piece,
+                  const Target& to) noexcept;
+  void run_mixed(const GridPlan<T>& plan, const GridPiece& piece, const Target& to) noexcept;
 
   const GridKernels<T>& kernels_;
   RowRun<T>* runs_;

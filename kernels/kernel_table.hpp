@@ -87,7 +87,7 @@ struct GridTask {
   std::size_t run_count;
 
   Planes<T> out[kGroups];
-  T* curvature[kCurvatures]; ///< null where not wanted; read by the kernels of any shape only
+  T* curvature[kCurvatures];   ///< null where not wanted; read by the kernels of any shape only
   std::size_t first_component; ///< the component that goes to component[0]; likewise
   SampleStatus* status; ///< may be null; filled beforehand, changed where a normal is unusual
   std::size_t patch_step;
@@ -120,7 +120,7 @@ struct ScatteredTask {
   Planes<T> out[kGroups];
   T* curvature[kCurvatures];   ///< as in GridTask
   std::size_t first_component; ///< likewise
-  SampleStatus* status; ///< may be null; `regular` beforehand, changed where a sample is not
+  SampleStatus* status;        ///< may be null; `regular` beforehand, changed where a sample is not
   ResolveNormal<T> resolve_normal;
   Isa executed; ///< written by the kernel
 };

@@ -22,7 +22,7 @@ struct Member {
 
 template <typename T>
 struct Members {
-  Member<T> member[kMostMembers];
+  Member<T> member[kMostMembers + kCurvatures];
   std::size_t count = 0;
 };
 
@@ -59,13 +59,27 @@ bool collide(const Member<T>& a, const Member<T>& b, std::size_t samples) noexce
 }
 
 template <typename T>
-Status check_group(const Vectors<T>& group, std::size_t samples) noexcept {
+std::size_t dimension_of(const Vectors<T>& group) noexcept {
+  return group.z != nullptr ? 3 : group.y != nullptr ? 2 : 1;
+}
+
+/// Whether the members of records lie side by side, nearer to each other than the next record is.
+template <typename T>
+bool records_overlap(const Vectors<T>& group, std::size_t dimension) noexcept {
+  const bool side_by_side =
+      (dimension < 2 || group.y == group.x + 1) && (dimension < 3 || group.z == group.x + 2);
+  const auto members = static_cast<std::ptrdiff_t>(dimension);
+  return side_by_side && group.stride > -members && group.stride < members;
+}
+
+template <typename T>
+Status check_group(const Vectors<T>& group, std::size_t samples, std::size_t dimension) noexcept {
   constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(T);
-  if (group.x == nullptr || group.y == nullptr || group.z == nullptr) {
+  if (group.x == nullptr || (group.y == nullptr) != (dimension < 2) ||
+      (group.z == nullptr) != (dimension < 3)) {
     return Status::null_output;
   }
-  const bool triples = group.y == group.x + 1 && group.z == group.x + 2;
-  if (group.stride == 0 || (samples > 1 && triples && group.stride > -3 && group.stride < 3)) {
+  if (group.stride == 0 || (samples > 1 && records_overlap(group, dimension))) {
     return Status::bad_stride;
   }
   const std::size_t stride = group.stride > 0
@@ -99,19 +113,32 @@ Status check_overlaps(const Members<T>& members, const SampleStatus* status, std
 } // namespace
 
 template <typename T>
-Status check_outputs(const Outputs<T>& out, std::size_t samples, const InputRange* inputs,
-                     std::size_t input_count) noexcept {
+Status check_outputs(const Outputs<T>& out, std::size_t samples, std::size_t dimension, bool space,
+                     const InputRange* inputs, std::size_t input_count) noexcept {
+  if (!space && (out.normal.wanted() || out.curvature.wanted())) {
+    return Status::bad_components;
+  }
   Members<T> members;
   for (const Vectors<T>* group : OutputGroups<T>(out).group) {
     if (!group->wanted()) {
       continue;
     }
-    const Status status = check_group(*group, samples);
+    const Status status = check_group(*group, samples, dimension);
     if (status != Status::ok) {
       return status;
     }
     for (T* const first : {group->x, group->y, group->z}) {
-      members.member[members.count++] = {first, group->stride, 0};
+      if (first != nullptr) {
+        members.member[members.count++] = {first, group->stride, 0};
+      }
+    }
+  }
+  for (T* const plane : CurvaturePlanes<T>(out.curvature).plane) {
+    if (plane != nullptr) {
+      if (samples > std::numeric_limits<std::ptrdiff_t>::max() / sizeof(T)) {
+        return Status::size_overflow;
+      }
+      members.member[members.count++] = {plane, 1, 0};
     }
   }
   if (members.count == 0) {
@@ -165,8 +192,12 @@ OutputPlan<T>::OutputPlan(const Outputs<T>& out, std::size_t samples,
   const OutputGroups<T> groups(out);
   std::size_t components = 0;
   for (const Vectors<T>* group : groups.group) {
-    components += group->wanted() ? 3 : 0;
+    if (group->wanted()) {
+      dimension_ = dimension_of(*group);
+      components += dimension_;
+    }
   }
+  components += components == 0 ? kCurvatures : 0;
   // Half of the cache: the consumer has other data, too.
   streaming_ = destination == Destination::memory ||
                (destination == Destination::automatic &&
@@ -176,7 +207,7 @@ OutputPlan<T>::OutputPlan(const Outputs<T>& out, std::size_t samples,
     const Vectors<T>& group = *groups.group[g];
     group_index_[g] = group.wanted() && (streaming_ || group.stride != 1) ? staged++ : kGroups;
   }
-  staged_planes_ = 3 * staged;
+  staged_planes_ = dimension_ * staged;
   add_streams();
 }
 
@@ -208,9 +239,11 @@ void OutputPlan<T>::add_streams() noexcept {
   for (std::size_t g = 0; g < kGroups; ++g) {
     if (is_staged(g)) {
       const Vectors<T>& group = *groups.group[g];
-      std::size_t plane = 3 * staged_group(g);
+      std::size_t plane = dimension_ * staged_group(g);
       for (T* const first : {group.x, group.y, group.z}) {
-        rest.member[rest.count++] = {first, group.stride, plane++};
+        if (first != nullptr) {
+          rest.member[rest.count++] = {first, group.stride, plane++};
+        }
       }
     }
   }
@@ -237,8 +270,8 @@ void OutputPlan<T>::add_streams() noexcept {
 }
 
 #define SIMDBEZIER_INSTANTIATE(T)                                                                  \
-  template Status check_outputs(const Outputs<T>&, std::size_t, const InputRange*,                 \
-                                std::size_t) noexcept;                                             \
+  template Status check_outputs(const Outputs<T>&, std::size_t, std::size_t, bool,                 \
+                                const InputRange*, std::size_t) noexcept;                          \
   template WantedGroups wanted_groups(const Outputs<T>&) noexcept;                                 \
   template struct StreamShape<T>;                                                                  \
   template class OutputPlan<T>;

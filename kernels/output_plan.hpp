@@ -24,11 +24,21 @@ struct InputRange {
   std::size_t bytes = 0;
 };
 
-/// ok | null_output | bad_stride | overlapping_outputs | size_overflow, for `samples` samples.
-/// Groups of different strides must not share a range of memory at all.
+/// ok | null_output | bad_components | bad_stride | overlapping_outputs | size_overflow, for
+/// `samples` samples of vectors of `dimension` (1 to 3) components; `space`: they are points in
+/// space, which have normals. Groups of different strides must not share a range of memory at all.
 template <typename T>
 [[nodiscard]] Status check_outputs(const Outputs<T>& out, std::size_t samples,
-                                   const InputRange* inputs, std::size_t input_count) noexcept;
+                                   std::size_t dimension, bool space, const InputRange* inputs,
+                                   std::size_t input_count) noexcept;
+
+/// The curvatures of an Outputs, in the order of the tasks.
+template <typename T>
+struct CurvaturePlanes {
+  T* plane[kCurvatures];
+  explicit CurvaturePlanes(const Curvatures<T>& c) noexcept
+      : plane{c.gaussian, c.mean, c.minimum, c.maximum} {}
+};
 
 /// The kernels of one call: the narrowest that compute what is asked for.
 struct KernelChoice {
@@ -75,8 +85,10 @@ public:
   /// registers and whole cache lines.
   void stream_directly(std::size_t row, std::size_t lanes) noexcept;
   [[nodiscard]] std::size_t staged_planes() const noexcept { return staged_planes_; }
-  /// Component c of group g is staged plane 3 * staged_group(g) + c, or written directly where
-  /// the group is not staged.
+  /// Components of each group.
+  [[nodiscard]] std::size_t dimension() const noexcept { return dimension_; }
+  /// Component c of group g is staged plane dimension() * staged_group(g) + c, or written directly
+  /// where the group is not staged.
   [[nodiscard]] bool is_staged(std::size_t group) const noexcept {
     return group_index_[group] < kGroups;
   }
@@ -90,6 +102,7 @@ private:
   void add_streams() noexcept;
 
   const Outputs<T>& out_;
+  std::size_t dimension_ = 3;
   bool streaming_ = false;
   std::size_t staged_planes_ = 0;
   std::size_t group_index_[kGroups];

@@ -1,106 +1,124 @@
-// Packing: arguments, memory, threads and faults; the arithmetic is in pack_kernel.hpp.
+// Packing: threads and kernels; pack_layout.cpp has arguments and memory, pack_faults.hpp what is
+// wrong with a patch, and the arithmetic is in pack_kernel.hpp and pack_shape_kernel.hpp.
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <type_traits>
+#include <vector>
 
 #include <simdbezier/patch_set.hpp>
 
 #include "kernels/batch.hpp"
 #include "kernels/dispatch.hpp"
-#include "kernels/patch_storage.hpp"
+#include "kernels/pack_faults.hpp"
+#include "kernels/pack_layout.hpp"
 
 namespace simdbezier {
 namespace detail {
 namespace {
 
-template <typename T>
-bool all_finite(const T* values, std::size_t count) {
-  // x - x is 0 for finite x only, and sums of zeros stay 0.
-  T sum = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    sum += values[i] - values[i];
-  }
-  return sum == 0;
-}
-
-template <typename S>
-const S* component_of(const ControlNets<S>& nets, std::size_t patch, std::size_t c) {
-  return nets.points + static_cast<std::ptrdiff_t>(patch) * nets.patch_stride +
-         static_cast<std::ptrdiff_t>(c) * nets.component_stride;
-}
-
-/// The first fault of one patch, whose arrays have been written: a component's control points are
-/// looked at before its coefficients.
+/// Nets of one shape on their way to consecutive places of a bucket, whichever kernel packs them.
 template <typename T, typename S>
-PackReport inspect(const ControlNets<S>& nets, const PatchStorage<T>& storage, std::size_t patch) {
-  for (std::size_t c = 0; c < kComponents; ++c) {
-    const S* const from = component_of(nets, patch, c);
-    for (int k = 0; k < 16; ++k) {
-      if (!std::isfinite(from[k / 4 * nets.row_stride + k % 4 * nets.point_stride])) {
-        return {Status::non_finite_input, patch, k, static_cast<int>(c)};
+class RunPacker {
+public:
+  RunPacker(const ControlNets<S>& nets, const PackRun& run, const PackOptions& options,
+            const KernelTable<T>& table, const PatchStorage<T>& storage)
+      : nets_(nets), run_(run), options_(options), table_(table), storage_(storage) {}
+
+  /// Patches [begin, end) of the run up to the first fault. What the kernel finds doubtful is
+  /// inspected here: kernels only know a bound on the squares.
+  [[nodiscard]] PackReport pack(std::size_t begin, std::size_t end) const {
+    while (begin < end) {
+      const PackDoubt doubt = call_kernel(begin, end);
+      for (std::size_t patch = doubt.begin; patch < doubt.end; ++patch) {
+        const PackReport report =
+            inspect(nets_, patch, storage_, run_.place + patch, run_.number + patch);
+        if (!report) {
+          return report;
+        }
+      }
+      begin = doubt.end;
+    }
+    return {};
+  }
+
+private:
+  [[nodiscard]] PackDoubt call_kernel(std::size_t begin, std::size_t end) const {
+    const NetShape& shape = storage_.shape;
+    const double* const shift = options_.relative_to;
+    T* const coefficients = storage_.coefficients + run_.place * shape.coefficients();
+    T* const edges = storage_.edges + run_.place * shape.edges();
+    T* const points = storage_.control_points + run_.place * shape.control_values();
+    T* const origins =
+        storage_.origins == nullptr ? nullptr : storage_.origins + run_.place * shape.origins();
+    T* const floor = storage_.normal_floor + run_.place;
+    constexpr bool kFloats = std::is_same_v<S, float>;
+    if (shape.is_bicubic()) {
+      const PackTask<T, S> task{nets_.points,
+                                nets_.patch_stride,
+                                nets_.row_stride,
+                                nets_.point_stride,
+                                nets_.component_stride,
+                                {shift[0], shift[1], shift[2]},
+                                coefficients,
+                                edges,
+                                points,
+                                origins,
+                                floor};
+      if constexpr (kFloats) {
+        return table_.pack_f32(task, begin, end);
+      } else {
+        return table_.pack_f64(task, begin, end);
       }
     }
-    const T* const matrix = storage.coefficients + patch * kCoefficients + c * kOrder * kOrder;
-    const T* const edges = storage.edges + patch * kEdgeBlock;
-    if (!all_finite(matrix, kOrder * kOrder) ||
-        !all_finite(edges + c * kOrder * kEdges, kOrder * kEdges) ||
-        !all_finite(edges + kCornersAt + c * kEdges, kEdges)) {
-      return {Status::coefficient_overflow, patch, 0, static_cast<int>(c)};
+    const NetPackTask<T, S> task{
+        nets_, shape, {shift[0], shift[1], shift[2]}, coefficients, edges, points, origins, floor};
+    if constexpr (kFloats) {
+      return table_.shapes->pack_f32(task, begin, end);
+    } else {
+      return table_.shapes->pack_f64(task, begin, end);
     }
   }
-  return {};
-}
 
-/// What the kernel finds doubtful is inspected here: kernels only know a bound on the squares.
-template <typename T, typename S>
-PackReport pack_share(PackKernel<T, S> kernel, const PackTask<T, S>& task,
-                      const ControlNets<S>& nets, const PatchStorage<T>& storage, std::size_t begin,
-                      std::size_t end) {
-  while (begin < end) {
-    const PackDoubt doubt = kernel(task, begin, end);
-    for (std::size_t patch = doubt.begin; patch < doubt.end; ++patch) {
-      const PackReport report = inspect(nets, storage, patch);
-      if (!report) {
-        return report;
-      }
-    }
-    begin = doubt.end;
-  }
-  return {};
-}
+  const ControlNets<S>& nets_;
+  const PackRun& run_;
+  const PackOptions& options_;
+  const KernelTable<T>& table_;
+  const PatchStorage<T>& storage_;
+};
 
-template <typename T, typename S>
-PackKernel<T, S> pack_kernel(const KernelTable<T>& table) {
-  if constexpr (std::is_same_v<S, float>) {
-    return table.pack_f32;
-  } else {
-    return table.pack_f64;
-  }
+/// Whole groups of the widest kernel, so that only the last group of a run is incomplete.
+std::size_t groups_of(const PackRun& run) {
+  return run.count / kMaxLanes + (run.count % kMaxLanes != 0);
 }
 
 /// Packs all patches; reports the fault of the lowest patch, whichever thread finds it.
 template <typename T, typename S>
-PackReport pack_all(const ControlNets<S>& nets, const PackOptions& options, Isa isa,
-                    PatchStorage<T>& storage) {
-  const PackKernel<T, S> kernel = pack_kernel<T, S>(kernel_table<T>(isa));
-  const double* const shift = options.relative_to;
-  const PackTask<T, S> task{
-      nets.points,          nets.patch_stride,     nets.row_stride,
-      nets.point_stride,    nets.component_stride, {shift[0], shift[1], shift[2]},
-      storage.coefficients, storage.edges,         storage.control_points,
-      storage.origins,      storage.normal_floor};
-  // Shares begin at whole groups of the widest kernel, so that only the last group is incomplete.
-  const std::size_t groups = nets.count / kMaxLanes + (nets.count % kMaxLanes == 0 ? 0 : 1);
+PackReport pack_runs(std::span<const ControlNets<S>> nets, std::span<const PackRun> runs,
+                     const PackOptions& options, Isa isa, const SetStorage<T>& storage) {
+  const KernelTable<T>& table = kernel_table<T>(isa);
+  std::size_t groups = 0;
+  for (const PackRun& run : runs) {
+    groups += groups_of(run);
+  }
   PackReport first;
   std::mutex guard;
   auto body = [&](int, std::size_t begin, std::size_t end) {
-    const PackReport report = pack_share(kernel, task, nets, storage, begin * kMaxLanes,
-                                         std::min(end * kMaxLanes, nets.count));
+    std::size_t before = 0; // groups of the runs that came before
+    PackReport report;
+    for (const PackRun& run : runs) {
+      const std::size_t own = groups_of(run);
+      const std::size_t from = std::max(begin, before) - before;
+      const std::size_t to = std::min(end, before + own) - std::min(end, before);
+      if (report && from < to) {
+        const RunPacker<T, S> packer(nets[run.entry], run, options, table,
+                                     storage.buckets[run.bucket]);
+        report = packer.pack(from * kMaxLanes, std::min(to * kMaxLanes, run.count));
+      }
+      before += own;
+    }
     if (!report) {
       const std::lock_guard<std::mutex> lock(guard);
       if (first || report.patch < first.patch) {
@@ -112,40 +130,14 @@ PackReport pack_all(const ControlNets<S>& nets, const PackOptions& options, Isa 
   return first;
 }
 
-/// One block for all arrays; false where its size overflows or memory is short.
-template <typename T>
-Status allocate(std::size_t count, bool origins, PatchStorage<T>& storage) {
-  const std::size_t per_patch = 2 * kCoefficients + kEdgeBlock + (origins ? kOriginBlock : 0) + 1;
-  constexpr std::size_t kLimit = std::numeric_limits<std::ptrdiff_t>::max();
-  if (count > kLimit / sizeof(T) / per_patch) {
-    return Status::size_overflow;
+/// A relative_to that is finite where the nets have components.
+PackReport check_options(const PackOptions& options, int components) {
+  for (int c = 0; c < std::min(components, 3); ++c) {
+    if (!std::isfinite(options.relative_to[c])) {
+      return {Status::non_finite_input, 0, 0, c};
+    }
   }
-  storage.memory.reset(
-      ::operator new (count* per_patch * sizeof(T), std::align_val_t{64}, std::nothrow));
-  if (storage.memory == nullptr) {
-    return Status::out_of_memory;
-  }
-  storage.count = count;
-  storage.coefficients = static_cast<T*>(storage.memory.get());
-  storage.edges = storage.coefficients + count * kCoefficients;
-  storage.control_points = storage.edges + count * kEdgeBlock;
-  storage.normal_floor = storage.control_points + count * kCoefficients;
-  storage.origins = origins ? storage.normal_floor + count : nullptr;
-  return Status::ok;
-}
-
-template <typename S>
-Status check(const ControlNets<S>& nets) {
-  if (nets.degree_u != 3 || nets.degree_v != 3) {
-    return Status::bad_degree;
-  }
-  if (nets.points == nullptr && nets.count > 0) {
-    return Status::null_input;
-  }
-  if (nets.row_stride == 0 || nets.point_stride == 0 || nets.component_stride == 0) {
-    return Status::bad_stride;
-  }
-  return Status::ok;
+  return {};
 }
 
 } // namespace
@@ -157,57 +149,74 @@ std::size_t PatchSet<T>::size() const noexcept {
 }
 
 template <typename T>
+int PatchSet<T>::components() const noexcept {
+  return empty() ? 3 : storage_->buckets[0].shape.components;
+}
+
+template <typename T>
+PatchShape PatchSet<T>::shape(std::size_t patch) const noexcept {
+  if (patch >= size()) {
+    return {0, 0, 0, false};
+  }
+  const detail::NetShape& shape = storage_->buckets[storage_->place(patch).bucket].shape;
+  return {shape.degree_u, shape.degree_v, shape.components, shape.rational};
+}
+
+template <typename T>
 bool PatchSet<T>::has_local_origins() const noexcept {
   return storage_ != nullptr && storage_->buckets[0].origins != nullptr;
 }
 
 template <typename T, typename S>
-PackReport pack(const ControlNets<S>& nets, PatchSet<T>& set, const PackOptions& options) noexcept
-    try {
-  const Status usable = detail::check(nets);
-  if (usable != Status::ok) {
-    return {usable};
+PackReport pack(std::span<const ControlNets<S>> nets, PatchSet<T>& set,
+                const PackOptions& options) noexcept try {
+  PackReport report = detail::check_nets(nets);
+  if (!report) {
+    return report;
   }
-  for (int c = 0; c < 3; ++c) {
-    if (!std::isfinite(options.relative_to[c])) {
-      return {Status::non_finite_input, 0, 0, c};
-    }
+  report = detail::check_options(options, nets.empty() ? 3 : nets.front().components);
+  if (!report) {
+    return report;
   }
   Isa isa = Isa::automatic;
-  const Status runs = resolve_isa(options.isa, isa);
-  if (runs != Status::ok) {
+  const Status runs_on = resolve_isa(options.isa, isa);
+  if (runs_on != Status::ok) {
     if (options.isa != Isa::automatic) {
-      return {runs};
+      return {runs_on};
     }
     isa = available_isas().back(); // a wrong SIMDBEZIER_ISA is for evaluate calls to report
   }
   auto storage = std::make_shared<detail::SetStorage<T>>();
-  storage->count = nets.count;
-  storage->buckets.resize(1);
-  const Status allocated =
-      detail::allocate(nets.count, options.local_origin, storage->buckets[0]);
-  if (allocated != Status::ok) {
-    return {allocated};
+  std::vector<detail::PackRun> runs;
+  const Status laid_out = detail::lay_out(nets, options.local_origin, *storage, runs);
+  if (laid_out != Status::ok) {
+    return {laid_out};
   }
-  const PackReport report = detail::pack_all(nets, options, isa, storage->buckets[0]);
-  if (!report) {
-    return report;
+  report = detail::pack_runs<T, S>(nets, runs, options, isa, *storage);
+  if (report) {
+    set = PatchSet<T>(std::move(storage));
   }
-  set = PatchSet<T>(std::move(storage));
-  return {};
+  return report;
 } catch (const std::bad_alloc&) {
   return {Status::out_of_memory};
 }
 
+template <typename T, typename S>
+PackReport pack(const ControlNets<S>& nets, PatchSet<T>& set, const PackOptions& options) noexcept {
+  return pack(std::span<const ControlNets<S>>(&nets, 1), set, options);
+}
+
 template class PatchSet<float>;
 template class PatchSet<double>;
-template SIMDBEZIER_API PackReport pack(const ControlNets<float>&, PatchSet<float>&,
-                                        const PackOptions&) noexcept;
-template SIMDBEZIER_API PackReport pack(const ControlNets<double>&, PatchSet<float>&,
-                                        const PackOptions&) noexcept;
-template SIMDBEZIER_API PackReport pack(const ControlNets<float>&, PatchSet<double>&,
-                                        const PackOptions&) noexcept;
-template SIMDBEZIER_API PackReport pack(const ControlNets<double>&, PatchSet<double>&,
-                                        const PackOptions&) noexcept;
+#define SIMDBEZIER_INSTANTIATE_PACK(T, S)                                                          \
+  template SIMDBEZIER_API PackReport pack(std::span<const ControlNets<S>>, PatchSet<T>&,           \
+                                          const PackOptions&) noexcept;                            \
+  template SIMDBEZIER_API PackReport pack(const ControlNets<S>&, PatchSet<T>&,                     \
+                                          const PackOptions&) noexcept;
+SIMDBEZIER_INSTANTIATE_PACK(float, float)
+SIMDBEZIER_INSTANTIATE_PACK(float, double)
+SIMDBEZIER_INSTANTIATE_PACK(double, float)
+SIMDBEZIER_INSTANTIATE_PACK(double, double)
+#undef SIMDBEZIER_INSTANTIATE_PACK
 
 } // namespace simdbezier

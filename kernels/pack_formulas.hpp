@@ -66,8 +66,30 @@ SIMDBEZIER_INLINE Wide take_origin(W& constant) {
   return origin;
 }
 
-/// Finds the value of |du x dv|^2 above which the plain cross product is good (2^-14 for float,
-/// 2^-40 for double, of what the hodographs allow).
+/// The value of |du x dv|^2 above which the plain cross product is good (2^-14 for float, 2^-40 for
+/// double, of what the hodographs allow), from what |du| and |dv| stay below.
+///
+/// Infinity where the squares could leave the range of T. Powers of two are kept as such: 2^e is
+/// x without its mantissa, and all products that pass the comparisons are exact.
+template <typename T>
+SIMDBEZIER_INLINE Wide normal_floor(Wide hodograph_u, Wide hodograph_v) {
+  constexpr bool kSingle = sizeof(T) == sizeof(float);
+  // Each factor and the product must leave room for squares above and below.
+  const Wide lowest(kSingle ? 0x1p-40 : 0x1p-450);
+  const Wide highest(kSingle ? 0x1p50 : 0x1p480);
+  const Wide u = power_of_two_below(hodograph_u);
+  const Wide v = power_of_two_below(hodograph_v);
+  const Wide uv = u * v;
+  const MaskOf<Wide> in_range = (u >= lowest * lowest) & (u <= highest * highest) &
+                                (v >= lowest * lowest) & (v <= highest * highest) & (uv >= lowest) &
+                                (uv <= highest);
+  // As kKernelError of the second look, in one compare: |N| > 2^-7 of the hodographs' powers of
+  // two, which are up to four times smaller than the hodographs' product.
+  const Wide floor = uv * uv * Wide(kSingle ? 0x1p-14 : 0x1p-40);
+  return select_where<Wide>(in_range, floor, Wide(std::numeric_limits<double>::infinity()));
+}
+
+/// Finds the normal floor of bicubic patches.
 template <typename T>
 class NormalFloor {
 public:
@@ -80,23 +102,8 @@ public:
       }
     }
   }
-  /// Infinity where the squares could leave the range of T. Powers of two are kept as such: 2^e is
-  /// x without its mantissa, and all products that pass the comparisons are exact.
   SIMDBEZIER_INLINE Wide value() const {
-    constexpr bool kSingle = sizeof(T) == sizeof(float);
-    // Each factor and the product must leave room for squares above and below.
-    const Wide lowest(kSingle ? 0x1p-40 : 0x1p-450);
-    const Wide highest(kSingle ? 0x1p50 : 0x1p480);
-    const Wide u = power_of_two_below(Wide(3.0) * size_u_);
-    const Wide v = power_of_two_below(Wide(3.0) * size_v_);
-    const Wide uv = u * v;
-    const MaskOf<Wide> in_range = (u >= lowest * lowest) & (u <= highest * highest) &
-                                  (v >= lowest * lowest) & (v <= highest * highest) &
-                                  (uv >= lowest) & (uv <= highest);
-    // As kKernelError of the second look, in one compare: |N| > 2^-7 of the hodographs' powers of
-    // two, which are up to four times smaller than the hodographs' product.
-    const Wide floor = uv * uv * Wide(kSingle ? 0x1p-14 : 0x1p-40);
-    return select_where<Wide>(in_range, floor, Wide(std::numeric_limits<double>::infinity()));
+    return normal_floor<T>(Wide(3.0) * size_u_, Wide(3.0) * size_v_);
   }
 
 private:

@@ -72,6 +72,10 @@ struct SetStorage {
   std::size_t count = 0;
   std::vector<PatchStorage<T>> buckets; ///< at least one
   std::unique_ptr<PatchPlace[]> places; ///< of every patch; null where there is one bucket
+
+  [[nodiscard]] PatchPlace place(std::size_t patch) const {
+    return places == nullptr ? PatchPlace{0, patch} : places[patch];
+  }
 };
 
 static_assert(NetShape{}.is_bicubic() && NetShape{}.coefficients() == kCoefficients &&

@@ -50,8 +50,8 @@ struct ControlNets {
                                                     Weights weights = Weights::none) noexcept {
     const std::ptrdiff_t point = components + (weights == Weights::none ? 0 : 1);
     const std::ptrdiff_t row = (degree_u + 1) * point;
-    return {points, count, degree_u,   degree_v, (degree_v + 1) * row, row, point,
-            1,      components, weights};
+    return {points, count, degree_u, degree_v,   (degree_v + 1) * row,
+            row,    point, 1,        components, weights};
   }
 };
 

@@ -5,11 +5,11 @@
 //               is nan or infinite, that sample's outputs are nan; its neighbours are untouched.
 //   Outputs     belong to the caller, may not overlap the inputs or each other, need no alignment
 //               (64 bytes are faster).
-//   Accuracy    |error| <= 21 u max|P| a component on FMA instruction sets, 32 u without, at the
+//   Accuracy    bicubic patches: |error| <= 21 u max|P| a component with FMA, 32 u without, at the
 //               centred parameters as rounded (u = 2^-24 float, 2^-53 double); first derivatives
-//               <= 18 u max|hodograph control vector| on FMA instruction sets; second ones 15 u
-//               (21 u without FMA) max|control vector of the second hodograph|.
-//   Watertight  positions on an edge depend only on that edge's four control points and are
+//               18 u max|hodograph control vector| with FMA, second ones 15 u (21 u without) of the
+//               second hodograph's; other degrees and weights: docs/accuracy.md, error_bounds().
+//   Watertight  positions on an edge depend only on that edge's control points and are
 //               bit-equal on both sides whatever the orientation; corners are control points.
 //   Bits        equal for any thread count, batch size, place in the batch, layout, alignment and
 //               compiler, and for all instruction sets of one class (see Isa).
@@ -61,7 +61,8 @@ struct Samples {
 };
 
 /// Where one vector-valued output goes: component c of sample k is c-th pointer [k * stride],
-/// stride in elements. All three null: not asked for.
+/// stride in elements. All three null: not asked for. See Options::first_component for sets whose
+/// points do not have three components.
 template <typename T>
 struct Vectors {
   T* x = nullptr;
@@ -71,6 +72,12 @@ struct Vectors {
 
   /// Three planes (SoA), unit stride.
   [[nodiscard]] static constexpr Vectors planes(T* x, T* y, T* z) noexcept { return {x, y, z, 1}; }
+  /// Sets of one or two components: one or two planes, or pairs side by side.
+  [[nodiscard]] static constexpr Vectors plane(T* x) noexcept { return {x, nullptr, nullptr, 1}; }
+  [[nodiscard]] static constexpr Vectors planes(T* x, T* y) noexcept { return {x, y, nullptr, 1}; }
+  [[nodiscard]] static constexpr Vectors pairs(T* first, std::ptrdiff_t stride = 2) noexcept {
+    return {first, first + 1, nullptr, stride};
+  }
   /// x y z triples (AoS), `stride` elements from one to the next: 3 when packed, the size of a
   /// vertex when interleaved.
   [[nodiscard]] static constexpr Vectors xyz(T* first, std::ptrdiff_t stride = 3) noexcept {
@@ -102,9 +109,9 @@ enum class SampleStatus : std::uint8_t {
   non_finite  ///< a parameter was nan or infinite; the outputs are nan
 };
 
-/// The outputs of a call; every group is optional, at least one vector group is required.
-/// Grid calls: sample index = (patch - first_patch) * nu * nv + iv * nu + iu.
-/// Groups may share memory only as members of one vertex: equal strides, no common element.
+/// The outputs of a call; every group is optional, at least one vector group or curvature is
+/// required. Grid calls: sample index = (patch - first_patch) * nu * nv + iv * nu + iu. Groups may
+/// share memory only as members of one vertex: equal strides, no common element.
 template <typename T>
 struct Outputs {
   Vectors<T> position; ///< S(u,v)
@@ -126,8 +133,8 @@ struct Outputs {
 enum class Destination : std::uint8_t {
   automatic, ///< memory where a grid call writes more than half of the last-level cache, else
              ///< cache; scattered samples take longer to compute than plain stores take to memory
-  cache, ///< plain stores
-  memory ///< streaming stores, completed before the call returns
+  cache,     ///< plain stores
+  memory     ///< streaming stores, completed before the call returns
 };
 
 /// How a call runs. The defaults are what most callers want.

@@ -83,23 +83,39 @@ struct PackOptions {
 };
 
 /// Forms the coefficient matrices C = A P A^T of all patches, A being the basis change from
-/// Bernstein to powers of the centred parameter; edge cubics from each edge's own four control
-/// points; and the corners.
+/// Bernstein to powers of the centred parameter; edge polynomials from each edge's own control
+/// points; and the corners. A direction of degree 6 or more is first cut in two at its middle.
+/// Rational patches are packed as homogeneous ones.
 ///
-/// nets:       S = float or double, see ControlNets; the memory may be freed after the call.
-/// set:        replaced on ok, left as it was otherwise.
-/// options:    see PackOptions; a relative_to that is not finite is non_finite_input.
-/// Numerics:   S = float: formed in double, S = double: in double-double; rounded once to T.
-///             Results depend neither on the instruction set nor on threads. -0 in the input
-///             becomes +0.
-/// Allocation: one block of about 160 T per patch. Threads: see PackOptions::threads.
-/// Returns:    ok | null_input | bad_degree | bad_stride | non_finite_input |
+/// nets:       S = float or double, see ControlNets; the memory may be freed after the call. Many
+///             patches of a few shapes are best given as few ControlNets: up to 8 patches of one
+///             cost as much as one.
+/// set:        replaced on ok, left as it was otherwise. Patches are numbered through all nets in
+///             their order.
+/// options:    see PackOptions; a relative_to that is not finite is non_finite_input. Its members
+///             beyond the components are ignored.
+/// Numerics:   T and S float: formed in double, else in double-double; rounded once to T. Results
+///             depend neither on the instruction set nor on threads, nor on which other patches
+///             are packed. -0 in the input becomes +0.
+/// Allocation: one block for each shape, for bicubic patches in space about 160 T a patch; four
+///             times the control points and more where directions are cut. About 150 KiB of stack
+///             per thread. Threads: see PackOptions::threads.
+/// Returns:    ok | null_input | bad_degree | bad_components (also: not the same in all nets) |
+///             bad_weight (also: 0 or infinite as T) | bad_stride | non_finite_input |
 ///             coefficient_overflow | size_overflow | unsupported_isa | out_of_memory. A wrong
-///             SIMDBEZIER_ISA is ignored here.
-/// Cost:       O(count); in cache on AVX-512 about 22 ns (float) or 100 ns (double) a patch. New
-///             memory costs several times that: a set of many megabytes is bound by page faults.
+///             SIMDBEZIER_ISA is ignored here. The report names the lowest patch at fault, for a
+///             fault of whole nets their first one.
+/// Cost:       O(count); in cache on AVX-512 about 22 ns (float) or 100 ns (double) a bicubic patch
+///             in space; others grow with the cube of the degree. New memory costs several times
+///             that: a set of many megabytes is bound by page faults.
 template <typename T, typename S>
 [[nodiscard]] PackReport pack(const ControlNets<S>& nets, PatchSet<T>& set,
+                              const PackOptions& options = {}) noexcept;
+
+/// The same for patches of several degrees, polynomial and rational ones mixed. All need the same
+/// number of components. Results of evaluate calls come in the order of the patches' numbers.
+template <typename T, typename S>
+[[nodiscard]] PackReport pack(std::span<const ControlNets<S>> nets, PatchSet<T>& set,
                               const PackOptions& options = {}) noexcept;
 
 extern template class PatchSet<float>;

@@ -1,10 +1,16 @@
 // simdbezier: many Bézier patches at many parameters in one call.
 #pragma once
 
+#include <simdbezier/adjacency.hpp>    // IWYU pragma: export
+#include <simdbezier/bases.hpp>        // IWYU pragma: export
+#include <simdbezier/bounds.hpp>       // IWYU pragma: export
 #include <simdbezier/certificate.hpp>  // IWYU pragma: export
 #include <simdbezier/control_nets.hpp> // IWYU pragma: export
+#include <simdbezier/curves.hpp>       // IWYU pragma: export
 #include <simdbezier/evaluate.hpp>     // IWYU pragma: export
 #include <simdbezier/isa.hpp>          // IWYU pragma: export
+#include <simdbezier/iso_curves.hpp>   // IWYU pragma: export
+#include <simdbezier/nets.hpp>         // IWYU pragma: export
 #include <simdbezier/patch_grids.hpp>  // IWYU pragma: export
 #include <simdbezier/patch_set.hpp>    // IWYU pragma: export
 #include <simdbezier/status.hpp>       // IWYU pragma: export

@@ -10,12 +10,12 @@ namespace simdbezier {
 
 enum class Status : std::uint8_t {
   ok,
-  null_input,           ///< a required input pointer is null
-  null_output,          ///< no output group was asked for, or a group names only some of its planes
-  bad_degree,           ///< a degree is below 1 or above kMostDegree
-  bad_components,       ///< components are not 1 to kMostComponents, differ, or an output needs three
-  bad_weight,           ///< a weight is not positive and finite
-  bad_stride,           ///< the strides let two values share one place
+  null_input,     ///< a required input pointer is null
+  null_output,    ///< no output group was asked for, or a group names only some of its planes
+  bad_degree,     ///< a degree is below 1 or above kMostDegree
+  bad_components, ///< components are not 1 to kMostComponents, differ, or an output needs three
+  bad_weight,     ///< a weight is not positive and finite
+  bad_stride,     ///< the strides let two values share one place
   overlapping_outputs,  ///< two outputs share memory, or an output lies in an input
   bad_offsets,          ///< per-patch offsets do not ascend far enough for the patches' samples
   non_finite_input,     ///< a control point is nan or infinite

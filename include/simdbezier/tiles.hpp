@@ -26,7 +26,8 @@ struct TileFormat {
   bool duv = false;
   bool dvv = false;
   bool normal = false;
-  bool status = false; ///< of normals, see SampleStatus
+  bool status = false;    ///< of normals, see SampleStatus
+  bool curvature = false; ///< all four, as planes in every layout
   TileLayout layout = TileLayout::planes;
   /// The most samples in one tile; 0: what fits half of a first-level cache. A tile holds
   /// whole patches where one fits, else whole rows of one patch, at least one row.

@@ -95,6 +95,18 @@ private:
 };
 #endif
 
+/// The power of two at or below |x|; 0 for a denormal x, infinity where x is not finite.
+template <typename V>
+SIMDBEZIER_INLINE V power_of_two_below(V x) {
+  if constexpr (!kIsScalar<V>) {
+    return x & V(static_cast<ScalarOf<V>>(__builtin_inf())); // whose bits are the exponent's
+  } else if constexpr (sizeof(V) == sizeof(float)) {
+    return __builtin_bit_cast(float, __builtin_bit_cast(unsigned, x) & 0xffU << 23);
+  } else {
+    return __builtin_bit_cast(double, __builtin_bit_cast(unsigned long long, x) & 0x7ffULL << 52);
+  }
+}
+
 // Memory -----------------------------------------------------------------------------------------
 
 template <typename V>

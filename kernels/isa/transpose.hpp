@@ -34,12 +34,13 @@ SIMDBEZIER_INLINE Wide rounded_to(Wide x) {
   }
 }
 
-/// The power of two at or below |x|; 0 for a denormal x, infinity where x is not finite.
-SIMDBEZIER_INLINE Wide power_of_two_below(Wide x) {
+/// x without its 27 lowest bits: two such values have an exact product.
+SIMDBEZIER_INLINE Wide leading_bits(Wide x) {
+  constexpr unsigned long long kKept = ~0ULL << 27;
 #if defined(SIMDBEZIER_KERNELS_SCALAR)
-  return __builtin_bit_cast(double, __builtin_bit_cast(unsigned long long, x) & 0x7ff0ULL << 48);
+  return __builtin_bit_cast(double, __builtin_bit_cast(unsigned long long, x) & kKept);
 #else
-  return x & Wide(__builtin_inf()); // whose bits are the exponent's
+  return x & Wide(__builtin_bit_cast(double, kKept));
 #endif
 }
 

@@ -1,0 +1,62 @@
+// Which edges of a set of patches are the same: bit-equal control points, in either direction.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <simdbezier/control_nets.hpp>
+#include <simdbezier/evaluate.hpp>
+#include <simdbezier/status.hpp>
+
+namespace simdbezier {
+
+/// The four edges of a patch, each in the direction of its own parameter.
+enum class PatchEdge : std::uint8_t { v0, v1, u0, u1 };
+inline constexpr std::size_t kPatchEdges = 4;
+
+enum class EdgeKind : std::uint8_t {
+  boundary,     ///< no other edge has these control points
+  shared,       ///< exactly one other has
+  non_manifold, ///< more than one other has
+  collapsed     ///< all control points are one; never matched with another edge
+};
+
+/// What one edge of one patch is.
+struct EdgeLink {
+  EdgeKind kind = EdgeKind::boundary;
+  PatchEdge edge = PatchEdge::v0; ///< the matching edge …
+  bool reversed = false;          ///< … runs the other way; false where both ways are equal
+  std::size_t patch = 0;          ///< … of this patch, which may be the same one
+  friend bool operator==(const EdgeLink&, const EdgeLink&) = default;
+};
+
+/// Finds every edge's counterpart.
+///
+/// sets:        any number of views; their degrees may differ, and an edge of degree 3 of a 3 x 5
+///              patch may match one of a 7 x 3 patch. Patches are numbered through, view after
+///              view.
+/// edges:       4 values a patch, [4 * patch + PatchEdge]. shared: the other edge.
+///              non_manifold: the next one of the same points, in order of patch and edge, from
+///              the last to the first. boundary, collapsed: edge, reversed and patch are 0.
+/// Match:       equal degree, components and form of weights, and bit-equal control points, weights
+///              included, in the same or the opposite order; -0 counts as +0, nan as its bits.
+///              These are the edges along which evaluation is watertight. Collapsed: all points are
+///              equal, whatever their weights; homogeneous ones are divided for that.
+/// Allocation:  about 30 bytes an edge. Threads: Options::threads, for hashing; other options have
+///              no meaning. Determinism: the result is a function of the input.
+/// Returns:     ok | null_input | null_output | bad_degree | bad_components | bad_stride |
+///              size_overflow | out_of_memory. On an error nothing has been written.
+/// Cost:        O(edges) by hashing, some 100 ns an edge.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<S>> sets,
+                                                   EdgeLink* edges,
+                                                   const Options& options = {}) noexcept;
+
+template <typename S>
+[[nodiscard]] Status find_adjacency(const ControlNets<S>& nets, EdgeLink* edges,
+                                    const Options& options = {}) noexcept {
+  return find_adjacency(std::span<const ControlNets<S>>(&nets, 1), edges, options);
+}
+
+} // namespace simdbezier

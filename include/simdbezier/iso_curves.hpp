@@ -1,0 +1,78 @@
+// Curves on patches: the four boundaries, and iso-parametric curves.
+#pragma once
+
+#include <cstddef>
+
+#include <simdbezier/control_nets.hpp>
+#include <simdbezier/curves.hpp>
+#include <simdbezier/patch_set.hpp>
+#include <simdbezier/status.hpp>
+
+namespace simdbezier {
+
+/// The boundaries of a patch, in the direction in which u or v grows.
+enum class Boundary : std::uint8_t { v0, v1, u0, u1 };
+
+/// The control points of one boundary curve of every patch: a view of the nets' own memory. Packed
+/// and evaluated, it gives the patch's own positions on that edge, bit for bit.
+template <typename S>
+[[nodiscard]] constexpr ControlCurves<S> boundary_curves(const ControlNets<S>& nets,
+                                                         Boundary boundary) noexcept {
+  const bool along_u = boundary == Boundary::v0 || boundary == Boundary::v1;
+  std::ptrdiff_t first = 0;
+  if (boundary == Boundary::v1) {
+    first = nets.degree_v * nets.row_stride;
+  } else if (boundary == Boundary::u1) {
+    first = nets.degree_u * nets.point_stride;
+  }
+  return {nets.points == nullptr ? nullptr : nets.points + first,
+          nets.count,
+          along_u ? nets.degree_u : nets.degree_v,
+          nets.patch_stride,
+          along_u ? nets.point_stride : nets.row_stride,
+          nets.component_stride,
+          nets.components,
+          nets.weights};
+}
+
+/// The control points Q_j(u0) = sum_i P[j][i] B_i(u0) of the iso-parametric curve S(u0, .) of every
+/// patch: curves of degree degree_v.
+///
+/// nets:       S = float or double, any degrees; with weights, the points are those of the rational
+///             curve, in the form (cartesian, homogeneous) of the nets.
+/// u0:         any finite value; 0 and 1 give the boundary's points exactly.
+/// points:     count * (degree_v + 1) * (components + 1 with weights) values, packed as in
+///             ControlCurves::packed(); may not overlap the nets. No alignment needed.
+/// threads:    as Options::threads.
+/// Numerics:   de Casteljau's algorithm in double, (1-t) a + t b at every step: a reversed net
+/// gives
+///             the same bits at 1 - u0 where that is exact. Error at most 2 (degree_u + 1) 2^-53
+///             max|P| (with weights: of the homogeneous points). Bits do not depend on anything.
+/// Allocation: none.
+/// Returns:    ok | null_input | null_output | bad_degree | bad_components | bad_stride |
+///             bad_weight | non_finite_input (a value that is not finite, u0 included) |
+///             overlapping_outputs | size_overflow. On an error nothing has been written.
+/// Cost:       degree_u (degree_u + 1) (degree_v + 1) / 2 interpolations a component and patch.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API Status iso_u(const ControlNets<S>& nets, double u0, double* points,
+                                          int threads = 0) noexcept;
+
+/// The same of S(., v0): curves of degree degree_u.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API Status iso_v(const ControlNets<S>& nets, double v0, double* points,
+                                          int threads = 0) noexcept;
+
+/// The iso-parametric curve S(u0, .) (or S(., v0)) of every patch, packed: iso_u() (iso_v()) and
+/// pack_curves() by way of memory of its own. Evaluated at v (u), positions agree with the patch's
+/// own within the sum of both bounds and of the error that iso_u() states.
+/// Returns the statuses of both; `patch` is set where a net is at fault.
+template <typename T, typename S>
+[[nodiscard]] SIMDBEZIER_API PackReport iso_u(const ControlNets<S>& nets, double u0,
+                                              CurveSet<T>& curves,
+                                              const PackOptions& options = {}) noexcept;
+template <typename T, typename S>
+[[nodiscard]] SIMDBEZIER_API PackReport iso_v(const ControlNets<S>& nets, double v0,
+                                              CurveSet<T>& curves,
+                                              const PackOptions& options = {}) noexcept;
+
+} // namespace simdbezier

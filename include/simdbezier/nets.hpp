@@ -1,0 +1,237 @@
+// From control nets to control nets: subdivision, sub-patches, degree elevation, reversal,
+// transposition, derivatives.
+//
+// Constraints that hold for every call
+//   Nets        any degrees from 1 to kMostDegree, any components. With weights the arithmetic is
+//               that of homogeneous coordinates (wx, wy, wz, w); cartesian nets come back
+//               cartesian, homogeneous ones homogeneous.
+//   Outputs     belong to the caller. Count, components and weights are those of the input, the
+//               degrees what the operation says. They may not overlap the inputs or each other, but
+//               may lie between one another (four children of a patch side by side, for instance);
+//               the strides must nest: sorted by size, each exceeds what the smaller ones span.
+//   Faults      control values must be finite and weights positive; the first patch at fault is
+//               named, and nothing has been written. Values so large that the operation overflows
+//               come out infinite or nan.
+//   Bits        equal on all instruction sets (products and sums are rounded one by one, nothing is
+//               fused), for any number of threads and any place in the batch.
+//   Reversal    of the net, with the parameters mirrored, gives the reversed result bit for bit.
+//   Edges       an edge of the result that lies on an edge of the patch depends on that edge's
+//               control points only, so that neighbours with bit-equal edges keep them after equal
+//               operations, in any orientation. Corners of the patch stay exact, as do whole edges
+//               that the operation does not touch. Equal neighbouring values stay equal: a
+//               collapsed edge stays collapsed, whatever its weights.
+//   Zeros       -0 becomes +0.
+//   Threads     Options::threads, isa and executed are honoured; its other members have no meaning.
+//   Allocation  scratch per thread, none per patch. Nothing throws.
+//   Statuses    ok | null_input | null_output | bad_degree | bad_components | bad_weight |
+//               bad_stride | bad_patch_range (counts differ) | overlapping_outputs |
+//               non_finite_input | size_overflow | unknown_isa | unsupported_isa | out_of_memory.
+//   Source      G. Farin, Curves and Surfaces for CAGD, 5th ed., chapters 4 to 6 and 14.
+#pragma once
+
+#include <array>
+#include <type_traits>
+
+#include <simdbezier/control_nets.hpp>
+#include <simdbezier/evaluate.hpp>
+#include <simdbezier/isa.hpp>
+#include <simdbezier/patch_set.hpp>
+
+namespace simdbezier {
+
+/// Where an operation stopped: status, patch, control point and component, as in packing.
+using NetReport = PackReport;
+
+/// Memory of the caller's for control nets; the members mean what they mean in ControlNets, which
+/// it turns into for the next call.
+template <typename S>
+struct MutableNets {
+  S* points = nullptr; ///< may be null only when count is 0
+  std::size_t count = 0;
+  int degree_u = 3;
+  int degree_v = 3;
+  std::ptrdiff_t patch_stride = 48;
+  std::ptrdiff_t row_stride = 12;
+  std::ptrdiff_t point_stride = 3;
+  std::ptrdiff_t component_stride = 1;
+  int components = 3;
+  Weights weights = Weights::none;
+
+  /// As ControlNets::packed().
+  [[nodiscard]] static constexpr MutableNets packed(S* points, std::size_t count, int degree_u,
+                                                    int degree_v, int components = 3,
+                                                    Weights weights = Weights::none) noexcept {
+    const auto like =
+        ControlNets<S>::packed(points, count, degree_u, degree_v, components, weights);
+    return {points,
+            count,
+            degree_u,
+            degree_v,
+            like.patch_stride,
+            like.row_stride,
+            like.point_stride,
+            like.component_stride,
+            components,
+            weights};
+  }
+
+  constexpr operator ControlNets<S>() const noexcept { // NOLINT: implicit on purpose
+    return {points,     count,        degree_u,         degree_v,   patch_stride,
+            row_stride, point_stride, component_stride, components, weights};
+  }
+};
+
+/// A parameter t together with its complement 1 - t. Both enter into the arithmetic, and whoever
+/// wants mirrored results to have equal bits gives mirrored pairs.
+template <typename T>
+class UnitParameter {
+public:
+  /// t, and 1 - t, rounded as the caller's arithmetic rounds: exact for 1/2 <= t <= 1 and all
+  /// multiples of 2^-24 (double: 2^-53).
+  constexpr UnitParameter(T t) noexcept : t_(t), complement_(T(1) - t) {} // NOLINT: implicit
+  /// Counted from the other end: the complement is c, and t = 1 - c rounded.
+  [[nodiscard]] static constexpr UnitParameter from_end(T c) noexcept { return {T(1) - c, c}; }
+  /// i / n and (n - i) / n, each rounded once; n > 0.
+  [[nodiscard]] static constexpr UnitParameter fraction(int i, int n) noexcept {
+    return {static_cast<T>(i) / static_cast<T>(n), static_cast<T>(n - i) / static_cast<T>(n)};
+  }
+
+  [[nodiscard]] constexpr T t() const noexcept { return t_; }
+  [[nodiscard]] constexpr T complement() const noexcept { return complement_; }
+  /// The same place on the reversed curve.
+  [[nodiscard]] constexpr UnitParameter mirrored() const noexcept { return {complement_, t_}; }
+
+private:
+  constexpr UnitParameter(T t, T complement) noexcept : t_(t), complement_(complement) {}
+  T t_;
+  T complement_;
+};
+
+// Deduced from the nets alone, so that numbers may stand for parameters.
+template <typename T>
+using AtParameter = std::type_identity_t<UnitParameter<T>>;
+
+/// Cuts every patch at u: `low` is the part over [0, u], `high` the one over [u, 1], each again
+/// over [0,1], with the degrees of the input.
+///
+/// Formula:    de Casteljau, b = (1-t) a + t b per level (a where a = b); the corner points of its
+///             triangle are the two nets.
+/// Parameters: finite; outside of [0,1] they extrapolate, which nets with weights must not
+///             (bad_weight), since a weight could lose its sign.
+/// Errors:     at most 3 degree_u u max|P| a component (u = 2^-24 or 2^-53) for parameters in
+/// [0,1];
+///             with weights, of numerators and weights each. 0, 1/2 and 1 round sums only.
+/// Cost:       about the time of reading and writing the nets in cache; O(degree) times that for
+///             high degrees.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API NetReport split_u(const ControlNets<T>& nets, AtParameter<T> u,
+                                               const std::type_identity_t<MutableNets<T>>& low,
+                                               const std::type_identity_t<MutableNets<T>>& high,
+                                               const Options& options = {}) noexcept;
+
+/// The same in v.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API NetReport split_v(const ControlNets<T>& nets, AtParameter<T> v,
+                                               const std::type_identity_t<MutableNets<T>>& low,
+                                               const std::type_identity_t<MutableNets<T>>& high,
+                                               const Options& options = {}) noexcept;
+
+/// Both at once, in u first: out[2 * (v half) + (u half)].
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API NetReport
+split(const ControlNets<T>& nets, AtParameter<T> u, AtParameter<T> v,
+      const std::array<std::type_identity_t<MutableNets<T>>, 4>& out,
+      const Options& options = {}) noexcept;
+
+/// A rectangle of the parameter domain. u0 > u1 turns the piece around; u0 = u1 gives a line.
+template <typename T>
+struct SubPatch {
+  UnitParameter<T> u0 = T(0);
+  UnitParameter<T> u1 = T(1);
+  UnitParameter<T> v0 = T(0);
+  UnitParameter<T> v1 = T(1);
+};
+
+/// The piece of every patch over [u0, u1] x [v0, v1], over [0,1]^2, with the degrees of the input.
+///
+/// Formula:    control point i is the blossom at u0 (degree - i times) and u1 (i times): the mean
+/// of
+///             both orders of inserting them, so that neither end is favoured. Pieces that meet at
+///             one parameter get bit-equal points there, and [0, u] is what split_u() gives.
+/// Parameters, errors: as split_u(). Cost: O(degree^2) of split_u(); directions that are taken
+///             whole cost nothing.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API NetReport segment(const ControlNets<T>& nets,
+                                               const std::type_identity_t<SubPatch<T>>& piece,
+                                               const std::type_identity_t<MutableNets<T>>& out,
+                                               const Options& options = {}) noexcept;
+
+/// The same patches with higher (or equal) degrees: those of `out`; lower ones are bad_degree.
+///
+/// Formula:    q_i = sum_k C(n,k) C(r,i-k) p_k / C(n+r,i) from degree n to n + r, the terms paired
+///             from both ends.
+/// Errors:     float: one rounding (the sums are carried in double). double: at most n + 2 u
+///             max|P| per direction. Exact wherever these sums and quotients are.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API NetReport elevate(const ControlNets<T>& nets,
+                                               const std::type_identity_t<MutableNets<T>>& out,
+                                               const Options& options = {}) noexcept;
+
+/// The derivative patches dS/du: control points degree_u (P[j][i+1] - P[j][i]), degree_u - 1 by
+/// degree_v. A direction of degree 1 keeps it: its two columns are equal, for nets have no degree
+/// 0. Polynomial nets only (bad_weight). Errors: two roundings a value; float: one.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API NetReport hodograph_u(const ControlNets<T>& nets,
+                                                   const std::type_identity_t<MutableNets<T>>& out,
+                                                   const Options& options = {}) noexcept;
+
+/// dS/dv, likewise.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API NetReport hodograph_v(const ControlNets<T>& nets,
+                                                   const std::type_identity_t<MutableNets<T>>& out,
+                                                   const Options& options = {}) noexcept;
+
+/// The same surface run through backwards in u: Q[j][i] = P[j][degree_u - i]. A copy: for calls
+/// that only read, a view with a negative stride does (reversed_u below).
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API NetReport reverse_u(const ControlNets<T>& nets,
+                                                 const std::type_identity_t<MutableNets<T>>& out,
+                                                 const Options& options = {}) noexcept;
+
+/// Backwards in v: Q[j][i] = P[degree_v - j][i].
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API NetReport reverse_v(const ControlNets<T>& nets,
+                                                 const std::type_identity_t<MutableNets<T>>& out,
+                                                 const Options& options = {}) noexcept;
+
+/// u and v exchanged: Q[i][j] = P[j][i]; degree_u of `out` is degree_v of the input.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API NetReport transpose(const ControlNets<T>& nets,
+                                                 const std::type_identity_t<MutableNets<T>>& out,
+                                                 const Options& options = {}) noexcept;
+
+/// The same nets seen the other way round: no memory is touched. `nets` must be valid.
+template <typename S>
+[[nodiscard]] constexpr ControlNets<S> reversed_u(ControlNets<S> nets) noexcept {
+  nets.points = nets.count == 0 ? nets.points : nets.points + nets.degree_u * nets.point_stride;
+  nets.point_stride = -nets.point_stride;
+  return nets;
+}
+template <typename S>
+[[nodiscard]] constexpr ControlNets<S> reversed_v(ControlNets<S> nets) noexcept {
+  nets.points = nets.count == 0 ? nets.points : nets.points + nets.degree_v * nets.row_stride;
+  nets.row_stride = -nets.row_stride;
+  return nets;
+}
+template <typename S>
+[[nodiscard]] constexpr ControlNets<S> transposed(ControlNets<S> nets) noexcept {
+  const int degree = nets.degree_u;
+  nets.degree_u = nets.degree_v;
+  nets.degree_v = degree;
+  const std::ptrdiff_t stride = nets.row_stride;
+  nets.row_stride = nets.point_stride;
+  nets.point_stride = stride;
+  return nets;
+}
+
+} // namespace simdbezier

@@ -1,0 +1,35 @@
+// The places in memory that views of nets occupy, and whether they are all different.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <simdbezier/control_nets.hpp>
+
+namespace simdbezier::detail {
+
+/// The places of a view: address + sum of index * stride, in bytes.
+struct Lattice {
+  struct Direction {
+    std::ptrdiff_t stride;
+    std::ptrdiff_t last; ///< highest index
+  };
+  std::uintptr_t begin = 0;
+  Direction direction[4] = {};
+  std::ptrdiff_t lowest = 0; ///< offset of the first byte, and that behind the last one
+  std::ptrdiff_t highest = 0;
+};
+
+/// The places of the values of nets whose degrees and components are sound; false where an offset
+/// overflows.
+template <typename S>
+bool lattice_of(const ControlNets<S>& nets, Lattice& lattice) noexcept;
+
+/// Whether every stride exceeds what the smaller ones span, so that no two values share a place.
+bool nests(Lattice lattice, std::ptrdiff_t value_bytes) noexcept;
+
+/// Whether two views have a place in common. Exact where their strides are equal, as far as both
+/// have more than one element there; otherwise views that lie between one another count as well.
+bool collide(const Lattice& a, const Lattice& b, std::ptrdiff_t value_bytes) noexcept;
+
+} // namespace simdbezier::detail

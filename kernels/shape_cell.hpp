@@ -1,0 +1,99 @@
+// Cells of a patch, and a register of columns of them; see net_shape.hpp.
+#pragma once
+
+#include "kernels/shape_formulas.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::NetShape;
+
+/// A half-centred parameter inside of a cell, half-centred there; exact up to one rounding.
+/// T itself or a register of it.
+template <typename V>
+SIMDBEZIER_INLINE V local_parameter(V x, V shift) {
+  return (x + x) + shift;
+}
+
+/// Columns of a patch: where in which cell they are.
+template <typename V>
+struct CellColumns {
+  using T = ScalarOf<V>;
+  V x;             ///< local
+  Column<V> local; ///< of x: the edges
+  MaskOf<V> low;   ///< in the cell of lower u
+  bool any_low;
+  bool any_high;
+
+  SIMDBEZIER_INLINE CellColumns(V half_centred, std::size_t cells)
+      : x(cells == 1 ? half_centred : halved(half_centred)), local(x),
+        low(half_centred < broadcast<V>(T(0))), any_low(cells == 1 || any_of<V>(low)),
+        any_high(cells == 2 && !all_of<V>(low)) {}
+
+private:
+  static SIMDBEZIER_INLINE V halved(V x) {
+    return local_parameter(
+        x, select_where<V>(x < broadcast<V>(T(0)), broadcast<V>(T(0.5)), broadcast<V>(T(-0.5))));
+  }
+};
+
+/// The packed values of a cell.
+template <typename T>
+struct Cell {
+  const T* coefficients;
+  const T* edges;
+  const T* origins; ///< null where the set has none
+};
+
+/// Two cells side by side in u (or the same one twice).
+template <typename T>
+struct CellRow {
+  Cell<T> low;
+  Cell<T> high;
+
+  /// Task: any that holds the arrays of a set.
+  template <typename Task>
+  SIMDBEZIER_INLINE CellRow(const Task& task, const NetShape& shape, std::size_t patch,
+                            std::size_t row)
+      : low(cell(task, shape, patch, row * shape.cells_u())),
+        high(cell(task, shape, patch, row * shape.cells_u() + shape.cells_u() - 1)) {}
+
+private:
+  template <typename Task>
+  static SIMDBEZIER_INLINE Cell<T> cell(const Task& task, const NetShape& shape, std::size_t patch,
+                                        std::size_t index) {
+    const std::size_t at = patch * shape.cells() + index;
+    return {task.coefficients + at * shape.cell_coefficients(),
+            task.edges + at * shape.cell_edges(),
+            task.origins == nullptr ? nullptr : task.origins + at * shape.cell_origins()};
+  }
+};
+
+/// Which values of a cell belong to which output: up to three components, then (slot 3) the weight.
+/// kSpace: there are three components, and all are wanted.
+template <bool kRational, bool kSpace>
+struct Channels {
+  static constexpr bool kWeighted = kRational;
+  static constexpr std::size_t kSlots = kRational ? 4 : 3;
+
+  SIMDBEZIER_INLINE Channels(const NetShape& shape, std::size_t first_component)
+      : first_(first_component),
+        count_(static_cast<std::size_t>(shape.components) - first_component),
+        weight_(static_cast<std::size_t>(shape.components)) {}
+  /// The packed channel of a slot.
+  SIMDBEZIER_INLINE std::size_t channel(std::size_t slot) const {
+    if (kRational && slot == 3) {
+      return kSpace ? 3 : weight_;
+    }
+    return kSpace ? slot : first_ + slot;
+  }
+  SIMDBEZIER_INLINE bool used(std::size_t slot) const {
+    return kSpace || slot < count_ || (kRational && slot == 3);
+  }
+
+private:
+  std::size_t first_;
+  std::size_t count_;
+  std::size_t weight_;
+};
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

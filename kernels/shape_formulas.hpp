@@ -1,0 +1,196 @@
+// Formulas for patches of any degree, over V = one register of samples or one sample.
+//
+// The order of operations is that of bicubic.hpp: Horner's rule in X, then in Y, derivatives by
+// synthetic division. Where bicubic patches go through here, they get the same bits.
+#pragma once
+
+#include <utility>
+
+#include "kernels/bicubic.hpp"
+#include "kernels/net_shape.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// A number of coefficients: fixed for the compiler, or (0) known at run time.
+template <std::size_t kFixed>
+struct Order {
+  static constexpr std::size_t kMost = kFixed;
+  explicit constexpr Order(std::size_t) {}
+  SIMDBEZIER_INLINE constexpr std::size_t value() const { return kFixed; }
+};
+template <>
+struct Order<0> {
+  static constexpr std::size_t kMost = std::size_t{kMostDegree} + 1;
+  explicit constexpr Order(std::size_t order) : order_(order) {}
+  SIMDBEZIER_INLINE constexpr std::size_t value() const { return order_; }
+
+private:
+  std::size_t order_;
+};
+
+/// f(0), f(1), … f(kCount - 1), each in code of its own, so that arrays can live in registers.
+template <std::size_t kCount, typename F>
+SIMDBEZIER_INLINE void repeat(const F& f) {
+  [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) SIMDBEZIER_INLINE_LAMBDA {
+    (f(kIndex), ...);
+  }
+  (std::make_index_sequence<kCount>());
+}
+/// The same for every coefficient, in a loop where the compiler does not know how many there are.
+template <std::size_t kFixed, typename F>
+SIMDBEZIER_INLINE void for_coefficients(Order<kFixed> order, const F& f) {
+  if constexpr (kFixed != 0) {
+    repeat<kFixed>(f);
+  } else {
+    for (std::size_t k = 0; k < order.value(); ++k) {
+      f(k);
+    }
+  }
+}
+
+/// A polynomial's value, first and second derivative; the latter two as far as kDepth goes.
+template <typename V>
+struct Series {
+  V value;
+  V first;
+  V second;
+};
+
+/// sum_k c(k) t^k, and derivatives up to kDepth, for order >= 2.
+template <std::size_t kDepth, typename V, typename N, typename Coefficient>
+SIMDBEZIER_INLINE Series<V> horner_series(N order, V t, const Coefficient& c) {
+  const std::size_t n = order.value() - 1;
+  const V last = c(n);
+  Series<V> s;
+  s.value = madd(last, t, c(n - 1));
+  if constexpr (kDepth > 0) {
+    s.first = last;
+  }
+  if constexpr (kDepth > 1) {
+    s.second = broadcast<V>(ScalarOf<V>(0)); // half of it, until the end
+  }
+  if (n > 1) {
+    if constexpr (kDepth > 1) {
+      s.second = last;
+    }
+    if constexpr (kDepth > 0) {
+      s.first = madd(last, t, s.value);
+    }
+    s.value = madd(s.value, t, c(n - 2));
+    for (std::size_t k = n - 2; k-- > 0;) {
+      if constexpr (kDepth > 1) {
+        s.second = madd(s.second, t, s.first);
+      }
+      if constexpr (kDepth > 0) {
+        s.first = madd(s.first, t, s.value);
+      }
+      s.value = madd(s.value, t, c(k));
+    }
+  }
+  if constexpr (kDepth > 1) {
+    s.second = s.second + s.second;
+  }
+  return s;
+}
+
+/// One value and its derivatives by the two local parameters.
+template <typename V>
+struct Partials {
+  V value;
+  V x;
+  V y;
+  V xx;
+  V xy;
+  V yy;
+};
+
+/// What a sample consists of; derivatives by u and v as far as the kernel's depth goes.
+template <typename V>
+struct SampleJet {
+  V position[3];
+  V du[3];
+  V dv[3];
+  V duu[3];
+  V duv[3];
+  V dvv[3];
+};
+
+/// S = h / w and its derivatives, from those of h and w: w S = h, differentiated. Those of w come
+/// negated, so that every product is added.
+/// Source: L. Piegl and W. Tiller, The NURBS Book, 4.2 and 4.3.
+template <typename V>
+struct Quotient {
+  V inverse; ///< 1 / w
+
+  explicit SIMDBEZIER_INLINE Quotient(V w) : inverse(divide(broadcast<V>(ScalarOf<V>(1)), w)) {}
+  SIMDBEZIER_INLINE V value(V h) const { return h * inverse; }
+  SIMDBEZIER_INLINE V first(V h_x, V s, V minus_w_x) const {
+    return madd(s, minus_w_x, h_x) * inverse;
+  }
+  /// s_x, s_y: first derivatives of S; twice the same where this is not a mixed one.
+  SIMDBEZIER_INLINE V second(V h_xy, V s, V s_x, V s_y, V minus_w_x, V minus_w_y,
+                             V minus_w_xy) const {
+    return madd(s_y, minus_w_x, madd(s_x, minus_w_y, madd(s, minus_w_xy, h_xy))) * inverse;
+  }
+};
+
+template <typename V>
+SIMDBEZIER_INLINE V negated(V a) {
+  return broadcast<V>(ScalarOf<V>(0)) - a;
+}
+
+template <typename V>
+SIMDBEZIER_INLINE V dot(const V a[3], const V b[3]) {
+  return madd(a[0], b[0], madd(a[1], b[1], a[2] * b[2]));
+}
+
+/// A vector over a power of two of about its size, so that products stay in range; `inverse` is one
+/// over that power. Nothing is rounded.
+template <typename V>
+struct ScaledTangent {
+  V inverse;
+  V value[3];
+
+  explicit SIMDBEZIER_INLINE ScaledTangent(const V tangent[3]) {
+    V size = broadcast<V>(ScalarOf<V>(0));
+    for (std::size_t c = 0; c < 3; ++c) {
+      const V power = power_of_two_below(tangent[c]);
+      size = select_where<V>(power > size, power, size);
+    }
+    inverse = divide(broadcast<V>(ScalarOf<V>(1)), size);
+    for (std::size_t c = 0; c < 3; ++c) {
+      value[c] = tangent[c] * inverse;
+    }
+  }
+};
+
+/// Gaussian, mean, smaller and larger principal curvature; see Curvatures.
+template <typename V>
+SIMDBEZIER_INLINE void curvatures(const SampleJet<V>& jet, V out[detail::kCurvatures]) {
+  const ScaledTangent<V> du(jet.du);
+  const ScaledTangent<V> dv(jet.dv);
+  V n[3];
+  const V area2 = cross_product(du.value, dv.value, n); // EG - F^2, without its cancellation
+  normalise(n, area2);
+  const V inverse_area2 = divide(broadcast<V>(ScalarOf<V>(1)), area2);
+  const V l = dot(jet.duu, n) * du.inverse * du.inverse;
+  const V m = dot(jet.duv, n) * du.inverse * dv.inverse;
+  const V k = dot(jet.dvv, n) * dv.inverse * dv.inverse;
+  const V e = dot(du.value, du.value);
+  const V f = dot(du.value, dv.value);
+  const V g = dot(dv.value, dv.value);
+  const V half = broadcast<V>(ScalarOf<V>(0.5));
+  const V zero = broadcast<V>(ScalarOf<V>(0));
+  const V gaussian = msub(l, k, m * m) * inverse_area2;
+  const V twice_f_m = (f + f) * m;
+  const V mean = half * (madd(e, k, g * l) - twice_f_m) * inverse_area2;
+  const V discriminant = msub(mean, mean, gaussian);
+  // Rounding makes it negative at umbilics; nan stays nan.
+  const V spread = square_root(select_where<V>(discriminant < zero, zero, discriminant));
+  out[0] = gaussian;
+  out[1] = mean;
+  out[2] = mean - spread;
+  out[3] = mean + spread;
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,133 @@
+// Scattered samples on patches of any shape: lanes = consecutive samples of one patch.
+#pragma once
+
+#include "kernels/scattered_sample.hpp"
+#include "kernels/shape_outputs.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::ScatteredTask;
+
+/// The lanes of `yes` keep what `jet` has, the others get what `other` has.
+template <std::size_t kDepth, typename V>
+SIMDBEZIER_INLINE void keep_lanes(MaskOf<V> yes, const SampleJet<V>& other, SampleJet<V>& jet) {
+  const auto keep = [&](V(&to)[3], const V(&from)[3]) SIMDBEZIER_INLINE_LAMBDA {
+    for (std::size_t c = 0; c < 3; ++c) {
+      to[c] = select_where<V>(yes, to[c], from[c]);
+    }
+  };
+  keep(jet.position, other.position);
+  if constexpr (kDepth > 0) {
+    keep(jet.du, other.du);
+    keep(jet.dv, other.dv);
+  }
+  if constexpr (kDepth > 1) {
+    keep(jet.duu, other.duu);
+    keep(jet.duv, other.duv);
+    keep(jet.dvv, other.dvv);
+  }
+}
+
+/// Samples of one patch in one row of cells, at the local y. Out of line: it is large, and there
+/// are several ways to it.
+template <typename P, typename V>
+__attribute__((noinline)) void evaluate_row(const ScatteredTask<ScalarOf<V>>& task,
+                                            const NetShape& shape, std::size_t patch,
+                                            std::size_t cell, const CellColumns<V>& columns, V y,
+                                            bool watertight, SampleJet<V>& jet) {
+  using T = ScalarOf<V>;
+  const CellRow<T> cells(task, shape, patch, cell);
+  ShapeColumns<P, V> polynomials(shape, columns, task.first_component, watertight);
+  polynomials.build(cells);
+  polynomials.evaluate(y, jet);
+  if constexpr (kIsScalar<V>) {
+    if (watertight && (y == T(-0.5) || y == T(0.5))) {
+      polynomials.replace_row(y < T(0) ? detail::kEdgeV0 : detail::kEdgeV1, jet);
+    }
+  }
+}
+
+/// Samples of one patch at half-centred x, y. Where V is a register, lanes on edges v = const get
+/// what the patch says there and have to be evaluated on their own.
+template <typename P, typename V>
+SIMDBEZIER_INLINE void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
+                                      std::size_t patch, V x, V y, bool watertight,
+                                      SampleJet<V>& jet) {
+  const CellColumns<V> columns(x, shape.cells_u());
+  const CellColumns<V> rows(y, shape.cells_v());
+  const bool both = rows.any_low && rows.any_high;
+  evaluate_row<P>(task, shape, patch, rows.any_low ? 0 : 1, columns, rows.x, watertight, jet);
+  if (both) {
+    SampleJet<V> high;
+    evaluate_row<P>(task, shape, patch, 1, columns, rows.x, watertight, high);
+    keep_lanes<P::kDepth>(rows.low, high, jet);
+  }
+}
+
+/// Sample k alone.
+template <typename P, typename T>
+__attribute__((noinline)) void evaluate_single(const ScatteredTask<T>& task, const NetShape& shape,
+                                               std::size_t k, bool watertight) {
+  const SampleRange<T> range{task.patch[k], k, 1, finite_half_centred(task, task.u[k]),
+                             finite_half_centred(task, task.v[k])};
+  SampleJet<T> jet;
+  evaluate_lanes<P, T>(task, shape, range.patch, range.x, range.y, watertight, jet);
+  if (task.status != nullptr && (range.x != range.x || range.y != range.y)) {
+    task.status[k] = SampleStatus::non_finite;
+  }
+  store_sample<P>(task, range, jet);
+}
+
+/// Samples [k, k + count) of one patch, at most a register of them, the rest of it repeats the
+/// last.
+template <typename P, typename V>
+SIMDBEZIER_INLINE void evaluate_together(const ScatteredTask<ScalarOf<V>>& task,
+                                         const NetShape& shape, std::size_t k, std::size_t count,
+                                         bool watertight) {
+  using T = ScalarOf<V>;
+  alignas(64) T x[kLanes<V>];
+  alignas(64) T y[kLanes<V>];
+  bool alone[kLanes<V>]; // on an edge v = const or not finite
+  bool any_alone = false;
+  for (std::size_t i = 0; i < kLanes<V>; ++i) {
+    const std::size_t from = k + (i < count ? i : count - 1);
+    x[i] = finite_half_centred(task, task.u[from]);
+    y[i] = finite_half_centred(task, task.v[from]);
+    const T local =
+        shape.cells_v() == 1 ? y[i] : local_parameter(y[i], y[i] < T(0) ? T(0.5) : T(-0.5));
+    alone[i] = local == T(-0.5) || local == T(0.5) || x[i] != x[i] || y[i] != y[i];
+    any_alone = any_alone || alone[i];
+  }
+  const SampleRange<V> range{task.patch[k], k, count, load_vector<V>(x), load_vector<V>(y)};
+  SampleJet<V> jet;
+  evaluate_lanes<P, V>(task, shape, range.patch, range.x, range.y, watertight, jet);
+  store_sample<P>(task, range, jet);
+  for (std::size_t i = 0; any_alone && i < count; ++i) {
+    if (alone[i]) {
+      if (task.status != nullptr) {
+        task.status[k + i] = SampleStatus::regular;
+      }
+      evaluate_single<P>(task, shape, k + i, watertight);
+    }
+  }
+}
+
+template <typename P, typename T>
+__attribute__((noinline)) void scatter_shape(const ScatteredTask<T>& task, bool watertight) {
+  using V = vec<T>;
+  const NetShape shape = P::shape(*task.shape);
+  for (std::size_t k = 0; k < task.count;) {
+    std::size_t count = 1;
+    while (count < kLanes<V> && k + count < task.count && task.patch[k + count] == task.patch[k]) {
+      ++count;
+    }
+    if (count == 1) {
+      evaluate_single<P>(task, shape, k, watertight);
+    } else {
+      evaluate_together<P, V>(task, shape, k, count, watertight);
+    }
+    k += count;
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
