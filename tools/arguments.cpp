@@ -12,7 +12,7 @@ namespace simdbezier::tools {
 
 namespace {
 
-constexpr const char* kInHelp = "builtin:teapot, a .bez or .bpt file, or - for standard input";
+constexpr const char* kOutputNames = "position, du, dv, duu, duv, dvv, normal, curvature";
 constexpr int kMostThreads = 1024;
 
 // What the command line says, word by word.
@@ -60,26 +60,17 @@ Precision parse_precision(const std::string& option) {
   return option == "f32" ? Precision::f32 : Precision::f64;
 }
 
-PatchFormat parse_format(const std::string& option) {
-  if (!option.empty() && option != "bez" && option != "bpt") {
-    bad_usage("--format: expected bez or bpt, found " + in_quotes(option));
-  }
-  return option.empty() ? PatchFormat::by_name
-                        : (option == "bez" ? PatchFormat::bez : PatchFormat::bpt);
-}
-
 std::vector<OutputGroup> parse_outputs(const std::string& option) {
-  constexpr std::array<std::string_view, kOutputGroups> kNames = {"position", "du",  "dv",    "duu",
-                                                                  "duv",      "dvv", "normal"};
+  constexpr std::array<std::string_view, kOutputGroups> kNames = {
+      "position", "du", "dv", "duu", "duv", "dvv", "normal", "curvature"};
   std::vector<OutputGroup> groups;
   for (std::size_t first = 0; first <= option.size();) {
     const std::size_t comma = std::min(option.find(',', first), option.size());
     const std::string name = option.substr(first, comma - first);
     const auto* const found = std::ranges::find(kNames, name);
     if (found == kNames.end()) {
-      bad_usage("--outputs: expected position, du, dv, duu, duv, dvv, normal separated by commas, "
-                "found " +
-                in_quotes(option));
+      bad_usage("--outputs: expected " + std::string(kOutputNames) +
+                " separated by commas, found " + in_quotes(option));
     }
     groups.push_back(static_cast<OutputGroup>(found - kNames.begin()));
     first = comma + 1;
@@ -110,7 +101,9 @@ Arguments understand(Command command, const Words& words) {
   Arguments arguments;
   arguments.command = command;
   arguments.in = words.in;
-  arguments.format = parse_format(words.format);
+  if (!words.format.empty()) {
+    arguments.format = parse_patch_format("--format", words.format);
+  }
   arguments.json = words.json;
   if (command == Command::info) {
     return arguments;
@@ -133,8 +126,12 @@ Arguments understand(Command command, const Words& words) {
 }
 
 void add_input(CLI::App& command, Words& words) {
-  command.add_option("IN", words.in, kInHelp)->required();
-  command.add_option("--format", words.format, "bez or bpt; otherwise the name of IN tells");
+  command
+      .add_option("IN", words.in,
+                  "builtin:teapot, a " + patch_format_names(".") + " file, or - for standard input")
+      ->required();
+  command.add_option("--format", words.format,
+                     patch_format_names("") + "; otherwise the name of IN tells");
 }
 
 void add_evaluation(CLI::App& command, Words& words) {
@@ -166,8 +163,8 @@ CLI::App* add_evaluate(CLI::App& app, Words& words) {
       ->excludes("--grid");
   add_evaluation(*command, words);
   command->add_option("--outputs", words.outputs,
-                      "of position, du, dv, duu, duv, dvv, normal, separated by commas (default "
-                      "position)");
+                      "of " + std::string(kOutputNames) +
+                          ", separated by commas (default position)");
   return command;
 }
 

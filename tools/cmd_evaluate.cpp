@@ -1,6 +1,7 @@
 // simdbezier evaluate: values at samples, as CSV.
 #include <tools/commands.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -12,35 +13,54 @@ namespace simdbezier::tools {
 
 namespace {
 
-// Results lie as the columns do: the groups asked for side by side, one row a sample.
+// Vectors lie as their columns do, side by side, one row a sample. The library writes curvatures as
+// planes, which follow the rows.
 template <typename T>
 class ResultTable {
 public:
-  explicit ResultTable(const std::vector<OutputGroup>& groups) : groups_(groups) {}
+  explicit ResultTable(const std::vector<OutputGroup>& groups)
+      : groups_(groups), row_(column_count(groups)) {
+    curvature_ = !groups_.empty() && groups_.back() == OutputGroup::curvature;
+    stride_ = row_.size() - (curvature_ ? kCurvatures : 0);
+  }
 
   Outputs<T> resize(std::size_t samples) {
-    values_.resize(samples * stride());
+    samples_ = samples;
+    values_.resize(samples * row_.size());
     Outputs<T> out;
-    for (std::size_t k = 0; k < groups_.size(); ++k) {
-      const auto columns =
-          Vectors<T>::xyz(values_.data() + 3 * k, static_cast<std::ptrdiff_t>(stride()));
-      group_of(out, groups_[k]) = columns;
+    for (std::size_t k = 0; 3 * k < stride_; ++k) {
+      group_of(out, groups_[k]) =
+          Vectors<T>::xyz(values_.data() + 3 * k, static_cast<std::ptrdiff_t>(stride_));
+    }
+    if (curvature_) {
+      T* const plane = values_.data() + samples * stride_;
+      out.curvature = {plane, plane + samples, plane + 2 * samples, plane + 3 * samples};
     }
     return out;
   }
-  [[nodiscard]] std::span<const T> row(std::size_t sample) const {
-    return std::span(values_).subspan(sample * stride(), stride());
+  /// Valid until the next call.
+  [[nodiscard]] std::span<const T> row(std::size_t sample) {
+    std::copy_n(values_.data() + sample * stride_, stride_, row_.data());
+    for (std::size_t k = stride_; k < row_.size(); ++k) {
+      row_[k] = values_[samples_ * k + sample];
+    }
+    return row_;
   }
 
 private:
+  static constexpr std::size_t kCurvatures = 4;
+
   static Vectors<T>& group_of(Outputs<T>& out, OutputGroup group) {
-    Vectors<T>* const members[kOutputGroups] = {&out.position, &out.du,  &out.dv,    &out.duu,
-                                                &out.duv,      &out.dvv, &out.normal};
+    Vectors<T>* const members[] = {&out.position, &out.du,  &out.dv,    &out.duu,
+                                   &out.duv,      &out.dvv, &out.normal};
     return *members[static_cast<std::size_t>(group)];
   }
-  [[nodiscard]] std::size_t stride() const noexcept { return 3 * groups_.size(); }
 
   std::vector<OutputGroup> groups_;
+  std::vector<T> row_;
+  bool curvature_ = false;
+  std::size_t stride_ = 0; // values of all vectors of a sample
+  std::size_t samples_ = 0;
   std::vector<T> values_;
 };
 
@@ -52,11 +72,11 @@ double grid_parameter(std::size_t i, std::size_t count) {
 template <typename T>
 void evaluate_on_grid(const Arguments& arguments, const PatchSet<T>& set) {
   const GridSize grid = arguments.grid;
-  const std::uint64_t samples =
-      checked_sample_count(set.size(), grid, 3 * arguments.outputs.size() * sizeof(T));
+  const std::size_t columns = column_count(arguments.outputs);
+  const std::uint64_t samples = checked_sample_count(set.size(), grid, columns * sizeof(T));
   const GridEvaluator<T> evaluator(set, grid, arguments.threads);
   OutputFile file(arguments.out);
-  file.expect_room(samples * (6 + 6 * arguments.outputs.size())); // "0,0,0" and ",0,0,0" a group
+  file.expect_room(samples * (6 + 2 * columns)); // "0,0,0" and ",0" a column
   ResultWriter writer(file, false, arguments.outputs);
   ResultTable<T> table(arguments.outputs);
   Progress progress(samples, arguments.out != "-");

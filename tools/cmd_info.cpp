@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
+#include <limits>
+#include <map>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -15,23 +18,57 @@ namespace simdbezier::tools {
 
 namespace {
 
-struct Box {
-  std::array<double, 3> low;
-  std::array<double, 3> high;
+/// What patches have in common that are evaluated alike; ordered by degrees.
+struct Shape {
+  int degree_u;
+  int degree_v;
+  bool rational;
+  auto operator<=>(const Shape&) const = default;
 };
 
-Box control_box(const PatchFile& file) {
-  Box box{{file.points[0], file.points[1], file.points[2]},
-          {file.points[0], file.points[1], file.points[2]}};
-  for (std::size_t k = 0; k < file.points.size(); ++k) {
-    box.low[k % 3] = std::min(box.low[k % 3], file.points[k]);
-    box.high[k % 3] = std::max(box.high[k % 3], file.points[k]);
+/// What info says about a file.
+struct Summary {
+  std::string name;
+  std::size_t patches = 0;
+  std::size_t rational = 0;
+  std::array<double, 3> low;
+  std::array<double, 3> high;
+  std::map<Shape, std::size_t> shapes; ///< how many patches there are of each
+  EdgeCounts edges;
+  Isa chosen = Isa::automatic;
+};
+
+/// The box of all control points, in Cartesian coordinates.
+void measure_box(const PatchFile& file, Summary& summary) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  summary.low.fill(kInfinity);
+  summary.high.fill(-kInfinity);
+  for (const PatchRun& run : file.runs) {
+    const std::size_t values = run.values_per_point();
+    const double* point = file.points.data() + run.first_value;
+    for (std::size_t k = 0; k < run.count * run.points_per_patch(); ++k, point += values) {
+      const double divisor = run.weights == Weights::homogeneous ? point[3] : 1;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double coordinate = point[c] / divisor + 0.0; // -0 is 0 to the library
+        summary.low[c] = std::min(summary.low[c], coordinate);
+        summary.high[c] = std::max(summary.high[c], coordinate);
+      }
+    }
   }
-  for (std::size_t c = 0; c < 3; ++c) {
-    box.low[c] += 0.0; // -0 is 0 to the library
-    box.high[c] += 0.0;
+}
+
+Summary summarise(const PatchFile& file, Isa chosen) {
+  Summary summary;
+  summary.name = file.name;
+  summary.patches = file.count;
+  summary.chosen = chosen;
+  for (const PatchRun& run : file.runs) {
+    summary.shapes[{run.degree_u, run.degree_v, run.rational()}] += run.count;
+    summary.rational += run.rational() ? run.count : 0;
   }
-  return box;
+  measure_box(file, summary);
+  summary.edges = count_edges(file);
+  return summary;
 }
 
 std::string describe(const std::array<double, 3>& point) {
@@ -43,37 +80,67 @@ std::string describe(const std::array<double, 3>& point) {
   return text + "]";
 }
 
-std::string as_text(const PatchFile& file, const Box& box, const EdgeCounts& edges, Isa chosen) {
-  const std::string degrees =
-      std::to_string(file.degree_u) + " in u, " + std::to_string(file.degree_v) + " in v";
-  const std::string kinds = std::to_string(edges.shared) + " shared, " +
-                            std::to_string(edges.boundary) + " boundary, " +
-                            std::to_string(edges.collapsed) + " collapsed";
+std::string describe(const Shape& shape) {
+  return std::to_string(shape.degree_u) + " in u, " + std::to_string(shape.degree_v) + " in v" +
+         (shape.rational ? ", rational" : "");
+}
+
+// One line where all patches are alike, otherwise one for each shape with its count.
+std::string describe(const std::map<Shape, std::size_t>& shapes) {
   std::string text;
-  text += "patches            " + std::to_string(file.count) + "\n";
-  text += "degrees            " + degrees + "\n";
-  text += "control point box  " + describe(box.low) + " to " + describe(box.high) + "\n";
-  text += "edges              " + kinds + " (four a patch, shared ones count on each side)\n";
-  text += "instruction sets   " + available_isa_names(" ") + "\n";
-  text += "chosen             " + std::string(to_string(chosen)) + "\n";
+  for (const auto& [shape, count] : shapes) {
+    text += text.empty() ? "degrees            " : "                   ";
+    text += describe(shape);
+    if (shapes.size() > 1) {
+      text += ": " + std::to_string(count) + (count == 1 ? " patch" : " patches");
+    }
+    text += "\n";
+  }
   return text;
 }
 
-std::string as_json(const PatchFile& file, const Box& box, const EdgeCounts& edges, Isa chosen) {
+std::string as_text(const Summary& summary) {
+  const std::string kinds = std::to_string(summary.edges.shared) + " shared, " +
+                            std::to_string(summary.edges.boundary) + " boundary, " +
+                            std::to_string(summary.edges.collapsed) + " collapsed";
+  std::string text;
+  text += "patches            " + std::to_string(summary.patches) + "\n";
+  text += describe(summary.shapes);
+  text += "control point box  " + describe(summary.low) + " to " + describe(summary.high) + "\n";
+  text += "edges              " + kinds + " (four a patch, shared ones count on each side)\n";
+  text += "instruction sets   " + available_isa_names(" ") + "\n";
+  text += "chosen             " + std::string(to_string(summary.chosen)) + "\n";
+  return text;
+}
+
+// "degrees" is there where all patches have the same ones; "shapes" always is.
+std::string as_json(const Summary& summary) {
   nlohmann::ordered_json json;
-  json["name"] = file.name;
-  json["patches"] = file.count;
-  json["degrees"] = {{"u", file.degree_u}, {"v", file.degree_v}};
-  json["control_point_box"] = {{"min", box.low}, {"max", box.high}};
-  json["edges"] = {{"total", file.count * 4},
-                   {"shared", edges.shared},
-                   {"boundary", edges.boundary},
-                   {"collapsed", edges.collapsed}};
+  json["name"] = summary.name;
+  json["patches"] = summary.patches;
+  const Shape& first = summary.shapes.begin()->first;
+  const Shape& last = summary.shapes.rbegin()->first;
+  if (first.degree_u == last.degree_u && first.degree_v == last.degree_v) {
+    json["degrees"] = {{"u", first.degree_u}, {"v", first.degree_v}};
+  }
+  json["rational"] = summary.rational;
+  json["shapes"] = nlohmann::ordered_json::array();
+  for (const auto& [shape, count] : summary.shapes) {
+    json["shapes"].push_back({{"degree_u", shape.degree_u},
+                              {"degree_v", shape.degree_v},
+                              {"rational", shape.rational},
+                              {"patches", count}});
+  }
+  json["control_point_box"] = {{"min", summary.low}, {"max", summary.high}};
+  json["edges"] = {{"total", summary.patches * 4},
+                   {"shared", summary.edges.shared},
+                   {"boundary", summary.edges.boundary},
+                   {"collapsed", summary.edges.collapsed}};
   json["instruction_sets"]["available"] = nlohmann::ordered_json::array();
   for (const Isa isa : available_isas()) {
     json["instruction_sets"]["available"].push_back(std::string(to_string(isa)));
   }
-  json["instruction_sets"]["chosen"] = std::string(to_string(chosen));
+  json["instruction_sets"]["chosen"] = std::string(to_string(summary.chosen));
   // File names may hold anything.
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -82,11 +149,9 @@ std::string as_json(const PatchFile& file, const Box& box, const EdgeCounts& edg
 
 void run_info(const Arguments& arguments) {
   const Isa chosen = chosen_isa();
-  const PatchFile file = read_patches(arguments.in, arguments.format);
-  const Box box = control_box(file);
-  const EdgeCounts edges = count_edges(file);
+  const Summary summary = summarise(read_patches(arguments.in, arguments.format), chosen);
   OutputFile out("-");
-  out.text(arguments.json ? as_json(file, box, edges, chosen) : as_text(file, box, edges, chosen));
+  out.text(arguments.json ? as_json(summary) : as_text(summary));
   out.commit();
 }
 

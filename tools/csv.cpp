@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kLongestLine = 4096;
 constexpr std::array<std::string_view, kOutputGroups> kColumns = {
     ",x,y,z",          ",dux,duy,duz",    ",dvx,dvy,dvz", ",duux,duuy,duuz",
-    ",duvx,duvy,duvz", ",dvvx,dvvy,dvvz", ",nx,ny,nz"};
+    ",duvx,duvy,duvz", ",dvvx,dvvy,dvvz", ",nx,ny,nz",    ",gaussian,mean,kmin,kmax"};
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kSpace = " \t\r";
@@ -39,6 +39,14 @@ struct Fields {
 };
 
 } // namespace
+
+std::size_t column_count(std::span<const OutputGroup> groups) {
+  std::size_t count = 0;
+  for (const OutputGroup group : groups) {
+    count += group == OutputGroup::curvature ? 4 : 3;
+  }
+  return count;
+}
 
 SampleReader::SampleReader(const std::string& path, std::size_t patches)
     : input_(path), patches_(patches) {

@@ -1,6 +1,7 @@
 // Samples in and results out as comma-separated values.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -45,9 +46,12 @@ private:
   bool centred_ = false;
 };
 
-/// Groups of three result columns, in the order in which they are written.
-enum class OutputGroup : std::uint8_t { position, du, dv, duu, duv, dvv, normal };
-inline constexpr std::size_t kOutputGroups = 7;
+/// Groups of result columns, in the order in which they are written.
+enum class OutputGroup : std::uint8_t { position, du, dv, duu, duv, dvv, normal, curvature };
+inline constexpr std::size_t kOutputGroups = 8;
+
+/// Vectors have three columns, the curvatures of a sample are four.
+[[nodiscard]] std::size_t column_count(std::span<const OutputGroup> groups);
 
 /// Writes the header and one line per sample, numbers so that they read back to the same bits.
 class ResultWriter {
@@ -69,7 +73,11 @@ private:
   template <typename T>
   void separated(T value) {
     file_.character(',');
-    file_.number(value);
+    if (std::isnan(value)) {
+      file_.text("nan"); // whose sign depends on the machine
+    } else {
+      file_.number(value);
+    }
   }
 
   OutputFile& file_;

@@ -1,10 +1,8 @@
 #include <tools/patch_file.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
-#include <string_view>
-#include <type_traits>
-#include <utility>
 
 #include <tools/failure.hpp>
 #include <tools/output_file.hpp>
@@ -14,25 +12,37 @@ namespace simdbezier::tools {
 
 namespace {
 
+struct Format {
+  std::string_view name;
+  PatchFormat format;
+  PatchFile (*read)(TextInput&);
+};
+constexpr Format kFormats[] = {
+    {"bez", PatchFormat::bez, read_bez}, {"bpt", PatchFormat::bpt, read_bpt},
+    {"bv", PatchFormat::bv, read_bv},    {"itd", PatchFormat::itd, read_itd},
+    {"obj", PatchFormat::obj, read_obj}, {"rib", PatchFormat::rib, read_rib}};
+
 // What later releases read; until then the answer names the format instead of calling it unknown.
-constexpr std::string_view kLaterFormats[] = {"bv",  "itd", "iges", "igs", "step",
-                                              "stp", "rib", "pov",  "obj"};
+constexpr std::string_view kLaterFormats[] = {"iges", "igs", "step", "stp", "pov"};
+
+const Format* find_format(const std::string& name) {
+  const auto* const found = std::ranges::find(kFormats, name, &Format::name);
+  if (found == std::end(kFormats) &&
+      std::ranges::find(kLaterFormats, name) != std::end(kLaterFormats)) {
+    bad_usage("reading ." + name + " files is not supported yet");
+  }
+  return found == std::end(kFormats) ? nullptr : found;
+}
 
 PatchFormat format_of(const std::string& name) {
   const std::string extension = extension_of(name);
-  if (extension == "bez") {
-    return PatchFormat::bez;
-  }
-  if (extension == "bpt") {
-    return PatchFormat::bpt;
-  }
   if (extension == "gz") {
-    bad_input(name + ": expected a .bez or .bpt file, found a compressed one; unpack it first");
+    bad_input(name + ": expected a file of patches, found a compressed one; unpack it first");
   }
-  if (std::ranges::find(kLaterFormats, extension) != std::end(kLaterFormats)) {
-    bad_usage(name + ": reading ." + extension + " files is not supported yet");
+  if (const Format* const format = find_format(extension)) {
+    return format->format;
   }
-  bad_usage(name + ": expected a name that ends in .bez or .bpt, or --format");
+  bad_usage(name + ": expected a name that ends in " + patch_format_names(".") + ", or --format");
 }
 
 PatchFile read_builtin(const std::string& name) {
@@ -42,28 +52,82 @@ PatchFile read_builtin(const std::string& name) {
   return teapot();
 }
 
-template <typename T>
-[[noreturn]] void refuse(const PatchFile& file, const PackReport& report) {
-  const auto point = static_cast<std::size_t>(report.point);
-  const std::size_t index = report.patch * PatchFile::kCoordinates + point * 3 +
-                            static_cast<std::size_t>(report.component);
-  const std::string type = sizeof(T) == sizeof(float) ? "f32" : "f64";
-  switch (report.status) {
-  case Status::non_finite_input:
-    bad_input(file.place(report.patch, point) + ": expected coordinates within the range of " +
-              type + ", found " + shortest(file.points[index]));
-  case Status::coefficient_overflow:
-    bad_input(file.place(report.patch, 0) + ": expected a patch whose coefficients fit " + type +
-              ", found coordinates too large for that");
-  default:
-    bad_input(file.name + ": " + std::string(to_string(report.status)));
-  }
-}
-
 } // namespace
 
+void PatchFile::add_line(std::size_t line) {
+  constexpr std::size_t kLast = std::numeric_limits<std::uint32_t>::max();
+  lines.push_back(static_cast<std::uint32_t>(std::min(line, kLast)));
+}
+
+void PatchFile::close_patch(int degree_u, int degree_v, Weights weights) {
+  PatchRun run{degree_u, degree_v, weights};
+  if (!runs.empty()) {
+    const PatchRun& last = runs.back();
+    run.first_patch = count;
+    run.first_point = last.first_point + last.count * last.points_per_patch();
+    run.first_value =
+        last.first_value + last.count * last.points_per_patch() * last.values_per_point();
+  }
+  if (runs.empty() || runs.back().degree_u != degree_u || runs.back().degree_v != degree_v ||
+      runs.back().weights != weights) {
+    runs.push_back(run);
+  }
+  ++runs.back().count;
+  ++count;
+}
+
+const PatchRun& PatchFile::run_of(std::size_t patch) const {
+  const auto after = std::ranges::upper_bound(runs, patch, {}, &PatchRun::first_patch);
+  return *std::prev(after);
+}
+
+std::span<const double> PatchFile::point(std::size_t patch, std::size_t point) const {
+  const PatchRun& run = run_of(patch);
+  const std::size_t index = (patch - run.first_patch) * run.points_per_patch() + point;
+  return std::span(points).subspan(run.first_value + index * run.values_per_point(),
+                                   run.values_per_point());
+}
+
 std::string PatchFile::place(std::size_t patch, std::size_t point) const {
-  return lines.empty() ? name : name + ":" + std::to_string(lines[patch * kPoints + point]);
+  if (lines.empty()) {
+    return name;
+  }
+  const PatchRun& run = run_of(patch);
+  const std::size_t index =
+      run.first_point + (patch - run.first_patch) * run.points_per_patch() + point;
+  return name + ":" + std::to_string(lines[index]);
+}
+
+template <typename S>
+std::vector<ControlNets<S>> PatchFile::nets(std::span<const S> values) const {
+  std::vector<ControlNets<S>> entries;
+  entries.reserve(runs.size());
+  for (const PatchRun& run : runs) {
+    entries.push_back(ControlNets<S>::packed(values.data() + run.first_value, run.count,
+                                             run.degree_u, run.degree_v, 3, run.weights));
+  }
+  return entries;
+}
+
+template std::vector<ControlNets<float>> PatchFile::nets(std::span<const float>) const;
+template std::vector<ControlNets<double>> PatchFile::nets(std::span<const double>) const;
+
+std::string patch_format_names(const std::string& prefix) {
+  std::string names;
+  for (const Format& format : kFormats) {
+    const bool last = &format == std::end(kFormats) - 1;
+    names += names.empty() ? "" : (last ? " or " : ", ");
+    names += prefix + std::string(format.name);
+  }
+  return names;
+}
+
+PatchFormat parse_patch_format(const std::string& option, const std::string& name) {
+  const Format* const format = find_format(name);
+  if (format == nullptr) {
+    bad_usage(option + ": expected " + patch_format_names("") + ", found " + in_quotes(name));
+  }
+  return format->format;
 }
 
 PatchFile read_patches(const std::string& in, PatchFormat format) {
@@ -71,79 +135,12 @@ PatchFile read_patches(const std::string& in, PatchFormat format) {
     return read_builtin(in);
   }
   if (in == "-" && format == PatchFormat::by_name) {
-    bad_usage("reading standard input needs --format bez or --format bpt");
+    bad_usage("reading standard input needs --format " + patch_format_names(""));
   }
   // Opened before its name is judged: what cannot be read is bad input whatever it is called.
   TextInput input(in);
   const PatchFormat found = format == PatchFormat::by_name ? format_of(in) : format;
-  return found == PatchFormat::bez ? read_bez(input) : read_bpt(input);
+  return std::ranges::find(kFormats, found, &Format::format)->read(input);
 }
-
-template <typename T>
-PatchSet<T> pack_patches(const PatchFile& file) {
-  PatchSet<T> set;
-  std::vector<T> rounded;
-  ControlNets<T> nets;
-  nets.count = file.count;
-  if constexpr (std::is_same_v<T, double>) {
-    nets.points = file.points.data();
-  } else {
-    rounded.resize(file.points.size());
-    std::ranges::transform(file.points, rounded.begin(),
-                           [](double x) { return static_cast<T>(x); });
-    nets.points = rounded.data();
-  }
-  if (const PackReport report = pack(nets, set); !report) {
-    refuse<T>(file, report);
-  }
-  return set;
-}
-
-template PatchSet<float> pack_patches<float>(const PatchFile& file);
-template PatchSet<double> pack_patches<double>(const PatchFile& file);
-
-namespace detail {
-
-PatchReader::PatchReader(TextInput& input)
-    : tokens_(input), count_(tokens_.patch_count()), count_line_(tokens_.line()) {
-  file_.name = input.name();
-}
-
-void PatchReader::coordinates() {
-  constexpr std::size_t kLastLine = std::numeric_limits<std::uint32_t>::max();
-  for (std::size_t k = 0; k < PatchFile::kCoordinates; ++k) {
-    const auto value = tokens_.coordinate();
-    if (!value) {
-      ended_early();
-    }
-    file_.points.push_back(*value);
-    if (k % 3 == 0) {
-      file_.lines.push_back(static_cast<std::uint32_t>(std::min(tokens_.line(), kLastLine)));
-    }
-  }
-  ++file_.count;
-}
-
-std::string PatchReader::declared() const {
-  return std::to_string(count_) + " patches of 48 coordinates as declared in line " +
-         std::to_string(count_line_);
-}
-
-void PatchReader::ended_early() const {
-  const std::size_t rest = file_.points.size() % PatchFile::kCoordinates;
-  bad_input_at(tokens_.name(), tokens_.line(), declared(),
-               "the end of the file after " + std::to_string(file_.count) + " patches" +
-                   (rest == 0 ? "" : " and " + std::to_string(rest) + " coordinates"));
-}
-
-PatchFile PatchReader::finish() {
-  if (const auto word = tokens_.next()) {
-    bad_input_at(tokens_.name(), tokens_.line(), "the end of the file after " + declared(),
-                 in_quotes(*word));
-  }
-  return std::move(file_);
-}
-
-} // namespace detail
 
 } // namespace simdbezier::tools

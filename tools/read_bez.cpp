@@ -1,15 +1,15 @@
 // Berkeley .bez: the number of patches, then 4 rows of 4 points x y z each. Files put from one
-// number to a whole row on a line, so the layout means nothing; and counts lie in the wild.
-#include <tools/patch_file.hpp>
+// number to a whole row on a line, so the layout means nothing.
+#include <tools/counted_patches.hpp>
 
 namespace simdbezier::tools {
 
 PatchFile read_bez(TextInput& input) {
-  detail::PatchReader reader(input);
-  for (std::size_t p = 0; p < reader.count(); ++p) {
-    reader.coordinates();
+  CountedPatches patches(input, " of 48 coordinates");
+  while (patches.more()) {
+    patches.patch(3, 3);
   }
-  return reader.finish();
+  return patches.finish();
 }
 
 } // namespace simdbezier::tools

@@ -1,34 +1,17 @@
 // Holmes3D .bpt: the number of patches, then per patch its degrees, first across the rows (in v),
 // then along a row (in u), and its points x y z row by row.
-#include <tools/patch_file.hpp>
-
-#include <tools/failure.hpp>
+#include <tools/counted_patches.hpp>
 
 namespace simdbezier::tools {
 
-namespace {
-
-void expect_degree_three(detail::PatchReader& reader, const std::string& which) {
-  const auto word = reader.tokens().next();
-  if (!word) {
-    reader.ended_early();
-  }
-  if (parse_integer(*word) != 3U) {
-    bad_input_at(reader.tokens().name(), reader.tokens().line(),
-                 "degree 3 " + which + " (others are not supported yet)", in_quotes(*word));
-  }
-}
-
-} // namespace
-
 PatchFile read_bpt(TextInput& input) {
-  detail::PatchReader reader(input);
-  for (std::size_t p = 0; p < reader.count(); ++p) {
-    expect_degree_three(reader, "across the rows");
-    expect_degree_three(reader, "along a row");
-    reader.coordinates();
+  CountedPatches patches(input, "");
+  while (patches.more()) {
+    const int degree_v = patches.degree("across the rows");
+    const int degree_u = patches.degree("along a row");
+    patches.patch(degree_u, degree_v);
   }
-  return reader.finish();
+  return patches.finish();
 }
 
 } // namespace simdbezier::tools

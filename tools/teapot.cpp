@@ -79,7 +79,7 @@ constexpr double kVertices[][3] = {
 };
 
 // Rows of four run in u.
-constexpr std::uint16_t kPatches[][PatchFile::kPoints] = {
+constexpr std::uint16_t kPatches[][16] = {
     {0, 1, 2, 3,  4, 5, 6, 7,  8, 9, 10, 11,  12, 13, 14, 15},
     {3, 16, 17, 18,  7, 19, 20, 21,  11, 22, 23, 24,  15, 25, 26, 27},
     {18, 28, 29, 30,  21, 31, 32, 33,  24, 34, 35, 36,  27, 37, 38, 39},
@@ -120,13 +120,13 @@ constexpr std::uint16_t kPatches[][PatchFile::kPoints] = {
 PatchFile teapot() {
   PatchFile file;
   file.name = "builtin:teapot";
-  file.count = std::size(kPatches);
-  file.points.reserve(file.count * PatchFile::kCoordinates);
+  file.points.reserve(std::size(kPatches) * 48);
   for (const auto& patch : kPatches) {
     for (const std::uint16_t vertex : patch) {
       file.points.insert(file.points.end(), std::begin(kVertices[vertex]),
                          std::end(kVertices[vertex]));
     }
+    file.close_patch(3, 3, Weights::none);
   }
   return file;
 }

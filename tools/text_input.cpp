@@ -15,11 +15,6 @@ namespace simdbezier::tools {
 namespace {
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 16;
-constexpr std::size_t kLongestWord = 512; // exact decimals of any double fit
-
-bool is_space(int c) {
-  return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
-}
 
 // from_chars() takes no plus sign; one is allowed in our formats, "+-1" is not.
 std::string_view without_plus(std::string_view word) {
@@ -77,50 +72,6 @@ bool TextInput::fill() {
     bad_input_at(name_, line_, "readable text", in_quotes(std::strerror(errno)));
   }
   return end_ != 0;
-}
-
-std::optional<std::string_view> Tokenizer::next() {
-  int c = input_.get();
-  while (is_space(c)) {
-    c = input_.get();
-  }
-  line_ = input_.line();
-  word_.clear();
-  while (c != TextInput::kEnd && !is_space(c) && word_.size() < kLongestWord) {
-    word_.push_back(static_cast<char>(c));
-    c = input_.get();
-  }
-  if (word_.empty()) {
-    return std::nullopt;
-  }
-  if (word_.size() == kLongestWord) {
-    word_.push_back('~');
-  }
-  return word_;
-}
-
-std::optional<double> Tokenizer::coordinate() {
-  const auto word = next();
-  if (!word) {
-    return std::nullopt;
-  }
-  const auto value = parse_finite(*word);
-  if (!value) {
-    bad_input_at(name(), line(), "a finite number", describe_non_number(*word));
-  }
-  return value;
-}
-
-std::size_t Tokenizer::patch_count() {
-  const auto word = next();
-  if (!word) {
-    bad_input_at(name(), line(), "the number of patches", "the end of the file");
-  }
-  const auto count = parse_integer(*word);
-  if (!count || *count == 0) {
-    bad_input_at(name(), line(), "the number of patches (1 or more)", in_quotes(*word));
-  }
-  return *count;
 }
 
 std::optional<double> parse_finite(std::string_view word) {

@@ -34,6 +34,10 @@ public:
     line_break_pending_ = c == '\n';
     return static_cast<unsigned char>(c);
   }
+  /// What get() will return next.
+  [[nodiscard]] int peek() {
+    return next_ == end_ && !fill() ? kEnd : static_cast<unsigned char>(buffer_[next_]);
+  }
 
 private:
   struct Close {
@@ -51,29 +55,6 @@ private:
   bool line_break_pending_ = false;
 };
 
-/// Words separated by white space.
-class Tokenizer {
-public:
-  explicit Tokenizer(TextInput& input) : input_(input) {}
-
-  /// The next word, or nothing at the end of the input. A word of absurd length, as in binary
-  /// files, comes back cut off and marked so that it is no number. Valid until the next call.
-  [[nodiscard]] std::optional<std::string_view> next();
-  /// The line of the word that came last, or the input's last line at the end.
-  [[nodiscard]] std::size_t line() const noexcept { return line_; }
-  [[nodiscard]] const std::string& name() const noexcept { return input_.name(); }
-
-  /// The next word as a finite number, or nothing at the end; Failure where it is another word.
-  [[nodiscard]] std::optional<double> coordinate();
-  /// The next word as a number of patches, 1 or more; Failure where it is anything else.
-  [[nodiscard]] std::size_t patch_count();
-
-private:
-  TextInput& input_;
-  std::string word_;
-  std::size_t line_ = 1;
-};
-
 /// The whole word as a finite number; nothing where it is none. Numbers too small for a double
 /// become 0 or subnormal, numbers too large are none.
 [[nodiscard]] std::optional<double> parse_finite(std::string_view word);
@@ -83,5 +64,9 @@ private:
 [[nodiscard]] std::string in_quotes(std::string_view word);
 /// What to say instead of a word that parse_finite() refused.
 [[nodiscard]] std::string describe_non_number(std::string_view word);
+/// Space, tab, line break and their kin.
+[[nodiscard]] constexpr bool is_space(int c) noexcept {
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+}
 
 } // namespace simdbezier::tools

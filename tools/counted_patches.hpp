@@ -1,0 +1,40 @@
+// Files that begin with the number of their patches: .bez and .bpt.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include <tools/lexer.hpp>
+#include <tools/patch_file.hpp>
+
+namespace simdbezier::tools {
+
+/// Reads the count, the patches' coordinates and the end of the file. Counts lie in the wild, so
+/// every message about too few or too many patches says what was declared, and where.
+class CountedPatches {
+public:
+  /// `each` goes into messages, between "N patches" and "as declared".
+  CountedPatches(TextInput& input, std::string each);
+
+  /// True while patches are due.
+  [[nodiscard]] bool more() const noexcept { return file_.count < count_; }
+  /// The next word as a degree.
+  [[nodiscard]] int degree(const std::string& where);
+  /// The coordinates of the next patch.
+  void patch(int degree_u, int degree_v);
+  /// To be called after the last patch.
+  [[nodiscard]] PatchFile finish();
+
+private:
+  void expect_more();
+  [[nodiscard]] std::string declared() const;
+
+  Lexer lexer_;
+  std::string each_;
+  std::size_t count_ = 0;
+  std::size_t count_line_ = 0;
+  std::size_t coordinates_ = 0; // of the patch that is due
+  PatchFile file_;
+};
+
+} // namespace simdbezier::tools

@@ -1,0 +1,82 @@
+// Text as tokens: words, and what more a format has.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <tools/text_input.hpp>
+
+namespace simdbezier::tools {
+
+/// What a format's text consists of besides words and white space.
+struct Syntax {
+  bool comments = false; ///< from # to the end of the line
+  bool brackets = false; ///< [ and ]
+  bool strings = false;  ///< "…", in which a backslash takes the next character as it is
+  bool lines = false;    ///< line ends are tokens; a backslash at the end of one joins the next
+};
+
+enum class TokenKind : std::uint8_t { word, string, open, close, line_end, end };
+
+/// Reads tokens one by one and never ahead. What it refuses ends in a Failure that names the file
+/// and the line of the current token.
+class Lexer {
+public:
+  Lexer(TextInput& input, const Syntax& syntax) : input_(input), syntax_(syntax) {}
+
+  /// Reads the next token, which everything below is about. A word of absurd length, as in binary
+  /// files, comes cut off and marked so that it is no number.
+  Lexer& next();
+  /// The text of a word or string; valid until the next one is read.
+  [[nodiscard]] std::string_view text() const noexcept { return text_; }
+  /// The line where the token begins; at the end, the last line there is.
+  [[nodiscard]] std::size_t line() const noexcept { return line_; }
+  [[nodiscard]] bool at(TokenKind kind) const noexcept { return kind_ == kind; }
+  [[nodiscard]] bool at_word(std::string_view word) const noexcept {
+    return at(TokenKind::word) && text_ == word;
+  }
+  [[nodiscard]] const std::string& name() const noexcept { return input_.name(); }
+
+  /// Passes over what is left of the line.
+  void skip_line();
+  /// Passes over everything up to the next opening bracket.
+  void skip_to_bracket();
+  /// Passes over a list whose opening bracket, or something behind it, is the current token; its
+  /// closing bracket becomes the current one.
+  void skip_list();
+
+  /// "FILE:LINE: expected …, found the token" or what else was found.
+  [[noreturn]] void fail(const std::string& expected) const { fail(expected, described()); }
+  [[noreturn]] void fail(const std::string& expected, const std::string& found) const;
+
+  /// The token as messages show it.
+  [[nodiscard]] std::string described() const;
+
+  /// What the token has to be.
+  [[nodiscard]] double number() const;
+  /// A number that can be a weight: more than 0.
+  [[nodiscard]] double weight() const;
+  /// An integer within limits; `what` names it in the message.
+  [[nodiscard]] std::size_t integer(const std::string& what, std::size_t least,
+                                    std::size_t most) const;
+  /// 1 to kMostDegree; `where` tells in which direction.
+  [[nodiscard]] int degree(const std::string& where) const;
+
+private:
+  void word(int first);
+  void string();
+  /// True where it ends behind a line end that is a token.
+  bool skip_space();
+
+  TextInput& input_;
+  Syntax syntax_;
+  TokenKind kind_ = TokenKind::end;
+  std::string text_;
+  std::size_t line_ = 1;
+  bool joins_lines_ = false;
+};
+
+} // namespace simdbezier::tools

@@ -1,0 +1,254 @@
+// RenderMan .rib: Patch and PatchMesh, "bilinear" or "bicubic" in the bezier basis, with points
+// "P" (x y z) or "Pw" (wx wy wz w), u fastest. Points are taken as they stand: transformations,
+// like all requests that are no geometry, are passed over.
+#include <tools/lexer.hpp>
+#include <tools/patch_file.hpp>
+#include <tools/segment_mesh.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+#include <tools/failure.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+constexpr std::string_view kOtherGeometry[] = {"Polygon",
+                                               "GeneralPolygon",
+                                               "PointsPolygons",
+                                               "PointsGeneralPolygons",
+                                               "NuPatch",
+                                               "TrimCurve",
+                                               "Sphere",
+                                               "Cone",
+                                               "Cylinder",
+                                               "Hyperboloid",
+                                               "Paraboloid",
+                                               "Disk",
+                                               "Torus",
+                                               "SubdivisionMesh",
+                                               "HierarchicalSubdivisionMesh",
+                                               "Points",
+                                               "Curves",
+                                               "Blobby",
+                                               "Procedural",
+                                               "Geometry",
+                                               "ObjectInstance",
+                                               "ReadArchive",
+                                               "MotionBegin"};
+constexpr std::string_view kScopeBegins[] = {"FrameBegin", "WorldBegin", "AttributeBegin",
+                                             "SolidBegin", "ObjectBegin"};
+constexpr std::string_view kScopeEnds[] = {"FrameEnd", "WorldEnd", "AttributeEnd", "SolidEnd",
+                                           "ObjectEnd"};
+constexpr double kBezierBasis[16] = {-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0};
+
+// Counts beyond this are no counts of points in a file.
+constexpr std::size_t kMostPoints = std::size_t{1} << 31;
+
+struct Basis {
+  std::string name = "bezier";
+  std::size_t step = 3;
+};
+struct Bases {
+  Basis u;
+  Basis v;
+};
+
+template <std::size_t N>
+bool is_one_of(std::string_view name, const std::string_view (&names)[N]) {
+  return std::ranges::find(names, name) != std::end(names);
+}
+
+class RibReader {
+public:
+  explicit RibReader(TextInput& input)
+      : lexer_(input, {.comments = true, .brackets = true, .strings = true}) {
+    file_.name = input.name();
+  }
+
+  PatchFile read() {
+    lexer_.next();
+    while (!lexer_.at(TokenKind::end)) {
+      lexer_.at(TokenKind::word) ? request() : static_cast<void>(lexer_.next());
+    }
+    if (file_.count == 0) {
+      lexer_.fail("a Patch or PatchMesh");
+    }
+    return std::move(file_);
+  }
+
+private:
+  /// From the request's name to the first token behind what is read of it.
+  void request() {
+    if (lexer_.at_word("Patch")) {
+      patch();
+    } else if (lexer_.at_word("PatchMesh")) {
+      patch_mesh();
+    } else if (lexer_.at_word("Basis")) {
+      basis();
+    } else if (is_one_of(lexer_.text(), kOtherGeometry)) {
+      lexer_.fail("a Patch or PatchMesh");
+    } else {
+      if (is_one_of(lexer_.text(), kScopeBegins)) {
+        bases_.push_back(bases_.back());
+      } else if (is_one_of(lexer_.text(), kScopeEnds) && bases_.size() > 1) {
+        bases_.pop_back();
+      }
+      lexer_.next();
+    }
+  }
+
+  void basis() {
+    for (Basis* const basis : {&bases_.back().u, &bases_.back().v}) {
+      lexer_.next();
+      if (lexer_.at(TokenKind::open)) {
+        basis->name = basis_of_matrix();
+      } else if (lexer_.at(TokenKind::string)) {
+        basis->name = lexer_.text();
+      } else {
+        lexer_.fail("a basis");
+      }
+      basis->step = lexer_.next().integer("the step of a basis", 1, kMostPoints);
+    }
+    lexer_.next();
+  }
+
+  std::string basis_of_matrix() {
+    bool bezier = true;
+    for (const double value : kBezierBasis) {
+      bezier = lexer_.next().number() == value && bezier;
+    }
+    expect_close("16 numbers of a basis");
+    return bezier ? "bezier" : "a matrix";
+  }
+
+  void patch() {
+    const int degree = patch_type();
+    const auto order = static_cast<std::size_t>(degree) + 1;
+    lexer_.next();
+    add({degree, order, 1, 1}, {degree, order, 1, 1});
+  }
+
+  void patch_mesh() {
+    const int degree = patch_type();
+    const MeshDirection u = direction(degree, bases_.back().u, "u");
+    const MeshDirection v = direction(degree, bases_.back().v, "v");
+    lexer_.next();
+    add(u, v);
+  }
+
+  /// The degree; bicubic patches are refused where they stand in another basis.
+  int patch_type() {
+    const std::size_t line = lexer_.line();
+    lexer_.next();
+    const bool bicubic = lexer_.text() == "bicubic";
+    if (!lexer_.at(TokenKind::string) || !(bicubic || lexer_.text() == "bilinear")) {
+      lexer_.fail("\"bicubic\" or \"bilinear\"");
+    }
+    for (const Basis* const basis : {&bases_.back().u, &bases_.back().v}) {
+      if (bicubic && basis->name != "bezier") {
+        bad_input_at(lexer_.name(), line, "a patch in the bezier basis",
+                     "one in " + in_quotes(basis->name));
+      }
+    }
+    return bicubic ? 3 : 1;
+  }
+
+  MeshDirection direction(int degree, const Basis& basis, const std::string& name) {
+    const std::size_t step = degree == 3 ? basis.step : 1;
+    const auto order = static_cast<std::size_t>(degree) + 1;
+    const std::size_t points =
+        lexer_.next().integer("the number of points in " + name, 2, kMostPoints);
+    const std::string found = std::to_string(points);
+    const std::size_t line = lexer_.line();
+    lexer_.next();
+    const bool periodic = lexer_.text() == "periodic";
+    if (!lexer_.at(TokenKind::string) || !(periodic || lexer_.text() == "nonperiodic")) {
+      lexer_.fail("\"periodic\" or \"nonperiodic\"");
+    }
+    const std::string each = std::to_string(step);
+    if (periodic ? points % step != 0 : points < order || (points - order) % step != 0) {
+      bad_input_at(lexer_.name(), line,
+                   periodic ? "a multiple of " + each + " points in periodic " + name
+                            : std::to_string(order) + " points in " + name + " and " + each +
+                                  " more a patch",
+                   found);
+    }
+    return {degree, points, step, periodic ? points / step : (points - order) / step + 1};
+  }
+
+  /// Reads the parameter list, which begins with the current token, and adds the patches.
+  void add(const MeshDirection& u, const MeshDirection& v) {
+    bool found = false;
+    bool rational = false;
+    std::vector<MeshPoint> points;
+    while (lexer_.at(TokenKind::string)) {
+      // Declarations may stand in front of the name: "vertex point P".
+      const std::string_view name = lexer_.text().substr(lexer_.text().find_last_of(' ') + 1);
+      if (name == "P" || name == "Pw") {
+        if (found) {
+          lexer_.fail("one of \"P\" and \"Pw\"");
+        }
+        found = true;
+        rational = name == "Pw";
+        points = read_points(u.points * v.points, rational);
+        lexer_.next();
+      } else {
+        pass_over_value();
+      }
+    }
+    if (!found) {
+      lexer_.fail("\"P\" or \"Pw\" of the patch");
+    }
+    add_mesh(file_, u, v, rational ? Weights::homogeneous : Weights::none,
+             [&](std::size_t k) -> const MeshPoint& { return points[k]; });
+  }
+
+  /// A number, a string, or an array of them, behind a parameter's name.
+  void pass_over_value() {
+    if (lexer_.next().at(TokenKind::open)) {
+      lexer_.skip_list();
+    }
+    lexer_.next();
+  }
+
+  std::vector<MeshPoint> read_points(std::size_t count, bool rational) {
+    if (!lexer_.next().at(TokenKind::open)) {
+      lexer_.fail("'[' and " + std::to_string(count) + " points");
+    }
+    const std::size_t values = rational ? 4 : 3;
+    std::vector<MeshPoint> points;
+    for (std::size_t k = 0; k < count * values; ++k) {
+      lexer_.next();
+      if (lexer_.at(TokenKind::close) || lexer_.at(TokenKind::end)) {
+        lexer_.fail(std::to_string(count) + " points of " + std::to_string(values) + " numbers",
+                    lexer_.described() + " after " + std::to_string(k) + " numbers");
+      }
+      if (k % values == 0) {
+        points.push_back({{}, lexer_.line()});
+      }
+      points.back().value[k % values] = k % values == 3 ? lexer_.weight() : lexer_.number();
+    }
+    expect_close(std::to_string(count) + " points of " + std::to_string(values) + " numbers");
+    return points;
+  }
+
+  void expect_close(const std::string& what) {
+    if (!lexer_.next().at(TokenKind::close)) {
+      lexer_.fail("']' after " + what);
+    }
+  }
+
+  Lexer lexer_;
+  PatchFile file_;
+  std::vector<Bases> bases_ = {{}};
+};
+
+} // namespace
+
+PatchFile read_rib(TextInput& input) { return RibReader(input).read(); }
+
+} // namespace simdbezier::tools
