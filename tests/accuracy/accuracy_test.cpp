@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/accuracy/gates.hpp"
 #include "tests/accuracy/library_evaluator.hpp"
 #include "tests/accuracy/measure.hpp"
 #include "tests/accuracy/scalar_evaluators.hpp"
@@ -49,15 +50,6 @@ template <typename T>
   return instance;
 }
 
-[[nodiscard]] std::string describe(const std::string& family, Quantity quantity,
-                                   const Metric& metric) {
-  char text[200];
-  std::snprintf(text, sizeof text, "%s %s: max %.3g, rms %.3g, worst at net %zu, x %a, y %a",
-                family.c_str(), kQuantityNames[static_cast<std::size_t>(quantity)], metric.max,
-                metric.rms(), metric.worst.net, metric.worst.x, metric.worst.y);
-  return text;
-}
-
 class AccuracyTest : public IsaTest {
 protected:
   template <typename T>
@@ -82,19 +74,6 @@ protected:
 
   template <typename T>
   void expect_certificates(const PackOptions& packing);
-
-  static void expect_bounds(const std::string& family, const Measurement& measured) {
-    for (const Quantity quantity : {Quantity::position, Quantity::du, Quantity::dv, Quantity::duu,
-                                    Quantity::duv, Quantity::dvv, Quantity::normal}) {
-      EXPECT_LE(measured[quantity].max_ratio, 1.0)
-          << "G1, " << describe(family, quantity, measured[quantity]);
-    }
-    EXPECT_LE(measured[Quantity::limit].max, kLimitDegrees)
-        << "G6, " << describe(family, Quantity::limit, measured[Quantity::limit]);
-    EXPECT_EQ(measured.nan_values, 0u) << family;
-    EXPECT_EQ(measured.bad_lengths, 0u) << family;
-    EXPECT_EQ(measured.missed_limits, 0u) << family;
-  }
 };
 
 // Certificates come with the set; both ways of packing are held to them.
@@ -106,13 +85,8 @@ void AccuracyTest::expect_certificates(const PackOptions& packing) {
     LibraryEvaluator<T> evaluator(isa(), packing);
     const Measurement measured = measure(evaluator, family, prepared<T>().references[f]);
     expect_ran(Status::ok, evaluator.executed());
-    for (const Quantity quantity : {Quantity::position, Quantity::du, Quantity::dv}) {
-      const double ratio = measured[quantity].max_certificate_ratio;
-      EXPECT_LE(ratio, 1.0) << "certificate, "
-                            << describe(family.name, quantity, measured[quantity]);
-      EXPECT_LE(measured[quantity].max_ratio, 1.0) << "G1, " << family.name;
-      tightest = std::max(tightest, ratio);
-    }
+    expect_bounds(family.name, measured);
+    tightest = std::max(tightest, tests::expect_certificates(family.name, measured));
   }
   EXPECT_GT(tightest, 0.1) << "certificates this wide say nothing";
 }

@@ -48,6 +48,15 @@ inline constexpr double kSecondDerivativeBoundNoFma = 21; // formula: 20.00
   return (1.7321 * derivative_bound(fma) + 2.6) * kappa + 3;
 }
 
+/// Roundings of a curvature's own formula, relative to its terms as if nothing cancelled: some 20
+/// operations, most of them on values of the size of the terms.
+inline constexpr double kCurvatureRoundings = 24;
+
+/// Curvatures are judged where the tangents' control values lie within this factor of 1, either
+/// way: |du x dv|^2 has their fourth power, and must be neither denormal nor infinite.
+template <typename T>
+inline constexpr double kCurvatureRange = sizeof(T) == 4 ? 0x1p24 : 0x1p240;
+
 /// G6: what a normal may miss its limit by, in degrees, where the cross product vanishes to first
 /// order (stage 2 of the recipe) and where it does to higher order or nearly so (stage 3).
 inline constexpr double kLimitDegrees = 1e-3;
@@ -58,7 +67,9 @@ inline constexpr double kDegenerateDegrees = 0.02;
 /// library must have noticed.
 inline constexpr double kPlainDegrees = 0.1;
 
-/// G5: RMS error at most so many times that of the best scalar de Casteljau (degree <= 3).
+/// G5: RMS error at most so many times that of the best scalar de Casteljau; more where a direction
+/// of degree 4 or 5 is one expansion (nets of 1 and -1 of degree 5: 1.7), and with weights.
 inline constexpr double kRmsAgainstDeCasteljau = 1.25;
+inline constexpr double kRmsAgainstDeCasteljauHigh = 2;
 
 } // namespace simdbezier::tests

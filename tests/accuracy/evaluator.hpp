@@ -1,4 +1,5 @@
 // The interface through which the suite judges an evaluator of Bézier patches, ours or another's.
+// Nets may have any degrees and weights; see handles().
 //
 // To add one: derive from Evaluator<float> and/or Evaluator<double>, implement the pure functions,
 // and list it in evaluators.cpp. The suite calls evaluate() once for each net of each family.
@@ -28,6 +29,7 @@ struct Result {
   T duv[3];
   T dvv[3];
   T normal[3];
+  T curvature[4]; ///< Gaussian, mean, smaller and larger principal one
   SampleStatus status;
 };
 
@@ -44,6 +46,7 @@ struct Capabilities {
   bool tangents = true;
   bool normal = true;
   bool second_derivatives = false;
+  bool curvature = false;
 };
 
 /// Whose bits and bounds an evaluator shares.
@@ -61,7 +64,10 @@ public:
   /// A short name for rows and tables: "avx512", "de_casteljau", "opensubdiv", …
   [[nodiscard]] virtual std::string name() const = 0;
   [[nodiscard]] virtual ResultClass result_class() const { return ResultClass::other; }
-  [[nodiscard]] virtual Capabilities capabilities() const { return {}; }
+  [[nodiscard]] virtual Capabilities capabilities(const Net& /*net*/) const { return {}; }
+
+  /// Whether it knows nets of this shape: degrees, weights.
+  [[nodiscard]] virtual bool handles(const Net& /*net*/) const { return true; }
 
   /// A mode of the evaluator, appended to the family in rows and thresholds: "+origin", or "".
   [[nodiscard]] virtual std::string variant() const { return {}; }

@@ -25,7 +25,9 @@ public:
   [[nodiscard]] ResultClass result_class() const override {
     return kFused ? ResultClass::fma : ResultClass::nofma;
   }
-  [[nodiscard]] Capabilities capabilities() const override { return {true, true, false}; }
+  [[nodiscard]] Capabilities capabilities(const Net& /*net*/) const override {
+    return {true, true, false};
+  }
   [[nodiscard]] bool reads_centred() const override { return true; }
 
   void evaluate(const Net& net, std::span<const Parameters2<T>> at, int /*grid*/,

@@ -19,7 +19,9 @@ public:
   [[nodiscard]] ResultClass result_class() const override {
     return fuses_multiply_add(isa_) ? ResultClass::fma : ResultClass::nofma;
   }
-  [[nodiscard]] Capabilities capabilities() const override { return {.second_derivatives = true}; }
+  [[nodiscard]] Capabilities capabilities(const Net& /*net*/) const override {
+    return {.second_derivatives = true, .curvature = true};
+  }
   [[nodiscard]] bool reads_centred() const override { return true; }
   [[nodiscard]] std::string variant() const override {
     return packing_.local_origin ? "+origin" : "";
@@ -40,7 +42,7 @@ public:
   void evaluate(const Net& net, std::span<const Parameters2<T>> at, int grid,
                 std::span<Result<T>> results) override {
     const PatchSet<T> set = packed<T>(std::span(&net, 1), packing_);
-    Planes<T> planes(at.size(), {.second = true});
+    Planes<T> planes(at.size(), {.second = true, .curvature = true});
     const Options options{.threads = 1, .isa = isa_, .executed = &executed_};
     const Status status =
         grid > 0 ? run_grid(set, grid, planes, options) : run_scattered(set, at, planes, options);
@@ -57,6 +59,9 @@ public:
         results[k].duu[c] = planes.at(4, c, k);
         results[k].duv[c] = planes.at(5, c, k);
         results[k].dvv[c] = planes.at(6, c, k);
+      }
+      for (std::size_t c = 0; c < 4; ++c) {
+        results[k].curvature[c] = planes.curvature(c, k);
       }
       results[k].status = planes.status()[k];
     }

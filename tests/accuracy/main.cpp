@@ -1,5 +1,6 @@
 // simdbezier_accuracy: the whole accuracy suite. Every family x type x evaluator, against the
 // oracle; prints a table, writes rows as JSON, judges the gates, exits 1 naming what regressed.
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -8,6 +9,7 @@
 
 #include "tests/accuracy/evaluators.hpp"
 #include "tests/accuracy/report.hpp"
+#include "tests/support/shape_families.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -60,16 +62,36 @@ struct Settings {
 }
 
 template <typename T>
+[[nodiscard]] FamilyInfo describe(const Family<T>& family, const std::string& variant) {
+  const Net& net = family.nets.front();
+  double least = 1;
+  double most = 1;
+  for (const double weight : net.weights) {
+    least = std::min(least, weight);
+    most = std::max(most, weight);
+  }
+  return {family.name + variant, net.degree_u, net.degree_v, most / least};
+}
+
+template <typename T>
 void run(const char* type, const Settings& settings, Report& report) {
   const Evaluators<T> evaluators = all_evaluators<T>();
-  for (const Family<T>& family : all_families<T>(settings.nets, settings.samples)) {
+  std::vector<Family<T>> families = all_families<T>(settings.nets, settings.samples);
+  // There are many shapes: a twelfth of the samples each.
+  for (Family<T>& family : shape_families<T>(settings.nets / 4 + 1, settings.samples / 3 + 1)) {
+    families.push_back(std::move(family));
+  }
+  for (const Family<T>& family : families) {
     std::fprintf(stderr, "%s/%s\n", family.name.c_str(), type);
     const Reference at_centred = make_reference(family, true);
     const Reference at_unit = make_reference(family, false);
     for (const auto& evaluator : evaluators) {
-      report.add(family.name + evaluator->variant(), type, evaluator->result_class(),
-                 evaluator->name(),
-                 measure(*evaluator, family, evaluator->reads_centred() ? at_centred : at_unit));
+      if (evaluator->variant().empty() || family.with_origins) {
+        const Measurement measured =
+            measure(*evaluator, family, evaluator->reads_centred() ? at_centred : at_unit);
+        report.add(describe(family, evaluator->variant()), type, evaluator->result_class(),
+                   evaluator->name(), measured);
+      }
     }
   }
 }

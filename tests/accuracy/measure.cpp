@@ -18,27 +18,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
   return error == 0 ? 0 : scale == 0 ? kInfinity : error / scale;
 }
 
-/// Scales of one net, shared by its samples.
-struct NetScales {
-  Vector3 position;
-  Vector3 du;
-  Vector3 dv;
-  Vector3 duu;
-  Vector3 duv;
-  Vector3 dvv;
-};
-
-[[nodiscard]] NetScales scales_of(const Net& net) {
-  return {{largest_coordinate(net, 0), largest_coordinate(net, 1), largest_coordinate(net, 2)},
-          largest_hodographs_u(net),
-          largest_hodographs_v(net),
-          largest_hodographs(net, {2, 0}),
-          largest_hodographs(net, {1, 1}),
-          largest_hodographs(net, {0, 2})};
-}
-
 [[nodiscard]] Vector3 condition_of(const Net& net, OracleParameter u, OracleParameter v) {
-  Net magnitudes = net;
+  Net magnitudes = control_polygon(net);
   for (Vector3& point : magnitudes.points) {
     for (double& value : point) {
       value = std::abs(value);
@@ -46,6 +27,10 @@ struct NetScales {
   }
   const Vector3dd sums = oracle_derivative(magnitudes, u, v, {0, 0});
   return {sums[0].to_double(), sums[1].to_double(), sums[2].to_double()};
+}
+
+[[nodiscard]] double norm(const Vector3& a) {
+  return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
 template <typename T>
@@ -60,36 +45,45 @@ template <typename T>
 class Collector {
 public:
   Collector(bool fma, bool ours, bool local_origin)
-      : fma_(fma), ours_(ours),
-        position_bound_(local_origin ? position_bound_with_origin(fma) : position_bound(fma)) {}
+      : rule_{kUnitRoundoff<T>, fma, local_origin}, ours_(ours) {}
 
-  void start_net(const std::optional<Certificate>& certificate) { certificate_ = certificate; }
+  void start_net(const Net& net, const std::optional<Certificate>& certificate) {
+    certificate_ = certificate;
+    is_bicubic_ = net.is_bicubic();
+    is_rational_ = net.is_rational();
+    scales_ = scales_of(control_polygon(net));
+    bounds_.emplace(net, rule_);
+  }
 
-  void add(const NetScales& scales, std::size_t net, const Truth& truth, const Result<T>& result,
+  void add(std::size_t net, std::size_t number, const Truth& truth, const Result<T>& result,
            const Capabilities& gives) {
     where_ = {net, 0, truth.x, truth.y};
+    const OracleSample& exact = truth.sample;
+    const SampleErrors allowed = bounds_->at(exact, truth.weight);
     if (gives.position) {
-      add_vector(Quantity::position, result.position, truth.sample.position, scales.position,
-                 position_bound_);
+      add_vector(Quantity::position, result.position, exact.position, scales_.position,
+                 allowed.position);
       for (std::size_t c = 0; c < 3; ++c) {
-        const double error = std::abs((truth.sample.position[c] - result.position[c]).to_double());
+        const double error = std::abs((exact.position[c] - result.position[c]).to_double());
         const double scale = kUnitRoundoff<T> * truth.condition[c];
         measurement_.max_condition_error =
             std::max(measurement_.max_condition_error, relative(error, scale));
       }
     }
     if (gives.tangents) {
-      add_vector(Quantity::du, result.du, truth.sample.du, scales.du, derivative_bound(fma_));
-      add_vector(Quantity::dv, result.dv, truth.sample.dv, scales.dv, derivative_bound(fma_));
+      add_vector(Quantity::du, result.du, exact.du, scales_.du, allowed.du);
+      add_vector(Quantity::dv, result.dv, exact.dv, scales_.dv, allowed.dv);
     }
     if (gives.second_derivatives) {
-      const double bound = second_derivative_bound(fma_);
-      add_vector(Quantity::duu, result.duu, truth.sample.duu, scales.duu, bound);
-      add_vector(Quantity::duv, result.duv, truth.sample.duv, scales.duv, bound);
-      add_vector(Quantity::dvv, result.dvv, truth.sample.dvv, scales.dvv, bound);
+      add_vector(Quantity::duu, result.duu, exact.duu, scales_.duu, allowed.duu);
+      add_vector(Quantity::duv, result.duv, exact.duv, scales_.duv, allowed.duv);
+      add_vector(Quantity::dvv, result.dvv, exact.dvv, scales_.dvv, allowed.dvv);
     }
     if (gives.normal) {
-      add_normal(truth, result);
+      add_normal(truth, result, allowed);
+    }
+    if (gives.curvature && number % kCurvatureStride == 0) {
+      add_curvature(truth, result, allowed);
     }
   }
 
@@ -117,16 +111,17 @@ private:
   }
 
   void add_vector(Quantity quantity, const T* value, const Vector3dd& truth, const Vector3& scale,
-                  double bound) {
+                  const Vector3& bound) {
     Metric& metric = at(quantity);
     for (std::size_t c = 0; c < 3; ++c) {
       const double error = std::abs((truth[c] - static_cast<double>(value[c])).to_double());
-      // A component in which no control point differs must be exact with us; others are measured
-      // against the other components.
-      const double own_scale = scale[c] == 0 && !ours_ ? largest_of(scale) : scale[c];
-      const double units = relative(error, kUnitRoundoff<T> * own_scale);
+      // A component in which no control point differs must be exact with us where there are no
+      // weights; others are measured against the other components.
+      const bool exact = scale[c] == 0 && ours_ && !is_rational_;
+      const double own_scale = scale[c] == 0 && !exact ? largest_of(scale) : scale[c];
+      const double own_bound = bound[c] == 0 && !exact ? largest_of(bound) : bound[c];
       where_.component = static_cast<int>(c);
-      metric.add(units, units / bound, where_);
+      metric.add(relative(error, kUnitRoundoff<T> * own_scale), relative(error, own_bound), where_);
       if (const double* const own = certified(quantity)) {
         metric.max_certificate_ratio =
             std::max(metric.max_certificate_ratio, relative(error, own[c]));
@@ -153,7 +148,7 @@ private:
     }
   }
 
-  void add_normal(const Truth& truth, const Result<T>& result) {
+  void add_normal(const Truth& truth, const Result<T>& result, const SampleErrors& allowed) {
     const double size = distance(result.normal, {0, 0, 0});
     const bool zero = size == 0 && result.status == SampleStatus::degenerate;
     measurement_.nan_values += std::isnan(size) ? 1 : 0;
@@ -162,17 +157,62 @@ private:
       return; // judged by its limit
     }
     const double units = distance(result.normal, truth.normal.direction) / kUnitRoundoff<T>;
-    const double bound = normal_bound(fma_, truth.normal.kappa);
+    const double bound = is_bicubic_ ? normal_bound(rule_.fma, truth.normal.kappa)
+                                     : turned_by(truth.sample, allowed);
     const double promised = kPlainDegrees * std::numbers::pi / 180 / kUnitRoundoff<T>;
     where_.component = 0;
     at(Quantity::normal).hash.add_bytes(result.normal, sizeof result.normal);
     at(Quantity::normal).add(units, units / std::min(bound, promised), where_);
-    at(Quantity::normal_kappa).add(units / truth.normal.kappa, units / bound, where_);
+    if (is_bicubic_) {
+      at(Quantity::normal_kappa).add(units / truth.normal.kappa, units / bound, where_);
+    }
   }
 
-  bool fma_;
+  /// What errors of the tangents can turn a normal by, in u; the cross product and the division
+  /// round, too.
+  [[nodiscard]] static double turned_by(const OracleSample& exact, const SampleErrors& allowed) {
+    const double du = length(exact.du).hi;
+    const double dv = length(exact.dv).hi;
+    const double area = length(cross(exact.du, exact.dv)).hi;
+    const double moved = norm(allowed.du) * dv + norm(allowed.dv) * du;
+    return moved / kUnitRoundoff<T> / area + 3 * du * dv / area + 3;
+  }
+
+  [[nodiscard]] bool in_curvature_range() const {
+    const double u = largest_of(scales_.du);
+    const double v = largest_of(scales_.dv);
+    return std::min(u, v) > 1 / kCurvatureRange<T> && std::max(u, v) < kCurvatureRange<T>;
+  }
+
+  /// Where the surface is regular enough for the first-order bound: errors of the tangents turn
+  /// the normal by less than 1/32.
+  void add_curvature(const Truth& truth, const Result<T>& result, const SampleErrors& allowed) {
+    if (!in_curvature_range() || !(truth.normal.relative_size > kVanishing) ||
+        !(turned_by(truth.sample, allowed) * kUnitRoundoff<T> < 1.0 / 32)) {
+      return;
+    }
+    const OracleCurvatures exact = oracle_curvatures(truth.sample);
+    const auto bound = curvature_errors(truth.sample, allowed.derivatives(),
+                                        kCurvatureRoundings * kUnitRoundoff<T>);
+    constexpr Quantity kOf[] = {Quantity::gaussian, Quantity::mean, Quantity::principal,
+                                Quantity::principal};
+    for (std::size_t k = 0; k < kCurvatureCount; ++k) {
+      const double error =
+          std::abs((exact[k] - static_cast<double>(result.curvature[k])).to_double());
+      const double ratio = relative(error, bound[k]);
+      where_.component = static_cast<int>(k);
+      at(kOf[k]).add(ratio, ratio, where_);
+      at(kOf[k]).hash.add(result.curvature[k]);
+      measurement_.nan_values += std::isnan(result.curvature[k]) ? 1 : 0;
+    }
+  }
+
+  BoundRule rule_;
   bool ours_;
-  double position_bound_;
+  bool is_bicubic_ = true;
+  bool is_rational_ = false;
+  NetScales scales_;
+  std::optional<NetBounds> bounds_;
   std::optional<Certificate> certificate_;
   Worst where_;
   Measurement measurement_;
@@ -184,7 +224,8 @@ template <typename T>
                                     : OracleParameter::unit(static_cast<double>(at.u));
   const OracleParameter v = centred ? OracleParameter::centred(static_cast<double>(at.y))
                                     : OracleParameter::unit(static_cast<double>(at.v));
-  Truth truth{oracle_sample(net, u, v), {}, condition_of(net, u, v), 0, 0};
+  Truth truth{oracle_sample(net, u, v), {}, weight_sample(net, u, v),
+              condition_of(net, u, v),  0,  0};
   truth.normal = oracle_normal(net, truth.sample);
   // As centred doubles, which the limit formula pulls inwards; a float's 2u-1 is exact there.
   truth.x = centred ? static_cast<double>(at.x) : 2 * static_cast<double>(at.u) - 1;
@@ -226,17 +267,19 @@ Measurement measure(Evaluator<T>& evaluator, const Family<T>& family, const Refe
   const ResultClass result_class = evaluator.result_class();
   Collector<T> collector(result_class != ResultClass::nofma, result_class != ResultClass::other,
                          evaluator.variant() == "+origin");
-  const Capabilities gives = evaluator.capabilities();
   const int grid = family.rule == SampleRule::grid ? kGridSamples : 0;
   for (std::size_t n = 0; n < family.nets.size(); ++n) {
+    if (!evaluator.handles(family.nets[n])) {
+      continue;
+    }
     const auto& samples = family.samples[n];
+    const Capabilities gives = evaluator.capabilities(family.nets[n]);
     std::vector<Result<T>> results(samples.size());
     evaluator.evaluate(family.nets[n], samples, grid, results);
-    const NetScales scales = scales_of(family.nets[n]);
-    collector.start_net(evaluator.certificate(family.nets[n]));
+    collector.start_net(family.nets[n], evaluator.certificate(family.nets[n]));
     for (std::size_t k = 0; k < samples.size(); ++k) {
       const Truth& truth = reference.truths[n][k];
-      collector.add(scales, n, truth, results[k], gives);
+      collector.add(n, k, truth, results[k], gives);
       if (gives.normal && truth.normal.relative_size < kVanishing) {
         collector.add_limit(family.nets[n], truth, results[k]);
       }

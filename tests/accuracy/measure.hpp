@@ -9,6 +9,7 @@
 
 #include "tests/accuracy/bounds.hpp"
 #include "tests/accuracy/evaluator.hpp"
+#include "tests/accuracy/sample_bounds.hpp"
 #include "tests/support/generators.hpp"
 #include "tests/support/hash.hpp"
 #include "tests/support/oracle.hpp"
@@ -25,11 +26,17 @@ enum class Quantity : std::uint8_t {
   dvv,          ///< Dvv
   normal,       ///< N: |n - true n| / u where the surface has a normal
   normal_kappa, ///< Nk: the same divided by its conditioning kappa
-  limit         ///< L: angle to the limit in degrees where du x dv vanishes
+  limit,        ///< L: angle to the limit in degrees where du x dv vanishes
+  gaussian,     ///< Kg: error of the Gaussian curvature / what the derivatives' bounds make of it
+  mean,         ///< Kh: likewise
+  principal     ///< Kp: likewise, both of them
 };
-inline constexpr std::size_t kQuantities = 9;
+inline constexpr std::size_t kQuantities = 12;
 inline constexpr std::array<const char*, kQuantities> kQuantityNames{
-    "P", "Du", "Dv", "Duu", "Duv", "Dvv", "N", "Nk", "L"};
+    "P", "Du", "Dv", "Duu", "Duv", "Dvv", "N", "Nk", "L", "Kg", "Kh", "Kp"};
+
+/// Curvatures are judged at every so many samples, since their bound takes long to find.
+inline constexpr std::size_t kCurvatureStride = 48;
 
 /// Where a maximum was found.
 struct Worst {
@@ -70,7 +77,8 @@ struct Measurement {
 struct Truth {
   OracleSample sample;
   OracleNormal normal;
-  Vector3 condition{}; ///< sum |b| B_i B_j per component
+  WeightSample weight;
+  Vector3 condition{}; ///< sum |b| B_i B_j per component (of the control polygon)
   double x = 0;
   double y = 0;
 };

@@ -27,6 +27,15 @@ constexpr double kNoise = 1e-9;
   return quantity != Quantity::normal_kappa && quantity != Quantity::limit;
 }
 
+/// G5 does not compare where homogeneous sums in powers lose to positive ones, which they do in
+/// proportion to the ratio of the weights.
+constexpr double kComparedWeightRatio = 4;
+
+[[nodiscard]] double allowed_against_de_casteljau(const FamilyInfo& family) {
+  const bool low = std::max(family.degree_u, family.degree_v) <= 3 && family.weight_ratio == 1;
+  return low ? kRmsAgainstDeCasteljau : kRmsAgainstDeCasteljauHigh;
+}
+
 /// The best of the two forms of de Casteljau's algorithm that round like the given class.
 [[nodiscard]] std::optional<double> de_casteljau_rms(const Report& report, const Row& row) {
   const std::string suffix = row.result_class == ResultClass::nofma ? "_nofma" : "";
@@ -54,11 +63,11 @@ std::string class_name(ResultClass result_class) {
   }
 }
 
-void Report::add(const std::string& family, const std::string& type, ResultClass result_class,
+void Report::add(const FamilyInfo& family, const std::string& type, ResultClass result_class,
                  const std::string& evaluator, const Measurement& measurement) {
   for (std::size_t q = 0; q < kQuantities; ++q) {
     const auto quantity = static_cast<Quantity>(q);
-    if (measurement.metrics[q].count == 0) {
+    if (measurement.metrics[q].count == 0) { // not given, or not for such nets
       continue;
     }
     rows.push_back({family, type, result_class, evaluator, quantity, measurement.metrics[q],
@@ -67,7 +76,7 @@ void Report::add(const std::string& family, const std::string& type, ResultClass
   if (result_class == ResultClass::other) {
     return;
   }
-  const std::string where = family + "/" + type + "/" + evaluator;
+  const std::string where = family.name + "/" + type + "/" + evaluator;
   const auto expect_none = [&](std::size_t count, const char* what) {
     if (count != 0) {
       failures.push_back(where + ": " + std::to_string(count) + " " + what);
@@ -94,11 +103,12 @@ void Report::judge_contracts() {
       failures.push_back(line(row, "G6, degrees", row.metric.max, kLimitDegrees));
     }
     // The hill-climbed nets are worst for this scheme, and harmless for de Casteljau.
-    if (row.quantity == Quantity::position && row.family != "worst") {
+    if (row.quantity == Quantity::position && row.family.name != "worst" &&
+        row.family.weight_ratio <= kComparedWeightRatio * 1.01) {
       const auto baseline = de_casteljau_rms(*this, row);
-      if (baseline && !(row.metric.rms() <= kRmsAgainstDeCasteljau * *baseline)) {
-        failures.push_back(
-            line(row, "G5, RMS", row.metric.rms(), kRmsAgainstDeCasteljau * *baseline));
+      const double factor = allowed_against_de_casteljau(row.family);
+      if (baseline && !(row.metric.rms() <= factor * *baseline)) {
+        failures.push_back(line(row, "G5, RMS", row.metric.rms(), factor * *baseline));
       }
     }
     const auto [first, added] =
@@ -109,9 +119,13 @@ void Report::judge_contracts() {
   }
 }
 
+bool has_threshold(const Row& row) {
+  return row.result_class != ResultClass::other && row.quantity < Quantity::gaussian;
+}
+
 void Report::judge_thresholds(const Thresholds& thresholds) {
   for (const Row& row : rows) {
-    if (row.result_class == ResultClass::other) {
+    if (!has_threshold(row)) {
       continue;
     }
     const auto known_class = thresholds.find(class_name(row.result_class));

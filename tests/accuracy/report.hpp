@@ -9,8 +9,16 @@
 
 namespace simdbezier::tests {
 
+/// A family by its name (with the evaluator's variant), and what its nets have in common.
+struct FamilyInfo {
+  std::string name;
+  int degree_u = 3;
+  int degree_v = 3;
+  double weight_ratio = 1; ///< largest weight to smallest; 1 where there are none
+};
+
 struct Row {
-  std::string family;
+  FamilyInfo family;
   std::string type; ///< f32, f64
   ResultClass result_class = ResultClass::other;
   std::string evaluator; ///< an instruction set, or another evaluator's name
@@ -22,12 +30,16 @@ struct Row {
     return kQuantityNames[static_cast<std::size_t>(quantity)];
   }
   /// The key of thresholds: the same for all instruction sets of a class.
-  [[nodiscard]] std::string key() const { return family + "/" + type + "/" + quantity_name(); }
+  [[nodiscard]] std::string key() const { return family.name + "/" + type + "/" + quantity_name(); }
   [[nodiscard]] std::string name() const { return key() + "/" + evaluator; }
 };
 
 /// "fma", "nofma" or "other".
 [[nodiscard]] std::string class_name(ResultClass result_class);
+
+/// Whether a row has committed figures: ours, and not a curvature, whose errors are those of the
+/// derivatives, which have them.
+[[nodiscard]] bool has_threshold(const Row& row);
 
 /// Committed maximum and RMS of one key.
 struct Threshold {
@@ -43,7 +55,7 @@ struct Report {
   std::vector<Row> rows;
   std::vector<std::string> failures; ///< one line each, naming the row
 
-  void add(const std::string& family, const std::string& type, ResultClass result_class,
+  void add(const FamilyInfo& family, const std::string& type, ResultClass result_class,
            const std::string& evaluator, const Measurement& measurement);
   /// G1 ratios, G4 hashes inside a class, G5 against de Casteljau, G6 limits.
   void judge_contracts();

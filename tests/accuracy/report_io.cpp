@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
@@ -26,8 +27,11 @@ using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json row_json(const Row& row) {
   Json json;
-  json["family"] = row.family;
-  json["deg"] = {3, 3};
+  json["family"] = row.family.name;
+  json["deg"] = {row.family.degree_u, row.family.degree_v};
+  if (row.family.weight_ratio > 1) {
+    json["weight_ratio"] = row.family.weight_ratio;
+  }
   json["type"] = row.type;
   json["class"] = class_name(row.result_class);
   json["isa"] = row.evaluator;
@@ -60,15 +64,15 @@ void write_text(const std::string& text, const std::string& path) {
 }
 
 /// "2.87/.423", or a blank where the evaluator gives no such quantity.
-[[nodiscard]] std::string figures(const Report& report, const std::string& name) {
-  for (const Row& row : report.rows) {
-    if (row.name() == name) {
-      char text[40];
-      std::snprintf(text, sizeof text, "%.3g/%.3g", row.metric.max, row.metric.rms());
-      return text;
-    }
+[[nodiscard]] std::string figures(const std::map<std::string, const Row*>& rows,
+                                  const std::string& name) {
+  const auto row = rows.find(name);
+  if (row == rows.end()) {
+    return "";
   }
-  return "";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g/%.3g", row->second->metric.max, row->second->metric.rms());
+  return text;
 }
 
 /// Rounded up to four digits, so that the file stays readable and never too strict.
@@ -87,15 +91,19 @@ void write_text(const std::string& text, const std::string& path) {
 void print_table(const Report& report) {
   std::printf(
       "max/RMS errors. P: u max|b|, Du to Dvv: u max|hodograph|, N: u, Nk: u kappa, L: degrees "
-      "to the limit\n%-28s %-24s",
+      "to the limit, Kg to Kp: error / bound\n%-28s %-24s",
       "family", "evaluator");
   for (const char* quantity : kQuantityNames) {
     std::printf(" %16s", quantity);
   }
   std::printf("\n");
+  std::map<std::string, const Row*> by_name;
+  for (const Row& row : report.rows) {
+    by_name.emplace(row.name(), &row);
+  }
   std::string last;
   for (const Row& row : report.rows) {
-    const std::string line = row.family + "/" + row.type;
+    const std::string line = row.family.name + "/" + row.type;
     if (line + row.evaluator == last) {
       continue;
     }
@@ -103,7 +111,7 @@ void print_table(const Report& report) {
     std::printf("%-28s %-24s", line.c_str(), row.evaluator.c_str());
     for (const char* quantity : kQuantityNames) {
       const std::string name = line + "/" + quantity + "/" + row.evaluator;
-      std::printf(" %16s", figures(report, name).c_str());
+      std::printf(" %16s", figures(by_name, name).c_str());
     }
     std::printf("\n");
   }
@@ -142,7 +150,7 @@ Thresholds read_thresholds(const std::string& path) {
 void write_thresholds(const Report& report, const std::string& path) {
   Thresholds found;
   for (const Row& row : report.rows) {
-    if (row.result_class != ResultClass::other) {
+    if (has_threshold(row)) {
       Threshold& entry = found[class_name(row.result_class)][row.key()];
       entry.max = std::max(entry.max, rounded_up(row.metric.max));
       entry.rms = std::max(entry.rms, rounded_up(row.metric.rms()));

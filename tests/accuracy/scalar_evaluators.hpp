@@ -15,17 +15,23 @@ template <typename T, typename Scheme>
 class ScalarEvaluator : public Evaluator<T> {
 public:
   [[nodiscard]] std::string name() const override { return Scheme::kName; }
+  [[nodiscard]] bool handles(const Net& net) const override {
+    return Scheme::kAnyShape || net.is_bicubic();
+  }
 
   void evaluate(const Net& net, std::span<const Parameters2<T>> at, int /*grid*/,
                 std::span<Result<T>> results) override {
+    const Scheme weight(channel(net, 3), net.degree_u, net.degree_v);
     for (std::size_t c = 0; c < 3; ++c) {
-      std::vector<T> values;
-      for (const Vector3& point : net.points) {
-        values.push_back(static_cast<T>(point[c]));
-      }
-      const Scheme scheme(values, net.degree_u, net.degree_v);
+      const Scheme scheme(channel(net, c), net.degree_u, net.degree_v);
       for (std::size_t k = 0; k < at.size(); ++k) {
-        const std::array<T, 3> result = scheme.evaluate(at[k].u, at[k].v);
+        std::array<T, 3> result = scheme.evaluate(at[k].u, at[k].v);
+        if (net.is_rational()) {
+          const std::array<T, 3> w = weight.evaluate(at[k].u, at[k].v);
+          result[0] /= w[0];
+          result[1] = (result[1] - result[0] * w[1]) / w[0];
+          result[2] = (result[2] - result[0] * w[2]) / w[0];
+        }
         results[k].position[c] = result[0];
         results[k].du[c] = result[1];
         results[k].dv[c] = result[2];
@@ -37,6 +43,19 @@ public:
   }
 
 private:
+  /// The values of one component, times their weights where there are any, or the weights (3).
+  [[nodiscard]] static std::vector<T> channel(const Net& net, std::size_t c) {
+    std::vector<T> values;
+    for (int j = 0; j <= net.degree_v; ++j) {
+      for (int i = 0; i <= net.degree_u; ++i) {
+        const T weight = static_cast<T>(net.weight(j, i));
+        const T value = c == 3 ? weight : static_cast<T>(net.at(j, i)[c]);
+        values.push_back(c == 3 || net.homogeneous ? value : weight * value);
+      }
+    }
+    return values;
+  }
+
   static void set_normal(Result<T>& result) {
     const T* a = result.du;
     const T* b = result.dv;
@@ -76,6 +95,7 @@ template <typename T, typename Lerp>
 class DeCasteljau {
 public:
   static constexpr const char* kName = Lerp::kName;
+  static constexpr bool kAnyShape = true;
 
   DeCasteljau(const std::vector<T>& values, int m, int n) : values_(values), m_(m), n_(n) {}
 
@@ -129,6 +149,7 @@ template <typename T>
 class CornerHorner {
 public:
   static constexpr const char* kName = "horner_corner";
+  static constexpr bool kAnyShape = false;
 
   CornerHorner(const std::vector<T>& values, int /*m*/, int /*n*/) {
     std::array<std::array<T, 4>, 4> rows;

@@ -1,6 +1,6 @@
 # See CMakeLists.txt beside this file. OTHER is gcc, clang or aarch64.
 set(configure -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=OFF -DSIMDBEZIER_BUILD_TOOLS=OFF
-              -DSIMDBEZIER_BUILD_BENCH=OFF)
+              -DSIMDBEZIER_BUILD_BENCH=OFF -DSIMDBEZIER_BUILD_EXAMPLES=OFF)
 set(emulator)
 set(compiler_of_gcc g++)
 set(compiler_of_clang clang++)

@@ -42,7 +42,13 @@ std::vector<BadUsage> bad_usages() {
       {"TwoInputs", {"info", "builtin:teapot", "builtin:teapot"}, "builtin:teapot"},
       {"UnknownBuiltin", {"info", "builtin:cup"}, "expected builtin:teapot"},
       {"StandardInputWithoutFormat", {"info", "-"}, "--format"},
-      {"UnknownFormat", {"info", "-", "--format", "obj"}, "expected bez or bpt, found 'obj'"},
+      {"UnknownFormat",
+       {"info", "-", "--format", "xyz"},
+       "--format: expected bez, bpt, bv, itd, obj or rib, found 'xyz'"},
+      {"EmptyFormat", {"info", "-", "--format", ""}, "--format"},
+      {"LaterFormat",
+       {"info", "-", "--format", "step"},
+       "reading .step files is not supported yet"},
       {"NoOutput", tessellate({}), "-o is required"},
       {"UnknownOutput", tessellate({"-o", "out.xyz"}), "expected a name that ends in .obj or .ply"},
       {"OutputWithoutExtension", tessellate({"-o", "obj"}), "expected a name that ends in"},
@@ -74,7 +80,8 @@ std::vector<BadUsage> bad_usages() {
       {"Precision", tessellate_obj({"--precision", "f16"}), "expected f32 or f64, found 'f16'"},
       {"EvaluateUnknownOutput", {"evaluate", "builtin:teapot", "-o", "out.txt"}, "ends in .csv"},
       {"OutputsUnknown", evaluate({"--outputs", "colour"}),
-       "expected position, du, dv, duu, duv, dvv, normal separated by commas, found 'colour'"},
+       "expected position, du, dv, duu, duv, dvv, normal, curvature separated by commas, found "
+       "'colour'"},
       {"OutputsEmptyItem", evaluate({"--outputs", "position,"}), "expected position, du, dv"},
       {"OutputsThirdDerivative", evaluate({"--outputs", "duu,duuu"}), "found 'duu,duuu'"},
       {"OutputsDvu", evaluate({"--outputs", "dvu"}), "found 'dvu'"},
@@ -101,8 +108,12 @@ INSTANTIATE_TEST_SUITE_P(All, BadUsageTest, ::testing::ValuesIn(bad_usages()),
 
 TEST(Usage, InputsOfUnknownOrLaterFormats) {
   const TemporaryFolder folder;
-  expect_failure(run({"info", folder.write("in.xyz", "1\n")}), 2, ".bez or .bpt, or --format");
-  expect_failure(run({"info", folder.write("in.bv", "1\n")}), 2, ".bv files is not supported yet");
+  expect_failure(run({"info", folder.write("in.xyz", "1\n")}), 2,
+                 ".itd, .obj or .rib, or --format");
+  for (const std::string later : {"iges", "igs", "step", "stp", "pov"}) {
+    expect_failure(run({"info", folder.write("in." + later, "1\n")}), 2,
+                   "." + later + " files is not supported yet");
+  }
 }
 
 TEST(Usage, HelpAndVersionAreAnswers) {

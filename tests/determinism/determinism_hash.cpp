@@ -11,7 +11,7 @@
 #include <map>
 #include <string>
 
-#include "tests/determinism/workload.hpp"
+#include "tests/determinism/shape_workload.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -37,6 +37,15 @@ template <typename T>
   Planes<T> planes(samples.patch.size(), {.second = second});
   const Status status = evaluate_scattered(set, samples.view(Parameters::centred), planes.outputs(),
                                            {.threads = 2, .isa = isa});
+  return status == Status::ok ? planes.hash() : 0;
+}
+
+/// Everything that a call can give.
+template <typename T>
+[[nodiscard]] std::uint64_t curvature_hash(const PatchSet<T>& set, Isa isa) {
+  Planes<T> planes(kPatches * 17 * 9, kAllOutputs);
+  const Status status =
+      evaluate_grid(set, Grid<T>::uniform(17, 9), planes.outputs(), {.threads = 2, .isa = isa});
   return status == Status::ok ? planes.hash() : 0;
 }
 
@@ -135,6 +144,9 @@ void run(const char* type, Report& report) {
   const std::vector<Net> nets = mixed_nets(kPatches);
   const PatchSet<T> set = packed<T>(nets);
   const PatchSet<T> local = packed<T>(nets, {.local_origin = true});
+  const PatchSet<T> shapes = packed_mixed<T>(mixed_shape_nets(kPatches));
+  const PatchSet<T> local_shapes =
+      packed_mixed<T>(mixed_shape_nets(kPatches), {.local_origin = true});
   for (const Isa isa : available_isas()) {
     report.add(isa, std::string(type) + " grid", grid_hash(set, isa));
     report.add(isa, std::string(type) + " scattered", scattered_hash(set, isa));
@@ -145,6 +157,11 @@ void run(const char* type, Report& report) {
     report.add(isa, std::string(type) + " tiles", tiles_hash(set, isa));
     report.add(isa, std::string(type) + " grid_local_origin", grid_hash(local, isa));
     report.add(isa, std::string(type) + " scattered_local_origin", scattered_hash(local, isa));
+    report.add(isa, std::string(type) + " shapes_all", curvature_hash(shapes, isa));
+    report.add(isa, std::string(type) + " shapes_grid", grid_hash(shapes, isa, true));
+    report.add(isa, std::string(type) + " shapes_scattered", scattered_hash(shapes, isa, true));
+    report.add(isa, std::string(type) + " shapes_patch_grids", patch_grids_hash(shapes, isa));
+    report.add(isa, std::string(type) + " shapes_local_origin", grid_hash(local_shapes, isa));
   }
 }
 

@@ -179,8 +179,8 @@ TEST(Pack, refuses_what_it_cannot_pack_and_keeps_the_old_set) {
   };
   using Nets = ControlNets<float>;
   add("null points", Status::null_input, [](Nets& n) { n.points = nullptr; });
-  add("degree u", Status::bad_degree, [](Nets& n) { n.degree_u = 2; });
-  add("degree v", Status::bad_degree, [](Nets& n) { n.degree_v = 4; });
+  add("degree u", Status::bad_degree, [](Nets& n) { n.degree_u = 16; });
+  add("degree v", Status::bad_degree, [](Nets& n) { n.degree_v = 0; });
   add("negative degree", Status::bad_degree, [](Nets& n) { n.degree_v = -3; });
   add("row stride", Status::bad_stride, [](Nets& n) { n.row_stride = 0; });
   add("point stride", Status::bad_stride, [](Nets& n) { n.point_stride = 0; });

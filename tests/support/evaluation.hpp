@@ -16,17 +16,56 @@
 
 namespace simdbezier::tests {
 
-/// Packs nets of one degree; throws where the library refuses them, which fails the test.
+/// Nets of one shape as the library takes them, the points being those of packed_points().
 template <typename T>
-[[nodiscard]] PatchSet<T> packed(std::span<const Net> nets, const PackOptions& options = {}) {
-  const std::vector<T> points = packed_points<T>(nets);
-  const ControlNets<T> view{points.data(), nets.size()};
-  PatchSet<T> set;
-  const PackReport report = pack(view, set, options);
+[[nodiscard]] ControlNets<T> control_nets(std::span<const Net> nets, const std::vector<T>& points) {
+  if (nets.empty()) {
+    return {};
+  }
+  const Net& net = nets.front();
+  const Weights weights = !net.is_rational() ? Weights::none
+                          : net.homogeneous  ? Weights::homogeneous
+                                             : Weights::cartesian;
+  return ControlNets<T>::packed(points.data(), nets.size(), net.degree_u, net.degree_v, 3, weights);
+}
+
+/// Throws where the library refuses to pack, which fails the test.
+inline void expect_packed(const PackReport& report) {
   if (!report) {
     throw std::runtime_error("pack: " + std::string(to_string(report.status)) + " at patch " +
                              std::to_string(report.patch));
   }
+}
+
+/// Packs nets of one shape.
+template <typename T>
+[[nodiscard]] PatchSet<T> packed(std::span<const Net> nets, const PackOptions& options = {}) {
+  const std::vector<T> points = packed_points<T>(nets);
+  PatchSet<T> set;
+  expect_packed(pack(control_nets<T>(nets, points), set, options));
+  return set;
+}
+
+[[nodiscard]] inline bool same_shape(const Net& a, const Net& b) {
+  return a.degree_u == b.degree_u && a.degree_v == b.degree_v &&
+         a.is_rational() == b.is_rational() && a.homogeneous == b.homogeneous;
+}
+
+/// Packs nets of any shapes: one entry for each run of nets that are alike.
+template <typename T>
+[[nodiscard]] PatchSet<T> packed_mixed(std::span<const Net> nets, const PackOptions& options = {}) {
+  std::vector<std::vector<T>> points;
+  std::vector<ControlNets<T>> entries;
+  for (std::size_t first = 0, last = 0; first < nets.size(); first = last) {
+    while (last < nets.size() && same_shape(nets[first], nets[last])) {
+      ++last;
+    }
+    const auto run = nets.subspan(first, last - first);
+    points.push_back(packed_points<T>(run));
+    entries.push_back(control_nets<T>(run, points.back()));
+  }
+  PatchSet<T> set;
+  expect_packed(pack(std::span<const ControlNets<T>>(entries), set, options));
   return set;
 }
 
@@ -36,17 +75,21 @@ struct Wanted {
   bool tangents = true;
   bool normal = true;
   bool status = true;
-  bool second = false; ///< duu, duv, dvv
+  bool second = false;    ///< duu, duv, dvv
+  bool curvature = false; ///< all four
 };
 
-/// Twelve planes (21 with second derivatives) and the status plane, prefilled with a value no
-/// result has.
+/// Twelve planes (21 with second derivatives, 25 with curvatures) and the status plane, prefilled
+/// with a value no result has.
 template <typename T>
 class Planes {
 public:
   explicit Planes(std::size_t count, Wanted wanted = {})
-      : count_(count), wanted_(wanted),
-        values_((wanted.second ? 21 : 12) * count, static_cast<T>(-777)),
+      : count_(count), wanted_(wanted), values_((wanted.curvature ? 25
+                                                 : wanted.second  ? 21
+                                                                  : 12) *
+                                                    count,
+                                                static_cast<T>(-777)),
         status_(count, static_cast<SampleStatus>(77)) {}
 
   [[nodiscard]] Outputs<T> outputs() {
@@ -66,6 +109,10 @@ public:
       out.duv = group(5);
       out.dvv = group(6);
     }
+    if (wanted_.curvature) {
+      T* const first = values_.data() + 21 * count_;
+      out.curvature = {first, first + count_, first + 2 * count_, first + 3 * count_};
+    }
     out.status = wanted_.status ? status_.data() : nullptr;
     return out;
   }
@@ -81,6 +128,10 @@ public:
   }
   [[nodiscard]] const T* plane(std::size_t group, std::size_t component) const {
     return values_.data() + (3 * group + component) * count_;
+  }
+  /// Gaussian, mean, minimum, maximum, where they were asked for.
+  [[nodiscard]] T curvature(std::size_t which, std::size_t k) const {
+    return values_[(21 + which) * count_ + k];
   }
   [[nodiscard]] std::array<T, 3> vector(std::size_t group, std::size_t k) const {
     return {at(group, 0, k), at(group, 1, k), at(group, 2, k)};

@@ -19,6 +19,7 @@ enum class SampleRule : std::uint8_t {
   tiny,     ///< u, v = m 2^-k, k up to 30: neither 1-u nor 2u-1 is exact
   grid,     ///< a uniform 16 x 16 grid, x_i = (2i-N)/N
   boundary, ///< a mix with samples on, and 2^-1 … 2^-24 away from, the four sides
+  seams,    ///< the same, and as many on and about the two middle lines
   fixed     ///< given with each net
 };
 
@@ -28,6 +29,7 @@ struct Family {
   SampleRule rule = SampleRule::dyadic;
   std::vector<Net> nets;
   std::vector<std::vector<Parameters2<T>>> samples; ///< one list per net
+  bool with_origins = true;                         ///< also measured with local origins
 };
 
 inline constexpr int kGridSamples = 16;
@@ -50,6 +52,21 @@ template <typename T>
   }
   default:
     return static_cast<T>(2 * static_cast<double>(dyadic_unit<T>(random)) - 1);
+  }
+}
+
+/// Where patches of high degree are cut.
+template <typename T>
+[[nodiscard]] T seam_centred(Random& random) {
+  switch (random.below(4)) {
+  case 0:
+    return T(0);
+  case 1: {
+    const double gap = 1.0 / static_cast<double>(std::uint64_t{1} << random.integer(1, 24));
+    return static_cast<T>(random.sign() * gap);
+  }
+  default:
+    return boundary_centred<T>(random);
   }
 }
 
@@ -90,6 +107,11 @@ template <typename T>
     case SampleRule::boundary: {
       const T x = boundary_centred<T>(random);
       list.push_back(at_centred(x, boundary_centred<T>(random)));
+      break;
+    }
+    case SampleRule::seams: {
+      const T x = seam_centred<T>(random);
+      list.push_back(at_centred(x, seam_centred<T>(random)));
       break;
     }
     default: {

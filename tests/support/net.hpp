@@ -18,9 +18,18 @@ struct Net {
   int degree_u = 3;
   int degree_v = 3;
   std::vector<Vector3> points = std::vector<Vector3>(16, Vector3{});
+  std::vector<double> weights = {}; ///< one a point; empty: polynomial
+  bool homogeneous = false;         ///< with weights: points hold w x, w y, w z
+
+  [[nodiscard]] bool is_rational() const { return !weights.empty(); }
+  [[nodiscard]] bool is_bicubic() const { return degree_u == 3 && degree_v == 3 && !is_rational(); }
 
   [[nodiscard]] const Vector3& at(int j, int i) const { return points[index(j, i)]; }
   [[nodiscard]] Vector3& at(int j, int i) { return points[index(j, i)]; }
+  [[nodiscard]] double weight(int j, int i) const {
+    return weights.empty() ? 1 : weights[index(j, i)];
+  }
+  [[nodiscard]] double& weight(int j, int i) { return weights[index(j, i)]; }
 
 private:
   [[nodiscard]] std::size_t index(int j, int i) const {
@@ -59,7 +68,21 @@ template <typename T>
 template <typename T>
 inline constexpr double kUnitRoundoff = sizeof(T) == 4 ? 0x1p-24 : 0x1p-53;
 
-/// max |P| of one component over the net: what position bounds are relative to.
+/// The net's control points themselves, without weights: what errors of a rational patch are
+/// measured against, and the net itself where it is polynomial. (Homogeneous points are divided in
+/// double, which is exact enough for a scale.)
+[[nodiscard]] inline Net control_polygon(Net net) {
+  for (std::size_t k = 0; k < net.points.size() && net.homogeneous && net.is_rational(); ++k) {
+    for (double& value : net.points[k]) {
+      value /= net.weights[k];
+    }
+  }
+  net.weights.clear();
+  net.homogeneous = false;
+  return net;
+}
+
+/// max |P| of one component over a polynomial net: what position bounds are relative to.
 [[nodiscard]] inline double largest_coordinate(const Net& net, std::size_t component) {
   double largest = 0;
   for (const Vector3& point : net.points) {
@@ -100,17 +123,23 @@ template <typename T>
       value = static_cast<double>(static_cast<T>(value));
     }
   }
+  for (double& value : net.weights) {
+    value = static_cast<double>(static_cast<T>(value));
+  }
   return net;
 }
 
-/// The control points of many nets of one degree as packed x y z triples.
+/// The control points of many nets of one shape, packed: x y z, and w where they have weights.
 template <typename T>
 [[nodiscard]] inline std::vector<T> packed_points(std::span<const Net> nets) {
   std::vector<T> values;
   for (const Net& net : nets) {
-    for (const Vector3& point : net.points) {
-      for (const double value : point) {
+    for (std::size_t k = 0; k < net.points.size(); ++k) {
+      for (const double value : net.points[k]) {
         values.push_back(static_cast<T>(value));
+      }
+      if (net.is_rational()) {
+        values.push_back(static_cast<T>(net.weights[k]));
       }
     }
   }

@@ -128,11 +128,11 @@ template <typename Make>
   case 0:
     return net.at(0, k);
   case 1:
-    return net.at(3, k);
+    return net.at(net.degree_v, k);
   case 2:
     return net.at(k, 0);
   default:
-    return net.at(k, 3);
+    return net.at(k, net.degree_u);
   }
 }
 

@@ -3,6 +3,7 @@
 // Bernstein weights times control points; derivatives from exact differences of control points.
 // All weights are positive inside the patch, so each sum is componentwise accurate: the error is
 // below 2^-96 sum |b| B_i B_j for degrees up to 15, which exact_rational.hpp checks on every run.
+// Rational patches: the same sums in homogeneous coordinates, then the quotient rule.
 // Shares nothing with the library, whose scheme is Horner's rule on a centred power basis.
 #pragma once
 
@@ -67,7 +68,18 @@ struct Derivative {
   int v = 0;
 };
 
-/// A control value of the hodograph of that order: differences of control points times falling
+/// Channels of a net in homogeneous coordinates: x, y, z (times the weight) and the weight.
+inline constexpr std::size_t kWeightChannel = 3;
+
+[[nodiscard]] inline DoubleDouble channel_value(const Net& net, int j, int i, std::size_t c) {
+  if (c == kWeightChannel) {
+    return net.weight(j, i);
+  }
+  return net.is_rational() && !net.homogeneous ? two_product(net.weight(j, i), net.at(j, i)[c])
+                                               : DoubleDouble(net.at(j, i)[c]);
+}
+
+/// A control value of the hodograph of that order: differences of control values times falling
 /// factorials of the degrees. Single differences are exact, further ones up to 2^-106.
 [[nodiscard]] inline DoubleDouble hodograph_value(const Net& net, int j, int i, std::size_t c,
                                                   Derivative order) {
@@ -81,10 +93,10 @@ struct Derivative {
     return (hodograph_value(net, j, i + 1, c, less) - hodograph_value(net, j, i, c, less)) *
            static_cast<double>(net.degree_u - less.u);
   }
-  return net.at(j, i)[c];
+  return channel_value(net, j, i, c);
 }
 
-/// The largest of them in one component: what errors of that derivative are relative to.
+/// The largest of them in one channel: what errors of that derivative are relative to.
 [[nodiscard]] inline double largest_hodograph(const Net& net, std::size_t component,
                                               Derivative order) {
   double largest = 0;
@@ -96,36 +108,67 @@ struct Derivative {
   }
   return largest;
 }
+/// In the three components of a polynomial net.
 [[nodiscard]] inline Vector3 largest_hodographs(const Net& net, Derivative order) {
   return {largest_hodograph(net, 0, order), largest_hodograph(net, 1, order),
           largest_hodograph(net, 2, order)};
 }
 
-[[nodiscard]] inline Vector3dd oracle_derivative(const Net& net, OracleParameter u,
-                                                 OracleParameter v, Derivative order) {
+/// One derivative of all channels; the weight's is 0 where the net has none.
+[[nodiscard]] inline std::array<DoubleDouble, 4>
+channel_derivatives(const Net& net, OracleParameter u, OracleParameter v, Derivative order) {
+  std::array<DoubleDouble, 4> sum;
   if (order.u > net.degree_u || order.v > net.degree_v) {
-    return {};
+    return sum;
   }
   const auto weights_u = bernstein_weights(net.degree_u - order.u, u);
   const auto weights_v = bernstein_weights(net.degree_v - order.v, v);
-  Vector3dd sum{};
-  for (int j = 0; j <= net.degree_v - order.v; ++j) {
-    Vector3dd row{};
-    for (int i = 0; i <= net.degree_u - order.u; ++i) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        row[c] =
-            row[c] + hodograph_value(net, j, i, c, order) * weights_u[static_cast<std::size_t>(i)];
+  for (std::size_t c = 0; c < (net.is_rational() ? 4U : 3U); ++c) {
+    for (int j = 0; j <= net.degree_v - order.v; ++j) {
+      DoubleDouble row;
+      for (int i = 0; i <= net.degree_u - order.u; ++i) {
+        row = row + hodograph_value(net, j, i, c, order) * weights_u[static_cast<std::size_t>(i)];
       }
-    }
-    for (std::size_t c = 0; c < 3; ++c) {
-      sum[c] = sum[c] + row[c] * weights_v[static_cast<std::size_t>(j)];
+      sum[c] = sum[c] + row * weights_v[static_cast<std::size_t>(j)];
     }
   }
   return sum;
 }
 
+/// One derivative of a polynomial net, or of a rational one in homogeneous coordinates.
+[[nodiscard]] inline Vector3dd oracle_derivative(const Net& net, OracleParameter u,
+                                                 OracleParameter v, Derivative order) {
+  const auto all = channel_derivatives(net, u, v, order);
+  return {all[0], all[1], all[2]};
+}
+
+/// The quotient rule: h = w S, differentiated and solved for the highest derivative of S.
+[[nodiscard]] inline OracleSample rational_sample(const Net& net, OracleParameter u,
+                                                  OracleParameter v) {
+  const auto h = channel_derivatives(net, u, v, {0, 0});
+  const auto h_u = channel_derivatives(net, u, v, {1, 0});
+  const auto h_v = channel_derivatives(net, u, v, {0, 1});
+  const auto h_uu = channel_derivatives(net, u, v, {2, 0});
+  const auto h_uv = channel_derivatives(net, u, v, {1, 1});
+  const auto h_vv = channel_derivatives(net, u, v, {0, 2});
+  constexpr std::size_t w = kWeightChannel;
+  OracleSample s;
+  for (std::size_t c = 0; c < 3; ++c) {
+    s.position[c] = h[c] / h[w];
+    s.du[c] = (h_u[c] - s.position[c] * h_u[w]) / h[w];
+    s.dv[c] = (h_v[c] - s.position[c] * h_v[w]) / h[w];
+    s.duu[c] = (h_uu[c] - s.du[c] * h_u[w] * 2.0 - s.position[c] * h_uu[w]) / h[w];
+    s.duv[c] = (h_uv[c] - s.du[c] * h_v[w] - s.dv[c] * h_u[w] - s.position[c] * h_uv[w]) / h[w];
+    s.dvv[c] = (h_vv[c] - s.dv[c] * h_v[w] * 2.0 - s.position[c] * h_vv[w]) / h[w];
+  }
+  return s;
+}
+
 [[nodiscard]] inline OracleSample oracle_sample(const Net& net, OracleParameter u,
                                                 OracleParameter v) {
+  if (net.is_rational()) {
+    return rational_sample(net, u, v);
+  }
   return {oracle_derivative(net, u, v, {0, 0}), oracle_derivative(net, u, v, {1, 0}),
           oracle_derivative(net, u, v, {0, 1}), oracle_derivative(net, u, v, {2, 0}),
           oracle_derivative(net, u, v, {1, 1}), oracle_derivative(net, u, v, {0, 2})};
@@ -164,8 +207,9 @@ struct Derivative {
 /// The unit normal from exact tangents. Tangents are brought near 1 by powers of two first, so
 /// that nets scaled by 2^-60 and 2^60 neither underflow nor overflow.
 [[nodiscard]] inline OracleNormal oracle_normal(const Net& net, const OracleSample& sample) {
-  const double size_u = largest_of(largest_hodographs_u(net));
-  const double size_v = largest_of(largest_hodographs_v(net));
+  const Net polygon = control_polygon(net);
+  const double size_u = largest_of(largest_hodographs_u(polygon));
+  const double size_v = largest_of(largest_hodographs_v(polygon));
   if (size_u == 0 || size_v == 0) {
     return {};
   }

@@ -24,6 +24,7 @@ constexpr int kGregoryPoints[20] = {0,  1,  4,  5,  5,  3,  7, 2,  6, 6,
 class OpenSubdivEvaluator : public Evaluator<float> {
 public:
   [[nodiscard]] std::string name() const override { return "opensubdiv"; }
+  [[nodiscard]] bool handles(const Net& net) const override { return net.is_bicubic(); }
 
   void evaluate(const Net& net, std::span<const Parameters2<float>> at, int /*grid*/,
                 std::span<Result<float>> results) override {

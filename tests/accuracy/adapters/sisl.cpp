@@ -17,6 +17,7 @@ namespace {
 class SislEvaluator : public Evaluator<double> {
 public:
   [[nodiscard]] std::string name() const override { return "sisl"; }
+  [[nodiscard]] bool handles(const Net& net) const override { return !net.is_rational(); }
 
   void evaluate(const Net& net, std::span<const Parameters2<double>> at, int /*grid*/,
                 std::span<Result<double>> results) override {

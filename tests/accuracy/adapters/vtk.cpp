@@ -2,8 +2,10 @@
 //
 // Positions are its EvaluateLocation. Its Derivatives gives gradients in space, by way of an
 // inverted Jacobian and 0 where that is singular; so the tangents are that Jacobian's rows, formed
-// as Derivatives does, from InterpolateDerivs.
+// as Derivatives does, from InterpolateDerivs. That one leaves weights out, so rational cells give
+// positions only.
 #include <vtkBezierQuadrilateral.h>
+#include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
@@ -16,6 +18,9 @@ namespace {
 class VtkEvaluator : public Evaluator<double> {
 public:
   [[nodiscard]] std::string name() const override { return "vtk"; }
+  [[nodiscard]] Capabilities capabilities(const Net& net) const override {
+    return {.tangents = !net.is_rational(), .normal = !net.is_rational()};
+  }
 
   void evaluate(const Net& net, std::span<const Parameters2<double>> at, int /*grid*/,
                 std::span<Result<double>> results) override {
@@ -26,6 +31,9 @@ public:
       const double parameters[3] = {at[k].u, at[k].v, 0};
       int part = 0;
       cell_->EvaluateLocation(part, parameters, results[k].position, weights.data());
+      if (net.is_rational()) {
+        continue;
+      }
       cell_->InterpolateDerivs(parameters, slopes.data());
       for (std::size_t c = 0; c < 3; ++c) {
         results[k].du[c] = 0;
@@ -47,13 +55,18 @@ private:
     cell_->GetPointIds()->SetNumberOfIds(count);
     cell_->GetPoints()->SetNumberOfPoints(count);
     cell_->SetOrder(order[0], order[1]);
+    cell_->GetRationalWeights()->SetNumberOfTuples(net.is_rational() ? count : 0);
+    const Net polygon = control_polygon(net);
     std::vector<Vector3> points(net.points.size());
     for (int j = 0; j <= net.degree_v; ++j) {
       for (int i = 0; i <= net.degree_u; ++i) {
         const int p = vtkBezierQuadrilateral::PointIndexFromIJK(i, j, order);
-        points[static_cast<std::size_t>(p)] = net.at(j, i);
+        points[static_cast<std::size_t>(p)] = polygon.at(j, i);
         cell_->GetPointIds()->SetId(p, p);
-        cell_->GetPoints()->SetPoint(p, net.at(j, i).data());
+        cell_->GetPoints()->SetPoint(p, polygon.at(j, i).data());
+        if (net.is_rational()) {
+          cell_->GetRationalWeights()->SetValue(p, net.weight(j, i));
+        }
       }
     }
     return points;

@@ -1,0 +1,101 @@
+// The gates of the suite on patches of every degree and with weights: a small sample of each
+// family, on every instruction set.
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/accuracy/gates.hpp"
+#include "tests/accuracy/library_evaluator.hpp"
+#include "tests/accuracy/scalar_evaluators.hpp"
+#include "tests/support/isa_fixture.hpp"
+#include "tests/support/shape_families.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+constexpr std::size_t kNets = 8;
+constexpr std::size_t kSamplesPerNet = 24;
+
+/// Families with the oracle's answers and de Casteljau's RMS, made once for all instruction sets.
+template <typename T>
+struct Prepared {
+  std::vector<Family<T>> families = shape_families<T>(kNets, kSamplesPerNet);
+  std::vector<Reference> references;
+  std::vector<std::array<double, 2>> de_casteljau; ///< [0] rounded twice, [1] fused
+
+  Prepared() {
+    for (const Family<T>& family : families) {
+      references.push_back(make_reference(family, true));
+      const Reference at_unit = make_reference(family, false);
+      de_casteljau.push_back({rms<false>(family, at_unit), rms<true>(family, at_unit)});
+    }
+  }
+
+private:
+  template <bool kFused>
+  [[nodiscard]] static double rms(const Family<T>& family, const Reference& at_unit) {
+    ScalarEvaluator<T, DeCasteljau<T, WeightedLerp<T, kFused>>> evaluator;
+    return measure(evaluator, family, at_unit)[Quantity::position].rms();
+  }
+};
+
+template <typename T>
+[[nodiscard]] const Prepared<T>& prepared() {
+  static const Prepared<T> instance;
+  return instance;
+}
+
+class ShapesTest : public IsaTest {
+protected:
+  template <typename T>
+  [[nodiscard]] Measurement run(std::size_t f, const PackOptions& packing) {
+    LibraryEvaluator<T> evaluator(isa(), packing);
+    const Measurement measured =
+        measure(evaluator, prepared<T>().families[f], prepared<T>().references[f]);
+    expect_ran(Status::ok, evaluator.executed());
+    return measured;
+  }
+
+  /// G1, G6 and the patches' own certificates, on every family.
+  template <typename T>
+  void expect_gates(const PackOptions& packing) {
+    double tightest = 0;
+    for (std::size_t f = 0; f < prepared<T>().families.size(); ++f) {
+      const std::string& name = prepared<T>().families[f].name;
+      const Measurement measured = run<T>(f, packing);
+      expect_bounds(name, measured);
+      tightest = std::max(tightest, expect_certificates(name, measured));
+    }
+    EXPECT_GT(tightest, 0.1) << "certificates this wide say nothing";
+  }
+
+  /// G5 wherever sums in powers can compare: weights in ratios up to 4.
+  template <typename T>
+  void expect_small_errors() {
+    const std::size_t fused = fuses_multiply_add(isa()) ? 1 : 0;
+    for (std::size_t f = 0; f < prepared<T>().families.size(); ++f) {
+      const std::string& name = prepared<T>().families[f].name;
+      if (!name.starts_with("weights100_") && !name.starts_with("weights1e4_")) {
+        // Few samples: single ones weigh more than in the suite, so the higher factor for all.
+        EXPECT_LE(run<T>(f, {})[Quantity::position].rms(),
+                  kRmsAgainstDeCasteljauHigh * prepared<T>().de_casteljau[f][fused])
+            << name << ": G5, RMS against de Casteljau";
+      }
+    }
+  }
+};
+
+TEST_P(ShapesTest, EveryFamilyFloat) { expect_gates<float>({}); }
+TEST_P(ShapesTest, EveryFamilyDouble) { expect_gates<double>({}); }
+TEST_P(ShapesTest, LocalOriginsFloat) { expect_gates<float>({.local_origin = true}); }
+TEST_P(ShapesTest, LocalOriginsDouble) { expect_gates<double>({.local_origin = true}); }
+TEST_P(ShapesTest, SmallErrorsFloat) { expect_small_errors<float>(); }
+TEST_P(ShapesTest, SmallErrorsDouble) { expect_small_errors<double>(); }
+INSTANTIATE_FOR_EVERY_ISA(ShapesTest);
+
+} // namespace
+} // namespace simdbezier::tests

@@ -1,0 +1,139 @@
+// Every sample of every kind of curve against its certificate.
+#include <algorithm>
+
+#include "tests/curves/curve_results.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+struct Kind {
+  const char* name;
+  int components;
+  double ratio; ///< of the weights; 0: none
+  double offset = 0;
+  bool local_origin = false;
+  double relative_to = 0;
+};
+
+const Kind kKinds[] = {{"line", 1, 0},
+                       {"plane", 2, 0},
+                       {"space", 3, 0},
+                       {"colour", 4, 0},
+                       {"rational_1", 1, 4},
+                       {"rational_2", 2, 100},
+                       {"rational_3", 3, 4},
+                       {"rational_1e4", 3, 1e4},
+                       {"rational_4", 4, 4},
+                       {"far", 3, 0, 1000},
+                       {"far_origin", 3, 0, 1000, true},
+                       {"far_rational_origin", 3, 4, 1000, true},
+                       {"moved", 3, 0, 1000, false, 999.75},
+                       {"moved_rational", 3, 4, 1000, false, 999.75}};
+
+class CurveAccuracy : public CurveTest {
+protected:
+  template <typename T, typename S>
+  void meets_its_bounds(const Kind& kind, int degree) {
+    constexpr std::size_t kCurves = 4;
+    constexpr std::size_t kSamples = 17;
+    const CurveBatch<S> batch = random_curves<S>(kCurves, degree, kind.components, kind.ratio,
+                                                 static_cast<std::uint64_t>(degree), kind.offset);
+    PackOptions options;
+    options.local_origin = kind.local_origin;
+    std::fill_n(options.relative_to, 3, kind.relative_to);
+    const CurveSet<T> set = packed<T>(batch, options);
+    for (int first = 0; first < kind.components; first += 3) {
+      Options where;
+      where.first_component = first;
+      const int planes = std::min(kind.components - first, 3);
+      CurveResults<T> results(kCurves * kSamples, kind.components > 3 ? 1 : planes);
+      results.planes = planes;
+      evaluate(set, CurveGrid<T>::uniform(kSamples), results.outputs(), where);
+      for (std::size_t curve = 0; curve < kCurves; ++curve) {
+        const CurveBounds bounds = curve_bounds(set, curve, isa());
+        for (std::size_t i = 0; i < kSamples; ++i) {
+          const double x = uniform_x<T>(i, kSamples);
+          for (int c = 0; c < planes; ++c) {
+            const auto component = static_cast<std::size_t>(first + c);
+            const double moved = component < 3 ? kind.relative_to : 0;
+            const OracleCurve exact = oracle_curve(batch, curve, component, x, moved);
+            const double limits[] = {bounds.position[component], bounds.d1[component],
+                                     bounds.d2[component]};
+            for (std::size_t d = 0; d < 3; ++d) {
+              const T value = results.at(d, static_cast<std::size_t>(c), curve * kSamples + i);
+              const double error = std::fabs((exact.d[d] - static_cast<double>(value)).to_double());
+              ASSERT_LE(error, limits[d])
+                  << kind.name << " degree " << degree << " curve " << curve << " sample " << i
+                  << " component " << component << " derivative " << d;
+              worst_[d] = std::max(worst_[d], limits[d] > 0 ? error / limits[d] : 0);
+            }
+          }
+        }
+      }
+    }
+  }
+
+  double worst_[3] = {0, 0, 0};
+};
+
+TEST_P(CurveAccuracy, ErrorsStayWithinTheirBounds) {
+  for (const Kind& kind : kKinds) {
+    std::fill_n(worst_, 3, 0.0);
+    for (int degree = 1; degree <= kMostDegree; ++degree) {
+      meets_its_bounds<float, float>(kind, degree);
+      meets_its_bounds<double, double>(kind, degree);
+      meets_its_bounds<float, double>(kind, degree);
+    }
+    // A bound that nothing comes near would pass this test as well.
+    for (std::size_t d = 0; d < 3; ++d) {
+      EXPECT_GT(worst_[d], kind.ratio > 0 ? 1e-5 : 0.02) << kind.name << " derivative " << d;
+    }
+  }
+}
+
+TEST_P(CurveAccuracy, EndsAreControlPoints) {
+  for (int degree = 1; degree <= kMostDegree; ++degree) {
+    for (const double ratio : {0.0, 10.0}) {
+      for (const bool origins : {false, true}) {
+        const auto batch = random_curves<float>(5, degree, 3, ratio, 77);
+        PackOptions options;
+        options.local_origin = origins;
+        const CurveSet<float> set = packed<float>(batch, options);
+        CurveResults<float> results(5 * 6, 3);
+        evaluate(set, CurveGrid<float>::uniform(6), results.outputs());
+        for (std::size_t curve = 0; curve < 5; ++curve) {
+          for (std::size_t c = 0; c < 3; ++c) {
+            ASSERT_EQ(results.at(0, c, 6 * curve), batch.at(curve, 0, c));
+            ASSERT_EQ(results.at(0, c, 6 * curve + 5), batch.at(curve, batch.order() - 1, c));
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_P(CurveAccuracy, HomogeneousAndCartesianPointsAgree) {
+  // Weights that are powers of two: both forms are exact.
+  auto cartesian = random_curves<double>(9, 4, 3, 8, 5);
+  auto homogeneous = cartesian;
+  homogeneous.weights = Weights::homogeneous;
+  for (std::size_t k = 0; k < cartesian.count; ++k) {
+    for (std::size_t i = 0; i < cartesian.order(); ++i) {
+      const double weight = std::exp2(static_cast<double>(i) - 2);
+      cartesian.at(k, i, 3) = homogeneous.at(k, i, 3) = weight;
+      for (std::size_t c = 0; c < 3; ++c) {
+        homogeneous.at(k, i, c) = cartesian.at(k, i, c) * weight;
+      }
+    }
+  }
+  CurveResults<double> a(9 * 11, 3);
+  CurveResults<double> b(9 * 11, 3);
+  evaluate(packed<double>(cartesian), CurveGrid<double>::uniform(11), a.outputs());
+  evaluate(packed<double>(homogeneous), CurveGrid<double>::uniform(11), b.outputs());
+  EXPECT_EQ(a.hash(), b.hash());
+}
+
+INSTANTIATE_FOR_EVERY_ISA(CurveAccuracy);
+
+} // namespace
+} // namespace simdbezier::tests

@@ -1,0 +1,261 @@
+// Curves on patches: boundaries have the patch's own bits, iso-parametric curves its points.
+#include <type_traits>
+
+#include "tests/curves/curve_results.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+/// Nets of any degrees, packed.
+template <typename S>
+struct NetBatch {
+  std::size_t count;
+  int degree_u;
+  int degree_v;
+  Weights weights;
+  std::vector<S> points;
+
+  NetBatch(std::size_t nets, int m, int n, double ratio, std::uint64_t seed)
+      : count(nets), degree_u(m), degree_v(n),
+        weights(ratio > 0 ? Weights::cartesian : Weights::none) {
+    Random random(seed);
+    for (std::size_t k = 0; k < nets * static_cast<std::size_t>((m + 1) * (n + 1)); ++k) {
+      for (int c = 0; c < 3; ++c) {
+        points.push_back(static_cast<S>(random.symmetric()));
+      }
+      if (ratio > 0) {
+        points.push_back(static_cast<S>(std::pow(ratio, random.unit())));
+      }
+    }
+  }
+  [[nodiscard]] ControlNets<S> view() const {
+    return ControlNets<S>::packed(points.data(), count, degree_u, degree_v, 3, weights);
+  }
+};
+
+constexpr Boundary kBoundaries[] = {Boundary::v0, Boundary::v1, Boundary::u0, Boundary::u1};
+
+class CurvesOnPatches : public CurveTest {
+protected:
+  /// Every boundary curve at n samples, against the patch's own grid.
+  template <typename T, typename S>
+  void boundaries(const NetBatch<S>& nets, const PackOptions& options) {
+    constexpr std::size_t kSamples = 19;
+    PatchSet<T> patches;
+    const PackReport report = pack(nets.view(), patches, options);
+    ASSERT_TRUE(report);
+    const std::size_t plane = nets.count * kSamples * kSamples;
+    std::vector<T> values(3 * plane);
+    Outputs<T> out;
+    out.position = Vectors<T>::planes(&values[0], &values[plane], &values[2 * plane]);
+    grid(patches, Grid<T>::uniform(kSamples, kSamples), out);
+    for (const Boundary boundary : kBoundaries) {
+      CurveSet<T> curves;
+      ASSERT_TRUE(pack_curves(boundary_curves(nets.view(), boundary), curves, options));
+      CurveResults<T> results(nets.count * kSamples, 3);
+      evaluate(curves, CurveGrid<T>::uniform(kSamples), results.outputs());
+      for (std::size_t patch = 0; patch < nets.count; ++patch) {
+        for (std::size_t i = 0; i < kSamples; ++i) {
+          const bool along_u = boundary == Boundary::v0 || boundary == Boundary::v1;
+          const bool far = boundary == Boundary::v1 || boundary == Boundary::u1;
+          const std::size_t fixed = far ? kSamples - 1 : 0;
+          const std::size_t at =
+              (patch * kSamples + (along_u ? fixed : i)) * kSamples + (along_u ? i : fixed);
+          for (std::size_t c = 0; c < 3; ++c) {
+            ASSERT_TRUE(same_bits(values[c * plane + at], results.at(0, c, patch * kSamples + i)))
+                << "boundary " << static_cast<int>(boundary) << " patch " << patch << " sample "
+                << i;
+          }
+        }
+      }
+    }
+  }
+
+  template <typename T, typename S>
+  void iso_curves(const NetBatch<S>& nets) {
+    PatchSet<T> patches;
+    const PackReport report = pack(nets.view(), patches);
+    ASSERT_TRUE(report);
+    constexpr std::size_t kSamples = 7;
+    const T t[kSamples] = {T(0), T(0.125), T(0.375), T(0.5), T(0.6875), T(0.9375), T(1)};
+    const std::size_t plane = nets.count * kSamples * kSamples;
+    std::vector<T> values(3 * plane);
+    Outputs<T> out;
+    out.position = Vectors<T>::planes(&values[0], &values[plane], &values[2 * plane]);
+    grid(patches, Grid<T>{kSamples, kSamples, t, t}, out);
+    for (std::size_t fixed = 0; fixed < kSamples; ++fixed) {
+      CurveSet<T> u_curves;
+      CurveSet<T> v_curves;
+      ASSERT_TRUE(iso_u(nets.view(), static_cast<double>(t[fixed]), u_curves));
+      ASSERT_TRUE(iso_v(nets.view(), static_cast<double>(t[fixed]), v_curves));
+      EXPECT_EQ(u_curves.degree(), nets.degree_v);
+      EXPECT_EQ(v_curves.degree(), nets.degree_u);
+      CurveResults<T> along_v(nets.count * kSamples, 3);
+      CurveResults<T> along_u(nets.count * kSamples, 3);
+      evaluate(u_curves, CurveGrid<T>{kSamples, t}, along_v.outputs());
+      evaluate(v_curves, CurveGrid<T>{kSamples, t}, along_u.outputs());
+      for (std::size_t patch = 0; patch < nets.count; ++patch) {
+        const ErrorBounds patch_bounds = error_bounds(patches, patch, isa());
+        const CurveBounds u_bounds = curve_bounds(u_curves, patch, isa());
+        const CurveBounds v_bounds = curve_bounds(v_curves, patch, isa());
+        for (std::size_t i = 0; i < kSamples; ++i) {
+          for (std::size_t c = 0; c < 3; ++c) {
+            const double own_u =
+                static_cast<double>(values[c * plane + (patch * kSamples + i) * kSamples + fixed]);
+            const double own_v =
+                static_cast<double>(values[c * plane + (patch * kSamples + fixed) * kSamples + i]);
+            const std::size_t k = patch * kSamples + i;
+            const double iso = 32 * 0x1p-53;
+            ASSERT_LE(std::fabs(static_cast<double>(along_v.at(0, c, k)) - own_u),
+                      patch_bounds.position[c] + u_bounds.position[c] + iso);
+            ASSERT_LE(std::fabs(static_cast<double>(along_u.at(0, c, k)) - own_v),
+                      patch_bounds.position[c] + v_bounds.position[c] + iso);
+          }
+        }
+      }
+    }
+  }
+};
+
+TEST_P(CurvesOnPatches, BicubicBoundariesHaveTheBitsOfThePatch) {
+  PackOptions options;
+  PackOptions origins;
+  origins.local_origin = true;
+  PackOptions moved;
+  moved.relative_to[0] = 0.3;
+  moved.relative_to[2] = -100;
+  for (const PackOptions& how : {options, origins, moved}) {
+    boundaries<float>(NetBatch<float>(23, 3, 3, 0, 1), how);
+    boundaries<double>(NetBatch<double>(23, 3, 3, 0, 1), how);
+    boundaries<float>(NetBatch<double>(23, 3, 3, 0, 1), how);
+    boundaries<double>(NetBatch<float>(23, 3, 3, 0, 1), how);
+  }
+}
+
+TEST_P(CurvesOnPatches, BicubicIsoCurvesHaveItsPoints) {
+  iso_curves<float>(NetBatch<float>(9, 3, 3, 0, 2));
+  iso_curves<double>(NetBatch<double>(9, 3, 3, 0, 2));
+}
+
+TEST_P(CurvesOnPatches, BoundariesOfAllShapes) {
+  for (int m = 1; m <= kMostDegree; ++m) {
+    for (const double ratio : {0.0, 4.0}) {
+      for (const bool origins : {false, true}) {
+        PackOptions options;
+        options.local_origin = origins;
+        boundaries<float>(NetBatch<float>(3, m, 16 - m, ratio, 3), options);
+        boundaries<double>(NetBatch<double>(3, m, 16 - m, ratio, 3), options);
+      }
+    }
+  }
+}
+
+TEST_P(CurvesOnPatches, IsoCurvesOfAllShapes) {
+  const int degrees[][2] = {{1, 1}, {2, 3}, {5, 4}, {6, 3}, {3, 7}, {9, 15}};
+  for (const auto& [m, n] : degrees) {
+    for (const double ratio : {0.0, 4.0}) {
+      iso_curves<float>(NetBatch<float>(5, m, n, ratio, 3));
+      iso_curves<double>(NetBatch<double>(5, m, n, ratio, 3));
+    }
+  }
+}
+
+INSTANTIATE_FOR_EVERY_ISA(CurvesOnPatches);
+
+/// Both orders: a point of the iso-curve's control polygon is one of the net's rows.
+TEST(IsoPoints, AreThePointsOfRowsAndColumns) {
+  for (const double ratio : {0.0, 9.0}) {
+    const NetBatch<float> nets(4, 5, 2, ratio, 6);
+    const std::size_t channels = ratio > 0 ? 4 : 3;
+    for (const double t : {0.0, 0.3, 0.5, 1.0, 1.25}) {
+      std::vector<double> u_points(4 * 3 * channels);
+      std::vector<double> v_points(4 * 6 * channels);
+      ASSERT_EQ(iso_u(nets.view(), t, u_points.data(), 2), Status::ok);
+      ASSERT_EQ(iso_v(nets.view(), t, v_points.data(), 1), Status::ok);
+      CurveBatch<float> rows{4 * 3, 5, 3, nets.weights, nets.points};
+      for (std::size_t k = 0; k < 4 * 3; ++k) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          const double exact = oracle_curve(rows, k, c, t - 0.5).d[0].to_double();
+          ASSERT_NEAR(u_points[k * channels + c], exact, 1e-13);
+        }
+      }
+      for (std::size_t patch = 0; patch < 4; ++patch) {
+        for (std::size_t i = 0; i < 6; ++i) {
+          CurveBatch<float> column{1, 2, 3, nets.weights, {}};
+          for (std::size_t j = 0; j < 3; ++j) {
+            const float* const point = &nets.points[((patch * 3 + j) * 6 + i) * channels];
+            column.points.insert(column.points.end(), point, point + channels);
+          }
+          for (std::size_t c = 0; c < 3; ++c) {
+            ASSERT_NEAR(v_points[(patch * 6 + i) * channels + c],
+                        oracle_curve(column, 0, c, t - 0.5).d[0].to_double(), 1e-13);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(IsoPoints, EndsAreBoundariesAndReversalIsExact) {
+  const NetBatch<double> nets(3, 4, 3, 7, 6);
+  std::vector<double> points(3 * 4 * 4);
+  for (const double t : {0.0, 1.0}) {
+    ASSERT_EQ(iso_u(nets.view(), t, points.data()), Status::ok);
+    const auto boundary = boundary_curves(nets.view(), t == 0 ? Boundary::u0 : Boundary::u1);
+    for (std::ptrdiff_t k = 0; k < 3 * 4; ++k) {
+      for (std::ptrdiff_t c = 0; c < 4; ++c) {
+        EXPECT_EQ(points[static_cast<std::size_t>(4 * k + c)],
+                  boundary.points[k / 4 * boundary.curve_stride + k % 4 * boundary.point_stride +
+                                  c * boundary.component_stride]);
+      }
+    }
+  }
+  auto reversed = nets.view();
+  reversed.points += 4 * reversed.point_stride;
+  reversed.point_stride = -reversed.point_stride;
+  std::vector<double> mirrored(points.size());
+  ASSERT_EQ(iso_u(nets.view(), 0.3125, points.data()), Status::ok);
+  ASSERT_EQ(iso_u(reversed, 1 - 0.3125, mirrored.data()), Status::ok);
+  EXPECT_EQ(points, mirrored);
+}
+
+TEST(IsoPoints, RefuseBadInput) {
+  NetBatch<float> nets(3, 4, 3, 7, 6);
+  std::vector<double> points(3 * 5 * 4, -777);
+  const auto refused = [&](Status expected, const ControlNets<float>& view, double t, double* to) {
+    EXPECT_EQ(to_string(iso_u(view, t, to)), to_string(expected));
+    EXPECT_EQ(to_string(iso_v(view, t, to)), to_string(expected));
+    for (const double value : points) {
+      ASSERT_EQ(value, -777);
+    }
+  };
+  auto view = nets.view();
+  refused(Status::non_finite_input, view, NAN, points.data());
+  refused(Status::null_output, view, 0.5, nullptr);
+  view.degree_u = 16;
+  refused(Status::bad_degree, view, 0.5, points.data());
+  view = nets.view();
+  view.components = 0;
+  refused(Status::bad_components, view, 0.5, points.data());
+  view = nets.view();
+  view.row_stride = 0;
+  refused(Status::bad_stride, view, 0.5, points.data());
+  view = nets.view();
+  view.points = nullptr;
+  refused(Status::null_input, view, 0.5, points.data());
+  view = nets.view();
+  view.points = reinterpret_cast<const float*>(points.data());
+  refused(Status::overlapping_outputs, view, 0.5, points.data() + 8);
+  nets.points[nets.points.size() - 1] = 0;
+  refused(Status::bad_weight, nets.view(), 0.5, points.data());
+  nets.points[5] = NAN;
+  refused(Status::non_finite_input, nets.view(), 0.5, points.data());
+  CurveSet<float> set;
+  const PackReport report = iso_u(nets.view(), 0.5, set);
+  EXPECT_EQ(to_string(report.status), to_string(Status::non_finite_input));
+  EXPECT_EQ(report.point, 1);
+  EXPECT_EQ(report.component, 1);
+}
+
+} // namespace
+} // namespace simdbezier::tests

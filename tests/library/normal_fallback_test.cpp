@@ -1,0 +1,281 @@
+// The second look at normals, for every degree and with weights: against surfaces whose normals are
+// known, cubics raised to higher degrees, and patches that have none.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "kernels/normal_fallback.hpp"
+#include "kernels/surface_jet.hpp"
+#include "tests/support/random.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+using Point = std::array<double, 3>;
+
+/// Points [j][i], and weights where there are any.
+struct Surface {
+  detail::NetShape shape;
+  std::vector<Point> points;
+  std::vector<double> weights;
+
+  Surface(int degree_u, int degree_v, bool rational)
+      : shape{degree_u, degree_v, 3, rational}, points(shape.points()),
+        weights(shape.points(), 1.0) {}
+  [[nodiscard]] std::size_t index(int j, int i) const {
+    return static_cast<std::size_t>(j * (shape.degree_u + 1) + i);
+  }
+  [[nodiscard]] Point& at(int j, int i) { return points[index(j, i)]; }
+};
+
+struct Answer {
+  Point normal;
+  SampleStatus status;
+};
+
+/// As PatchStorage has them.
+template <typename T>
+std::vector<T> control_values(const Surface& surface) {
+  std::vector<T> values;
+  for (std::size_t k = 0; k < surface.points.size(); ++k) {
+    for (const double value : surface.points[k]) {
+      values.push_back(static_cast<T>(value));
+    }
+    if (surface.shape.rational) {
+      values.push_back(static_cast<T>(surface.weights[k]));
+    }
+  }
+  return values;
+}
+
+/// Tangents that say nothing: the answer has to come from the control points.
+template <typename T>
+Answer resolve(const Surface& surface, double x, double y) {
+  const std::vector<T> values = control_values<T>(surface);
+  const detail::NormalQuery<T> query{&surface.shape,    values.data(), static_cast<T>(x),
+                                     static_cast<T>(y), {0, 0, 0},     {0, 0, 0}};
+  T normal[3];
+  const SampleStatus status = detail::resolve_normal(query, normal);
+  return {{static_cast<double>(normal[0]), static_cast<double>(normal[1]),
+           static_cast<double>(normal[2])},
+          status};
+}
+
+double degrees_between(const Point& a, const Point& b) {
+  const Point d{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  return 180 / 3.14159265358979 * std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+}
+
+/// The same surface with one degree more in u (exact up to rounding).
+Surface raised_u(const Surface& from) {
+  const int m = from.shape.degree_u + 1;
+  Surface to(m, from.shape.degree_v, from.shape.rational);
+  for (int j = 0; j <= from.shape.degree_v; ++j) {
+    for (int i = 0; i <= m; ++i) {
+      const double a = static_cast<double>(i) / m;
+      const std::size_t before = from.index(j, std::max(i - 1, 0));
+      const std::size_t here = from.index(j, std::min(i, m - 1));
+      double& w = to.weights[to.index(j, i)];
+      w = a * from.weights[before] + (1 - a) * from.weights[here];
+      for (std::size_t c = 0; c < 3; ++c) {
+        to.at(j, i)[c] = from.points[before][c] == from.points[here][c]
+                             ? from.points[here][c]
+                             : (a * from.weights[before] * from.points[before][c] +
+                                (1 - a) * from.weights[here] * from.points[here][c]) /
+                                   w;
+      }
+    }
+  }
+  return to;
+}
+
+Surface exchanged(const Surface& from) {
+  Surface to(from.shape.degree_v, from.shape.degree_u, from.shape.rational);
+  for (int j = 0; j <= from.shape.degree_v; ++j) {
+    for (int i = 0; i <= from.shape.degree_u; ++i) {
+      to.at(i, j) = from.points[from.index(j, i)];
+      to.weights[to.index(i, j)] = from.weights[from.index(j, i)];
+    }
+  }
+  return to;
+}
+
+/// A bicubic cap whose edge v = 0 is a pole.
+Surface cap(std::uint64_t seed) {
+  Random random(seed);
+  Surface surface(3, 3, false);
+  for (int j = 0; j <= 3; ++j) {
+    for (int i = 0; i <= 3; ++i) {
+      const double spread = j + 0.2 * (j > 0 ? random.symmetric() : 0);
+      surface.at(j, i) = {0.3 * spread * (i - 1.5), spread, 5 + 0.1 * j * j};
+    }
+  }
+  return surface;
+}
+
+constexpr double kParameters[] = {-0.5, -0.499999, -0.3, 0, 0.2, 0.5};
+
+template <typename T>
+void expect_degrees_to_agree(double tolerance) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Surface cubic = cap(seed);
+    Surface higher = cubic;
+    for (int degree = 4; degree <= kMostDegree; ++degree) {
+      higher = raised_u(higher);
+      if (degree % 2 == 0) {
+        higher = exchanged(raised_u(exchanged(higher)));
+      }
+      Surface weighted = higher; // weights that are all the same change nothing
+      weighted.shape.rational = true;
+      std::fill(weighted.weights.begin(), weighted.weights.end(), 3.0);
+      for (const double x : kParameters) {
+        for (const double y : kParameters) {
+          const Answer expected = resolve<T>(cubic, x, y);
+          for (const Surface& other : {higher, weighted}) {
+            const Answer found = resolve<T>(other, x, y);
+            EXPECT_EQ(found.status, expected.status) << degree << " at " << x << ", " << y;
+            EXPECT_LE(degrees_between(found.normal, expected.normal), tolerance)
+                << degree << " at " << x << ", " << y;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(NormalFallback, raised_degrees_have_the_same_normals) {
+  expect_degrees_to_agree<double>(1e-3);
+}
+
+/// An octant of the unit sphere as a rational biquadratic patch: its pole is the edge v = 1, where
+/// all points are the same and their weights are not.
+Surface octant() {
+  Surface surface(2, 2, true);
+  const double half = std::sqrt(0.5);
+  const double circle[3][2] = {{1, 0}, {1, 1}, {0, 1}};
+  const double weights[3] = {1, half, 1};
+  for (int j = 0; j <= 2; ++j) {
+    for (int i = 0; i <= 2; ++i) {
+      surface.at(j, i) = {circle[j][0] * circle[i][0], circle[j][0] * circle[i][1], circle[j][1]};
+      surface.weights[surface.index(j, i)] = weights[j] * weights[i];
+    }
+  }
+  return surface;
+}
+
+/// Where the octant is at (u, v).
+Point on_sphere(double u, double v) {
+  const auto quarter = [](double t) {
+    const double b[3] = {(1 - t) * (1 - t), 2 * t * (1 - t) * std::sqrt(0.5), t * t};
+    const double w = b[0] + b[1] + b[2];
+    return std::array<double, 2>{(b[0] + b[1]) / w, (b[1] + b[2]) / w};
+  };
+  const auto [east, north] = quarter(u);
+  const auto [radius, height] = quarter(v);
+  return {radius * east, radius * north, height};
+}
+
+template <typename T>
+void expect_sphere(double tolerance) {
+  Surface surface = octant();
+  for (int degree = 2; degree <= kMostDegree; ++degree) {
+    for (const double x : kParameters) {
+      for (const double y : kParameters) {
+        const Answer found = resolve<T>(surface, x, y);
+        const Point expected = on_sphere(0.5 + static_cast<double>(static_cast<T>(x)),
+                                         0.5 + static_cast<double>(static_cast<T>(y)));
+        EXPECT_LE(degrees_between(found.normal, expected), tolerance)
+            << degree << " at " << x << ", " << y;
+        EXPECT_EQ(found.status, y == 0.5 ? SampleStatus::limit : SampleStatus::regular)
+            << degree << " at " << x << ", " << y;
+      }
+    }
+    surface = degree % 2 == 0 ? raised_u(surface) : exchanged(raised_u(exchanged(surface)));
+  }
+}
+
+TEST(NormalFallback, a_sphere_has_its_radii_for_normals) {
+  expect_sphere<double>(1e-3);
+  // Rounded control points are those of another surface.
+  expect_sphere<float>(0.01);
+}
+
+TEST(NormalFallback, along_a_collapsed_edge_the_tangent_is_exactly_zero) {
+  Surface surface = octant();
+  for (int degree = 2; degree <= kMostDegree; ++degree) {
+    const std::vector<double> values = control_values<double>(surface);
+    const detail::SurfaceFrame frame(surface.shape, values.data());
+    for (const double x : kParameters) {
+      const detail::SurfaceJet jet = detail::surface_jet(frame, x, 0.5);
+      EXPECT_EQ(detail::max_norm(jet.u), 0) << degree << " at " << x;
+      EXPECT_GT(detail::max_norm(jet.v), 0.1) << degree << " at " << x;
+    }
+    surface = degree % 2 == 0 ? raised_u(surface) : exchanged(raised_u(exchanged(surface)));
+  }
+}
+
+TEST(NormalFallback, far_from_the_origin_poles_stay_poles) {
+  Surface surface = octant();
+  for (Point& point : surface.points) {
+    for (double& value : point) {
+      value += 4096; // exact
+    }
+  }
+  for (const double x : kParameters) {
+    const Answer found = resolve<float>(surface, x, 0.5);
+    EXPECT_EQ(found.status, SampleStatus::limit);
+    EXPECT_LE(degrees_between(found.normal, {0, 0, 1}), 1e-3) << x;
+  }
+}
+
+TEST(NormalFallback, large_weight_ratios_and_scales) {
+  for (const double ratio : {1e-4, 1e4}) {
+    for (const double scale : {0x1p-60, 1.0, 0x1p60}) {
+      Surface plane(5, 2, true);
+      for (int j = 0; j <= 2; ++j) {
+        for (int i = 0; i <= 5; ++i) {
+          plane.at(j, i) = {scale * (i + 0.1 * j), scale * j, scale};
+          plane.weights[plane.index(j, i)] = scale * ((i + j) % 2 == 0 ? 1 : ratio);
+        }
+      }
+      for (const double x : kParameters) {
+        for (const double y : kParameters) {
+          const Answer found = resolve<double>(plane, x, y);
+          EXPECT_LE(degrees_between(found.normal, {0, 0, 1}), 1e-6)
+              << ratio << " " << x << " " << y;
+          EXPECT_EQ(found.status, SampleStatus::regular) << ratio << " " << scale;
+        }
+      }
+    }
+  }
+}
+
+TEST(NormalFallback, points_and_lines_have_none) {
+  for (const bool rational : {false, true}) {
+    for (int degree = 1; degree <= kMostDegree; ++degree) {
+      Surface point(degree, 16 - degree, rational);
+      Surface line = point;
+      for (std::size_t k = 0; k < point.points.size(); ++k) {
+        point.points[k] = {1, 2, 3};
+        line.points[k] = {1, 2, static_cast<double>(k)};
+        point.weights[k] = line.weights[k] = 1 + static_cast<double>(k % 3);
+      }
+      for (const Surface& surface : {point, line}) {
+        const Answer found = resolve<double>(surface, 0.25, -0.5);
+        EXPECT_EQ(found.status, SampleStatus::degenerate) << degree << rational;
+        EXPECT_EQ(found.normal, (Point{0, 0, 0})) << degree << rational;
+      }
+      const Answer nowhere = resolve<double>(line, std::numeric_limits<double>::quiet_NaN(), 0);
+      EXPECT_EQ(nowhere.status, SampleStatus::non_finite);
+      EXPECT_TRUE(std::isnan(nowhere.normal[2]));
+    }
+  }
+}
+
+} // namespace
+} // namespace simdbezier::tests

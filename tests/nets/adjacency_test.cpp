@@ -1,0 +1,254 @@
+// Edge links against brute force, on random soups of all degrees, the teapot and the data files.
+#include <gtest/gtest.h>
+
+#include <tools/teapot.hpp>
+#include <tools/topology.hpp>
+
+#include "tests/nets/batch.hpp"
+#include "tests/support/data_files.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+/// An edge's points in its own direction, a key for comparing; equal values compare equal, so -0 is
+/// 0.
+template <typename T>
+struct Edge {
+  int degree;
+  Weights weights;
+  std::vector<std::vector<T>> points;
+
+  [[nodiscard]] T coordinate(const std::vector<T>& point, std::size_t c) const {
+    return weights == Weights::homogeneous ? point[c] / point.back() : point[c];
+  }
+  [[nodiscard]] bool collapsed() const {
+    const std::size_t components = points[0].size() - (weights == Weights::none ? 0 : 1);
+    return std::all_of(points.begin(), points.end(), [&](const std::vector<T>& point) {
+      for (std::size_t c = 0; c < components; ++c) {
+        if (coordinate(point, c) != coordinate(points[0], c)) {
+          return false;
+        }
+      }
+      return true;
+    });
+  }
+  [[nodiscard]] bool same_kind(const Edge& other) const {
+    return degree == other.degree && weights == other.weights &&
+           points[0].size() == other.points[0].size();
+  }
+  [[nodiscard]] bool forward(const Edge& other) const {
+    return same_kind(other) && points == other.points;
+  }
+  [[nodiscard]] bool backward(const Edge& other) const {
+    return same_kind(other) && std::equal(points.begin(), points.end(), other.points.rbegin());
+  }
+};
+
+template <typename T>
+std::vector<Edge<T>> edges_of(const std::vector<Batch<T>>& soup) {
+  std::vector<Edge<T>> edges;
+  for (const Batch<T>& batch : soup) {
+    const int m = batch.shape.degree_u;
+    const int n = batch.shape.degree_v;
+    for (std::size_t p = 0; p < batch.count; ++p) {
+      for (int side = 0; side < 4; ++side) {
+        Edge<T> edge{side < 2 ? m : n, batch.shape.weights, {}};
+        for (int k = 0; k <= edge.degree; ++k) {
+          const int j = side < 2 ? side * n : k;
+          const int i = side < 2 ? k : (side - 2) * m;
+          const T* const point = &batch.at(p, j, i, 0);
+          edge.points.emplace_back(point, point + batch.channels());
+        }
+        edges.push_back(std::move(edge));
+      }
+    }
+  }
+  return edges;
+}
+
+template <typename T>
+std::vector<EdgeLink> brute_force(const std::vector<Batch<T>>& soup) {
+  const std::vector<Edge<T>> edges = edges_of(soup);
+  std::vector<EdgeLink> links(edges.size());
+  for (std::size_t a = 0; a < edges.size(); ++a) {
+    if (edges[a].collapsed()) {
+      links[a] = {EdgeKind::collapsed};
+      continue;
+    }
+    std::size_t others = 0;
+    for (std::size_t step = edges.size() - 1; step > 0;
+         --step) { // the nearest one ahead comes last
+      const std::size_t b = (a + step) % edges.size();
+      const bool forward = edges[a].forward(edges[b]);
+      if (!edges[b].collapsed() && (forward || edges[a].backward(edges[b]))) {
+        ++others;
+        links[a] = {EdgeKind::shared, static_cast<PatchEdge>(b % 4), !forward, b / 4};
+      }
+    }
+    links[a].kind = others == 0   ? EdgeKind::boundary
+                    : others == 1 ? EdgeKind::shared
+                                  : EdgeKind::non_manifold;
+  }
+  return links;
+}
+
+template <typename T>
+std::vector<EdgeLink> links_of(const std::vector<Batch<T>>& soup, int threads) {
+  std::vector<ControlNets<T>> sets;
+  std::size_t patches = 0;
+  for (const Batch<T>& batch : soup) {
+    sets.push_back(batch.nets());
+    patches += batch.count;
+  }
+  std::vector<EdgeLink> links(4 * patches, {EdgeKind::shared, PatchEdge::u1, true, 99});
+  EXPECT_EQ(
+      find_adjacency(std::span<const ControlNets<T>>(sets), links.data(), {.threads = threads}),
+      Status::ok);
+  return links;
+}
+
+template <typename T>
+void expect_links(const std::vector<Batch<T>>& soup) {
+  const std::vector<EdgeLink> expected = brute_force(soup);
+  for (const int threads : {1, 3}) {
+    const std::vector<EdgeLink> links = links_of(soup, threads);
+    ASSERT_EQ(links.size(), expected.size());
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      EXPECT_EQ(links[k], expected[k])
+          << "edge " << k << ": kind " << static_cast<int>(links[k].kind) << " for "
+          << static_cast<int>(expected[k].kind) << ", patch " << links[k].patch << " for "
+          << expected[k].patch;
+    }
+  }
+}
+
+/// Values from a handful of numbers, zeros of both signs among them: many edges match, in both
+/// directions, more than once, are palindromes or collapsed.
+template <typename T>
+std::vector<Batch<T>> random_soup(std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Batch<T>> soup;
+  const Weights weights[] = {Weights::none, Weights::none, Weights::cartesian,
+                             Weights::homogeneous};
+  for (int k = 0; k < 8; ++k) {
+    const int m = random.integer(1, 3);
+    const int n = random.integer(1, 3);
+    const Shape shape{m, n, random.integer(1, 2), weights[random.below(4)]};
+    Batch<T> batch(shape, random.below(6));
+    const T values[] = {T(0), T(-0.0), T(1), T(1)};
+    for (std::size_t v = 0; v < batch.values.size(); ++v) {
+      batch.values[v] =
+          batch.is_weight(v % batch.channels()) ? T(1 + random.below(2)) : values[random.below(4)];
+    }
+    soup.push_back(std::move(batch));
+  }
+  return soup;
+}
+
+TEST(Adjacency, RandomSoupsFloat) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_links(random_soup<float>(seed));
+  }
+}
+TEST(Adjacency, RandomSoupsDouble) {
+  for (std::uint64_t seed = 100; seed < 120; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_links(random_soup<double>(seed));
+  }
+}
+
+// The soups hold what they are meant to hold.
+TEST(Adjacency, SoupsHaveEveryKind) {
+  std::size_t kinds[4] = {};
+  std::size_t reversed = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    for (const EdgeLink& link : brute_force(random_soup<float>(seed))) {
+      ++kinds[static_cast<int>(link.kind)];
+      reversed += link.reversed ? 1U : 0U;
+    }
+  }
+  for (const std::size_t kind : kinds) {
+    EXPECT_GT(kind, 20U);
+  }
+  EXPECT_GT(reversed, 20U);
+}
+
+TEST(Adjacency, Teapot) {
+  const tools::PatchFile file = tools::teapot();
+  Batch<double> batch({3, 3, 3, Weights::none}, file.count);
+  batch.values = file.points;
+  expect_links<double>({batch});
+  const tools::EdgeCounts counts = tools::count_edges(file);
+  EXPECT_EQ(counts.shared, 104U);
+  EXPECT_EQ(counts.boundary, 16U);
+  EXPECT_EQ(counts.collapsed, 8U);
+}
+
+TEST(Adjacency, DataFiles) {
+  std::size_t files = 0;
+  for (const char* const name : kDataFiles) {
+    const std::vector<Net> nets = data_nets(name);
+    if (nets.empty() || nets.size() > 600) { // brute force is quadratic
+      continue;
+    }
+    SCOPED_TRACE(name);
+    Batch<float> batch({3, 3, 3, Weights::none}, nets.size());
+    batch.values = packed_points<float>(nets);
+    expect_links<float>({batch});
+    ++files;
+  }
+  if (files == 0) {
+    GTEST_SKIP() << "no data files";
+  }
+}
+
+// A regular mesh of many patches: every inner edge is shared, in time that is not quadratic.
+TEST(Adjacency, LargeMesh) {
+  constexpr std::size_t kSide = 250;
+  Batch<float> batch({1, 1, 3, Weights::none}, kSide * kSide);
+  for (std::size_t p = 0; p < batch.count; ++p) {
+    for (int j = 0; j < 2; ++j) {
+      for (int i = 0; i < 2; ++i) {
+        batch.at(p, j, i, 0) = static_cast<float>(p % kSide + static_cast<std::size_t>(i));
+        batch.at(p, j, i, 1) = static_cast<float>(p / kSide + static_cast<std::size_t>(j));
+        batch.at(p, j, i, 2) = 0;
+      }
+    }
+  }
+  std::vector<EdgeLink> links(4 * batch.count);
+  ASSERT_EQ(find_adjacency(batch.nets(), links.data()), Status::ok);
+  std::size_t boundary = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    boundary += links[k].kind == EdgeKind::boundary ? 1U : 0U;
+    if (links[k].kind == EdgeKind::shared) {
+      const EdgeLink& back = links[4 * links[k].patch + static_cast<std::size_t>(links[k].edge)];
+      ASSERT_EQ(4 * back.patch + static_cast<std::size_t>(back.edge), k);
+    }
+  }
+  EXPECT_EQ(boundary, 4 * kSide);
+}
+
+TEST(Adjacency, BadInput) {
+  Batch<float> batch = random_batch<float>({2, 2, 3, Weights::none}, 2, 51);
+  std::vector<EdgeLink> links(8, {EdgeKind::collapsed, PatchEdge::u1, true, 7});
+  const std::vector<EdgeLink> before = links;
+  const auto status = [&](auto change) {
+    ControlNets<float> nets = batch.nets();
+    change(nets);
+    return find_adjacency(nets, links.data());
+  };
+  EXPECT_EQ(status([](auto& nets) { nets.points = nullptr; }), Status::null_input);
+  EXPECT_EQ(status([](auto& nets) { nets.degree_u = 0; }), Status::bad_degree);
+  EXPECT_EQ(status([](auto& nets) { nets.degree_v = 16; }), Status::bad_degree);
+  EXPECT_EQ(status([](auto& nets) { nets.components = 0; }), Status::bad_components);
+  EXPECT_EQ(status([](auto& nets) { nets.row_stride = 0; }), Status::bad_stride);
+  EXPECT_EQ(status([](auto& nets) { nets.count = SIZE_MAX / 4; }), Status::size_overflow);
+  EXPECT_EQ(links, before);
+  EXPECT_EQ(find_adjacency(batch.nets(), nullptr), Status::null_output);
+  EXPECT_EQ(find_adjacency(std::span<const ControlNets<float>>(), nullptr), Status::ok);
+  EXPECT_EQ(find_adjacency(ControlNets<float>{}, nullptr), Status::ok);
+}
+
+} // namespace
+} // namespace simdbezier::tests
