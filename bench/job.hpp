@@ -9,24 +9,57 @@
 namespace simdbezier_bench {
 
 /// The second derivatives come with everything before them: position, du, dv, duu, duv, dvv.
-enum class OutputGroups { position, position_normal, position_derivatives, second_derivatives };
+/// Curvature: position, then Gaussian, mean, smaller and larger principal curvature.
+enum class OutputGroups {
+  position,
+  position_normal,
+  position_derivatives,
+  second_derivatives,
+  curvature
+};
 
 constexpr std::size_t kMostGroups = 6;
+constexpr std::size_t kCurvatures = 4;
 
+/// Vectors of three components.
 constexpr std::size_t group_count(OutputGroups groups) {
-  constexpr std::size_t kCounts[] = {1, 2, 3, kMostGroups};
+  constexpr std::size_t kCounts[] = {1, 2, 3, kMostGroups, 1};
   return kCounts[static_cast<int>(groups)];
+}
+
+/// All values of a sample: three a vector, one a curvature.
+constexpr std::size_t value_count(OutputGroups groups) {
+  return 3 * group_count(groups) + (groups == OutputGroups::curvature ? kCurvatures : 0);
 }
 
 /// Where results lie: component c of group g of sample k is component[3 * g + c][k * stride], the
 /// groups in the order of OutputGroups' names. Planes: stride 1; x y z triples: stride 3, and the
-/// components of a group follow each other; vertices: stride 3 * group_count.
+/// components of a group follow each other; vertices: stride value_count. Curvatures follow the
+/// vectors and are planes always, as are vectors next to them.
 template <typename T>
 struct Results {
   OutputGroups groups = OutputGroups::position;
   T* component[3 * kMostGroups] = {};
   std::size_t stride = 1;
 };
+
+/// What kind of patches a batch consists of.
+struct NetShape {
+  int degree_u = 3;
+  int degree_v = 3;
+  bool rational = false; ///< points are x y z w, S = (sum w P B B) / (sum w B B)
+};
+
+constexpr bool is_bicubic(NetShape shape) {
+  return shape.degree_u == 3 && shape.degree_v == 3 && !shape.rational;
+}
+
+constexpr std::size_t values_per_point(NetShape shape) { return shape.rational ? 4 : 3; }
+
+constexpr std::size_t values_per_patch(NetShape shape) {
+  return static_cast<std::size_t>((shape.degree_u + 1) * (shape.degree_v + 1)) *
+         values_per_point(shape);
+}
 
 /// Every patch of a batch on one uniform nu x nv grid, u fastest, patch after patch.
 template <typename T>
@@ -40,6 +73,17 @@ struct GridJob {
   const T* u = nullptr; ///< i / (nu-1)
   const T* v = nullptr; ///< i / (nv-1)
   Results<T> out;       ///< triples for de_casteljau, planes for autovectorised
+  NetShape shape = {};  ///< bicubic for both
+};
+
+/// Every cubic of a batch at the same n parameters, curve after curve.
+template <typename T>
+struct CurveJob {
+  std::size_t curves = 0;
+  std::size_t n = 0;
+  const T* points = nullptr; ///< control points [curve][i][xyz]
+  const T* t = nullptr;      ///< i / (n-1)
+  Results<T> out;            ///< triples for de_casteljau
 };
 
 /// Single samples: sample k lies on patch[k] at (u[k], v[k]).

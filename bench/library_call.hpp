@@ -34,6 +34,9 @@ simdbezier::Outputs<T> library_outputs(const Results<T>& results) {
     out.*member = {p[0], p[1], p[2], static_cast<std::ptrdiff_t>(results.stride)};
     p += 3;
   }
+  if (results.groups == OutputGroups::curvature) {
+    out.curvature = {p[0], p[1], p[2], p[3]};
+  }
   return out;
 }
 

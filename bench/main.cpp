@@ -26,7 +26,7 @@ bool any_row_failed() { return failed; }
 
 std::string RowName::text() const {
   const char* const names[] = {"position", "position_normal", "position_derivatives",
-                               "second_derivatives"};
+                               "second_derivatives", "curvature"};
   return call + "/" + names[static_cast<int>(outputs)] + (single ? "/f32/" : "/f64/") + who + "/" +
          std::to_string(nu) + "x" + std::to_string(nv) +
          (place == Place::cache ? "/cache" : "/memory") + "/threads:" + std::to_string(threads);
@@ -48,9 +48,12 @@ int main(int argc, char** argv) {
   }
   add_machine_context();
   register_grid_rows();
+  register_shape_rows();
   register_tile_rows();
   register_scattered_rows();
+  register_net_rows();
   register_pack_rows();
+  register_curve_rows();
   register_peer_rows();
   register_limit_rows();
   benchmark::RunSpecifiedBenchmarks();

@@ -1,5 +1,6 @@
 #include "bench/patches.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -55,7 +56,7 @@ Vector across(Vector a) {
 }
 
 template <typename T>
-void fill_net(std::size_t index, T* net) {
+void fill_net(std::size_t index, NetShape shape, T* net) {
   Random random(index);
   const Vector origin{random.next(), random.next(), random.next()};
   const Vector a = random_direction(random);
@@ -63,11 +64,17 @@ void fill_net(std::size_t index, T* net) {
   const double o[3] = {origin.x, origin.y, origin.z};
   const double along_u[3] = {a.x, a.y, a.z};
   const double along_v[3] = {b.x, b.y, b.z};
-  for (int j = 0; j < 4; ++j) {
-    for (int i = 0; i < 4; ++i) {
+  const int m = shape.degree_u;
+  const int n = shape.degree_v;
+  const double displacement = 0.1 * (3.0 / std::max(m, n)); // a tenth, exactly, for bicubic nets
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= m; ++i) {
       for (int c = 0; c < 3; ++c) {
-        *net++ =
-            static_cast<T>(o[c] + along_u[c] * i / 3 + along_v[c] * j / 3 + 0.1 * random.next());
+        *net++ = static_cast<T>(o[c] + along_u[c] * i / m + along_v[c] * j / n +
+                                displacement * random.next());
+      }
+      if (shape.rational) {
+        *net++ = static_cast<T>(1.25 + 0.75 * random.next());
       }
     }
   }
@@ -87,10 +94,11 @@ void to_powers(double* b, int stride) {
 } // namespace
 
 template <typename T>
-std::vector<T> random_nets(std::size_t count) {
-  std::vector<T> nets(count * kValuesPerPatch);
+std::vector<T> random_nets(std::size_t count, NetShape shape) {
+  const std::size_t values = values_per_patch(shape);
+  std::vector<T> nets(count * values);
   for (std::size_t patch = 0; patch < count; ++patch) {
-    fill_net(patch, nets.data() + patch * kValuesPerPatch);
+    fill_net(patch, shape, nets.data() + patch * values);
   }
   return nets;
 }
@@ -136,8 +144,8 @@ std::vector<T> uniform_parameters(std::size_t n) {
   return values;
 }
 
-template std::vector<float> random_nets<float>(std::size_t);
-template std::vector<double> random_nets<double>(std::size_t);
+template std::vector<float> random_nets<float>(std::size_t, NetShape);
+template std::vector<double> random_nets<double>(std::size_t, NetShape);
 template std::vector<float> power_basis<float>(const std::vector<float>&);
 template std::vector<double> power_basis<double>(const std::vector<double>&);
 template std::vector<float> uniform_parameters<float>(std::size_t);

@@ -1,20 +1,24 @@
-// Patch data of the benchmarks: random smooth bicubic nets, the same on every machine and run.
+// Patch data of the benchmarks: random smooth nets, the same on every machine and run.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "bench/job.hpp"
+
 namespace simdbezier_bench {
 
-constexpr std::size_t kValuesPerPatch = 48; ///< 4 x 4 points of x y z
+constexpr std::size_t kValuesPerPatch = values_per_patch(NetShape{}); ///< of a bicubic one
 
-/// Nets [patch][j][i][xyz]: a unit parallelogram somewhere in a cube, its points displaced by a
-/// tenth, so that normals are regular everywhere. A net depends on its index only, not on count.
+/// Nets [patch][j][i][xyz], or [xyzw]: a unit parallelogram somewhere in a cube, its points
+/// displaced by up to 0.3 of the distance between them, so that normals are regular everywhere;
+/// weights from 1/2 to 2. A net depends on its index only, not on count.
 template <typename T>
-std::vector<T> random_nets(std::size_t count);
+std::vector<T> random_nets(std::size_t count, NetShape shape = {});
 
-/// Power-basis coefficients [patch][power of v][xyz][power of u], formed in double, rounded once.
+/// Of bicubic nets: power-basis coefficients [patch][power of v][xyz][power of u], formed in
+/// double, rounded once.
 template <typename T>
 std::vector<T> power_basis(const std::vector<T>& nets);
 

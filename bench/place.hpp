@@ -22,13 +22,13 @@ template <typename T>
 Results<T> place_results(OutputGroups groups, std::size_t samples, Layout layout,
                          bool aligned = true) {
   constexpr std::size_t kLine = kLineBytes / sizeof(T);
-  const std::size_t count = group_count(groups);
+  const std::size_t count = value_count(groups);
   Results<T> results;
   results.groups = groups;
-  results.stride = layout == Layout::planes ? 1 : layout == Layout::triples ? 3 : 3 * count;
+  results.stride = layout == Layout::planes ? 1 : layout == Layout::triples ? 3 : count;
   const std::size_t gap = (samples * results.stride + kLine - 1) / kLine * kLine + 5 * kLine;
   T* const first = reinterpret_cast<T*>(output_buffer());
-  for (std::size_t k = 0; k < 3 * count; ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     const std::size_t plane = layout == Layout::planes ? k : layout == Layout::triples ? k / 3 : 0;
     const std::size_t within = k - plane * (layout == Layout::planes ? 1 : 3);
     results.component[k] = first + plane * gap + within + (aligned ? 0 : plane + 1);

@@ -51,6 +51,8 @@ class Ratios:
         return self.rows[name].median if name in self.rows else None
 
     def to_baseline(self, row, baseline):
+        if not row.bicubic:
+            return None
         keys = {key: value for key, value in row.keys.items() if key == "patches"}
         return self.median(row.text(who=baseline, threads=1, keys=keys))
 

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "bench/reference_sample.hpp"
+
 namespace simdbezier_bench {
 namespace {
 
@@ -13,67 +15,29 @@ constexpr std::size_t kCheckedSamples = 4000;
 
 enum Quantity { kPosition, kNormal, kTangent, kSecond };
 
-struct Tolerance {
-  double units; ///< of roundoff
-  double scale; ///< what they are relative to, in units of max|P|; 0: absolutely
-};
-
+/// What is allowed, in units of roundoff of scale_of().
 // Seen on 4000 patches: de Casteljau at most 8, 25, 6, 4, the library no more, the power basis
 // 19, 84, 20, 12.
-constexpr Tolerance kTolerances[] = {{100, 1}, {500, 0}, {100, 3}, {100, 6}};
+constexpr double kUnits[] = {100, 500, 100, 100};
+/// Of curvatures, relative to one plus the largest principal curvature there.
+constexpr double kCurvatureUnits = 1000;
 
-struct Sample {
-  double position[3] = {};
-  double du[3] = {};
-  double dv[3] = {};
-  double duu[3] = {};
-  double duv[3] = {};
-  double dvv[3] = {};
-  double normal[3] = {};
-};
-
-/// The four Bernstein polynomials and their first two derivatives at t.
-struct Basis {
-  double value[4];
-  double slope[4];
-  double curvature[4];
-
-  explicit Basis(double t) {
-    const double s = 1 - t;
-    const double values[] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
-    const double slopes[] = {-3 * s * s, 3 * s * (s - 2 * t), 3 * t * (2 * s - t), 3 * t * t};
-    const double curvatures[] = {6 * s, 6 * (t - 2 * s), 6 * (s - 2 * t), 6 * t};
-    std::copy_n(values, 4, value);
-    std::copy_n(slopes, 4, slope);
-    std::copy_n(curvatures, 4, curvature);
+/// How large a quantity may be where no coordinate exceeds `size`, and what its error is relative
+/// to: a derivative multiplies by the degree, and by the ratio of the weights, which is up to 4.
+double scale_of(Quantity quantity, NetShape shape, double size) {
+  const double degree = std::max(shape.degree_u, shape.degree_v);
+  const double ratio = shape.rational ? 4 : 1;
+  switch (quantity) {
+  case kPosition:
+    return size;
+  case kNormal:
+    return ratio;
+  case kTangent:
+    return ratio * degree * size;
+  case kSecond:
+    break;
   }
-};
-
-template <typename T>
-Sample evaluate(const T* net, double u, double v) {
-  const Basis bu(u);
-  const Basis bv(v);
-  Sample s;
-  for (int j = 0; j < 4; ++j) {
-    for (int i = 0; i < 4; ++i) {
-      for (int c = 0; c < 3; ++c) {
-        const double b = static_cast<double>(net[12 * j + 3 * i + c]);
-        s.position[c] += b * bu.value[i] * bv.value[j];
-        s.du[c] += b * bu.slope[i] * bv.value[j];
-        s.dv[c] += b * bu.value[i] * bv.slope[j];
-        s.duu[c] += b * bu.curvature[i] * bv.value[j];
-        s.duv[c] += b * bu.slope[i] * bv.slope[j];
-        s.dvv[c] += b * bu.value[i] * bv.curvature[j];
-      }
-    }
-  }
-  const double n[3] = {s.du[1] * s.dv[2] - s.du[2] * s.dv[1], s.du[2] * s.dv[0] - s.du[0] * s.dv[2],
-                       s.du[0] * s.dv[1] - s.du[1] * s.dv[0]};
-  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  for (int c = 0; c < 3; ++c) {
-    s.normal[c] = n[c] / length;
-  }
-  return s;
+  return ratio * ratio * std::max(degree * (degree - 1), 1.0) * size;
 }
 
 /// The k-th of the checked patches.
@@ -101,40 +65,87 @@ Expected expected(const Sample& sample, OutputGroups groups, std::size_t group) 
   return all[group];
 }
 
+std::string message(const char* what, std::size_t patch, std::size_t sample, double expected,
+                    double found) {
+  char line[160];
+  std::snprintf(line, sizeof line, "wrong %s: patch %zu sample %zu: expected %.9g, found %.9g",
+                what, patch, sample, expected, found);
+  return line;
+}
+
+template <typename T>
+double largest_coordinate(const T* net, NetShape shape) {
+  const std::size_t per_point = values_per_point(shape);
+  double size = 0;
+  for (std::size_t k = 0; k < values_per_patch(shape); ++k) {
+    if (k % per_point < 3) {
+      size = std::max(size, std::abs(static_cast<double>(net[k])));
+    }
+  }
+  return size;
+}
+
+/// Principal curvatures by their sum and product: by themselves they have half of the digits only
+/// where they nearly are equal.
+template <typename T>
+std::string check_curvatures(const Results<T>& results, std::size_t index, const Sample& reference,
+                             std::size_t patch, std::size_t sample) {
+  const double roundoff = static_cast<double>(std::numeric_limits<T>::epsilon()) / 2;
+  const auto plane = [&](std::size_t k) {
+    return static_cast<double>(results.component[3 + k][index * results.stride]);
+  };
+  const double largest = std::abs(reference.mean) +
+                         std::sqrt(std::abs(reference.mean * reference.mean - reference.gaussian));
+  const double most = kCurvatureUnits * roundoff * (1 + largest);
+  const struct {
+    const char* name;
+    double found;
+    double expected;
+    double most;
+  } checks[] = {
+      {"Gaussian curvature", plane(0), reference.gaussian, most * (1 + largest)},
+      {"mean curvature", plane(1), reference.mean, most},
+      {"mean of the principal curvatures", (plane(2) + plane(3)) / 2, reference.mean, most},
+      {"product of the principal curvatures", plane(2) * plane(3), reference.gaussian,
+       most * (1 + largest)},
+      {"order of the principal curvatures", std::min(plane(3) - plane(2), 0.0), 0, 0},
+  };
+  for (const auto& check : checks) {
+    if (!(std::abs(check.found - check.expected) <= check.most)) {
+      return message(check.name, patch, sample, check.expected, check.found);
+    }
+  }
+  return {};
+}
+
 } // namespace
 
 template <typename T>
 std::string check_sample(const Results<T>& results, std::size_t index, const T* net, double u,
-                         double v, std::size_t patch, std::size_t sample) {
+                         double v, std::size_t patch, std::size_t sample, NetShape shape) {
   const double roundoff = static_cast<double>(std::numeric_limits<T>::epsilon()) / 2;
-  double size = 0;
-  for (int k = 0; k < 48; ++k) {
-    size = std::max(size, std::abs(static_cast<double>(net[k])));
-  }
-  const Sample reference = evaluate(net, u, v);
+  const double size = largest_coordinate(net, shape);
+  const Sample reference = reference_sample(net, shape, u, v);
   for (std::size_t group = 0; group < group_count(results.groups); ++group) {
     const Expected want = expected(reference, results.groups, group);
-    const Tolerance tolerance = kTolerances[want.quantity];
-    const double most =
-        tolerance.units * roundoff * (tolerance.scale > 0 ? tolerance.scale * size : 1);
+    const double most = kUnits[want.quantity] * roundoff * scale_of(want.quantity, shape, size);
     for (std::size_t c = 0; c < 3; ++c) {
       const double got =
           static_cast<double>(results.component[3 * group + c][index * results.stride]);
       if (!(std::abs(got - want.value[c]) <= most)) {
-        char line[160];
-        std::snprintf(line, sizeof line,
-                      "wrong %s: patch %zu sample %zu: expected %.9g, found %.9g", want.name, patch,
-                      sample, want.value[c], got);
-        return line;
+        return message(want.name, patch, sample, want.value[c], got);
       }
     }
+  }
+  if (results.groups == OutputGroups::curvature) {
+    return check_curvatures(results, index, reference, patch, sample);
   }
   return {};
 }
 
 template <typename T>
 void poison(const Results<T>& results, std::size_t first, std::size_t last) {
-  for (std::size_t k = 0; k < 3 * group_count(results.groups); ++k) {
+  for (std::size_t k = 0; k < value_count(results.groups); ++k) {
     for (std::size_t sample = first; sample < last; ++sample) {
       results.component[k][sample * results.stride] = std::numeric_limits<T>::quiet_NaN();
     }
@@ -166,10 +177,11 @@ std::string check_grid(const GridJob<T>& job, const T* nets) {
   for (std::size_t k = 0; k < std::min(job.patches, kCheckedPatches); ++k) {
     const std::size_t patch = checked_patch(k, job.patches);
     for (std::size_t sample = 0; sample < samples && failure.empty(); ++sample) {
-      failure = check_sample(job.out, patch * samples + sample, nets + 48 * patch,
+      failure = check_sample(job.out, patch * samples + sample,
+                             nets + values_per_patch(job.shape) * patch,
                              static_cast<double>(sample % job.nu) / static_cast<double>(job.nu - 1),
                              static_cast<double>(sample / job.nu) / static_cast<double>(job.nv - 1),
-                             patch, sample);
+                             patch, sample, job.shape);
     }
   }
   return failure;
@@ -194,7 +206,7 @@ std::string check_scattered(const ScatteredJob<T>& job, const T* nets) {
 
 #define SIMDBEZIER_BENCH_INSTANTIATE(T)                                                            \
   template std::string check_sample<T>(const Results<T>&, std::size_t, const T*, double, double,   \
-                                       std::size_t, std::size_t);                                  \
+                                       std::size_t, std::size_t, NetShape);                        \
   template void poison<T>(const Results<T>&, std::size_t, std::size_t);                            \
   template void poison_grid<T>(const GridJob<T>&);                                                 \
   template std::string check_grid<T>(const GridJob<T>&, const T*);                                 \

@@ -9,14 +9,14 @@
 namespace simdbezier_bench {
 
 // These are checks against wrong results, with room for the power basis' poor rounding; accuracy
-// itself is measured by the tests. Nets are control points [patch][j][i][xyz]. Every check returns
-// an empty string, or one line that names the first sample in error.
+// itself is measured by the tests. Nets are control points [patch][j][i][xyz], rational ones
+// [xyzw]. Every check returns an empty string, or one line that names the first sample in error.
 
 /// Compares sample `index` of `results` with the patch `net` at (u, v). `patch` and `sample` are
 /// for the message.
 template <typename T>
 std::string check_sample(const Results<T>& results, std::size_t index, const T* net, double u,
-                         double v, std::size_t patch, std::size_t sample);
+                         double v, std::size_t patch, std::size_t sample, NetShape shape = {});
 
 /// Overwrites samples [first, last), so that what an earlier row left behind cannot pass for a
 /// result.
@@ -26,7 +26,7 @@ void poison(const Results<T>& results, std::size_t first, std::size_t last);
 /// The patches of a grid that are looked at: all of a few, else 64 that include both ends.
 bool is_checked(std::size_t patch, std::size_t patches);
 
-/// All samples of the checked patches of a grid.
+/// All samples of the checked patches of a grid; the job says which shape the nets have.
 template <typename T>
 void poison_grid(const GridJob<T>& job);
 template <typename T>

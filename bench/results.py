@@ -5,7 +5,8 @@ import json
 import re
 import statistics
 
-GROUPS = {"position": 1, "position_normal": 2, "position_derivatives": 3, "second_derivatives": 6}
+VALUES = {"position": 3, "position_normal": 6, "position_derivatives": 9, "second_derivatives": 18,
+          "curvature": 7}
 
 
 class Row:
@@ -88,8 +89,13 @@ class Name:
         return f"{head}/threads:{fields['threads']}{keys}"
 
     @property
+    def bicubic(self):
+        """What the baselines and the limits are made for."""
+        return "degree" not in self.keys and "weights" not in self.keys
+
+    @property
     def bytes_per_sample(self):
-        return 3 * GROUPS[self.outputs] * (4 if self.type == "f32" else 8)
+        return VALUES[self.outputs] * (4 if self.type == "f32" else 8)
 
 
 def limit_of(text):
@@ -100,7 +106,7 @@ def limit_of(text):
     row = Name(text)
     if row.call == "grid" and row.place == "memory":  # bytes against bytes; the limit counts 12
         return f"limit/fill_stream/threads:{row.threads}", 12 / row.bytes_per_sample
-    if row.call == "grid" and row.outputs == "position":
+    if row.call == "grid" and row.outputs == "position" and row.bicubic:
         return f"limit/horner_store/{row.type}/{row.who}", 1
     if row.call == "scattered_random" and row.place == "memory" and row.type == "f32":
         return "limit/random_lines", 1

@@ -12,9 +12,12 @@
 
 namespace simdbezier_bench {
 
+void register_curve_rows();
 void register_grid_rows();
+void register_shape_rows();
 void register_tile_rows();
 void register_scattered_rows();
+void register_net_rows();
 void register_pack_rows();
 void register_peer_rows();
 void register_limit_rows();

@@ -2,6 +2,8 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <map>
+#include <tuple>
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
@@ -67,6 +69,23 @@ const simdbezier::PatchSet<T>& shared_patch_set(std::size_t count) {
   return set;
 }
 
+template <typename T>
+const ShapedPatches<T>& shaped_patches(std::size_t count, NetShape shape) {
+  static std::map<std::tuple<int, int, bool>, ShapedPatches<T>> kept;
+  ShapedPatches<T>& patches = kept[{shape.degree_u, shape.degree_v, shape.rational}];
+  if (patches.set.size() < count) {
+    patches.nets = random_nets<T>(count, shape);
+    using simdbezier::Weights;
+    (void)simdbezier::pack(simdbezier::ControlNets<T>::packed(
+                               patches.nets.data(), count, shape.degree_u, shape.degree_v, 3,
+                               shape.rational ? Weights::cartesian : Weights::none),
+                           patches.set);
+  }
+  return patches;
+}
+
+template const ShapedPatches<float>& shaped_patches<float>(std::size_t, NetShape);
+template const ShapedPatches<double>& shaped_patches<double>(std::size_t, NetShape);
 template const float* shared_nets<float>(std::size_t);
 template const double* shared_nets<double>(std::size_t);
 template const float* shared_power_basis<float>(std::size_t);

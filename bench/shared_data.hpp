@@ -27,4 +27,13 @@ const T* shared_power_basis(std::size_t count);
 template <typename T>
 const simdbezier::PatchSet<T>& shared_patch_set(std::size_t count);
 
+/// The first `count` or more patches of any shape, kept for each: for rows of a few patches.
+template <typename T>
+struct ShapedPatches {
+  std::vector<T> nets;
+  simdbezier::PatchSet<T> set; ///< empty where packing failed
+};
+template <typename T>
+const ShapedPatches<T>& shaped_patches(std::size_t count, NetShape shape);
+
 } // namespace simdbezier_bench

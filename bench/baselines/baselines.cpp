@@ -17,7 +17,8 @@ Baselines<T> widest_baselines() {
     const std::string_view name = simdbezier::to_string(isa);
 #define SIMDBEZIER_BENCH_TAKE(isa_name)                                                            \
   if (name == #isa_name) {                                                                         \
-    widest = {isa_name::de_casteljau, isa_name::de_casteljau_scattered, isa_name::autovectorised}; \
+    widest = {isa_name::de_casteljau, isa_name::de_casteljau_scattered, isa_name::autovectorised,  \
+              isa_name::de_casteljau_curves};                                                      \
   }
     SIMDBEZIER_BENCH_EACH_ISA(SIMDBEZIER_BENCH_TAKE)
 #undef SIMDBEZIER_BENCH_TAKE

@@ -11,6 +11,7 @@ struct Baselines {
   void (*de_casteljau)(const GridJob<T>& job) = nullptr;                ///< AoS out
   void (*de_casteljau_scattered)(const ScatteredJob<T>& job) = nullptr; ///< AoS out
   void (*autovectorised)(const GridJob<T>& job) = nullptr;              ///< SoA out
+  void (*de_casteljau_curves)(const CurveJob<T>& job) = nullptr;        ///< AoS out
 };
 
 template <typename T>
@@ -30,6 +31,8 @@ constexpr std::size_t kMaxGridSize = 80;
   void de_casteljau_scattered(const ScatteredJob<double>& job);                                    \
   void autovectorised(const GridJob<float>& job);                                                  \
   void autovectorised(const GridJob<double>& job);                                                 \
+  void de_casteljau_curves(const CurveJob<float>& job);                                            \
+  void de_casteljau_curves(const CurveJob<double>& job);                                           \
   }
 
 } // namespace simdbezier_bench

@@ -151,6 +151,8 @@ void dispatch(const GridJob<T>& job) {
                                                                       p[0], p[3], p[6]);
   case OutputGroups::second_derivatives:
     return second_derivatives(job, job.input, job.u, job.v, p[0], p[3], p[6], p[9], p[12], p[15]);
+  case OutputGroups::curvature:
+    return; // has no baseline: a row of that name fails its check
   }
 }
 

@@ -1,0 +1,166 @@
+// One row of grid calls: its name, its data, its call and its check.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <simdbezier/simdbezier.hpp>
+
+#include "bench/baselines/baselines.hpp"
+#include "bench/library_call.hpp"
+#include "bench/place.hpp"
+#include "bench/reference.hpp"
+#include "bench/rows.hpp"
+#include "bench/shared_data.hpp"
+
+namespace simdbezier_bench {
+
+enum class Algorithm { library, de_casteljau, autovectorised };
+
+struct Size {
+  std::size_t nu;
+  std::size_t nv;
+};
+
+struct GridRow {
+  OutputGroups outputs;
+  Algorithm algorithm;
+  simdbezier::Isa isa; ///< of Algorithm::library only
+  Size size;
+  Place place;
+  int threads = 1;
+  Layout layout = Layout::planes;
+  bool watertight = true;
+  bool aligned = true; ///< false: planes begin 1, 2, 3… elements behind a line's start
+  bool plain = false;  ///< plain stores, wherever the output ends
+  NetShape shape = {}; ///< bicubic for the baselines
+};
+
+template <typename T>
+std::string grid_row_name(const GridRow& row) {
+  RowName name{"grid", row.outputs, sizeof(T) == 4};
+  name.who = row.algorithm == Algorithm::de_casteljau     ? "de_casteljau"
+             : row.algorithm == Algorithm::autovectorised ? "autovectorised"
+                                                          : simdbezier::to_string(row.isa);
+  name.nu = row.size.nu;
+  name.nv = row.size.nv;
+  name.place = row.place;
+  name.threads = row.threads;
+  std::string text = name.text();
+  text += row.layout == Layout::triples    ? "/layout:aos"
+          : row.layout == Layout::vertices ? "/layout:interleaved"
+                                           : "";
+  text += row.watertight ? "" : "/watertight:off";
+  text += row.aligned ? "" : "/align:" + std::to_string(sizeof(T));
+  text += row.plain ? "/stores:plain" : "";
+  if (row.shape.degree_u != 3 || row.shape.degree_v != 3) {
+    text +=
+        "/degree:" + std::to_string(row.shape.degree_u) + "x" + std::to_string(row.shape.degree_v);
+  }
+  return row.shape.rational ? text + "/weights:rational" : text;
+}
+
+/// As many patches as fit the cache's share, or as it takes to leave every cache.
+template <typename T>
+std::size_t grid_patch_count(const GridRow& row) {
+  const std::size_t bytes = row.size.nu * row.size.nv * value_count(row.outputs) * sizeof(T);
+  return row.place == Place::cache ? cached_patches(bytes) : (kMemoryBytes + bytes - 1) / bytes;
+}
+
+/// A row made ready to run: the job, and what the library's call needs besides.
+template <typename T>
+class GridCall {
+public:
+  explicit GridCall(const GridRow& row)
+      : row_(row), u_(uniform_parameters<T>(row.size.nu)), v_(uniform_parameters<T>(row.size.nv)) {
+    job_.patches = grid_patch_count<T>(row);
+    job_.nu = row.size.nu;
+    job_.nv = row.size.nv;
+    job_.u = u_.data();
+    job_.v = v_.data();
+    job_.shape = row.shape;
+    const Layout layout = row.algorithm == Algorithm::de_casteljau ? Layout::triples : row.layout;
+    job_.out = place_results<T>(row.outputs, job_.patches * job_.nu * job_.nv, layout, row.aligned);
+    const Baselines<T> baselines = widest_baselines<T>();
+    switch (row.algorithm) {
+    case Algorithm::library:
+      set_ = is_bicubic(row.shape) ? &shared_patch_set<T>(job_.patches)
+                                   : &shaped_patches<T>(job_.patches, row.shape).set;
+      outputs_ = library_outputs(job_.out);
+      options_.threads = row.threads;
+      options_.watertight = row.watertight;
+      options_.isa = row.isa;
+      options_.patch_count = job_.patches;
+      if (row.plain) {
+        options_.destination = simdbezier::Destination::cache;
+      }
+      break;
+    case Algorithm::de_casteljau:
+      job_.input = shared_nets<T>(job_.patches);
+      run_ = baselines.de_casteljau;
+      break;
+    case Algorithm::autovectorised:
+      job_.input = shared_power_basis<T>(job_.patches);
+      run_ = baselines.autovectorised;
+      break;
+    }
+  }
+
+  void operator()() {
+    if (row_.algorithm == Algorithm::library) {
+      (void)evaluate(options_);
+    } else {
+      run_(job_);
+    }
+  }
+
+  std::string check() {
+    poison_grid(job_);
+    std::string failure;
+    if (row_.algorithm == Algorithm::library) {
+      failure = run_verified(*set_, job_.patches, options_,
+                             [this](const auto& options) { return evaluate(options); });
+    } else if (run_ == nullptr) {
+      failure = "this machine has none of the baselines' instruction sets";
+    } else {
+      run_(job_);
+    }
+    return failure.empty() ? check_grid(job_, nets()) : failure;
+  }
+
+  [[nodiscard]] double items() const {
+    return static_cast<double>(job_.patches * job_.nu * job_.nv);
+  }
+  [[nodiscard]] double bytes() const {
+    return items() * static_cast<double>(value_count(row_.outputs) * sizeof(T));
+  }
+
+private:
+  simdbezier::Status evaluate(const simdbezier::Options& options) const {
+    return simdbezier::evaluate_grid(*set_, simdbezier::Grid<T>::uniform(job_.nu, job_.nv),
+                                     outputs_, options);
+  }
+
+  [[nodiscard]] const T* nets() const {
+    return is_bicubic(row_.shape) ? shared_nets<T>(job_.patches)
+                                  : shaped_patches<T>(job_.patches, row_.shape).nets.data();
+  }
+
+  GridRow row_;
+  std::vector<T> u_;
+  std::vector<T> v_;
+  GridJob<T> job_;
+  void (*run_)(const GridJob<T>&) = nullptr;
+  const simdbezier::PatchSet<T>* set_ = nullptr;
+  simdbezier::Outputs<T> outputs_;
+  simdbezier::Options options_;
+};
+
+template <typename T>
+void add_grid_row(const GridRow& row) {
+  const bool cache = row.place == Place::cache;
+  register_row(grid_row_name<T>(row), cache ? benchmark::kMicrosecond : benchmark::kMillisecond,
+               row.threads, [row] { return GridCall<T>(row); });
+}
+
+} // namespace simdbezier_bench
