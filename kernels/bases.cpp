@@ -130,7 +130,7 @@ NetReport convert_mesh(const SplineMesh<T>& mesh, const MutableNets<T>& out,
   }
   const LinearMap map = to_bezier_map(Basis::b_spline, 3);
   const std::size_t columns = mesh.patches_u();
-  const std::size_t groups = net_units(columns); // of one row
+  const std::size_t groups = lane_groups(columns); // of one row
   const NetKernel<MapTask<T>> kernel = kernel_table<T>(isa).nets->map;
   const auto work = [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
     Isa executed = isa;

@@ -29,12 +29,10 @@ struct CurvePoints {
 
 private:
   static SIMDBEZIER_INLINE V in_cell(V x) {
-    if constexpr (!kHalves) {
-      return x;
+    if constexpr (kHalves) {
+      return cell_parameter(x);
     } else {
-      // One rounding, and odd: the cells of a reversed curve see mirrored parameters.
-      return (x + x) +
-             select_where<V>(x < broadcast<V>(T(0)), broadcast<V>(T(0.5)), broadcast<V>(T(-0.5)));
+      return x;
     }
   }
 };

@@ -245,13 +245,7 @@ template <typename T, typename S>
 detail::PackDoubt curve_pack_kernel(const detail::CurvePackTask<T, S>& task, std::size_t begin,
                                     std::size_t end) {
   CurveGroup<T, S> group(task);
-  for (std::size_t at = begin; at < end; at += kWideLanes) {
-    const std::size_t count = end - at < kWideLanes ? end - at : kWideLanes;
-    if (!group.pack(at, count)) {
-      return {at, at + count};
-    }
-  }
-  return {end, end};
+  return pack_groups(group, begin, end);
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -39,10 +39,6 @@ struct CurveShape {
   [[nodiscard]] constexpr std::size_t control_values() const { return order() * channels(); }
 };
 
-/// Room for the channel of a cell, or for a curve's control points.
-inline constexpr std::size_t kMostChannels = std::size_t{kMostComponents} + 1;
-inline constexpr std::size_t kMostOrder = std::size_t{kMostDegree} + 1;
-
 /// What a CurveSet holds.
 template <typename T>
 struct CurveStorage {

@@ -2,53 +2,9 @@
 #pragma once
 
 #include "kernels/grid_components.hpp"
+#include "kernels/normal_lanes.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
-
-/// Some rows of a tile whose normals did not all pass the quick test.
-struct Suspects {
-  std::size_t lane;    ///< first lane
-  std::size_t columns; ///< lanes a row
-  std::size_t active;  ///< of them in the grid
-  std::size_t rows;
-  std::size_t at; ///< first sample
-  std::size_t status_step;
-};
-
-/// Lane by lane. Rare, so kept out of line; vectors come by value, or the fast path would have to
-/// keep them in memory.
-template <typename V>
-__attribute__((noinline, cold)) void
-resolve_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch, Suspects s, V x, V y, V du0,
-                V du1, V du2, V dv0, V dv1, V dv2, V squared, V floor) {
-  using T = ScalarOf<V>;
-  const V vectors[10] = {du0, du1, du2, dv0, dv1, dv2, squared, floor, x, y};
-  alignas(64) T lanes[10][kLanes<V>];
-  for (int i = 0; i < 10; ++i) {
-    store_vector(lanes[i], vectors[i]);
-  }
-  for (std::size_t k = 0; k < s.rows * s.active; ++k) {
-    const std::size_t i = s.lane + k / s.active * s.columns + k % s.active;
-    const std::size_t at = s.at + k / s.active * task.nu + k % s.active;
-    if (lanes[6][i] > lanes[7][i]) {
-      continue;
-    }
-    const detail::NormalQuery<T> query{task.shape,
-                                       task.control_points + patch * detail::kCoefficients,
-                                       lanes[8][i],
-                                       lanes[9][i],
-                                       {lanes[0][i], lanes[1][i], lanes[2][i]},
-                                       {lanes[3][i], lanes[4][i], lanes[5][i]}};
-    T normal[3];
-    const SampleStatus status = task.resolve_normal(query, normal);
-    for (int c = 0; c < 3; ++c) {
-      task.out[detail::kNormalGroup].component[c][at] = normal[c];
-    }
-    if (task.status != nullptr) {
-      task.status[at * s.status_step] = status;
-    }
-  }
-}
 
 /// One register of samples.
 template <typename V>
@@ -130,8 +86,9 @@ struct NormalSweep {
     }
     if (!all_of<V>(squared > floor)) [[unlikely]] {
       resolve_normals(shared_task, patch,
-                      Suspects{0, tile.kColumns, tile.active, rows, at, status_step}, tile.column.x,
-                      row_y, du[0], du[1], du[2], dv[0], dv[1], dv[2], squared, floor);
+                      Suspects{0, tile.kColumns, tile.active, rows, at, task.nu, status_step},
+                      tile.column.x, row_y, du[0], du[1], du[2], dv[0], dv[1], dv[2], squared,
+                      floor);
     }
   }
 
@@ -167,7 +124,7 @@ struct NormalSweep {
       const Jet<V>* const jet = s.jet;
       resolve_normals(
           shared_task, patch,
-          Suspects{tile.edge_lane(kind), tile.kColumns, tile.active, 1, at, status_step},
+          Suspects{tile.edge_lane(kind), tile.kColumns, tile.active, 1, at, task.nu, status_step},
           tile.column.x, tile.edge_y(edge_of(kind)), jet[0].du, jet[1].du, jet[2].du, jet[0].dv,
           jet[1].dv, jet[2].dv, s.squared, floor);
     }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include <simdbezier/evaluate.hpp>
 
@@ -128,6 +129,12 @@ struct ScatteredTask {
 /// X and Y arrays are padded so that the widest kernel may read past the last column or row.
 inline constexpr std::size_t kMaxLanes = 16;
 
+/// Patches, curves or nets in whole groups of the widest kernel: work that is cut at groups has one
+/// incomplete register at the most, the last one.
+constexpr std::size_t lane_groups(std::size_t count) noexcept {
+  return count / kMaxLanes + (count % kMaxLanes == 0 ? 0 : 1);
+}
+
 /// Which outputs a kernel is compiled for.
 enum OutputSet : std::size_t {
   kPosition,
@@ -175,6 +182,16 @@ struct PackDoubt {
 /// Packs patches [begin, end).
 template <typename T, typename S>
 using PackKernel = PackDoubt (*)(const PackTask<T, S>& task, std::size_t begin, std::size_t end);
+
+/// The packing kernel of `table` for control points in S.
+template <typename S, typename Table>
+constexpr auto packing_kernel(const Table& table) noexcept {
+  if constexpr (std::is_same_v<S, float>) {
+    return table.pack_f32;
+  } else {
+    return table.pack_f64;
+  }
+}
 
 /// Nets of any shape to pack, and where the arrays of patch 0 begin.
 template <typename T, typename S>

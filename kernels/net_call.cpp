@@ -207,7 +207,7 @@ NetReport find_fault(const ControlNets<S>& nets, int threads, bool signed_weight
       }
     }
   };
-  const std::size_t units = net_units(nets.count);
+  const std::size_t units = lane_groups(nets.count);
   for_blocks(units, thread_count(threads, units), BlockBody(body));
   return first == kNone ? NetReport{} : fault_of(nets, first, signed_weights);
 }

@@ -49,11 +49,6 @@ template <typename S>
 Status check_nets(const ControlNets<S>& nets, std::initializer_list<const MutableNets<S>*> out,
                   int degree_u, int degree_v) noexcept;
 
-/// Patches that are cut into pieces of whole groups of the widest kernel, one unit each.
-constexpr std::size_t net_units(std::size_t count) noexcept {
-  return count / kMaxLanes + (count % kMaxLanes == 0 ? 0 : 1);
-}
-
 /// Runs a kernel on all patches; `values` of a group are scratch.
 template <typename T, typename Task>
 Status run_net_kernel(NetKernel<Task> NetTable<T>::*kernel, const Task& task, std::size_t count,
@@ -64,7 +59,7 @@ Status run_net_kernel(NetKernel<Task> NetTable<T>::*kernel, const Task& task, st
     return runs;
   }
   const NetKernel<Task> run = kernel_table<T>(isa).nets->*kernel;
-  return run_blocks(net_units(count), options, values * kLineBytes,
+  return run_blocks(lane_groups(count), options, values * kLineBytes,
                     [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
                       const std::size_t last = end * kMaxLanes < count ? end * kMaxLanes : count;
                       return run(task, begin * kMaxLanes, last, scratch);

@@ -1,9 +1,9 @@
 // What the patches of a set have in common, and where their packed values lie.
 //
-// A direction of degree 6 or more is cut in two at its middle: every half is expanded around its own
-// centre, which keeps the power basis as accurate as de Casteljau's algorithm up to degree 15. A
-// patch so consists of 1, 2 or 4 cells, and a cell is packed and evaluated like a patch of its own
-// on half of the parameter range, edges and corners included. The edges between cells depend on
+// A direction of degree 6 or more is cut in two at its middle: every half is expanded around its
+// own centre, which keeps the power basis as accurate as de Casteljau's algorithm up to degree 15.
+// A patch so consists of 1, 2 or 4 cells, and a cell is packed and evaluated like a patch of its
+// own on half of the parameter range, edges and corners included. The edges between cells depend on
 // what both cells share, so that no seam can open.
 #pragma once
 
@@ -13,6 +13,10 @@
 #include <simdbezier/control_nets.hpp>
 
 namespace simdbezier::detail {
+
+/// The most coefficients in one direction, and the most values of a point, its weight included.
+inline constexpr std::size_t kMostOrder = std::size_t{kMostDegree} + 1;
+inline constexpr std::size_t kMostChannels = std::size_t{kMostComponents} + 1;
 
 /// Above this degree a direction has two cells.
 inline constexpr int kMostWholeDegree = 5;
@@ -35,8 +39,12 @@ struct NetShape {
 
   friend bool operator==(const NetShape&, const NetShape&) = default;
 
-  [[nodiscard]] constexpr std::size_t order_u() const { return static_cast<std::size_t>(degree_u) + 1; }
-  [[nodiscard]] constexpr std::size_t order_v() const { return static_cast<std::size_t>(degree_v) + 1; }
+  [[nodiscard]] constexpr std::size_t order_u() const {
+    return static_cast<std::size_t>(degree_u) + 1;
+  }
+  [[nodiscard]] constexpr std::size_t order_v() const {
+    return static_cast<std::size_t>(degree_v) + 1;
+  }
   /// Components and weight.
   [[nodiscard]] constexpr std::size_t channels() const {
     return static_cast<std::size_t>(components) + (rational ? 1 : 0);
@@ -44,8 +52,12 @@ struct NetShape {
   [[nodiscard]] constexpr std::size_t points() const { return order_u() * order_v(); }
   [[nodiscard]] constexpr std::size_t control_values() const { return points() * channels(); }
 
-  [[nodiscard]] constexpr std::size_t cells_u() const { return degree_u > kMostWholeDegree ? 2 : 1; }
-  [[nodiscard]] constexpr std::size_t cells_v() const { return degree_v > kMostWholeDegree ? 2 : 1; }
+  [[nodiscard]] constexpr std::size_t cells_u() const {
+    return degree_u > kMostWholeDegree ? 2 : 1;
+  }
+  [[nodiscard]] constexpr std::size_t cells_v() const {
+    return degree_v > kMostWholeDegree ? 2 : 1;
+  }
   [[nodiscard]] constexpr std::size_t cells() const { return cells_u() * cells_v(); }
 
   /// One channel of a cell.

@@ -70,10 +70,6 @@ struct SegmentTask {
   KeptPoints kept_v;
 };
 
-/// The most values of a point, and in a direction.
-inline constexpr std::size_t kMostChannels = kMostComponents + 1;
-inline constexpr std::size_t kMostOrder = kMostDegree + 1;
-
 /// A linear map of one direction's values: out_r = factor_r sum_k entry_rk in_k / divisor_r.
 ///
 /// Terms are added in pairs, the order of which is part of the map: pairs that mirror each other

@@ -1,11 +1,8 @@
 // Packing: threads and kernels; pack_layout.cpp has arguments and memory, pack_faults.hpp what is
 // wrong with a patch, and the arithmetic is in pack_kernel.hpp and pack_shape_kernel.hpp.
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <mutex>
 #include <new>
-#include <type_traits>
 #include <vector>
 
 #include <simdbezier/patch_set.hpp>
@@ -14,6 +11,7 @@
 #include "kernels/dispatch.hpp"
 #include "kernels/pack_faults.hpp"
 #include "kernels/pack_layout.hpp"
+#include "kernels/pack_request.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -54,7 +52,6 @@ private:
     T* const origins =
         storage_.origins == nullptr ? nullptr : storage_.origins + run_.place * shape.origins();
     T* const floor = storage_.normal_floor + run_.place;
-    constexpr bool kFloats = std::is_same_v<S, float>;
     if (shape.is_bicubic()) {
       const PackTask<T, S> task{nets_.points,
                                 nets_.patch_stride,
@@ -67,19 +64,11 @@ private:
                                 points,
                                 origins,
                                 floor};
-      if constexpr (kFloats) {
-        return table_.pack_f32(task, begin, end);
-      } else {
-        return table_.pack_f64(task, begin, end);
-      }
+      return packing_kernel<S>(table_)(task, begin, end);
     }
     const NetPackTask<T, S> task{
         nets_, shape, {shift[0], shift[1], shift[2]}, coefficients, edges, points, origins, floor};
-    if constexpr (kFloats) {
-      return table_.shapes->pack_f32(task, begin, end);
-    } else {
-      return table_.shapes->pack_f64(task, begin, end);
-    }
+    return packing_kernel<S>(*table_.shapes)(task, begin, end);
   }
 
   const ControlNets<S>& nets_;
@@ -89,11 +78,6 @@ private:
   const PatchStorage<T>& storage_;
 };
 
-/// Whole groups of the widest kernel, so that only the last group of a run is incomplete.
-std::size_t groups_of(const PackRun& run) {
-  return run.count / kMaxLanes + (run.count % kMaxLanes != 0);
-}
-
 /// Packs all patches; reports the fault of the lowest patch, whichever thread finds it.
 template <typename T, typename S>
 PackReport pack_runs(std::span<const ControlNets<S>> nets, std::span<const PackRun> runs,
@@ -101,15 +85,14 @@ PackReport pack_runs(std::span<const ControlNets<S>> nets, std::span<const PackR
   const KernelTable<T>& table = kernel_table<T>(isa);
   std::size_t groups = 0;
   for (const PackRun& run : runs) {
-    groups += groups_of(run);
+    groups += lane_groups(run.count);
   }
-  PackReport first;
-  std::mutex guard;
+  LowestFault fault;
   auto body = [&](int, std::size_t begin, std::size_t end) {
     std::size_t before = 0; // groups of the runs that came before
     PackReport report;
     for (const PackRun& run : runs) {
-      const std::size_t own = groups_of(run);
+      const std::size_t own = lane_groups(run.count);
       const std::size_t from = std::max(begin, before) - before;
       const std::size_t to = std::min(end, before + own) - std::min(end, before);
       if (report && from < to) {
@@ -119,25 +102,10 @@ PackReport pack_runs(std::span<const ControlNets<S>> nets, std::span<const PackR
       }
       before += own;
     }
-    if (!report) {
-      const std::lock_guard<std::mutex> lock(guard);
-      if (first || report.patch < first.patch) {
-        first = report;
-      }
-    }
+    fault.add(report);
   };
   for_blocks(groups, thread_count(options.threads, groups), BlockBody(body));
-  return first;
-}
-
-/// A relative_to that is finite where the nets have components.
-PackReport check_options(const PackOptions& options, int components) {
-  for (int c = 0; c < std::min(components, 3); ++c) {
-    if (!std::isfinite(options.relative_to[c])) {
-      return {Status::non_finite_input, 0, 0, c};
-    }
-  }
-  return {};
+  return fault.report();
 }
 
 } // namespace
@@ -174,17 +142,14 @@ PackReport pack(std::span<const ControlNets<S>> nets, PatchSet<T>& set,
   if (!report) {
     return report;
   }
-  report = detail::check_options(options, nets.empty() ? 3 : nets.front().components);
+  report = detail::check_relative_to(options, nets.empty() ? 3 : nets.front().components);
   if (!report) {
     return report;
   }
   Isa isa = Isa::automatic;
-  const Status runs_on = resolve_isa(options.isa, isa);
+  const Status runs_on = detail::packing_isa(options, isa);
   if (runs_on != Status::ok) {
-    if (options.isa != Isa::automatic) {
-      return {runs_on};
-    }
-    isa = available_isas().back(); // a wrong SIMDBEZIER_ISA is for evaluate calls to report
+    return {runs_on};
   }
   auto storage = std::make_shared<detail::SetStorage<T>>();
   std::vector<detail::PackRun> runs;

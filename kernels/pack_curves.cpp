@@ -4,15 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <new>
-#include <type_traits>
 
 #include <simdbezier/curves.hpp>
 
 #include "kernels/batch.hpp"
 #include "kernels/curve_table.hpp"
 #include "kernels/dispatch.hpp"
+#include "kernels/pack_request.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -90,15 +89,6 @@ PackReport inspect(const ControlCurves<S>& curves, const CurveStorage<T>& storag
   return {};
 }
 
-template <typename T, typename S>
-CurvePackKernel<T, S> pack_kernel(const CurveTable<T>& table) {
-  if constexpr (std::is_same_v<S, float>) {
-    return table.pack_f32;
-  } else {
-    return table.pack_f64;
-  }
-}
-
 /// What the kernel finds doubtful is inspected here: kernels only know a bound on the squares.
 template <typename T, typename S>
 PackReport pack_share(CurvePackKernel<T, S> kernel, const CurvePackTask<T, S>& task,
@@ -120,27 +110,19 @@ PackReport pack_share(CurvePackKernel<T, S> kernel, const CurvePackTask<T, S>& t
 template <typename T, typename S>
 PackReport pack_all(const ControlCurves<S>& curves, const PackOptions& options, Isa isa,
                     CurveStorage<T>& storage) {
-  const CurvePackKernel<T, S> kernel = pack_kernel<T, S>(*kernel_table<T>(isa).curves);
+  const CurvePackKernel<T, S> kernel = packing_kernel<S>(*kernel_table<T>(isa).curves);
   const double* const shift = options.relative_to;
   const CurvePackTask<T, S> task{
       curves,         storage.shape,          {shift[0], shift[1], shift[2]},
       storage.values, storage.control_points, storage.tangent_floor};
-  // Shares begin at whole groups of the widest kernel, so that only the last group is incomplete.
-  const std::size_t groups = curves.count / kMaxLanes + (curves.count % kMaxLanes == 0 ? 0 : 1);
-  PackReport first;
-  std::mutex guard;
+  const std::size_t groups = lane_groups(curves.count);
+  LowestFault fault;
   auto body = [&](int, std::size_t begin, std::size_t end) {
-    const PackReport report = pack_share(kernel, task, storage, begin * kMaxLanes,
-                                         std::min(end * kMaxLanes, curves.count));
-    if (!report) {
-      const std::lock_guard<std::mutex> lock(guard);
-      if (first || report.patch < first.patch) {
-        first = report;
-      }
-    }
+    fault.add(pack_share(kernel, task, storage, begin * kMaxLanes,
+                         std::min(end * kMaxLanes, curves.count)));
   };
   for_blocks(groups, thread_count(options.threads, groups), BlockBody(body));
-  return first;
+  return fault.report();
 }
 
 } // namespace
@@ -178,18 +160,14 @@ PackReport pack_curves(const ControlCurves<S>& curves, CurveSet<T>& set,
   if (usable != Status::ok) {
     return {usable};
   }
-  for (int c = 0; c < std::min(3, curves.components); ++c) {
-    if (!std::isfinite(options.relative_to[c])) {
-      return {Status::non_finite_input, 0, 0, c};
-    }
+  const PackReport moved = detail::check_relative_to(options, curves.components);
+  if (!moved) {
+    return moved;
   }
   Isa isa = Isa::automatic;
-  const Status runs = resolve_isa(options.isa, isa);
+  const Status runs = detail::packing_isa(options, isa);
   if (runs != Status::ok) {
-    if (options.isa != Isa::automatic) {
-      return {runs};
-    }
-    isa = available_isas().back(); // a wrong SIMDBEZIER_ISA is for evaluate calls to report
+    return {runs};
   }
   auto storage = std::make_shared<detail::CurveStorage<T>>();
   storage->shape = {curves.degree, curves.components, curves.weights != Weights::none,

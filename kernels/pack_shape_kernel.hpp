@@ -13,8 +13,9 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
+using detail::kMostChannels;
+
 inline constexpr std::size_t kMostPoints = kMostOrder * kMostOrder;
-inline constexpr std::size_t kMostChannels = kMostComponents + 1;
 
 /// Squares of control values up to which nothing can overflow: a coefficient is at most 2^43 times
 /// its control values (C(15,k) 2^k < 2^22 in each direction), sums on the way 2^30 times, and with
@@ -268,13 +269,7 @@ template <typename T, typename S>
 detail::PackDoubt shape_pack_kernel(const detail::NetPackTask<T, S>& task, std::size_t begin,
                                     std::size_t end) {
   ShapeGroup<T, S> group(task);
-  for (std::size_t at = begin; at < end; at += kWideLanes) {
-    const std::size_t count = end - at < kWideLanes ? end - at : kWideLanes;
-    if (!group.pack(at, count)) {
-      return {at, at + count};
-    }
-  }
-  return {end, end};
+  return pack_groups(group, begin, end);
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -7,33 +7,18 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::NetShape;
 
-/// A half-centred parameter inside of a cell, half-centred there; exact up to one rounding.
-/// T itself or a register of it.
-template <typename V>
-SIMDBEZIER_INLINE V local_parameter(V x, V shift) {
-  return (x + x) + shift;
-}
-
 /// Columns of a patch: where in which cell they are.
 template <typename V>
 struct CellColumns {
-  using T = ScalarOf<V>;
-  V x;             ///< local
-  Column<V> local; ///< of x: the edges
+  Column<V> local; ///< in there, and which are on its edges
   MaskOf<V> low;   ///< in the cell of lower u
   bool any_low;
   bool any_high;
 
   SIMDBEZIER_INLINE CellColumns(V half_centred, std::size_t cells)
-      : x(cells == 1 ? half_centred : halved(half_centred)), local(x),
-        low(half_centred < broadcast<V>(T(0))), any_low(cells == 1 || any_of<V>(low)),
+      : local(cells == 1 ? half_centred : cell_parameter(half_centred)),
+        low(half_centred < broadcast<V>(ScalarOf<V>(0))), any_low(cells == 1 || any_of<V>(low)),
         any_high(cells == 2 && !all_of<V>(low)) {}
-
-private:
-  static SIMDBEZIER_INLINE V halved(V x) {
-    return local_parameter(
-        x, select_where<V>(x < broadcast<V>(T(0)), broadcast<V>(T(0.5)), broadcast<V>(T(-0.5))));
-  }
 };
 
 /// The packed values of a cell.
@@ -72,7 +57,6 @@ private:
 /// kSpace: there are three components, and all are wanted.
 template <bool kRational, bool kSpace>
 struct Channels {
-  static constexpr bool kWeighted = kRational;
   static constexpr std::size_t kSlots = kRational ? 4 : 3;
 
   SIMDBEZIER_INLINE Channels(const NetShape& shape, std::size_t first_component)

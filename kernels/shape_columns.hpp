@@ -90,7 +90,7 @@ public:
     if constexpr (P::kWeighted) {
       weight = edge_series(3, edge);
     } else {
-      weight.value = columns_.x; // not used
+      weight.value = columns_.local.x; // not used
     }
     const Quotient<V> quotient = quotient_of(weight);
     for_slots<3>([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
@@ -120,7 +120,7 @@ public:
   SIMDBEZIER_INLINE const V* power(std::size_t slot) const { return power_[slot][0]; }
   SIMDBEZIER_INLINE V origin(std::size_t slot) const {
     if (row_->low.origins == nullptr) {
-      return columns_.x; // not used
+      return columns_.local.x; // not used
     }
     const std::size_t at = slots_.channel(slot) * detail::kOriginsPerComponent;
     const V inside = chosen(at, &Cell<T>::origins);
@@ -184,9 +184,9 @@ private:
   }
 
   SIMDBEZIER_INLINE Series<V> series_at(const T* first, std::size_t stride) const {
-    return horner_series<kDepth>(order_u_, columns_.x, [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-      return broadcast<V>(first[k * stride]);
-    });
+    return horner_series<kDepth>(
+        order_u_, columns_.local.x,
+        [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return broadcast<V>(first[k * stride]); });
   }
 
   SIMDBEZIER_INLINE void replace_edges(const Cell<T>& cell, std::size_t slot, V* to,
@@ -291,7 +291,7 @@ private:
 
   SIMDBEZIER_INLINE void replace_on_edge(V y, SampleJet<V>& jet) const {
     const MaskOf<V> on =
-        (columns_.x == broadcast<V>(T(-0.5))) | (columns_.x == broadcast<V>(T(0.5)));
+        (columns_.local.x == broadcast<V>(T(-0.5))) | (columns_.local.x == broadcast<V>(T(0.5)));
     Series<V> w = horner_series<kDepth>(order_v_, y, coefficients(edge_power_[kSlots - 1]));
     const Quotient<V> quotient = quotient_of(w);
     for_slots<3>([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
@@ -327,9 +327,10 @@ private:
 
   SIMDBEZIER_INLINE Series<V> edge_series(std::size_t slot, std::size_t edge) const {
     const std::size_t at = slots_.channel(slot) * shape().edge_powers() * 4 + edge;
-    return horner_series<kDepth>(order_u_, columns_.x, [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-      return chosen(at + 4 * k, &Cell<T>::edges);
-    });
+    return horner_series<kDepth>(order_u_, columns_.local.x,
+                                 [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+                                   return chosen(at + 4 * k, &Cell<T>::edges);
+                                 });
   }
 
   /// A value of each lane's cell.

@@ -20,7 +20,7 @@ struct Order {
 };
 template <>
 struct Order<0> {
-  static constexpr std::size_t kMost = std::size_t{kMostDegree} + 1;
+  static constexpr std::size_t kMost = detail::kMostOrder;
   explicit constexpr Order(std::size_t order) : order_(order) {}
   SIMDBEZIER_INLINE constexpr std::size_t value() const { return order_; }
 
@@ -91,6 +91,16 @@ SIMDBEZIER_INLINE Series<V> horner_series(N order, V t, const Coefficient& c) {
     s.second = s.second + s.second;
   }
   return s;
+}
+
+/// A half-centred parameter of a direction that is cut in two, half-centred in its cell. One
+/// rounding, and odd: the cells of a reversed direction see mirrored parameters.
+template <typename V>
+SIMDBEZIER_INLINE V cell_parameter(V x) {
+  using T = ScalarOf<V>;
+  const V to_low = broadcast<V>(T(0.5));
+  const V to_high = broadcast<V>(T(-0.5));
+  return (x + x) + select_where<V>(x < broadcast<V>(T(0)), to_low, to_high);
 }
 
 /// One value and its derivatives by the two local parameters.

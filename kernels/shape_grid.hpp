@@ -58,7 +58,7 @@ private:
       if (low != (cell == 0)) {
         continue;
       }
-      const T y = local_parameter(run.y[j], low ? T(0.5) : T(-0.5));
+      const T y = cell_parameter(run.y[j]);
       if (watertight_ && (y == T(-0.5) || y == T(0.5))) {
         put_edge(run.y[j], y);
       } else {

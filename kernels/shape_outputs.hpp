@@ -1,6 +1,7 @@
 // From a register of samples to the planes of a task.
 #pragma once
 
+#include "kernels/normal_lanes.hpp"
 #include "kernels/shape_columns.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -23,39 +24,6 @@ struct SampleRange {
   }
 };
 
-/// Lane by lane, for those that did not pass the quick test. Rare, so kept out of line.
-template <typename V, typename Task>
-__attribute__((noinline, cold)) void resolve_lanes(const Task& task, SampleRange<V> range, V du0,
-                                                   V du1, V du2, V dv0, V dv1, V dv2, V squared,
-                                                   V floor) {
-  using T = ScalarOf<V>;
-  const V vectors[10] = {du0, du1, du2, dv0, dv1, dv2, squared, floor, range.x, range.y};
-  alignas(64) T lanes[10][kLanes<V>];
-  for (std::size_t i = 0; i < 10; ++i) {
-    store_vector(lanes[i], vectors[i]);
-  }
-  for (std::size_t i = 0; i < range.active; ++i) {
-    if (lanes[6][i] > lanes[7][i]) {
-      continue;
-    }
-    const detail::NormalQuery<T> query{task.shape,
-                                       task.control_points +
-                                           range.patch * task.shape->control_values(),
-                                       lanes[8][i],
-                                       lanes[9][i],
-                                       {lanes[0][i], lanes[1][i], lanes[2][i]},
-                                       {lanes[3][i], lanes[4][i], lanes[5][i]}};
-    T normal[3];
-    const SampleStatus status = task.resolve_normal(query, normal);
-    for (std::size_t c = 0; c < 3; ++c) {
-      task.out[detail::kNormalGroup].component[c][range.at + i] = normal[c];
-    }
-    if (task.status != nullptr) {
-      task.status[range.at + i] = status;
-    }
-  }
-}
-
 template <typename V, typename Task>
 SIMDBEZIER_INLINE void store_normals(const Task& task, const SampleRange<V>& range,
                                      const SampleJet<V>& jet) {
@@ -73,8 +41,9 @@ SIMDBEZIER_INLINE void store_normals(const Task& task, const SampleRange<V>& ran
     range.store(task.out[detail::kNormalGroup].component[c], n[c]);
   }
   if (!all_of<V>(squared > floor)) {
-    resolve_lanes(task, range, jet.du[0], jet.du[1], jet.du[2], jet.dv[0], jet.dv[1], jet.dv[2],
-                  squared, floor);
+    const Suspects row{0, kLanes<V>, range.active, 1, range.at, 0, 1};
+    resolve_normals(task, range.patch, row, range.x, range.y, jet.du[0], jet.du[1], jet.du[2],
+                    jet.dv[0], jet.dv[1], jet.dv[2], squared, floor);
   }
 }
 

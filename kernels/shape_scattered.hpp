@@ -56,10 +56,10 @@ SIMDBEZIER_INLINE void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, co
   const CellColumns<V> columns(x, shape.cells_u());
   const CellColumns<V> rows(y, shape.cells_v());
   const bool both = rows.any_low && rows.any_high;
-  evaluate_row<P>(task, shape, patch, rows.any_low ? 0 : 1, columns, rows.x, watertight, jet);
+  evaluate_row<P>(task, shape, patch, rows.any_low ? 0 : 1, columns, rows.local.x, watertight, jet);
   if (both) {
     SampleJet<V> high;
-    evaluate_row<P>(task, shape, patch, 1, columns, rows.x, watertight, high);
+    evaluate_row<P>(task, shape, patch, 1, columns, rows.local.x, watertight, high);
     keep_lanes<P::kDepth>(rows.low, high, jet);
   }
 }
@@ -93,8 +93,7 @@ SIMDBEZIER_INLINE void evaluate_together(const ScatteredTask<ScalarOf<V>>& task,
     const std::size_t from = k + (i < count ? i : count - 1);
     x[i] = finite_half_centred(task, task.u[from]);
     y[i] = finite_half_centred(task, task.v[from]);
-    const T local =
-        shape.cells_v() == 1 ? y[i] : local_parameter(y[i], y[i] < T(0) ? T(0.5) : T(-0.5));
+    const T local = shape.cells_v() == 1 ? y[i] : cell_parameter(y[i]);
     alone[i] = local == T(-0.5) || local == T(0.5) || x[i] != x[i] || y[i] != y[i];
     any_alone = any_alone || alone[i];
   }

@@ -23,8 +23,6 @@ double squared_length(Vector a);
 double length(Vector a);
 double max_norm(Vector a);
 
-inline constexpr std::size_t kMostOrder = std::size_t{kMostDegree} + 1;
-
 /// A patch in space moved to its first control point and scaled by powers of two, so that it is of
 /// size about 1 and that each hodograph is, too.
 class SurfaceFrame {

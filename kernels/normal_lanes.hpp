@@ -1,0 +1,56 @@
+// Normals of a register of samples that did not all pass the quick test.
+#pragma once
+
+#include "kernels/isa/lanes.hpp"
+#include "kernels/kernel_table.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Which lanes are samples, and which ones: a row of them, or several.
+struct Suspects {
+  std::size_t lane;    ///< first lane
+  std::size_t columns; ///< lanes a row
+  std::size_t active;  ///< of them in the grid
+  std::size_t rows;
+  std::size_t at;       ///< first sample
+  std::size_t row_step; ///< samples from one row to the next
+  std::size_t status_step;
+};
+
+/// Lane by lane, for those that did not pass. Rare, so kept out of line; vectors come by value, or
+/// the fast path would have to keep them in memory.
+/// Task: any that has outputs, and the control points of a set.
+template <typename V, typename Task>
+__attribute__((noinline, cold)) void resolve_normals(const Task& task, std::size_t patch,
+                                                     Suspects s, V x, V y, V du0, V du1, V du2,
+                                                     V dv0, V dv1, V dv2, V squared, V floor) {
+  using T = ScalarOf<V>;
+  const V vectors[10] = {du0, du1, du2, dv0, dv1, dv2, squared, floor, x, y};
+  alignas(64) T lanes[10][kLanes<V>];
+  for (int i = 0; i < 10; ++i) {
+    store_vector(lanes[i], vectors[i]);
+  }
+  for (std::size_t k = 0; k < s.rows * s.active; ++k) {
+    const std::size_t i = s.lane + k / s.active * s.columns + k % s.active;
+    const std::size_t at = s.at + k / s.active * s.row_step + k % s.active;
+    if (lanes[6][i] > lanes[7][i]) {
+      continue;
+    }
+    const detail::NormalQuery<T> query{task.shape,
+                                       task.control_points + patch * task.shape->control_values(),
+                                       lanes[8][i],
+                                       lanes[9][i],
+                                       {lanes[0][i], lanes[1][i], lanes[2][i]},
+                                       {lanes[3][i], lanes[4][i], lanes[5][i]}};
+    T normal[3];
+    const SampleStatus status = task.resolve_normal(query, normal);
+    for (int c = 0; c < 3; ++c) {
+      task.out[detail::kNormalGroup].component[c][at] = normal[c];
+    }
+    if (task.status != nullptr) {
+      task.status[at * s.status_step] = status;
+    }
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
