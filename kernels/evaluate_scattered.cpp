@@ -9,6 +9,7 @@
 #include "kernels/grid_request.hpp"
 #include "kernels/normal_fallback.hpp"
 #include "kernels/patch_storage.hpp"
+#include "kernels/sample_checks.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -18,19 +19,6 @@ namespace {
 /// the first-level cache; otherwise so many that preparing a task does not show.
 constexpr std::size_t kPiece = 2048;
 constexpr std::size_t kStagedPiece = 512;
-
-template <typename T>
-Status check_samples(const PatchSet<T>& set, const Samples<T>& samples,
-                     const KernelTable<T>& table) noexcept {
-  if (samples.count == 0) {
-    return Status::ok;
-  }
-  if (samples.patch == nullptr || samples.u == nullptr || samples.v == nullptr) {
-    return Status::null_input;
-  }
-  const std::uint32_t highest = table.highest_index(samples.patch, samples.count);
-  return highest < set.size() ? Status::ok : Status::bad_patch_index;
-}
 
 template <typename T>
 struct ScatteredCall {

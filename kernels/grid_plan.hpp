@@ -33,6 +33,7 @@ public:
   [[nodiscard]] std::size_t nu() const noexcept { return nu_; }
   [[nodiscard]] std::size_t nv() const noexcept { return nv_; }
   [[nodiscard]] const T* x() const noexcept { return x_; }
+  [[nodiscard]] const T* y() const noexcept { return y_; }
   /// Changes with every build().
   [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
 

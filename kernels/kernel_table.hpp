@@ -211,12 +211,17 @@ template <typename T, typename S>
 using NetPackKernel = PackDoubt (*)(const NetPackTask<T, S>& task, std::size_t begin,
                                     std::size_t end);
 
+/// Samples whose derivatives of any order are wanted: derivative_task.hpp.
+template <typename T>
+struct DerivativeTask;
+
 /// Kernels for patches of any shape. They read NetShape where those of KernelTable know theirs, but
 /// the tasks are the same, and so are the bits where both can run.
 template <typename T>
 struct ShapeTable {
   void (*grid)(GridTask<T>& task, Scheme scheme); ///< all outputs that the task wants
   void (*scattered)(ScatteredTask<T>& task, Scheme scheme);
+  void (*derivatives)(DerivativeTask<T>& task);
   NetPackKernel<T, float> pack_f32;
   NetPackKernel<T, double> pack_f64;
 };

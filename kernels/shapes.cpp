@@ -1,4 +1,5 @@
 // Compiled once per instruction set: kernels for patches of any shape.
+#include "kernels/derivative_kernel.hpp"
 #include "kernels/pack_shape_kernel.hpp"
 #include "kernels/shape_kernel.hpp"
 
@@ -9,6 +10,7 @@ constexpr detail::ShapeTable<T> make_shape_table() {
   detail::ShapeTable<T> table{};
   table.grid = shape_grid_kernel<T>;
   table.scattered = shape_scattered_kernel<T>;
+  table.derivatives = derivative_kernel<T>;
   table.pack_f32 = shape_pack_kernel<T, float>;
   table.pack_f64 = shape_pack_kernel<T, double>;
   return table;

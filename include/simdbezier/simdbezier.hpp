@@ -7,6 +7,7 @@
 #include <simdbezier/certificate.hpp>  // IWYU pragma: export
 #include <simdbezier/control_nets.hpp> // IWYU pragma: export
 #include <simdbezier/curves.hpp>       // IWYU pragma: export
+#include <simdbezier/derivatives.hpp>  // IWYU pragma: export
 #include <simdbezier/evaluate.hpp>     // IWYU pragma: export
 #include <simdbezier/isa.hpp>          // IWYU pragma: export
 #include <simdbezier/iso_curves.hpp>   // IWYU pragma: export
