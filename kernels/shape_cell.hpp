@@ -53,11 +53,13 @@ private:
   }
 };
 
-/// Which values of a cell belong to which output: up to three components, then (slot 3) the weight.
-/// kSpace: there are three components, and all are wanted.
-template <bool kRational, bool kSpace>
+/// Which values of a cell belong to which output: up to three components, then the weight.
+/// kComponents: as many as the compiler knows there are, or 0.
+template <bool kRational, std::size_t kComponents>
 struct Channels {
-  static constexpr std::size_t kSlots = kRational ? 4 : 3;
+  static constexpr std::size_t kMost = kComponents == 0 ? 3 : kComponents;
+  static constexpr std::size_t kWeight = kMost;
+  static constexpr std::size_t kSlots = kMost + (kRational ? 1 : 0);
 
   SIMDBEZIER_INLINE Channels(const NetShape& shape, std::size_t first_component)
       : first_(first_component),
@@ -65,16 +67,35 @@ struct Channels {
         weight_(static_cast<std::size_t>(shape.components)) {}
   /// The packed channel of a slot.
   SIMDBEZIER_INLINE std::size_t channel(std::size_t slot) const {
-    if (kRational && slot == 3) {
-      return kSpace ? 3 : weight_;
-    }
-    return kSpace ? slot : first_ + slot;
+    return slot == kWeight ? weight_ : first_ + slot;
   }
-  SIMDBEZIER_INLINE bool used(std::size_t slot) const {
-    return kSpace || slot < count_ || (kRational && slot == 3);
+
+  /// f(slot) for the components. Unrolled only where their number is known, because that keeps
+  /// polynomials in registers: it is much code.
+  template <typename F>
+  SIMDBEZIER_INLINE void for_components(const F& f) const {
+    for_slots<kMost>(f);
+  }
+  /// The same, and f(kWeight) in the end.
+  template <typename F>
+  SIMDBEZIER_INLINE void for_channels(const F& f) const {
+    for_slots<kSlots>(f);
   }
 
 private:
+  template <std::size_t kCount, typename F>
+  SIMDBEZIER_INLINE void for_slots(const F& f) const {
+    if constexpr (kComponents != 0) {
+      repeat<kCount>(f);
+    } else {
+      for (std::size_t slot = 0; slot < kCount; ++slot) {
+        if (slot < count_ || slot == kWeight) {
+          f(slot);
+        }
+      }
+    }
+  }
+
   std::size_t first_;
   std::size_t count_;
   std::size_t weight_;

@@ -48,49 +48,102 @@ SIMDBEZIER_INLINE void for_coefficients(Order<kFixed> order, const F& f) {
   }
 }
 
-/// A polynomial's value, first and second derivative; the latter two as far as kDepth goes.
+/// A polynomial's value, first and second derivative, the latter two as far as kDepth goes, while
+/// Horner's rule runs through its coefficients: the last two, then one after the other.
 template <typename V>
 struct Series {
   V value;
   V first;
-  V second;
+  V second; ///< half of it, until finish()
+
+  template <std::size_t kDepth>
+  SIMDBEZIER_INLINE void begin(V last, V before, V t) {
+    value = madd(last, t, before);
+    if constexpr (kDepth > 0) {
+      first = last;
+    }
+  }
+  template <std::size_t kDepth>
+  SIMDBEZIER_INLINE void add_third(V c, V t) {
+    if constexpr (kDepth > 1) {
+      second = first;
+    }
+    if constexpr (kDepth > 0) {
+      first = madd(first, t, value);
+    }
+    value = madd(value, t, c);
+  }
+  template <std::size_t kDepth>
+  SIMDBEZIER_INLINE void add(V c, V t) {
+    if constexpr (kDepth > 1) {
+      second = madd(second, t, first);
+    }
+    if constexpr (kDepth > 0) {
+      first = madd(first, t, value);
+    }
+    value = madd(value, t, c);
+  }
+  /// A derivative that is constant is nan at a parameter that is; t - t is +0 otherwise, which
+  /// changes no constant, not even -0.
+  template <std::size_t kDepth>
+  SIMDBEZIER_INLINE void finish(std::size_t degree, V t) {
+    if constexpr (kDepth > 0) {
+      if (degree == 1) {
+        first = first - (t - t);
+      }
+    }
+    if constexpr (kDepth > 1) {
+      if (degree == 1) {
+        second = t - t;
+      } else if (degree == 2) {
+        second = (second + second) - (t - t);
+      } else {
+        second = second + second;
+      }
+    }
+  }
 };
 
 /// sum_k c(k) t^k, and derivatives up to kDepth, for order >= 2.
 template <std::size_t kDepth, typename V, typename N, typename Coefficient>
 SIMDBEZIER_INLINE Series<V> horner_series(N order, V t, const Coefficient& c) {
-  const std::size_t n = order.value() - 1;
-  const V last = c(n);
+  const std::size_t degree = order.value() - 1;
   Series<V> s;
-  s.value = madd(last, t, c(n - 1));
-  if constexpr (kDepth > 0) {
-    s.first = last;
-  }
-  if constexpr (kDepth > 1) {
-    s.second = broadcast<V>(ScalarOf<V>(0)); // half of it, until the end
-  }
-  if (n > 1) {
-    if constexpr (kDepth > 1) {
-      s.second = last;
-    }
-    if constexpr (kDepth > 0) {
-      s.first = madd(last, t, s.value);
-    }
-    s.value = madd(s.value, t, c(n - 2));
-    for (std::size_t k = n - 2; k-- > 0;) {
-      if constexpr (kDepth > 1) {
-        s.second = madd(s.second, t, s.first);
-      }
-      if constexpr (kDepth > 0) {
-        s.first = madd(s.first, t, s.value);
-      }
-      s.value = madd(s.value, t, c(k));
+  s.template begin<kDepth>(c(degree), c(degree - 1), t);
+  if (degree > 1) {
+    s.template add_third<kDepth>(c(degree - 2), t);
+    for (std::size_t k = degree - 2; k-- > 0;) {
+      s.template add<kDepth>(c(k), t);
     }
   }
-  if constexpr (kDepth > 1) {
-    s.second = s.second + s.second;
-  }
+  s.template finish<kDepth>(degree, t);
   return s;
+}
+
+/// The same for kCount polynomials at once, from coefficients [power][polynomial]. Their sums stay
+/// in registers while the loop runs, however long it is, and one address serves all of them.
+template <std::size_t kDepth, std::size_t kCount, typename V, typename N>
+SIMDBEZIER_INLINE void horner_series_abreast(N order, V t, const ScalarOf<V>* coefficients,
+                                             Series<V> s[kCount]) {
+  const std::size_t degree = order.value() - 1;
+  const ScalarOf<V>* c = coefficients + (degree - 1) * kCount;
+  repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+    s[i].template begin<kDepth>(broadcast<V>(c[kCount + i]), broadcast<V>(c[i]), t);
+  });
+  if (degree > 1) {
+    c -= kCount;
+    repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+      s[i].template add_third<kDepth>(broadcast<V>(c[i]), t);
+    });
+    for (std::size_t k = degree - 2; k-- > 0;) {
+      c -= kCount;
+      repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+        s[i].template add<kDepth>(broadcast<V>(c[i]), t);
+      });
+    }
+  }
+  repeat<kCount>([&](std::size_t i)
+                     SIMDBEZIER_INLINE_LAMBDA { s[i].template finish<kDepth>(degree, t); });
 }
 
 /// A half-centred parameter of a direction that is cut in two, half-centred in its cell. One

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/drain_kernel.hpp"
+#include "kernels/shape_columns.hpp"
 #include "kernels/shape_outputs.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -10,7 +11,8 @@ using detail::GridTask;
 using detail::RowKind;
 using detail::RowRun;
 
-/// A register of columns of one patch, through all rows.
+/// A register of columns of one patch, through all rows. One function for each step: loops over
+/// unknown numbers of powers have them in memory anyway.
 template <typename P, typename T>
 class ColumnSweep {
   using V = vec<T>;
@@ -18,79 +20,82 @@ class ColumnSweep {
 public:
   SIMDBEZIER_INLINE ColumnSweep(const GridTask<T>& task, const NetShape& shape, std::size_t patch,
                                 std::size_t first, bool watertight)
-      : task_(task), watertight_(watertight), cells_v_(P::shape(shape).cells_v()),
-        x_(load_vector<V>(task.x + first)), columns_(x_, P::shape(shape).cells_u()),
-        polynomials_(shape, columns_, task.first_component, watertight) {
+      : task_(task), watertight_(watertight), x_(load_vector<V>(task.x + first), shape.cells_u()),
+        columns_(shape, x_, task.first_component, watertight) {
+    const std::size_t left = task.nu - first;
     range_.patch = patch;
-    range_.active = task.nu - first < kLanes<V> ? task.nu - first : kLanes<V>;
-    range_.x = x_;
+    range_.active = left < kLanes<V> ? left : kLanes<V>;
+    range_.first_plane = 0;
+    range_.x = load_vector<V>(task.x + first);
+    floor_ = floor_inside(range_.x, broadcast<V>(task.normal_floor[patch]));
     first_at_ = patch * task.patch_step + first;
-    for (std::size_t cell = 0; cell < cells_v_; ++cell) {
-      const CellRow<T> cells(task, shape, patch, cell);
-      polynomials_.build(cells);
-      sweep(cell);
+  }
+
+  void run(const NetShape& shape) {
+    const std::size_t cells = shape.cells_v();
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      const CellRow<T> row(task_, shape, range_.patch, cell);
+      build(row);
+      range_.at = first_at_;
+      for (std::size_t r = 0; r < task_.run_count; ++r) {
+        const RowRun<T> run = task_.runs[r];
+        range_.floor = floor_of(run);
+        for (std::size_t j = 0; j < run.rows; ++j, range_.at += task_.nu) {
+          const T y = run.y[j];
+          if (cells == 1) {
+            put(y, y);
+          } else if ((y < T(0)) == (cell == 0)) {
+            put(y, cell_parameter(y));
+          }
+        }
+      }
     }
   }
 
 private:
-  SIMDBEZIER_INLINE void sweep(std::size_t cell) {
-    range_.at = first_at_;
-    for (std::size_t r = 0; r < task_.run_count; ++r) {
-      const RowRun<T> run = task_.runs[r];
-      if (cells_v_ == 2) {
-        sweep_half(run, cell);
-      } else if (watertight_ && (run.kind == RowKind::edge_v0 || run.kind == RowKind::edge_v1)) {
-        for (std::size_t j = 0; j < run.rows; ++j, range_.at += task_.nu) {
-          put_edge(run.y[j], run.y[j]);
-        }
-      } else {
-        for (std::size_t j = 0; j < run.rows; ++j, range_.at += task_.nu) {
-          put(run.y[j], run.y[j]);
-        }
-      }
-    }
-  }
+  __attribute__((noinline)) void build(const CellRow<T>& row) { columns_.build(row); }
 
-  /// The rows of a run that lie in one of two cells.
-  SIMDBEZIER_INLINE void sweep_half(const RowRun<T>& run, std::size_t cell) {
-    for (std::size_t j = 0; j < run.rows; ++j, range_.at += task_.nu) {
-      const bool low = run.y[j] < T(0);
-      if (low != (cell == 0)) {
-        continue;
-      }
-      const T y = cell_parameter(run.y[j]);
-      if (watertight_ && (y == T(-0.5) || y == T(0.5))) {
-        put_edge(run.y[j], y);
-      } else {
-        put(run.y[j], y);
-      }
-    }
-  }
-
-  SIMDBEZIER_INLINE void put(T y, T local) {
-    SampleJet<V> jet;
-    polynomials_.evaluate(broadcast<V>(local), jet);
+  __attribute__((noinline)) void put(T y, T local) {
+    const bool on_edge = watertight_ && (local == T(-0.5) || local == T(0.5));
     range_.y = broadcast<V>(y);
+    SampleJet<V> jet;
+    if (P::kDepth > 0 || !on_edge) {
+      columns_.evaluate(broadcast<V>(local), jet);
+    }
+    if (on_edge) {
+      put_edge(local, jet);
+    }
     store_sample<P>(task_, range_, jet);
   }
-  /// Rare, and with values in memory that others keep in registers.
-  SIMDBEZIER_INLINE void put_edge(T y, T local) {
-    SampleJet<V> jet;
-    if constexpr (P::kDepth > 0) {
-      polynomials_.evaluate(broadcast<V>(local), jet);
+
+  /// What a row on an edge v = const has of its own.
+  SIMDBEZIER_INLINE void put_edge(T local, SampleJet<V>& jet) const {
+    SampleJet<V> edge; // so that the caller's need not be in memory
+    edge_row(local < T(0) ? detail::kEdgeV0 : detail::kEdgeV1, edge);
+    for (std::size_t c = 0; c < P::Slots::kMost; ++c) {
+      jet.position[c] = edge.position[c];
+      if constexpr (P::kDepth > 0) {
+        jet.du[c] = edge.du[c];
+      }
+      if constexpr (P::kDepth > 1) {
+        jet.duu[c] = edge.duu[c];
+      }
     }
-    polynomials_.replace_row(local < T(0) ? detail::kEdgeV0 : detail::kEdgeV1, jet);
-    range_.y = broadcast<V>(y);
-    store_sample<P>(task_, range_, jet);
+  }
+  __attribute__((noinline)) void edge_row(std::size_t edge, SampleJet<V>& jet) const {
+    columns_.replace_row(edge, jet);
+  }
+
+  SIMDBEZIER_INLINE V floor_of(const RowRun<T>& run) const {
+    return run.kind == RowKind::outside ? no_floor<V>() : floor_;
   }
 
   const GridTask<T>& task_;
   bool watertight_;
-  std::size_t cells_v_; ///< a constant where the degree is
-  V x_;
-  CellColumns<V> columns_;
-  ShapeColumns<P, V> polynomials_;
+  CellColumns<V> x_;
+  ShapeColumns<P, V> columns_;
   SampleRange<V> range_;
+  V floor_; ///< of rows that are not outside
   std::size_t first_at_;
 };
 
@@ -101,7 +106,7 @@ __attribute__((noinline)) void sweep_shape(const GridTask<T>& shared_task, bool 
   const NetShape shape = P::shape(*shared_task.shape);
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
     for (std::size_t first = 0; first < task.nu; first += kLanes<vec<T>>) {
-      const ColumnSweep<P, T> sweep(task, shape, patch, first, watertight);
+      ColumnSweep<P, T>(task, shape, patch, first, watertight).run(shape);
     }
     pace(task.drain, task.patch_step * 3);
   }

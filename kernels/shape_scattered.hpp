@@ -68,8 +68,10 @@ SIMDBEZIER_INLINE void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, co
 template <typename P, typename T>
 __attribute__((noinline)) void evaluate_single(const ScatteredTask<T>& task, const NetShape& shape,
                                                std::size_t k, bool watertight) {
-  const SampleRange<T> range{task.patch[k], k, 1, finite_half_centred(task, task.u[k]),
-                             finite_half_centred(task, task.v[k])};
+  const T x = finite_half_centred(task, task.u[k]);
+  const T y = finite_half_centred(task, task.v[k]);
+  const T floor = task.normal_floor[task.patch[k]];
+  const SampleRange<T> range{task.patch[k], k, 1, 0, x, y, floor_inside(y, floor_inside(x, floor))};
   SampleJet<T> jet;
   evaluate_lanes<P, T>(task, shape, range.patch, range.x, range.y, watertight, jet);
   if (task.status != nullptr && (range.x != range.x || range.y != range.y)) {
@@ -97,7 +99,9 @@ SIMDBEZIER_INLINE void evaluate_together(const ScatteredTask<ScalarOf<V>>& task,
     alone[i] = local == T(-0.5) || local == T(0.5) || x[i] != x[i] || y[i] != y[i];
     any_alone = any_alone || alone[i];
   }
-  const SampleRange<V> range{task.patch[k], k, count, load_vector<V>(x), load_vector<V>(y)};
+  SampleRange<V> range{task.patch[k], k, count, 0, load_vector<V>(x), load_vector<V>(y), {}};
+  range.floor = broadcast<V>(task.normal_floor[range.patch]);
+  range.floor = floor_inside(range.y, floor_inside(range.x, range.floor));
   SampleJet<V> jet;
   evaluate_lanes<P, V>(task, shape, range.patch, range.x, range.y, watertight, jet);
   store_sample<P>(task, range, jet);
