@@ -76,6 +76,7 @@ public:
       polygon_[p] = task_.curves.points + curve * task_.curves.curve_stride;
     }
     Wide squares(0.0);
+    length_ = squares;
     MaskOf<Wide> positive = squares <= squares;
     TangentFloor<T> floor(shape_);
     if (shape_.rational) {
@@ -93,6 +94,9 @@ public:
       squares = squares + pack_component(c, floor);
     }
     put(task_.tangent_floor, 1, 0, floor.value());
+    if (shape_.rational && !all_of<Wide>(length_ > Wide(0.0))) {
+      pack_collapsed();
+    }
     return all_of<Wide>(positive & (squares <= Wide(kSafeCurveSquares<T>)));
   }
 
@@ -186,6 +190,7 @@ private:
       squares = squares + value * value;
       if (shape_.rational) {
         squares = squares + points[i] * points[i];
+        length_ = length_ + magnitude(points[i] - points[0]);
       }
       put_control_value(i, c, points[i]);
     }
@@ -216,6 +221,33 @@ private:
     return squares;
   }
 
+  /// Rational curves whose control points are all one, packed as such with a weight of 1: as
+  /// collapsed edges of patches are (pack_collapsed_edges.hpp), and for the same reason.
+  __attribute__((noinline, cold)) void pack_collapsed() const {
+    alignas(64) double lengths[kWideLanes];
+    store_vector<Wide>(lengths, length_);
+    for (std::size_t p = 0; p < count_; ++p) {
+      for (std::size_t cell = 0; lengths[p] == 0 && cell < shape_.cells(); ++cell) {
+        pack_point(first_ + p, cell);
+      }
+    }
+  }
+  void pack_point(std::size_t curve, std::size_t cell) const {
+    const T* const point = task_.control_points + curve * shape_.control_values();
+    T* values = task_.values + curve * shape_.values() + cell * shape_.cell_values();
+    for (std::size_t c = 0; c <= components_; ++c, values += shape_.channel_values()) {
+      for (std::size_t k = 0; k < order_; ++k) {
+        values[k] = T(0);
+      }
+      if (c == components_) {
+        values[0] = T(1);
+        return;
+      }
+      values[shape_.ends_at()] = values[shape_.ends_at() + 1] = point[c];
+      values[shape_.origins ? shape_.origin_at() : 0] = point[c];
+    }
+  }
+
   /// Takes the point in the middle of a cell, as rounded to T, out of its coefficients.
   SIMDBEZIER_INLINE Wide split_origin(W* values, std::size_t cell) const {
     if (!shape_.rational) {
@@ -236,6 +268,7 @@ private:
   std::size_t first_ = 0;
   std::size_t count_ = 0;
   const S* polygon_[kWideLanes];
+  Wide length_ = Wide(0.0); ///< how far the points of a rational curve are apart
   Wide weights_[detail::kMostOrder];
   W cell_weights_[2][detail::kMostOrder]; ///< coefficients
   Wide end_weights_[2][2];

@@ -77,6 +77,9 @@ struct NetShape {
   }
   [[nodiscard]] constexpr std::size_t edges() const { return cells() * cell_edges(); }
 
+  /// Values that the quick test of normals compares with: a floor, or two sizes of errors.
+  [[nodiscard]] constexpr std::size_t floors() const { return rational ? 2 : 1; }
+
   [[nodiscard]] constexpr std::size_t cell_origins() const { return channels() * 8; }
   [[nodiscard]] constexpr std::size_t origins() const { return cells() * cell_origins(); }
 

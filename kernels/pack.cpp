@@ -51,7 +51,7 @@ private:
     T* const points = storage_.control_points + run_.place * shape.control_values();
     T* const origins =
         storage_.origins == nullptr ? nullptr : storage_.origins + run_.place * shape.origins();
-    T* const floor = storage_.normal_floor + run_.place;
+    T* const floor = storage_.normal_floor + run_.place * shape.floors();
     if (shape.is_bicubic()) {
       const PackTask<T, S> task{nets_.points,
                                 nets_.patch_stride,

@@ -30,8 +30,8 @@ Status check(const ControlNets<S>& nets) {
 template <typename T>
 Status allocate(bool origins, PatchStorage<T>& storage) {
   const NetShape& shape = storage.shape;
-  const std::size_t per_patch = shape.coefficients() + shape.edges() + shape.control_values() + 1 +
-                                (origins ? shape.origins() : 0);
+  const std::size_t per_patch = shape.coefficients() + shape.edges() + shape.control_values() +
+                                shape.floors() + (origins ? shape.origins() : 0);
   constexpr std::size_t kLimit = std::numeric_limits<std::ptrdiff_t>::max();
   const std::size_t count = storage.count;
   if (count > kLimit / sizeof(T) / per_patch) {
@@ -46,7 +46,7 @@ Status allocate(bool origins, PatchStorage<T>& storage) {
   storage.edges = storage.coefficients + count * shape.coefficients();
   storage.control_points = storage.edges + count * shape.edges();
   storage.normal_floor = storage.control_points + count * shape.control_values();
-  storage.origins = origins ? storage.normal_floor + count : nullptr;
+  storage.origins = origins ? storage.normal_floor + count * shape.floors() : nullptr;
   return Status::ok;
 }
 

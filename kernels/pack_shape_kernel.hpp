@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "kernels/kernel_table.hpp"
+#include "kernels/pack_collapsed_edges.hpp"
 #include "kernels/pack_shape_floor.hpp"
 #include "kernels/pack_shape_formulas.hpp"
 #include "kernels/pack_shape_io.hpp"
@@ -45,10 +46,12 @@ public:
     if (shape_.rational) {
       reader_.read(components_, weights_);
     }
-    const bool safe = pack_points();
+    CollapsedEdges collapsed(shape_);
+    const bool safe = pack_points(collapsed);
     for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
       pack_cell(cell);
     }
+    collapsed.pack(task_, first_, count_);
     return safe;
   }
 
@@ -72,7 +75,7 @@ private:
   }
 
   /// Control points, normal floor, and whether all values are of a size that cannot do harm.
-  bool pack_points() {
+  bool pack_points(CollapsedEdges& collapsed) {
     const std::size_t points = shape_.points();
     Wide squares(0.0);
     MaskOf<Wide> positive = squares <= squares;
@@ -86,6 +89,7 @@ private:
     }
     for (std::size_t c = 0; c < components_; ++c) {
       read_component(c);
+      collapsed.add(points_);
       for (std::size_t k = 0; k < points; ++k) {
         const Wide value = to_wide(values_[k]);
         squares = squares + value * value + points_[k] * points_[k];
@@ -94,10 +98,14 @@ private:
       }
       floor.add(points_);
     }
-    alignas(64) double floors[kWideLanes];
-    store_vector<Wide>(floors, floor.value());
-    for (std::size_t p = 0; p < count_; ++p) {
-      task_.normal_floor[first_ + p] = static_cast<T>(floors[p]);
+    Wide floors[2];
+    floor.finish(floors);
+    for (std::size_t f = 0; f < shape_.floors(); ++f) {
+      alignas(64) double lanes[kWideLanes];
+      store_vector<Wide>(lanes, floors[f]);
+      for (std::size_t p = 0; p < count_; ++p) {
+        task_.normal_floor[(first_ + p) * shape_.floors() + f] = static_cast<T>(lanes[p]);
+      }
     }
     return all_of<Wide>(positive & (squares <= Wide(kSafeShapeSquares<T>)));
   }

@@ -56,7 +56,9 @@ struct PatchStorage {
   T* edges = nullptr;          ///< count * shape.edges(), 64-byte aligned
   T* control_points = nullptr; ///< count * shape.control_values(); read where a normal degenerates
   T* origins = nullptr;        ///< count * shape.origins(), or null
-  T* normal_floor = nullptr;   ///< count; |du x dv|^2 above it needs no second look
+  /// count * shape.floors(): |du x dv|^2 above it needs no second look; with weights, what that
+  /// floor is made of at a sample (pack_shape_floor.hpp).
+  T* normal_floor = nullptr;
   std::unique_ptr<std::size_t[]> number; ///< of each patch in the set, ascending; null: its index
 };
 

@@ -176,6 +176,7 @@ struct SampleJet {
   V duu[3];
   V duv[3];
   V dvv[3];
+  V inverse_weight; ///< of rational patches, with derivatives: 1 / w
 };
 
 /// S = h / w and its derivatives, from those of h and w: w S = h, differentiated. Those of w come
@@ -244,9 +245,10 @@ SIMDBEZIER_INLINE void curvatures(const SampleJet<V>& jet, V out[detail::kCurvat
   const V g = dot(dv.value, dv.value);
   const V half = broadcast<V>(ScalarOf<V>(0.5));
   const V zero = broadcast<V>(ScalarOf<V>(0));
-  const V gaussian = msub(l, k, m * m) * inverse_area2;
+  // Adding zero makes a plane's curvatures +0 and changes nothing else.
+  const V gaussian = madd(msub(l, k, m * m), inverse_area2, zero);
   const V twice_f_m = (f + f) * m;
-  const V mean = half * (madd(e, k, g * l) - twice_f_m) * inverse_area2;
+  const V mean = madd(half * (madd(e, k, g * l) - twice_f_m), inverse_area2, zero);
   const V discriminant = msub(mean, mean, gaussian);
   // Rounding makes it negative at umbilics; nan stays nan.
   const V spread = square_root(select_where<V>(discriminant < zero, zero, discriminant));

@@ -27,7 +27,7 @@ public:
     range_.active = left < kLanes<V> ? left : kLanes<V>;
     range_.first_plane = 0;
     range_.x = load_vector<V>(task.x + first);
-    floor_ = floor_inside(range_.x, broadcast<V>(task.normal_floor[patch]));
+    floor_ = floor_inside(range_.x, patch_floor<P, V>(task, patch));
     first_at_ = patch * task.patch_step + first;
   }
 

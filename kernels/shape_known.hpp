@@ -68,7 +68,7 @@ SIMDBEZIER_INLINE void sweep_columns(const GridTask<T>& task, const NetShape& sh
   const std::size_t left = task.nu - first < kLanes<V> ? task.nu - first : kLanes<V>;
   SampleRange<V> range{patch, patch * task.patch_step + first, left, component, x, x, x};
   if constexpr (P::kDepth > 0 && !P::kSingle) {
-    range.floor = floor_inside(x, broadcast<V>(task.normal_floor[patch]));
+    range.floor = floor_inside(x, patch_floor<P, V>(task, patch));
   }
   if constexpr (P::kDepth > 0 && !P::kSingle) { // much code, and many operations for each store
     sweep_rows<P, false>(task, watertight, columns, range);

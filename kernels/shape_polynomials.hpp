@@ -76,6 +76,7 @@ struct ColumnPolynomials {
       Partials<V> weight = partials(order, power[P::Slots::kWeight], y);
       negate_slopes(weight);
       const Quotient<V> quotient(weight.value);
+      jet.inverse_weight = quotient.inverse;
       slots.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
         divide_slot(quotient, partials(order, power[slot], y), weight, origins, slot, jet);
       });

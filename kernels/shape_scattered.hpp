@@ -9,7 +9,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 using detail::ScatteredTask;
 
 /// The lanes of `yes` keep what `jet` has, the others get what `other` has.
-template <std::size_t kDepth, typename V>
+template <typename P, typename V>
 SIMDBEZIER_INLINE void keep_lanes(MaskOf<V> yes, const SampleJet<V>& other, SampleJet<V>& jet) {
   const auto keep = [&](V(&to)[3], const V(&from)[3]) SIMDBEZIER_INLINE_LAMBDA {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -17,11 +17,14 @@ SIMDBEZIER_INLINE void keep_lanes(MaskOf<V> yes, const SampleJet<V>& other, Samp
     }
   };
   keep(jet.position, other.position);
-  if constexpr (kDepth > 0) {
+  if constexpr (P::kDepth > 0) {
     keep(jet.du, other.du);
     keep(jet.dv, other.dv);
   }
-  if constexpr (kDepth > 1) {
+  if constexpr (P::kWeighted && P::kDepth > 0) {
+    jet.inverse_weight = select_where<V>(yes, jet.inverse_weight, other.inverse_weight);
+  }
+  if constexpr (P::kDepth > 1) {
     keep(jet.duu, other.duu);
     keep(jet.duv, other.duv);
     keep(jet.dvv, other.dvv);
@@ -60,7 +63,7 @@ SIMDBEZIER_INLINE void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, co
   if (both) {
     SampleJet<V> high;
     evaluate_row<P>(task, shape, patch, 1, columns, rows.local.x, watertight, high);
-    keep_lanes<P::kDepth>(rows.low, high, jet);
+    keep_lanes<P>(rows.low, high, jet);
   }
 }
 
@@ -70,7 +73,7 @@ __attribute__((noinline)) void evaluate_single(const ScatteredTask<T>& task, con
                                                std::size_t k, bool watertight) {
   const T x = finite_half_centred(task, task.u[k]);
   const T y = finite_half_centred(task, task.v[k]);
-  const T floor = task.normal_floor[task.patch[k]];
+  const T floor = patch_floor<P, T>(task, task.patch[k]);
   const SampleRange<T> range{task.patch[k], k, 1, 0, x, y, floor_inside(y, floor_inside(x, floor))};
   SampleJet<T> jet;
   evaluate_lanes<P, T>(task, shape, range.patch, range.x, range.y, watertight, jet);
@@ -100,7 +103,7 @@ SIMDBEZIER_INLINE void evaluate_together(const ScatteredTask<ScalarOf<V>>& task,
     any_alone = any_alone || alone[i];
   }
   SampleRange<V> range{task.patch[k], k, count, 0, load_vector<V>(x), load_vector<V>(y), {}};
-  range.floor = broadcast<V>(task.normal_floor[range.patch]);
+  range.floor = patch_floor<P, V>(task, range.patch);
   range.floor = floor_inside(range.y, floor_inside(range.x, range.floor));
   SampleJet<V> jet;
   evaluate_lanes<P, V>(task, shape, range.patch, range.x, range.y, watertight, jet);

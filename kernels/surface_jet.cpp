@@ -55,10 +55,11 @@ SurfaceFrame::SurfaceFrame(const NetShape& shape, const T* control_points)
   }
   if (rational_) {
     const double weight_scale = inverse_power(weight);
-    distance_ = 2 * size * scale;
+    distance_ = size * scale;
+    heaviest_ = weight * weight_scale;
     for (std::size_t k = 0; k < count; ++k) {
       weights_[k] = static_cast<double>(control_points[k * channels + 3]) * weight_scale;
-      extent_ = std::max(extent_, 2 * max_norm(points_[k]));
+      extent_ = std::max(extent_, max_norm(points_[k]));
     }
   }
   measure();
@@ -73,7 +74,7 @@ void SurfaceFrame::measure_pair(std::size_t a, std::size_t b, double& size, doub
   if (rational_) {
     const double larger = std::max(weights_[a], weights_[b]);
     const double difference = std::fabs(weights_[b] - weights_[a]);
-    size = std::max(size, distance + difference / larger * extent_);
+    size = std::max(size, distance + difference / larger * 2 * extent_);
     step = std::max(step, larger * distance);
     turn = std::max(turn, difference);
   }
@@ -97,12 +98,12 @@ void SurfaceFrame::measure() {
   scale_v = size_v > 0 ? inverse_power(size_v) : 1;
 }
 
-SurfaceFrame::ErrorSizes SurfaceFrame::errors(double weight, double reach) const {
+SurfaceFrame::ErrorSizes SurfaceFrame::errors(double weight, double reach, double factor) const {
   if (!rational_) {
     return {size_u * scale_u, size_v * scale_v};
   }
-  const double factor_u = static_cast<double>(degree_u_) * scale_u / weight;
-  const double factor_v = static_cast<double>(degree_v_) * scale_v / weight;
+  const double factor_u = factor * static_cast<double>(degree_u_) * scale_u / weight;
+  const double factor_v = factor * static_cast<double>(degree_v_) * scale_v / weight;
   return {factor_u * (step_u_ + turn_u_ * reach), factor_v * (step_v_ + turn_v_ * reach)};
 }
 

@@ -50,25 +50,31 @@ public:
   double scale_v = 1;
 
   /// What the errors of du, as a multiple of the unit roundoff, are relative to: of the kernels',
-  /// whose numerators are as large as the patch is far from the origin, or of jets. In units of
-  /// 1 / scale_u.
+  /// whose numerators are as large as the patch is far from the origin and which sum weights up in
+  /// powers (pack_shape_floor.hpp), or of jets, where all that is summed is weighted by Bernstein
+  /// values and so relative to the weight at the sample. In units of 1 / scale_u.
   struct ErrorSizes {
     double u;
     double v;
   };
-  [[nodiscard]] ErrorSizes kernel_errors(double weight) const { return errors(weight, distance_); }
-  [[nodiscard]] ErrorSizes jet_errors(double weight) const { return errors(weight, extent_); }
+  [[nodiscard]] ErrorSizes kernel_errors(double weight) const {
+    return errors(weight, 4 * distance_, heaviest_ / weight);
+  }
+  [[nodiscard]] ErrorSizes jet_errors(double weight) const {
+    return errors(weight, 2 * extent_, 1);
+  }
 
 private:
   void measure();
   void measure_pair(std::size_t a, std::size_t b, double& size, double& step, double& turn) const;
-  [[nodiscard]] ErrorSizes errors(double weight, double reach) const;
+  [[nodiscard]] ErrorSizes errors(double weight, double reach, double factor) const;
 
   std::size_t degree_u_;
   std::size_t degree_v_;
   bool rational_;
-  double distance_ = 0; ///< twice the largest |P|, scaled
-  double extent_ = 0;   ///< twice the largest |P - P[0][0]|, scaled
+  double distance_ = 0; ///< largest |P|, scaled
+  double extent_ = 0;   ///< largest |P - P[0][0]|, scaled
+  double heaviest_ = 1; ///< weight, scaled
   // Of neighbours in rational nets: see pack_shape_floor.hpp.
   double step_u_ = 0; ///< largest max(w, w') |P' - P|
   double step_v_ = 0;

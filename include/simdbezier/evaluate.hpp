@@ -11,6 +11,8 @@
 //               second hodograph's; other degrees and weights: docs/accuracy.md, error_bounds().
 //   Watertight  positions on an edge depend only on that edge's control points and are
 //               bit-equal on both sides whatever the orientation; corners are control points.
+//               An edge whose control points are all one is that point, whatever its weights, and
+//               derivatives along it are exactly zero.
 //   Bits        equal for any thread count, batch size, place in the batch, layout, alignment and
 //               compiler, and for all instruction sets of one class (see Isa).
 //   Allocation  scratch per thread and per call only, none per sample. Nothing throws.
@@ -139,8 +141,10 @@ enum class Destination : std::uint8_t {
 
 /// How a call runs. The defaults are what most callers want.
 struct Options {
-  int threads = 0;          ///< 0: OpenMP's default; 1: no OpenMP region; most: 16 or two a core
-  bool watertight = true;   ///< false: edges and corners come from the interior's formula
+  int threads = 0; ///< 0: OpenMP's default; 1: no OpenMP region; most: 16 or two a core
+  /// false: edges and corners come from the interior's formula; derivatives along an edge that is a
+  /// point are then of the size of rounding errors instead of zero, and curvatures there anything.
+  bool watertight = true;
   Isa isa = Isa::automatic; ///< see resolve_isa()
   Isa* executed = nullptr;  ///< where given, the kernel that ran writes its own name here
   Destination destination = Destination::automatic;

@@ -108,6 +108,25 @@ TEST_P(CurvatureTest, IsNanWhereThereIsNoNormal) {
   }
 }
 
+// A plane has curvatures of +0, whatever its orientation: nobody wants to read "-0".
+TEST_P(CurvatureTest, OfPlanesIsPositiveZero) {
+  for (const bool rational : {false, true}) {
+    for (const double side : {1.0, -1.0}) {
+      Net net = shaped_net({3, 2}, [&](int j, int i) {
+        return Vector3{side * (i + 0.25 * j), 1.0 * j, 0};
+      });
+      if (rational) {
+        net.weights.assign(net.points.size(), 2);
+      }
+      CurvaturePlanes<float> planes(kNu * kNv);
+      grid(packed<float>(std::span(&net, 1)), Grid<float>::uniform(kNu, kNv), planes.outputs());
+      for (const float value : planes.values) {
+        EXPECT_TRUE(same_bits(value, 0.0F)) << value << " " << rational << side;
+      }
+    }
+  }
+}
+
 // Each plane alone gives what all of them together do.
 TEST_P(CurvatureTest, EveryPlaneIsOptional) {
   Random random(65);

@@ -88,7 +88,7 @@ void expect_same_patch(const detail::PatchStorage<T>& a, std::size_t i,
   EXPECT_TRUE(same(a.edges, b.edges, a.shape.edges())) << what;
   EXPECT_TRUE(same(a.control_points, b.control_points, a.shape.control_values())) << what;
   EXPECT_TRUE(same(a.origins, b.origins, a.shape.origins())) << what;
-  EXPECT_TRUE(same(a.normal_floor, b.normal_floor, 1)) << what;
+  EXPECT_TRUE(same(a.normal_floor, b.normal_floor, a.shape.floors())) << what;
 }
 
 template <typename T>
