@@ -5,44 +5,16 @@
 #include <tools/patch_file.hpp>
 #include <tools/segment_mesh.hpp>
 
-#include <algorithm>
-#include <iterator>
 #include <string_view>
 #include <utility>
 
 #include <tools/failure.hpp>
+#include <tools/rib_requests.hpp>
 
 namespace simdbezier::tools {
 
 namespace {
 
-constexpr std::string_view kOtherGeometry[] = {"Polygon",
-                                               "GeneralPolygon",
-                                               "PointsPolygons",
-                                               "PointsGeneralPolygons",
-                                               "NuPatch",
-                                               "TrimCurve",
-                                               "Sphere",
-                                               "Cone",
-                                               "Cylinder",
-                                               "Hyperboloid",
-                                               "Paraboloid",
-                                               "Disk",
-                                               "Torus",
-                                               "SubdivisionMesh",
-                                               "HierarchicalSubdivisionMesh",
-                                               "Points",
-                                               "Curves",
-                                               "Blobby",
-                                               "Procedural",
-                                               "Geometry",
-                                               "ObjectInstance",
-                                               "ReadArchive",
-                                               "MotionBegin"};
-constexpr std::string_view kScopeBegins[] = {"FrameBegin", "WorldBegin", "AttributeBegin",
-                                             "SolidBegin", "ObjectBegin"};
-constexpr std::string_view kScopeEnds[] = {"FrameEnd", "WorldEnd", "AttributeEnd", "SolidEnd",
-                                           "ObjectEnd"};
 constexpr double kBezierBasis[16] = {-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0};
 
 // Counts beyond this are no counts of points in a file.
@@ -57,11 +29,6 @@ struct Bases {
   Basis v;
 };
 
-template <std::size_t N>
-bool is_one_of(std::string_view name, const std::string_view (&names)[N]) {
-  return std::ranges::find(names, name) != std::end(names);
-}
-
 class RibReader {
 public:
   explicit RibReader(TextInput& input)
@@ -72,7 +39,7 @@ public:
   PatchFile read() {
     lexer_.next();
     while (!lexer_.at(TokenKind::end)) {
-      lexer_.at(TokenKind::word) ? request() : static_cast<void>(lexer_.next());
+      lexer_.at(TokenKind::word) ? request() : parameter();
     }
     if (file_.count == 0) {
       lexer_.fail("a Patch or PatchMesh");
@@ -89,16 +56,35 @@ private:
       patch_mesh();
     } else if (lexer_.at_word("Basis")) {
       basis();
-    } else if (is_one_of(lexer_.text(), kOtherGeometry)) {
-      lexer_.fail("a Patch or PatchMesh");
     } else {
-      if (is_one_of(lexer_.text(), kScopeBegins)) {
-        bases_.push_back(bases_.back());
-      } else if (is_one_of(lexer_.text(), kScopeEnds) && bases_.size() > 1) {
-        bases_.pop_back();
-      }
+      other_request();
       lexer_.next();
     }
+  }
+
+  /// Anything but a patch or a basis. Its numbers come here one by one, for they are words, too.
+  void other_request() {
+    const std::string_view name = lexer_.text();
+    if (is_listed(name, kRibOtherGeometry)) {
+      lexer_.fail("a Patch or PatchMesh");
+    } else if (is_listed(name, kRibScopeBegins)) {
+      bases_.push_back(bases_.back());
+    } else if (is_listed(name, kRibScopeEnds)) {
+      bases_.resize(bases_.size() > 1 ? bases_.size() - 1 : 1);
+    } else if (!is_listed(name, kRibPassedOver) && !parse_finite(name)) {
+      lexer_.fail("a request of .rib files");
+    }
+  }
+
+  /// A string or an array behind a request that is passed over.
+  void parameter() {
+    if (lexer_.at(TokenKind::close)) {
+      lexer_.fail("a request of .rib files");
+    }
+    if (lexer_.at(TokenKind::open)) {
+      lexer_.skip_list();
+    }
+    lexer_.next();
   }
 
   void basis() {
