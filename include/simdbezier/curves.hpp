@@ -91,8 +91,7 @@ private:
 /// curves:     S = float or double, see ControlCurves; the memory may be freed after the call.
 /// set:        replaced on ok, left as it was otherwise.
 /// options:    as for patches; relative_to applies to the first three components. A curve that is
-/// to
-///             match a patch's edge must be packed with the patch's options.
+///             to match a patch's edge must be packed with the patch's options.
 /// Numerics:   S = T = float: formed in double, else in double-double; rounded once to T. Results
 ///             depend neither on the instruction set nor on threads. -0 in the input becomes +0.
 /// Allocation: one block; of cubics in space 31 T a curve, 18 of which positions read.

@@ -43,9 +43,8 @@ struct PartialDerivative {
 /// Null        no derivative, or one without pointers, is null_output; samples' arrays may be null
 ///             where count is 0.
 /// Aliasing    outputs overlap neither each other, nor the inputs, nor `derivatives` itself; two
-/// may
-///             be members of one vertex. Every pair of derivatives is compared once. Stores are
-///             plain ones: Options::destination has no effect.
+///             may be members of one vertex. Every pair of derivatives is compared once. Stores
+///             are plain ones: Options::destination has no effect.
 /// Edges       derivatives along an edge, (0,b) where u is 0 or 1 and (a,0) where v is, come from
 ///             that edge's control points alone, and have equal bits on both sides up to the sign
 ///             that the edge's orientation gives them; but in the middle of an edge of degree 6 or

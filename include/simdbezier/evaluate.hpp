@@ -158,11 +158,13 @@ struct Options {
 
 /// Evaluates every patch of the set on one grid.
 ///
-/// Positions are S = sum_l y^l sum_k C[l][k] x^k by Horner's rule in x, then in y: 3 fused
-/// multiply-adds a component and sample; first derivatives by synthetic division, 5 more.
-/// Returns ok | null_output | bad_stride | overlapping_outputs | bad_grid | bad_patch_range |
-/// size_overflow | unknown_isa | unsupported_isa | out_of_memory. On an error nothing has been
-/// written.
+/// Positions are S = sum_l y^l sum_k C[l][k] x^k by Horner's rule in x, then in y: degree_v fused
+/// multiply-adds a component and sample, 3 for bicubic patches; first derivatives by synthetic
+/// division, 5 more for those. Rational patches by the quotient rule.
+/// Returns ok | null_output | bad_components (Options::first_component is outside of the set's, or
+/// a normal or a curvature is asked of a set without exactly three) | bad_stride |
+/// overlapping_outputs | bad_grid | bad_patch_range | size_overflow | unknown_isa | unsupported_isa
+/// | out_of_memory. On an error nothing has been written.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid,
                                                   const Outputs<T>& out,
@@ -170,9 +172,9 @@ template <typename T>
 
 /// Evaluates single samples, in the grid's own order of operations: where the centred parameters
 /// are equal, the bits are.
-/// Returns ok | null_input | null_output | bad_stride | overlapping_outputs | bad_patch_index |
-/// unknown_isa | unsupported_isa | size_overflow | out_of_memory. On an error nothing has been
-/// written.
+/// Returns ok | null_input | null_output | bad_components (as above) | bad_stride |
+/// overlapping_outputs | bad_patch_index | unknown_isa | unsupported_isa | size_overflow |
+/// out_of_memory. On an error nothing has been written.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_scattered(const PatchSet<T>& set,
                                                        const Samples<T>& samples,

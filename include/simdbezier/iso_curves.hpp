@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include <simdbezier/control_nets.hpp>
 #include <simdbezier/curves.hpp>
@@ -45,9 +46,9 @@ template <typename S>
 ///             ControlCurves::packed(); may not overlap the nets. No alignment needed.
 /// threads:    as Options::threads.
 /// Numerics:   de Casteljau's algorithm in double, (1-t) a + t b at every step: a reversed net
-/// gives
-///             the same bits at 1 - u0 where that is exact. Error at most 2 (degree_u + 1) 2^-53
-///             max|P| (with weights: of the homogeneous points). Bits do not depend on anything.
+///             gives the same bits at 1 - u0 where that is exact. Error at most
+///             2 (degree_u + 1) 2^-53 max|P| (with weights: of the homogeneous points) for u0 in
+///             [0,1]. Bits do not depend on anything.
 /// Allocation: none.
 /// Returns:    ok | null_input | null_output | bad_degree | bad_components | bad_stride |
 ///             bad_weight | non_finite_input (a value that is not finite, u0 included) |

@@ -116,11 +116,10 @@ using AtParameter = std::type_identity_t<UnitParameter<T>>;
 ///
 /// Formula:    de Casteljau, b = (1-t) a + t b per level (a where a = b); the corner points of its
 ///             triangle are the two nets.
-/// Parameters: finite; outside of [0,1] they extrapolate, which nets with weights must not
-///             (bad_weight), since a weight could lose its sign.
+/// Parameters: finite (else non_finite_input); outside of [0,1] they extrapolate, which nets with
+///             weights must not (bad_weight), since a weight could lose its sign.
 /// Errors:     at most 3 degree_u u max|P| a component (u = 2^-24 or 2^-53) for parameters in
-/// [0,1];
-///             with weights, of numerators and weights each. 0, 1/2 and 1 round sums only.
+///             [0,1]; with weights, of numerators and weights each. 0, 1/2 and 1 round sums only.
 /// Cost:       about the time of reading and writing the nets in cache; O(degree) times that for
 ///             high degrees.
 template <typename T>
@@ -155,9 +154,10 @@ struct SubPatch {
 /// The piece of every patch over [u0, u1] x [v0, v1], over [0,1]^2, with the degrees of the input.
 ///
 /// Formula:    control point i is the blossom at u0 (degree - i times) and u1 (i times): the mean
-/// of
-///             both orders of inserting them, so that neither end is favoured. Pieces that meet at
-///             one parameter get bit-equal points there, and [0, u] is what split_u() gives.
+///             of both orders of inserting them, so that neither end is favoured. Pieces that meet
+///             at one parameter get bit-equal points there, and [0, u] is what split_u() gives, but
+///             for u = 1: a whole direction is copied, while split_u() takes cartesian points to
+///             homogeneous ones and back.
 /// Parameters, errors: as split_u(). Cost: O(degree^2) of split_u(); directions that are taken
 ///             whole cost nothing.
 template <typename T>

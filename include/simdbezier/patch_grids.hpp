@@ -23,9 +23,9 @@ struct PatchGrids {
 /// threads by samples, a dense patch's rows among several of them.
 /// Outputs count as overlapping where their whole ranges do, from index 0 to the last sample.
 /// Allocation: 8 bytes a patch and scratch per thread, a call.
-/// Returns ok | null_input (nu or nv, with patches to evaluate) | null_output | bad_stride |
-/// overlapping_outputs | bad_grid | bad_offsets | bad_patch_range | size_overflow | unknown_isa |
-/// unsupported_isa | out_of_memory. On an error nothing has been written.
+/// Returns ok | null_input (nu or nv, with patches to evaluate) | null_output | bad_components |
+/// bad_stride | overlapping_outputs | bad_grid | bad_offsets | bad_patch_range | size_overflow |
+/// unknown_isa | unsupported_isa | out_of_memory. On an error nothing has been written.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_patch_grids(const PatchSet<T>& set,
                                                          const PatchGrids& grids,

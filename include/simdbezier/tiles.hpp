@@ -53,9 +53,9 @@ template <typename T>
 class TileFunction;
 
 template <typename F, typename T>
-concept TileCallable = std::is_invocable_v < F&,
-        const Tile<T>
-& > ;
+concept TileCallable = requires(F& function, const Tile<T>& tile) {
+  function(tile);
+};
 
 /// A borrowed callable `void(const Tile<T>&)`. It must outlive the call and must not throw; it runs
 /// in the library's floating-point environment (round to nearest, denormals kept).
@@ -80,9 +80,9 @@ private:
 /// each worker's tiles ascend, the order between workers is not fixed. Values are those of
 /// evaluate_grid(), bit for bit. Options::destination has no meaning here.
 /// Allocation: one tile and its staging a thread.
-/// Returns ok | null_output (the format wants no vector) | bad_grid | bad_patch_range |
-/// size_overflow | unknown_isa | unsupported_isa | out_of_memory. On an error no tile was handed
-/// out.
+/// Returns ok | null_output (the format wants no vector and no curvature) | bad_components |
+/// bad_grid | bad_patch_range | size_overflow | unknown_isa | unsupported_isa | out_of_memory. On
+/// an error no tile was handed out.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_tiles(const PatchSet<T>& set, const Grid<T>& grid,
                                                    const TileFormat& format,
