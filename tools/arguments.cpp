@@ -164,7 +164,8 @@ CLI::App* add_evaluate(CLI::App& app, Words& words) {
   add_evaluation(*command, words);
   command->add_option("--outputs", words.outputs,
                       "of " + std::string(kOutputNames) +
-                          ", separated by commas (default position)");
+                          ", separated by commas (default position); curvature is four columns: "
+                          "gaussian, mean, smaller and larger principal");
   return command;
 }
 
