@@ -11,7 +11,7 @@
 #include <map>
 #include <string>
 
-#include "tests/determinism/shape_workload.hpp"
+#include "tests/determinism/further_hashes.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -162,6 +162,10 @@ void run(const char* type, Report& report) {
     report.add(isa, std::string(type) + " shapes_scattered", scattered_hash(shapes, isa, true));
     report.add(isa, std::string(type) + " shapes_patch_grids", patch_grids_hash(shapes, isa));
     report.add(isa, std::string(type) + " shapes_local_origin", grid_hash(local_shapes, isa));
+    report.add(isa, std::string(type) + " derivatives", derivatives_hash(set, isa));
+    report.add(isa, std::string(type) + " shapes_derivatives", derivatives_hash(shapes, isa));
+    report.add(isa, std::string(type) + " curves", curves_hash<T>(isa));
+    report.add(isa, std::string(type) + " nets", nets_hash<T>(isa));
   }
 }
 

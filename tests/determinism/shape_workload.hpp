@@ -59,15 +59,4 @@ inline constexpr WorkShape kWorkShapes[] = {
 
 inline constexpr Wanted kAllOutputs{.second = true, .curvature = true};
 
-/// Outputs moved on by `count` samples, curvatures included.
-template <typename T>
-[[nodiscard]] Outputs<T> moved_on(Outputs<T> out, std::size_t count) {
-  out = advanced(out, count);
-  for (T** const plane : {&out.curvature.gaussian, &out.curvature.mean, &out.curvature.minimum,
-                          &out.curvature.maximum}) {
-    *plane = *plane != nullptr ? *plane + count : nullptr;
-  }
-  return out;
-}
-
 } // namespace simdbezier::tests

@@ -1,12 +1,11 @@
 // Sets of many shapes: equal bits whatever is packed beside a patch, however many threads, through
 // whichever call and layout, and on every instruction set of a class.
 #include <algorithm>
-#include <mutex>
 
 #include <gtest/gtest.h>
 
+#include "tests/determinism/call_fixture.hpp"
 #include "tests/determinism/shape_workload.hpp"
-#include "tests/support/isa_fixture.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -16,78 +15,9 @@ constexpr int kThreadCounts[] = {1, 2, 7};
 constexpr std::pair<std::size_t, std::size_t> kShapeGrids[] = {{2, 2},  {4, 5},   {8, 3},  {9, 9},
                                                                {16, 2}, {17, 17}, {33, 4}, {40, 3}};
 
-class ShapesTest : public IsaTest {
+class ShapesTest : public CallTest {
 protected:
-  template <typename T>
-  [[nodiscard]] Planes<T> by_grid(const PatchSet<T>& set, std::size_t nu, std::size_t nv,
-                                  const Options& options) {
-    Planes<T> planes(set.size() * nu * nv, kAllOutputs);
-    grid(set, Grid<T>::uniform(nu, nv), planes.outputs(), options);
-    return planes;
-  }
-
-  template <typename T>
-  [[nodiscard]] Planes<T> by_patch_grids(const PatchSet<T>& set, std::size_t nu, std::size_t nv,
-                                         const Options& options) {
-    Planes<T> planes(set.size() * nu * nv, kAllOutputs);
-    const std::vector<std::uint32_t> all_nu(set.size(), static_cast<std::uint32_t>(nu));
-    const std::vector<std::uint32_t> all_nv(set.size(), static_cast<std::uint32_t>(nv));
-    patch_grids(set, {all_nu.data(), all_nv.data(), nullptr}, planes.outputs(), options);
-    return planes;
-  }
-
-  template <typename T>
-  [[nodiscard]] Planes<T> by_tiles(const PatchSet<T>& set, std::size_t nu, std::size_t nv,
-                                   const TileFormat& format, const Options& options) {
-    Planes<T> planes(set.size() * nu * nv, kAllOutputs);
-    std::mutex mutex;
-    const auto take = [&](const Tile<T>& tile) {
-      const std::lock_guard<std::mutex> lock(mutex);
-      const std::size_t first = (tile.first_patch * nv + tile.first_row) * nu;
-      copy(tile.out, moved_on(planes.outputs(), first), tile.samples);
-    };
-    tiles<T>(set, Grid<T>::uniform(nu, nv), format, take, options);
-    return planes;
-  }
-
-  template <typename T>
-  static void copy(const Outputs<T>& from, const Outputs<T>& to, std::size_t count) {
-    constexpr Vectors<T> Outputs<T>::*kGroups[] = {
-        &Outputs<T>::position, &Outputs<T>::du,  &Outputs<T>::dv,    &Outputs<T>::duu,
-        &Outputs<T>::duv,      &Outputs<T>::dvv, &Outputs<T>::normal};
-    for (const auto group : kGroups) {
-      const Vectors<T>& source = from.*group;
-      const Vectors<T>& target = to.*group;
-      for (std::size_t k = 0; k < count; ++k) {
-        const auto at = static_cast<std::ptrdiff_t>(k) * source.stride;
-        target.x[k] = source.x[at];
-        target.y[k] = source.y[at];
-        target.z[k] = source.z[at];
-      }
-    }
-    constexpr T* Curvatures<T>::*kPlanes[] = {&Curvatures<T>::gaussian, &Curvatures<T>::mean,
-                                              &Curvatures<T>::minimum, &Curvatures<T>::maximum};
-    for (const auto plane : kPlanes) {
-      std::copy_n(from.curvature.*plane, count, to.curvature.*plane);
-    }
-    std::copy_n(from.status, count, to.status);
-  }
-
-  /// The grid of every patch as scattered samples, in the order of the grid's output.
-  template <typename T>
-  [[nodiscard]] Planes<T> by_scattered(const PatchSet<T>& set, std::size_t nu, std::size_t nv,
-                                       const Options& options) {
-    Planes<T> planes(set.size() * nu * nv, kAllOutputs);
-    SampleArrays<T> samples;
-    const auto list = grid_parameters<T>(static_cast<int>(nu), static_cast<int>(nv));
-    for (std::size_t p = 0; p < set.size(); ++p) {
-      for (const Parameters2<T>& at : list) {
-        samples.add(p, at.x, at.y);
-      }
-    }
-    scattered(set, samples.view(Parameters::centred), planes.outputs(), options);
-    return planes;
-  }
+  ShapesTest() : CallTest(kAllOutputs) {}
 
   template <typename T>
   void expect_independent_of_neighbours(const PackOptions& packing);
@@ -108,16 +38,17 @@ void ShapesTest::expect_independent_of_neighbours(const PackOptions& packing) {
   const PatchSet<T> mixed = packed_mixed<T>(nets, packing);
   ASSERT_EQ(mixed.size(), nets.size());
   for (const auto& [nu, nv] : kShapeGrids) {
-    const Planes<T> together = by_grid(mixed, nu, nv, {.threads = 1});
+    const Grid<T> samples = Grid<T>::uniform(nu, nv);
+    const Planes<T> together = by_grid(mixed, samples, {.threads = 1});
     Planes<T> alone(together.count(), kAllOutputs);
     for (std::size_t p = 0; p < nets.size(); ++p) {
-      grid(packed<T>(std::span(nets).subspan(p, 1), packing), Grid<T>::uniform(nu, nv),
-           moved_on(alone.outputs(), p * nu * nv), {.threads = 1});
+      grid(packed<T>(std::span(nets).subspan(p, 1), packing), samples,
+           advanced(alone.outputs(), p * nu * nv), {.threads = 1});
     }
     EXPECT_EQ(differing_values(together, alone), 0U) << "grid " << nu << " x " << nv;
     Planes<T> ranges(together.count(), kAllOutputs);
     for (std::size_t first = 0, count = 1; first < kPatches; first += count++) {
-      grid(mixed, Grid<T>::uniform(nu, nv), moved_on(ranges.outputs(), first * nu * nv),
+      grid(mixed, samples, advanced(ranges.outputs(), first * nu * nv),
            {.threads = 1, .first_patch = first, .patch_count = std::min(count, kPatches - first)});
     }
     EXPECT_EQ(differing_values(together, ranges), 0U) << "ranges, grid " << nu << " x " << nv;
@@ -136,7 +67,7 @@ void ShapesTest::expect_equal_batches() {
       for (std::size_t first = 0; first < nets.size(); first += size) {
         const auto piece = std::span(nets).subspan(first, std::min(size, nets.size() - first));
         grid(packed<T>(piece), Grid<T>::uniform(nu, nv),
-             moved_on(planes.outputs(), first * nu * nv), {.threads = 1});
+             advanced(planes.outputs(), first * nu * nv), {.threads = 1});
       }
       return planes;
     };
@@ -152,7 +83,8 @@ template <typename T>
 void ShapesTest::expect_equal_calls(const PackOptions& packing) {
   const PatchSet<T> set = packed_mixed<T>(mixed_shape_nets(kPatches), packing);
   for (const auto& [nu, nv] : kShapeGrids) {
-    const Planes<T> reference = by_grid(set, nu, nv, {.threads = 1});
+    const Grid<T> samples = Grid<T>::uniform(nu, nv);
+    const Planes<T> reference = by_grid(set, samples, {.threads = 1});
     const auto expect = [&](const char* call, int threads, const Planes<T>& planes) {
       EXPECT_EQ(differing_values(planes, reference), 0U)
           << call << ", " << threads << " threads, grid " << nu << " x " << nv;
@@ -160,10 +92,10 @@ void ShapesTest::expect_equal_calls(const PackOptions& packing) {
     for (const int threads : kThreadCounts) {
       for (const Destination destination : {Destination::cache, Destination::memory}) {
         const Options options{.threads = threads, .destination = destination};
-        expect("grid", threads, by_grid(set, nu, nv, options));
-        expect("patch grids", threads, by_patch_grids(set, nu, nv, options));
+        expect("grid", threads, by_grid(set, samples, options));
+        expect("patch grids", threads, by_patch_grids(set, samples, kPatches, options));
       }
-      expect("scattered", threads, by_scattered(set, nu, nv, {.threads = threads}));
+      expect("scattered", threads, by_scattered(set, samples, {.threads = threads}));
       TileFormat format{true, true, true, true, true, true, true, true};
       format.curvature = true;
       for (const TileLayout layout :
@@ -171,7 +103,7 @@ void ShapesTest::expect_equal_calls(const PackOptions& packing) {
         for (const std::size_t most : {0U, 1U, 300U}) {
           format.layout = layout;
           format.samples = most;
-          expect("tiles", threads, by_tiles(set, nu, nv, format, {.threads = threads}));
+          expect("tiles", threads, by_tiles(set, samples, format, {.threads = threads}));
         }
       }
     }
@@ -185,14 +117,14 @@ void ShapesTest::expect_equal_scattered() {
   const SampleArrays<T> samples = random_samples<T>(kPatches, 3000);
   Planes<T> reference(samples.patch.size(), kAllOutputs);
   for (std::size_t k = 0; k < reference.count(); ++k) {
-    scattered(set, part_of(samples, k, 1), moved_on(reference.outputs(), k), {.threads = 1});
+    scattered(set, part_of(samples, k, 1), advanced(reference.outputs(), k), {.threads = 1});
   }
   for (const int threads : kThreadCounts) {
     for (const std::size_t size : {7U, 16U, 33U, 3000U}) {
       Planes<T> planes(reference.count(), kAllOutputs);
       for (std::size_t first = 0; first < planes.count(); first += size) {
         scattered(set, part_of(samples, first, std::min(size, planes.count() - first)),
-                  moved_on(planes.outputs(), first), {.threads = threads});
+                  advanced(planes.outputs(), first), {.threads = threads});
       }
       EXPECT_EQ(differing_values(planes, reference), 0U)
           << threads << " threads, batches of " << size;
@@ -206,7 +138,8 @@ void ShapesTest::expect_equal_layouts() {
   const PatchSet<T> set = packed_mixed<T>(mixed_shape_nets(kPatches));
   constexpr std::size_t kGroups[] = {0, 1, 2, 4, 5, 6, 3}; // of Planes, in the order of Outputs
   for (const auto& [nu, nv] : kShapeGrids) {
-    const Planes<T> reference = by_grid(set, nu, nv, {.threads = 1});
+    const Grid<T> samples = Grid<T>::uniform(nu, nv);
+    const Planes<T> reference = by_grid(set, samples, {.threads = 1});
     for (const std::size_t stride : {21U, 24U}) {
       std::vector<T> vertices(reference.count() * stride, T(-5));
       Outputs<T> out;
@@ -215,7 +148,7 @@ void ShapesTest::expect_equal_layouts() {
       for (std::size_t g = 0; g < std::size(members); ++g) {
         *members[g] = Vectors<T>::xyz(vertices.data() + 3 * g, static_cast<std::ptrdiff_t>(stride));
       }
-      grid(set, Grid<T>::uniform(nu, nv), out, {.threads = 2});
+      grid(set, samples, out, {.threads = 2});
       std::size_t different = 0;
       for (std::size_t k = 0; k < vertices.size(); ++k) {
         const std::size_t member = k % stride;
@@ -270,7 +203,9 @@ TEST_P(ShapesTest, ClassOfInstructionSets) {
       break;
     }
   }
-  EXPECT_GT(by_grid(packed_mixed<float>(mixed_shape_nets(3)), 4, 4, {}).count(), 0U);
+  EXPECT_GT(
+      by_grid(packed_mixed<float>(mixed_shape_nets(3)), Grid<float>::uniform(4, 4), {}).count(),
+      0U);
 }
 
 INSTANTIATE_FOR_EVERY_ISA(ShapesTest);

@@ -1,6 +1,7 @@
 // The fixed work whose bits must not change: nets of several families, grids and scattered samples.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -37,24 +38,52 @@ template <typename T>
           Parameters::centred};
 }
 
+template <typename T>
+inline constexpr Vectors<T> Outputs<T>::*kVectorMembers[] = {
+    &Outputs<T>::position, &Outputs<T>::du,  &Outputs<T>::dv,    &Outputs<T>::duu,
+    &Outputs<T>::duv,      &Outputs<T>::dvv, &Outputs<T>::normal};
+template <typename T>
+inline constexpr T* Curvatures<T>::*kCurvatureMembers[] = {
+    &Curvatures<T>::gaussian, &Curvatures<T>::mean, &Curvatures<T>::minimum,
+    &Curvatures<T>::maximum};
+
 /// Outputs moved on by `count` samples.
 template <typename T>
 [[nodiscard]] Outputs<T> advanced(Outputs<T> out, std::size_t count) {
-  const auto move = [&](Vectors<T>& group) {
+  for (const auto member : kVectorMembers<T>) {
+    Vectors<T>& group = out.*member;
     if (group.wanted()) {
       const auto elements = static_cast<std::ptrdiff_t>(count) * group.stride;
       group = {group.x + elements, group.y + elements, group.z + elements, group.stride};
     }
-  };
-  move(out.position);
-  move(out.du);
-  move(out.dv);
-  move(out.duu);
-  move(out.duv);
-  move(out.dvv);
-  move(out.normal);
+  }
+  for (const auto member : kCurvatureMembers<T>) {
+    T*& plane = out.curvature.*member;
+    plane = plane != nullptr ? plane + count : nullptr;
+  }
   out.status = out.status != nullptr ? out.status + count : nullptr;
   return out;
+}
+
+/// Copies the first `count` samples of all that both outputs have to planes.
+template <typename T>
+void copy_samples(const Outputs<T>& from, const Outputs<T>& to, std::size_t count) {
+  for (const auto member : kVectorMembers<T>) {
+    const Vectors<T>& source = from.*member;
+    const Vectors<T>& target = to.*member;
+    for (std::size_t k = 0; source.wanted() && target.wanted() && k < count; ++k) {
+      const auto at = static_cast<std::ptrdiff_t>(k) * source.stride;
+      target.x[k] = source.x[at];
+      target.y[k] = source.y[at];
+      target.z[k] = source.z[at];
+    }
+  }
+  for (const auto member : kCurvatureMembers<T>) {
+    if (from.curvature.*member != nullptr && to.curvature.*member != nullptr) {
+      std::copy_n(from.curvature.*member, count, to.curvature.*member);
+    }
+  }
+  std::copy_n(from.status, count, to.status);
 }
 
 /// The grids that exercise every strategy of the kernels.
