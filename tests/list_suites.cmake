@@ -1,6 +1,7 @@
 # Read by ctest, with `program` and `prefix` set (discover_suites.cmake): asks the program.
 if(NOT EXISTS ${program})
-  add_test(${prefix}NOT_BUILT ${program})
+  get_filename_component(name ${program} NAME)
+  add_test(${name}_NOT_BUILT ${program})
   return()
 endif()
 execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE listing
