@@ -221,9 +221,14 @@ void add_type() {
         add<T>(row);
       }
       row.output = CurveOutput::position;
-      if (place == Place::memory && n % 16 == 0) {
+      if (place == Place::memory) {
         row.layout = Layout::triples;
-        add<T>(row);
+        for (const Isa isa : isas) {
+          row.isa = isa;
+          add<T>(row);
+        }
+      }
+      if (place == Place::memory && n % 16 == 0) {
         for (row.threads = 2; row.threads <= max_threads(); ++row.threads) {
           row.layout = Layout::planes;
           add<T>(row);

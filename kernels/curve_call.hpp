@@ -79,6 +79,21 @@ void fill_arrays(CurveArrays<T>& task, const CurveStorage<T>& curves, std::size_
   task.prefetch = curves.count > second_level_cache() / (shape.values() * sizeof(T));
 }
 
+/// Whether kernels can write rows: three components of positions, nothing else.
+template <typename T>
+bool may_be_rows(const CurveShape& shape, const CurveOutputs<T>& out,
+                 const KernelTable<T>& table) noexcept {
+  const bool alone = !out.d1.wanted() && !out.d2.wanted() && !out.tangent.wanted() &&
+                     out.curvature == nullptr && out.position.z != nullptr;
+  return alone && !shape.rational && shape.cells() == 1 && table.lanes > 1;
+}
+
+/// x y z side by side, sample after sample.
+template <typename T>
+bool are_triples(const Vectors<T>& v) noexcept {
+  return v.stride == 3 && v.y == v.x + 1 && v.z == v.x + 2;
+}
+
 /// A grid of one row: parameters are those of patches.
 template <typename T>
 Status build_plan(GridPlan<T>& plan, const CurveGrid<T>& grid, T* memory = nullptr) noexcept {
@@ -103,6 +118,7 @@ struct CurveCall {
   const OutputPlan<T>& outputs;
   std::size_t first_component;
   std::size_t chunk_samples; ///< of the longest piece
+  bool rows = false;         ///< kernels write the outputs' own layout, not staged
 
   [[nodiscard]] std::size_t delivery_bytes() const noexcept {
     return whole_lines(
@@ -117,6 +133,10 @@ struct CurveCall {
     task.curve_count = piece.curves;
     task.x = plan.x() + piece.first;
     task.n = piece.last - piece.first;
+    task.rows = rows;
+    if (rows && are_triples(out.position)) {
+      task.triples = out.position.x + 3 * sample;
+    }
     task.streaming = outputs.streaming() && !outputs.staged();
     task.drain = delivery.queue();
     if (task.status != nullptr) {

@@ -10,20 +10,15 @@
 // tangents, curvatures) a register of samples is finished at once.
 #pragma once
 
-#include "kernels/curve_outputs.hpp"
+#include "kernels/curve_row_kernel.hpp"
 #include "kernels/drain_kernel.hpp"
 #include "kernels/isa/row_groups.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-using detail::CurveTask;
-
 /// Samples of the curves that are swept together: enough for long stores to one plane, and so few
 /// that draining what was staged before, in between, overlaps with computing.
 inline constexpr std::size_t kBlockSamples = 256;
-
-/// How far ahead values are asked for.
-inline constexpr std::size_t kCurvesAhead = 32;
 
 /// Consecutive curves of a task.
 struct CurveBlock {
@@ -100,13 +95,6 @@ SIMDBEZIER_INLINE void sweep_component(const CurveTask<T>& task, const CurveShap
       }
     }
   });
-}
-
-/// One more sample than whole registers hold, on the curves' end, as in grids of 17 or 33: the
-/// positions there are stored values.
-template <typename V, typename T>
-SIMDBEZIER_INLINE bool ends_alone(const CurveTask<T>& task) {
-  return task.n % kLanes<V> == 1 && task.n > kLanes<V> && task.x[task.n - 1] == T(0.5);
 }
 
 template <typename T>
@@ -247,6 +235,12 @@ SIMDBEZIER_INLINE void sweep_apart(const CurveTask<T>& task) {
 
 template <typename T>
 void curve_grid_kernel(CurveTask<T>& task) {
+  task.executed = Isa::SIMDBEZIER_ISA;
+  if constexpr (!kIsScalar<vec<T>>) {
+    if (task.rows) {
+      return evaluate_rows(task);
+    }
+  }
   if (task.shape->rational) {
     sweep_joint<true>(task);
   } else if (task.curvature != nullptr || task.out[detail::kCurveTangent].wanted()) {
@@ -254,7 +248,6 @@ void curve_grid_kernel(CurveTask<T>& task) {
   } else {
     sweep_apart(task);
   }
-  task.executed = Isa::SIMDBEZIER_ISA;
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

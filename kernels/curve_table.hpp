@@ -45,13 +45,19 @@ struct CurveArrays {
   Isa executed;  ///< written by the kernel
 };
 
+/// Samples a curve with which kernels can write positions as rows: see curve_row_kernel.hpp.
+inline constexpr std::size_t kLeastRow = 4;
+inline constexpr std::size_t kMostRow = 64;
+
 /// Consecutive curves at the same parameters: sample i of the k-th one goes to plane[k * n + i].
 template <typename T>
 struct CurveTask : CurveArrays<T> {
   std::size_t curve_count;
   const T* x; ///< n half-centred parameters, then kMaxLanes more that repeat the last one
   std::size_t n;
-  bool streaming;       ///< curves are whole cache lines, to be stored past the caches
+  bool rows;            ///< positions of three components, in the caller's own layout
+  T* triples;           ///< of rows: packed x y z take the place of out[kCurvePosition]
+  bool streaming;       ///< past the caches; unless `rows`, curves are whole cache lines
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see pace()
 };
 

@@ -34,6 +34,18 @@ Isa run_grid(const CurveCall<T>& call, const GridPlan<T>& plan, std::size_t firs
   return executed;
 }
 
+/// Whether kernels are to write rows straight to where they belong. Planes that need no staging and
+/// hold whole registers are swept faster one by one.
+template <typename T>
+bool goes_in_rows(const CurveStorage<T>& curves, const CurveOutputs<T>& out,
+                  const OutputPlan<T>& outputs, const KernelTable<T>& table,
+                  std::size_t n) noexcept {
+  const bool planes = out.position.stride == 1;
+  const bool swept = planes && !outputs.staged() && n >= table.lanes;
+  return n >= kLeastRow && n <= kMostRow && !swept && (planes || are_triples(out.position)) &&
+         may_be_rows(curves.shape, out, table);
+}
+
 } // namespace
 } // namespace detail
 
@@ -67,12 +79,17 @@ Status evaluate_curves(const CurveSet<T>& set, const CurveGrid<T>& grid, const C
   if (out.curvature == nullptr) {
     outputs.stream_directly(grid.n, table.lanes);
   }
+  const bool rows = detail::goes_in_rows(*set.storage(), out, outputs, table, grid.n);
+  if (rows) {
+    outputs.write_directly();
+  }
   const detail::CurveCall<T> call{*set.storage(),
                                   table,
                                   out,
                                   outputs,
                                   request.components.first,
-                                  detail::Delivery<T>::chunk_samples(outputs)};
+                                  rows ? samples : detail::Delivery<T>::chunk_samples(outputs),
+                                  rows};
   const std::size_t strips =
       grid.n > call.chunk_samples ? (grid.n - 1) / call.chunk_samples + 1 : 1;
   return detail::run_blocks(request.patches * strips, options, call.delivery_bytes(),

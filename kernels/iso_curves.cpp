@@ -11,6 +11,7 @@
 #include <simdbezier/iso_curves.hpp>
 
 #include "kernels/net_call.hpp"
+#include "kernels/patch_storage.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -174,6 +175,27 @@ PackReport iso_set(const ControlNets<S>& nets, Across direction, double t, Curve
                 : report;
 }
 
+/// The nets that a set keeps: read where a normal vanishes, and here.
+template <typename T>
+PackReport iso_of_set(const PatchSet<T>& patches, Across direction, double t, CurveSet<T>& curves,
+                      PackOptions options) {
+  ControlNets<T> nets;
+  if (const SetStorage<T>* const set = patches.storage(); set != nullptr) {
+    if (set->buckets.size() != 1) {
+      return {Status::bad_degree};
+    }
+    const PatchStorage<T>& all = set->buckets.front();
+    const NetShape& shape = all.shape;
+    nets = ControlNets<T>::packed(all.control_points, all.count, shape.degree_u, shape.degree_v,
+                                  shape.components,
+                                  shape.rational ? Weights::cartesian : Weights::none);
+  }
+  for (double& coordinate : options.relative_to) {
+    coordinate = 0; // has been subtracted
+  }
+  return iso_set(nets, direction, t, curves, options);
+}
+
 } // namespace
 } // namespace detail
 
@@ -199,11 +221,25 @@ PackReport iso_v(const ControlNets<S>& nets, double v0, CurveSet<T>& curves,
   return detail::iso_set(nets, detail::Across::v, v0, curves, options);
 }
 
+template <typename T>
+PackReport iso_u(const PatchSet<T>& patches, double u0, CurveSet<T>& curves,
+                 const PackOptions& options) noexcept {
+  return detail::iso_of_set(patches, detail::Across::u, u0, curves, options);
+}
+
+template <typename T>
+PackReport iso_v(const PatchSet<T>& patches, double v0, CurveSet<T>& curves,
+                 const PackOptions& options) noexcept {
+  return detail::iso_of_set(patches, detail::Across::v, v0, curves, options);
+}
+
 #define SIMDBEZIER_INSTANTIATE_SET(name, T, S)                                                     \
   template SIMDBEZIER_API PackReport name(const ControlNets<S>&, double, CurveSet<T>&,             \
                                           const PackOptions&) noexcept;
 #define SIMDBEZIER_INSTANTIATE(name, S)                                                            \
   template SIMDBEZIER_API Status name(const ControlNets<S>&, double, double*, int) noexcept;       \
+  template SIMDBEZIER_API PackReport name(const PatchSet<S>&, double, CurveSet<S>&,                \
+                                          const PackOptions&) noexcept;                            \
   SIMDBEZIER_INSTANTIATE_SET(name, float, S)                                                       \
   SIMDBEZIER_INSTANTIATE_SET(name, double, S)
 SIMDBEZIER_INSTANTIATE(iso_u, float)

@@ -225,10 +225,15 @@ void OutputPlan<T>::stream_directly(std::size_t row, std::size_t lanes) noexcept
     }
   }
   if (possible) {
-    staged_planes_ = 0;
-    streams_ = 0;
-    std::fill_n(group_index_, kGroups, static_cast<std::size_t>(kGroups));
+    write_directly();
   }
+}
+
+template <typename T>
+void OutputPlan<T>::write_directly() noexcept {
+  staged_planes_ = 0;
+  streams_ = 0;
+  std::fill_n(group_index_, kGroups, static_cast<std::size_t>(kGroups));
 }
 
 /// Members that lie side by side in one vertex become one stream.

@@ -84,6 +84,8 @@ public:
   /// Gives staging up where kernels can stream by themselves: rows of `row` samples that are whole
   /// registers and whole cache lines.
   void stream_directly(std::size_t row, std::size_t lanes) noexcept;
+  /// Gives staging up: kernels know the outputs' layout themselves.
+  void write_directly() noexcept;
   [[nodiscard]] std::size_t staged_planes() const noexcept { return staged_planes_; }
   /// Components of each group.
   [[nodiscard]] std::size_t dimension() const noexcept { return dimension_; }

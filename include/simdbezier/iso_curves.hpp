@@ -76,4 +76,25 @@ template <typename T, typename S>
                                               CurveSet<T>& curves,
                                               const PackOptions& options = {}) noexcept;
 
+/// The same of every patch of a set, from the control points that it keeps: rounded to T, less the
+/// PackOptions::relative_to with which it was packed, to which the curves are relative as well.
+///
+/// patches:    of one shape; nothing else is left of the nets, so none of them need to exist still.
+/// options:    relative_to is ignored; local_origin is not taken from the set.
+/// Numerics:   the call above on nets of these values. At 0 and 1 a set packed from values of type
+///             T, with relative_to zero and the same local_origin, gives the bits of its edges.
+/// Allocation: (degree + 1) (components + 1 with weights) doubles a patch during the call, and the
+///             curves.
+/// Returns:    ok | bad_degree (patches of several shapes) | non_finite_input (u0) |
+///             coefficient_overflow | size_overflow | unsupported_isa | out_of_memory. On an error
+///             `curves` is as it was.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API PackReport iso_u(const PatchSet<T>& patches, double u0,
+                                              CurveSet<T>& curves,
+                                              const PackOptions& options = {}) noexcept;
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API PackReport iso_v(const PatchSet<T>& patches, double v0,
+                                              CurveSet<T>& curves,
+                                              const PackOptions& options = {}) noexcept;
+
 } // namespace simdbezier

@@ -1,4 +1,5 @@
 // Curves on patches: boundaries have the patch's own bits, iso-parametric curves its points.
+#include <span>
 #include <type_traits>
 
 #include "tests/curves/curve_results.hpp"
@@ -255,6 +256,69 @@ TEST(IsoPoints, RefuseBadInput) {
   EXPECT_EQ(to_string(report.status), to_string(Status::non_finite_input));
   EXPECT_EQ(report.point, 1);
   EXPECT_EQ(report.component, 1);
+}
+
+/// Of the points that the set keeps, which are the nets' own.
+template <typename T>
+void expect_iso_of_set(const NetBatch<T>& nets, bool along_v, double t) {
+  PatchSet<T> patches;
+  ASSERT_TRUE(static_cast<bool>(pack(nets.view(), patches)));
+  CurveSet<T> of_set;
+  CurveSet<T> of_nets;
+  ASSERT_TRUE(static_cast<bool>(along_v ? iso_u(patches, t, of_set) : iso_v(patches, t, of_set)));
+  ASSERT_TRUE(
+      static_cast<bool>(along_v ? iso_u(nets.view(), t, of_nets) : iso_v(nets.view(), t, of_nets)));
+  ASSERT_EQ(of_set.size(), nets.count);
+  ASSERT_EQ(of_set.degree(), along_v ? nets.degree_v : nets.degree_u);
+  ASSERT_EQ(of_set.rational(), nets.weights != Weights::none);
+  CurveResults<T> expected(nets.count * 9, 3);
+  CurveResults<T> results(nets.count * 9, 3);
+  ASSERT_EQ(evaluate_curves(of_nets, CurveGrid<T>::uniform(9), expected.outputs()), Status::ok);
+  ASSERT_EQ(evaluate_curves(of_set, CurveGrid<T>::uniform(9), results.outputs()), Status::ok);
+  EXPECT_EQ(results.hash(), expected.hash()) << "t " << t << " along v " << along_v;
+}
+
+TEST(IsoOfSets, EqualsIsoOfNets) {
+  const int degrees[][2] = {{3, 3}, {1, 4}, {7, 2}};
+  for (const auto& [m, n] : degrees) {
+    for (const double ratio : {0.0, 6.0}) {
+      for (const double t : {0.0, 0.3, 1.0}) {
+        expect_iso_of_set(NetBatch<float>(21, m, n, ratio, 8), true, t);
+        expect_iso_of_set(NetBatch<double>(21, m, n, ratio, 8), false, t);
+      }
+    }
+  }
+}
+
+/// What was subtracted when the patches were packed is not subtracted again.
+TEST(IsoOfSets, AreRelativeToWhatTheSetIs) {
+  NetBatch<double> nets(2, 2, 2, 0, 8);
+  PackOptions moved;
+  moved.relative_to[1] = 64;
+  PatchSet<double> patches;
+  ASSERT_TRUE(static_cast<bool>(pack(nets.view(), patches, moved)));
+  CurveSet<double> curves;
+  ASSERT_TRUE(static_cast<bool>(iso_v(patches, 0, curves, moved)));
+  CurveResults<double> results(2 * 5, 3);
+  ASSERT_EQ(evaluate_curves(curves, CurveGrid<double>::uniform(5), results.outputs()), Status::ok);
+  EXPECT_EQ(results.at(0, 0, 0), nets.points[0]);
+  EXPECT_EQ(results.at(0, 1, 0), nets.points[1] - 64);
+}
+
+TEST(IsoOfSets, RefuseBadInput) {
+  const NetBatch<float> nets(2, 3, 3, 0, 8);
+  const NetBatch<float> others(2, 3, 2, 0, 8);
+  PatchSet<float> patches;
+  PatchSet<float> mixed;
+  CurveSet<float> curves;
+  ASSERT_TRUE(static_cast<bool>(pack(nets.view(), patches)));
+  const ControlNets<float> both[] = {nets.view(), others.view()};
+  ASSERT_TRUE(static_cast<bool>(pack(std::span<const ControlNets<float>>(both), mixed)));
+  EXPECT_EQ(iso_u(mixed, 0.5, curves).status, Status::bad_degree);
+  EXPECT_EQ(iso_v(patches, NAN, curves).status, Status::non_finite_input);
+  EXPECT_TRUE(curves.empty());
+  EXPECT_EQ(iso_u(PatchSet<float>(), 0.5, curves).status, Status::ok);
+  EXPECT_TRUE(curves.empty());
 }
 
 } // namespace
