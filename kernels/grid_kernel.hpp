@@ -12,6 +12,7 @@
 #include "kernels/drain_kernel.hpp"
 #include "kernels/grid_components.hpp"
 #include "kernels/grid_normals.hpp"
+#include "kernels/grid_small.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -27,22 +28,6 @@ struct ColumnBuffer {
 /// The single column behind a tile.
 template <typename V>
 using ColumnTile = Tile<kLanes<V>, true, false, V>;
-
-/// Asks for the coefficients and edges of a patch that comes soon. Hardware follows neither of the
-/// two arrays across the pauses in between: 30 % of the speed where the set is in memory.
-template <typename T>
-SIMDBEZIER_INLINE void prefetch_patch(const GridTask<T>& task, std::size_t patch) {
-  constexpr std::size_t kAhead = 4;
-  constexpr std::size_t kLine = 64 / sizeof(T);
-  const T* const coefficients = task.coefficients + (patch + kAhead) * detail::kCoefficients;
-  for (std::size_t k = 0; k < detail::kCoefficients; k += kLine) {
-    __builtin_prefetch(coefficients + k);
-  }
-  const T* const edges = task.edges + (patch + kAhead) * detail::kEdgeBlock;
-  for (std::size_t k = 0; k < detail::kEdgeBlock; k += kLine) {
-    __builtin_prefetch(edges + k);
-  }
-}
 
 /// Positions and normals, of a tile and the column behind it.
 template <Scheme kScheme, bool kAny, typename SomeTile, typename T>
@@ -222,6 +207,11 @@ SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<ve
 template <typename T, detail::OutputSet kOutputs, Scheme kScheme>
 void grid_kernel(GridTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
+  if constexpr (kOutputs == detail::kPosition) {
+    if (small_grid_positions<kScheme>(task)) {
+      return;
+    }
+  }
   const ColumnSplit<vec<T>> split(task.nu, kSeveralTiles<kOutputs>);
   const std::size_t most = split.column ? kBufferRows : std::size_t{1} << 30;
   for (RowPieces<kScheme, T> pieces(task, most); pieces.more();) {
