@@ -12,7 +12,11 @@ SIMDBEZIER_INLINE void sweep_position(const RowPiece<ScalarOf<V>>& piece,
                                       std::size_t nu, ScalarOf<V>* to, const ScalarOf<V>* extra) {
   using T = ScalarOf<V>;
   V q[kOrder];
-  column_polynomial<kScheme>(c, tile.column, q);
+  if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kSingle) {
+    single_column_polynomial<kScheme>(c, tile.column, q);
+  } else {
+    column_polynomial<kScheme>(c, tile.column, q);
+  }
   const V origin = column_origin<kScheme>(c, tile.column);
   const V shared = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
                        ? tile.template edge_rows<kScheme>(c, 0)
@@ -46,9 +50,14 @@ struct JetColumns {
   V dq[kOrder];
   V origin;
 
-  SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const Column<V>& column) {
-    column_polynomial<kScheme>(c, column, q, dq);
-    origin = column_origin<kScheme>(c, column);
+  template <typename Tile>
+  SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const Tile& tile) {
+    if constexpr (Tile::kSingle) {
+      single_column_polynomial<kScheme>(c, tile.column, q, dq);
+    } else {
+      column_polynomial<kScheme>(c, tile.column, q, dq);
+    }
+    origin = column_origin<kScheme>(c, tile.column);
   }
   SIMDBEZIER_INLINE Jet<V> interior(V y) const {
     Jet<V> jet;
@@ -83,7 +92,7 @@ sweep_derivatives(const RowPiece<ScalarOf<V>>& piece, const Component<ScalarOf<V
                   const JetPlanes<ScalarOf<V>>& to, const JetPlanes<const ScalarOf<V>>& extra) {
   using T = ScalarOf<V>;
   JetColumns<kScheme, V> columns;
-  columns.build(c, tile.column);
+  columns.build(c, tile);
   Jet<V> shared;
   if constexpr (is_watertight(kScheme) && (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)) {
     shared = columns.edge(c, tile, 0);

@@ -22,7 +22,12 @@ constexpr std::size_t kBufferRows = 128;
 /// A column on its way to the rows' ends: one plane for each of `kPlanes` outputs.
 template <typename T, std::size_t kPlanes>
 struct ColumnBuffer {
-  alignas(64) T plane[kPlanes][kBufferRows + detail::kMaxLanes];
+  alignas(64) T plane[kPlanes][kBufferRows + 2 * detail::kMaxLanes];
+
+  /// Where the piece's first row goes: registers of rows behind a lead are lines of the buffer.
+  SIMDBEZIER_INLINE T* first(std::size_t k, const RowPiece<T>& piece) {
+    return plane[k] + (piece.lead ? detail::kMaxLanes - 1 : 0);
+  }
 };
 
 /// The single column behind a tile.
@@ -42,8 +47,10 @@ SIMDBEZIER_INLINE void sweep_normal_patches(const GridTask<T>& shared_task,
   ColumnBuffer<T, 6> buffer;
   NormalExtra<T> extra{};
   for (std::size_t c = 0; c < 3; ++c) {
-    extra.position[c] = column_task.out[detail::kPositionGroup].component[c] = buffer.plane[c];
-    extra.normal[c] = column_task.out[detail::kNormalGroup].component[c] = buffer.plane[3 + c];
+    extra.position[c] = column_task.out[detail::kPositionGroup].component[c] =
+        buffer.first(c, piece);
+    extra.normal[c] = column_task.out[detail::kNormalGroup].component[c] =
+        buffer.first(3 + c, piece);
   }
   column_task.nu = 1;
   const std::size_t samples = piece.rows() * (tile.active + (SomeTile::kBuffered ? 1 : 0));
@@ -74,8 +81,8 @@ SIMDBEZIER_INLINE void sweep_component_patches(const GridTask<T>& task, const Ro
   constexpr std::size_t kPlanes = kOutputs == detail::kPosition ? 1 : 3;
   const ColumnTile<V> column(task.x, tile.first + (SomeTile::kBuffered ? tile.active : 0), 1);
   ColumnBuffer<T, 3> buffer;
-  const JetPlanes<T> there{buffer.plane[0], buffer.plane[1], buffer.plane[2]};
-  const JetPlanes<const T> extra{buffer.plane[0], buffer.plane[1], buffer.plane[2]};
+  const JetPlanes<T> there{buffer.first(0, piece), buffer.first(1, piece), buffer.first(2, piece)};
+  const JetPlanes<const T> extra{there.position, there.du, there.dv};
   const std::size_t samples = piece.rows() * (tile.active + (SomeTile::kBuffered ? 1 : 0));
   const bool prefetch = task.prefetch && tile.first == 0;
   for (; patch < last_patch; ++patch) {

@@ -53,7 +53,7 @@ struct NormalSweep {
                                                                   {the_task, the_patch, 1},
                                                                   {the_task, the_patch, 2}} {
     for (std::size_t c = 0; c < 3; ++c) {
-      columns[c].build(component[c], tile.column);
+      columns[c].build(component[c], tile);
     }
   }
 

@@ -153,6 +153,7 @@ struct Tile {
   using Groups = RowGroups<kRows, V>;
   static constexpr std::size_t kColumns = kLanes<V> / kRows;
   static constexpr bool kShared = kRows > 1; ///< edges v = const share a register
+  static constexpr bool kSingle = kRows == kLanes<V> && kHasFours<V>; ///< all lanes one column
 
   std::size_t first;  ///< column
   std::size_t active; ///< columns of kColumns that exist
