@@ -182,8 +182,8 @@ struct Tile {
       } else {
         store_first(to, value, active);
       }
-    } else if (kWhole && rows == kRows) {
-      Groups::store_all(to, step, value);
+    } else if (step == kColumns && active == kColumns && rows == kRows) {
+      store_vector(to, value); // nothing in between the rows
     } else {
       Groups::store_some(to, step, value, active, rows);
     }

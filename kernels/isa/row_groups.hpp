@@ -113,11 +113,6 @@ struct PortableRowGroups {
     }
   }
 
-  /// Stores all groups, `step` values from one to the next.
-  static SIMDBEZIER_INLINE void store_all(T* to, std::size_t step, V value) {
-    store_some(to, step, value, kColumns, kRows);
-  }
-
   /// Stores the first `columns` lanes of the first `rows` groups and touches nothing else.
   static SIMDBEZIER_INLINE void store_some(T* to, std::size_t step, V value, std::size_t columns,
                                            std::size_t rows) {
@@ -171,10 +166,6 @@ struct RowGroups<2, vec<float>> : PortableRowGroups<2, vec<float>> {
     const __m512i index = _mm512_maskz_set1_epi32(0xff00, 1);
     return vec<float>(_mm512_permutevar_ps(_mm512_castpd_ps(_mm512_set1_pd(both)), index));
   }
-  static SIMDBEZIER_INLINE void store_all(float* to, std::size_t step, vec<float> value) {
-    _mm256_storeu_ps(to, _mm512_castps512_ps256(value));
-    _mm256_storeu_ps(to + step, _mm512_extractf32x8_ps(value, 1));
-  }
 };
 
 template <>
@@ -185,12 +176,6 @@ struct RowGroups<4, vec<float>> : PortableRowGroups<4, vec<float>> {
   static SIMDBEZIER_INLINE vec<float> spread(const float* values) {
     const __m512i index = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
     return vec<float>(_mm512_permutevar_ps(_mm512_broadcast_f32x4(_mm_loadu_ps(values)), index));
-  }
-  static SIMDBEZIER_INLINE void store_all(float* to, std::size_t step, vec<float> value) {
-    _mm_storeu_ps(to, _mm512_castps512_ps128(value));
-    _mm_storeu_ps(to + step, _mm512_extractf32x4_ps(value, 1));
-    _mm_storeu_ps(to + 2 * step, _mm512_extractf32x4_ps(value, 2));
-    _mm_storeu_ps(to + 3 * step, _mm512_extractf32x4_ps(value, 3));
   }
 };
 
@@ -203,10 +188,6 @@ struct RowGroups<2, vec<double>> : PortableRowGroups<2, vec<double>> {
     const __m512i index = _mm512_maskz_set1_epi64(0xf0, 2);
     return vec<double>(_mm512_permutevar_pd(_mm512_broadcast_f64x2(_mm_loadu_pd(values)), index));
   }
-  static SIMDBEZIER_INLINE void store_all(double* to, std::size_t step, vec<double> value) {
-    _mm256_storeu_pd(to, _mm512_castpd512_pd256(value));
-    _mm256_storeu_pd(to + step, _mm512_extractf64x4_pd(value, 1));
-  }
 };
 
 template <>
@@ -218,12 +199,6 @@ struct RowGroups<4, vec<double>> : PortableRowGroups<4, vec<double>> {
     const __m512i index = _mm512_setr_epi64(0, 0, 1, 1, 2, 2, 3, 3);
     return vec<double>(
         _mm512_permutexvar_pd(index, _mm512_castpd256_pd512(_mm256_loadu_pd(values))));
-  }
-  static SIMDBEZIER_INLINE void store_all(double* to, std::size_t step, vec<double> value) {
-    _mm_storeu_pd(to, _mm512_castpd512_pd128(value));
-    _mm_storeu_pd(to + step, _mm512_extractf64x2_pd(value, 1));
-    _mm_storeu_pd(to + 2 * step, _mm512_extractf64x2_pd(value, 2));
-    _mm_storeu_pd(to + 3 * step, _mm512_extractf64x2_pd(value, 3));
   }
 };
 #elif defined(SIMDBEZIER_KERNELS_AVX2)
@@ -238,10 +213,6 @@ struct RowGroups<2, vec<float>> : PortableRowGroups<2, vec<float>> {
     const __m256i index = _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1);
     return vec<float>(_mm256_permutevar_ps(_mm256_castpd_ps(_mm256_set1_pd(both)), index));
   }
-  static SIMDBEZIER_INLINE void store_all(float* to, std::size_t step, vec<float> value) {
-    _mm_storeu_ps(to, _mm256_castps256_ps128(value));
-    _mm_storeu_ps(to + step, _mm256_extractf128_ps(value, 1));
-  }
 };
 
 template <>
@@ -255,14 +226,6 @@ struct RowGroups<4, vec<float>> : PortableRowGroups<4, vec<float>> {
     return vec<float>(
         _mm256_permutevar_ps(_mm256_broadcast_ps(reinterpret_cast<const __m128*>(values)), index));
   }
-  static SIMDBEZIER_INLINE void store_all(float* to, std::size_t step, vec<float> value) {
-    const __m128 low = _mm256_castps256_ps128(value);
-    const __m128 high = _mm256_extractf128_ps(value, 1);
-    _mm_storel_pi(reinterpret_cast<__m64*>(to), low);
-    _mm_storeh_pi(reinterpret_cast<__m64*>(to + step), low);
-    _mm_storel_pi(reinterpret_cast<__m64*>(to + 2 * step), high);
-    _mm_storeh_pi(reinterpret_cast<__m64*>(to + 3 * step), high);
-  }
 };
 
 template <>
@@ -273,10 +236,6 @@ struct RowGroups<2, vec<double>> : PortableRowGroups<2, vec<double>> {
   static SIMDBEZIER_INLINE vec<double> spread(const double* values) {
     const __m256d both = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(values));
     return vec<double>(_mm256_permute_pd(both, 0b1100));
-  }
-  static SIMDBEZIER_INLINE void store_all(double* to, std::size_t step, vec<double> value) {
-    _mm_storeu_pd(to, _mm256_castpd256_pd128(value));
-    _mm_storeu_pd(to + step, _mm256_extractf128_pd(value, 1));
   }
 };
 #elif defined(SIMDBEZIER_KERNELS_SSE2)
@@ -289,10 +248,6 @@ struct RowGroups<2, vec<float>> : PortableRowGroups<2, vec<float>> {
   static SIMDBEZIER_INLINE vec<float> spread(const float* values) {
     const __m128 both = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(values)));
     return vec<float>(_mm_unpacklo_ps(both, both));
-  }
-  static SIMDBEZIER_INLINE void store_all(float* to, std::size_t step, vec<float> value) {
-    _mm_storel_pi(reinterpret_cast<__m64*>(to), value);
-    _mm_storeh_pi(reinterpret_cast<__m64*>(to + step), value);
   }
 };
 #endif
