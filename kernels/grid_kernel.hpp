@@ -12,7 +12,7 @@
 #include "kernels/drain_kernel.hpp"
 #include "kernels/grid_components.hpp"
 #include "kernels/grid_normals.hpp"
-#include "kernels/grid_small.hpp"
+#include "kernels/grid_small_jets.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -214,10 +214,8 @@ SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<ve
 template <typename T, detail::OutputSet kOutputs, Scheme kScheme>
 void grid_kernel(GridTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
-  if constexpr (kOutputs == detail::kPosition) {
-    if (small_grid_positions<kScheme>(task)) {
-      return;
-    }
+  if (sweep_small_grid<kOutputs, kScheme>(task)) {
+    return;
   }
   const ColumnSplit<vec<T>> split(task.nu, kSeveralTiles<kOutputs>);
   const std::size_t most = split.column ? kBufferRows : std::size_t{1} << 30;
