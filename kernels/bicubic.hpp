@@ -126,19 +126,12 @@ SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const 
 }
 
 /// The same two for a single column, which all lanes share: all four powers of Y at once, for a
-/// quarter of the operations. (A register of its own for each would compute equal lanes.)
-template <typename V>
-SIMDBEZIER_INLINE void matrix_rows(const Component<ScalarOf<V>>& c, V k[kOrder]) {
-  for (std::size_t i = 0; i < kOrder; ++i) {
-    k[i] = repeat_four<V>(c.matrix + i * kOrder);
-  }
-}
-
+/// quarter of the operations.
 template <Scheme kScheme, typename V>
 SIMDBEZIER_INLINE void single_column_polynomial(const Component<ScalarOf<V>>& c,
                                                 const Column<V>& column, V q[kOrder]) {
   V k[kOrder];
-  matrix_rows(c, k);
+  load_fours(c.matrix, k);
   split_fours(horner(k, column.x), q);
   replace_edge_columns<kScheme>(c, column, q);
 }
@@ -148,7 +141,7 @@ SIMDBEZIER_INLINE void single_column_polynomial(const Component<ScalarOf<V>>& c,
                                                 const Column<V>& column, V q[kOrder],
                                                 V dq[kOrder]) {
   V k[kOrder];
-  matrix_rows(c, k);
+  load_fours(c.matrix, k);
   V slopes;
   split_fours(horner(k, column.x, slopes), q);
   split_fours(slopes, dq);

@@ -1,4 +1,5 @@
-// Grid kernels: which columns go to which tile (grid_tile.hpp). With L lanes a row of nu columns is
+// Grid kernels: small grids have registers of their own (grid_small.hpp); of all others, which
+// columns go to which tile (grid_tile.hpp). With L lanes a row of nu columns is
 // nu / L whole registers and a rest, which takes
 //   1 column           the buffered column (kExtra) of the last whole register
 //   up to L/4, L/2     a tile of 4 or 2 rows a register
@@ -12,6 +13,7 @@
 #include "kernels/drain_kernel.hpp"
 #include "kernels/grid_components.hpp"
 #include "kernels/grid_normals.hpp"
+#include "kernels/grid_prefetch.hpp"
 #include "kernels/grid_small_jets.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

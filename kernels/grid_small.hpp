@@ -12,6 +12,7 @@
 #pragma once
 
 #include "kernels/drain_kernel.hpp"
+#include "kernels/grid_prefetch.hpp"
 #include "kernels/grid_small_sources.hpp"
 #include "kernels/grid_tile.hpp"
 #include "kernels/isa/assembly.hpp"
@@ -21,14 +22,14 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 
-/// Whether registers have four groups of four lanes.
+/// Whether registers have four groups of four lanes: floats of AVX-512.
 template <typename V>
-constexpr bool kFourFours = kLanes<V> == 16;
+constexpr bool kFourGroups = kLanes<V> == 16;
 
 /// Whether the task's grid is a small one.
 template <typename T>
 SIMDBEZIER_INLINE bool is_small_grid(const GridTask<T>& task) {
-  if (task.nu < 3 || task.nu > kMostSmall || task.run_count != 3) {
+  if (task.nu < kLeastSmall || task.nu > kMostSmall || task.run_count != 3) {
     return false;
   }
   const RowRun<T>* const run = task.runs;
@@ -68,14 +69,6 @@ private:
   }
 };
 
-/// The coefficients, or the edges, of a component: all four of a power.
-template <typename V>
-SIMDBEZIER_INLINE void load_fours(const ScalarOf<V>* from, V k[kOrder]) {
-  for (std::size_t i = 0; i < kOrder; ++i) {
-    k[i] = repeat_four<V>(from + 4 * i);
-  }
-}
-
 template <Scheme kScheme, typename V>
 SIMDBEZIER_INLINE V with_inner_origin(const Component<ScalarOf<V>>& c, V p) {
   if constexpr (has_origins(kScheme)) {
@@ -97,7 +90,7 @@ __attribute__((noinline)) void sweep_small_positions(const GridTask<T>& shared_t
   using V = vec<T>;
   const GridTask<T> task = shared_task;
   const SmallGrid<V> grid(task);
-  const SmallGridSources& sources = small_grid_tables(task.nu, grid.rows + 2).position;
+  const SmallGridSources& sources = kSmallGrids.of(task.nu, grid.rows + 2).position;
   Assembly sample[kFull + 1];
   for (std::size_t k = 0; k <= kFull; ++k) {
     sample[k] = Assembly(sources.of_register(k));

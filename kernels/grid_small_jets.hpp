@@ -89,7 +89,7 @@ struct SmallSamples {
 
   explicit SIMDBEZIER_INLINE SmallSamples(std::size_t nu, std::size_t nv)
       : registers((nu * nv + kLanes<V> - 1) / kLanes<V>), samples(nu * nv) {
-    const SmallGridTables& tables = small_grid_tables(nu, nv);
+    const SmallGridTables& tables = kSmallGrids.of(nu, nv);
     for (std::size_t r = 0; r < registers; ++r) {
       position[r] = Assembly(tables.position.of_register(r));
       du[r] = Assembly(tables.du.of_register(r));
@@ -161,7 +161,7 @@ __attribute__((noinline)) void sweep_small_jets(const GridTask<T>& shared_task) 
 template <detail::OutputSet kOutputs, Scheme kScheme, typename T>
 SIMDBEZIER_INLINE bool sweep_small_grid(const GridTask<T>& task) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-  if constexpr (is_watertight(kScheme) && kFourFours<vec<T>>) {
+  if constexpr (is_watertight(kScheme) && kFourGroups<vec<T>>) {
     if (!is_small_grid(task)) {
       return false;
     }

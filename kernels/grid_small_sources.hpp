@@ -1,7 +1,6 @@
 // Tables for grid_small.hpp: in which lane of which register a sample of a small grid is computed.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -12,6 +11,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 /// Samples between edges that four groups, or four lanes of a group, have room for.
 constexpr std::size_t kMostInner = 4;
+constexpr std::size_t kLeastSmall = 1 + 2;
 constexpr std::size_t kMostSmall = kMostInner + 2;
 
 /// A code for every sample, row after row: 16 times the register plus the lane (see Assembly).
@@ -72,21 +72,26 @@ struct SmallGridTables {
   SmallGridSources dv;
 };
 
-/// [nv - 3][nu - 3]
-inline constexpr auto kSmallGridTables = [] {
-  std::array<std::array<SmallGridTables, kMostInner>, kMostInner> tables{};
-  for (std::size_t nv = 3; nv <= kMostSmall; ++nv) {
-    for (std::size_t nu = 3; nu <= kMostSmall; ++nu) {
-      tables[nv - 3][nu - 3] = {{SmallGridSources::kPosition, nu, nv},
-                                {SmallGridSources::kDu, nu, nv},
-                                {SmallGridSources::kDv, nu, nv}};
+/// Of all sizes.
+class SmallGridSizes {
+public:
+  constexpr SmallGridSizes() {
+    for (std::size_t nv = kLeastSmall; nv <= kMostSmall; ++nv) {
+      for (std::size_t nu = kLeastSmall; nu <= kMostSmall; ++nu) {
+        tables_[nv - kLeastSmall][nu - kLeastSmall] = {{SmallGridSources::kPosition, nu, nv},
+                                                       {SmallGridSources::kDu, nu, nv},
+                                                       {SmallGridSources::kDv, nu, nv}};
+      }
     }
   }
-  return tables;
-}();
+  [[nodiscard]] constexpr const SmallGridTables& of(std::size_t nu, std::size_t nv) const {
+    return tables_[nv - kLeastSmall][nu - kLeastSmall];
+  }
 
-SIMDBEZIER_INLINE const SmallGridTables& small_grid_tables(std::size_t nu, std::size_t nv) {
-  return kSmallGridTables[nv - 3][nu - 3];
-}
+private:
+  SmallGridTables tables_[kMostInner][kMostInner];
+};
+
+inline constexpr SmallGridSizes kSmallGrids;
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -28,22 +28,6 @@ SIMDBEZIER_INLINE std::size_t edge_of(RowKind kind) {
   return kind == RowKind::edge_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
 }
 
-/// Asks for the coefficients and edges of a patch that comes soon. Hardware follows neither of the
-/// two arrays across the pauses in between: 30 % of the speed where the set is in memory.
-template <typename T>
-SIMDBEZIER_INLINE void prefetch_patch(const GridTask<T>& task, std::size_t patch) {
-  constexpr std::size_t kAhead = 4;
-  constexpr std::size_t kLine = 64 / sizeof(T);
-  const T* const coefficients = task.coefficients + (patch + kAhead) * detail::kCoefficients;
-  for (std::size_t k = 0; k < detail::kCoefficients; k += kLine) {
-    __builtin_prefetch(coefficients + k);
-  }
-  const T* const edges = task.edges + (patch + kAhead) * detail::kEdgeBlock;
-  for (std::size_t k = 0; k < detail::kEdgeBlock; k += kLine) {
-    __builtin_prefetch(edges + k);
-  }
-}
-
 /// Rows that a tile sweeps in one go: one on an edge, some that are not, one on an edge. A usual
 /// grid is one such piece.
 template <typename T>

@@ -16,6 +16,14 @@ SIMDBEZIER_INLINE V repeat_four(const ScalarOf<V>* values) {
   return RowGroups<kLanes<V> / 4, V>::repeat(values);
 }
 
+/// Four times four values that lie one behind the other.
+template <typename V>
+SIMDBEZIER_INLINE void load_fours(const ScalarOf<V>* values, V four[4]) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    four[i] = repeat_four<V>(values + 4 * i);
+  }
+}
+
 /// Lane k of each group, in all lanes of the group. Floats stay within 128 bits, which leaves the
 /// pipes of the multiply-adds alone.
 template <std::size_t k, typename V>
