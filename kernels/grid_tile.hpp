@@ -166,8 +166,8 @@ struct Tile {
       } else {
         store_first(to, value, active);
       }
-    } else if (step == kColumns && active == kColumns && rows == kRows) {
-      store_vector(to, value); // nothing in between the rows
+    } else if (kLineWide<V> && step == kColumns && active == kColumns && rows == kRows) {
+      store_vector(to, value); // nothing in between the rows; short registers gain nothing by this
     } else {
       Groups::store_some(to, step, value, active, rows);
     }
