@@ -11,6 +11,7 @@
 #include "kernels/batch.hpp"
 #include "kernels/curve_table.hpp"
 #include "kernels/dispatch.hpp"
+#include "kernels/pack_faults.hpp"
 #include "kernels/pack_request.hpp"
 
 namespace simdbezier {
@@ -22,7 +23,8 @@ Status check(const ControlCurves<S>& curves) {
   if (curves.degree < 1 || curves.degree > kMostDegree) {
     return Status::bad_degree;
   }
-  if (curves.components < 1 || curves.components > kMostComponents) {
+  if (curves.components < 1 || curves.components > kMostComponents ||
+      curves.weights > Weights::homogeneous) {
     return Status::bad_components;
   }
   if (curves.points == nullptr && curves.count > 0) {
@@ -63,7 +65,7 @@ PackReport inspect(const ControlCurves<S>& curves, const CurveStorage<T>& storag
   for (int c = 0; c < static_cast<int>(shape.channels()); ++c) {
     for (int i = 0; i <= shape.degree; ++i) {
       const S value = polygon[i * curves.point_stride + c * curves.component_stride];
-      if (c == shape.components && !(std::isfinite(value) && value > 0)) {
+      if (c == shape.components && !is_weight<T>(value)) {
         return {Status::bad_weight, curve, i, c};
       }
       if (!std::isfinite(value)) {
@@ -76,14 +78,6 @@ PackReport inspect(const ControlCurves<S>& curves, const CurveStorage<T>& storag
     if (!std::isfinite(values[k])) {
       const std::size_t channel = k % shape.cell_values() / shape.channel_values();
       return {Status::coefficient_overflow, curve, 0, static_cast<int>(channel)};
-    }
-  }
-  // A weight that is too small for T would be a division by zero.
-  const T* const control = storage.control_points + curve * shape.control_values();
-  for (int i = 0; shape.rational && i <= shape.degree; ++i) {
-    const T* const point = control + static_cast<std::size_t>(i) * shape.channels();
-    if (!(point[shape.components] > 0)) {
-      return {Status::bad_weight, curve, i, shape.components};
     }
   }
   return {};

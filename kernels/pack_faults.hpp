@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include <simdbezier/patch_set.hpp>
 
@@ -18,6 +19,13 @@ bool all_finite(const T* values, std::size_t count, std::size_t step = 1) {
     sum += values[i * step] - values[i * step];
   }
   return sum == 0;
+}
+
+/// Positive, finite, and not so small that 1/w is infinite: kernels divide by multiplying.
+template <typename T, typename S>
+bool is_weight(S value) {
+  const T packed = static_cast<T>(value);
+  return packed >= std::numeric_limits<T>::min() && std::isfinite(packed);
 }
 
 /// One channel of all points of a patch.
@@ -75,10 +83,7 @@ PackReport inspect(const ControlNets<S>& nets, std::size_t patch, const PatchSto
                    std::size_t place, std::size_t number) {
   const auto components = static_cast<std::size_t>(nets.components);
   if (storage.shape.rational) {
-    const int point = ChannelView<S>(nets, patch, components).first_not([](S weight) {
-      const T packed = static_cast<T>(weight);
-      return weight > 0 && packed > 0 && std::isfinite(packed);
-    });
+    const int point = ChannelView<S>(nets, patch, components).first_not(is_weight<T, S>);
     if (point >= 0) {
       return {Status::bad_weight, number, point, nets.components};
     }

@@ -13,7 +13,8 @@ Status check(const ControlNets<S>& nets) {
   if (!known(nets.degree_u) || !known(nets.degree_v)) {
     return Status::bad_degree;
   }
-  if (nets.components < 1 || nets.components > kMostComponents) {
+  if (nets.components < 1 || nets.components > kMostComponents ||
+      nets.weights > Weights::homogeneous) {
     return Status::bad_components;
   }
   if (nets.points == nullptr && nets.count > 0) {

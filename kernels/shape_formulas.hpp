@@ -83,8 +83,8 @@ struct Series {
     }
     value = madd(value, t, c);
   }
-  /// A derivative that is constant is nan at a parameter that is; t - t is +0 otherwise, which
-  /// changes no constant, not even -0.
+  /// A derivative that does not depend on t is nan all the same where t is, or a coefficient:
+  /// t - t is +0 elsewhere, which changes no constant, not even -0.
   template <std::size_t kDepth>
   SIMDBEZIER_INLINE void finish(std::size_t degree, V t) {
     if constexpr (kDepth > 0) {
@@ -94,7 +94,7 @@ struct Series {
     }
     if constexpr (kDepth > 1) {
       if (degree == 1) {
-        second = t - t;
+        second = first - first;
       } else if (degree == 2) {
         second = (second + second) - (t - t);
       } else {

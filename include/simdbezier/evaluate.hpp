@@ -91,6 +91,8 @@ struct Vectors {
 };
 
 /// Where the curvatures of a surface go: one value a sample each, unit stride; null: not asked for.
+/// Principal curvatures are formed from K and H^2: where those leave the range of T, or sink below
+/// its smallest normal number, they are infinite, nan or have lost digits.
 template <typename T>
 struct Curvatures {
   T* gaussian = nullptr; ///< K = (LN - M^2) / (EG - F^2)

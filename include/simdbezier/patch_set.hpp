@@ -101,9 +101,9 @@ struct PackOptions {
 ///             times the control points and more where directions are cut. About 150 KiB of stack
 ///             per thread. Threads: see PackOptions::threads.
 /// Returns:    ok | null_input | bad_degree | bad_components (also: not the same in all nets) |
-///             bad_weight (also: 0 or infinite as T) | bad_stride | non_finite_input |
-///             coefficient_overflow | size_overflow | unsupported_isa | out_of_memory. A wrong
-///             SIMDBEZIER_ISA is ignored here. The report names the lowest patch at fault, for a
+///             bad_weight (also: below the smallest normal T, or infinite as T) | bad_stride |
+///             non_finite_input | coefficient_overflow | size_overflow | unsupported_isa |
+///             out_of_memory. A wrong SIMDBEZIER_ISA is ignored here. The report names the lowest patch at fault, for a
 ///             fault of whole nets their first one.
 /// Cost:       O(count); in cache on AVX-512 about 22 ns (float) or 100 ns (double) a bicubic patch
 ///             in space; others grow with the cube of the degree. New memory costs several times

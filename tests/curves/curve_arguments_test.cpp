@@ -170,7 +170,7 @@ TEST(CurvePacking, RefusesWhatItCannotPack) {
   const auto as_it_is = [](View&) {};
   refused(with(21, 2, 1, nan), {Status::non_finite_input, 21, 2, 1}, as_it_is);
   refused(with(39, 3, 0, INFINITY), {Status::non_finite_input, 39, 3, 0}, as_it_is);
-  for (const float weight : {0.0F, -1.0F, nan, INFINITY}) {
+  for (const float weight : {0.0F, -1.0F, nan, INFINITY, 1e-39F}) {
     refused(with(17, 1, 3, weight), {Status::bad_weight, 17, 1, 3}, as_it_is);
   }
   refused(with(5, 1, 2, std::numeric_limits<float>::max()), {Status::coefficient_overflow, 5, 0, 2},

@@ -180,6 +180,9 @@ TEST(PackSets, the_lowest_fault_is_reported_with_its_place) {
   both.push_back({Weights::none, 1, kNan, Status::non_finite_input});
   std::vector<BadValue> narrowed = both;
   narrowed.push_back({Weights::cartesian, 2, 1e-60, Status::bad_weight});
+  narrowed.push_back({Weights::cartesian, 2, 1.1e-38, Status::bad_weight}); // 1/w is infinite soon
+  narrowed.push_back({Weights::homogeneous, 2, 1e-39, Status::bad_weight});
+  narrowed.push_back({Weights::cartesian, 2, 1.2e-38, Status::ok});
   narrowed.push_back({Weights::homogeneous, 2, 1e60, Status::bad_weight});
   narrowed.push_back({Weights::none, 1, 1e39, Status::coefficient_overflow});
   narrowed.push_back({Weights::cartesian, 1, 1e39, Status::coefficient_overflow});
