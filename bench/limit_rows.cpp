@@ -43,35 +43,41 @@ void register_multiply_add(const std::string& isa, LimitKernels<T> kernels) {
 }
 
 template <typename T>
-void register_horner(const std::string& call, const std::string& isa, LimitKernels<T> kernels) {
-  auto run = [kernels](benchmark::State& state) {
+void register_horner(const std::string& call, const std::string& isa, LimitKernels<T> kernels,
+                     int degree) {
+  const auto horner_store = kernels.horner_store[degree - kLeastHornerDegree];
+  auto run = [horner_store, degree](benchmark::State& state) {
     constexpr std::size_t kCount = kHornerBytes / sizeof(T);
     T* const out = reinterpret_cast<T*>(output_buffer());
     if (out == nullptr) {
       return fail_row(state, "no memory for the output");
     }
-    const T inputs[kHornerInputs] = {1, 2, 3, 4, T(0.5)};
+    const T inputs[kMostHornerDegree + 2] = {T(0.5), 1, 2, 4, 8, 16};
     for (std::size_t k = 0; k < kCount; ++k) {
       out[k] = 0;
     }
-    kernels.horner_store(out, kCount, inputs);
+    horner_store(out, kCount, inputs);
     for (std::size_t k = 0; k < kCount; ++k) {
-      if (out[k] != T(3.25)) { // 1 + 2/2 + 3/4 + 4/8
-        return fail_row(state, "wrong value of the cubic");
+      if (out[k] != T(degree + 1)) { // 1 + 2/2 + 4/4 + …
+        return fail_row(state, "wrong value of the polynomial");
       }
     }
     time_calls(state, 1, static_cast<double>(kCount) / 3, static_cast<double>(kHornerBytes),
-               [&] { kernels.horner_store(out, kCount, inputs); });
+               [&] { horner_store(out, kCount, inputs); });
   };
-  benchmark::RegisterBenchmark(("limit/" + call + "/" + type_name<T>() + "/" + isa).c_str(), run)
+  const std::string suffix = degree == 3 ? "" : "/degree:" + std::to_string(degree);
+  benchmark::RegisterBenchmark(
+      ("limit/" + call + "/" + type_name<T>() + "/" + isa + suffix).c_str(), run)
       ->Unit(benchmark::kMicrosecond);
 }
 
 template <typename T>
 void register_arithmetic(const std::string& isa, LimitKernels<T> fused, LimitKernels<T> separate) {
   register_multiply_add(isa, fused);
-  register_horner("horner_store", isa, fused);
-  register_horner("horner_store_muladd", isa, separate);
+  for (const int degree : {3, 2, 4}) {
+    register_horner("horner_store", isa, fused, degree);
+  }
+  register_horner("horner_store_muladd", isa, separate, 3);
 }
 
 /// `all` bytes a call; the threads share them.

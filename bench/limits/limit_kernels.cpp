@@ -73,7 +73,7 @@ template <typename V>
 // 256-bit registers want a parameter from memory for every result (7.1 against 5.5 thousand million
 // positions/s, which is the rate of the multiply-adds), 512-bit ones addends from memory as well,
 // and four results in flight (9.6 against 8.9).
-template <typename T>
+template <typename T, int kDegree>
 void horner_store(T* out, std::size_t count, const T* inputs) {
   using V = RegisterOf<T>;
   constexpr bool kWide = kFused && sizeof(V) == 64;
@@ -82,9 +82,12 @@ void horner_store(T* out, std::size_t count, const T* inputs) {
   constexpr int kGroup = 8;
   constexpr int kStride = static_cast<int>(kLanes<T>);
   static_assert(kHornerBlockBytes % (kGroup * sizeof(V)) == 0);
-  V addend[3] = {broadcast<V>(inputs[0]), broadcast<V>(inputs[1]), broadcast<V>(inputs[2])};
-  const V c3 = broadcast<V>(inputs[3]);
-  T parameter = inputs[4];
+  V addend[kDegree];
+  for (int k = 0; k < kDegree; ++k) {
+    addend[k] = broadcast<V>(inputs[1 + k]);
+  }
+  const V highest = broadcast<V>(inputs[1 + kDegree]);
+  T parameter = inputs[0];
   V x[kFlight];
   V r[kFlight];
   x[0] = broadcast<V>(parameter);
@@ -98,10 +101,10 @@ void horner_store(T* out, std::size_t count, const T* inputs) {
           x[k] = broadcast<V>(parameter);
         }
         hide(x[k]);
-        r[k] = c3;
+        r[k] = highest;
       }
-#pragma GCC unroll 3
-      for (int step = 2; step >= 0; --step) {
+#pragma GCC unroll 4
+      for (int step = kDegree - 1; step >= 0; --step) {
 #pragma GCC unroll 4
         for (int k = 0; k < kFlight; ++k) {
           if constexpr (kWide) {
@@ -125,8 +128,12 @@ void horner_store(T* out, std::size_t count, const T* inputs) {
 
 LimitKernels<float> limits(float);
 LimitKernels<double> limits(double);
-LimitKernels<float> limits(float) { return {multiply_add<float>, horner_store<float>}; }
-LimitKernels<double> limits(double) { return {multiply_add<double>, horner_store<double>}; }
+template <typename T>
+LimitKernels<T> limits_of() {
+  return {multiply_add<T>, {horner_store<T, 2>, horner_store<T, 3>, horner_store<T, 4>}};
+}
+LimitKernels<float> limits(float) { return limits_of<float>(); }
+LimitKernels<double> limits(double) { return limits_of<double>(); }
 
 } // namespace SIMDBEZIER_BENCH_CONTRACTION
 } // namespace SIMDBEZIER_BENCH_ISA

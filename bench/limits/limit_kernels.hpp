@@ -11,9 +11,10 @@ struct LimitKernels {
   /// Runs `rounds` rounds of independent multiply-add chains in registers; returns how many
   /// multiply-adds a round holds, lanes counted.
   std::size_t (*multiply_add)(std::size_t rounds, T* sink) = nullptr;
-  /// Three-step Horner from registers, one store a result: out[k] for k < count, a multiple of
-  /// kHornerBlockBytes in bytes. out is 64-byte aligned; inputs: c0 to c3, x.
-  void (*horner_store)(T* out, std::size_t count, const T* inputs) = nullptr;
+  /// Horner's rule from registers, a step a degree, one store a result: out[k] for k < count, a
+  /// multiple of kHornerBlockBytes in bytes. out is 64-byte aligned; inputs: x, then c0, c1, ….
+  /// [degree - kLeastHornerDegree]
+  void (*horner_store[3])(T* out, std::size_t count, const T* inputs) = {};
 };
 
 /// Rates at which memory can be filled; `bytes` is a multiple of 256, `out` 64-byte aligned.
@@ -22,7 +23,8 @@ struct FillKernels {
   void (*plain)(unsigned char* out, std::size_t bytes) = nullptr;
 };
 
-constexpr std::size_t kHornerInputs = 5;
+constexpr int kLeastHornerDegree = 2;
+constexpr int kMostHornerDegree = 4;
 constexpr std::size_t kHornerBlockBytes = 512;
 
 /// `fused` objects may contract a multiplication and an addition, `separate` ones may not.

@@ -97,8 +97,8 @@ private:
 /// Allocation: one block; of cubics in space 31 T a curve, 18 of which positions read.
 /// Returns:    ok | null_input | bad_degree | bad_components | bad_stride | bad_weight (also: below
 ///             the smallest normal T, or infinite as T) | non_finite_input | coefficient_overflow |
-///             size_overflow | unsupported_isa | out_of_memory; PackReport::patch is the curve, `point` its control point i. A wrong
-///             SIMDBEZIER_ISA is ignored here.
+///             size_overflow | unsupported_isa | out_of_memory; PackReport::patch is the curve,
+///             `point` its control point i. A wrong SIMDBEZIER_ISA is ignored here.
 template <typename T, typename S>
 [[nodiscard]] SIMDBEZIER_API PackReport pack_curves(const ControlCurves<S>& curves,
                                                     CurveSet<T>& set,

@@ -103,8 +103,8 @@ struct PackOptions {
 /// Returns:    ok | null_input | bad_degree | bad_components (also: not the same in all nets) |
 ///             bad_weight (also: below the smallest normal T, or infinite as T) | bad_stride |
 ///             non_finite_input | coefficient_overflow | size_overflow | unsupported_isa |
-///             out_of_memory. A wrong SIMDBEZIER_ISA is ignored here. The report names the lowest patch at fault, for a
-///             fault of whole nets their first one.
+///             out_of_memory. A wrong SIMDBEZIER_ISA is ignored here. The report names the lowest
+///             patch at fault, for a fault of whole nets their first one.
 /// Cost:       O(count); in cache on AVX-512 about 22 ns (float) or 100 ns (double) a bicubic patch
 ///             in space; others grow with the cube of the degree. New memory costs several times
 ///             that: a set of many megabytes is bound by page faults.
