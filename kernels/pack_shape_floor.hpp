@@ -21,9 +21,9 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 ///     (m (D + T R) + R m T + m T 2 R W / w) / w <= m (D + 4 T R) W / w^2 = E_u.
 /// The error of the last division is left out: it makes du longer, but does not turn it. The test
 ///     |du x dv|^2 > 2 c^2 (E_u^2 |dv|^2 + E_v^2 |du|^2)  [>= c^2 (E_u |dv| + E_v |du|)^2]
-/// is the second look's own, c = 2^-10 (kKernelError), a normal that passes being turned by some
-/// 2^-14 K at the most. What passes has W / w < 2^10, as |du| <= m (D + 2 T R) / w: there w
-/// itself is known well enough.
+/// is the second look's own with c = 2^-10 (in double 2^-20, stricter): what passes is turned by
+/// 2^-14 K (2^-33 K) at the most, up to the norms' factors. What passes has W / w < 2^10, as |du|
+/// <= m (D + 2 T R) / w: there w itself is known well enough.
 template <typename T>
 class ShapeFloor {
 public:

@@ -51,7 +51,7 @@ protected:
         for (const bool origins : {false, true}) {
           SCOPED_TRACE(testing::Message() << degrees.u << " x " << degrees.v << ", side " << side
                                           << (origins ? ", local origins" : ""));
-          test(net, side, {.local_origin = origins});
+          test(net, side, {.local_origin = origins, .isa = isa()});
         }
       }
     }
@@ -160,12 +160,13 @@ TEST_P(CollapsedEdgeTest, LeavesNeighboursAlone) {
     }
     nets.push_back(rounded_to<float>(net));
   }
-  const PatchSet<float> together = packed<float>(nets);
+  const PatchSet<float> together = packed<float>(nets, {.isa = isa()});
   Planes<float> all(nets.size() * kN * kN);
   grid(together, Grid<float>::uniform(kN, kN), all.outputs());
   for (std::size_t p = 0; p < nets.size(); ++p) {
     Planes<float> alone(kN * kN);
-    grid(packed<float>(std::span(&nets[p], 1)), Grid<float>::uniform(kN, kN), alone.outputs());
+    grid(packed<float>(std::span(&nets[p], 1), {.isa = isa()}), Grid<float>::uniform(kN, kN),
+         alone.outputs());
     for (std::size_t group = 0; group < 4; ++group) {
       for (std::size_t k = 0; k < kN * kN; ++k) {
         EXPECT_EQ(all.vector(group, p * kN * kN + k), alone.vector(group, k)) << "patch " << p;
@@ -188,8 +189,8 @@ TEST_P(CollapsedEdgeTest, PointsThatOnlyRoundToOneAreNotOne) {
   ASSERT_EQ(static_cast<float>(net.at(0, 0)[0]), static_cast<float>(net.at(0, 2)[0]));
   const std::vector<double> points = packed_points<double>(std::span(&net, 1));
   PatchSet<float> set;
-  expect_packed(
-      pack(control_nets<double>(std::span(&net, 1), points), set, {.local_origin = true}));
+  expect_packed(pack(control_nets<double>(std::span(&net, 1), points), set,
+                     {.local_origin = true, .isa = isa()}));
   Planes<float> planes(kN * kN);
   grid(set, Grid<float>::uniform(kN, kN), planes.outputs());
   for (std::size_t i = 0; i < kN; ++i) {
