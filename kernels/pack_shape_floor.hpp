@@ -14,16 +14,17 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// h = w (P - O), which the kernels form beside w, and
 ///     w du = h_u - S w_u,  S = h / w,
 /// let R >= |P - O|, and so >= |S|, since S is in the hull; W the largest weight; over neighbours
-/// P, P' in u, D the largest max(w,w') |P' - P| and T the largest |w' - w|. Errors of polynomials
+/// P, P' in u, D the largest max(w,w') |P' - P| and B the largest |w' - w|. Errors of polynomials
 /// are K u times their largest control value (docs/accuracy.md), which is
-///     R W of h,  W of w,  m (D + T R) of h_u, as w'p' - wp = w'(p' - p) + (w' - w) p,  m T of w_u.
-/// Hence S is wrong by K u 2 R W / w, and as |w_u| <= m T, du by at most K u times
-///     (m (D + T R) + R m T + m T 2 R W / w) / w <= m (D + 4 T R) W / w^2 = E_u.
-/// The error of the last division is left out: it makes du longer, but does not turn it. The test
+///     R W of h,  W of w,  m (D + B R) of h_u, as w'p' - wp = w'(p' - p) + (w' - w) p,  m B of w_u.
+/// Hence S is wrong by K u 2 R W / w, and as |w_u| <= m B, du by at most K u times
+///     (m (D + B R) + R m B + m B 2 R W / w) / w <= m (D + 4 B R) W / w^2 = E_u,
+/// with the quotient's own roundings by K + 3. The error of the last division is left out: it makes
+/// du longer, but does not turn it. The test
 ///     |du x dv|^2 > 2 c^2 (E_u^2 |dv|^2 + E_v^2 |du|^2)  [>= c^2 (E_u |dv| + E_v |du|)^2]
 /// is the second look's own with c = 2^-10 (in double 2^-20, stricter): what passes is turned by
 /// 2^-14 K (2^-33 K) at the most, up to the norms' factors. What passes has W / w < 2^10, as |du|
-/// <= m (D + 2 T R) / w: there w itself is known well enough.
+/// <= m (D + 2 B R) / w: there w itself is known well enough.
 template <typename T>
 class ShapeFloor {
 public:
