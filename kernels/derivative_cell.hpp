@@ -38,15 +38,13 @@ public:
 
   /// All that orders ask for, of one component.
   void evaluate(std::size_t component, TaylorTable<V>& to) const {
-    table(component, to);
+    merged_table(component, to);
     if (shape_.rational) {
-      divide_table(minus_w_, inverse_, orders_, to);
-    }
-    if (side_u_ != kInside && orders_.highest_v[0] >= 0) {
-      along_edge_u(component, to[0]);
-      if (shape_.rational) {
-        divide_row(minus_w_u_, inverse_u_, highest_v(0), to[0]);
+      V to_patch;
+      if (cell_.origins != nullptr) {
+        to_patch = origin_u(component) - origin(component, 0);
       }
+      divide_table(minus_w_, inverse_, orders_, cell_.origins == nullptr ? nullptr : &to_patch, to);
     }
     if (side_v_ != kInside) {
       TaylorRow<V> along_u;
@@ -94,6 +92,14 @@ private:
     }
   }
 
+  /// The same, but what does not depend on u comes from an edge u = const if they are on one.
+  void merged_table(std::size_t channel, TaylorTable<V>& to) const {
+    table(channel, to);
+    if (side_u_ != kInside && orders_.highest_v[0] >= 0) {
+      along_edge_u(channel, to[0]);
+    }
+  }
+
   __attribute__((noinline)) void edge(std::size_t channel, std::size_t number, std::size_t order,
                                       V t, std::size_t highest, V* to) const {
     const T* const powers = cell_.edges + channel * shape_.edge_powers() * 4 + number;
@@ -109,15 +115,10 @@ private:
 
   void prepare_weight() {
     const auto weight = static_cast<std::size_t>(shape_.components);
-    table(weight, minus_w_);
+    merged_table(weight, minus_w_);
     inverse_ = Quotient<V>(minus_w_[0][0]).inverse;
     for (std::size_t a = 0; a <= highest_u(); ++a) {
       negate(minus_w_[a], highest_v(a));
-    }
-    if (side_u_ != kInside) {
-      along_edge_u(weight, minus_w_u_);
-      inverse_u_ = Quotient<V>(minus_w_u_[0]).inverse;
-      negate(minus_w_u_, highest_v(0));
     }
     if (side_v_ != kInside) {
       along_edge_v(weight, minus_w_v_);
@@ -138,12 +139,17 @@ private:
           detail::corner_index(side_u_ == kHighEnd ? 1 : 0, side_v_ == kHighEnd ? 1 : 0);
       position = broadcast<V>(cell_.edges[shape_.corners_at() + component * 4 + corner]);
     } else if (cell_.origins != nullptr) {
-      const T* const origins = cell_.origins + component * detail::kOriginsPerComponent;
-      const std::size_t which = side_v_ != kInside   ? detail::kEdgeOriginsAt + edge_v()
-                                : side_u_ != kInside ? detail::kEdgeOriginsAt + edge_u()
-                                                     : 0;
-      position = position + broadcast<V>(origins[which]);
+      position =
+          position + (side_v_ != kInside ? origin(component, detail::kEdgeOriginsAt + edge_v())
+                                         : origin_u(component));
     }
+  }
+  SIMDBEZIER_INLINE V origin(std::size_t component, std::size_t which) const {
+    return broadcast<V>(cell_.origins[component * detail::kOriginsPerComponent + which]);
+  }
+  /// Of the edge u = const, if they are on one.
+  SIMDBEZIER_INLINE V origin_u(std::size_t component) const {
+    return origin(component, side_u_ == kInside ? 0 : detail::kEdgeOriginsAt + edge_u());
   }
 
   const NetShape& shape_;
@@ -153,12 +159,10 @@ private:
   Side side_v_;
   V x_;
   V y_;
-  // Of rational patches: the weight of the patch, and along the edges that the samples lie on.
+  // Of rational patches: the weight, and the one along the edge v = const if they are on one.
   TaylorTable<V> minus_w_;
-  TaylorRow<V> minus_w_u_;
   TaylorRow<V> minus_w_v_;
   V inverse_;
-  V inverse_u_;
   V inverse_v_;
 };
 

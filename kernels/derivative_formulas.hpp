@@ -55,11 +55,18 @@ SIMDBEZIER_INLINE void divide_row(const V* minus_w, V inverse, std::size_t highe
 }
 
 /// The same in both directions. `orders` has, with every order, all lower ones. The order of the
-/// sum is that of Quotient, for equal bits.
+/// sum is that of Quotient, for equal bits. to_patch: null, or what to add to the position where
+/// derivatives by u use it; see ColumnPolynomials.
 template <typename V>
 SIMDBEZIER_INLINE void divide_table(const TaylorTable<V>& minus_w, V inverse,
-                                    const detail::DerivativeOrders& orders, TaylorTable<V>& h) {
+                                    const detail::DerivativeOrders& orders, const V* to_patch,
+                                    TaylorTable<V>& h) {
+  V position = h[0][0];
   for (int a = 0; a <= orders.highest_u; ++a) {
+    if (a == 1) {
+      position = h[0][0];
+      h[0][0] = to_patch == nullptr ? position : position + *to_patch;
+    }
     for (int b = 0; b <= orders.highest_v[a]; ++b) {
       V sum = h[a][b];
       for (int j = b; j >= 0; --j) {
@@ -69,6 +76,9 @@ SIMDBEZIER_INLINE void divide_table(const TaylorTable<V>& minus_w, V inverse,
       }
       h[a][b] = sum * inverse;
     }
+  }
+  if (orders.highest_u > 0) {
+    h[0][0] = position;
   }
 }
 
