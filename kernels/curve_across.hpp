@@ -121,13 +121,13 @@ SIMDBEZIER_INLINE void fill_across(const CurveTask<T>& task, const CurveShape& s
   for (std::size_t first = begin; first < end; first += kLanes<V>) {
     std::size_t stride = shape.values();
     const T* from = task.values + first * stride + task.first_component * shape.channel_values();
-    if (task.prefetch) {
-      prefetch_values(from + kCurvesAhead * stride, kLanes<V> * stride);
-    }
     T padded[Columns::kMostValues * kLanes<V>];
     if (end - first < kLanes<V>) [[unlikely]] { // there is nothing to read behind the last curve
       for (std::size_t p = 0; p < kLanes<V>; ++p) {
-        std::copy_n(from + std::min(p, end - first - 1) * stride, values, padded + p * values);
+        const T* const curve = from + std::min(p, end - first - 1) * stride;
+        for (std::size_t k = 0; k < values; ++k) {
+          padded[p * values + k] = curve[k];
+        }
       }
       from = padded;
       stride = values;

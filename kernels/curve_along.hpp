@@ -23,13 +23,8 @@ SIMDBEZIER_INLINE void sweep_rows(const CurveTask<T>& task, const CurveShape& sh
   const std::size_t stride = shape.values();
   const std::size_t row = rows.row(task.n);
   const T* values = task.values + begin * stride;
-  // Hardware does not follow across the pauses between batches.
-  const std::size_t ahead = task.prefetch && first == 0 ? kCurvesAhead * stride : 0;
   std::size_t at = rows.row(first);
   for (std::size_t curve = begin; curve < end; ++curve, values += stride, at += row) {
-    if (ahead > 0) {
-      prefetch_values(values + ahead, stride);
-    }
     V value[3];
     repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
       const CurveChannel<V, false> channel(shape, values, task.first_component + c, points);

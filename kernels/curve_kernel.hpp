@@ -20,6 +20,9 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// that draining what was staged before, in between, overlaps with computing.
 inline constexpr std::size_t kBlockSamples = 256;
 
+/// How far ahead values are asked for.
+inline constexpr std::size_t kCurvesAhead = 32;
+
 /// Consecutive curves of a task.
 struct CurveBlock {
   std::size_t begin;

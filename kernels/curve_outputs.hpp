@@ -34,9 +34,6 @@ struct CurveRange {
   }
 };
 
-/// How far ahead values are asked for.
-inline constexpr std::size_t kCurvesAhead = 32;
-
 /// Asks for the values of a curve that comes soon.
 template <typename T>
 SIMDBEZIER_INLINE void prefetch_values(const T* values, std::size_t count) {

@@ -1,5 +1,6 @@
 // Positions of curves straight to the caller's layout: planes or x y z triples, through the caches
-// or past them, at any place in memory.
+// or past them, at any place in memory. Values are read in order without a pause, so hardware
+// fetches them ahead; prefetches gain nothing.
 #pragma once
 
 #include "kernels/curve_across.hpp"
@@ -8,18 +9,19 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Values of a batch that is passed on while the next one is computed: enough for stores to have
-/// reached the cache before they are read, and two of them fit the first level.
-template <typename T>
-inline constexpr std::size_t kRowBatch = 12288 / sizeof(T);
-
 /// Curves that are whole lines, whatever the number of samples.
 template <typename T>
 inline constexpr std::size_t kLineCurves = 64 / sizeof(T);
 
-/// Room for both rings and for what is put together before it is copied.
+/// Values that are passed on while as many are computed, or those of kLineCurves where they are
+/// more. Few, because lines that coefficients push out of the first-level cache cost a store as
+/// much as the way to memory; but stores must have reached that cache before they are read.
 template <typename T>
-inline constexpr std::size_t kRowMemory = 2 * kRowBatch<T> + 3 * kLineCurves<T>;
+inline constexpr std::size_t kRowBatch = 2048 / sizeof(T);
+
+/// Room for rings of all planes, and for what is put together before it is copied.
+template <typename T>
+inline constexpr std::size_t kRowMemory = 2 * (3 * detail::kMostRow + 3) * kLineCurves<T>;
 
 /// Straight to the caller's memory.
 template <std::size_t kOrder, bool kAcross, bool kTriples, typename T>
@@ -61,8 +63,8 @@ SIMDBEZIER_INLINE void stream_rows(const CurveTask<T>& task, const CurveShape& s
   constexpr std::size_t kValues = 3 * kLanes<vec<T>> * (kAcross ? kAcrossStep : 1);
   constexpr std::size_t kLines = (kValues * sizeof(T) + 63) / 64;
   const std::size_t row = out.row(task.n);
-  const std::size_t most = kRowBatch<T> / (3 * task.n);
-  const std::size_t batch = most / kLineCurves<T> * kLineCurves<T>;
+  const std::size_t groups = kRowBatch<T> / (3 * task.n * kLineCurves<T>);
+  const std::size_t batch = std::max<std::size_t>(groups, 1) * kLineCurves<T>;
   LineRing<T> ring[kStreams];
   for (std::size_t k = 0; k < kStreams; ++k) {
     ring[k].start(memory, batch * row, out.first[k]);
@@ -117,7 +119,7 @@ __attribute__((noinline)) void evaluate_rows(const CurveTask<T>& shared_task) {
       out.first[c] = task.out[detail::kCurvePosition].component[c];
     }
   }
-  static_assert(kRowBatch<T> >= 3 * detail::kMostRow * kLineCurves<T>);
+  static_assert(kRowBatch<T> <= 3 * detail::kMostRow * kLineCurves<T>);
   alignas(64) T memory[kRowMemory<T>];
   if (task.streaming && (kAcross || !are_whole_lines(task))) {
     stream_rows<kOrder, kAcross>(task, shape, out, memory);

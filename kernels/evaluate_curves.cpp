@@ -34,16 +34,21 @@ Isa run_grid(const CurveCall<T>& call, const GridPlan<T>& plan, std::size_t firs
   return executed;
 }
 
+/// Samples from which on planes amortise staging.
+constexpr std::size_t kLongRow = 32;
+
 /// Whether kernels are to write rows straight to where they belong. Planes that need no staging and
 /// hold whole registers are swept faster one by one.
 template <typename T>
 bool goes_in_rows(const CurveStorage<T>& curves, const CurveOutputs<T>& out,
                   const OutputPlan<T>& outputs, const KernelTable<T>& table,
                   std::size_t n) noexcept {
-  const bool planes = out.position.stride == 1;
-  const bool swept = planes && !outputs.staged() && n >= table.lanes;
-  return n >= kLeastRow && n <= kMostRow && !swept && (planes || are_triples(out.position)) &&
-         may_be_rows(curves.shape, out, table);
+  if (n < kLeastRow || n > kMostRow || !may_be_rows(curves.shape, out, table)) {
+    return false;
+  }
+  const bool planes =
+      out.position.stride == 1 && (outputs.staged() ? n < kLongRow : n < table.lanes);
+  return planes || are_triples(out.position);
 }
 
 } // namespace

@@ -17,7 +17,7 @@ class LineRing {
 public:
   static constexpr std::size_t kLine = 64 / sizeof(T);
   /// Room for batches of `values`, which are whole lines.
-  static constexpr std::size_t room(std::size_t values) { return 2 * values + kLine; }
+  static constexpr std::size_t room(std::size_t values) { return 2 * (values + kLine); }
 
   LineRing() = default;
   /// ring: room(batch), at a line's start. to: where the stream goes, aligned to T.
@@ -29,19 +29,18 @@ public:
   }
 
   /// Where the next batch is to be written.
-  [[nodiscard]] SIMDBEZIER_INLINE T* batch() const { return ring_ + half_ * batch_ + phase_; }
+  [[nodiscard]] SIMDBEZIER_INLINE T* batch() const { return half() + phase_; }
 
   /// The batch is written: `values` of them, fewer in the last one only. What was passed on until
   /// now must be finished.
   SIMDBEZIER_INLINE void turn(std::size_t values) {
-    from_ = ring_ + half_ * batch_;
+    from_ = half();
     lines_ = (phase_ + values) / kLine;
     rest_ = (phase_ + values) % kLine;
     half_ = 1 - half_;
-    if (half_ == 0) { // the line that both ends of the ring share
-      for (std::size_t k = 0; k < phase_; ++k) {
-        ring_[k] = ring_[2 * batch_ + k];
-      }
+    // The line that both batches share is the next one's. One by one: such loads can be forwarded.
+    for (std::size_t k = 0; k < phase_; ++k) {
+      half()[k] = from_[batch_ + k];
     }
   }
 
@@ -74,6 +73,8 @@ public:
   }
 
 private:
+  [[nodiscard]] SIMDBEZIER_INLINE T* half() const { return ring_ + half_ * (batch_ + kLine); }
+
   /// The first `end` values of a line, less those that belong to others.
   SIMDBEZIER_INLINE void put_part(std::size_t end) {
     for (std::size_t k = foreign_; k < end; ++k) {
