@@ -63,7 +63,7 @@ Status evaluate_curves(const CurveSet<T>& set, const CurveGrid<T>& grid, const C
     return resolved;
   }
   std::size_t samples = 0;
-  if (__builtin_mul_overflow(grid.n, request.patches, &samples)) {
+  if (!request.count_samples(grid.n, 1, samples)) {
     return Status::size_overflow;
   }
   const detail::InputRange inputs[] = {{grid.t, grid.n * sizeof(T)}};

@@ -12,7 +12,7 @@
 #include "kernels/grid_request.hpp"
 #include "kernels/output_plan.hpp"
 #include "kernels/patch_storage.hpp"
-#include "kernels/sample_checks.hpp"
+#include "kernels/sample_request.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -197,32 +197,28 @@ template <typename T>
 Status evaluate_derivatives(const PatchSet<T>& set, const Samples<T>& samples,
                             std::span<const PartialDerivative<T>> derivatives,
                             const Options& options) noexcept {
-  Isa isa = Isa::automatic;
-  const Status resolved = resolve_isa(options.isa, isa);
+  detail::SampleRequest request;
+  const Status resolved = detail::resolve_request(set, options, request);
   if (resolved != Status::ok) {
     return resolved;
-  }
-  detail::Components components;
-  if (!components.choose(set.components(), options.first_component)) {
-    return Status::bad_components;
   }
   detail::InputRange inputs[] = {{},
                                  {samples.patch, samples.count * sizeof(std::uint32_t)},
                                  {samples.u, samples.count * sizeof(T)},
                                  {samples.v, samples.count * sizeof(T)}};
   const Status writable =
-      detail::check_derivatives(derivatives, samples.count, components.dimension, inputs);
+      detail::check_derivatives(derivatives, samples.count, request.components.dimension, inputs);
   if (writable != Status::ok) {
     return writable;
   }
-  const detail::KernelTable<T>& table = detail::kernel_table<T>(isa);
+  const detail::KernelTable<T>& table = detail::kernel_table<T>(request.isa);
   const Status readable = detail::check_samples(set, samples, table);
   if (readable != Status::ok || samples.count == 0) {
     return readable;
   }
   const detail::SampleSource<T> source{samples};
   const detail::DerivativeCall<T, detail::SampleSource<T>> call(
-      *set.storage(), source, samples.count, derivatives, table, components.first,
+      *set.storage(), source, samples.count, derivatives, table, request.components.first,
       options.watertight);
   return call.run(options);
 }
@@ -237,8 +233,7 @@ Status evaluate_derivatives(const PatchSet<T>& set, const Grid<T>& grid,
     return resolved;
   }
   std::size_t samples = 0;
-  if (__builtin_mul_overflow(grid.nu, grid.nv, &samples) ||
-      __builtin_mul_overflow(samples, request.patches, &samples)) {
+  if (!request.count_samples(grid.nu, grid.nv, samples)) {
     return Status::size_overflow;
   }
   detail::InputRange inputs[] = {{}, {grid.u, grid.nu * sizeof(T)}, {grid.v, grid.nv * sizeof(T)}};

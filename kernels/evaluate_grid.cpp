@@ -98,8 +98,7 @@ Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<
     return resolved;
   }
   std::size_t samples = 0;
-  if (__builtin_mul_overflow(grid.nu, grid.nv, &samples) ||
-      __builtin_mul_overflow(samples, request.patches, &samples)) {
+  if (!request.count_samples(grid.nu, grid.nv, samples)) {
     return Status::size_overflow;
   }
   const detail::InputRange inputs[] = {{grid.u, grid.nu * sizeof(T)},

@@ -6,19 +6,13 @@
 #include "kernels/batch.hpp"
 #include "kernels/delivery.hpp"
 #include "kernels/dispatch.hpp"
-#include "kernels/grid_request.hpp"
 #include "kernels/normal_fallback.hpp"
 #include "kernels/patch_storage.hpp"
-#include "kernels/sample_checks.hpp"
+#include "kernels/sample_request.hpp"
 
 namespace simdbezier {
 namespace detail {
 namespace {
-
-/// Samples that a kernel evaluates at a time. Fewer where it stages its outputs, which then stay in
-/// the first-level cache; otherwise so many that preparing a task does not show.
-constexpr std::size_t kPiece = 2048;
-constexpr std::size_t kStagedPiece = 512;
 
 template <typename T>
 struct ScatteredCall {
@@ -91,8 +85,7 @@ struct ScatteredCall {
     task.patch = patch;
     task.u = samples.u + first;
     task.v = samples.v + first;
-    task.shift = samples.parameters == Parameters::unit ? T(0.5) : T(0);
-    task.scale = samples.parameters == Parameters::unit ? T(1) : T(0.5);
+    set_half_centring(samples.parameters, task);
     task.count = count;
     task.patches_known = set.places == nullptr ? samples.count - first : count;
     task.prefetch = patches.count > second_level_cache() / (kCoefficients * sizeof(T));
@@ -124,32 +117,28 @@ struct ScatteredCall {
 template <typename T>
 Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, const Outputs<T>& out,
                           const Options& options) noexcept {
-  Isa isa = Isa::automatic;
-  const Status resolved = resolve_isa(options.isa, isa);
+  detail::SampleRequest request;
+  const Status resolved = detail::resolve_request(set, options, request);
   if (resolved != Status::ok) {
     return resolved;
   }
+  const detail::Components& components = request.components;
   const detail::InputRange inputs[] = {{samples.patch, samples.count * sizeof(std::uint32_t)},
                                        {samples.u, samples.count * sizeof(T)},
                                        {samples.v, samples.count * sizeof(T)}};
-  detail::Components components;
-  if (!components.choose(set.components(), options.first_component)) {
-    return Status::bad_components;
-  }
   const Status writable = detail::check_outputs(out, samples.count, components.dimension,
                                                 components.space, inputs, std::size(inputs));
   if (writable != Status::ok) {
     return writable;
   }
-  const detail::KernelTable<T>& table = detail::kernel_table<T>(isa);
+  const detail::KernelTable<T>& table = detail::kernel_table<T>(request.isa);
   const Status readable = detail::check_samples(set, samples, table);
   if (readable != Status::ok || samples.count == 0) {
     return readable;
   }
-  const detail::OutputPlan<T> outputs(
-      out, samples.count,
-      options.destination == Destination::memory ? Destination::memory : Destination::cache);
-  const std::size_t piece = outputs.staged() ? detail::kStagedPiece : detail::kPiece;
+  const detail::OutputPlan<T> outputs(out, samples.count,
+                                      detail::sample_destination(options.destination));
+  const detail::SamplePieces pieces(samples.count, outputs.staged());
   const detail::ScatteredCall<T> call{*set.storage(),
                                       samples,
                                       outputs,
@@ -157,12 +146,11 @@ Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, con
                                       detail::scheme(options.watertight, set.has_local_origins()),
                                       components.first,
                                       out.curvature.wanted() || !components.space,
-                                      piece};
-  const std::size_t pieces = samples.count / piece + (samples.count % piece != 0 ? 1 : 0);
+                                      pieces.length};
   const std::size_t scratch =
-      call.index_bytes() +
-      detail::Delivery<T>::scratch_bytes(outputs.staged_planes(), outputs.streaming(), piece);
-  return detail::run_blocks(pieces, options, scratch,
+      call.index_bytes() + detail::Delivery<T>::scratch_bytes(outputs.staged_planes(),
+                                                              outputs.streaming(), pieces.length);
+  return detail::run_blocks(pieces.count, options, scratch,
                             [&](int, std::size_t begin, std::size_t end, unsigned char* own) {
                               return call.worker(begin, end, own);
                             });

@@ -32,6 +32,13 @@ struct GridRequest {
   std::size_t first_patch = 0;
   std::size_t patches = 0;
   Components components;
+
+  /// Of nu x nv samples a patch; false where there are more than can be counted.
+  [[nodiscard]] bool count_samples(std::size_t nu, std::size_t nv,
+                                   std::size_t& samples) const noexcept {
+    return !__builtin_mul_overflow(nu, nv, &samples) &&
+           !__builtin_mul_overflow(samples, patches, &samples);
+  }
 };
 
 /// Of a set of `size` patches or curves. Returns ok | unknown_isa | unsupported_isa |

@@ -125,6 +125,30 @@ Status check_result(const ControlNets<T>& nets, const MutableNets<T>& out, int d
   return check_nets<T>(nets, {&out}, degree_u, degree_v);
 }
 
+/// The nets as `view` sees them, which is with these degrees.
+template <typename T, typename View>
+NetReport run_view(const ControlNets<T>& nets, const MutableNets<T>& out, int degree_u,
+                   int degree_v, View view, const Options& options) noexcept {
+  const Status status = check_result<T>(nets, out, degree_u, degree_v);
+  return status != Status::ok ? NetReport{status} : run_copy<T>(nets, view(nets), out, options);
+}
+
+/// Derivatives of these orders, 0 or 1; lines keep degree 1.
+template <typename T>
+NetReport run_hodograph(const ControlNets<T>& nets, const MutableNets<T>& out, int order_u,
+                        int order_v, const Options& options) noexcept {
+  const Status status = check_result<T>(nets, out, std::max(nets.degree_u - order_u, 1),
+                                        std::max(nets.degree_v - order_v, 1));
+  if (status != Status::ok || nets.weights != Weights::none) {
+    return {status != Status::ok ? status : Status::bad_weight};
+  }
+  const auto map = [](int degree, int order) {
+    return order == 0 ? identity_map(degree) : hodograph_map(degree);
+  };
+  return run_map<T>(nets, out, map(nets.degree_u, order_u), map(nets.degree_v, order_v), false,
+                    options);
+}
+
 } // namespace
 } // namespace detail
 
@@ -207,49 +231,31 @@ NetReport elevate(const ControlNets<T>& nets, const std::type_identity_t<Mutable
 template <typename T>
 NetReport hodograph_u(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
                       const Options& options) noexcept {
-  const Status status =
-      detail::check_result<T>(nets, out, std::max(nets.degree_u - 1, 1), nets.degree_v);
-  if (status != Status::ok || nets.weights != Weights::none) {
-    return {status != Status::ok ? status : Status::bad_weight};
-  }
-  return detail::run_map<T>(nets, out, detail::hodograph_map(nets.degree_u),
-                            detail::identity_map(nets.degree_v), false, options);
+  return detail::run_hodograph<T>(nets, out, 1, 0, options);
 }
 
 template <typename T>
 NetReport hodograph_v(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
                       const Options& options) noexcept {
-  const Status status =
-      detail::check_result<T>(nets, out, nets.degree_u, std::max(nets.degree_v - 1, 1));
-  if (status != Status::ok || nets.weights != Weights::none) {
-    return {status != Status::ok ? status : Status::bad_weight};
-  }
-  return detail::run_map<T>(nets, out, detail::identity_map(nets.degree_u),
-                            detail::hodograph_map(nets.degree_v), false, options);
+  return detail::run_hodograph<T>(nets, out, 0, 1, options);
 }
 
 template <typename T>
 NetReport reverse_u(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
                     const Options& options) noexcept {
-  const Status status = detail::check_result<T>(nets, out, nets.degree_u, nets.degree_v);
-  return status != Status::ok ? NetReport{status}
-                              : detail::run_copy<T>(nets, reversed_u(nets), out, options);
+  return detail::run_view<T>(nets, out, nets.degree_u, nets.degree_v, reversed_u<T>, options);
 }
 
 template <typename T>
 NetReport reverse_v(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
                     const Options& options) noexcept {
-  const Status status = detail::check_result<T>(nets, out, nets.degree_u, nets.degree_v);
-  return status != Status::ok ? NetReport{status}
-                              : detail::run_copy<T>(nets, reversed_v(nets), out, options);
+  return detail::run_view<T>(nets, out, nets.degree_u, nets.degree_v, reversed_v<T>, options);
 }
 
 template <typename T>
 NetReport transpose(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
                     const Options& options) noexcept {
-  const Status status = detail::check_result<T>(nets, out, nets.degree_v, nets.degree_u);
-  return status != Status::ok ? NetReport{status}
-                              : detail::run_copy<T>(nets, transposed(nets), out, options);
+  return detail::run_view<T>(nets, out, nets.degree_v, nets.degree_u, transposed<T>, options);
 }
 
 #define SIMDBEZIER_INSTANTIATE_MAP(function, T)                                                    \
