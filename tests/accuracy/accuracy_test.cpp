@@ -8,7 +8,7 @@
 
 #include "tests/accuracy/gates.hpp"
 #include "tests/accuracy/library_evaluator.hpp"
-#include "tests/accuracy/measure.hpp"
+#include "tests/accuracy/prepared.hpp"
 #include "tests/accuracy/scalar_evaluators.hpp"
 #include "tests/support/isa_fixture.hpp"
 
@@ -18,35 +18,16 @@ namespace {
 constexpr std::size_t kNets = 76; // all scales of "scaled" in steps, all grades of "graded"
 constexpr std::size_t kSamplesPerNet = 24;
 
-/// The smaller RMS of the two forms of de Casteljau's algorithm.
-template <typename T, bool kFused>
-[[nodiscard]] double de_casteljau_rms(const Family<T>& family, const Reference& at_unit) {
-  ScalarEvaluator<T, DeCasteljau<T, WeightedLerp<T, kFused>>> weighted;
-  ScalarEvaluator<T, DeCasteljau<T, DifferenceLerp<T, kFused>>> difference;
-  return std::min(measure(weighted, family, at_unit)[Quantity::position].rms(),
-                  measure(difference, family, at_unit)[Quantity::position].rms());
-}
-
-/// Families with the oracle's answers and de Casteljau's RMS, made once for all instruction sets.
-template <typename T>
-struct Prepared {
-  std::vector<Family<T>> families = all_families<T>(kNets, kSamplesPerNet);
-  std::vector<Reference> references;
-  std::vector<std::array<double, 2>> de_casteljau; ///< [0] rounded twice, [1] fused
-
-  Prepared() {
-    for (const Family<T>& family : families) {
-      references.push_back(make_reference(family, true));
-      const Reference at_unit = make_reference(family, false);
-      de_casteljau.push_back({de_casteljau_rms<T, false>(family, at_unit),
-                              de_casteljau_rms<T, true>(family, at_unit)});
-    }
-  }
-};
-
 template <typename T>
 [[nodiscard]] const Prepared<T>& prepared() {
-  static const Prepared<T> instance;
+  static const Prepared<T> instance(
+      all_families<T>(kNets, kSamplesPerNet),
+      []<bool kFused>(const Family<T>& family, const Reference& at_unit) {
+        ScalarEvaluator<T, DeCasteljau<T, WeightedLerp<T, kFused>>> weighted;
+        ScalarEvaluator<T, DeCasteljau<T, DifferenceLerp<T, kFused>>> difference;
+        return std::min(measure(weighted, family, at_unit)[Quantity::position].rms(),
+                        measure(difference, family, at_unit)[Quantity::position].rms());
+      });
   return instance;
 }
 

@@ -10,6 +10,7 @@
 
 #include "tests/accuracy/gates.hpp"
 #include "tests/accuracy/library_evaluator.hpp"
+#include "tests/accuracy/prepared.hpp"
 #include "tests/accuracy/scalar_evaluators.hpp"
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/shape_families.hpp"
@@ -20,32 +21,14 @@ namespace {
 constexpr std::size_t kNets = 8;
 constexpr std::size_t kSamplesPerNet = 24;
 
-/// Families with the oracle's answers and de Casteljau's RMS, made once for all instruction sets.
-template <typename T>
-struct Prepared {
-  std::vector<Family<T>> families = shape_families<T>(kNets, kSamplesPerNet);
-  std::vector<Reference> references;
-  std::vector<std::array<double, 2>> de_casteljau; ///< [0] rounded twice, [1] fused
-
-  Prepared() {
-    for (const Family<T>& family : families) {
-      references.push_back(make_reference(family, true));
-      const Reference at_unit = make_reference(family, false);
-      de_casteljau.push_back({rms<false>(family, at_unit), rms<true>(family, at_unit)});
-    }
-  }
-
-private:
-  template <bool kFused>
-  [[nodiscard]] static double rms(const Family<T>& family, const Reference& at_unit) {
-    ScalarEvaluator<T, DeCasteljau<T, WeightedLerp<T, kFused>>> evaluator;
-    return measure(evaluator, family, at_unit)[Quantity::position].rms();
-  }
-};
-
 template <typename T>
 [[nodiscard]] const Prepared<T>& prepared() {
-  static const Prepared<T> instance;
+  static const Prepared<T> instance(
+      shape_families<T>(kNets, kSamplesPerNet),
+      []<bool kFused>(const Family<T>& family, const Reference& at_unit) {
+        ScalarEvaluator<T, DeCasteljau<T, WeightedLerp<T, kFused>>> evaluator;
+        return measure(evaluator, family, at_unit)[Quantity::position].rms();
+      });
   return instance;
 }
 

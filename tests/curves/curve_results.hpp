@@ -75,12 +75,8 @@ class CurveTest : public IsaTest {
 protected:
   template <typename T, typename Samples>
   void evaluate(const CurveSet<T>& set, const Samples& samples, const CurveOutputs<T>& out,
-                Options options = {}) {
-    Isa executed = Isa::automatic;
-    options.isa = isa();
-    options.executed = &executed;
-    const Status status = evaluate_curves(set, samples, out, options);
-    expect_ran(status, executed);
+                const Options& options = {}) {
+    run(options, [&](const Options& forced) { return evaluate_curves(set, samples, out, forced); });
   }
 
   template <typename T, typename S>

@@ -68,12 +68,9 @@ protected:
   /// Samples<T> or Grid<T>.
   template <typename T, typename Where>
   void derivatives(const PatchSet<T>& set, const Where& where,
-                   std::span<const PartialDerivative<T>> wanted, Options options = {}) {
-    Isa executed = Isa::automatic;
-    options.isa = isa();
-    options.executed = &executed;
-    const Status status = evaluate_derivatives(set, where, wanted, options);
-    expect_ran(status, executed);
+                   std::span<const PartialDerivative<T>> wanted, const Options& options = {}) {
+    run(options,
+        [&](const Options& forced) { return evaluate_derivatives(set, where, wanted, forced); });
   }
 };
 

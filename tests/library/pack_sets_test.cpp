@@ -165,6 +165,17 @@ void expect_faults(const std::vector<BadValue>& values, Isa isa, int threads) {
   }
 }
 
+TEST(PackSets, weights_of_no_kind_are_refused) {
+  RandomNets<float> nets({3, 3, 3, Weights::cartesian}, 2, 5);
+  nets.view.weights = static_cast<Weights>(3);
+  PatchSet<float> set;
+  EXPECT_EQ(to_string(pack(nets.view, set).status), to_string(Status::bad_components));
+  ControlCurves<float> curves = ControlCurves<float>::packed(nets.values.data(), 2, 3);
+  curves.weights = static_cast<Weights>(3);
+  CurveSet<float> curve_set;
+  EXPECT_EQ(to_string(pack_curves(curves, curve_set).status), to_string(Status::bad_components));
+}
+
 TEST(PackSets, the_lowest_fault_is_reported_with_its_place) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

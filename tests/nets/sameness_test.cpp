@@ -15,13 +15,11 @@ class NetSamenessTest : public IsaTest {
 protected:
   template <typename T>
   std::vector<std::vector<T>> run(const Operation<T>& operation, const ControlNets<T>& nets,
-                                  const Shape& shape, Options options) {
-    Isa executed = Isa::automatic;
-    options.isa = isa();
-    options.executed = &executed;
+                                  const Shape& shape, const Options& options) {
     std::vector<std::vector<T>> values;
-    const NetReport report = operation.run(nets, shape, values, options);
-    expect_ran(report.status, executed);
+    IsaTest::run(options, [&](const Options& forced) {
+      return operation.run(nets, shape, values, forced).status;
+    });
     return values;
   }
 

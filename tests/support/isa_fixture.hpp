@@ -23,41 +23,39 @@ protected:
 
   template <typename T>
   void grid(const PatchSet<T>& set, const Grid<T>& samples, const Outputs<T>& out,
-            Options options = {}) {
-    Isa executed = Isa::automatic;
-    options.isa = isa();
-    options.executed = &executed;
-    const Status status = evaluate_grid(set, samples, out, options);
-    expect_ran(status, executed);
+            const Options& options = {}) {
+    run(options, [&](const Options& forced) { return evaluate_grid(set, samples, out, forced); });
   }
 
   template <typename T>
   void scattered(const PatchSet<T>& set, const Samples<T>& samples, const Outputs<T>& out,
-                 Options options = {}) {
-    Isa executed = Isa::automatic;
-    options.isa = isa();
-    options.executed = &executed;
-    const Status status = evaluate_scattered(set, samples, out, options);
-    expect_ran(status, executed);
+                 const Options& options = {}) {
+    run(options,
+        [&](const Options& forced) { return evaluate_scattered(set, samples, out, forced); });
   }
 
   template <typename T>
   void tiles(const PatchSet<T>& set, const Grid<T>& samples, const TileFormat& format,
-             TileFunction<T> function, Options options = {}) {
-    Isa executed = Isa::automatic;
-    options.isa = isa();
-    options.executed = &executed;
-    const Status status = evaluate_tiles(set, samples, format, function, options);
-    expect_ran(status, executed);
+             TileFunction<T> function, const Options& options = {}) {
+    run(options, [&](const Options& forced) {
+      return evaluate_tiles(set, samples, format, function, forced);
+    });
   }
 
   template <typename T>
   void patch_grids(const PatchSet<T>& set, const PatchGrids& grids, const Outputs<T>& out,
-                   Options options = {}) {
+                   const Options& options = {}) {
+    run(options,
+        [&](const Options& forced) { return evaluate_patch_grids(set, grids, out, forced); });
+  }
+
+  /// call(options): an evaluate call with these options, but for the instruction set.
+  template <typename Call>
+  void run(Options options, const Call& call) {
     Isa executed = Isa::automatic;
     options.isa = isa();
     options.executed = &executed;
-    const Status status = evaluate_patch_grids(set, grids, out, options);
+    const Status status = call(options);
     expect_ran(status, executed);
   }
 
