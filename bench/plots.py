@@ -97,6 +97,7 @@ def roofline(rows, path):
     axis.annotate(f"limit/fma {widest}", (xs[0], peak), xytext=(2, 3), textcoords="offset points",
                   fontsize=8)
     for name, text in (("limit/fill_l1", "stores to the first-level cache"),
+                       ("limit/fill_cache", "stores to the second-level cache"),
                        ("limit/fill_stream/threads:1", "stores to memory, streaming")):
         bandwidth = limit(name, 12)
         if bandwidth is not None:

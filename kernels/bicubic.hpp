@@ -8,6 +8,7 @@
 #pragma once
 
 #include "kernels/isa/fours.hpp"
+#include "kernels/isa/operands.hpp"
 #include "kernels/kernel_table.hpp"
 #include "kernels/patch_storage.hpp"
 
@@ -30,6 +31,13 @@ SIMDBEZIER_INLINE V horner(const V c[kOrder], V t, V& derivative) {
   const V b0 = madd(b1, t, c[1]);
   derivative = madd(madd(c[3], t, b1), t, b0);
   return madd(b0, t, c[0]);
+}
+
+/// The value at a parameter in memory, which all lanes share.
+template <typename V>
+SIMDBEZIER_INLINE V horner_at(const V c[kOrder], const ScalarOf<V>* t) {
+  const V b1 = madd(broadcast<V>(*t), c[3], c[2]);
+  return madd_by(madd_by(b1, t, c[1]), t, c[0]);
 }
 
 /// The derivative alone.
@@ -73,9 +81,11 @@ struct Component {
   /// task: any that holds coefficients, edges and origins.
   template <typename Task>
   SIMDBEZIER_INLINE Component(const Task& task, std::size_t patch, std::size_t component)
-      : matrix(task.coefficients + patch * detail::kCoefficients + component * kOrder * kOrder),
-        edge(task.edges + patch * detail::kEdgeBlock + component * kOrder * kEdges),
-        corner(task.edges + patch * detail::kEdgeBlock + detail::kCornersAt + component * kEdges),
+      : matrix(own_address(task.coefficients + patch * detail::kCoefficients +
+                           component * kOrder * kOrder)),
+        edge(own_address(task.edges + patch * detail::kEdgeBlock + component * kOrder * kEdges)),
+        corner(own_address(task.edges + patch * detail::kEdgeBlock + detail::kCornersAt +
+                           component * kEdges)),
         origins(task.origins),
         origin_at(patch * detail::kOriginBlock + component * detail::kOriginsPerComponent) {}
 
@@ -194,8 +204,9 @@ SIMDBEZIER_INLINE V with_origin(V p, V origin) {
 
 template <typename V>
 SIMDBEZIER_INLINE void edge_cubic(const Component<ScalarOf<V>>& c, std::size_t edge, V k[kOrder]) {
+  const ScalarOf<V>* const from = own_address(c.edge + edge);
   for (std::size_t i = 0; i < kOrder; ++i) {
-    k[i] = broadcast<V>(c.edge[i * kEdges + edge]);
+    k[i] = broadcast<V>(from[i * kEdges]);
   }
 }
 

@@ -21,7 +21,7 @@ SIMDBEZIER_INLINE void sweep_position(const RowPiece<ScalarOf<V>>& piece,
   const V shared = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
                        ? tile.template edge_rows<kScheme>(c, 0)
                        : origin;
-  for_rows<kScheme, kRows>(
+  for_rows<kScheme, kRows, kRows == 1 ? 4 : 1>(
       piece, 0, nu,
       [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
         const V p = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
@@ -30,8 +30,13 @@ SIMDBEZIER_INLINE void sweep_position(const RowPiece<ScalarOf<V>>& piece,
         tile.store_edge(to + at, p, kind, extra + row);
       },
       [&](const T* y, std::size_t at, std::size_t row, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
-        const V p = with_origin<kScheme>(horner(q, RowGroups<kRows, V>::spread(y)), origin);
-        tile.store(to + at, nu, p, rows, extra + row);
+        V p;
+        if constexpr (kRows == 1) {
+          p = horner_at(q, y);
+        } else {
+          p = horner(q, RowGroups<kRows, V>::spread(y));
+        }
+        tile.store(to + at, nu, with_origin<kScheme>(p, origin), rows, extra + row);
       });
 }
 

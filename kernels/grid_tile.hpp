@@ -264,8 +264,10 @@ private:
 };
 
 /// All rows of a piece, from sample `at` of the planes on: edge(kind, at, row) for edges,
-/// interior(y, at, row, rows) for as many rows as a register holds.
-template <Scheme kScheme, std::size_t kRows, typename T, typename Edge, typename Interior>
+/// interior(y, at, row, rows) for as many rows as a register holds, kTogether times one behind the
+/// other where there are enough of them.
+template <Scheme kScheme, std::size_t kRows, std::size_t kTogether = 1, typename T, typename Edge,
+          typename Interior>
 SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::size_t nu, Edge edge,
                                 Interior interior) {
   std::size_t row = 0;
@@ -274,7 +276,19 @@ SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::s
     at += nu;
   }
   const T* y = piece.middle.y;
-  for (std::size_t left = piece.middle.rows; left > 0;) {
+  std::size_t left = piece.middle.rows;
+  if constexpr (kTogether > 1) {
+    for (; left >= kTogether * kRows; left -= kTogether * kRows) {
+#pragma GCC unroll 8
+      for (std::size_t k = 0; k < kTogether; ++k) {
+        interior(y + k * kRows, at + k * kRows * nu, row + k * kRows, kRows);
+      }
+      at += kTogether * kRows * nu;
+      y += kTogether * kRows;
+      row += kTogether * kRows;
+    }
+  }
+  while (left > 0) {
     const std::size_t rows = left < kRows ? left : kRows;
     interior(y, at, row, rows);
     at += rows * nu;

@@ -5,6 +5,11 @@
 
 namespace simdbezier_bench {
 
+constexpr int kLeastHornerDegree = 2;
+constexpr int kMostHornerDegree = 4;
+constexpr int kHornerForms = 2;
+constexpr std::size_t kHornerBlockBytes = 512;
+
 /// Arithmetic limits of one type on one instruction set.
 template <typename T>
 struct LimitKernels {
@@ -13,8 +18,8 @@ struct LimitKernels {
   std::size_t (*multiply_add)(std::size_t rounds, T* sink) = nullptr;
   /// Horner's rule from registers, a step a degree, one store a result: out[k] for k < count, a
   /// multiple of kHornerBlockBytes in bytes. out is 64-byte aligned; inputs: x, then c0, c1, ….
-  /// [degree - kLeastHornerDegree]
-  void (*horner_store[3])(T* out, std::size_t count, const T* inputs) = {};
+  /// [degree - kLeastHornerDegree][form]; which form is the fastest depends on the processor.
+  void (*horner_store[3][kHornerForms])(T* out, std::size_t count, const T* inputs) = {};
 };
 
 /// Rates at which memory can be filled; `bytes` is a multiple of 256, `out` 64-byte aligned.
@@ -22,10 +27,6 @@ struct FillKernels {
   void (*stream)(unsigned char* out, std::size_t bytes) = nullptr; ///< past the caches
   void (*plain)(unsigned char* out, std::size_t bytes) = nullptr;
 };
-
-constexpr int kLeastHornerDegree = 2;
-constexpr int kMostHornerDegree = 4;
-constexpr std::size_t kHornerBlockBytes = 512;
 
 /// `fused` objects may contract a multiplication and an addition, `separate` ones may not.
 #define SIMDBEZIER_BENCH_DECLARE_LIMITS(isa)                                                       \
