@@ -234,7 +234,17 @@ Status check_sets(std::span<const ControlNets<S>> sets, const EdgeLink* edges) n
     }
     patches += nets.count;
   }
-  return patches > 0 && edges == nullptr ? Status::null_output : Status::ok;
+  if (patches > 0 && edges == nullptr) {
+    return Status::null_output;
+  }
+  const MemoryRange written{edges, patches * kPatchEdges * sizeof(EdgeLink)};
+  for (const ControlNets<S>& nets : sets) {
+    const Status status = check_apart(nets, written);
+    if (status != Status::ok) {
+      return status;
+    }
+  }
+  return Status::ok;
 }
 
 } // namespace

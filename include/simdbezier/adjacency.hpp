@@ -7,13 +7,10 @@
 
 #include <simdbezier/control_nets.hpp>
 #include <simdbezier/evaluate.hpp>
+#include <simdbezier/patch_edge.hpp>
 #include <simdbezier/status.hpp>
 
 namespace simdbezier {
-
-/// The four edges of a patch, each in the direction of its own parameter.
-enum class PatchEdge : std::uint8_t { v0, v1, u0, u1 };
-inline constexpr std::size_t kPatchEdges = 4;
 
 enum class EdgeKind : std::uint8_t {
   boundary,     ///< no other edge has these control points
@@ -36,7 +33,8 @@ struct EdgeLink {
 /// sets:        any number of views; their degrees may differ, and an edge of degree 3 of a 3 x 5
 ///              patch may match one of a 7 x 3 patch. Patches are numbered through, view after
 ///              view.
-/// edges:       4 values a patch, [4 * patch + PatchEdge]. shared: the other edge.
+/// edges:       4 values a patch, [4 * patch + PatchEdge], apart from the nets' memory. shared: the
+///              other edge.
 ///              non_manifold: the next one of the same points, in order of patch and edge, from
 ///              the last to the first. boundary, collapsed: edge, reversed and patch are 0.
 /// Match:       equal degree, components and form of weights, and bit-equal control points, weights
@@ -46,7 +44,8 @@ struct EdgeLink {
 /// Allocation:  about 30 bytes an edge. Threads: Options::threads, for hashing; other options have
 ///              no meaning. Determinism: the result is a function of the input.
 /// Returns:     ok | null_input | null_output | bad_degree | bad_components | bad_stride |
-///              size_overflow | out_of_memory. On an error nothing has been written.
+///              overlapping_outputs | size_overflow | out_of_memory. On an error nothing has been
+///              written.
 /// Cost:        O(edges) by hashing, some 100 ns an edge.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<S>> sets,

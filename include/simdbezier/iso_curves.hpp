@@ -6,24 +6,22 @@
 
 #include <simdbezier/control_nets.hpp>
 #include <simdbezier/curves.hpp>
+#include <simdbezier/patch_edge.hpp>
 #include <simdbezier/patch_set.hpp>
 #include <simdbezier/status.hpp>
 
 namespace simdbezier {
 
-/// The boundaries of a patch, in the direction in which u or v grows.
-enum class Boundary : std::uint8_t { v0, v1, u0, u1 };
-
 /// The control points of one boundary curve of every patch: a view of the nets' own memory. Packed
 /// and evaluated, it gives the patch's own positions on that edge, bit for bit.
 template <typename S>
 [[nodiscard]] constexpr ControlCurves<S> boundary_curves(const ControlNets<S>& nets,
-                                                         Boundary boundary) noexcept {
-  const bool along_u = boundary == Boundary::v0 || boundary == Boundary::v1;
+                                                         PatchEdge edge) noexcept {
+  const bool along_u = edge == PatchEdge::v0 || edge == PatchEdge::v1;
   std::ptrdiff_t first = 0;
-  if (boundary == Boundary::v1) {
+  if (edge == PatchEdge::v1) {
     first = nets.degree_v * nets.row_stride;
-  } else if (boundary == Boundary::u1) {
+  } else if (edge == PatchEdge::u1) {
     first = nets.degree_u * nets.point_stride;
   }
   return {nets.points == nullptr ? nullptr : nets.points + first,

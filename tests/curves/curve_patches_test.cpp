@@ -5,7 +5,7 @@
 namespace simdbezier::tests {
 namespace {
 
-constexpr Boundary kBoundaries[] = {Boundary::v0, Boundary::v1, Boundary::u0, Boundary::u1};
+constexpr PatchEdge kBoundaries[] = {PatchEdge::v0, PatchEdge::v1, PatchEdge::u0, PatchEdge::u1};
 
 class CurvesOnPatches : public CurveTest {
 protected:
@@ -21,15 +21,15 @@ protected:
     Outputs<T> out;
     out.position = Vectors<T>::planes(&values[0], &values[plane], &values[2 * plane]);
     grid(patches, Grid<T>::uniform(kSamples, kSamples), out);
-    for (const Boundary boundary : kBoundaries) {
+    for (const PatchEdge boundary : kBoundaries) {
       CurveSet<T> curves;
       ASSERT_TRUE(pack_curves(boundary_curves(nets.view(), boundary), curves, options));
       CurveResults<T> results(nets.count * kSamples, 3);
       evaluate(curves, CurveGrid<T>::uniform(kSamples), results.outputs());
       for (std::size_t patch = 0; patch < nets.count; ++patch) {
         for (std::size_t i = 0; i < kSamples; ++i) {
-          const bool along_u = boundary == Boundary::v0 || boundary == Boundary::v1;
-          const bool far = boundary == Boundary::v1 || boundary == Boundary::u1;
+          const bool along_u = boundary == PatchEdge::v0 || boundary == PatchEdge::v1;
+          const bool far = boundary == PatchEdge::v1 || boundary == PatchEdge::u1;
           const std::size_t fixed = far ? kSamples - 1 : 0;
           const std::size_t at =
               (patch * kSamples + (along_u ? fixed : i)) * kSamples + (along_u ? i : fixed);

@@ -47,7 +47,7 @@ TEST(IsoPoints, EndsAreBoundariesAndReversalIsExact) {
   std::vector<double> points(3 * 4 * 4);
   for (const double t : {0.0, 1.0}) {
     ASSERT_EQ(iso_u(nets.view(), t, points.data()), Status::ok);
-    const auto boundary = boundary_curves(nets.view(), t == 0 ? Boundary::u0 : Boundary::u1);
+    const auto boundary = boundary_curves(nets.view(), t == 0 ? PatchEdge::u0 : PatchEdge::u1);
     for (std::ptrdiff_t k = 0; k < 3 * 4; ++k) {
       for (std::ptrdiff_t c = 0; c < 4; ++c) {
         EXPECT_EQ(points[static_cast<std::size_t>(4 * k + c)],

@@ -109,9 +109,9 @@ protected:
     derivatives(set, Grid<T>::uniform(kN, kN), buffers.list());
     const std::vector<T> points = packed_points<T>(std::span(&net, 1));
     CurveSet<T> curves;
-    constexpr Boundary kBoundaries[] = {Boundary::v0, Boundary::v1, Boundary::u0, Boundary::u1};
+    constexpr PatchEdge kEdgesOf[] = {PatchEdge::v0, PatchEdge::v1, PatchEdge::u0, PatchEdge::u1};
     ASSERT_TRUE(
-        pack_curves(boundary_curves(control_nets<T>(std::span(&net, 1), points), kBoundaries[side]),
+        pack_curves(boundary_curves(control_nets<T>(std::span(&net, 1), points), kEdgesOf[side]),
                     curves, options));
     std::vector<T> positions(3 * kN);
     CurveOutputs<T> out;

@@ -1,4 +1,6 @@
 // Edge links against brute force, on random soups of all degrees, the teapot and the data files.
+#include <cstring>
+
 #include <gtest/gtest.h>
 
 #include <tools/teapot.hpp>
@@ -246,6 +248,16 @@ TEST(Adjacency, BadInput) {
   EXPECT_EQ(status([](auto& nets) { nets.count = SIZE_MAX / 4; }), Status::size_overflow);
   EXPECT_EQ(links, before);
   EXPECT_EQ(find_adjacency(batch.nets(), nullptr), Status::null_output);
+  // Nets within the room for the links.
+  std::vector<EdgeLink> both(64, before[0]);
+  const ControlNets<float> nets = batch.nets();
+  auto* const points = reinterpret_cast<float*>(both.data() + 2);
+  std::memcpy(points, nets.points, 2 * 9 * 3 * sizeof(float));
+  ControlNets<float> inside = nets;
+  inside.points = points;
+  EXPECT_EQ(find_adjacency(inside, both.data()), Status::overlapping_outputs);
+  EXPECT_EQ(both[0], before[0]);
+  EXPECT_EQ(find_adjacency(inside, both.data() + 32), Status::ok);
   EXPECT_EQ(find_adjacency(std::span<const ControlNets<float>>(), nullptr), Status::ok);
   EXPECT_EQ(find_adjacency(ControlNets<float>{}, nullptr), Status::ok);
 }
