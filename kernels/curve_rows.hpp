@@ -29,21 +29,9 @@ template <typename V>
 SIMDBEZIER_INLINE void store_triples(const V value[3], ScalarOf<V>* to, bool streaming) {
   using T = ScalarOf<V>;
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-  constexpr auto kAll = std::make_index_sequence<kLanes<V>>{};
-  LinePart<T> p[3];
-  for (std::size_t c = 0; c < 3; ++c) {
-    __builtin_memcpy(&p[c], &value[c], sizeof(V));
-  }
-  const LinePart<T> line[3] = {triple_part<T, 0>(p[0], p[1], p[2], kAll),
-                               triple_part<T, 1>(p[0], p[1], p[2], kAll),
-                               triple_part<T, 2>(p[0], p[1], p[2], kAll)};
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (streaming) {
-      store_any<true>(to + k * kLanes<V>, line[k]);
-    } else {
-      store_any<false>(to + k * kLanes<V>, line[k]);
-    }
-  }
+  LinePart<T> part[3];
+  __builtin_memcpy(&part, value, sizeof(part));
+  streaming ? store_records<true>(part, to) : store_records<false>(part, to);
 #else
   (void)streaming; // a register is less than a line
   alignas(64) T plane[3][kLanes<V>];
@@ -51,14 +39,11 @@ SIMDBEZIER_INLINE void store_triples(const V value[3], ScalarOf<V>* to, bool str
     store_vector(plane[c], value[c]);
   }
   constexpr std::size_t kN = kPartLanes<T>;
-  constexpr auto kAll = std::make_index_sequence<kN>{};
   for (std::size_t k = 0; k < kLanes<V>; k += kN, to += 3 * kN) {
-    const auto x = load_any<LinePart<T>>(plane[0] + k);
-    const auto y = load_any<LinePart<T>>(plane[1] + k);
-    const auto z = load_any<LinePart<T>>(plane[2] + k);
-    store_any<false>(to, triple_part<T, 0>(x, y, z, kAll));
-    store_any<false>(to + kN, triple_part<T, 1>(x, y, z, kAll));
-    store_any<false>(to + 2 * kN, triple_part<T, 2>(x, y, z, kAll));
+    const LinePart<T> part[3] = {load_any<LinePart<T>>(plane[0] + k),
+                                 load_any<LinePart<T>>(plane[1] + k),
+                                 load_any<LinePart<T>>(plane[2] + k)};
+    store_records<false>(part, to);
   }
 #endif
 }

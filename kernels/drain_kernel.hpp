@@ -24,32 +24,20 @@ SIMDBEZIER_INLINE void drain_plane(const DrainStream<T>& s, std::size_t steps) {
   }
 }
 
-template <bool kStreaming, typename T>
-SIMDBEZIER_INLINE void drain_triples(const DrainStream<T>& s, std::size_t steps) {
-  const T* const x = s.plane[0] + s.at;
-  const T* const y = s.plane[1] + s.at;
-  const T* const z = s.plane[2] + s.at;
+/// Pointers are read one by one where they are needed: g++ makes vectors of a loop that copies
+/// them, which wait for streaming stores (drain.hpp).
+template <bool kStreaming, std::size_t kMembers, typename T>
+SIMDBEZIER_INLINE void drain_packed(const DrainStream<T>& s, std::size_t steps) {
   T* const to = s.to;
   for (std::size_t k = 0; k < steps * kDrainStep<T>; k += kDrainStep<T>) {
-    interleave_3<kStreaming>(x + k, y + k, z + k, to + 3 * k);
-  }
-}
-
-template <bool kStreaming, typename T>
-SIMDBEZIER_INLINE void drain_sextuples(const DrainStream<T>& s, std::size_t steps) {
-  for (std::size_t k = s.at; k < s.at + steps * kDrainStep<T>; k += kDrainStep<T>) {
-    const T* const from[6] = {s.plane[0] + k, s.plane[1] + k, s.plane[2] + k,
-                              s.plane[3] + k, s.plane[4] + k, s.plane[5] + k};
-    interleave_6<kStreaming>(from, s.to + 6 * (k - s.at));
+    interleave<kStreaming, kMembers>(s.plane, s.at + k, to + kMembers * k);
   }
 }
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 template <bool kStreaming, typename T>
 __attribute__((noinline)) void drain_nonuples(const DrainStream<T>& s, std::size_t steps) {
-  for (std::size_t k = 0; k < steps * kDrainStep<T>; k += kDrainStep<T>) {
-    interleave_9<kStreaming>(s.plane, s.at + k, s.to + 9 * k);
-  }
+  drain_packed<kStreaming, 9>(s, steps);
 }
 #endif
 
@@ -107,9 +95,9 @@ SIMDBEZIER_INLINE void drain_steps(const DrainStream<T>& s, std::size_t steps) {
   if (s.members == 1 && packed) {
     s.streaming ? drain_plane<true>(s, steps) : drain_plane<false>(s, steps);
   } else if (s.members == 3 && packed) {
-    s.streaming ? drain_triples<true>(s, steps) : drain_triples<false>(s, steps);
+    s.streaming ? drain_packed<true, 3>(s, steps) : drain_packed<false, 3>(s, steps);
   } else if (s.members == 6 && packed) {
-    s.streaming ? drain_sextuples<true>(s, steps) : drain_sextuples<false>(s, steps);
+    s.streaming ? drain_packed<true, 6>(s, steps) : drain_packed<false, 6>(s, steps);
 #if defined(SIMDBEZIER_KERNELS_AVX512)
   } else if (s.members == 9 && packed) {
     s.streaming ? drain_nonuples<true>(s, steps) : drain_nonuples<false>(s, steps);

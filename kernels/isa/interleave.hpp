@@ -100,19 +100,14 @@ SIMDBEZIER_INLINE LinePart<T> triple_part(LinePart<T> x, LinePart<T> y, LinePart
   return __builtin_shufflevector(xy, z, with_z(kLane, kOut * kN + kLane, kN)...);
 }
 
-/// kDrainStep samples of three planes to packed triples.
+/// A part of each of three planes to packed triples.
 template <bool kStreaming, typename T>
-SIMDBEZIER_INLINE void interleave_3(const T* x, const T* y, const T* z, T* to) {
+SIMDBEZIER_INLINE void store_records(const LinePart<T> (&p)[3], T* to) {
   constexpr std::size_t kN = kPartLanes<T>;
   constexpr auto kLanes = std::make_index_sequence<kN>{};
-  for (std::size_t k = 0; k < 64 / sizeof(T); k += kN, to += 3 * kN) {
-    const LinePart<T> a = load_any<LinePart<T>>(x + k);
-    const LinePart<T> b = load_any<LinePart<T>>(y + k);
-    const LinePart<T> c = load_any<LinePart<T>>(z + k);
-    store_any<kStreaming>(to, triple_part<T, 0>(a, b, c, kLanes));
-    store_any<kStreaming>(to + kN, triple_part<T, 1>(a, b, c, kLanes));
-    store_any<kStreaming>(to + 2 * kN, triple_part<T, 2>(a, b, c, kLanes));
-  }
+  store_any<kStreaming>(to, triple_part<T, 0>(p[0], p[1], p[2], kLanes));
+  store_any<kStreaming>(to + kN, triple_part<T, 1>(p[0], p[1], p[2], kLanes));
+  store_any<kStreaming>(to + 2 * kN, triple_part<T, 2>(p[0], p[1], p[2], kLanes));
 }
 
 // Nonuples ---------------------------------------------------------------------------------------
@@ -148,14 +143,10 @@ SIMDBEZIER_INLINE void store_merged(const LinePart<T> plane[kMembers], T* to,
    ...);
 }
 
-/// Nine planes (position, du, dv) to packed records: nine shuffles a line are less than the time
-/// that the line takes to memory.
+/// The same for nine planes (position, du, dv): nine shuffles a line are less than the time that
+/// the line takes to memory.
 template <bool kStreaming, typename T>
-SIMDBEZIER_INLINE void interleave_9(const T* const* plane, std::size_t at, T* to) {
-  LinePart<T> p[9];
-  for (std::size_t m = 0; m < 9; ++m) {
-    p[m] = load_any<LinePart<T>>(plane[m] + at);
-  }
+SIMDBEZIER_INLINE void store_records(const LinePart<T> (&p)[9], T* to) {
   store_merged<kStreaming, 9>(p, to, std::make_index_sequence<9>{});
 }
 #endif
@@ -222,17 +213,15 @@ SIMDBEZIER_INLINE void store_transposed_parts(const __m512d u[6], T* to) {
   }
 }
 
-/// Six planes to packed records. Within 128 bits first, where shuffles do not compete with
+/// The same for six planes. Within 128 bits first, where shuffles do not compete with
 /// multiply-adds, then across.
 template <bool kStreaming>
-SIMDBEZIER_INLINE void interleave_6(const float* const from[6], float* to) {
+SIMDBEZIER_INLINE void store_records(const LinePart<float> (&p)[6], float* to) {
   __m512d low[3]; // samples 0 1 of every four: members 2m, 2m+1
   __m512d high[3];
   for (std::size_t m = 0; m < 3; ++m) {
-    const __m512 a = _mm512_loadu_ps(from[2 * m]);
-    const __m512 b = _mm512_loadu_ps(from[2 * m + 1]);
-    low[m] = _mm512_castps_pd(_mm512_unpacklo_ps(a, b));
-    high[m] = _mm512_castps_pd(_mm512_unpackhi_ps(a, b));
+    low[m] = _mm512_castps_pd(_mm512_unpacklo_ps(p[2 * m], p[2 * m + 1]));
+    high[m] = _mm512_castps_pd(_mm512_unpackhi_ps(p[2 * m], p[2 * m + 1]));
   }
   const __m512d u[6] = {
       _mm512_unpacklo_pd(low[0], low[1]),        _mm512_shuffle_pd(low[2], low[0], 0xaa),
@@ -242,50 +231,56 @@ SIMDBEZIER_INLINE void interleave_6(const float* const from[6], float* to) {
 }
 
 template <bool kStreaming>
-SIMDBEZIER_INLINE void interleave_6(const double* const from[6], double* to) {
+SIMDBEZIER_INLINE void store_records(const LinePart<double> (&p)[6], double* to) {
   __m512d u[6];
   for (std::size_t m = 0; m < 3; ++m) {
-    const __m512d a = _mm512_loadu_pd(from[2 * m]);
-    const __m512d b = _mm512_loadu_pd(from[2 * m + 1]);
-    u[m] = _mm512_unpacklo_pd(a, b);
-    u[m + 3] = _mm512_unpackhi_pd(a, b);
+    u[m] = _mm512_unpacklo_pd(p[2 * m], p[2 * m + 1]);
+    u[m + 3] = _mm512_unpackhi_pd(p[2 * m], p[2 * m + 1]);
   }
   store_transposed_parts<kStreaming>(u, to);
 }
 #else
-/// Six planes to packed records, in pairs of members.
+/// The same for six planes, in pairs of members.
 template <bool kStreaming, typename T>
-SIMDBEZIER_INLINE void interleave_6(const T* const from[6], T* to) {
-  constexpr std::size_t kN = kGroupLanes<T>;
-  for (std::size_t k = 0; k < 64 / sizeof(T); k += kN) {
-    Part128<T> p[6];
-    for (std::size_t m = 0; m < 6; ++m) {
-      p[m] = load_any<Part128<T>>(from[m] + k);
+SIMDBEZIER_INLINE void store_records(const LinePart<T> (&p)[6], T* to) {
+  Part128<T> out[6];
+  if constexpr (kGroupLanes<T> == 4) {
+    const auto put = [&out](std::size_t first, Part128<T> a, Part128<T> b, Part128<T> c) {
+      out[first] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
+      out[first + 1] = __builtin_shufflevector(c, a, 0, 1, 6, 7);
+      out[first + 2] = __builtin_shufflevector(b, c, 2, 3, 6, 7);
+    };
+    put(0, __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5), // samples 0 and 1
+        __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5),
+        __builtin_shufflevector(p[4], p[5], 0, 4, 1, 5));
+    put(3, __builtin_shufflevector(p[0], p[1], 2, 6, 3, 7), // samples 2 and 3
+        __builtin_shufflevector(p[2], p[3], 2, 6, 3, 7),
+        __builtin_shufflevector(p[4], p[5], 2, 6, 3, 7));
+  } else {
+    for (std::size_t m = 0; m < 3; ++m) {
+      out[m] = __builtin_shufflevector(p[2 * m], p[2 * m + 1], 0, 2);
+      out[m + 3] = __builtin_shufflevector(p[2 * m], p[2 * m + 1], 1, 3);
     }
-    Part128<T> out[6];
-    if constexpr (kN == 4) {
-      const auto put = [&out](std::size_t first, Part128<T> a, Part128<T> b, Part128<T> c) {
-        out[first] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
-        out[first + 1] = __builtin_shufflevector(c, a, 0, 1, 6, 7);
-        out[first + 2] = __builtin_shufflevector(b, c, 2, 3, 6, 7);
-      };
-      put(0, __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5), // samples 0 and 1
-          __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5),
-          __builtin_shufflevector(p[4], p[5], 0, 4, 1, 5));
-      put(3, __builtin_shufflevector(p[0], p[1], 2, 6, 3, 7), // samples 2 and 3
-          __builtin_shufflevector(p[2], p[3], 2, 6, 3, 7),
-          __builtin_shufflevector(p[4], p[5], 2, 6, 3, 7));
-    } else {
-      for (std::size_t m = 0; m < 3; ++m) {
-        out[m] = __builtin_shufflevector(p[2 * m], p[2 * m + 1], 0, 2);
-        out[m + 3] = __builtin_shufflevector(p[2 * m], p[2 * m + 1], 1, 3);
-      }
-    }
-    for (std::size_t m = 0; m < 6; ++m, to += kN) {
-      store_any<kStreaming>(to, out[m]);
-    }
+  }
+  for (std::size_t m = 0; m < 6; ++m) {
+    store_any<kStreaming>(to + m * kPartLanes<T>, out[m]);
   }
 }
 #endif
+
+// From memory ------------------------------------------------------------------------------------
+
+/// kDrainStep samples of kMembers planes to packed records.
+template <bool kStreaming, std::size_t kMembers, typename T>
+SIMDBEZIER_INLINE void interleave(const T* const plane[kMembers], std::size_t at, T* to) {
+  constexpr std::size_t kN = kPartLanes<T>;
+  for (std::size_t k = 0; k < 64 / sizeof(T); k += kN, to += kMembers * kN) {
+    LinePart<T> p[kMembers];
+    for (std::size_t m = 0; m < kMembers; ++m) {
+      p[m] = load_any<LinePart<T>>(plane[m] + at + k);
+    }
+    store_records<kStreaming>(p, to);
+  }
+}
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
