@@ -146,12 +146,8 @@ sweep_normals(const GridTask<ScalarOf<V>>& task, const GridTask<ScalarOf<V>>& sh
   using T = ScalarOf<V>;
   const NormalSweep<kScheme, kRows, kWhole, kExtra, kAny, V, kStreams> sweep(
       task, shared_task, tile, patch, status_step, extra);
-  // A column outside of [0,1] may have derivatives of any size: its normals take a second look.
-  const V never = broadcast<V>(static_cast<T>(__builtin_inf()));
-  const V half = broadcast<V>(T(0.5));
-  const V floor = select_where<V>((tile.column.x <= half) & (tile.column.x >= -half),
-                                  broadcast<V>(task.normal_floor[patch]), never);
-  const V middle_floor = piece.middle.kind == RowKind::outside ? never : floor;
+  const V floor = floor_inside(tile.column.x, broadcast<V>(task.normal_floor[patch]));
+  const V middle_floor = piece.middle.kind == RowKind::outside ? no_floor<V>() : floor;
   NormalSamples<V> shared;
   if constexpr (is_watertight(kScheme) && (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)) {
     shared = sweep.edge(0);

@@ -17,6 +17,20 @@ struct Suspects {
   std::size_t status_step;
 };
 
+/// Every normal takes a second look.
+template <typename V>
+SIMDBEZIER_INLINE V no_floor() {
+  return broadcast<V>(static_cast<ScalarOf<V>>(__builtin_inf()));
+}
+/// The patch's floor where t lies in the patch's range, elsewhere infinity: outside of the patch no
+/// bound holds.
+template <typename V>
+SIMDBEZIER_INLINE V floor_inside(V t, V floor) {
+  using T = ScalarOf<V>;
+  const MaskOf<V> inside = (t <= broadcast<V>(T(0.5))) & (t >= broadcast<V>(T(-0.5)));
+  return select_where<V>(inside, floor, no_floor<V>());
+}
+
 /// Lane by lane, for those that did not pass. Rare, so kept out of line; vectors come by value, or
 /// the fast path would have to keep them in memory.
 /// Task: any that has outputs, and the control points of a set.

@@ -32,21 +32,7 @@ struct SampleRange {
   }
 };
 
-/// Every normal takes a second look.
-template <typename V>
-SIMDBEZIER_INLINE V no_floor() {
-  return broadcast<V>(static_cast<ScalarOf<V>>(__builtin_inf()));
-}
-/// The patch's floor where t lies in the patch's range, elsewhere infinity: outside of the patch no
-/// bound holds.
-template <typename V>
-SIMDBEZIER_INLINE V floor_inside(V t, V floor) {
-  using T = ScalarOf<V>;
-  const MaskOf<V> inside = (t <= broadcast<V>(T(0.5))) & (t >= broadcast<V>(T(-0.5)));
-  return select_where<V>(inside, floor, no_floor<V>());
-}
-
-/// The same for all samples of a patch; those of a rational one have floors of their own above it.
+/// The floor of all samples of a patch; those of a rational one have floors of their own above it.
 template <typename P, typename V, typename Task>
 SIMDBEZIER_INLINE V patch_floor(const Task& task, std::size_t patch) {
   using T = ScalarOf<V>;
