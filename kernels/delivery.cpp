@@ -76,7 +76,7 @@ const Planes<T>* Delivery<T>::begin(std::size_t sample) noexcept {
     if (group.wanted() && !plan_.is_staged(g)) {
       T* const first[3] = {group.x, group.y, group.z};
       for (std::size_t c = 0; c < plan_.dimension(); ++c) {
-        planes[g].component[c] = first[c] + sample;
+        planes[g].component[c] = first[c] + static_cast<std::ptrdiff_t>(sample) * group.stride;
       }
     }
   }

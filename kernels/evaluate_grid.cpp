@@ -59,6 +59,7 @@ public:
       to.set_curvature(outputs_.out().curvature, sample);
       to.drain = delivery.queue();
       to.streaming = outputs_.streaming() && !outputs_.staged();
+      to.record = outputs_.record();
       to.next = delivery.next();
       evaluator.run(plan_, piece, to);
       delivery.end(patches * (piece.last_row - piece.first_row) * plan_.nu());
@@ -119,7 +120,7 @@ Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<
                                        request.components, options.watertight);
   detail::OutputPlan<T> outputs(out, samples, options.destination);
   if (kernels.bicubic()) {
-    outputs.stream_directly(grid.nu, kernels.table->lanes);
+    outputs.stream_directly(grid.nu, kernels.table->lanes, true);
   }
   const detail::GridCall<T> call(kernels, request.first_patch, plan, outputs);
   return detail::run_blocks(request.patches * call.strips(), options, call.scratch_bytes(),

@@ -61,6 +61,7 @@ void GridEvaluator<T>::fill(GridTask<T>& task, const PatchStorage<T>& set, const
   task.prefetch = set.count > second_level_cache() /
                                   ((set.shape.coefficients() + set.shape.edges()) * sizeof(T));
   task.streaming = to.streaming;
+  task.record = to.record;
   task.drain = to.drain;
 }
 

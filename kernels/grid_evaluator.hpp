@@ -63,6 +63,7 @@ public:
     DrainQueue<T>* drain = nullptr;    ///< may be null
     bool streaming = false;            ///< see OutputPlan::stream_directly()
     const Planes<T>* next = nullptr;   ///< with a drain: the planes of the piece after this one
+    std::size_t record = 1;            ///< where streaming: see GridTask
 
     /// The caller's curvatures from a sample on.
     void set_curvature(const Curvatures<T>& out, std::size_t sample) noexcept {

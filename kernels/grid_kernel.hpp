@@ -14,6 +14,7 @@
 #include "kernels/grid_components.hpp"
 #include "kernels/grid_normals.hpp"
 #include "kernels/grid_prefetch.hpp"
+#include "kernels/grid_records.hpp"
 #include "kernels/grid_small_jets.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -184,7 +185,11 @@ SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<ve
   if constexpr (kLineWide<V> && kSeveralTiles<kOutputs>) {
     if (task.streaming) [[unlikely]] { // whole registers only
       for (std::size_t first = 0; first < plain; first += kL) {
-        sweep(std::type_identity<Tile<1, true, false, V, true>>{}, first, kL);
+        if (task.record > 1) {
+          sweep_records<kOutputs, kScheme>(task, piece, first, patch, end);
+        } else {
+          sweep(std::type_identity<Tile<1, true, false, V, true>>{}, first, kL);
+        }
       }
       return;
     }

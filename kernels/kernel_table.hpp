@@ -95,6 +95,7 @@ struct GridTask {
   ResolveNormal<T> resolve_normal;
   bool prefetch;        ///< the set does not fit the second-level cache
   bool streaming;       ///< rows are whole cache lines, to be stored past the caches
+  std::size_t record;   ///< then values from one sample to the next: see OutputPlan::record()
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see pace()
   Isa executed;         ///< written by the kernel
 };

@@ -15,6 +15,7 @@ struct Suspects {
   std::size_t at;       ///< first sample
   std::size_t row_step; ///< samples from one row to the next
   std::size_t status_step;
+  std::size_t value_step = 1; ///< values from one sample's normal to the next
 };
 
 /// Every normal takes a second look.
@@ -59,7 +60,7 @@ __attribute__((noinline, cold)) void resolve_normals(const Task& task, std::size
     T normal[3];
     const SampleStatus status = task.resolve_normal(query, normal);
     for (int c = 0; c < 3; ++c) {
-      task.out[detail::kNormalGroup].component[c][at] = normal[c];
+      task.out[detail::kNormalGroup].component[c][at * s.value_step] = normal[c];
     }
     if (task.status != nullptr) {
       task.status[at * s.status_step] = status;

@@ -212,19 +212,22 @@ OutputPlan<T>::OutputPlan(const Outputs<T>& out, std::size_t samples,
 }
 
 template <typename T>
-void OutputPlan<T>::stream_directly(std::size_t row, std::size_t lanes) noexcept {
+void OutputPlan<T>::stream_directly(std::size_t row, std::size_t lanes, bool records) noexcept {
   const KernelChoice choice = choose_kernels(wanted_groups(out_));
+  const std::size_t record = stream_[0].members;
   bool possible = streaming_ && !choice.second && choice.outputs != kAnyOutputs &&
-                  lanes * sizeof(T) == 64 && row % lanes == 0;
-  for (const Vectors<T>* group : OutputGroups<T>(out_).group) {
-    if (possible && group->wanted()) {
-      possible = group->stride == 1;
-      for (const T* const plane : {group->x, group->y, group->z}) {
-        possible = possible && reinterpret_cast<std::uintptr_t>(plane) % 64 == 0;
-      }
+                  lanes * sizeof(T) == 64 && row % lanes == 0 &&
+                  (record == 1 || (records && (record == 3 || record == staged_planes_)));
+  for (std::size_t k = 0; possible && k < streams_; ++k) {
+    const StreamShape<T>& shape = stream_[k];
+    possible = shape.members == record && shape.stride == static_cast<std::ptrdiff_t>(record) &&
+               reinterpret_cast<std::uintptr_t>(shape.first) % 64 == 0;
+    for (std::size_t m = 1; m < record; ++m) {
+      possible = possible && shape.plane[m] == shape.plane[0] + m;
     }
   }
   if (possible) {
+    record_ = record;
     write_directly();
   }
 }

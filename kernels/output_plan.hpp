@@ -82,8 +82,11 @@ public:
   [[nodiscard]] bool staged() const noexcept { return staged_planes_ > 0; }
   [[nodiscard]] bool streaming() const noexcept { return streaming_; }
   /// Gives staging up where kernels can stream by themselves: rows of `row` samples that are whole
-  /// registers and whole cache lines.
-  void stream_directly(std::size_t row, std::size_t lanes) noexcept;
+  /// registers and whole cache lines, in planes or, if `records`, all in triples or in one vertex.
+  void stream_directly(std::size_t row, std::size_t lanes, bool records) noexcept;
+  /// Values from one sample to the next where they do: 1 planes; 3 triples of each group, more one
+  /// vertex of all groups, both counted from a group's first component.
+  [[nodiscard]] std::size_t record() const noexcept { return record_; }
   /// Gives staging up: kernels know the outputs' layout themselves.
   void write_directly() noexcept;
   [[nodiscard]] std::size_t staged_planes() const noexcept { return staged_planes_; }
@@ -107,6 +110,7 @@ private:
   std::size_t dimension_ = 3;
   bool streaming_ = false;
   std::size_t staged_planes_ = 0;
+  std::size_t record_ = 1;
   std::size_t group_index_[kGroups];
   std::size_t streams_ = 0;
   StreamShape<T> stream_[kMostMembers];
