@@ -9,10 +9,11 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::ScatteredTask;
 
-/// Exact where the parameter is centred, rounded once where it is not.
+/// Exact where the parameter is centred, rounded once where it is not: one of shift and scale
+/// leaves values as they are, so that one operation does.
 template <typename V>
 SIMDBEZIER_INLINE V half_centred(const ScatteredTask<ScalarOf<V>>& task, V given) {
-  return (given - broadcast<V>(task.shift)) * broadcast<V>(task.scale);
+  return madd(given, broadcast<V>(task.scale), broadcast<V>(-task.shift));
 }
 
 /// As above; nan where the parameter is not finite.
