@@ -1,8 +1,12 @@
 #include "kernels/pack_layout.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <new>
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 namespace simdbezier::detail {
 namespace {
@@ -27,6 +31,21 @@ Status check(const ControlNets<S>& nets) {
   return Status::ok;
 }
 
+/// Random samples of a large set would otherwise wait for address translations as well. Not for
+/// small ones, which a processor's tables cover.
+void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__)
+  constexpr std::size_t kWorthwhile = std::size_t{4} << 20;
+  constexpr std::size_t kPage = 4096;
+  if (bytes >= kWorthwhile) {
+    const std::size_t skipped = -reinterpret_cast<std::uintptr_t>(memory) % kPage;
+    // Advice: whatever comes of it, the memory is good.
+    (void)madvise(static_cast<unsigned char*>(memory) + skipped, (bytes - skipped) / kPage * kPage,
+                  MADV_HUGEPAGE);
+  }
+#endif
+}
+
 /// One block for all arrays of a bucket.
 template <typename T>
 Status allocate(bool origins, PatchStorage<T>& storage) {
@@ -43,6 +62,7 @@ Status allocate(bool origins, PatchStorage<T>& storage) {
   if (storage.memory == nullptr) {
     return Status::out_of_memory;
   }
+  prefer_large_pages(storage.memory.get(), count * per_patch * sizeof(T));
   storage.coefficients = static_cast<T*>(storage.memory.get());
   storage.edges = storage.coefficients + count * shape.coefficients();
   storage.control_points = storage.edges + count * shape.edges();
