@@ -58,8 +58,12 @@ const T* shared_power_basis(std::size_t count) {
 
 template <typename T>
 const simdbezier::PatchSet<T>& shared_patch_set(std::size_t count) {
-  static simdbezier::PatchSet<T> set;
-  if (set.size() < count) {
+  // Small ones are as large as asked for: what is done for sets that leave the caches would
+  // otherwise be timed in rows that follow such a set, and only there.
+  constexpr std::size_t kSmall = 4096;
+  static simdbezier::PatchSet<T> sets[2];
+  simdbezier::PatchSet<T>& set = sets[count > kSmall ? 1 : 0];
+  if (count > kSmall ? set.size() < count : set.size() != count) {
     set = {};
     simdbezier::ControlNets<T> nets;
     nets.points = shared_nets<T>(count);

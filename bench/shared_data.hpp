@@ -19,7 +19,8 @@ constexpr std::size_t kLineBytes = 64;
 unsigned char* output_buffer();
 
 /// The first `count` or more patches, in each of the three forms. Grows on demand; a larger count
-/// keeps the earlier patches as they are. An empty result means that packing failed.
+/// keeps the earlier patches as they are. An empty result means that packing failed. Packed sets of
+/// few patches have no more than were asked for, until the next one is.
 template <typename T>
 const T* shared_nets(std::size_t count);
 template <typename T>
