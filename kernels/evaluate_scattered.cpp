@@ -82,6 +82,7 @@ struct ScatteredCall {
     task.control_points = patches.control_points;
     task.origins = patches.origins;
     task.normal_floor = patches.normal_floor;
+    task.common_floor = patches.common_floor;
     task.patch = patch;
     task.u = samples.u + first;
     task.v = samples.v + first;

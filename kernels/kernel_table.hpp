@@ -118,6 +118,7 @@ struct ScatteredTask {
   std::size_t count;
   std::size_t patches_known; ///< how many of `patch` may be read: those of later tasks as well
   bool prefetch;             ///< the set's coefficients do not fit the second-level cache
+  T common_floor; ///< no patch has a higher normal_floor; infinity where they differ much
 
   Planes<T> out[kGroups];
   T* curvature[kCurvatures];   ///< as in GridTask

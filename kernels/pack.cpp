@@ -1,6 +1,7 @@
 // Packing: threads and kernels; pack_layout.cpp has arguments and memory, pack_faults.hpp what is
 // wrong with a patch, and the arithmetic is in pack_kernel.hpp and pack_shape_kernel.hpp.
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <new>
 #include <vector>
@@ -108,6 +109,32 @@ PackReport pack_runs(std::span<const ControlNets<S>> nets, std::span<const PackR
   return fault.report();
 }
 
+/// The highest of `count` normal floors; infinity where the lowest is so much lower that most
+/// normals of its patch would not pass. Lane by lane, so that none waits for the one before.
+template <typename T>
+T common_floor(const T* floors, std::size_t count) {
+  constexpr T kRange = 256; // patches of one to four times a size
+  T highest[kMaxLanes] = {};
+  T lowest[kMaxLanes];
+  std::fill_n(lowest, kMaxLanes, std::numeric_limits<T>::infinity());
+  const auto take = [&](T floor, std::size_t lane) {
+    highest[lane] = floor > highest[lane] ? floor : highest[lane];
+    lowest[lane] = floor < lowest[lane] ? floor : lowest[lane];
+  };
+  const std::size_t whole = count - count % kMaxLanes;
+  for (std::size_t k = 0; k < whole; k += kMaxLanes) {
+    for (std::size_t lane = 0; lane < kMaxLanes; ++lane) {
+      take(floors[k + lane], lane);
+    }
+  }
+  for (std::size_t k = whole; k < count; ++k) {
+    take(floors[k], 0);
+  }
+  const T most = *std::max_element(highest, highest + kMaxLanes);
+  const T least = *std::min_element(lowest, lowest + kMaxLanes);
+  return most / kRange <= least ? most : std::numeric_limits<T>::infinity();
+}
+
 } // namespace
 } // namespace detail
 
@@ -159,6 +186,11 @@ PackReport pack(std::span<const ControlNets<S>> nets, PatchSet<T>& set,
   }
   report = detail::pack_runs<T, S>(nets, runs, options, isa, *storage);
   if (report) {
+    for (detail::PatchStorage<T>& bucket : storage->buckets) {
+      if (bucket.shape.is_bicubic()) {
+        bucket.common_floor = detail::common_floor(bucket.normal_floor, bucket.count);
+      }
+    }
     set = PatchSet<T>(std::move(storage));
   }
   return report;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <new>
 
@@ -59,6 +60,8 @@ struct PatchStorage {
   /// count * shape.floors(): |du x dv|^2 above it needs no second look; with weights, what that
   /// floor is made of at a sample (pack_shape_floor.hpp).
   T* normal_floor = nullptr;
+  /// No bicubic patch has a higher one; infinity where they differ much.
+  T common_floor = std::numeric_limits<T>::infinity();
   std::unique_ptr<std::size_t[]> number; ///< of each patch in the set, ascending; null: its index
 };
 

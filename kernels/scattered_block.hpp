@@ -10,17 +10,24 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// What a kernel computes; the value is the number of polynomials in Y that a column needs.
+/// What a kernel computes.
 enum Outcome : std::size_t {
-  kPositions = 1,  ///< q
-  kFirstOrder = 2, ///< q, dq: positions, du, dv, normals
-  kSecondOrder = 3 ///< q, dq, ddq: second derivatives
+  kPositions,  ///< from q
+  kFirstOrder, ///< from q and dq: positions, du, dv
+  kNormals,    ///< these and normals
+  kSecondOrder ///< from q, dq and ddq: second derivatives
 };
+
+/// Polynomials in Y that a column needs.
+template <Outcome kOutcome>
+inline constexpr std::size_t kPolynomials = kOutcome == kPositions     ? 1
+                                            : kOutcome == kSecondOrder ? 3
+                                                                       : 2;
 
 /// q, its derivative in X, and its second derivative, as far as they are needed.
 template <Outcome kOutcome, typename V>
 struct Polynomials {
-  V power[kOutcome][kOrder];
+  V power[kPolynomials<kOutcome>][kOrder];
 
   /// Coefficient l of all of them: Horner in X.
   SIMDBEZIER_INLINE void set(std::size_t l, const V k[kOrder], V x) {
@@ -76,6 +83,55 @@ struct Block {
   }
 };
 
+/// The normals of one block, made unit vectors while the next block is computed: root and quotient
+/// take so long that processors run out of room for what is behind them, unless their operands have
+/// been there for a while.
+template <Outcome kOutcome, typename V>
+class WaitingNormals {
+public:
+  SIMDBEZIER_INLINE void take_root() {}
+  SIMDBEZIER_INLINE void store(const ScatteredTask<ScalarOf<V>>&) {}
+};
+
+template <typename V>
+class WaitingNormals<kNormals, V> {
+public:
+  using T = ScalarOf<V>;
+
+  /// n = du x dv and |n|^2 of the samples from `first` on.
+  SIMDBEZIER_INLINE void put(const V n[3], V squared, std::size_t first) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      n_[c] = n[c];
+    }
+    length_ = squared;
+    first_ = first;
+    waiting_ = true;
+  }
+
+  // The two steps of normalise(), with other work before and between them.
+  SIMDBEZIER_INLINE void take_root() {
+    if (waiting_) {
+      length_ = square_root(length_);
+      compute_here(length_);
+    }
+  }
+  SIMDBEZIER_INLINE void store(const ScatteredTask<T>& task) {
+    if (waiting_) {
+      const V inverse = divide(broadcast<V>(T(1)), length_);
+      for (std::size_t c = 0; c < 3; ++c) {
+        store_vector(task.out[detail::kNormalGroup].component[c] + first_, n_[c] * inverse);
+      }
+      waiting_ = false;
+    }
+  }
+
+private:
+  V n_[3];
+  V length_; ///< its square at first
+  std::size_t first_ = 0;
+  bool waiting_ = false;
+};
+
 /// What is left to do about a block once its three components are known.
 template <Outcome kOutcome, typename V>
 struct Tangents {
@@ -91,7 +147,7 @@ SIMDBEZIER_INLINE void finish_component(const Block<kFull, V>& block,
   if constexpr (kOutcome == kPositions) {
     block.store(block.task.out[detail::kPositionGroup].component[c],
                 with_origin<kScheme>(horner(q.power[0], block.y), origin));
-  } else if constexpr (kOutcome == kFirstOrder) {
+  } else if constexpr (kOutcome != kSecondOrder) {
     const V p = horner(q.power[0], block.y, tangents.dv[c]);
     tangents.du[c] = horner(q.power[1], block.y);
     block.store_if_wanted(detail::kPositionGroup, c, with_origin<kScheme>(p, origin));
@@ -148,29 +204,33 @@ __attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf
 }
 
 /// Normals, where they are wanted, and the samples that have to be evaluated again.
-/// floor: normal_floor of the samples' patches; a function, because most outputs need none.
+/// Floor: normal_floor of the samples' patches, and at first a bound on all of them.
 template <Scheme kScheme, Outcome kOutcome, bool kFull, typename V, typename Floor>
 SIMDBEZIER_INLINE void finish_block(const Block<kFull, V>& block,
-                                    const Tangents<kOutcome, V>& tangents, const Floor& floor) {
+                                    const Tangents<kOutcome, V>& tangents, const Floor& floor,
+                                    WaitingNormals<kOutcome, V>& waiting) {
   const auto& task = block.task;
   const MaskOf<V> interior = block.interior();
-  if constexpr (kOutcome == kFirstOrder) {
-    if (task.out[detail::kNormalGroup].wanted()) {
-      V n[3];
-      const V squared = cross_product(tangents.du, tangents.dv, n);
-      normalise(n, squared);
-      for (std::size_t c = 0; c < 3; ++c) {
-        block.store(task.out[detail::kNormalGroup].component[c], n[c]);
-      }
-      const V enough = floor();
-      if (!all_of<V>(interior & (squared > enough))) [[unlikely]] {
-        evaluate_again<kScheme, kOutcome>(task, block.first, block.active, block.x, block.y,
-                                          squared, enough);
-      }
+  if constexpr (kOutcome == kNormals) {
+    V n[3];
+    const V squared = cross_product(tangents.du, tangents.dv, n);
+    const auto all_above = [&](V enough) SIMDBEZIER_INLINE_LAMBDA {
+      return all_of<V>(interior & (squared > enough));
+    };
+    if (kFull && (all_above(floor.highest()) || all_above(floor.each()))) [[likely]] {
+      waiting.put(n, squared, block.first);
       return;
     }
-  }
-  if (!all_of<V>(interior)) [[unlikely]] {
+    normalise(n, squared);
+    for (std::size_t c = 0; c < 3; ++c) {
+      block.store(task.out[detail::kNormalGroup].component[c], n[c]);
+    }
+    const V enough = floor.each();
+    if (!all_above(enough)) {
+      evaluate_again<kScheme, kOutcome>(task, block.first, block.active, block.x, block.y, squared,
+                                        enough);
+    }
+  } else if (!all_of<V>(interior)) [[unlikely]] {
     evaluate_again<kScheme, kOutcome>(task, block.first, block.active, block.x, block.y);
   }
 }

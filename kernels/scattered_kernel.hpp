@@ -31,7 +31,8 @@ __attribute__((noinline)) void evaluate_rest(const ScatteredTask<ScalarOf<V>>& t
     v[i] = task.v[from];
     patch[i] = task.patch[from];
   }
-  evaluate_mixed<kScheme, kOutcome>(Block<false, V>(task, first, active, u, v), patch);
+  WaitingNormals<kOutcome, V> none;
+  evaluate_mixed<kScheme, kOutcome, false>(Block<false, V>(task, first, active, u, v), patch, none);
 }
 
 /// kPrefetch: the set is not in a cache. Code of its own for each: asking for lines that are there
@@ -43,29 +44,29 @@ SIMDBEZIER_INLINE void evaluate_samples(const ScatteredTask<ScalarOf<V>>& task) 
   const auto block = [&](std::size_t k) __attribute__((always_inline)) {
     return Block<true, V>(task, k, kN, task.u + k, task.v + k);
   };
+  WaitingNormals<kOutcome, V> waiting;
   std::size_t k = 0;
   while (k + kN <= task.count) {
     const std::uint32_t* const patch = task.patch + k;
     if (!all_equal<kN>(patch, *patch)) {
-      if constexpr (kPrefetch) {
-        prefetch_mixed<V>(task, k);
-      }
-      evaluate_mixed<kScheme, kOutcome>(block(k), patch);
+      evaluate_mixed<kScheme, kOutcome, kPrefetch>(block(k), patch, waiting);
       k += kN;
       continue;
     }
     if constexpr (kWide == 2) {
       if (k + 2 * kN <= task.count && all_equal<kN>(patch + kN, *patch)) {
         const Block<true, V> pair[2] = {block(k), block(k + kN)};
-        evaluate_run<kScheme, kOutcome, 2>(pair, *patch);
+        evaluate_run<kScheme, kOutcome, 2>(pair, *patch, waiting);
         k += 2 * kN;
         continue;
       }
     }
     const Block<true, V> single[1] = {block(k)};
-    evaluate_run<kScheme, kOutcome, 1>(single, *patch);
+    evaluate_run<kScheme, kOutcome, 1>(single, *patch, waiting);
     k += kN;
   }
+  waiting.take_root();
+  waiting.store(task);
   if (k < task.count) {
     evaluate_rest<kScheme, kOutcome, V>(task, k);
   }
@@ -97,7 +98,9 @@ void scattered_kernel(ScatteredTask<T>& task) {
   const auto wanted = [&](detail::Group group) __attribute__((always_inline)) {
     return task.out[group].wanted();
   };
-  if (wanted(detail::kDuGroup) || wanted(detail::kDvGroup) || wanted(detail::kNormalGroup)) {
+  if (wanted(detail::kNormalGroup)) {
+    evaluate_outcome<kScheme, kNormals>(task);
+  } else if (wanted(detail::kDuGroup) || wanted(detail::kDvGroup)) {
     evaluate_outcome<kScheme, kFirstOrder>(task);
   } else if (wanted(detail::kPositionGroup)) {
     evaluate_outcome<kScheme, kPositions>(task);

@@ -5,11 +5,21 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
+/// The normal floor of samples of one patch.
+template <typename V>
+struct FloorOfOne {
+  const ScalarOf<V>& floor;
+  SIMDBEZIER_INLINE V highest() const { return broadcast<V>(floor); }
+  SIMDBEZIER_INLINE V each() const { return broadcast<V>(floor); }
+};
+
 /// kRegisters blocks share every broadcast: with one of them, loads would be the limit.
 template <Scheme kScheme, Outcome kOutcome, std::size_t kRegisters, bool kFull, typename V>
-SIMDBEZIER_INLINE void evaluate_run(const Block<kFull, V> block[kRegisters], std::size_t patch) {
+SIMDBEZIER_INLINE void evaluate_run(const Block<kFull, V> block[kRegisters], std::size_t patch,
+                                    WaitingNormals<kOutcome, V>& waiting) {
   const auto& task = block[0].task;
   Tangents<kOutcome, V> tangents[kRegisters];
+  waiting.take_root();
   for (std::size_t c = 0; c < 3; ++c) {
     const Component<ScalarOf<V>> component(task, patch, c);
     Polynomials<kOutcome, V> q[kRegisters];
@@ -28,11 +38,9 @@ SIMDBEZIER_INLINE void evaluate_run(const Block<kFull, V> block[kRegisters], std
       finish_component<kScheme>(block[r], q[r], c, origin, tangents[r]);
     }
   }
+  waiting.store(task);
   for (std::size_t r = 0; r < kRegisters; ++r) {
-    finish_block<kScheme>(
-        block[r], tangents[r], [&]() __attribute__((always_inline)) {
-          return broadcast<V>(task.normal_floor[patch]);
-        });
+    finish_block<kScheme>(block[r], tangents[r], FloorOfOne<V>{task.normal_floor[patch]}, waiting);
   }
 }
 
