@@ -122,6 +122,10 @@ Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<
   if (kernels.bicubic()) {
     outputs.stream_directly(grid.nu, kernels.table->lanes, true);
   }
+  if (options.destination == Destination::automatic && outputs.streaming() && outputs.staged() &&
+      !detail::staged_streaming_pays(detail::thread_count(options.threads, request.patches))) {
+    outputs.store_plainly();
+  }
   const detail::GridCall<T> call(kernels, request.first_patch, plan, outputs);
   return detail::run_blocks(request.patches * call.strips(), options, call.scratch_bytes(),
                             [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {

@@ -202,6 +202,20 @@ OutputPlan<T>::OutputPlan(const Outputs<T>& out, std::size_t samples,
   streaming_ = destination == Destination::memory ||
                (destination == Destination::automatic &&
                 samples > last_level_cache() / 2 / sizeof(T) / components);
+  stage();
+}
+
+template <typename T>
+void OutputPlan<T>::store_plainly() noexcept {
+  streaming_ = false;
+  stage();
+}
+
+/// What is not written directly: everything where stores are to bypass the caches, records
+/// otherwise.
+template <typename T>
+void OutputPlan<T>::stage() noexcept {
+  const OutputGroups<T> groups(out_);
   std::size_t staged = 0;
   for (std::size_t g = 0; g < kGroups; ++g) {
     const Vectors<T>& group = *groups.group[g];
@@ -242,6 +256,8 @@ void OutputPlan<T>::write_directly() noexcept {
 /// Members that lie side by side in one vertex become one stream.
 template <typename T>
 void OutputPlan<T>::add_streams() noexcept {
+  std::fill_n(stream_, streams_, StreamShape<T>{});
+  streams_ = 0;
   Members<T> rest;
   const OutputGroups<T> groups(out_);
   for (std::size_t g = 0; g < kGroups; ++g) {

@@ -87,6 +87,8 @@ public:
   /// Values from one sample to the next where they do: 1 planes; 3 triples of each group, more one
   /// vertex of all groups, both counted from a group's first component.
   [[nodiscard]] std::size_t record() const noexcept { return record_; }
+  /// Gives streaming up, and with it the staging that only streaming needs.
+  void store_plainly() noexcept;
   /// Gives staging up: kernels know the outputs' layout themselves.
   void write_directly() noexcept;
   [[nodiscard]] std::size_t staged_planes() const noexcept { return staged_planes_; }
@@ -104,6 +106,7 @@ public:
   [[nodiscard]] const StreamShape<T>& stream(std::size_t k) const noexcept { return stream_[k]; }
 
 private:
+  void stage() noexcept;
   void add_streams() noexcept;
 
   const Outputs<T>& out_;

@@ -135,8 +135,8 @@ struct Outputs {
 /// much slower for whoever reads the result at once. They take effect where the output consists of
 /// packed planes, packed triples or vertices without gaps; any alignment of T will do.
 enum class Destination : std::uint8_t {
-  automatic, ///< memory where a grid call writes more than half of the last-level cache, else
-             ///< cache; scattered samples take longer to compute than plain stores take to memory
+  automatic, ///< memory where a grid call writes more than half of the last-level cache and gains
+             ///< by it (docs/performance.md), else cache; scattered samples always the latter
   cache,     ///< plain stores
   memory     ///< streaming stores, completed before the call returns
 };
