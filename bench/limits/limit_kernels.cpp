@@ -73,7 +73,7 @@ template <typename V>
 // 256-bit registers want a parameter from memory for every result (7.1 against 5.5 thousand million
 // positions/s, which is the rate of the multiply-adds), 512-bit ones addends from memory as well,
 // and four results in flight (9.6 against 8.9). Where instructions are scarcer than loads, as on
-// Cascade Lake, a parameter from memory for every step is better by up to a half: no copies.
+// Cascade Lake, a parameter from memory for every step is better by a tenth to a fifth: no copies.
 enum class Operand { in_registers, result, addend, step };
 
 template <typename T, int kDegree, Operand kFromMemory>
