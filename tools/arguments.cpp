@@ -101,6 +101,9 @@ Arguments understand(Command command, const Words& words) {
   Arguments arguments;
   arguments.command = command;
   arguments.in = words.in;
+  if (words.in.empty()) {
+    bad_usage("IN: expected builtin:teapot, the name of a file or -, found ''");
+  }
   if (!words.format.empty()) {
     arguments.format = parse_patch_format("--format", words.format);
   }
@@ -181,6 +184,23 @@ std::string version_text() {
          std::to_string(SIMDBEZIER_VERSION_MINOR) + "." + std::to_string(SIMDBEZIER_VERSION_PATCH);
 }
 
+/// What CLI11 says, except where words are left over. The first of them is then the mistake: what
+/// is missing was most likely meant by it.
+[[noreturn]] void refuse(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> commands = app.get_subcommands();
+  const std::vector<std::string> rest = app.remaining(true);
+  if (commands.empty()) {
+    bad_usage("expected tessellate, evaluate, info or --help, found " +
+              (rest.empty() ? "nothing" : in_quotes(rest.front())));
+  }
+  if (rest.empty()) {
+    bad_usage(error.what());
+  }
+  const std::string& command = commands.front()->get_name();
+  bad_usage(command + ": expected what 'simdbezier " + command + " --help' lists, found " +
+            in_quotes(rest.front()));
+}
+
 } // namespace
 
 std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
@@ -201,7 +221,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
       app.exit(error);
       return std::nullopt;
     }
-    bad_usage(error.what());
+    refuse(app, error);
   }
   return understand(tessellate->parsed() ? Command::tessellate
                     : evaluate->parsed() ? Command::evaluate

@@ -188,6 +188,9 @@ private:
 
   /// Of v, v/vt, v//vn or v/vt/vn, counted from 0.
   [[nodiscard]] std::size_t vertex_index() const {
+    if (vertices_.empty()) {
+      lexer_.fail("vertices (v) before the surface");
+    }
     const std::string_view word = lexer_.text().substr(0, lexer_.text().find('/'));
     const bool from_end = word.starts_with('-');
     const auto number = parse_integer(word.substr(from_end ? 1 : 0));

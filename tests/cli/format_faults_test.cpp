@@ -158,6 +158,8 @@ std::vector<Fault> obj_faults() {
        ":27: expected a weight above 0, found -2"},
       {"WeightInf", "obj", "v 1 -1 1 2\n", "v 1 -1 1 inf\n",
        ":27: expected a finite number, found 'inf'"},
+      {"NoVertices", "obj", "", "cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\n",
+       ":3: expected vertices (v) before the surface, found '1'"},
       {"VertexZero", "obj", "7/1/1", "0/1/1",
        ":22: expected the number of a vertex, 1 to 12 or -1 to -12, found '0/1/1'"},
       {"VertexBeyond", "obj", "7/1/1", "13",

@@ -11,7 +11,7 @@ namespace {
 struct BadUsage {
   const char* name;
   std::vector<std::string> arguments;
-  const char* message;
+  std::string message;
 };
 void PrintTo(const BadUsage& item, std::ostream* out) { *out << item.name; }
 
@@ -33,12 +33,25 @@ std::vector<std::string> evaluate(std::vector<std::string> rest) {
 }
 
 std::vector<BadUsage> bad_usages() {
-  const char* const grid = "--grid: expected N or NUxNV, each from 2 to 1048576, found '";
+  const std::string command = "expected tessellate, evaluate, info or --help, found ";
+  const std::string grid = "--grid: expected N or NUxNV, each from 2 to 1048576, found '";
   return {
-      {"Nothing", {}, "subcommand"},
-      {"UnknownCommand", {"draw", "builtin:teapot"}, "simdbezier: "},
-      {"UnknownOption", {"info", "builtin:teapot", "--bogus"}, "--bogus"},
+      {"Nothing", {}, command + "nothing"},
+      {"UnknownCommand", {"draw", "builtin:teapot"}, command + "'draw'"},
+      {"EmptyCommand", {"", "builtin:teapot"}, command + "''"},
+      {"OptionForCommand", {"--bogus"}, command + "'--bogus'"},
+      {"OptionBeforeCommand", {"--bogus", "info", "builtin:teapot"}, "found '--bogus'"},
+      {"UnknownOption",
+       {"info", "builtin:teapot", "--bogus", "3"},
+       "info: expected what 'simdbezier info --help' lists, found '--bogus'"},
+      {"UnknownOptionForOutput", tessellate({"--out", "out.obj"}), "--help' lists, found '--out'"},
+      {"OutputWithoutOption", tessellate({"out.obj"}), "found 'out.obj'"},
+      {"OptionOfAnotherCommand", {"info", "builtin:teapot", "--grid", "3"}, "found '--grid'"},
+      {"OutputWithoutName", tessellate({"-o"}), "-o"},
       {"NoInput", {"info"}, "IN is required"},
+      {"EmptyInput",
+       {"info", ""},
+       "IN: expected builtin:teapot, the name of a file or -, found ''"},
       {"TwoInputs", {"info", "builtin:teapot", "builtin:teapot"}, "builtin:teapot"},
       {"UnknownBuiltin", {"info", "builtin:cup"}, "expected builtin:teapot"},
       {"StandardInputWithoutFormat", {"info", "-"}, "--format"},
