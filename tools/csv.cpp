@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, kOutputGroups> kColumns = {
     ",duvx,duvy,duvz", ",dvvx,dvvy,dvvz", ",nx,ny,nz",    ",gaussian,mean,kmin,kmax"};
 
 std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r";
+  constexpr std::string_view kSpace = " \t";
   const std::size_t first = text.find_first_not_of(kSpace);
   return first == std::string_view::npos
              ? std::string_view{}

@@ -66,7 +66,7 @@ void Lexer::word(int first) {
   if (text_.size() == kLongestWord) {
     text_.push_back('~');
   }
-  if (syntax_.lines && text_.back() == '\\' && (c == '\n' || c == '\r')) {
+  if (syntax_.lines && text_.back() == '\\' && c == '\n') {
     text_.pop_back();
     joins_lines_ = true;
   }

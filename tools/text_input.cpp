@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include <tools/failure.hpp>
 
@@ -66,12 +67,40 @@ TextInput::TextInput(const std::string& path)
 }
 
 bool TextInput::fill() {
-  next_ = 0;
-  end_ = std::fread(buffer_.data(), 1, buffer_.size(), file_.get());
-  if (end_ == 0 && std::ferror(file_.get()) != 0) {
-    bad_input_at(name_, line_, "readable text", in_quotes(std::strerror(errno)));
+  do {
+    next_ = 0;
+    end_ = std::fread(buffer_.data(), 1, buffer_.size(), file_.get());
+    if (end_ == 0 && std::ferror(file_.get()) != 0) {
+      bad_input_at(name_, line_, "readable text", in_quotes(std::strerror(errno)));
+    }
+    if (end_ == 0) {
+      return false;
+    }
+    skip_byte_order_mark();
+    unify_line_ends();
+  } while (next_ == end_);
+  return true;
+}
+
+void TextInput::skip_byte_order_mark() {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  if (std::exchange(at_start_, false) &&
+      std::string_view(buffer_.data(), end_).starts_with(kMark)) {
+    next_ = kMark.size();
   }
-  return end_ != 0;
+}
+
+// CR LF is a CR and what goes with it, even where a block ends in between.
+void TextInput::unify_line_ends() {
+  std::size_t kept = next_;
+  for (std::size_t k = next_; k < end_; ++k) {
+    const bool goes_with = after_return_ && buffer_[k] == '\n';
+    after_return_ = buffer_[k] == '\r';
+    if (!goes_with) {
+      buffer_[kept++] = after_return_ ? '\n' : buffer_[k];
+    }
+  }
+  end_ = kept;
 }
 
 std::optional<double> parse_finite(std::string_view word) {

@@ -12,7 +12,8 @@
 
 namespace simdbezier::tools {
 
-/// A file or standard input ("-"), one character at a time.
+/// A file or standard input ("-"), one character at a time. All formats have in common that a
+/// UTF-8 byte-order mark is passed over and that LF, CR LF and CR are line ends, which come as \n.
 class TextInput {
 public:
   static constexpr int kEnd = -1;
@@ -44,6 +45,8 @@ private:
     void operator()(std::FILE* file) const noexcept;
   };
   bool fill();
+  void skip_byte_order_mark();
+  void unify_line_ends();
 
   std::string name_;
   std::unique_ptr<std::FILE, Close> file_;
@@ -51,6 +54,8 @@ private:
   std::size_t next_ = 0;
   std::size_t end_ = 0;
   std::size_t line_ = 1;
+  bool at_start_ = true;
+  bool after_return_ = false;
   // A file's last line ends with its line break, so the count goes up with what follows it.
   bool line_break_pending_ = false;
 };

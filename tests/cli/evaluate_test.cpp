@@ -191,7 +191,8 @@ TEST(Evaluate, AcceptsLooseCsv) {
   const std::string strict =
       evaluate({"builtin:teapot", "--samples", "-"}, "patch,u,v\n1,0.5,0.25\n2,1,0\n");
   for (const char* const loose :
-       {"patch,u,v\r\n1,0.5,0.25\r\n2,1,0\r\n", "patch,u,v\n1,0.5,0.25\n2,1,0",
+       {"patch,u,v\r\n1,0.5,0.25\r\n2,1,0\r\n", "patch,u,v\r1,0.5,0.25\r2,1,0\r",
+        "\xef\xbb\xbfpatch,u,v\n1,0.5,0.25\n2,1,0\n", "patch,u,v\n1,0.5,0.25\n2,1,0",
         "\n patch , u , v \n\n1, +0.5 ,2.5e-1\n\t2 ,1.0,0\n\n"}) {
     EXPECT_EQ(evaluate({"builtin:teapot", "--samples", "-"}, loose), strict) << loose;
   }

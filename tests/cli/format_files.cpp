@@ -67,4 +67,12 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
+std::string with_line_ends(const std::string& text, const std::string& end) {
+  std::string result;
+  for (const char c : text) {
+    result += c == '\n' ? end : std::string(1, c);
+  }
+  return result;
+}
+
 } // namespace simdbezier::tests

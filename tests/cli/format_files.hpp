@@ -69,5 +69,7 @@ inline constexpr const char* kSampleFormats[] = {"bpt", "bv", "itd", "obj", "rib
 /// The text with one part of it, which must be there, replaced.
 [[nodiscard]] std::string replaced(std::string text, const std::string& from,
                                    const std::string& to);
+/// The text with other line ends than \n.
+[[nodiscard]] std::string with_line_ends(const std::string& text, const std::string& end);
 
 } // namespace simdbezier::tests

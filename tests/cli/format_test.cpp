@@ -43,12 +43,28 @@ TEST_P(SampleFileTest, IsReadFromStandardInput) {
       << outcome.out;
 }
 
-TEST_P(SampleFileTest, MayHaveCarriageReturns) {
-  std::string text = read_file(sample_path(GetParam()));
-  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) {
-    text.insert(at, 1, '\r');
+// What has no bearing on a text, whatever its format: points and their lines stay.
+TEST_P(SampleFileTest, MayHaveAnyLineEndsAndAByteOrderMark) {
+  const std::string text = read_file(sample_path(GetParam()));
+  const tools::PatchFile plain = read_text(GetParam(), text);
+  for (const std::string mark : {"", "\xef\xbb\xbf"}) {
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+      SCOPED_TRACE(testing::PrintToString(mark + end));
+      const tools::PatchFile file = read_text(GetParam(), mark + with_line_ends(text, end));
+      expect_patches(file, sample_patches(GetParam()));
+      EXPECT_EQ(file.lines, plain.lines);
+    }
   }
-  expect_patches(read_text(GetParam(), text), sample_patches(GetParam()));
+}
+
+TEST(TextBlocks, AreNotSeen) {
+  const std::string text = read_file(sample_path("obj"));
+  const std::size_t line = read_text("obj", text).lines.front();
+  for (std::size_t size = 65533; size <= 65537; ++size) { // blocks have 65536 bytes
+    const std::string padded = std::string(size, ' ') + "\r\n" + text;
+    EXPECT_EQ(read_text("obj", padded).lines.front(), line + 1) << size;
+  }
+  EXPECT_NE(refusal("obj", std::string(65536, ' ') + "\xef\xbb\xbf" + text), "");
 }
 
 // Cut anywhere, a file is refused or holds fewer patches, but never makes up other ones.

@@ -170,7 +170,7 @@ TEST(Obj, WeightsCountWhereTheTypeIsRational) {
 
 TEST(Obj, JoinsContinuedLines) {
   const std::string text = composite("bezier", "1 1", 4, "parm u 0 1\nparm v 0 1\n");
-  for (const std::string end : {"\n", "\r\n"}) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
     const std::string joined =
         replaced(replaced(text, "surf 0 1", "surf 0 \\" + end + "1"), "1 2 3 4",
                  "1\\" + end + " 2 \\" + end + "\\" + end + " 3 4");

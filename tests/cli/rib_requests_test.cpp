@@ -41,7 +41,7 @@ INSTANTIATE_TEST_SUITE_P(
         RibCase{"Added", "Bxdf \"PxrDiffuse\" \"d\" \"color diffuseColor\" [1 1 1] ", ""},
         RibCase{"Misspelt", "Pacth \"bilinear\" \"P\" [0 0 0 1 0 0 0 1 0 1 1 0] ", "Pacth"},
         RibCase{"CutOff", "P ", "P"}, RibCase{"PartOfAName", "Begin ", "Begin"},
-        RibCase{"ByteOrderMark", "\xef\xbb\xbf", "\\xef\\xbb\\xbfPatch"},
+        RibCase{"ByteOrderMarkInside", " \xef\xbb\xbf", "\\xef\\xbb\\xbfPatch"},
         RibCase{"Binary", "\xcc\x05 ", "\\xcc\\x05"},
         RibCase{"Compressed", "\x1f\x8b\x08 ", "\\x1f\\x8b\\x08"},
         RibCase{"StrayBracket", "Translate 0 0 5 ] ", "]"}),
