@@ -1,6 +1,7 @@
 #include "kernels/pack_layout.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <limits>
 #include <new>
@@ -39,9 +40,11 @@ void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
   constexpr std::size_t kPage = 4096;
   if (bytes >= kWorthwhile) {
     const std::size_t skipped = -reinterpret_cast<std::uintptr_t>(memory) % kPage;
-    // Advice: whatever comes of it, the memory is good.
+    // Advice: whatever comes of it, the memory is good, and errno remains the caller's.
+    const int before = errno;
     (void)madvise(static_cast<unsigned char*>(memory) + skipped, (bytes - skipped) / kPage * kPage,
                   MADV_HUGEPAGE);
+    errno = before;
   }
 #endif
 }

@@ -1,5 +1,7 @@
-// When memory is short a call says so, before anything is written, wherever it was short.
+// When memory is short a call says so, before anything is written, wherever it was short; when the
+// system does not take advice about memory, nobody hears of it.
 #include <atomic>
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -44,6 +46,19 @@ void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { st
 void operator delete(void* memory, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
   std::free(memory);
 }
+
+#if defined(__linux__)
+namespace {
+std::atomic<int> g_advice{0};
+}
+/// As of a kernel without large pages; stands before the C library's.
+extern "C" __attribute__((visibility("default"))) int
+madvise(void* /*memory*/, std::size_t /*bytes*/, int /*advice*/) noexcept {
+  ++g_advice;
+  errno = EINVAL;
+  return -1;
+}
+#endif
 
 namespace simdbezier::tests {
 namespace {
@@ -119,6 +134,21 @@ TEST_F(Allocation, TilesComeAllOrNot) {
     EXPECT_GT(failed, 1);
   }
 }
+
+#if defined(__linux__)
+TEST(Advice, LeavesErrnoAlone) {
+  constexpr std::size_t kMany = 10000; // 4 MiB and more in float
+  const std::vector<float> points(48 * kMany, 0.5F);
+  PatchSet<float> set;
+  g_advice = 0;
+  errno = EDOM;
+  const PackReport report = pack(ControlNets<float>{points.data(), kMany}, set, {.threads = 1});
+  const int after = errno;
+  EXPECT_TRUE(report);
+  EXPECT_EQ(after, EDOM);
+  EXPECT_GT(g_advice, 0);
+}
+#endif
 
 } // namespace
 } // namespace simdbezier::tests
