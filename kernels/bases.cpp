@@ -32,12 +32,13 @@ Status check_basis(Basis basis, const ControlNets<T>& nets, bool to_bezier) noex
 template <typename T>
 NetReport change_basis(const ControlNets<T>& nets, const MutableNets<T>& out, Basis basis,
                        bool to_bezier, const Options& options) noexcept {
-  Status status = check_nets<T>(nets, {&out}, nets.degree_u, nets.degree_v);
-  if (status == Status::ok) {
-    status = check_basis(basis, nets, to_bezier);
-  }
+  const Status status = check_nets<T>(nets, {&out}, nets.degree_u, nets.degree_v);
   if (status != Status::ok) {
     return {status};
+  }
+  const Status fits = check_basis(basis, nets, to_bezier);
+  if (fits != Status::ok) {
+    return argument_fault(fits);
   }
   const auto map_of = to_bezier ? to_bezier_map : from_bezier_map;
   const LinearMap u = map_of(basis, nets.degree_u);

@@ -156,7 +156,7 @@ PackReport iso_set(const ControlNets<S>& nets, Across direction, double t, Curve
     return {usable};
   }
   if (!std::isfinite(t)) {
-    return {Status::non_finite_input};
+    return argument_fault(Status::non_finite_input);
   }
   const IsoTask<S> task(nets, direction, t);
   std::size_t bytes = 0;

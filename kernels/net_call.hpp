@@ -16,6 +16,9 @@ NetView<const S> view_of(const ControlNets<S>& nets) noexcept;
 template <typename S>
 NetView<S> view_of(const MutableNets<S>& nets) noexcept;
 
+/// The report where no control point is at fault but a parameter, or the presence of weights.
+constexpr NetReport argument_fault(Status status) noexcept { return {status, 0, -1, 0}; }
+
 /// Whether a view can be read: ok | bad_degree | bad_components | null_input | bad_stride |
 /// size_overflow. Overlapping nets are allowed, a point that repeats itself is not.
 template <typename S>
@@ -36,6 +39,7 @@ struct MemoryRange {
   const void* begin;
   std::size_t bytes;
 };
+/// The same of a view's extent, gaps included: like the grids' inputs, ranges have no business there.
 template <typename S>
 Status check_apart(const ControlNets<S>& nets, const MemoryRange& range) noexcept;
 

@@ -47,7 +47,7 @@ NetReport run_split(const ControlNets<T>& nets, const UnitParameter<T>* u,
   for (const UnitParameter<T>* const at : {u, v}) {
     const Status status = at == nullptr ? Status::ok : check_parameter(nets, *at);
     if (status != Status::ok) {
-      return {status};
+      return argument_fault(status);
     }
   }
   task.in = view_of(nets);
@@ -139,8 +139,11 @@ NetReport run_hodograph(const ControlNets<T>& nets, const MutableNets<T>& out, i
                         int order_v, const Options& options) noexcept {
   const Status status = check_result<T>(nets, out, std::max(nets.degree_u - order_u, 1),
                                         std::max(nets.degree_v - order_v, 1));
-  if (status != Status::ok || nets.weights != Weights::none) {
-    return {status != Status::ok ? status : Status::bad_weight};
+  if (status != Status::ok) {
+    return {status};
+  }
+  if (nets.weights != Weights::none) {
+    return argument_fault(Status::bad_weight);
   }
   const auto map = [](int degree, int order) {
     return order == 0 ? identity_map(degree) : hodograph_map(degree);
@@ -192,12 +195,15 @@ template <typename T>
 NetReport segment(const ControlNets<T>& nets, const std::type_identity_t<SubPatch<T>>& piece,
                   const std::type_identity_t<MutableNets<T>>& out,
                   const Options& options) noexcept {
-  Status status = detail::check_result<T>(nets, out, nets.degree_u, nets.degree_v);
-  for (const UnitParameter<T>* const at : {&piece.u0, &piece.u1, &piece.v0, &piece.v1}) {
-    status = status == Status::ok ? detail::check_parameter(nets, *at) : status;
-  }
+  const Status status = detail::check_result<T>(nets, out, nets.degree_u, nets.degree_v);
   if (status != Status::ok) {
     return {status};
+  }
+  for (const UnitParameter<T>* const at : {&piece.u0, &piece.u1, &piece.v0, &piece.v1}) {
+    const Status usable = detail::check_parameter(nets, *at);
+    if (usable != Status::ok) {
+      return detail::argument_fault(usable);
+    }
   }
   const detail::SegmentTask<T> task{detail::view_of(nets),
                                     detail::view_of(out),

@@ -24,7 +24,7 @@ inline Status packing_isa(const PackOptions& options, Isa& isa) noexcept {
 inline PackReport check_relative_to(const PackOptions& options, int components) noexcept {
   for (int c = 0; c < std::min(components, 3); ++c) {
     if (!std::isfinite(options.relative_to[c])) {
-      return {Status::non_finite_input, 0, 0, c};
+      return {Status::non_finite_input, 0, -1, c};
     }
   }
   return {};

@@ -16,7 +16,7 @@ std::string_view to_string(Status status) noexcept {
   case Status::bad_components:
     return "the components are not 1 to 16, differ, or an output needs exactly three";
   case Status::bad_weight:
-    return "a weight is not positive and finite";
+    return "a weight is not positive and finite, or there are some where none can be";
   case Status::bad_stride:
     return "a stride lets two values share one place";
   case Status::overlapping_outputs:
@@ -24,7 +24,7 @@ std::string_view to_string(Status status) noexcept {
   case Status::bad_offsets:
     return "the offsets do not leave every patch room for its samples";
   case Status::non_finite_input:
-    return "a control point is nan or infinite";
+    return "a control point or a parameter of the whole call is nan or infinite";
   case Status::coefficient_overflow:
     return "the coefficients of a patch exceed the range of the number type";
   case Status::bad_grid:

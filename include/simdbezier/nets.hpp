@@ -39,7 +39,9 @@
 
 namespace simdbezier {
 
-/// Where an operation stopped: status, patch, control point and component, as in packing.
+/// Where an operation stopped: status, patch, control point and component, as in packing. Where
+/// non_finite_input and bad_weight are about a parameter, or about weights that cannot be there at
+/// all, `point` is -1.
 using NetReport = PackReport;
 
 /// Memory of the caller's for control nets; the members mean what they mean in ControlNets, which

@@ -17,7 +17,7 @@ template <typename T>
 struct SetStorage;
 }
 
-/// Where packing stopped. On ok the other members are 0.
+/// Where packing stopped; members are 0 on ok. Point -1: an option is at fault, not a point.
 struct PackReport {
   Status status = Status::ok;
   std::size_t patch = 0; ///< first patch at fault

@@ -14,11 +14,11 @@ enum class Status : std::uint8_t {
   null_output,    ///< no output group was asked for, or a group names only some of its planes
   bad_degree,     ///< a degree is below 1 or above kMostDegree
   bad_components, ///< components are not 1 to kMostComponents, differ, or an output needs three
-  bad_weight,     ///< a weight is not positive and finite
+  bad_weight,     ///< a weight is not positive and finite, or there are some where none can be
   bad_stride,     ///< the strides let two values share one place
   overlapping_outputs,  ///< two outputs share memory, or an output lies in an input
   bad_offsets,          ///< per-patch offsets do not ascend far enough for the patches' samples
-  non_finite_input,     ///< a control point is nan or infinite
+  non_finite_input,     ///< a control point or a parameter of the whole call is nan or infinite
   coefficient_overflow, ///< the control points are finite, but their coefficients are not
   bad_grid,             ///< a uniform grid needs 2 samples or more in each direction, a given one 1
   bad_patch_range,      ///< patches outside of the set were asked for

@@ -101,6 +101,9 @@ TEST(IsoPoints, RefuseBadInput) {
   EXPECT_EQ(to_string(report.status), to_string(Status::non_finite_input));
   EXPECT_EQ(report.point, 1);
   EXPECT_EQ(report.component, 1);
+  const PackReport parameter = iso_u(nets.view(), NAN, set);
+  EXPECT_EQ(to_string(parameter.status), to_string(Status::non_finite_input));
+  EXPECT_EQ(parameter.point, -1);
 }
 
 /// Of the points that the set keeps, which are the nets' own.

@@ -82,6 +82,7 @@ struct Fault {
   Status status;
   std::function<void(ControlNets<float>&, PackOptions&)> change;
   std::size_t patch = 10;
+  int point = 0;
 };
 
 TEST(PackSets, refuses_entries_that_cannot_be_packed) {
@@ -102,7 +103,7 @@ TEST(PackSets, refuses_entries_that_cannot_be_packed) {
       {"bytes", Status::size_overflow,
        [](Nets& n, PackOptions&) { n.count = std::numeric_limits<std::size_t>::max() / 64; }, 0},
       {"origin", Status::non_finite_input, [](Nets&, PackOptions& o) { o.relative_to[1] = kNan; },
-       0},
+       0, -1},
   };
   const RandomNets<float> first({2, 2, 2}, 10, 1);
   const RandomNets<float> second({4, 7, 2, Weights::cartesian}, 9, 2);
@@ -115,6 +116,7 @@ TEST(PackSets, refuses_entries_that_cannot_be_packed) {
     const PackReport report = pack(std::span<const Nets>(nets), set, options);
     EXPECT_EQ(to_string(report.status), to_string(fault.status)) << fault.name;
     EXPECT_EQ(report.patch, fault.patch) << fault.name;
+    EXPECT_EQ(report.point, fault.point) << fault.name;
     EXPECT_EQ(set.size(), 10U) << fault.name;
   }
   // What the nets do not have is not looked at.
