@@ -33,8 +33,9 @@ struct EdgeLink {
 /// sets:        any number of views; their degrees may differ, and an edge of degree 3 of a 3 x 5
 ///              patch may match one of a 7 x 3 patch. Patches are numbered through, view after
 ///              view.
-/// edges:       4 values a patch, [4 * patch + PatchEdge], apart from the nets' memory. shared: the
-///              other edge.
+/// edges:       4 values a patch, [4 * patch + PatchEdge], apart from the memory from the first to
+///              the last value of each view: gaps between strided nets count, as they do wherever
+///              an output is compared with an input. shared: the other edge.
 ///              non_manifold: the next one of the same points, in order of patch and edge, from
 ///              the last to the first. boundary, collapsed: edge, reversed and patch are 0.
 /// Match:       equal degree, components and form of weights, and bit-equal control points, weights

@@ -258,6 +258,10 @@ TEST(Adjacency, BadInput) {
   EXPECT_EQ(find_adjacency(inside, both.data()), Status::overlapping_outputs);
   EXPECT_EQ(both[0], before[0]);
   EXPECT_EQ(find_adjacency(inside, both.data() + 32), Status::ok);
+  // Links in the gap between two nets.
+  inside.patch_stride = 40 * sizeof(EdgeLink) / sizeof(float);
+  EXPECT_EQ(find_adjacency(inside, both.data() + 20), Status::overlapping_outputs);
+  EXPECT_EQ(both[20], before[0]);
   EXPECT_EQ(find_adjacency(std::span<const ControlNets<float>>(), nullptr), Status::ok);
   EXPECT_EQ(find_adjacency(ControlNets<float>{}, nullptr), Status::ok);
 }
