@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
   add_machine_context();
   register_grid_rows();
   register_shape_rows();
+  register_derivative_rows();
   register_tile_rows();
   register_scattered_rows();
   register_net_rows();

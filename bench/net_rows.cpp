@@ -1,5 +1,5 @@
 // nets/<operation>/<type>/<isa>/3x3/cache/threads:1: operations on bicubic control nets. Items are
-// patches.
+// patches. find_adjacency has no kernels and is called scalar.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,8 +16,11 @@ namespace simdbezier_bench {
 namespace {
 
 using simdbezier::ControlNets;
+using simdbezier::EdgeKind;
+using simdbezier::EdgeLink;
 using simdbezier::Isa;
 using simdbezier::MutableNets;
+using simdbezier::PatchEdge;
 using simdbezier::Status;
 
 constexpr std::size_t kPatches = 256; ///< nets and results of splitting: 245 KB in float
@@ -199,8 +202,71 @@ void add_operation(Isa isa) {
   register_row(name, benchmark::kMicrosecond, 1, [isa] { return NetCall<T, Operation>(isa); });
 }
 
+/// find_adjacency of a square of patches, whose edges are known.
+template <typename T>
+class AdjacencyCall {
+public:
+  AdjacencyCall() : points_(kValuesPerPatch * kPatches), links_(4 * kPatches) {
+    for (std::size_t k = 0; k < 16 * kPatches; ++k) {
+      const std::size_t patch = k / 16;
+      const std::size_t column = 3 * (patch % kSide) + k % 4;
+      const std::size_t row = 3 * (patch / kSide) + k % 16 / 4;
+      points_[3 * k] = static_cast<T>(column);
+      points_[3 * k + 1] = static_cast<T>(row);
+      points_[3 * k + 2] = static_cast<T>(column * row % 7);
+    }
+    options_.threads = 1;
+  }
+  void operator()() { (void)run(); }
+  std::string check() {
+    std::fill(links_.begin(), links_.end(), EdgeLink{EdgeKind::collapsed});
+    const Status status = run();
+    if (status != Status::ok) {
+      return std::string(simdbezier::to_string(status));
+    }
+    for (std::size_t k = 0; k < links_.size(); ++k) {
+      if (links_[k] != expected(k / 4, static_cast<PatchEdge>(k % 4))) {
+        return "edge " + std::to_string(k % 4) + " of patch " + std::to_string(k / 4) + " is wrong";
+      }
+    }
+    return {};
+  }
+  [[nodiscard]] double items() const { return kPatches; }
+  [[nodiscard]] double bytes() const {
+    return static_cast<double>(links_.size() * sizeof(EdgeLink));
+  }
+
+private:
+  static constexpr std::size_t kSide = 16;
+  static_assert(kSide * kSide == kPatches);
+
+  Status run() {
+    return simdbezier::find_adjacency(ControlNets<T>{points_.data(), kPatches}, links_.data(),
+                                      options_);
+  }
+  static EdgeLink expected(std::size_t patch, PatchEdge edge) {
+    const std::size_t place =
+        edge == PatchEdge::u0 || edge == PatchEdge::u1 ? patch % kSide : patch / kSide;
+    const std::size_t step = edge == PatchEdge::u0 || edge == PatchEdge::u1 ? 1 : kSide;
+    const bool back = edge == PatchEdge::u0 || edge == PatchEdge::v0;
+    if (place == (back ? 0 : kSide - 1)) {
+      return {EdgeKind::boundary};
+    }
+    constexpr PatchEdge kOpposite[] = {PatchEdge::v1, PatchEdge::v0, PatchEdge::u1, PatchEdge::u0};
+    return {EdgeKind::shared, kOpposite[static_cast<std::size_t>(edge)], false,
+            back ? patch - step : patch + step};
+  }
+
+  std::vector<T> points_;
+  std::vector<EdgeLink> links_;
+  simdbezier::Options options_;
+};
+
 template <typename T>
 void add_type() {
+  register_row(std::string("nets/find_adjacency") + (sizeof(T) == 4 ? "/f32" : "/f64") +
+                   "/scalar/3x3/cache/threads:1",
+               benchmark::kMicrosecond, 1, [] { return AdjacencyCall<T>(); });
   for (const Isa isa : simdbezier::available_isas()) {
     add_operation<T, Split>(isa);
     add_operation<T, Elevate>(isa);

@@ -13,6 +13,7 @@
 namespace simdbezier_bench {
 
 void register_curve_rows();
+void register_derivative_rows();
 void register_grid_rows();
 void register_shape_rows();
 void register_tile_rows();
