@@ -2,8 +2,9 @@
 # Seeds faults into copies of the library, one at a time, and requires the named test to fail:
 # a check that cannot fail is worth nothing. Run by hand after changing kernels or checks.
 #
-#     tests/accuracy/seed_faults.sh [FAULT]
+#     tests/accuracy/seed_faults.sh [--dry-run | FAULT]
 #
+# --dry-run only looks for the places in the sources.
 # Exit 0: every fault was caught; 1: one was not, or its place in the sources was not found.
 set -euo pipefail
 
@@ -23,31 +24,39 @@ faults=(
   "curve_moved_in_a_plane|kernels/curve_pack_kernel.hpp|s/Wide origin(component < 3/Wide origin(component < 2/|curves/test_curves|*CurveAccuracy*"
 )
 
-# Copies the sources anew and builds one test program of the copy.
-build_copy() { # fault file substitution program
-  rm -rf "$work/source"
-  mkdir -p "$work/source"
-  (cd "$root" && tar cf - --exclude=./build* --exclude=./.git .) | tar xf - -C "$work/source"
-  if [[ -n $3 ]]; then
-    sed -i "$3" "$work/source/$2"
-    if cmp -s "$root/$2" "$work/source/$2"; then
-      echo "$1: nothing to substitute in $2" >&2
-      return 1
-    fi
+# Puts a fault into the copy of the sources.
+seed() { # fault file substitution
+  sed "$3" "$root/$2" >"$work/faulty"
+  if cmp -s "$root/$2" "$work/faulty"; then
+    echo "$1: nothing to substitute in $2" >&2
+    return 1
   fi
+  cp "$work/faulty" "$work/source/$2"
+}
+
+# Builds one test program of the copy.
+build_copy() { # program
   # All at -O1, which compiles in a third of the time and has the same bits.
   cmake -S "$work/source" -B "$work/build" -DCMAKE_BUILD_TYPE=Debug \
         -DCMAKE_CXX_FLAGS_DEBUG="-O1 -DNDEBUG" -DSIMDBEZIER_BUILD_TESTS=ON \
         -DSIMDBEZIER_BUILD_BENCH=OFF -DSIMDBEZIER_SHARED_DATA="$data" >"$work/log" 2>&1 &&
-    cmake --build "$work/build" -j2 --target "${4##*/}" >>"$work/log" 2>&1 ||
+    cmake --build "$work/build" -j2 --target "${1##*/}" >>"$work/log" 2>&1 ||
     { tail -20 "$work/log" >&2; return 1; }
 }
 
+mkdir "$work/source"
+(cd "$root" && tar cf - --exclude=./build* --exclude=./.git .) | tar xf - -C "$work/source"
 status=0
 for row in "${faults[@]}"; do
   IFS='|' read -r fault file substitution program filter <<<"$row"
-  [[ $# -eq 0 || $1 == "$fault" ]] || continue
-  build_copy "$fault" "$file" "$substitution" "$program" || { status=1; continue; }
+  [[ $# -eq 0 || $1 == --dry-run || $1 == "$fault" ]] || continue
+  seed "$fault" "$file" "$substitution" || { status=1; continue; }
+  [[ ${1-} != --dry-run ]] || { echo "$fault: found in $file"; continue; }
+  built=1
+  build_copy "$program" || built=0
+  # With the time of now, so that the next build compiles it anew: the fault would stay otherwise.
+  cp "$root/$file" "$work/source/$file"
+  (( built )) || { echo "$fault: does not compile" >&2; status=1; continue; }
   if "$work/build/tests/$program" --gtest_filter="$filter" >"$work/log" 2>&1; then
     echo "$fault: NOT caught by $program --gtest_filter='$filter'"
     status=1
