@@ -28,8 +28,10 @@ SIMDBEZIER_INLINE V no_floor() {
 template <typename V>
 SIMDBEZIER_INLINE V floor_inside(V t, V floor) {
   using T = ScalarOf<V>;
-  const MaskOf<V> inside = (t <= broadcast<V>(T(0.5))) & (t >= broadcast<V>(T(-0.5)));
-  return select_where<V>(inside, floor, no_floor<V>());
+  // Named, since clang warns of & between calls that give bool.
+  const MaskOf<V> below = t <= broadcast<V>(T(0.5));
+  const MaskOf<V> above = t >= broadcast<V>(T(-0.5));
+  return select_where<V>(below & above, floor, no_floor<V>());
 }
 
 /// Lane by lane, for those that did not pass. Rare, so kept out of line; vectors come by value, or
