@@ -12,7 +12,7 @@ name matches REGEX (default: all), family by family: median samples/s, spread ov
   limit           cache, positions: to limit/horner_store of the type and instruction set
                   memory: bytes written to those of limit/fill_stream with as many threads
                   random samples, patches in memory: to limit/random_lines (192 bytes a patch: f32)
-  cache row       tiles: to the grid row in cache of the same size
+  cache row       tiles: to the grid row in cache of the same size and layout
   threads:1       to the same row with one thread
   16x16 grid      pack: time a patch to that of its 256 positions (grid row in cache)
 """
@@ -68,7 +68,8 @@ class Ratios:
         return self.median(row.text(threads=1)) if row.threads > 1 else None
 
     def to_cache_row(self, row):
-        return self.median(row.text(call="grid", threads=1, keys={}))
+        keys = {key: value for key, value in row.keys.items() if key == "layout"}
+        return self.median(row.text(call="grid", threads=1, keys=keys))
 
     def to_grid(self, row):
         """256 positions take as long as this many patches a second."""

@@ -1,4 +1,4 @@
-// tiles/<outputs>/<type>/<isa>/<n>x<n>/cache/threads:<t>[/patches:N]
+// tiles/<outputs>/<type>/<isa>/<n>x<n>/cache/threads:<t>[/patches:N][/layout:L][/consumer:none]
 #include <atomic>
 #include <cstdint>
 #include <mutex>
@@ -16,6 +16,7 @@ namespace {
 
 using simdbezier::Isa;
 using simdbezier::Tile;
+using simdbezier::TileLayout;
 
 constexpr std::size_t kSizes[] = {16, 32};
 constexpr OutputGroups kOutputs[] = {OutputGroups::position, OutputGroups::position_normal,
@@ -30,13 +31,20 @@ struct TileRow {
   std::size_t n;
   std::size_t patches; ///< 0: as many as kWholeBytes hold
   int threads;
+  TileLayout layout = TileLayout::planes;
+  bool consumed = true; ///< false: the callback takes a tile and leaves it unread
 };
 
 template <typename T>
 std::string name_of(const TileRow& row) {
   const RowName name{"tiles", row.outputs, sizeof(T) == 4, std::string(to_string(row.isa)),
                      row.n,   row.n,       Place::cache,   row.threads};
-  return name.text() + (row.patches == 0 ? "" : "/patches:" + std::to_string(row.patches));
+  std::string text = name.text();
+  text += row.patches == 0 ? "" : "/patches:" + std::to_string(row.patches);
+  text += row.layout == TileLayout::xyz           ? "/layout:aos"
+          : row.layout == TileLayout::interleaved ? "/layout:interleaved"
+                                                  : "";
+  return row.consumed ? text : text + "/consumer:none";
 }
 
 /// The least that a consumer does: reads every cache line of a tile, as integers, which can be
@@ -70,6 +78,7 @@ public:
     set_ = &shared_patch_set<T>(patches_);
     format_.normal = row.outputs == OutputGroups::position_normal;
     format_.du = format_.dv = row.outputs == OutputGroups::position_derivatives;
+    format_.layout = row.layout;
     options_.threads = row.threads;
     options_.isa = row.isa;
     options_.patch_count = patches_;
@@ -81,15 +90,8 @@ public:
       std::uint64_t value;
     };
     static Sum sums[256];
-    const auto members = members_of<T>(row_.outputs);
     (void)evaluate(options_, [&](const Tile<T>& tile) {
-      std::uint64_t sum = 0;
-      for (const GroupMember<T> member : members) {
-        const simdbezier::Vectors<T>& group = tile.out.*member;
-        sum += read_lines(group.x, tile.samples) + read_lines(group.y, tile.samples) +
-               read_lines(group.z, tile.samples);
-      }
-      sums[tile.worker % 256].value += sum;
+      sums[tile.worker % 256].value += row_.consumed ? read_tile(tile) : tile.samples;
     });
   }
 
@@ -120,6 +122,23 @@ public:
   }
 
 private:
+  [[nodiscard]] std::uint64_t read_tile(const Tile<T>& tile) const {
+    if (row_.layout == TileLayout::interleaved) {
+      return read_lines(tile.out.position.x, tile.samples * 3 * group_count(row_.outputs));
+    }
+    std::uint64_t sum = 0;
+    for (const GroupMember<T> member : members_of<T>(row_.outputs)) {
+      const simdbezier::Vectors<T>& group = tile.out.*member;
+      if (row_.layout == TileLayout::xyz) {
+        sum += read_lines(group.x, 3 * tile.samples);
+      } else {
+        sum += read_lines(group.x, tile.samples) + read_lines(group.y, tile.samples) +
+               read_lines(group.z, tile.samples);
+      }
+    }
+    return sum;
+  }
+
   template <typename Function>
   simdbezier::Status evaluate(const simdbezier::Options& options, Function&& function) const {
     return simdbezier::evaluate_tiles(*set_, simdbezier::Grid<T>::uniform(row_.n, row_.n), format_,
@@ -163,6 +182,17 @@ void add_type() {
     for (const std::size_t n : kSizes) {
       for (const Isa isa : simdbezier::available_isas()) {
         add<T>({outputs, isa, n, 0, 1});
+        add<T>({.outputs = outputs,
+                .isa = isa,
+                .n = n,
+                .patches = 0,
+                .threads = 1,
+                .consumed = false});
+        for (const TileLayout layout : {TileLayout::xyz, TileLayout::interleaved}) {
+          if (layout == TileLayout::xyz || group_count(outputs) > 1) {
+            add<T>({outputs, isa, n, kBatch, 1, layout});
+          }
+        }
         for (int threads = 1; threads <= max_threads(); ++threads) {
           add<T>({outputs, isa, n, kBatch, threads});
         }
