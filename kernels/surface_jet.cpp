@@ -44,10 +44,13 @@ SurfaceFrame::SurfaceFrame(const NetShape& shape, const T* control_points)
   // Halved once more, so that differences cannot overflow.
   const int exponent = -std::ilogb(size) - 1;
   scale = std::scalbn(1.0, exponent);
+  // The same values, but for sizes whose power of two no double holds.
+  const bool one_factor = std::isnormal(scale);
   const auto scaled_point = [&](std::size_t k) {
     const Vector p = point_of(k);
-    return Vector{std::scalbn(p.x, exponent), std::scalbn(p.y, exponent),
-                  std::scalbn(p.z, exponent)};
+    return one_factor ? scale * p
+                      : Vector{std::scalbn(p.x, exponent), std::scalbn(p.y, exponent),
+                               std::scalbn(p.z, exponent)};
   };
   const Vector origin = scaled_point(0);
   for (std::size_t k = 0; k < count; ++k) {
