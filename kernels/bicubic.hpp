@@ -16,7 +16,6 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::kEdges;
 using detail::kOrder;
-using detail::Scheme;
 
 /// c[0] + t c[1] + t^2 c[2] + t^3 c[3]
 template <typename V>
@@ -63,10 +62,11 @@ struct Column {
   PairSelector<V> edges;
   bool on_edge; ///< false: no lane is on an edge u = const
 
-  explicit SIMDBEZIER_INLINE Column(V half_centred)
+  /// Not watertight: edges are as good as any column.
+  SIMDBEZIER_INLINE Column(V half_centred, bool watertight)
       : x(half_centred),
         edges(x == broadcast<V>(ScalarOf<V>(-0.5)), x == broadcast<V>(ScalarOf<V>(0.5))),
-        on_edge(edges.worthwhile()) {}
+        on_edge(watertight && edges.worthwhile()) {}
 };
 
 /// The coefficients of one component of one patch.
@@ -94,10 +94,10 @@ struct Component {
 };
 
 /// The polynomial in Y that a column is, for position and v derivative.
-template <Scheme kScheme, typename V>
+template <typename V>
 SIMDBEZIER_INLINE void replace_edge_columns(const Component<ScalarOf<V>>& c,
                                             const Column<V>& column, V q[kOrder]) {
-  if (is_watertight(kScheme) && column.on_edge) {
+  if (column.on_edge) {
     for (std::size_t l = 0; l < kOrder; ++l) {
       q[l] = column.edges.replace(q[l], c.edge + l * kEdges + detail::kEdgeU0);
     }
@@ -111,7 +111,7 @@ SIMDBEZIER_INLINE void matrix_column(const Component<ScalarOf<V>>& c, std::size_
   }
 }
 
-template <Scheme kScheme, typename V>
+template <typename V>
 SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                          V q[kOrder]) {
   for (std::size_t l = 0; l < kOrder; ++l) {
@@ -119,12 +119,12 @@ SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const 
     matrix_column(c, l, k);
     q[l] = horner(k, column.x);
   }
-  replace_edge_columns<kScheme>(c, column, q);
+  replace_edge_columns(c, column, q);
 }
 
 /// As above; dq is the polynomial of the u derivative, which on an edge u = const still comes from
 /// the patch, because the edge's control points do not determine it.
-template <Scheme kScheme, typename V>
+template <typename V>
 SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                          V q[kOrder], V dq[kOrder]) {
   for (std::size_t l = 0; l < kOrder; ++l) {
@@ -132,21 +132,21 @@ SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const 
     matrix_column(c, l, k);
     q[l] = horner(k, column.x, dq[l]);
   }
-  replace_edge_columns<kScheme>(c, column, q);
+  replace_edge_columns(c, column, q);
 }
 
 /// The same two for a single column, which all lanes share: all four powers of Y at once, for a
 /// quarter of the operations.
-template <Scheme kScheme, typename V>
+template <typename V>
 SIMDBEZIER_INLINE void single_column_polynomial(const Component<ScalarOf<V>>& c,
                                                 const Column<V>& column, V q[kOrder]) {
   V k[kOrder];
   load_fours(c.matrix, k);
   split_fours(horner(k, column.x), q);
-  replace_edge_columns<kScheme>(c, column, q);
+  replace_edge_columns(c, column, q);
 }
 
-template <Scheme kScheme, typename V>
+template <typename V>
 SIMDBEZIER_INLINE void single_column_polynomial(const Component<ScalarOf<V>>& c,
                                                 const Column<V>& column, V q[kOrder],
                                                 V dq[kOrder]) {
@@ -155,7 +155,7 @@ SIMDBEZIER_INLINE void single_column_polynomial(const Component<ScalarOf<V>>& c,
   V slopes;
   split_fours(horner(k, column.x, slopes), q);
   split_fours(slopes, dq);
-  replace_edge_columns<kScheme>(c, column, q);
+  replace_edge_columns(c, column, q);
 }
 
 /// What second derivatives are made of: q as above, dq and ddq of the patch.
@@ -165,7 +165,6 @@ struct SecondColumns {
   V dq[kOrder];
   V ddq[kOrder];
 
-  template <Scheme kScheme>
   SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const Column<V>& column) {
     for (std::size_t l = 0; l < kOrder; ++l) {
       V k[kOrder];
@@ -173,7 +172,7 @@ struct SecondColumns {
       q[l] = horner(k, column.x, dq[l]);
       ddq[l] = horner_second(k, column.x);
     }
-    replace_edge_columns<kScheme>(c, column, q);
+    replace_edge_columns(c, column, q);
   }
 
   /// Away from the edges v = 0 and 1, where duu comes from the edge: edge_second().
@@ -183,20 +182,20 @@ struct SecondColumns {
 };
 
 /// What a column's positions are relative to; a column on an edge u = const has that edge's origin.
-template <Scheme kScheme, typename V>
+template <bool kOrigins, typename V>
 SIMDBEZIER_INLINE V column_origin(const Component<ScalarOf<V>>& c, const Column<V>& column) {
-  if constexpr (!has_origins(kScheme)) {
+  if constexpr (!kOrigins) {
     return column.x; // not used
   }
   const V inside = broadcast<V>(c.origin()[0]);
   constexpr std::size_t kAt = detail::kEdgeOriginsAt + detail::kEdgeU0;
-  return is_watertight(kScheme) ? column.edges.replace(inside, c.origin() + kAt) : inside;
+  return column.on_edge ? column.edges.replace(inside, c.origin() + kAt) : inside;
 }
 
 /// Origins are added last, so that far away only this addition rounds at the size of the result.
-template <Scheme kScheme, typename V>
+template <bool kOrigins, typename V>
 SIMDBEZIER_INLINE V with_origin(V p, V origin) {
-  if constexpr (has_origins(kScheme)) {
+  if constexpr (kOrigins) {
     return p + origin;
   }
   return p;
@@ -211,30 +210,30 @@ SIMDBEZIER_INLINE void edge_cubic(const Component<ScalarOf<V>>& c, std::size_t e
 }
 
 /// From the value of the edge's cubic to the position: origin added, corners as stored.
-template <Scheme kScheme, typename V>
+template <bool kOrigins, typename V>
 SIMDBEZIER_INLINE V finished_edge(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                   std::size_t edge, V value) {
-  if constexpr (has_origins(kScheme)) {
+  if constexpr (kOrigins) {
     value = value + broadcast<V>(c.origin()[detail::kEdgeOriginsAt + edge]);
   }
   return column.edges.replace(value, c.corner + detail::corner_index(0, edge));
 }
 
 /// Position on the edge v = 0 or 1 (`edge` = kEdgeV0 or kEdgeV1).
-template <Scheme kScheme, typename V>
+template <bool kOrigins, typename V>
 SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                   std::size_t edge) {
   V k[kOrder];
   edge_cubic(c, edge, k);
-  return finished_edge<kScheme>(c, column, edge, horner(k, column.x));
+  return finished_edge<kOrigins>(c, column, edge, horner(k, column.x));
 }
 
-template <Scheme kScheme, typename V>
+template <bool kOrigins, typename V>
 SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                   std::size_t edge, V& du) {
   V k[kOrder];
   edge_cubic(c, edge, k);
-  return finished_edge<kScheme>(c, column, edge, horner(k, column.x, du));
+  return finished_edge<kOrigins>(c, column, edge, horner(k, column.x, du));
 }
 
 /// d2S/du2 on the edge v = 0 or 1.

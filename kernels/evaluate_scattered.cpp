@@ -20,7 +20,7 @@ struct ScatteredCall {
   const Samples<T>& samples;
   const OutputPlan<T>& outputs;
   const KernelTable<T>& table;
-  Scheme scheme;
+  bool watertight;
   std::size_t first_component;
   bool any_shape; ///< bicubic patches take the kernels of any shape, too
   std::size_t piece_samples;
@@ -91,6 +91,7 @@ struct ScatteredCall {
     task.patches_known = set.places == nullptr ? samples.count - first : count;
     task.prefetch = patches.count > second_level_cache() / (kCoefficients * sizeof(T));
     task.resolve_normal = resolve_normal<T>;
+    task.watertight = watertight;
     for (std::size_t g = 0; g < kGroups; ++g) {
       for (std::size_t c = 0; c < 3; ++c) {
         T* const plane = planes[g].component[c];
@@ -104,9 +105,9 @@ struct ScatteredCall {
     task.first_component = first_component;
     task.status = outputs.out().status == nullptr ? nullptr : outputs.out().status + first;
     if (any_shape || !patches.shape.is_bicubic()) {
-      table.shapes->scattered(task, scheme);
+      table.shapes->scattered(task);
     } else {
-      table.scattered[scheme](task);
+      table.scattered[task.origins != nullptr](task);
     }
     return task.executed;
   }
@@ -144,7 +145,7 @@ Status evaluate_scattered(const PatchSet<T>& set, const Samples<T>& samples, con
                                       samples,
                                       outputs,
                                       table,
-                                      detail::scheme(options.watertight, set.has_local_origins()),
+                                      options.watertight,
                                       components.first,
                                       out.curvature.wanted() || !components.space,
                                       pieces.length};

@@ -13,11 +13,11 @@ SIMDBEZIER_INLINE void sweep_position(const RowPiece<ScalarOf<V>>& piece,
   using T = ScalarOf<V>;
   V q[kOrder];
   if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kSingle) {
-    single_column_polynomial<kScheme>(c, tile.column, q);
+    single_column_polynomial(c, tile.column, q);
   } else {
-    column_polynomial<kScheme>(c, tile.column, q);
+    column_polynomial(c, tile.column, q);
   }
-  const V origin = column_origin<kScheme>(c, tile.column);
+  const V origin = column_origin<has_origins(kScheme)>(c, tile.column);
   const V shared = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
                        ? tile.template edge_rows<kScheme>(c, 0)
                        : origin;
@@ -36,7 +36,7 @@ SIMDBEZIER_INLINE void sweep_position(const RowPiece<ScalarOf<V>>& piece,
         } else {
           p = horner(q, RowGroups<kRows, V>::spread(y));
         }
-        tile.store(to + at, nu, with_origin<kScheme>(p, origin), rows, extra + row);
+        tile.store(to + at, nu, with_origin<has_origins(kScheme)>(p, origin), rows, extra + row);
       });
 }
 
@@ -58,17 +58,17 @@ struct JetColumns {
   template <typename Tile>
   SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const Tile& tile) {
     if constexpr (Tile::kSingle) {
-      single_column_polynomial<kScheme>(c, tile.column, q, dq);
+      single_column_polynomial(c, tile.column, q, dq);
     } else {
-      column_polynomial<kScheme>(c, tile.column, q, dq);
+      column_polynomial(c, tile.column, q, dq);
     }
-    origin = column_origin<kScheme>(c, tile.column);
+    origin = column_origin<has_origins(kScheme)>(c, tile.column);
   }
   SIMDBEZIER_INLINE Jet<V> interior(V y) const {
     Jet<V> jet;
     const V p = horner(q, y, jet.dv);
     jet.du = horner(dq, y);
-    jet.p = with_origin<kScheme>(p, origin);
+    jet.p = with_origin<has_origins(kScheme)>(p, origin);
     return jet;
   }
   /// On the edge v = const number `edge`, or on both where they share a register.
@@ -128,7 +128,7 @@ sweep_second(const GridTask<ScalarOf<V>>& task, const RowPiece<ScalarOf<V>>& pie
              std::size_t component, std::size_t first) {
   using T = ScalarOf<V>;
   SecondColumns<V> columns;
-  columns.template build<kScheme>(c, tile.column);
+  columns.build(c, tile.column);
   T* const duu = task.out[detail::kDuuGroup].component[component];
   T* const duv = task.out[detail::kDuvGroup].component[component];
   T* const dvv = task.out[detail::kDvvGroup].component[component];

@@ -61,6 +61,7 @@ void GridEvaluator<T>::fill(GridTask<T>& task, const PatchStorage<T>& set, const
   task.prefetch = set.count > second_level_cache() /
                                   ((set.shape.coefficients() + set.shape.edges()) * sizeof(T));
   task.streaming = to.streaming;
+  task.watertight = kernels_.watertight;
   task.record = to.record;
   task.drain = to.drain;
 }
@@ -139,15 +140,16 @@ void GridEvaluator<T>::run_bucket(const PatchStorage<T>& bucket, const GridPlan<
     }
   }
   if (kernels_.any_shape || !bucket.shape.is_bicubic()) {
-    kernels_.table->shapes->grid(task, kernels_.scheme);
+    kernels_.table->shapes->grid(task);
     executed_ = task.executed;
     return;
   }
+  const Scheme used = scheme(task.watertight, task.origins != nullptr);
   if (kernels_.choice.first) {
-    kernels_.table->grid[kernels_.choice.outputs][kernels_.scheme](task);
+    kernels_.table->grid[kernels_.choice.outputs][used](task);
   }
   if (kernels_.choice.second) {
-    kernels_.table->grid[kSecondDerivatives][kernels_.scheme](task);
+    kernels_.table->grid[kSecondDerivatives][used](task);
   }
   executed_ = task.executed;
 }

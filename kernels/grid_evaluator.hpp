@@ -27,16 +27,16 @@ struct GridKernels {
   const SetStorage<T>* set;
   const KernelTable<T>* table;
   KernelChoice choice;
-  Scheme scheme;
+  bool watertight;
   std::size_t first_component;
   bool any_shape; ///< bicubic patches take the kernels of any shape, too
 
   GridKernels(const SetStorage<T>& storage, const KernelTable<T>& kernels,
               const WantedGroups& wanted, bool curvature, const Components& components,
-              bool watertight) noexcept
+              bool watertight_edges) noexcept
       : set(&storage), table(&kernels), choice(choose_kernels(wanted)),
-        scheme(detail::scheme(watertight, storage.buckets[0].origins != nullptr)),
-        first_component(components.first), any_shape(curvature || !components.space) {}
+        watertight(watertight_edges), first_component(components.first),
+        any_shape(curvature || !components.space) {}
 
   /// Whether all patches are bicubic, and evaluated as such.
   [[nodiscard]] bool bicubic() const noexcept {

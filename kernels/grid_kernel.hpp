@@ -46,7 +46,8 @@ SIMDBEZIER_INLINE void sweep_normal_patches(const GridTask<T>& shared_task,
   // Copies, because stores through vector types might change anything that others can see.
   const GridTask<T> task = shared_task;
   GridTask<T> column_task = shared_task;
-  const ColumnTile<V> column(task.x, tile.first + (SomeTile::kBuffered ? tile.active : 0), 1);
+  const ColumnTile<V> column(task.x, tile.first + (SomeTile::kBuffered ? tile.active : 0), 1,
+                             is_watertight(kScheme));
   ColumnBuffer<T, 6> buffer;
   NormalExtra<T> extra{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -82,7 +83,8 @@ SIMDBEZIER_INLINE void sweep_component_patches(const GridTask<T>& task, const Ro
                                                std::size_t last_patch) {
   using V = typename SomeTile::Vector;
   constexpr std::size_t kPlanes = kOutputs == detail::kPosition ? 1 : 3;
-  const ColumnTile<V> column(task.x, tile.first + (SomeTile::kBuffered ? tile.active : 0), 1);
+  const ColumnTile<V> column(task.x, tile.first + (SomeTile::kBuffered ? tile.active : 0), 1,
+                             is_watertight(kScheme));
   ColumnBuffer<T, 3> buffer;
   const JetPlanes<T> there{buffer.first(0, piece), buffer.first(1, piece), buffer.first(2, piece)};
   const JetPlanes<const T> extra{there.position, there.du, there.dv};
@@ -116,6 +118,12 @@ SIMDBEZIER_INLINE void sweep_component_patches(const GridTask<T>& task, const Ro
   }
 }
 
+/// Rarer outputs do with whole registers and masked ones, and ask the task whether edges are
+/// watertight: code is not free either.
+template <detail::OutputSet kOutputs>
+constexpr bool kUsual = kOutputs == detail::kPosition || kOutputs == detail::kPositionNormal ||
+                        kOutputs == detail::kPositionDerivatives;
+
 /// One tile of consecutive patches. A function of its own, or what other tiles keep in registers
 /// would be in the way.
 template <detail::OutputSet kOutputs, Scheme kScheme, typename SomeTile, typename T>
@@ -124,7 +132,8 @@ __attribute__((noinline)) void sweep_tile(const GridTask<T>& shared_task,
                                           std::size_t columns, std::size_t patch,
                                           std::size_t last_patch) {
   const RowPiece<T> piece = shared_piece;
-  const SomeTile tile(shared_task.x, first_column, columns);
+  const bool watertight = is_watertight(kScheme) && (kUsual<kOutputs> || shared_task.watertight);
+  const SomeTile tile(shared_task.x, first_column, columns, watertight);
   if constexpr (kOutputs == detail::kPositionNormal || kOutputs == detail::kAnyOutputs) {
     sweep_normal_patches<kScheme, kOutputs == detail::kAnyOutputs>(shared_task, piece, tile, patch,
                                                                    last_patch);
@@ -133,12 +142,6 @@ __attribute__((noinline)) void sweep_tile(const GridTask<T>& shared_task,
     sweep_component_patches<kOutputs, kScheme>(task, piece, tile, patch, last_patch);
   }
 }
-
-/// Rarer outputs do with whole registers and masked ones: code is not free either.
-template <detail::OutputSet kOutputs>
-constexpr bool kSeveralTiles =
-    kOutputs == detail::kPosition || kOutputs == detail::kPositionNormal ||
-    kOutputs == detail::kPositionDerivatives;
 
 /// The columns of a grid, by the tiles that take them.
 template <typename V>
@@ -182,7 +185,7 @@ SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<ve
   };
   // A single column goes along with the last whole register.
   const std::size_t plain = split.column && split.full > 0 ? split.full - kL : split.full;
-  if constexpr (kLineWide<V> && kSeveralTiles<kOutputs>) {
+  if constexpr (kLineWide<V> && kUsual<kOutputs>) {
     if (task.streaming) [[unlikely]] { // whole registers only
       for (std::size_t first = 0; first < plain; first += kL) {
         if (task.record > 1) {
@@ -198,7 +201,7 @@ SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<ve
     sweep(std::type_identity<Tile<1, true, false, V>>{}, first, kL);
   }
   if constexpr (kL > 1) {
-    if constexpr (!kSeveralTiles<kOutputs>) {
+    if constexpr (!kUsual<kOutputs>) {
       if (split.rest != 0) {
         sweep(std::type_identity<Tile<1, false, false, V>>{}, split.full, split.rest);
       }
@@ -224,7 +227,7 @@ void grid_kernel(GridTask<T>& task) {
   if (sweep_small_grid<kOutputs, kScheme>(task)) {
     return;
   }
-  const ColumnSplit<vec<T>> split(task.nu, kSeveralTiles<kOutputs>);
+  const ColumnSplit<vec<T>> split(task.nu, kUsual<kOutputs>);
   const std::size_t most = split.column ? kBufferRows : std::size_t{1} << 30;
   for (RowPieces<kScheme, T> pieces(task, most); pieces.more();) {
     const RowPiece<T> piece = pieces.next();

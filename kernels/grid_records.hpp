@@ -144,7 +144,7 @@ sweep_records(const GridTask<T>& shared_task, const RowPiece<T>& shared_piece,
   using V = vec<T>;
   const GridTask<T> task = shared_task;
   const RowPiece<T> piece = shared_piece;
-  const Tile<1, true, false, V> tile(task.x, first_column, kLanes<V>);
+  const Tile<1, true, false, V> tile(task.x, first_column, kLanes<V>, is_watertight(kScheme));
   const bool prefetch = task.prefetch && first_column == 0;
   for (; patch < last_patch; ++patch) {
     if (prefetch) {

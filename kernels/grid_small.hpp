@@ -26,10 +26,10 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <typename V>
 constexpr bool kFourGroups = kLanes<V> == 16;
 
-/// Whether the task's grid is a small one.
+/// Whether the task's grid is a small one with edges of its own.
 template <typename T>
 SIMDBEZIER_INLINE bool is_small_grid(const GridTask<T>& task) {
-  if (task.nu < kLeastSmall || task.nu > kMostSmall || task.run_count != 3) {
+  if (!task.watertight || task.nu < kLeastSmall || task.nu > kMostSmall || task.run_count != 3) {
     return false;
   }
   const RowRun<T>* const run = task.runs;

@@ -19,6 +19,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 using detail::GridTask;
 using detail::RowKind;
 using detail::RowRun;
+using detail::Scheme;
 
 SIMDBEZIER_INLINE bool is_edge(RowKind kind) {
   return kind == RowKind::edge_v0 || kind == RowKind::edge_v1;
@@ -50,7 +51,8 @@ class RowPieces {
 public:
   /// most: rows of a piece.
   SIMDBEZIER_INLINE RowPieces(const GridTask<T>& task, std::size_t most)
-      : run_(task.runs), last_(task.runs + task.run_count), left_(run_->rows), most_(most - 2) {}
+      : run_(task.runs), last_(task.runs + task.run_count), left_(run_->rows), most_(most - 2),
+        watertight_(is_watertight(kScheme) && task.watertight) {}
 
   [[nodiscard]] SIMDBEZIER_INLINE bool more() const { return run_ != last_; }
 
@@ -75,7 +77,7 @@ public:
 private:
   /// Where edges are not special, they are as good as any row.
   [[nodiscard]] SIMDBEZIER_INLINE bool at_edge() const {
-    return is_watertight(kScheme) && is_edge(run_->kind);
+    return watertight_ && is_edge(run_->kind);
   }
   SIMDBEZIER_INLINE bool take_edge(RowKind& kind) {
     if (!more() || !at_edge()) {
@@ -97,6 +99,7 @@ private:
   const RowRun<T>* last_;
   std::size_t left_; ///< rows of *run_
   std::size_t most_; ///< in the middle of a piece
+  bool watertight_;
   std::size_t row_ = 0;
 };
 
@@ -144,9 +147,10 @@ struct Tile {
   Column<V> column;
   std::conditional_t<kShared, SharedCorners<V>, NoSharedCorners> corners;
 
-  SIMDBEZIER_INLINE Tile(const T* x, std::size_t first_column, std::size_t active_columns)
-      : first(first_column), active(active_columns), column(Groups::repeat(x + first_column)),
-        corners(column.x) {}
+  SIMDBEZIER_INLINE Tile(const T* x, std::size_t first_column, std::size_t active_columns,
+                         bool watertight)
+      : first(first_column), active(active_columns),
+        column(Groups::repeat(x + first_column), watertight), corners(column.x) {}
 
   /// The first `rows` rows of `value`, `step` samples from one to the next. extra: what follows
   /// them in kExtra tiles.
@@ -212,7 +216,7 @@ struct Tile {
   template <Scheme kScheme>
   SIMDBEZIER_INLINE V edge_rows(const Component<T>& c, std::size_t edge, V& du) const {
     if constexpr (!kShared) {
-      return edge_position<kScheme>(c, column, edge, du);
+      return edge_position<has_origins(kScheme)>(c, column, edge, du);
     } else {
       V k[kOrder];
       shared_edges(c, k);
@@ -222,7 +226,7 @@ struct Tile {
   template <Scheme kScheme>
   SIMDBEZIER_INLINE V edge_rows(const Component<T>& c, std::size_t edge) const {
     if constexpr (!kShared) {
-      return edge_position<kScheme>(c, column, edge);
+      return edge_position<has_origins(kScheme)>(c, column, edge);
     } else {
       V k[kOrder];
       shared_edges(c, k);

@@ -95,6 +95,7 @@ struct GridTask {
   ResolveNormal<T> resolve_normal;
   bool prefetch;        ///< the set does not fit the second-level cache
   bool streaming;       ///< rows are whole cache lines, to be stored past the caches
+  bool watertight;      ///< edges come from their own control points
   std::size_t record;   ///< then values from one sample to the next: see OutputPlan::record()
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see pace()
   Isa executed;         ///< written by the kernel
@@ -117,6 +118,7 @@ struct ScatteredTask {
   T scale;
   std::size_t count;
   std::size_t patches_known; ///< how many of `patch` may be read: those of later tasks as well
+  bool watertight;           ///< as in GridTask
   bool prefetch;             ///< the set's coefficients do not fit the second-level cache
   T common_floor; ///< no patch has a higher normal_floor; infinity where they differ much
 
@@ -221,8 +223,8 @@ struct DerivativeTask;
 /// the tasks are the same, and so are the bits where both can run.
 template <typename T>
 struct ShapeTable {
-  void (*grid)(GridTask<T>& task, Scheme scheme); ///< all outputs that the task wants
-  void (*scattered)(ScatteredTask<T>& task, Scheme scheme);
+  void (*grid)(GridTask<T>& task); ///< all outputs that the task wants
+  void (*scattered)(ScatteredTask<T>& task);
   void (*derivatives)(DerivativeTask<T>& task);
   NetPackKernel<T, float> pack_f32;
   NetPackKernel<T, double> pack_f64;
@@ -240,9 +242,9 @@ struct KernelTable {
   Isa isa;
   std::size_t lanes;
   void (*grid[kOutputSets][kSchemes])(GridTask<T>& task);
-  void (*scattered[kSchemes])(ScatteredTask<T>& task);
-  void (*drain)(DrainQueue<T>& queue); ///< passes on all that is left
-  void (*fence)();                     ///< completes streaming stores
+  void (*scattered[2])(ScatteredTask<T>& task); ///< [1]: sets with origins
+  void (*drain)(DrainQueue<T>& queue);          ///< passes on all that is left
+  void (*fence)();                              ///< completes streaming stores
   std::uint32_t (*highest_index)(const std::uint32_t* index, std::size_t count);
   PackKernel<T, float> pack_f32;
   PackKernel<T, double> pack_f64;

@@ -13,10 +13,11 @@ constexpr void fill_scheme(detail::KernelTable<T>& table) {
   table.grid[detail::kPositionNormal][kScheme] = grid_kernel<T, detail::kPositionNormal, kScheme>;
   table.grid[detail::kPositionDerivatives][kScheme] =
       grid_kernel<T, detail::kPositionDerivatives, kScheme>;
-  table.grid[detail::kAnyOutputs][kScheme] = grid_kernel<T, detail::kAnyOutputs, kScheme>;
+  // Rarer outputs ask the task whether edges are watertight; see kUsual.
+  constexpr detail::Scheme kGeneral = detail::scheme(true, detail::has_origins(kScheme));
+  table.grid[detail::kAnyOutputs][kScheme] = grid_kernel<T, detail::kAnyOutputs, kGeneral>;
   table.grid[detail::kSecondDerivatives][kScheme] =
-      grid_kernel<T, detail::kSecondDerivatives, kScheme>;
-  table.scattered[kScheme] = scattered_kernel<T, kScheme>;
+      grid_kernel<T, detail::kSecondDerivatives, detail::kWatertight>; // which have no origins
 }
 
 // Of the other objects of this instruction set.
@@ -41,6 +42,8 @@ constexpr detail::KernelTable<T> make_table() {
   fill_scheme<T, detail::kOpenOrigin>(table);
   fill_scheme<T, detail::kWatertight>(table);
   fill_scheme<T, detail::kWatertightOrigin>(table);
+  table.scattered[false] = scattered_kernel<T, false>;
+  table.scattered[true] = scattered_kernel<T, true>;
   return table;
 }
 

@@ -140,17 +140,17 @@ struct Tangents {
 };
 
 /// Horner in Y for one component.
-template <Scheme kScheme, Outcome kOutcome, bool kFull, typename V>
+template <bool kOrigins, Outcome kOutcome, bool kFull, typename V>
 SIMDBEZIER_INLINE void finish_component(const Block<kFull, V>& block,
                                         const Polynomials<kOutcome, V>& q, std::size_t c, V origin,
                                         Tangents<kOutcome, V>& tangents) {
   if constexpr (kOutcome == kPositions) {
     block.store(block.task.out[detail::kPositionGroup].component[c],
-                with_origin<kScheme>(horner(q.power[0], block.y), origin));
+                with_origin<kOrigins>(horner(q.power[0], block.y), origin));
   } else if constexpr (kOutcome != kSecondOrder) {
     const V p = horner(q.power[0], block.y, tangents.dv[c]);
     tangents.du[c] = horner(q.power[1], block.y);
-    block.store_if_wanted(detail::kPositionGroup, c, with_origin<kScheme>(p, origin));
+    block.store_if_wanted(detail::kPositionGroup, c, with_origin<kOrigins>(p, origin));
     block.store_if_wanted(detail::kDuGroup, c, tangents.du[c]);
     block.store_if_wanted(detail::kDvGroup, c, tangents.dv[c]);
   } else {
@@ -162,7 +162,7 @@ SIMDBEZIER_INLINE void finish_component(const Block<kFull, V>& block,
 
 /// The samples of a block that the interior's formula does not fit, or whose normal did not pass
 /// the quick test. Vectors come by value, or the fast path would have to keep them in memory.
-template <Scheme kScheme, Outcome kOutcome, typename V>
+template <bool kOrigins, Outcome kOutcome, typename V>
 __attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf<V>>& task,
                                                     std::size_t first, std::size_t active, V x, V y,
                                                     V squared, V floor) {
@@ -175,17 +175,17 @@ __attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf
   for (std::size_t i = 0; i < active; ++i) {
     const T ax = lanes[0][i] < 0 ? -lanes[0][i] : lanes[0][i];
     const T ay = lanes[1][i] < 0 ? -lanes[1][i] : lanes[1][i];
-    const bool edge = is_watertight(kScheme) && (ax == T(0.5) || ay == T(0.5));
+    const bool edge = task.watertight && (ax == T(0.5) || ay == T(0.5));
     const bool finite = ax - ax == T(0) && ay - ay == T(0);
     const bool normal = lanes[2][i] > lanes[3][i] && ax <= T(0.5) && ay <= T(0.5);
     if (edge || !finite || !normal) {
-      evaluate_sample<kScheme, kOutcome == kSecondOrder>(task, first + i);
+      evaluate_sample<kOrigins, kOutcome == kSecondOrder>(task, first + i);
     }
   }
 }
 
 /// As above for outputs that are no normals: outside of the patch the formula holds, too.
-template <Scheme kScheme, Outcome kOutcome, typename V>
+template <bool kOrigins, Outcome kOutcome, typename V>
 __attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf<V>>& task,
                                                     std::size_t first, std::size_t active, V x,
                                                     V y) {
@@ -196,16 +196,16 @@ __attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf
   for (std::size_t i = 0; i < active; ++i) {
     const T ax = lanes[0][i] < 0 ? -lanes[0][i] : lanes[0][i];
     const T ay = lanes[1][i] < 0 ? -lanes[1][i] : lanes[1][i];
-    const bool edge = is_watertight(kScheme) && (ax == T(0.5) || ay == T(0.5));
+    const bool edge = task.watertight && (ax == T(0.5) || ay == T(0.5));
     if (edge || ax - ax != T(0) || ay - ay != T(0)) {
-      evaluate_sample<kScheme, kOutcome == kSecondOrder>(task, first + i);
+      evaluate_sample<kOrigins, kOutcome == kSecondOrder>(task, first + i);
     }
   }
 }
 
 /// Normals, where they are wanted, and the samples that have to be evaluated again.
 /// Floor: normal_floor of the samples' patches, and at first a bound on all of them.
-template <Scheme kScheme, Outcome kOutcome, bool kFull, typename V, typename Floor>
+template <bool kOrigins, Outcome kOutcome, bool kFull, typename V, typename Floor>
 SIMDBEZIER_INLINE void finish_block(const Block<kFull, V>& block,
                                     const Tangents<kOutcome, V>& tangents, const Floor& floor,
                                     WaitingNormals<kOutcome, V>& waiting) {
@@ -227,11 +227,11 @@ SIMDBEZIER_INLINE void finish_block(const Block<kFull, V>& block,
     }
     const V enough = floor.each();
     if (!all_above(enough)) {
-      evaluate_again<kScheme, kOutcome>(task, block.first, block.active, block.x, block.y, squared,
-                                        enough);
+      evaluate_again<kOrigins, kOutcome>(task, block.first, block.active, block.x, block.y, squared,
+                                         enough);
     }
   } else if (!all_of<V>(interior)) [[unlikely]] {
-    evaluate_again<kScheme, kOutcome>(task, block.first, block.active, block.x, block.y);
+    evaluate_again<kOrigins, kOutcome>(task, block.first, block.active, block.x, block.y);
   }
 }
 

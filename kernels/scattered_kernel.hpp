@@ -17,7 +17,7 @@ inline std::uint32_t highest_index(const std::uint32_t* index, std::size_t count
 }
 
 /// The last samples, fewer than a register: the register is filled with copies of the last one.
-template <Scheme kScheme, Outcome kOutcome, typename V>
+template <bool kOrigins, Outcome kOutcome, typename V>
 __attribute__((noinline)) void evaluate_rest(const ScatteredTask<ScalarOf<V>>& task,
                                              std::size_t first) {
   using T = ScalarOf<V>;
@@ -32,12 +32,13 @@ __attribute__((noinline)) void evaluate_rest(const ScatteredTask<ScalarOf<V>>& t
     patch[i] = task.patch[from];
   }
   WaitingNormals<kOutcome, V> none;
-  evaluate_mixed<kScheme, kOutcome, false>(Block<false, V>(task, first, active, u, v), patch, none);
+  evaluate_mixed<kOrigins, kOutcome, false>(Block<false, V>(task, first, active, u, v), patch,
+                                            none);
 }
 
 /// kPrefetch: the set is not in a cache. Code of its own for each: asking for lines that are there
 /// costs a third of the speed, and the question whether to ask, up to a tenth.
-template <Scheme kScheme, Outcome kOutcome, bool kPrefetch, typename V>
+template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename V>
 SIMDBEZIER_INLINE void evaluate_samples(const ScatteredTask<ScalarOf<V>>& task) {
   constexpr std::size_t kWide = kOutcome == kPositions ? 2 : 1; // registers for a long run
   constexpr std::size_t kN = kLanes<V>;
@@ -49,64 +50,64 @@ SIMDBEZIER_INLINE void evaluate_samples(const ScatteredTask<ScalarOf<V>>& task) 
   while (k + kN <= task.count) {
     const std::uint32_t* const patch = task.patch + k;
     if (!all_equal<kN>(patch, *patch)) {
-      evaluate_mixed<kScheme, kOutcome, kPrefetch>(block(k), patch, waiting);
+      evaluate_mixed<kOrigins, kOutcome, kPrefetch>(block(k), patch, waiting);
       k += kN;
       continue;
     }
     if constexpr (kWide == 2) {
       if (k + 2 * kN <= task.count && all_equal<kN>(patch + kN, *patch)) {
         const Block<true, V> pair[2] = {block(k), block(k + kN)};
-        evaluate_run<kScheme, kOutcome, 2>(pair, *patch, waiting);
+        evaluate_run<kOrigins, kOutcome, 2>(pair, *patch, waiting);
         k += 2 * kN;
         continue;
       }
     }
     const Block<true, V> single[1] = {block(k)};
-    evaluate_run<kScheme, kOutcome, 1>(single, *patch, waiting);
+    evaluate_run<kOrigins, kOutcome, 1>(single, *patch, waiting);
     k += kN;
   }
   waiting.take_root();
   waiting.store(task);
   if (k < task.count) {
-    evaluate_rest<kScheme, kOutcome, V>(task, k);
+    evaluate_rest<kOrigins, kOutcome, V>(task, k);
   }
 }
 
-template <Scheme kScheme, Outcome kOutcome, bool kPrefetch, typename T>
+template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename T>
 __attribute__((noinline)) void evaluate_block(const ScatteredTask<T>& task) {
   if constexpr (kIsScalar<vec<T>>) {
     for (std::size_t k = 0; k < task.count; ++k) {
-      evaluate_sample<kScheme, kOutcome == kSecondOrder>(task, k);
+      evaluate_sample<kOrigins, kOutcome == kSecondOrder>(task, k);
     }
   } else {
-    evaluate_samples<kScheme, kOutcome, kPrefetch, vec<T>>(task);
+    evaluate_samples<kOrigins, kOutcome, kPrefetch, vec<T>>(task);
   }
 }
 
-template <Scheme kScheme, Outcome kOutcome, typename T>
+template <bool kOrigins, Outcome kOutcome, typename T>
 SIMDBEZIER_INLINE void evaluate_outcome(const ScatteredTask<T>& task) {
   if (task.prefetch && !kIsScalar<vec<T>>) {
-    evaluate_block<kScheme, kOutcome, true>(task);
+    evaluate_block<kOrigins, kOutcome, true>(task);
   } else {
-    evaluate_block<kScheme, kOutcome, false>(task);
+    evaluate_block<kOrigins, kOutcome, false>(task);
   }
 }
 
-template <typename T, Scheme kScheme>
+template <typename T, bool kOrigins>
 void scattered_kernel(ScatteredTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
   const auto wanted = [&](detail::Group group) __attribute__((always_inline)) {
     return task.out[group].wanted();
   };
   if (wanted(detail::kNormalGroup)) {
-    evaluate_outcome<kScheme, kNormals>(task);
+    evaluate_outcome<kOrigins, kNormals>(task);
   } else if (wanted(detail::kDuGroup) || wanted(detail::kDvGroup)) {
-    evaluate_outcome<kScheme, kFirstOrder>(task);
+    evaluate_outcome<kOrigins, kFirstOrder>(task);
   } else if (wanted(detail::kPositionGroup)) {
-    evaluate_outcome<kScheme, kPositions>(task);
+    evaluate_outcome<kOrigins, kPositions>(task);
   }
   if (wanted(detail::kDuuGroup) || wanted(detail::kDuvGroup) || wanted(detail::kDvvGroup)) {
-    evaluate_outcome<kScheme, kSecondOrder>(task);
+    evaluate_outcome<false, kSecondOrder>(task);
   }
 }
 

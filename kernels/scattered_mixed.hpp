@@ -108,7 +108,7 @@ struct FloorsOfMany {
 };
 
 /// patch: one index for each lane. kPrefetch: the lines of later samples are asked for.
-template <Scheme kScheme, Outcome kOutcome, bool kPrefetch, bool kFull, typename V>
+template <bool kOrigins, Outcome kOutcome, bool kPrefetch, bool kFull, typename V>
 SIMDBEZIER_INLINE void evaluate_mixed(const Block<kFull, V>& block, const std::uint32_t* patch,
                                       WaitingNormals<kOutcome, V>& waiting) {
   const auto& task = block.task;
@@ -129,14 +129,14 @@ SIMDBEZIER_INLINE void evaluate_mixed(const Block<kFull, V>& block, const std::u
   for (std::size_t c = 0; c < 3; ++c) {
     groups_to_powers(q[c]);
     V origin = block.x; // not used
-    if constexpr (has_origins(kScheme)) {
+    if constexpr (kOrigins) {
       origin = gather_lanes<V>(task.origins + c * detail::kOriginsPerComponent, patch,
                                detail::kOriginBlock);
     }
-    finish_component<kScheme>(block, q[c], c, origin, tangents);
+    finish_component<kOrigins>(block, q[c], c, origin, tangents);
   }
   waiting.store(task);
-  finish_block<kScheme>(block, tangents, FloorsOfMany<V>{task, patch}, waiting);
+  finish_block<kOrigins>(block, tangents, FloorsOfMany<V>{task, patch}, waiting);
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

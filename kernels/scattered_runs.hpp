@@ -14,7 +14,7 @@ struct FloorOfOne {
 };
 
 /// kRegisters blocks share every broadcast: with one of them, loads would be the limit.
-template <Scheme kScheme, Outcome kOutcome, std::size_t kRegisters, bool kFull, typename V>
+template <bool kOrigins, Outcome kOutcome, std::size_t kRegisters, bool kFull, typename V>
 SIMDBEZIER_INLINE void evaluate_run(const Block<kFull, V> block[kRegisters], std::size_t patch,
                                     WaitingNormals<kOutcome, V>& waiting) {
   const auto& task = block[0].task;
@@ -31,16 +31,16 @@ SIMDBEZIER_INLINE void evaluate_run(const Block<kFull, V> block[kRegisters], std
       }
     }
     V origin = block[0].x; // not used
-    if constexpr (has_origins(kScheme)) {
+    if constexpr (kOrigins) {
       origin = broadcast<V>(component.origin()[0]);
     }
     for (std::size_t r = 0; r < kRegisters; ++r) {
-      finish_component<kScheme>(block[r], q[r], c, origin, tangents[r]);
+      finish_component<kOrigins>(block[r], q[r], c, origin, tangents[r]);
     }
   }
   waiting.store(task);
   for (std::size_t r = 0; r < kRegisters; ++r) {
-    finish_block<kScheme>(block[r], tangents[r], FloorOfOne<V>{task.normal_floor[patch]}, waiting);
+    finish_block<kOrigins>(block[r], tangents[r], FloorOfOne<V>{task.normal_floor[patch]}, waiting);
   }
 }
 

@@ -32,8 +32,9 @@ struct Place {
   std::size_t edge;
 
   SIMDBEZIER_INLINE Place(const ScatteredTask<T>& task, std::size_t k)
-      : patch(task.patch[k]), column(finite_half_centred(task, task.u[k])),
-        y(finite_half_centred(task, task.v[k])), on_edge(y == T(-0.5) || y == T(0.5)),
+      : patch(task.patch[k]), column(finite_half_centred(task, task.u[k]), task.watertight),
+        y(finite_half_centred(task, task.v[k])),
+        on_edge(task.watertight && (y == T(-0.5) || y == T(0.5))),
         edge(y == T(0.5) ? detail::kEdgeV1 : detail::kEdgeV0) {}
 };
 
@@ -73,10 +74,10 @@ SIMDBEZIER_INLINE void store_normal(const ScatteredTask<T>& task, std::size_t k,
 }
 
 /// Position and first derivatives.
-template <Scheme kScheme, typename T>
+template <bool kOrigins, typename T>
 SIMDBEZIER_INLINE void evaluate_first(const ScatteredTask<T>& task, std::size_t k,
                                       const Place<T>& place) {
-  const bool on_edge = is_watertight(kScheme) && place.on_edge;
+  const bool on_edge = place.on_edge;
   T p[3];
   T du[3];
   T dv[3];
@@ -84,11 +85,11 @@ SIMDBEZIER_INLINE void evaluate_first(const ScatteredTask<T>& task, std::size_t 
     const Component<T> component(task, place.patch, c);
     T q[kOrder];
     T dq[kOrder];
-    column_polynomial<kScheme>(component, place.column, q, dq);
-    p[c] = with_origin<kScheme>(horner(q, place.y, dv[c]),
-                                column_origin<kScheme>(component, place.column));
+    column_polynomial(component, place.column, q, dq);
+    p[c] = with_origin<kOrigins>(horner(q, place.y, dv[c]),
+                                 column_origin<kOrigins>(component, place.column));
     if (on_edge) {
-      p[c] = edge_position<kScheme>(component, place.column, place.edge, du[c]);
+      p[c] = edge_position<kOrigins>(component, place.column, place.edge, du[c]);
     } else {
       du[c] = horner(dq, place.y);
     }
@@ -101,17 +102,17 @@ SIMDBEZIER_INLINE void evaluate_first(const ScatteredTask<T>& task, std::size_t 
   }
 }
 
-template <Scheme kScheme, typename T>
+template <typename T>
 SIMDBEZIER_INLINE void evaluate_second(const ScatteredTask<T>& task, std::size_t k,
                                        const Place<T>& place) {
-  const bool on_edge = is_watertight(kScheme) && place.on_edge;
+  const bool on_edge = place.on_edge;
   T duu[3];
   T duv[3];
   T dvv[3];
   for (std::size_t c = 0; c < 3; ++c) {
     const Component<T> component(task, place.patch, c);
     SecondColumns<T> columns;
-    columns.template build<kScheme>(component, place.column);
+    columns.build(component, place.column);
     duu[c] = on_edge ? edge_second(component, place.column, place.edge) : columns.duu(place.y);
     duv[c] = columns.duv(place.y);
     dvv[c] = columns.dvv(place.y);
@@ -122,16 +123,16 @@ SIMDBEZIER_INLINE void evaluate_second(const ScatteredTask<T>& task, std::size_t
 }
 
 /// Sample k from start to end: the outputs of order <= 1, or (kSecond) those of order 2.
-template <Scheme kScheme, bool kSecond, typename T>
+template <bool kOrigins, bool kSecond, typename T>
 __attribute__((noinline)) void evaluate_sample(const ScatteredTask<T>& task, std::size_t k) {
   const Place<T> place(task, k);
   if (task.status != nullptr && (place.column.x != place.column.x || place.y != place.y)) {
     task.status[k] = SampleStatus::non_finite;
   }
   if constexpr (kSecond) {
-    evaluate_second<kScheme>(task, k, place);
+    evaluate_second(task, k, place);
   } else {
-    evaluate_first<kScheme>(task, k, place);
+    evaluate_first<kOrigins>(task, k, place);
   }
 }
 

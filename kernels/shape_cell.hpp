@@ -15,8 +15,8 @@ struct CellColumns {
   bool any_low;
   bool any_high;
 
-  SIMDBEZIER_INLINE CellColumns(V half_centred, std::size_t cells)
-      : local(cells == 1 ? half_centred : cell_parameter(half_centred)),
+  SIMDBEZIER_INLINE CellColumns(V half_centred, std::size_t cells, bool watertight)
+      : local(cells == 1 ? half_centred : cell_parameter(half_centred), watertight),
         low(half_centred < broadcast<V>(ScalarOf<V>(0))), any_low(cells == 1 || any_of<V>(low)),
         any_high(cells == 2 && !all_of<V>(low)) {}
 };

@@ -16,10 +16,9 @@ class ShapeColumns {
 
 public:
   SIMDBEZIER_INLINE ShapeColumns(const NetShape& shape, const CellColumns<V>& columns,
-                                 std::size_t first_component, bool watertight)
+                                 std::size_t first_component)
       : shape_(P::shape(shape)), columns_(columns), slots_(shape_, first_component),
-        order_u_(shape_.order_u()), order_v_(shape_.order_v()),
-        on_edge_(watertight && columns.local.on_edge) {}
+        order_u_(shape_.order_u()), order_v_(shape_.order_v()), on_edge_(columns.local.on_edge) {}
 
   /// The columns in one row of cells.
   SIMDBEZIER_INLINE void build(const CellRow<T>& row) {

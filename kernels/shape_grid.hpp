@@ -19,9 +19,9 @@ class ColumnSweep {
 
 public:
   SIMDBEZIER_INLINE ColumnSweep(const GridTask<T>& task, const NetShape& shape, std::size_t patch,
-                                std::size_t first, bool watertight)
-      : task_(task), watertight_(watertight), x_(load_vector<V>(task.x + first), shape.cells_u()),
-        columns_(shape, x_, task.first_component, watertight) {
+                                std::size_t first)
+      : task_(task), x_(load_vector<V>(task.x + first), shape.cells_u(), task.watertight),
+        columns_(shape, x_, task.first_component) {
     const std::size_t left = task.nu - first;
     range_.patch = patch;
     range_.active = left < kLanes<V> ? left : kLanes<V>;
@@ -56,7 +56,7 @@ private:
   __attribute__((noinline)) void build(const CellRow<T>& row) { columns_.build(row); }
 
   __attribute__((noinline)) void put(T y, T local) {
-    const bool on_edge = watertight_ && (local == T(-0.5) || local == T(0.5));
+    const bool on_edge = task_.watertight && (local == T(-0.5) || local == T(0.5));
     range_.y = broadcast<V>(y);
     SampleJet<V> jet;
     if (P::kDepth > 0 || !on_edge) {
@@ -91,7 +91,6 @@ private:
   }
 
   const GridTask<T>& task_;
-  bool watertight_;
   CellColumns<V> x_;
   ShapeColumns<P, V> columns_;
   SampleRange<V> range_;
@@ -100,13 +99,13 @@ private:
 };
 
 template <typename P, typename T>
-__attribute__((noinline)) void sweep_shape(const GridTask<T>& shared_task, bool watertight) {
+__attribute__((noinline)) void sweep_shape(const GridTask<T>& shared_task) {
   // Copies, because stores through vector types might change anything that others can see.
   const GridTask<T> task = shared_task;
   const NetShape shape = P::shape(*shared_task.shape);
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
     for (std::size_t first = 0; first < task.nu; first += kLanes<vec<T>>) {
-      ColumnSweep<P, T>(task, shape, patch, first, watertight).run(shape);
+      ColumnSweep<P, T>(task, shape, patch, first).run(shape);
     }
     pace(task.drain, task.patch_step * 3);
   }

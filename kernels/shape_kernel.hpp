@@ -107,24 +107,24 @@ SIMDBEZIER_INLINE void with_depth(const Task& task, const Run& run) {
 }
 
 template <typename T>
-void shape_grid_kernel(GridTask<T>& task, Scheme scheme) {
+void shape_grid_kernel(GridTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
   with_depth(task, [&]<std::size_t kDepth, bool kRational>() {
     with_grid_plan<kDepth, kRational>(task, [&]<typename P>() {
       if constexpr (P::kKnown) {
-        sweep_known<P>(task, is_watertight(scheme));
+        sweep_known<P>(task);
       } else {
-        sweep_shape<P>(task, is_watertight(scheme));
+        sweep_shape<P>(task);
       }
     });
   });
 }
 
 template <typename T>
-void shape_scattered_kernel(ScatteredTask<T>& task, Scheme scheme) {
+void shape_scattered_kernel(ScatteredTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
   with_depth(task, [&]<std::size_t kDepth, bool kRational>() {
-    scatter_shape<AnyPlan<kDepth, kRational>>(task, is_watertight(scheme));
+    scatter_shape<AnyPlan<kDepth, kRational>>(task);
   });
 }
 

@@ -15,8 +15,7 @@ SIMDBEZIER_INLINE std::size_t wanted_components(const GridTask<T>& task) {
 
 /// kFull: all lanes are columns.
 template <typename P, bool kFull, typename T>
-SIMDBEZIER_INLINE void sweep_rows(const GridTask<T>& task, bool watertight,
-                                  const ShapeColumns<P, vec<T>>& columns,
+SIMDBEZIER_INLINE void sweep_rows(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
                                   SampleRange<vec<T>> range) {
   using V = vec<T>;
   const ColumnPolynomials<P, V> polynomials = columns.polynomials();
@@ -30,7 +29,7 @@ SIMDBEZIER_INLINE void sweep_rows(const GridTask<T>& task, bool watertight,
   for (std::size_t r = 0; r < task.run_count; ++r) {
     const RowRun<T> run = task.runs[r];
     range.floor = run.kind == RowKind::outside ? no_floor<V>() : floor;
-    if (watertight && (run.kind == RowKind::edge_v0 || run.kind == RowKind::edge_v1)) {
+    if (task.watertight && (run.kind == RowKind::edge_v0 || run.kind == RowKind::edge_v1)) {
       const std::size_t edge = run.kind == RowKind::edge_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
       SampleJet<V> on_edge;
       if constexpr (P::kDepth == 0) {
@@ -56,14 +55,13 @@ SIMDBEZIER_INLINE void sweep_rows(const GridTask<T>& task, bool watertight,
 /// The columns from `first` on of one patch; components from `component` on.
 template <typename P, typename T>
 SIMDBEZIER_INLINE void sweep_columns(const GridTask<T>& task, const NetShape& shape,
-                                     std::size_t patch, std::size_t first, std::size_t component,
-                                     bool watertight) {
+                                     std::size_t patch, std::size_t first, std::size_t component) {
   using V = vec<T>;
   const CellRow<T> cells(task, shape, patch, 0);
   const V x = load_vector<V>(task.x + first);
-  const CellColumns<V> at(x, 1);
+  const CellColumns<V> at(x, 1, task.watertight);
   const std::size_t first_component = P::kSingle ? task.first_component + component : 0;
-  ShapeColumns<P, V> columns(shape, at, first_component, watertight);
+  ShapeColumns<P, V> columns(shape, at, first_component);
   columns.build(cells);
   const std::size_t left = task.nu - first < kLanes<V> ? task.nu - first : kLanes<V>;
   SampleRange<V> range{patch, patch * task.patch_step + first, left, component, x, x, x};
@@ -71,15 +69,15 @@ SIMDBEZIER_INLINE void sweep_columns(const GridTask<T>& task, const NetShape& sh
     range.floor = floor_inside(x, patch_floor<P, V>(task, patch));
   }
   if constexpr (P::kDepth > 0 && !P::kSingle) { // much code, and many operations for each store
-    sweep_rows<P, false>(task, watertight, columns, range);
+    sweep_rows<P, false>(task, columns, range);
   } else {
-    left == kLanes<V> ? sweep_rows<P, true>(task, watertight, columns, range)
-                      : sweep_rows<P, false>(task, watertight, columns, range);
+    left == kLanes<V> ? sweep_rows<P, true>(task, columns, range)
+                      : sweep_rows<P, false>(task, columns, range);
   }
 }
 
 template <typename P, typename T>
-__attribute__((noinline)) void sweep_known(const GridTask<T>& shared_task, bool watertight) {
+__attribute__((noinline)) void sweep_known(const GridTask<T>& shared_task) {
   // Copies, because stores through vector types might change anything that others can see.
   const GridTask<T> task = shared_task;
   const NetShape shape = P::shape(*shared_task.shape);
@@ -87,7 +85,7 @@ __attribute__((noinline)) void sweep_known(const GridTask<T>& shared_task, bool 
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
     for (std::size_t first = 0; first < task.nu; first += kLanes<vec<T>>) {
       for (std::size_t c = 0; c < components; ++c) {
-        sweep_columns<P>(task, shape, patch, first, c, watertight);
+        sweep_columns<P>(task, shape, patch, first, c);
       }
     }
     pace(task.drain, task.patch_step * 3);

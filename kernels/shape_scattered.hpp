@@ -34,17 +34,16 @@ SIMDBEZIER_INLINE void keep_lanes(MaskOf<V> yes, const SampleJet<V>& other, Samp
 /// Samples of one patch in one row of cells, at the local y. Out of line: it is large, and there
 /// are several ways to it.
 template <typename P, typename V>
-__attribute__((noinline)) void evaluate_row(const ScatteredTask<ScalarOf<V>>& task,
-                                            const NetShape& shape, std::size_t patch,
-                                            std::size_t cell, const CellColumns<V>& columns, V y,
-                                            bool watertight, SampleJet<V>& jet) {
+__attribute__((noinline)) void
+evaluate_row(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape, std::size_t patch,
+             std::size_t cell, const CellColumns<V>& columns, V y, SampleJet<V>& jet) {
   using T = ScalarOf<V>;
   const CellRow<T> cells(task, shape, patch, cell);
-  ShapeColumns<P, V> polynomials(shape, columns, task.first_component, watertight);
+  ShapeColumns<P, V> polynomials(shape, columns, task.first_component);
   polynomials.build(cells);
   polynomials.evaluate(y, jet);
   if constexpr (kIsScalar<V>) {
-    if (watertight && (y == T(-0.5) || y == T(0.5))) {
+    if (task.watertight && (y == T(-0.5) || y == T(0.5))) {
       polynomials.replace_row(y < T(0) ? detail::kEdgeV0 : detail::kEdgeV1, jet);
     }
   }
@@ -54,15 +53,14 @@ __attribute__((noinline)) void evaluate_row(const ScatteredTask<ScalarOf<V>>& ta
 /// what the patch says there and have to be evaluated on their own.
 template <typename P, typename V>
 SIMDBEZIER_INLINE void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
-                                      std::size_t patch, V x, V y, bool watertight,
-                                      SampleJet<V>& jet) {
-  const CellColumns<V> columns(x, shape.cells_u());
-  const CellColumns<V> rows(y, shape.cells_v());
+                                      std::size_t patch, V x, V y, SampleJet<V>& jet) {
+  const CellColumns<V> columns(x, shape.cells_u(), task.watertight);
+  const CellColumns<V> rows(y, shape.cells_v(), task.watertight);
   const bool both = rows.any_low && rows.any_high;
-  evaluate_row<P>(task, shape, patch, rows.any_low ? 0 : 1, columns, rows.local.x, watertight, jet);
+  evaluate_row<P>(task, shape, patch, rows.any_low ? 0 : 1, columns, rows.local.x, jet);
   if (both) {
     SampleJet<V> high;
-    evaluate_row<P>(task, shape, patch, 1, columns, rows.local.x, watertight, high);
+    evaluate_row<P>(task, shape, patch, 1, columns, rows.local.x, high);
     keep_lanes<P>(rows.low, high, jet);
   }
 }
@@ -70,13 +68,13 @@ SIMDBEZIER_INLINE void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, co
 /// Sample k alone.
 template <typename P, typename T>
 __attribute__((noinline)) void evaluate_single(const ScatteredTask<T>& task, const NetShape& shape,
-                                               std::size_t k, bool watertight) {
+                                               std::size_t k) {
   const T x = finite_half_centred(task, task.u[k]);
   const T y = finite_half_centred(task, task.v[k]);
   const T floor = patch_floor<P, T>(task, task.patch[k]);
   const SampleRange<T> range{task.patch[k], k, 1, 0, x, y, floor_inside(y, floor_inside(x, floor))};
   SampleJet<T> jet;
-  evaluate_lanes<P, T>(task, shape, range.patch, range.x, range.y, watertight, jet);
+  evaluate_lanes<P, T>(task, shape, range.patch, range.x, range.y, jet);
   if (task.status != nullptr && (range.x != range.x || range.y != range.y)) {
     task.status[k] = SampleStatus::non_finite;
   }
@@ -87,8 +85,7 @@ __attribute__((noinline)) void evaluate_single(const ScatteredTask<T>& task, con
 /// last.
 template <typename P, typename V>
 SIMDBEZIER_INLINE void evaluate_together(const ScatteredTask<ScalarOf<V>>& task,
-                                         const NetShape& shape, std::size_t k, std::size_t count,
-                                         bool watertight) {
+                                         const NetShape& shape, std::size_t k, std::size_t count) {
   using T = ScalarOf<V>;
   alignas(64) T x[kLanes<V>];
   alignas(64) T y[kLanes<V>];
@@ -106,20 +103,20 @@ SIMDBEZIER_INLINE void evaluate_together(const ScatteredTask<ScalarOf<V>>& task,
   range.floor = patch_floor<P, V>(task, range.patch);
   range.floor = floor_inside(range.y, floor_inside(range.x, range.floor));
   SampleJet<V> jet;
-  evaluate_lanes<P, V>(task, shape, range.patch, range.x, range.y, watertight, jet);
+  evaluate_lanes<P, V>(task, shape, range.patch, range.x, range.y, jet);
   store_sample<P>(task, range, jet);
   for (std::size_t i = 0; any_alone && i < count; ++i) {
     if (alone[i]) {
       if (task.status != nullptr) {
         task.status[k + i] = SampleStatus::regular;
       }
-      evaluate_single<P>(task, shape, k + i, watertight);
+      evaluate_single<P>(task, shape, k + i);
     }
   }
 }
 
 template <typename P, typename T>
-__attribute__((noinline)) void scatter_shape(const ScatteredTask<T>& task, bool watertight) {
+__attribute__((noinline)) void scatter_shape(const ScatteredTask<T>& task) {
   using V = vec<T>;
   const NetShape shape = P::shape(*task.shape);
   for (std::size_t k = 0; k < task.count;) {
@@ -128,9 +125,9 @@ __attribute__((noinline)) void scatter_shape(const ScatteredTask<T>& task, bool 
       ++count;
     }
     if (count == 1) {
-      evaluate_single<P>(task, shape, k, watertight);
+      evaluate_single<P>(task, shape, k);
     } else {
-      evaluate_together<P, V>(task, shape, k, count, watertight);
+      evaluate_together<P, V>(task, shape, k, count);
     }
     k += count;
   }
