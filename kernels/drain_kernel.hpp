@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "kernels/drain.hpp"
-#include "kernels/isa/interleave.hpp"
+#include "kernels/isa/records.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -34,12 +34,22 @@ SIMDBEZIER_INLINE void drain_packed(const DrainStream<T>& s, std::size_t steps) 
   }
 }
 
-#if defined(SIMDBEZIER_KERNELS_AVX512)
 template <bool kStreaming, typename T>
 __attribute__((noinline)) void drain_nonuples(const DrainStream<T>& s, std::size_t steps) {
   drain_packed<kStreaming, 9>(s, steps);
 }
-#endif
+
+/// False: not with these registers.
+template <typename T>
+SIMDBEZIER_INLINE bool drain_as_nonuples(const DrainStream<T>& s, std::size_t steps) {
+  if (!kNonuples || (s.streaming && !kNonupleLines)) {
+    return false;
+  }
+  if constexpr (kNonuples) {
+    s.streaming ? drain_nonuples<kNonupleLines>(s, steps) : drain_nonuples<false>(s, steps);
+  }
+  return true;
+}
 
 /// Records of any length, at any distance.
 template <typename T>
@@ -98,14 +108,8 @@ SIMDBEZIER_INLINE void drain_steps(const DrainStream<T>& s, std::size_t steps) {
     s.streaming ? drain_packed<true, 3>(s, steps) : drain_packed<false, 3>(s, steps);
   } else if (s.members == 6 && packed) {
     s.streaming ? drain_packed<true, 6>(s, steps) : drain_packed<false, 6>(s, steps);
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-  } else if (s.members == 9 && packed) {
-    s.streaming ? drain_nonuples<true>(s, steps) : drain_nonuples<false>(s, steps);
-#endif
-  } else if (s.streaming) {
-    drain_buffered(s, steps);
-  } else {
-    drain_with_gaps(s, steps);
+  } else if (s.members != 9 || !packed || !drain_as_nonuples(s, steps)) {
+    s.streaming ? drain_buffered(s, steps) : drain_with_gaps(s, steps);
   }
 }
 

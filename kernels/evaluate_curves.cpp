@@ -82,7 +82,7 @@ Status evaluate_curves(const CurveSet<T>& set, const CurveGrid<T>& grid, const C
   const detail::KernelTable<T>& table = detail::kernel_table<T>(request.isa);
   detail::OutputPlan<T> outputs = detail::plan_outputs(out, groups, samples, options.destination);
   if (out.curvature == nullptr) {
-    outputs.stream_directly(grid.n, table.lanes, false);
+    outputs.put_directly(grid.n, table.lanes, false);
   }
   const bool rows = detail::goes_in_rows(*set.storage(), out, outputs, table, grid.n);
   if (rows) {

@@ -119,12 +119,16 @@ Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<
                                        detail::wanted_groups(out), out.curvature.wanted(),
                                        request.components, options.watertight);
   detail::OutputPlan<T> outputs(out, samples, options.destination);
-  if (kernels.bicubic()) {
-    outputs.stream_directly(grid.nu, kernels.table->lanes, true);
-  }
+  const auto put_directly = [&] {
+    if (kernels.bicubic()) {
+      outputs.put_directly(grid.nu, kernels.table->lanes, true);
+    }
+  };
+  put_directly();
   if (options.destination == Destination::automatic && outputs.streaming() && outputs.staged() &&
       !detail::staged_streaming_pays(detail::thread_count(options.threads, request.patches))) {
     outputs.store_plainly();
+    put_directly();
   }
   const detail::GridCall<T> call(kernels, request.first_patch, plan, outputs);
   return detail::run_blocks(request.patches * call.strips(), options, call.scratch_bytes(),

@@ -24,6 +24,7 @@ struct Samples {
   std::unique_ptr<std::size_t[]> before; ///< samples in the patches before each one; count + 1
   const std::size_t* offset = nullptr;
   std::size_t extent = 0; ///< one more than the highest index
+  std::size_t least_nu = ~std::size_t(0);
   std::size_t most_nu = 0;
   std::size_t most_nv = 0;
 };
@@ -55,6 +56,7 @@ Status count_samples(const PatchGrids& grids, std::size_t patches, Samples& samp
     if (__builtin_add_overflow(samples.before[k], count, &samples.before[k + 1])) {
       return Status::size_overflow;
     }
+    samples.least_nu = std::min(samples.least_nu, nu);
     samples.most_nu = std::max(samples.most_nu, nu);
     samples.most_nv = std::max(samples.most_nv, nv);
     if (grids.offset != nullptr) {
@@ -151,6 +153,7 @@ private:
     to.set_curvature(outputs_.out().curvature, sample);
     to.drain = delivery.queue();
     to.next = delivery.next();
+    to.record = outputs_.record();
     evaluator.run(plan, {first_patch_ + k, 1, row, row + rows}, to);
     delivery.end(rows * plan.nu());
   }
@@ -196,7 +199,10 @@ Status evaluate_patch_grids(const PatchSet<T>& set, const PatchGrids& grids, con
                                        detail::wanted_groups(out), out.curvature.wanted(),
                                        request.components, options.watertight);
   const std::size_t total = samples.before[request.patches];
-  const detail::OutputPlan<T> outputs(out, total, options.destination);
+  detail::OutputPlan<T> outputs(out, total, options.destination);
+  if (kernels.bicubic() && !outputs.streaming()) {
+    outputs.put_directly(samples.least_nu, kernels.table->lanes, true);
+  }
   const detail::PatchGridsCall<T> call(kernels, request.first_patch, request.patches, grids,
                                        samples, outputs);
   return detail::run_blocks(total, options, call.scratch_bytes(),

@@ -158,7 +158,10 @@ struct TilesCall {
     tile.worker = number;
     // A copy: the caller may change what it is given.
     const Outputs<T> places = TileMemory<T>(format, dimension, shape.samples).place(scratch);
-    const OutputPlan<T> outputs(places, shape.samples, Destination::cache);
+    OutputPlan<T> outputs(places, shape.samples, Destination::cache);
+    if (kernels.bicubic()) {
+      outputs.put_directly(plan.nu(), kernels.table->lanes, true);
+    }
     Delivery<T> delivery(outputs, *kernels.table, shape.samples, scratch + tile_bytes);
     GridEvaluator<T> evaluator(kernels, shape.rows, scratch + tile_bytes + staging_bytes);
     for (std::size_t unit = begin; unit < end;) {
@@ -175,6 +178,7 @@ struct TilesCall {
       const Planes<T>* const planes = delivery.begin(0);
       typename GridEvaluator<T>::Target to{.planes = planes, .status = places.status};
       to.set_curvature(places.curvature, 0);
+      to.record = outputs.record();
       evaluator.run(plan, piece, to);
       delivery.end(tile.samples);
       delivery.finish();

@@ -5,6 +5,24 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
+/// Rows that a buffered column has room for.
+constexpr std::size_t kBufferRows = 128;
+
+/// A column on its way to the rows' ends: one plane for each of `kPlanes` outputs.
+template <typename T, std::size_t kPlanes>
+struct ColumnBuffer {
+  alignas(64) T plane[kPlanes][kBufferRows + 2 * detail::kMaxLanes];
+
+  /// Where the piece's first row goes: registers of rows behind a lead are lines of the buffer.
+  SIMDBEZIER_INLINE T* first(std::size_t k, const RowPiece<T>& piece) {
+    return plane[k] + (piece.lead ? detail::kMaxLanes - 1 : 0);
+  }
+};
+
+/// The single column behind a tile.
+template <typename V>
+using ColumnTile = Tile<kLanes<V>, true, false, V>;
+
 template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
 SIMDBEZIER_INLINE void sweep_position(const RowPiece<ScalarOf<V>>& piece,
                                       const Component<ScalarOf<V>>& c,

@@ -61,9 +61,9 @@ public:
     SampleStatus* status = nullptr;    ///< may be null
     T* curvature[kCurvatures] = {};    ///< may be null
     DrainQueue<T>* drain = nullptr;    ///< may be null
-    bool streaming = false;            ///< see OutputPlan::stream_directly()
+    bool streaming = false;            ///< see OutputPlan::put_directly()
     const Planes<T>* next = nullptr;   ///< with a drain: the planes of the piece after this one
-    std::size_t record = 1;            ///< where streaming: see GridTask
+    std::size_t record = 1;            ///< see GridTask
 
     /// The caller's curvatures from a sample on.
     void set_curvature(const Curvatures<T>& out, std::size_t sample) noexcept {

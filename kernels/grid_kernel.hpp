@@ -19,24 +19,6 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Rows that a buffered column has room for.
-constexpr std::size_t kBufferRows = 128;
-
-/// A column on its way to the rows' ends: one plane for each of `kPlanes` outputs.
-template <typename T, std::size_t kPlanes>
-struct ColumnBuffer {
-  alignas(64) T plane[kPlanes][kBufferRows + 2 * detail::kMaxLanes];
-
-  /// Where the piece's first row goes: registers of rows behind a lead are lines of the buffer.
-  SIMDBEZIER_INLINE T* first(std::size_t k, const RowPiece<T>& piece) {
-    return plane[k] + (piece.lead ? detail::kMaxLanes - 1 : 0);
-  }
-};
-
-/// The single column behind a tile.
-template <typename V>
-using ColumnTile = Tile<kLanes<V>, true, false, V>;
-
 /// Positions and normals, of a tile and the column behind it.
 template <Scheme kScheme, bool kAny, typename SomeTile, typename T>
 SIMDBEZIER_INLINE void sweep_normal_patches(const GridTask<T>& shared_task,
@@ -185,14 +167,16 @@ SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<ve
   };
   // A single column goes along with the last whole register.
   const std::size_t plain = split.column && split.full > 0 ? split.full - kL : split.full;
+  if constexpr (kPutsRecords<V> && kUsual<kOutputs>) {
+    if (task.record > 1) {
+      sweep_record_tiles<kOutputs, kScheme>(task, piece, patch, end);
+      return;
+    }
+  }
   if constexpr (kLineWide<V> && kUsual<kOutputs>) {
     if (task.streaming) [[unlikely]] { // whole registers only
       for (std::size_t first = 0; first < plain; first += kL) {
-        if (task.record > 1) {
-          sweep_records<kOutputs, kScheme>(task, piece, first, patch, end);
-        } else {
-          sweep(std::type_identity<Tile<1, true, false, V, true>>{}, first, kL);
-        }
+        sweep(std::type_identity<Tile<1, true, false, V, true>>{}, first, kL);
       }
       return;
     }

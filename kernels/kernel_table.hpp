@@ -96,7 +96,7 @@ struct GridTask {
   bool prefetch;        ///< the set does not fit the second-level cache
   bool streaming;       ///< rows are whole cache lines, to be stored past the caches
   bool watertight;      ///< edges come from their own control points
-  std::size_t record;   ///< then values from one sample to the next: see OutputPlan::record()
+  std::size_t record;   ///< values from one sample to the next: see OutputPlan::record()
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see pace()
   Isa executed;         ///< written by the kernel
 };

@@ -39,7 +39,8 @@ struct MemoryRange {
   const void* begin;
   std::size_t bytes;
 };
-/// The same of a view's extent, gaps included: like the grids' inputs, ranges have no business there.
+/// The same of a view's extent, gaps included: like the grids' inputs, ranges have no business
+/// there.
 template <typename S>
 Status check_apart(const ControlNets<S>& nets, const MemoryRange& range) noexcept;
 

@@ -226,16 +226,18 @@ void OutputPlan<T>::stage() noexcept {
 }
 
 template <typename T>
-void OutputPlan<T>::stream_directly(std::size_t row, std::size_t lanes, bool records) noexcept {
+void OutputPlan<T>::put_directly(std::size_t row, std::size_t lanes, bool records) noexcept {
   const KernelChoice choice = choose_kernels(wanted_groups(out_));
   const std::size_t record = stream_[0].members;
-  bool possible = streaming_ && !choice.second && choice.outputs != kAnyOutputs &&
-                  lanes * sizeof(T) == 64 && row % lanes == 0 &&
+  const bool lines = lanes * sizeof(T) == 64 && row % lanes == 0;
+  const bool registers = lanes * sizeof(T) >= 32 && row >= lanes;
+  bool possible = staged() && !choice.second && choice.outputs != kAnyOutputs &&
+                  (streaming_ ? lines : registers && staged_planes_ == written_planes()) &&
                   (record == 1 || (records && (record == 3 || record == staged_planes_)));
   for (std::size_t k = 0; possible && k < streams_; ++k) {
     const StreamShape<T>& shape = stream_[k];
     possible = shape.members == record && shape.stride == static_cast<std::ptrdiff_t>(record) &&
-               reinterpret_cast<std::uintptr_t>(shape.first) % 64 == 0;
+               (!streaming_ || reinterpret_cast<std::uintptr_t>(shape.first) % 64 == 0);
     for (std::size_t m = 1; m < record; ++m) {
       possible = possible && shape.plane[m] == shape.plane[0] + m;
     }
@@ -244,6 +246,14 @@ void OutputPlan<T>::stream_directly(std::size_t row, std::size_t lanes, bool rec
     record_ = record;
     write_directly();
   }
+}
+
+/// Planes of all groups that are wanted.
+template <typename T>
+std::size_t OutputPlan<T>::written_planes() const noexcept {
+  const WantedGroups wanted = wanted_groups(out_);
+  const auto groups = std::count(wanted.group, wanted.group + kGroups, true);
+  return dimension_ * static_cast<std::size_t>(groups);
 }
 
 template <typename T>

@@ -81,9 +81,10 @@ public:
   [[nodiscard]] const Outputs<T>& out() const noexcept { return out_; }
   [[nodiscard]] bool staged() const noexcept { return staged_planes_ > 0; }
   [[nodiscard]] bool streaming() const noexcept { return streaming_; }
-  /// Gives staging up where kernels can stream by themselves: rows of `row` samples that are whole
-  /// registers and whole cache lines, in planes or, if `records`, all in triples or in one vertex.
-  void stream_directly(std::size_t row, std::size_t lanes, bool records) noexcept;
+  /// Gives staging up where kernels can do without: where planes, or if `records` triples of each
+  /// group or one vertex of all, are to be streamed in rows of `row` samples that are whole
+  /// registers and whole cache lines, or records stored plainly in rows of at least one register.
+  void put_directly(std::size_t row, std::size_t lanes, bool records) noexcept;
   /// Values from one sample to the next where they do: 1 planes; 3 triples of each group, more one
   /// vertex of all groups, both counted from a group's first component.
   [[nodiscard]] std::size_t record() const noexcept { return record_; }
@@ -106,6 +107,7 @@ public:
   [[nodiscard]] const StreamShape<T>& stream(std::size_t k) const noexcept { return stream_[k]; }
 
 private:
+  [[nodiscard]] std::size_t written_planes() const noexcept;
   void stage() noexcept;
   void add_streams() noexcept;
 
