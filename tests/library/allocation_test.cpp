@@ -101,6 +101,37 @@ TEST_F(Allocation, Grids) {
   }
 }
 
+/// Records that kernels put together by themselves need no staging: proof of which ones they do.
+template <typename T>
+void records_without_staging(Isa isa, std::size_t lanes) {
+  const PatchSet<T> set = packed<T>(mixed_nets(kPatches));
+  for (const std::size_t nu : {2U, 3U, 4U, 7U, 8U, 9U, 13U, 15U, 16U, 17U, 20U, 33U}) {
+    for (const std::ptrdiff_t stride : {3, 6, 7}) {
+      Canvas<T> canvas(7 * kPatches * nu * 5);
+      Outputs<T> out;
+      out.position = Vectors<T>::xyz(canvas.at(0), stride);
+      if (stride == 6) {
+        out.normal = Vectors<T>::xyz(canvas.at(3), stride);
+      }
+      g_allocations_left = 0;
+      const Status status =
+          evaluate_grid(set, Grid<T>::uniform(nu, 5), out, {.threads = 1, .isa = isa});
+      g_allocations_left = -1;
+      const bool direct = lanes > 0 && nu >= lanes && stride != 7;
+      EXPECT_EQ(status, direct ? Status::ok : Status::out_of_memory)
+          << to_string(isa) << ", " << nu << " samples a row, " << stride << " values a record";
+    }
+  }
+}
+
+TEST_F(Allocation, RecordsWithoutStaging) {
+  for (const Isa isa : available_isas()) {
+    const std::size_t bytes = isa == Isa::avx512 ? 64 : isa == Isa::avx2 ? 32 : 0;
+    records_without_staging<float>(isa, bytes / sizeof(float));
+    records_without_staging<double>(isa, bytes / sizeof(double));
+  }
+}
+
 TEST_F(Allocation, PatchGrids) {
   const std::uint32_t nu[kPatches] = {3, 700, 500};
   const std::uint32_t nv[kPatches] = {400, 4, 500};

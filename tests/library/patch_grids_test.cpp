@@ -43,11 +43,12 @@ struct Sizes {
   }
 };
 
-[[nodiscard]] Sizes random_sizes(std::size_t patches, int most, std::uint64_t seed) {
+[[nodiscard]] Sizes random_sizes(std::size_t patches, int most, std::uint64_t seed,
+                                 int least_nu = 2) {
   Random random(seed);
   Sizes sizes;
   for (std::size_t k = 0; k < patches; ++k) {
-    sizes.nu.push_back(static_cast<std::uint32_t>(random.integer(2, most)));
+    sizes.nu.push_back(static_cast<std::uint32_t>(random.integer(least_nu, most)));
     sizes.nv.push_back(static_cast<std::uint32_t>(random.integer(2, most)));
   }
   return sizes;
@@ -142,10 +143,9 @@ protected:
   }
 
   template <typename T>
-  void layouts() {
-    constexpr std::size_t kPatches = 13;
-    const PatchSet<T> set = packed<T>(mixed_nets(kPatches));
-    Sizes sizes = random_sizes(kPatches, 21, 4);
+  void layouts(Sizes sizes) {
+    const std::size_t patches = sizes.nu.size();
+    const PatchSet<T> set = packed<T>(mixed_nets(patches));
     Canvas<T> canvas(0);
     std::size_t turn = 0;
     for (const std::size_t gap : {std::size_t{0}, std::size_t{3}}) {
@@ -179,8 +179,10 @@ TEST_P(PatchGridsTest, EverySmallSizeF64) { every_small_size<double>(); }
 TEST_P(PatchGridsTest, WindowsF32) { windows<float>(); }
 TEST_P(PatchGridsTest, WindowsF64) { windows<double>(); }
 TEST_P(PatchGridsTest, DensePatchF32) { dense_patch<float>(); }
-TEST_P(PatchGridsTest, LayoutsF32) { layouts<float>(); }
-TEST_P(PatchGridsTest, LayoutsF64) { layouts<double>(); }
+TEST_P(PatchGridsTest, LayoutsF32) { layouts<float>(random_sizes(13, 21, 4)); }
+TEST_P(PatchGridsTest, LayoutsF64) { layouts<double>(random_sizes(13, 21, 4)); }
+TEST_P(PatchGridsTest, LayoutsOfLongRowsF32) { layouts<float>(random_sizes(7, 35, 6, 16)); }
+TEST_P(PatchGridsTest, LayoutsOfLongRowsF64) { layouts<double>(random_sizes(7, 35, 6, 8)); }
 INSTANTIATE_FOR_EVERY_ISA(PatchGridsTest);
 
 /// Three patches of 2x3, 4x2 and 3x3 samples, changed by one thing at a time.

@@ -1,6 +1,6 @@
-// Grids in rows of whole registers, to memory, as records that begin on a cache line, where kernels
-// put records together and stream them by themselves: the bits of planes in the cache, the statuses
-// too, and not one element touched that is no output.
+// Grids in rows of at least a register as records, which kernels put together by themselves: stored
+// anywhere, or streamed where rows are whole registers and records begin on a cache line. The bits
+// of planes in the cache, the statuses too, and not one element touched that is no output.
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -29,7 +29,9 @@ struct Size {
   std::size_t nv;
 };
 
-constexpr Size kSizes[] = {{16, 16}, {8, 8}, {32, 32}, {24, 5}, {64, 2}, {48, 3}, {16, 1}, {96, 9}};
+constexpr Size kSizes[] = {{16, 16}, {8, 8},   {32, 32}, {24, 5},   {64, 2}, {48, 3}, {16, 1},
+                           {96, 9},  {17, 17}, {33, 5},  {9, 7},    {65, 3}, {5, 4},  {25, 20},
+                           {18, 6},  {31, 3},  {13, 12}, {17, 131}, {7, 2},  {15, 3}, {41, 2}};
 constexpr std::size_t kLine = 16; // elements, of float
 
 class RecordTest : public IsaTest {
@@ -62,7 +64,7 @@ protected:
 
   template <typename T>
   void check(const PatchSet<T>& set, const Grid<T>& samples, const std::string& layout,
-             std::size_t shift, Options options) {
+             std::size_t shift, const Options& options) {
     constexpr auto kUnused = static_cast<SampleStatus>(77);
     const std::size_t patches = std::min(options.patch_count, set.size() - options.first_patch);
     const std::size_t count = patches * samples.nu * samples.nv;
@@ -75,12 +77,12 @@ protected:
     Outputs<T> out = place(layout, count, shift, canvas);
     std::vector<SampleStatus> status(count + 2, kUnused);
     out.status = with_status_ ? status.data() + 1 : nullptr;
-    options.destination = Destination::memory;
     grid(set, samples, out, options);
     const std::string what = layout + " + " + std::to_string(shift) + ", " +
                              std::to_string(samples.nu) + "x" + std::to_string(samples.nv) + ", " +
                              std::to_string(patches) + " patches" +
-                             (options.watertight ? "" : ", open");
+                             (options.watertight ? "" : ", open") +
+                             (options.destination == Destination::cache ? ", cached" : "");
     EXPECT_EQ(canvas.defects(out, reference, count), 0U) << what;
     if (with_status_) {
       EXPECT_TRUE(std::equal(status.begin() + 1, status.end() - 1, reference.status().begin()))
@@ -104,12 +106,15 @@ protected:
       }
       for (const std::string& layout : kLayouts) {
         for (std::size_t scheme = 0; scheme < 4; ++scheme, ++turn) {
-          const Options options{.threads = turn % 5 == 3 ? 3 : 1,
-                                .watertight = scheme < 2,
-                                .first_patch = turn % 3,
-                                .patch_count = turn * 5 % 13 + 2};
-          check(sets[scheme % 2], Grid<T>::uniform(size.nu, size.nv), layout,
-                turn % 6 == 5 ? turn % 16 : 0, options);
+          Options options{.threads = turn % 5 == 3 ? 3 : 1,
+                          .watertight = scheme < 2,
+                          .destination = Destination::memory,
+                          .first_patch = turn % 3,
+                          .patch_count = turn * 5 % 13 + 2};
+          const Grid<T> samples = Grid<T>::uniform(size.nu, size.nv);
+          check(sets[scheme % 2], samples, layout, turn % 6 == 5 ? turn % 16 : 0, options);
+          options.destination = Destination::cache;
+          check(sets[scheme % 2], samples, layout, turn % 16, options);
         }
       }
     }
@@ -133,8 +138,13 @@ protected:
       const Grid<T> samples{size.nu, size.nv, x.data(), y.data(), Parameters::centred};
       for (const std::string& layout : kLayouts) {
         for (const bool watertight : {true, false}) {
-          check(set, samples, layout, 0,
-                {.threads = 1, .watertight = watertight, .patch_count = 8});
+          for (const Destination destination : {Destination::memory, Destination::cache}) {
+            check(set, samples, layout, 0,
+                  {.threads = 1,
+                   .watertight = watertight,
+                   .destination = destination,
+                   .patch_count = 8});
+          }
         }
       }
     }
@@ -146,8 +156,15 @@ protected:
   void long_calls() {
     const PatchSet<T> set = packed<T>(mixed_nets(70));
     for (const std::string& layout : kLayouts) {
-      check(set, Grid<T>::uniform(32, 32), layout, 0, {.threads = 2, .patch_count = 70});
-      check(set, Grid<T>::uniform(16, 4500), layout, 0, {.threads = 1, .patch_count = 2});
+      for (const Destination destination : {Destination::memory, Destination::cache}) {
+        const Options options{.threads = 2, .destination = destination};
+        check(set, Grid<T>::uniform(32, 32), layout, 0, options);
+        check(set, Grid<T>::uniform(33, 32), layout, 1, options);
+        check(set, Grid<T>::uniform(16, 4500), layout, 0,
+              {.threads = 1, .destination = destination, .patch_count = 2});
+        check(set, Grid<T>::uniform(17, 4500), layout, 0,
+              {.threads = 1, .destination = destination, .patch_count = 2});
+      }
     }
   }
 

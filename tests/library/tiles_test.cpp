@@ -74,7 +74,8 @@ protected:
   template <typename T>
   void every_choice_of_outputs() {
     const PatchSet<T> set = packed<T>(mixed_nets(5));
-    for (const auto& [nu, nv] : {std::pair<std::size_t, std::size_t>{5, 4}, {16, 3}, {17, 9}}) {
+    for (const auto& [nu, nv] :
+         {std::pair<std::size_t, std::size_t>{5, 4}, {16, 3}, {17, 9}, {22, 2}, {33, 3}}) {
       const Grid<T> samples = Grid<T>::uniform(nu, nv);
       const Planes<T> all = reference_of(set, samples);
       for (GroupSet groups = 1; groups <= kAllVectors; ++groups) {
