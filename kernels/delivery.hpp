@@ -1,6 +1,6 @@
 // One thread's way from staged planes to the caller's memory, chunk by chunk.
 //
-// Kernels write planes of unit stride, and where OutputPlan::put_directly() says so records.
+// Kernels write planes of unit stride, and where OutputPlan::arrange() says so records.
 // Where the caller wants other records, or stores that bypass the caches, they write into staging
 // instead, and a drain forms the caller's bytes from there in whole cache lines. Samples that do
 // not fill a line wait in front of the next chunk's planes. When streaming there are two stagings:

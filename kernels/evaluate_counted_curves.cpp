@@ -145,8 +145,8 @@ Status evaluate_curves(const CurveSet<T>& set, const CurveCounts& counts,
   const detail::DefaultFpEnvironment environment;
   const std::size_t total = samples.before[request.patches];
   const Outputs<T> groups = detail::as_outputs(out);
-  const detail::OutputPlan<T> outputs =
-      detail::plan_outputs(out, groups, total, options.destination);
+  detail::OutputPlan<T> outputs = detail::plan_outputs(out, groups, total, options.destination);
+  outputs.arrange({}, detail::thread_count(options.threads, total));
   const detail::CurveCall<T> call{
       *set.storage(),           detail::kernel_table<T>(request.isa),       out, outputs,
       request.components.first, detail::Delivery<T>::chunk_samples(outputs)};

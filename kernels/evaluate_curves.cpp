@@ -81,9 +81,9 @@ Status evaluate_curves(const CurveSet<T>& set, const CurveGrid<T>& grid, const C
   const Outputs<T> groups = detail::as_outputs(out);
   const detail::KernelTable<T>& table = detail::kernel_table<T>(request.isa);
   detail::OutputPlan<T> outputs = detail::plan_outputs(out, groups, samples, options.destination);
-  if (out.curvature == nullptr) {
-    outputs.put_directly(grid.n, table.lanes, false);
-  }
+  outputs.arrange(
+      {.row = out.curvature == nullptr ? grid.n : 0, .lanes = table.lanes, .streamed = true},
+      detail::thread_count(options.threads, request.patches));
   const bool rows = detail::goes_in_rows(*set.storage(), out, outputs, table, grid.n);
   if (rows) {
     outputs.write_directly();

@@ -119,17 +119,11 @@ Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<
                                        detail::wanted_groups(out), out.curvature.wanted(),
                                        request.components, options.watertight);
   detail::OutputPlan<T> outputs(out, samples, options.destination);
-  const auto put_directly = [&] {
-    if (kernels.bicubic()) {
-      outputs.put_directly(grid.nu, kernels.table->lanes, true);
-    }
-  };
-  put_directly();
-  if (options.destination == Destination::automatic && outputs.streaming() && outputs.staged() &&
-      !detail::staged_streaming_pays(detail::thread_count(options.threads, request.patches))) {
-    outputs.store_plainly();
-    put_directly();
-  }
+  outputs.arrange({.row = kernels.bicubic() ? grid.nu : 0,
+                   .lanes = kernels.table->lanes,
+                   .streamed = true,
+                   .records = true},
+                  detail::thread_count(options.threads, request.patches));
   const detail::GridCall<T> call(kernels, request.first_patch, plan, outputs);
   return detail::run_blocks(request.patches * call.strips(), options, call.scratch_bytes(),
                             [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {

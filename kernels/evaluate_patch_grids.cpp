@@ -200,9 +200,10 @@ Status evaluate_patch_grids(const PatchSet<T>& set, const PatchGrids& grids, con
                                        request.components, options.watertight);
   const std::size_t total = samples.before[request.patches];
   detail::OutputPlan<T> outputs(out, total, options.destination);
-  if (kernels.bicubic() && !outputs.streaming()) {
-    outputs.put_directly(samples.least_nu, kernels.table->lanes, true);
-  }
+  outputs.arrange({.row = kernels.bicubic() ? samples.least_nu : 0,
+                   .lanes = kernels.table->lanes,
+                   .records = true},
+                  detail::thread_count(options.threads, total));
   const detail::PatchGridsCall<T> call(kernels, request.first_patch, request.patches, grids,
                                        samples, outputs);
   return detail::run_blocks(total, options, call.scratch_bytes(),

@@ -159,9 +159,9 @@ struct TilesCall {
     // A copy: the caller may change what it is given.
     const Outputs<T> places = TileMemory<T>(format, dimension, shape.samples).place(scratch);
     OutputPlan<T> outputs(places, shape.samples, Destination::cache);
-    if (kernels.bicubic()) {
-      outputs.put_directly(plan.nu(), kernels.table->lanes, true);
-    }
+    outputs.arrange(
+        {.row = kernels.bicubic() ? plan.nu() : 0, .lanes = kernels.table->lanes, .records = true},
+        1);
     Delivery<T> delivery(outputs, *kernels.table, shape.samples, scratch + tile_bytes);
     GridEvaluator<T> evaluator(kernels, shape.rows, scratch + tile_bytes + staging_bytes);
     for (std::size_t unit = begin; unit < end;) {

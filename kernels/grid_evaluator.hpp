@@ -61,7 +61,7 @@ public:
     SampleStatus* status = nullptr;    ///< may be null
     T* curvature[kCurvatures] = {};    ///< may be null
     DrainQueue<T>* drain = nullptr;    ///< may be null
-    bool streaming = false;            ///< see OutputPlan::put_directly()
+    bool streaming = false;            ///< see OutputPlan::arrange()
     const Planes<T>* next = nullptr;   ///< with a drain: the planes of the piece after this one
     std::size_t record = 1;            ///< see GridTask
 

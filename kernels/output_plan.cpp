@@ -188,7 +188,7 @@ std::size_t StreamShape<T>::records_to_line(std::size_t record) const noexcept {
 template <typename T>
 OutputPlan<T>::OutputPlan(const Outputs<T>& out, std::size_t samples,
                           Destination destination) noexcept
-    : out_(out) {
+    : out_(out), automatic_(destination == Destination::automatic) {
   const OutputGroups<T> groups(out);
   std::size_t components = 0;
   for (const Vectors<T>* group : groups.group) {
@@ -200,15 +200,18 @@ OutputPlan<T>::OutputPlan(const Outputs<T>& out, std::size_t samples,
   components += components == 0 ? kCurvatures : 0;
   // Half of the cache: the consumer has other data, too.
   streaming_ = destination == Destination::memory ||
-               (destination == Destination::automatic &&
-                samples > last_level_cache() / 2 / sizeof(T) / components);
+               (automatic_ && samples > last_level_cache() / 2 / sizeof(T) / components);
   stage();
 }
 
 template <typename T>
-void OutputPlan<T>::store_plainly() noexcept {
-  streaming_ = false;
-  stage();
+void OutputPlan<T>::arrange(const DirectRows& rows, int threads) noexcept {
+  put_directly(rows);
+  if (automatic_ && streaming_ && staged() && !staged_streaming_pays(threads)) {
+    streaming_ = false;
+    stage();
+    put_directly(rows);
+  }
 }
 
 /// What is not written directly: everything where stores are to bypass the caches, records
@@ -226,14 +229,15 @@ void OutputPlan<T>::stage() noexcept {
 }
 
 template <typename T>
-void OutputPlan<T>::put_directly(std::size_t row, std::size_t lanes, bool records) noexcept {
+void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
   const KernelChoice choice = choose_kernels(wanted_groups(out_));
   const std::size_t record = stream_[0].members;
-  const bool lines = lanes * sizeof(T) == 64 && row % lanes == 0;
-  const bool registers = lanes * sizeof(T) >= 32 && row >= lanes;
-  bool possible = staged() && !choice.second && choice.outputs != kAnyOutputs &&
-                  (streaming_ ? lines : registers && staged_planes_ == written_planes()) &&
-                  (record == 1 || (records && (record == 3 || record == staged_planes_)));
+  const std::size_t bytes = rows.lanes * sizeof(T); // of a register
+  const bool lines = rows.streamed && bytes == 64 && rows.row % rows.lanes == 0;
+  const bool registers = bytes >= 32 && staged_planes_ == written_planes();
+  bool possible = staged() && rows.row >= rows.lanes && (streaming_ ? lines : registers) &&
+                  !choice.second && choice.outputs != kAnyOutputs &&
+                  (record == 1 || (rows.records && (record == 3 || record == staged_planes_)));
   for (std::size_t k = 0; possible && k < streams_; ++k) {
     const StreamShape<T>& shape = stream_[k];
     possible = shape.members == record && shape.stride == static_cast<std::ptrdiff_t>(record) &&

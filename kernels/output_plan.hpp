@@ -71,6 +71,15 @@ struct StreamShape {
   [[nodiscard]] std::size_t records_to_line(std::size_t record) const noexcept;
 };
 
+/// What the kernels of a call can put where it belongs by themselves, besides planes with plain
+/// stores: all outputs that they compute at once, in rows of `row` samples or more.
+struct DirectRows {
+  std::size_t row = 0; ///< 0: nothing
+  std::size_t lanes = 1;
+  bool streamed = false; ///< planes, and records too, past the caches: whole lines, whole registers
+  bool records = false;  ///< triples of each group, or one vertex of all
+};
+
 /// How the outputs of one call are delivered.
 template <typename T>
 class OutputPlan {
@@ -81,15 +90,12 @@ public:
   [[nodiscard]] const Outputs<T>& out() const noexcept { return out_; }
   [[nodiscard]] bool staged() const noexcept { return staged_planes_ > 0; }
   [[nodiscard]] bool streaming() const noexcept { return streaming_; }
-  /// Gives staging up where kernels can do without: where planes, or if `records` triples of each
-  /// group or one vertex of all, are to be streamed in rows of `row` samples that are whole
-  /// registers and whole cache lines, or records stored plainly in rows of at least one register.
-  void put_directly(std::size_t row, std::size_t lanes, bool records) noexcept;
+  /// Gives staging up where kernels can do without it; and streaming, if that was not asked for,
+  /// where it needs staging that does not pay with so many threads.
+  void arrange(const DirectRows& rows, int threads) noexcept;
   /// Values from one sample to the next where they do: 1 planes; 3 triples of each group, more one
   /// vertex of all groups, both counted from a group's first component.
   [[nodiscard]] std::size_t record() const noexcept { return record_; }
-  /// Gives streaming up, and with it the staging that only streaming needs.
-  void store_plainly() noexcept;
   /// Gives staging up: kernels know the outputs' layout themselves.
   void write_directly() noexcept;
   [[nodiscard]] std::size_t staged_planes() const noexcept { return staged_planes_; }
@@ -108,11 +114,13 @@ public:
 
 private:
   [[nodiscard]] std::size_t written_planes() const noexcept;
+  void put_directly(const DirectRows& rows) noexcept;
   void stage() noexcept;
   void add_streams() noexcept;
 
   const Outputs<T>& out_;
   std::size_t dimension_ = 3;
+  bool automatic_; ///< whether to stream was left to the call
   bool streaming_ = false;
   std::size_t staged_planes_ = 0;
   std::size_t record_ = 1;
