@@ -65,8 +65,8 @@ function(simdbezier_add_isa_kernels target)
     # more symbol to merge. Without -fno-ivopts and -fno-tree-pre g++ 12 makes many addresses of a
     # sweep's few, most of them on the stack: 10 % of the speed of 8 x 8 and 17 x 17 positions.
     # Its SLP vectoriser joins loads of fields that were stored one by one, which then wait for
-    # streaming stores (kernels/drain.hpp); and it drops the rounding to float where two statements
-    # like double(float(x)) - y stand side by side, as they do in packing.
+    # streaming stores (kernels/output/drain.hpp); and it drops the rounding to float where two
+    # statements like double(float(x)) - y stand side by side, as they do in packing.
     # g++ 12 warns about its own _mm512_undefined_ps (GCC bug 105593).
     target_compile_options(
       ${object} PRIVATE ${flags} $<IF:$<CONFIG:Debug>,-O1,-O3> -fno-math-errno -fno-exceptions

@@ -1,7 +1,7 @@
 // Compiled once per instruction set: kernels for curves.
-#include "kernels/curve_kernel.hpp"
-#include "kernels/curve_pack_kernel.hpp"
-#include "kernels/curve_scattered_kernel.hpp"
+#include "kernels/curve/kernel.hpp"
+#include "kernels/curve/pack_kernel.hpp"
+#include "kernels/curve/scattered_kernel.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

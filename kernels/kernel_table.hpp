@@ -44,7 +44,7 @@ struct NormalQuery {
   T dv[3];
 };
 
-/// Writes the unit normal (or zero, or nan at nan parameters); see normal_fallback.hpp.
+/// Writes the unit normal (or zero, or nan at nan parameters); see fallback/normal_fallback.hpp.
 template <typename T>
 using ResolveNormal = SampleStatus (*)(const NormalQuery<T>& query, T normal[3]);
 
@@ -64,7 +64,7 @@ struct RowRun {
   RowKind kind;
 };
 
-/// Finished samples on their way from staging to the caller's memory; see drain.hpp.
+/// Finished samples on their way from staging to the caller's memory; see output/drain.hpp.
 template <typename T>
 struct DrainQueue;
 
@@ -215,7 +215,7 @@ template <typename T, typename S>
 using NetPackKernel = PackDoubt (*)(const NetPackTask<T, S>& task, std::size_t begin,
                                     std::size_t end);
 
-/// Samples whose derivatives of any order are wanted: derivative_task.hpp.
+/// Samples whose derivatives of any order are wanted: derivative/task.hpp.
 template <typename T>
 struct DerivativeTask;
 
@@ -230,7 +230,7 @@ struct ShapeTable {
   NetPackKernel<T, double> pack_f64;
 };
 
-/// Kernels for curves (curve_table.hpp), and for operations on control nets (net_table.hpp).
+/// Kernels for curves (curve/table.hpp), and for operations on control nets (net/table.hpp).
 template <typename T>
 struct CurveTable;
 template <typename T>

@@ -1,9 +1,9 @@
 // Compiled once per instruction set (cmake/isa.cmake): fills this instruction set's tables.
 // Only the tables leave this object; they are constants, so nothing runs at load time. shapes.cpp,
 // curves.cpp and nets.cpp are compiled the same way.
-#include "kernels/grid_kernel.hpp"
-#include "kernels/pack_kernel.hpp"
-#include "kernels/scattered_kernel.hpp"
+#include "kernels/grid/kernel.hpp"
+#include "kernels/pack/kernel.hpp"
+#include "kernels/scattered/kernel.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -1,8 +1,8 @@
 // Compiled once per instruction set: kernels for operations on control nets.
-#include "kernels/net_bounds.hpp"
-#include "kernels/net_casteljau.hpp"
-#include "kernels/net_flatness.hpp"
-#include "kernels/net_linear.hpp"
+#include "kernels/net/boxes.hpp"
+#include "kernels/net/casteljau.hpp"
+#include "kernels/net/flatness.hpp"
+#include "kernels/net/linear.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -58,7 +58,7 @@ struct PatchStorage {
   T* control_points = nullptr; ///< count * shape.control_values(); read where a normal degenerates
   T* origins = nullptr;        ///< count * shape.origins(), or null
   /// count * shape.floors(): |du x dv|^2 above it needs no second look; with weights, what that
-  /// floor is made of at a sample (pack_shape_floor.hpp).
+  /// floor is made of at a sample (pack/shape_floor.hpp).
   T* normal_floor = nullptr;
   /// No bicubic patch has a higher one; infinity where they differ much.
   T common_floor = std::numeric_limits<T>::infinity();

@@ -1,7 +1,7 @@
 // Compiled once per instruction set: kernels for patches of any shape.
-#include "kernels/derivative_kernel.hpp"
-#include "kernels/pack_shape_kernel.hpp"
-#include "kernels/shape_kernel.hpp"
+#include "kernels/derivative/kernel.hpp"
+#include "kernels/pack/shape_kernel.hpp"
+#include "kernels/shape/kernel.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

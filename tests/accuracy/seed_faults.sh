@@ -17,11 +17,11 @@ trap 'rm -rf "$work"' EXIT
 faults=(
   "contraction|kernels/isa/arch.hpp|s/return a \* b + c;/if constexpr (kIsScalar<V>) { return scalar_fma(a, b, c); } else { return a * b + c; }/|watertight/test_watertight|*ClassTest*sse2"
   "no_corner_store|kernels/bicubic.hpp|s/return column.edges.replace(value, c.corner.*/return value;/|watertight/test_watertight|*SharedEdges*"
-  "reciprocal_step|kernels/grid_plan.cpp|s/numerator \/ static_cast<T>(intervals)/numerator * (T(1) \/ static_cast<T>(intervals))/|watertight/test_watertight|*SharedEdges*"
-  "coefficients_in_double|kernels/pack_kernel.hpp|s/Wide, DoubleDouble>;/Wide, Wide>;/|library/test_library|PackKernel.coefficients*"
-  "quotient_rule|kernels/shape_formulas.hpp|s/madd(s_x, minus_w_y,/madd(s_y, minus_w_y,/|accuracy/test_accuracy|*ShapesTest.EveryFamily*"
-  "uncut_seam|kernels/shape_cell.hpp|s/at \* shape.cell_edges()/(at - index % 2) * shape.cell_edges()/|watertight/test_watertight|*ShapedEdgesTest.Seams*"
-  "curve_moved_in_a_plane|kernels/curve_pack_kernel.hpp|s/Wide origin(component < 3/Wide origin(component < 2/|curves/test_curves|*CurveAccuracy*"
+  "reciprocal_step|kernels/grid/plan.cpp|s/numerator \/ static_cast<T>(intervals)/numerator * (T(1) \/ static_cast<T>(intervals))/|watertight/test_watertight|*SharedEdges*"
+  "coefficients_in_double|kernels/pack/kernel.hpp|s/Wide, DoubleDouble>;/Wide, Wide>;/|library/test_library|PackKernel.coefficients*"
+  "quotient_rule|kernels/shape/formulas.hpp|s/madd(s_x, minus_w_y,/madd(s_y, minus_w_y,/|accuracy/test_accuracy|*ShapesTest.EveryFamily*"
+  "uncut_seam|kernels/shape/cell.hpp|s/at \* shape.cell_edges()/(at - index % 2) * shape.cell_edges()/|watertight/test_watertight|*ShapedEdgesTest.Seams*"
+  "curve_moved_in_a_plane|kernels/curve/pack_kernel.hpp|s/Wide origin(component < 3/Wide origin(component < 2/|curves/test_curves|*CurveAccuracy*"
 )
 
 # Puts a fault into the copy of the sources.

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/normal_fallback.hpp"
-#include "kernels/surface_jet.hpp"
+#include "kernels/fallback/normal_fallback.hpp"
+#include "kernels/fallback/surface_jet.hpp"
 #include "tests/support/random.hpp"
 
 namespace simdbezier::tests {

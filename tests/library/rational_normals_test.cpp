@@ -1,5 +1,5 @@
 // The quick test of rational patches' normals: what it is made of bounds the tangents' errors, and
-// it lets nearly all samples of ordinary patches pass. See kernels/pack_shape_floor.hpp.
+// it lets nearly all samples of ordinary patches pass. See kernels/pack/shape_floor.hpp.
 #include <cmath>
 #include <numbers>
 

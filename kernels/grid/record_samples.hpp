@@ -1,0 +1,135 @@
+// A register of samples as records: triples of each group, or one vertex of all.
+#pragma once
+
+#include "kernels/grid/components.hpp"
+#include "kernels/isa/records.hpp"
+#include "kernels/normal_lanes.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Of the groups that kernels put together, those of kOutputs, as in a record.
+template <detail::OutputSet kOutputs>
+struct RecordGroups {
+  static constexpr bool kNormals = kOutputs == detail::kPositionNormal;
+  static constexpr std::size_t kCount = kOutputs == detail::kPosition ? 1 : kNormals ? 2 : 3;
+  static constexpr detail::Group kGroup[3] = {
+      detail::kPositionGroup, kNormals ? detail::kNormalGroup : detail::kDuGroup, detail::kDvGroup};
+
+  /// Of each group; a loop, whose index is no constant, would keep their addresses in memory.
+  template <typename F>
+  static SIMDBEZIER_INLINE void for_each(const F& f) {
+    for_each_index(f, std::make_index_sequence<kCount>{});
+  }
+};
+
+/// Where the next row's records go.
+template <detail::OutputSet kOutputs, typename T>
+struct RecordPlaces {
+  using Groups = RecordGroups<kOutputs>;
+  T* to[Groups::kCount]; ///< of each group
+  std::size_t record;    ///< as in GridTask
+  std::size_t step;      ///< values from one row to the next
+  bool streaming;
+
+  SIMDBEZIER_INLINE RecordPlaces(const GridTask<T>& task, std::size_t at)
+      : record(task.record), step(task.nu * task.record), streaming(task.streaming) {
+    Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
+      to[g] = task.out[Groups::kGroup[g]].component[0] + at * record;
+    });
+  }
+
+  /// A register of samples: value[3 g + c] is component c of group g.
+  template <typename V>
+  SIMDBEZIER_INLINE void store(const V* value) const {
+    if constexpr (Groups::kCount > 1) {
+      if (record > 3) {
+        LinePart<T> part[3 * Groups::kCount];
+        __builtin_memcpy(&part, value, sizeof(part));
+        store_records(part, to[0], streaming);
+        return;
+      }
+    }
+    Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
+      store_triples(value + 3 * g, to[g], streaming);
+    });
+  }
+  SIMDBEZIER_INLINE void next_row() {
+    Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA { to[g] += step; });
+  }
+};
+
+/// What the rows of one tile have in common.
+template <detail::OutputSet kOutputs, Scheme kScheme, typename SomeTile>
+struct RecordSweep {
+  using V = typename SomeTile::Vector;
+  using T = ScalarOf<V>;
+  using Groups = RecordGroups<kOutputs>;
+
+  const SomeTile& tile;
+  Component<T> component[3];
+  JetColumns<kScheme, V> columns[3];
+
+  SIMDBEZIER_INLINE RecordSweep(const GridTask<T>& task, const SomeTile& the_tile,
+                                std::size_t patch)
+      : tile(the_tile), component{{task, patch, 0}, {task, patch, 1}, {task, patch, 2}} {
+    for (std::size_t c = 0; c < 3; ++c) {
+      columns[c].build(component[c], tile);
+    }
+  }
+
+  /// A register of samples, and what their normals depend on.
+  struct Samples {
+    Jet<V> jet[3];
+    V value[3 * Groups::kCount];
+    V squared;
+
+    /// All values but for the length of normals.
+    SIMDBEZIER_INLINE void assign() {
+      for (std::size_t c = 0; c < 3; ++c) {
+        value[c] = jet[c].p;
+        if constexpr (kOutputs == detail::kPositionDerivatives) {
+          value[3 + c] = jet[c].du;
+          value[6 + c] = jet[c].dv;
+        }
+      }
+      if constexpr (Groups::kNormals) {
+        const V du[3] = {jet[0].du, jet[1].du, jet[2].du};
+        const V dv[3] = {jet[0].dv, jet[1].dv, jet[2].dv};
+        squared = cross_product(du, dv, value + 3);
+      }
+    }
+    SIMDBEZIER_INLINE void finish() {
+      assign();
+      if constexpr (Groups::kNormals) {
+        normalise(value + 3, squared);
+      }
+    }
+  };
+  SIMDBEZIER_INLINE void interior(V y, Samples& s) const {
+    for (std::size_t c = 0; c < 3; ++c) {
+      s.jet[c] = columns[c].interior(y);
+    }
+  }
+  SIMDBEZIER_INLINE void edge(std::size_t edge, Samples& s) const {
+    for (std::size_t c = 0; c < 3; ++c) {
+      s.jet[c] = columns[c].edge(component[c], tile, edge);
+    }
+  }
+
+  [[nodiscard]] static SIMDBEZIER_INLINE bool unusual(const Samples& s, V floor) {
+    if constexpr (Groups::kNormals) {
+      return !all_of<V>(s.squared > floor);
+    }
+    return false;
+  }
+  /// Normals that are, after they have been stored.
+  SIMDBEZIER_INLINE void resolve(const GridTask<T>& task, std::size_t patch, const Suspects& which,
+                                 const Samples& s, V y, V floor) const {
+    if constexpr (Groups::kNormals) {
+      resolve_normals(task, patch, which, tile.column.x, y, s.jet[0].du, s.jet[1].du, s.jet[2].du,
+                      s.jet[0].dv, s.jet[1].dv, s.jet[2].dv, s.squared, floor);
+    }
+  }
+};
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

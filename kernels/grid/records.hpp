@@ -1,0 +1,314 @@
+// Grids whose samples are records: triples of each group, or one vertex of all.
+//
+// A register of samples is computed with all its components, put together in registers and stored
+// where it belongs. Planes in staging and a drain would take longer than the shuffles do.
+//
+// Rows are at least one register long. A rest of one column is computed before the rows, several
+// rows in a register, and moved to the rows' ends as they are stored. For a longer rest a last
+// register begins within the one before it: what both hold is stored twice.
+#pragma once
+
+#include "kernels/grid/prefetch.hpp"
+#include "kernels/grid/record_samples.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Where kernels put records together: OutputPlan::arrange() knows as well.
+template <typename V>
+inline constexpr bool kPutsRecords = !kIsScalar<V> && kNonuples;
+
+/// The single column behind whole registers on its way to the rows' ends, in triples of each group:
+/// the edges v = const, which share a register, then the rows between them.
+template <detail::OutputSet kOutputs, typename V>
+struct RecordColumn {
+  using T = ScalarOf<V>;
+  using Groups = RecordGroups<kOutputs>;
+  static constexpr std::size_t kRows = kBufferRows + 2 * kLanes<V>;
+  alignas(64) T triple[Groups::kCount][3 * kRows];
+
+  /// Where a row stands in here.
+  static SIMDBEZIER_INLINE std::size_t edge(std::size_t edge) {
+    return edge == detail::kEdgeV0 ? 0 : kLanes<V> / 2;
+  }
+  static SIMDBEZIER_INLINE std::size_t middle(std::size_t row) { return kLanes<V> + row; }
+
+  SIMDBEZIER_INLINE void store(const V* value, std::size_t at) {
+    Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
+      store_triples(value + 3 * g, triple[g] + 3 * at, false);
+    });
+  }
+  /// Behind the register that begins at `places`.
+  SIMDBEZIER_INLINE void move_to(const RecordPlaces<kOutputs, T>& places, std::size_t row) const {
+    Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
+      __builtin_memcpy(places.to[g] + kLanes<V> * places.record, triple[g] + 3 * row,
+                       3 * sizeof(T));
+    });
+  }
+
+  /// The rows of `piece`, whose first one begins with sample `at` of the task.
+  template <Scheme kScheme>
+  __attribute__((noinline)) void sweep(const GridTask<T>& task, const RowPiece<T>& piece,
+                                       const ColumnTile<V>& tile, std::size_t patch,
+                                       std::size_t at) {
+    using Sweep = RecordSweep<kOutputs, kScheme, ColumnTile<V>>;
+    const Sweep sweep(task, tile, patch);
+    const V floor = floor_inside(tile.column.x, broadcast<V>(task.normal_floor[patch]));
+    const auto resolve = [&](const typename Sweep::Samples& s, V y, V limit, std::size_t row,
+                             std::size_t lane, std::size_t stored,
+                             std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
+      if (Sweep::unusual(s, limit)) [[unlikely]] {
+        GridTask<T> part = task;
+        part.status = task.status == nullptr ? nullptr : task.status + at + row * task.nu;
+        for (std::size_t c = 0; c < 3; ++c) {
+          part.out[detail::kNormalGroup].component[c] = triple[Groups::kCount - 1] + 3 * stored + c;
+        }
+        sweep.resolve(part, patch, Suspects{lane, 1, 1, rows, 0, 1, task.nu, 3}, s, y, limit);
+      }
+    };
+    typename Sweep::Samples s;
+    if (is_watertight(kScheme) && (piece.lead || piece.trail)) {
+      const V y = tile.edge_y(0);
+      sweep.edge(0, s);
+      s.finish();
+      store(s.value, 0);
+      const auto look = [&](RowKind kind, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
+        resolve(s, y, floor, row, edge(edge_of(kind)), edge(edge_of(kind)), 1);
+      };
+      if (piece.lead) {
+        look(piece.lead_kind, 0);
+      }
+      if (piece.trail) {
+        look(piece.trail_kind, piece.rows() - 1);
+      }
+    }
+    const V limit = piece.middle.kind == RowKind::outside ? no_floor<V>() : floor;
+    for (std::size_t row = 0; row < piece.middle.rows; row += kLanes<V>) {
+      const std::size_t left = piece.middle.rows - row;
+      const V y = RowGroups<kLanes<V>, V>::spread(piece.middle.y + row);
+      sweep.interior(y, s);
+      s.finish();
+      store(s.value, middle(row));
+      resolve(s, y, limit, row + (piece.lead ? 1 : 0), 0, middle(row),
+              left < kLanes<V> ? left : kLanes<V>);
+    }
+  }
+};
+
+/// Rows whose normals wait for their length.
+constexpr std::size_t kWaitingRows = 20;
+
+/// The rows of a register of columns of one patch, and behind them `column` unless it is null.
+template <detail::OutputSet kOutputs, Scheme kScheme, typename V>
+struct RecordRows {
+  using T = ScalarOf<V>;
+  using Sweep = RecordSweep<kOutputs, kScheme, Tile<1, true, false, V>>;
+  using Samples = typename Sweep::Samples;
+  using Column = RecordColumn<kOutputs, V>;
+  /// p, n and |n|^2 of each row.
+  using Waiting = T[kWaitingRows][7][kLanes<V>];
+
+  /// What changes from row to row, and what goes with it: in variables of loops of their own, since
+  /// stores through vector types might change anything that others can see.
+  struct Cursor {
+    std::size_t next_edge; ///< no row before it is on an edge
+    std::size_t trail;
+    const T* next_y; ///< of the next row that is on no edge
+    const Column* column;
+    RecordPlaces<kOutputs, T> places;
+  };
+
+  const Sweep sweep;
+  const GridTask<T>& shared_task;
+  const RowPiece<T>& piece;
+  std::size_t patch;
+  std::size_t at;    ///< first sample
+  std::size_t lead;  ///< row on an edge; no row where there is none
+  std::size_t trail; ///< likewise
+
+  SIMDBEZIER_INLINE RecordRows(const GridTask<T>& task, const GridTask<T>& the_shared_task,
+                               const RowPiece<T>& the_piece, const Tile<1, true, false, V>& tile,
+                               std::size_t the_patch, std::size_t first)
+      : sweep(task, tile, the_patch), shared_task(the_shared_task), piece(the_piece),
+        patch(the_patch), at(first),
+        lead(is_watertight(kScheme) && piece.lead ? 0 : ~std::size_t(0)),
+        trail(is_watertight(kScheme) && piece.trail ? piece.rows() - 1 : ~std::size_t(0)) {}
+
+  [[nodiscard]] SIMDBEZIER_INLINE Cursor start(const GridTask<T>& task,
+                                               const Column* column) const {
+    return {lead == 0 ? lead : trail, trail, piece.middle.y, column, {task, at}};
+  }
+
+  /// kEdges where the row is on none.
+  [[nodiscard]] SIMDBEZIER_INLINE std::size_t edge(std::size_t row) const {
+    return row == lead    ? edge_of(piece.lead_kind)
+           : row == trail ? edge_of(piece.trail_kind)
+                          : kEdges;
+  }
+  /// Of rows that are on no edge.
+  [[nodiscard]] SIMDBEZIER_INLINE std::size_t middle(std::size_t row) const {
+    return row - (piece.lead ? 1 : 0);
+  }
+  SIMDBEZIER_INLINE V compute_edge(std::size_t row, Samples& s) const {
+    sweep.edge(edge(row), s);
+    s.assign();
+    return sweep.tile.edge_y(edge(row));
+  }
+  SIMDBEZIER_INLINE V compute_middle(const T* y, Samples& s) const {
+    const V row_y = broadcast<V>(*y);
+    sweep.interior(row_y, s);
+    s.assign();
+    return row_y;
+  }
+  SIMDBEZIER_INLINE void compute_next(Cursor& next, std::size_t row, Samples& s) const {
+    if (row == next.next_edge) [[unlikely]] {
+      next.next_edge = next.trail;
+      compute_edge(row, s);
+    } else {
+      compute_middle(next.next_y++, s);
+    }
+  }
+
+  SIMDBEZIER_INLINE void end_row(Cursor& next, std::size_t row) const {
+    if (next.column != nullptr) {
+      const std::size_t e = edge(row);
+      next.column->move_to(next.places, e < kEdges ? Column::edge(e) : Column::middle(middle(row)));
+    }
+    next.places.next_row();
+  }
+
+  SIMDBEZIER_INLINE void put(Cursor next) const {
+    const std::size_t rows = piece.rows();
+    for (std::size_t row = 0; row < rows; ++row) {
+      Samples s;
+      compute_next(next, row, s);
+      next.places.store(s.value);
+      end_row(next, row);
+    }
+  }
+
+  /// With normals, in two passes. Root and division take as long as all else, and processors do not
+  /// look far enough ahead to begin with the rows behind meanwhile.
+  SIMDBEZIER_INLINE void put_normals(Cursor next) const {
+    alignas(64) Waiting waiting;
+    const std::size_t rows = piece.rows();
+    // Streaming stores leave slowly, and all the time.
+    const std::size_t most = next.places.streaming ? 2 : kWaitingRows;
+    const std::size_t parts = (rows + most - 1) / most;
+    const std::size_t part = (rows + parts - 1) / parts;
+    T* position = next.places.to[0];
+    for (std::size_t row = 0; row < rows; row += part) {
+      const std::size_t last = row + part < rows ? row + part : rows;
+      begin_normals(next, waiting, row, last, position);
+      finish_normals(next, waiting, row, last);
+    }
+  }
+
+private:
+  /// position: where the next row's positions go, unless they are members of vertices.
+  SIMDBEZIER_INLINE void begin_normals(Cursor& next, Waiting& waiting, std::size_t row,
+                                       std::size_t last, T*& position) const {
+    const bool vertices = next.places.record > 3;
+    T(*wait)[kLanes<V>] = waiting[0];
+    for (; row < last; ++row, wait += 7) {
+      Samples s;
+      compute_next(next, row, s);
+      store_vector(wait[3], s.value[3]);
+      store_vector(wait[4], s.value[4]);
+      store_vector(wait[5], s.value[5]);
+      store_vector(wait[6], s.squared);
+      if (vertices) {
+        store_vector(wait[0], s.value[0]);
+        store_vector(wait[1], s.value[1]);
+        store_vector(wait[2], s.value[2]);
+      } else {
+        store_triples(s.value, position, next.places.streaming);
+        position += next.places.step;
+      }
+    }
+  }
+
+  SIMDBEZIER_INLINE void finish_normals(Cursor& next, const Waiting& waiting, std::size_t row,
+                                        std::size_t last) const {
+    const V floor =
+        floor_inside(sweep.tile.column.x, broadcast<V>(shared_task.normal_floor[patch]));
+    const bool outside = piece.middle.kind == RowKind::outside;
+    const bool vertices = next.places.record > 3;
+    const T(*wait)[kLanes<V>] = waiting[0];
+    for (; row < last; ++row, wait += 7) {
+      V value[6];
+      value[3] = load_vector<V>(wait[3]);
+      value[4] = load_vector<V>(wait[4]);
+      value[5] = load_vector<V>(wait[5]);
+      const V squared = load_vector<V>(wait[6]);
+      normalise(value + 3, squared);
+      if (vertices) {
+        value[0] = load_vector<V>(wait[0]);
+        value[1] = load_vector<V>(wait[1]);
+        value[2] = load_vector<V>(wait[2]);
+        next.places.store(value);
+      } else {
+        store_triples(value + 3, next.places.to[1], next.places.streaming);
+      }
+      end_row(next, row);
+      if (outside || !all_of<V>(squared > floor)) [[unlikely]] {
+        look_again(row, floor, outside, next.places.record);
+      }
+    }
+  }
+
+  SIMDBEZIER_INLINE void look_again(std::size_t row, V floor, bool outside,
+                                    std::size_t record) const {
+    const bool on_edge = edge(row) < kEdges;
+    Samples s;
+    const V y = on_edge ? compute_edge(row, s) : compute_middle(piece.middle.y + middle(row), s);
+    sweep.resolve(shared_task, patch,
+                  Suspects{0, kLanes<V>, kLanes<V>, 1, at + row * shared_task.nu, 0, 1, record}, s,
+                  y, outside && !on_edge ? no_floor<V>() : floor);
+  }
+};
+
+/// A register of columns of consecutive patches, and the column behind it where it is the only one;
+/// as sweep_tile().
+template <detail::OutputSet kOutputs, Scheme kScheme, typename T>
+__attribute__((noinline)) void
+sweep_records(const GridTask<T>& shared_task, const RowPiece<T>& shared_piece,
+              std::size_t first_column, std::size_t patch, std::size_t last_patch) {
+  using V = vec<T>;
+  const bool extra = first_column + kLanes<V> + 1 == shared_task.nu;
+  const GridTask<T> task = shared_task;
+  const RowPiece<T> piece = shared_piece;
+  const Tile<1, true, false, V> tile(task.x, first_column, kLanes<V>, is_watertight(kScheme));
+  const ColumnTile<V> column_tile(task.x, first_column + (extra ? kLanes<V> : 0), 1,
+                                  is_watertight(kScheme));
+  RecordColumn<kOutputs, V> column;
+  const bool prefetch = task.prefetch && first_column == 0;
+  for (; patch < last_patch; ++patch) {
+    if (prefetch) {
+      prefetch_patch(task, patch);
+    }
+    const std::size_t at = patch * task.patch_step + piece.first * task.nu + first_column;
+    if (extra) {
+      column.template sweep<kScheme>(shared_task, shared_piece, column_tile, patch, at + kLanes<V>);
+    }
+    const RecordRows<kOutputs, kScheme, V> rows(task, shared_task, piece, tile, patch, at);
+    const auto start = rows.start(task, extra ? &column : nullptr);
+    if constexpr (RecordGroups<kOutputs>::kNormals) {
+      rows.put_normals(start);
+    } else {
+      rows.put(start);
+    }
+  }
+}
+
+/// All columns of patches [patch, end), at least a register of them.
+template <detail::OutputSet kOutputs, Scheme kScheme, typename T>
+SIMDBEZIER_INLINE void sweep_record_tiles(const GridTask<T>& task, const RowPiece<T>& piece,
+                                          std::size_t patch, std::size_t end) {
+  constexpr std::size_t kL = kLanes<vec<T>>;
+  for (std::size_t first = 0; first + 1 < task.nu; first += kL) {
+    const std::size_t last = task.nu - kL;
+    sweep_records<kOutputs, kScheme>(task, piece, first < last ? first : last, patch, end);
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

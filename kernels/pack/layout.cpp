@@ -1,0 +1,166 @@
+#include "kernels/pack/layout.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <limits>
+#include <new>
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace simdbezier::detail {
+namespace {
+
+template <typename S>
+Status check(const ControlNets<S>& nets) {
+  const auto known = [](int degree) { return degree >= 1 && degree <= kMostDegree; };
+  if (!known(nets.degree_u) || !known(nets.degree_v)) {
+    return Status::bad_degree;
+  }
+  if (nets.components < 1 || nets.components > kMostComponents ||
+      nets.weights > Weights::homogeneous) {
+    return Status::bad_components;
+  }
+  if (nets.points == nullptr && nets.count > 0) {
+    return Status::null_input;
+  }
+  const bool several = shape_of(nets).channels() > 1;
+  if (nets.row_stride == 0 || nets.point_stride == 0 || (several && nets.component_stride == 0)) {
+    return Status::bad_stride;
+  }
+  return Status::ok;
+}
+
+/// Random samples of a large set would otherwise wait for address translations as well. Not for
+/// small ones, which a processor's tables cover.
+void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__)
+  constexpr std::size_t kWorthwhile = std::size_t{4} << 20;
+  constexpr std::size_t kPage = 4096;
+  if (bytes >= kWorthwhile) {
+    const std::size_t skipped = -reinterpret_cast<std::uintptr_t>(memory) % kPage;
+    // Advice: whatever comes of it, the memory is good, and errno remains the caller's.
+    const int before = errno;
+    (void)madvise(static_cast<unsigned char*>(memory) + skipped, (bytes - skipped) / kPage * kPage,
+                  MADV_HUGEPAGE);
+    errno = before;
+  }
+#endif
+}
+
+/// One block for all arrays of a bucket.
+template <typename T>
+Status allocate(bool origins, PatchStorage<T>& storage) {
+  const NetShape& shape = storage.shape;
+  const std::size_t per_patch = shape.coefficients() + shape.edges() + shape.control_values() +
+                                shape.floors() + (origins ? shape.origins() : 0);
+  constexpr std::size_t kLimit = std::numeric_limits<std::ptrdiff_t>::max();
+  const std::size_t count = storage.count;
+  if (count > kLimit / sizeof(T) / per_patch) {
+    return Status::size_overflow;
+  }
+  storage.memory.reset(
+      ::operator new (count* per_patch * sizeof(T), std::align_val_t{64}, std::nothrow));
+  if (storage.memory == nullptr) {
+    return Status::out_of_memory;
+  }
+  prefer_large_pages(storage.memory.get(), count * per_patch * sizeof(T));
+  storage.coefficients = static_cast<T*>(storage.memory.get());
+  storage.edges = storage.coefficients + count * shape.coefficients();
+  storage.control_points = storage.edges + count * shape.edges();
+  storage.normal_floor = storage.control_points + count * shape.control_values();
+  storage.origins = origins ? storage.normal_floor + count * shape.floors() : nullptr;
+  return Status::ok;
+}
+
+/// The bucket of a shape, made where there is none.
+template <typename T>
+std::size_t bucket_of(const NetShape& shape, SetStorage<T>& storage) {
+  std::vector<PatchStorage<T>>& buckets = storage.buckets;
+  const auto found = std::find_if(buckets.begin(), buckets.end(),
+                                  [&](const auto& bucket) { return bucket.shape == shape; });
+  if (found != buckets.end()) {
+    return static_cast<std::size_t>(found - buckets.begin());
+  }
+  buckets.emplace_back();
+  buckets.back().shape = shape;
+  return buckets.size() - 1;
+}
+
+/// Both ways between a patch's number and its place; a set of one shape needs neither.
+template <typename T>
+void number_patches(std::span<const PackRun> runs, SetStorage<T>& storage) {
+  storage.places = std::make_unique<PatchPlace[]>(storage.count);
+  for (PatchStorage<T>& bucket : storage.buckets) {
+    bucket.number = std::make_unique<std::size_t[]>(bucket.count);
+  }
+  for (const PackRun& run : runs) {
+    for (std::size_t i = 0; i < run.count; ++i) {
+      storage.places[run.number + i] = {static_cast<std::uint32_t>(run.bucket), run.place + i};
+      storage.buckets[run.bucket].number[run.place + i] = run.number + i;
+    }
+  }
+}
+
+} // namespace
+
+template <typename S>
+PackReport check_nets(std::span<const ControlNets<S>> nets) noexcept {
+  std::size_t patch = 0;
+  for (const ControlNets<S>& entry : nets) {
+    Status status = check(entry);
+    if (status == Status::ok && entry.components != nets.front().components) {
+      status = Status::bad_components;
+    }
+    if (status == Status::ok && __builtin_add_overflow(patch, entry.count, &patch)) {
+      status = Status::size_overflow;
+    }
+    if (status != Status::ok) {
+      return {status, status == Status::size_overflow ? 0 : patch};
+    }
+  }
+  return {};
+}
+
+template <typename T, typename S>
+Status lay_out(std::span<const ControlNets<S>> nets, bool origins, SetStorage<T>& storage,
+               std::vector<PackRun>& runs) {
+  for (std::size_t entry = 0; entry < nets.size(); ++entry) {
+    const std::size_t count = nets[entry].count;
+    if (count == 0) {
+      continue;
+    }
+    const std::size_t index = bucket_of(shape_of(nets[entry]), storage);
+    PatchStorage<T>& bucket = storage.buckets[index];
+    runs.push_back({entry, index, bucket.count, storage.count, count});
+    bucket.count += count;
+    storage.count += count;
+  }
+  if (storage.buckets.empty()) { // a set without patches has one without patches
+    bucket_of(nets.empty() ? NetShape{} : shape_of(nets.front()), storage);
+  }
+  for (PatchStorage<T>& bucket : storage.buckets) {
+    const Status status = allocate(origins, bucket);
+    if (status != Status::ok) {
+      return status;
+    }
+  }
+  if (storage.buckets.size() > 1) {
+    number_patches<T>(runs, storage);
+  }
+  return Status::ok;
+}
+
+template PackReport check_nets(std::span<const ControlNets<float>>) noexcept;
+template PackReport check_nets(std::span<const ControlNets<double>>) noexcept;
+template Status lay_out(std::span<const ControlNets<float>>, bool, SetStorage<float>&,
+                        std::vector<PackRun>&);
+template Status lay_out(std::span<const ControlNets<double>>, bool, SetStorage<float>&,
+                        std::vector<PackRun>&);
+template Status lay_out(std::span<const ControlNets<float>>, bool, SetStorage<double>&,
+                        std::vector<PackRun>&);
+template Status lay_out(std::span<const ControlNets<double>>, bool, SetStorage<double>&,
+                        std::vector<PackRun>&);
+
+} // namespace simdbezier::detail

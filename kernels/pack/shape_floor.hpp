@@ -1,0 +1,127 @@
+// Where the plain cross product of du and dv is good enough as a normal, for patches of any shape.
+#pragma once
+
+#include "kernels/pack/formulas.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Finds what the quick test of normals compares with, for patches in space; zero for others.
+///
+/// Polynomial, one floor for the patch: |du| <= m max|P[j][i+1] - P[j][i]|, and du's error is some
+/// u times that.
+///
+/// Rational, two sizes, E_u w^2 and E_v w^2, because errors hang on the weight at the sample. With
+/// h = w (P - O), which the kernels form beside w, and
+///     w du = h_u - S w_u,  S = h / w,
+/// let R >= |P - O|, and so >= |S|, since S is in the hull; W the largest weight; over neighbours
+/// P, P' in u, D the largest max(w,w') |P' - P| and B the largest |w' - w|. Errors of polynomials
+/// are K u times their largest control value (docs/accuracy.md), which is
+///     R W of h,  W of w,  m (D + B R) of h_u, as w'p' - wp = w'(p' - p) + (w' - w) p,  m B of w_u.
+/// Hence S is wrong by K u 2 R W / w, and as |w_u| <= m B, du by at most K u times
+///     (m (D + B R) + R m B + m B 2 R W / w) / w <= m (D + 4 B R) W / w^2 = E_u,
+/// with the quotient's own roundings by K + 3. The error of the last division is left out: it makes
+/// du longer, but does not turn it. The test
+///     |du x dv|^2 > 2 c^2 (E_u^2 |dv|^2 + E_v^2 |du|^2)  [>= c^2 (E_u |dv| + E_v |du|)^2]
+/// is the second look's own with c = 2^-10 (in double 2^-20, stricter): what passes is turned by
+/// 2^-14 K (2^-33 K) at the most, up to the norms' factors. What passes has W / w < 2^10, as |du|
+/// <= m (D + 2 B R) / w: there w itself is known well enough.
+template <typename T>
+class ShapeFloor {
+public:
+  ShapeFloor(const detail::NetShape& shape, bool origins, const Wide* weights)
+      : order_u_(shape.order_u()), order_v_(shape.order_v()),
+        in_space_(shape.components == 3 && shape.degree_v > 0), origins_(origins),
+        weights_(shape.rational ? weights : nullptr) {}
+
+  /// One component of the control points, Cartesian and rounded to T, [j][i].
+  void add(const Wide* points) {
+    if (!in_space_) {
+      return;
+    }
+    for_neighbours([&](std::size_t a, std::size_t b, Wide& size) SIMDBEZIER_INLINE_LAMBDA {
+      const Wide distance = magnitude(points[b] - points[a]);
+      size = larger(weights_ == nullptr ? distance : larger(weights_[a], weights_[b]) * distance,
+                    size);
+    });
+    if (weights_ != nullptr) {
+      reach_ = larger(reach_of(points), reach_);
+    }
+  }
+
+  /// NetShape::floors() values.
+  void finish(Wide floors[2]) {
+    floors[0] = floors[1] = Wide(0.0);
+    if (!in_space_) {
+      return;
+    }
+    const Wide m(static_cast<double>(order_u_ - 1));
+    const Wide n(static_cast<double>(order_v_ - 1));
+    if (weights_ == nullptr) {
+      floors[0] = normal_floor<T>(m * size_u_, n * size_v_);
+      return;
+    }
+    const Wide steps_u = size_u_;
+    const Wide steps_v = size_v_;
+    size_u_ = size_v_ = Wide(0.0);
+    for_neighbours([&](std::size_t a, std::size_t b, Wide& turn) SIMDBEZIER_INLINE_LAMBDA {
+      turn = larger(magnitude(weights_[b] - weights_[a]), turn);
+    });
+    Wide heaviest(0.0);
+    for (std::size_t k = 0; k < order_u_ * order_v_; ++k) {
+      heaviest = larger(weights_[k], heaviest);
+    }
+    const Wide four_reaches = Wide(4.0) * reach_;
+    floors[0] = error_size(m * (steps_u + size_u_ * four_reaches), heaviest);
+    floors[1] = error_size(n * (steps_v + size_v_ * four_reaches), heaviest);
+  }
+
+private:
+  /// f(a, b, size_u_ or size_v_) for all neighbours in u and in v.
+  template <typename F>
+  SIMDBEZIER_INLINE void for_neighbours(const F& f) {
+    for (std::size_t j = 0; j < order_v_; ++j) {
+      for (std::size_t i = 0; i < order_u_; ++i) {
+        const std::size_t at = j * order_u_ + i;
+        if (i + 1 < order_u_) {
+          f(at, at + 1, size_u_);
+        }
+        if (j + 1 < order_v_) {
+          f(at, at + order_u_, size_v_);
+        }
+      }
+    }
+  }
+
+  /// sqrt(2) c (rounded up) of it times the largest weight; infinity, which no normal passes, where
+  /// sizes or weights are such that products of the test could leave the range of T.
+  [[nodiscard]] static Wide error_size(Wide numerator, Wide heaviest) {
+    constexpr bool kSingle = sizeof(T) == sizeof(float);
+    const Wide size = Wide(kSingle ? 0x1.7p-10 : 0x1.7p-20) * numerator * heaviest;
+    const MaskOf<Wide> in_range = (size >= Wide(kSingle ? 0x1p-100 : 0x1p-900)) &
+                                  (size <= Wide(kSingle ? 0x1p120 : 0x1p1000)) &
+                                  (heaviest >= Wide(kSingle ? 0x1p-40 : 0x1p-400)) &
+                                  (heaviest <= Wide(kSingle ? 0x1p40 : 0x1p400));
+    return select_where<Wide>(in_range, size, Wide(std::numeric_limits<double>::infinity()));
+  }
+
+  [[nodiscard]] Wide reach_of(const Wide* points) const {
+    Wide highest = points[0];
+    Wide lowest = points[0];
+    for (std::size_t k = 1; k < order_u_ * order_v_; ++k) {
+      highest = larger(points[k], highest);
+      lowest = select_where<Wide>(points[k] < lowest, points[k], lowest);
+    }
+    return origins_ ? highest - lowest : larger(magnitude(highest), magnitude(lowest));
+  }
+
+  std::size_t order_u_;
+  std::size_t order_v_;
+  bool in_space_;
+  bool origins_;
+  const Wide* weights_;     ///< null for polynomials
+  Wide size_u_ = Wide(0.0); ///< largest step between neighbours, max norm
+  Wide size_v_ = Wide(0.0);
+  Wide reach_ = Wide(0.0);
+};
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
