@@ -159,6 +159,43 @@ protected:
     }
   }
 
+  /// Outputs that have kernels of their own, up to where memory ends, for every rest of columns.
+  template <typename T>
+  void usual_outputs() {
+    using Out = Outputs<T>;
+    const std::vector<Vectors<T> Out::*> outputs[] = {
+        {&Out::position}, {&Out::position, &Out::normal}, {&Out::position, &Out::du, &Out::dv}};
+    const PatchSet<T> set = packed<T>(mixed_nets(kPatches));
+    for (std::size_t nu = 2; nu < 52; ++nu) {
+      for (const std::size_t nv : {2U, 8U, 11U}) {
+        SCOPED_TRACE(testing::Message() << nu << "x" << nv);
+        const std::size_t count = kPatches * nu * nv;
+        const Grid<T> samples = Grid<T>::uniform(nu, nv);
+        Planes<T> reference(count);
+        grid(set, samples, reference.outputs(), {.threads = 1, .destination = Destination::cache});
+        for (const auto& groups : outputs) {
+          std::vector<std::unique_ptr<Fenced<T>>> memory;
+          const auto room = [&](std::size_t values) {
+            memory.push_back(std::make_unique<Fenced<T>>(values, Fence::behind));
+            return memory.back()->data();
+          };
+          Out planes;
+          Out triples;
+          for (const auto group : groups) {
+            T* const x = room(count);
+            T* const y = room(count);
+            planes.*group = Vectors<T>::planes(x, y, room(count));
+            triples.*group = Vectors<T>::xyz(room(3 * count), 3);
+          }
+          for (const Out& out : {planes, triples}) {
+            grid(set, samples, out, {.threads = 1, .destination = Destination::cache});
+            expect_equal(out, reference, count);
+          }
+        }
+      }
+    }
+  }
+
   template <typename T>
   void samples() {
     const PatchSet<T> set = packed<T>(mixed_nets(kPatches));
@@ -188,6 +225,8 @@ protected:
 
 TEST_P(FenceTest, GridsF32) { grids<float>(); }
 TEST_P(FenceTest, GridsF64) { grids<double>(); }
+TEST_P(FenceTest, UsualOutputsF32) { usual_outputs<float>(); }
+TEST_P(FenceTest, UsualOutputsF64) { usual_outputs<double>(); }
 TEST_P(FenceTest, SamplesF32) { samples<float>(); }
 TEST_P(FenceTest, SamplesF64) { samples<double>(); }
 
