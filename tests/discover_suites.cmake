@@ -1,5 +1,4 @@
-# One ctest test for each suite of a GoogleTest program, named PREFIX + suite. The program shares
-# the precompiled headers of support/CMakeLists.txt.
+# One ctest test for each suite of a GoogleTest program, named PREFIX + suite.
 #
 # Not one for each case, as gtest_discover_tests() makes them: suites prepare their patches and the
 # oracle's answers once for all of their cases and instruction sets, which a process for each case
@@ -7,9 +6,6 @@
 #
 #     simdbezier_discover_suites(test_curves curves.)
 function(simdbezier_discover_suites target)
-  if(TARGET simdbezier_test_headers)
-    target_precompile_headers(${target} REUSE_FROM simdbezier_test_headers)
-  endif()
   set(list ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
   file(GENERATE OUTPUT ${list}
        CONTENT "set(program \"$<TARGET_FILE:${target}>\")

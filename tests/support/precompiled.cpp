@@ -1,1 +1,0 @@
-// Nothing but the headers that CMakeLists.txt has precompiled for all tests.
