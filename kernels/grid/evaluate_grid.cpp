@@ -119,10 +119,7 @@ Status evaluate_grid(const PatchSet<T>& set, const Grid<T>& grid, const Outputs<
                                        detail::wanted_groups(out), out.curvature.wanted(),
                                        request.components, options.watertight);
   detail::OutputPlan<T> outputs(out, samples, options.destination);
-  outputs.arrange({.row = kernels.bicubic() ? grid.nu : 0,
-                   .lanes = kernels.table->lanes,
-                   .streamed = true,
-                   .records = true},
+  outputs.arrange(kernels.direct_rows(grid.nu, true),
                   detail::thread_count(options.threads, request.patches));
   const detail::GridCall<T> call(kernels, request.first_patch, plan, outputs);
   return detail::run_blocks(request.patches * call.strips(), options, call.scratch_bytes(),

@@ -200,9 +200,7 @@ Status evaluate_patch_grids(const PatchSet<T>& set, const PatchGrids& grids, con
                                        request.components, options.watertight);
   const std::size_t total = samples.before[request.patches];
   detail::OutputPlan<T> outputs(out, total, options.destination);
-  outputs.arrange({.row = kernels.bicubic() ? samples.least_nu : 0,
-                   .lanes = kernels.table->lanes,
-                   .records = true},
+  outputs.arrange(kernels.direct_rows(samples.least_nu, false),
                   detail::thread_count(options.threads, total));
   const detail::PatchGridsCall<T> call(kernels, request.first_patch, request.patches, grids,
                                        samples, outputs);

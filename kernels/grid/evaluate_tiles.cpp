@@ -19,13 +19,6 @@ WantedGroups groups_of(const TileFormat& format) noexcept {
       {format.position, format.du, format.dv, format.duu, format.duv, format.dvv, format.normal}};
 }
 
-/// Values of all wanted vectors of one sample.
-std::size_t vector_values(const TileFormat& format, std::size_t dimension) noexcept {
-  const WantedGroups wanted = groups_of(format);
-  const auto groups = std::count(wanted.group, wanted.group + kGroups, true);
-  return dimension * static_cast<std::size_t>(groups);
-}
-
 /// Half of a common first-level cache: the caller reads what has just been written.
 constexpr std::size_t kTileBytes = std::size_t{24} << 10;
 
@@ -62,7 +55,7 @@ public:
       : format_(format), dimension_(dimension), samples_(samples) {}
 
   [[nodiscard]] std::size_t bytes() const noexcept {
-    const std::size_t values = vector_values(format_, dimension_);
+    const std::size_t values = vector_values(groups_of(format_), dimension_);
     const std::size_t bytes = (format_.status ? whole_lines(samples_) : 0) +
                               (format_.curvature ? kCurvatures * taken(samples_) : 0);
     switch (format_.layout) {
@@ -80,7 +73,7 @@ public:
     const WantedGroups wanted = groups_of(format_);
     Vectors<T>* const group[kGroups] = {&out.position, &out.du,  &out.dv,    &out.duu,
                                         &out.duv,      &out.dvv, &out.normal};
-    const std::size_t members = vector_values(format_, dimension_);
+    const std::size_t members = vector_values(wanted, dimension_);
     std::size_t at = 0;
     std::size_t member = 0;
     for (std::size_t g = 0; g < kGroups; ++g) {
@@ -159,9 +152,7 @@ struct TilesCall {
     // A copy: the caller may change what it is given.
     const Outputs<T> places = TileMemory<T>(format, dimension, shape.samples).place(scratch);
     OutputPlan<T> outputs(places, shape.samples, Destination::cache);
-    outputs.arrange(
-        {.row = kernels.bicubic() ? plan.nu() : 0, .lanes = kernels.table->lanes, .records = true},
-        1);
+    outputs.arrange(kernels.direct_rows(plan.nu(), false), 1);
     Delivery<T> delivery(outputs, *kernels.table, shape.samples, scratch + tile_bytes);
     GridEvaluator<T> evaluator(kernels, shape.rows, scratch + tile_bytes + staging_bytes);
     for (std::size_t unit = begin; unit < end;) {
@@ -197,7 +188,7 @@ Status run_tiles(const GridKernels<T>& kernels, const GridRequest& request, cons
   const std::size_t tile_bytes =
       whole_lines(TileMemory<T>(format, dimension, shape.samples).bytes());
   const std::size_t staged =
-      format.layout == TileLayout::planes ? 0 : vector_values(format, dimension);
+      format.layout == TileLayout::planes ? 0 : vector_values(groups_of(format), dimension);
   const std::size_t staging_bytes =
       whole_lines(Delivery<T>::scratch_bytes(staged, false, shape.samples));
   const TilesCall<T> call{kernels,  request.first_patch, plan,         format, dimension, shape,
@@ -223,8 +214,9 @@ Status evaluate_tiles(const PatchSet<T>& set, const Grid<T>& grid, const TileFor
     return resolved;
   }
   const detail::Components& components = request.components;
-  const std::size_t values = detail::vector_values(format, components.dimension) +
-                             (format.curvature ? detail::kCurvatures : 0);
+  const std::size_t values =
+      detail::vector_values(detail::groups_of(format), components.dimension) +
+      (format.curvature ? detail::kCurvatures : 0);
   if (values == 0) {
     return Status::null_output;
   }

@@ -38,9 +38,11 @@ struct GridKernels {
         watertight(watertight_edges), first_component(components.first),
         any_shape(curvature || !components.space) {}
 
-  /// Whether all patches are bicubic, and evaluated as such.
-  [[nodiscard]] bool bicubic() const noexcept {
-    return !any_shape && set->places == nullptr && set->buckets[0].shape.is_bicubic();
+  /// What they put where it belongs by themselves, on grids of `nu` columns or more: all of it
+  /// where all patches are bicubic, and evaluated as such. streamed: past the caches, too.
+  [[nodiscard]] DirectRows direct_rows(std::size_t nu, bool streamed) const noexcept {
+    const bool bicubic = !any_shape && set->places == nullptr && set->buckets[0].shape.is_bicubic();
+    return {.row = bicubic ? nu : 0, .lanes = table->lanes, .streamed = streamed, .records = true};
   }
 };
 

@@ -39,8 +39,8 @@ struct MemoryRange {
   const void* begin;
   std::size_t bytes;
 };
-/// The same of a view's extent, gaps included: like the grids' inputs, ranges have no business
-/// there.
+/// ok | overlapping_outputs, where the range meets the memory of the view, gaps included: so are
+/// inputs of grids compared with outputs.
 template <typename S>
 Status check_apart(const ControlNets<S>& nets, const MemoryRange& range) noexcept;
 

@@ -158,6 +158,11 @@ WantedGroups wanted_groups(const Outputs<T>& out) noexcept {
   return wanted;
 }
 
+std::size_t vector_values(const WantedGroups& wanted, std::size_t dimension) noexcept {
+  const auto groups = std::count(wanted.group, wanted.group + kGroups, true);
+  return dimension * static_cast<std::size_t>(groups);
+}
+
 KernelChoice choose_kernels(const WantedGroups& wanted) noexcept {
   const bool p = wanted.group[kPositionGroup];
   const bool du = wanted.group[kDuGroup];
@@ -230,11 +235,12 @@ void OutputPlan<T>::stage() noexcept {
 
 template <typename T>
 void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
-  const KernelChoice choice = choose_kernels(wanted_groups(out_));
+  const WantedGroups wanted = wanted_groups(out_);
+  const KernelChoice choice = choose_kernels(wanted);
   const std::size_t record = stream_[0].members;
   const std::size_t bytes = rows.lanes * sizeof(T); // of a register
   const bool lines = rows.streamed && bytes == 64 && rows.row % rows.lanes == 0;
-  const bool registers = bytes >= 32 && staged_planes_ == written_planes();
+  const bool registers = bytes >= 32 && staged_planes_ == vector_values(wanted, dimension_);
   bool possible = staged() && rows.row >= rows.lanes && (streaming_ ? lines : registers) &&
                   !choice.second && choice.outputs != kAnyOutputs &&
                   (record == 1 || (rows.records && (record == 3 || record == staged_planes_)));
@@ -250,14 +256,6 @@ void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
     record_ = record;
     write_directly();
   }
-}
-
-/// Planes of all groups that are wanted.
-template <typename T>
-std::size_t OutputPlan<T>::written_planes() const noexcept {
-  const WantedGroups wanted = wanted_groups(out_);
-  const auto groups = std::count(wanted.group, wanted.group + kGroups, true);
-  return dimension_ * static_cast<std::size_t>(groups);
 }
 
 template <typename T>

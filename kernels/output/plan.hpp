@@ -55,6 +55,9 @@ struct WantedGroups {
 template <typename T>
 [[nodiscard]] WantedGroups wanted_groups(const Outputs<T>& out) noexcept;
 
+/// Values of all wanted vectors of one sample.
+[[nodiscard]] std::size_t vector_values(const WantedGroups& wanted, std::size_t dimension) noexcept;
+
 [[nodiscard]] KernelChoice choose_kernels(const WantedGroups& wanted) noexcept;
 
 /// Consecutive records in the caller's memory: a plane, triples, vertices, or the members of
@@ -113,7 +116,6 @@ public:
   [[nodiscard]] const StreamShape<T>& stream(std::size_t k) const noexcept { return stream_[k]; }
 
 private:
-  [[nodiscard]] std::size_t written_planes() const noexcept;
   void put_directly(const DirectRows& rows) noexcept;
   void stage() noexcept;
   void add_streams() noexcept;
