@@ -89,6 +89,14 @@ struct Component {
         origins(task.origins),
         origin_at(patch * detail::kOriginBlock + component * detail::kOriginsPerComponent) {}
 
+  /// On to the patch's next one: what the compiler would form anew from the start, each time.
+  SIMDBEZIER_INLINE void advance() {
+    matrix += kOrder * kOrder;
+    edge += kOrder * kEdges;
+    corner += kEdges;
+    origin_at += detail::kOriginsPerComponent;
+  }
+
   /// Of the patch, and from kEdgeOriginsAt on of its edges; for sets with origins only.
   SIMDBEZIER_INLINE const T* origin() const { return origins + origin_at; }
 };

@@ -14,7 +14,8 @@ struct ColumnBuffer {
   alignas(64) T plane[kPlanes][kBufferRows + 2 * detail::kMaxLanes];
 
   /// Where the piece's first row goes: registers of rows behind a lead are lines of the buffer.
-  SIMDBEZIER_INLINE T* first(std::size_t k, const RowPiece<T>& piece) {
+  template <typename Piece>
+  SIMDBEZIER_INLINE T* first(std::size_t k, const Piece& piece) {
     return plane[k] + (piece.lead ? detail::kMaxLanes - 1 : 0);
   }
 };
@@ -23,9 +24,9 @@ struct ColumnBuffer {
 template <typename V>
 using ColumnTile = Tile<kLanes<V>, true, false, V>;
 
-template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
-SIMDBEZIER_INLINE void sweep_position(const RowPiece<ScalarOf<V>>& piece,
-                                      const Component<ScalarOf<V>>& c,
+template <Scheme kScheme, typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V,
+          bool kStreams>
+SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<ScalarOf<V>>& c,
                                       const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                       std::size_t nu, ScalarOf<V>* to, const ScalarOf<V>* extra) {
   using T = ScalarOf<V>;
@@ -108,11 +109,12 @@ struct JetPlanes {
   T* dv;
 };
 
-template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
-SIMDBEZIER_INLINE void
-sweep_derivatives(const RowPiece<ScalarOf<V>>& piece, const Component<ScalarOf<V>>& c,
-                  const Tile<kRows, kWhole, kExtra, V, kStreams>& tile, std::size_t nu,
-                  const JetPlanes<ScalarOf<V>>& to, const JetPlanes<const ScalarOf<V>>& extra) {
+template <Scheme kScheme, typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V,
+          bool kStreams>
+SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<ScalarOf<V>>& c,
+                                         const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
+                                         std::size_t nu, const JetPlanes<ScalarOf<V>>& to,
+                                         const JetPlanes<const ScalarOf<V>>& extra) {
   using T = ScalarOf<V>;
   JetColumns<kScheme, V> columns;
   columns.build(c, tile);
@@ -120,7 +122,7 @@ sweep_derivatives(const RowPiece<ScalarOf<V>>& piece, const Component<ScalarOf<V
   if constexpr (is_watertight(kScheme) && (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)) {
     shared = columns.edge(c, tile, 0);
   }
-  for_rows<kScheme, kRows>(
+  for_rows<kScheme, kRows, Piece::kKnown ? 2 : 1>(
       piece, 0, nu,
       [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
         const Jet<V> jet = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)

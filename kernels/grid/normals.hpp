@@ -121,12 +121,11 @@ struct NormalSweep {
       return;
     }
     if (!all_of<V>(s.squared > floor)) [[unlikely]] {
-      const Jet<V>* const jet = s.jet;
       resolve_normals(
           shared_task, patch,
           Suspects{tile.edge_lane(kind), tile.kColumns, tile.active, 1, at, task.nu, status_step},
-          tile.column.x, tile.edge_y(edge_of(kind)), jet[0].du, jet[1].du, jet[2].du, jet[0].dv,
-          jet[1].dv, jet[2].dv, s.squared, floor);
+          tile.column.x, tile.edge_y(edge_of(kind)), s.jet[0].du, s.jet[1].du, s.jet[2].du,
+          s.jet[0].dv, s.jet[1].dv, s.jet[2].dv, s.squared, floor);
     }
   }
 
@@ -136,13 +135,13 @@ private:
   }
 };
 
-template <Scheme kScheme, bool kAny, std::size_t kRows, bool kWhole, bool kExtra, typename V,
-          bool kStreams>
-SIMDBEZIER_INLINE void
-sweep_normals(const GridTask<ScalarOf<V>>& task, const GridTask<ScalarOf<V>>& shared_task,
-              const RowPiece<ScalarOf<V>>& piece,
-              const Tile<kRows, kWhole, kExtra, V, kStreams>& tile, std::size_t patch,
-              std::size_t first, std::size_t status_step, const NormalExtra<ScalarOf<V>>& extra) {
+template <Scheme kScheme, bool kAny, typename Piece, std::size_t kRows, bool kWhole, bool kExtra,
+          typename V, bool kStreams>
+SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task,
+                                     const GridTask<ScalarOf<V>>& shared_task, const Piece& piece,
+                                     const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
+                                     std::size_t patch, std::size_t first, std::size_t status_step,
+                                     const NormalExtra<ScalarOf<V>>& extra) {
   using T = ScalarOf<V>;
   const NormalSweep<kScheme, kRows, kWhole, kExtra, kAny, V, kStreams> sweep(
       task, shared_task, tile, patch, status_step, extra);
@@ -155,10 +154,11 @@ sweep_normals(const GridTask<ScalarOf<V>>& task, const GridTask<ScalarOf<V>>& sh
   for_rows<kScheme, kRows>(
       piece, first, task.nu,
       [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
-        sweep.store_edge((Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
-                             ? shared
-                             : sweep.edge(edge_of(kind)),
-                         kind, at, row, floor);
+        if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
+          sweep.store_edge(shared, kind, at, row, floor);
+        } else {
+          sweep.store_edge(sweep.edge(edge_of(kind)), kind, at, row, floor);
+        }
       },
       [&](const T* y, std::size_t at, std::size_t row, std::size_t rows)
           SIMDBEZIER_INLINE_LAMBDA { sweep.interior(y, at, row, rows, middle_floor); });

@@ -2,7 +2,8 @@
 //
 // A tile is one register of columns, swept along v: kRows rows of lanes/kRows columns at a time.
 //   kRows = 1      the bulk of a row; `kWhole` false: its masked end
-//   kRows = 2, 4   the last lanes/2 or lanes/4 columns, which would leave most lanes empty
+//   kRows = 2, 4   the last lanes/2 or lanes/4 columns, which would leave most lanes empty;
+//                  `kWhole`: exactly as many
 //   kRows = lanes  a single column, into consecutive values; `kWhole`: whole registers, also past
 //                  its end (values that masked stores wrote cannot be read back at once)
 // A single column behind whole registers is computed by a tile of its own into a buffer (`kExtra`),
@@ -12,96 +13,9 @@
 #pragma once
 
 #include "kernels/bicubic.hpp"
-#include "kernels/isa/row_groups.hpp"
+#include "kernels/grid/row_pieces.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
-
-using detail::GridTask;
-using detail::RowKind;
-using detail::RowRun;
-using detail::Scheme;
-
-SIMDBEZIER_INLINE bool is_edge(RowKind kind) {
-  return kind == RowKind::edge_v0 || kind == RowKind::edge_v1;
-}
-
-SIMDBEZIER_INLINE std::size_t edge_of(RowKind kind) {
-  return kind == RowKind::edge_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
-}
-
-/// Rows that a tile sweeps in one go: one on an edge, some that are not, one on an edge. A usual
-/// grid is one such piece.
-template <typename T>
-struct RowPiece {
-  std::size_t first = 0; ///< row
-  bool lead = false;     ///< whether there is a first row on an edge, and which
-  RowKind lead_kind = RowKind::edge_v0;
-  RowRun<T> middle{nullptr, 0, RowKind::interior};
-  bool trail = false;
-  RowKind trail_kind = RowKind::edge_v1;
-
-  [[nodiscard]] SIMDBEZIER_INLINE std::size_t rows() const {
-    return std::size_t{middle.rows} + (lead ? 1 : 0) + (trail ? 1 : 0);
-  }
-};
-
-/// Cuts the rows of a task into pieces.
-template <Scheme kScheme, typename T>
-class RowPieces {
-public:
-  /// most: rows of a piece.
-  SIMDBEZIER_INLINE RowPieces(const GridTask<T>& task, std::size_t most)
-      : run_(task.runs), last_(task.runs + task.run_count), left_(run_->rows), most_(most - 2),
-        watertight_(is_watertight(kScheme) && task.watertight) {}
-
-  [[nodiscard]] SIMDBEZIER_INLINE bool more() const { return run_ != last_; }
-
-  SIMDBEZIER_INLINE RowPiece<T> next() {
-    RowPiece<T> piece;
-    piece.first = row_;
-    piece.lead = take_edge(piece.lead_kind);
-    if (more() && !at_edge()) {
-      piece.middle = {run_->y + (run_->rows - left_), 0, run_->kind};
-      const bool outside = run_->kind == RowKind::outside;
-      while (more() && !at_edge() && (run_->kind == RowKind::outside) == outside &&
-             piece.middle.rows < most_) {
-        const std::size_t room = most_ - piece.middle.rows;
-        piece.middle.rows += static_cast<std::uint32_t>(take(left_ < room ? left_ : room));
-      }
-    }
-    piece.trail = take_edge(piece.trail_kind);
-    row_ += piece.rows();
-    return piece;
-  }
-
-private:
-  /// Where edges are not special, they are as good as any row.
-  [[nodiscard]] SIMDBEZIER_INLINE bool at_edge() const {
-    return watertight_ && is_edge(run_->kind);
-  }
-  SIMDBEZIER_INLINE bool take_edge(RowKind& kind) {
-    if (!more() || !at_edge()) {
-      return false;
-    }
-    kind = run_->kind;
-    take(1);
-    return true;
-  }
-  SIMDBEZIER_INLINE std::size_t take(std::size_t rows) {
-    left_ -= rows;
-    if (left_ == 0 && ++run_ != last_) {
-      left_ = run_->rows;
-    }
-    return rows;
-  }
-
-  const RowRun<T>* run_;
-  const RowRun<T>* last_;
-  std::size_t left_; ///< rows of *run_
-  std::size_t most_; ///< in the middle of a piece
-  bool watertight_;
-  std::size_t row_ = 0;
-};
 
 /// The lanes that are corners of the patch, where both edges v = const share a register.
 template <typename V>
@@ -170,10 +84,10 @@ struct Tile {
       } else {
         store_first(to, value, active);
       }
-    } else if (kLineWide<V> && step == kColumns && active == kColumns && rows == kRows) {
+    } else if (kLineWide<V> && step == kColumns && columns() == kColumns && rows == kRows) {
       store_vector(to, value); // nothing in between the rows; short registers gain nothing by this
     } else {
-      Groups::store_some(to, step, value, active, rows);
+      Groups::store_some(to, step, value, columns(), rows);
     }
     if constexpr (kExtra) {
       for (std::size_t r = 0; r < rows; ++r) {
@@ -197,9 +111,9 @@ struct Tile {
       store(to, 0, value, 1, extra);
       return;
     } else if (kind == RowKind::edge_v0) {
-      store_lanes_from<kColumns, 0>(to, value, active);
+      store_lanes_from<kColumns, 0>(to, value, columns());
     } else {
-      store_lanes_from<kColumns, kLanes<V> / 2>(to, value, active);
+      store_lanes_from<kColumns, kLanes<V> / 2>(to, value, columns());
     }
     if constexpr (kExtra) {
       move_value(to + kColumns, extra);
@@ -252,6 +166,9 @@ struct Tile {
   }
 
 private:
+  /// As `active`; known to the compiler where all exist.
+  SIMDBEZIER_INLINE std::size_t columns() const { return kWhole ? kColumns : active; }
+
   static SIMDBEZIER_INLINE void shared_edges(const Component<T>& c, V k[kOrder]) {
     for (std::size_t i = 0; i < kOrder; ++i) {
       k[i] = RowGroups<2, V>::spread(c.edge + i * kEdges + detail::kEdgeV0);
@@ -266,43 +183,5 @@ private:
     return corners.replace(value, c.corner);
   }
 };
-
-/// All rows of a piece, from sample `at` of the planes on: edge(kind, at, row) for edges,
-/// interior(y, at, row, rows) for as many rows as a register holds, kTogether times one behind the
-/// other where there are enough of them.
-template <Scheme kScheme, std::size_t kRows, std::size_t kTogether = 1, typename T, typename Edge,
-          typename Interior>
-SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::size_t nu, Edge edge,
-                                Interior interior) {
-  std::size_t row = 0;
-  if (is_watertight(kScheme) && piece.lead) {
-    edge(piece.lead_kind, at, row++);
-    at += nu;
-  }
-  const T* y = piece.middle.y;
-  std::size_t left = piece.middle.rows;
-  if constexpr (kTogether > 1) {
-    for (; left >= kTogether * kRows; left -= kTogether * kRows) {
-#pragma GCC unroll 8
-      for (std::size_t k = 0; k < kTogether; ++k) {
-        interior(y + k * kRows, at + k * kRows * nu, row + k * kRows, kRows);
-      }
-      at += kTogether * kRows * nu;
-      y += kTogether * kRows;
-      row += kTogether * kRows;
-    }
-  }
-  while (left > 0) {
-    const std::size_t rows = left < kRows ? left : kRows;
-    interior(y, at, row, rows);
-    at += rows * nu;
-    y += rows;
-    row += rows;
-    left -= rows;
-  }
-  if (is_watertight(kScheme) && piece.trail) {
-    edge(piece.trail_kind, at, row);
-  }
-}
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -31,7 +31,9 @@ SIMDBEZIER_INLINE Part own_register(Part part) {
 
 template <std::size_t kWidth, std::size_t kLane>
 SIMDBEZIER_INLINE void store_lanes_from(float* to, vec<float> value, std::size_t n) {
-  if constexpr (kWidth == 8) {
+  if (kWidth == 8 && __builtin_constant_p(n) && n == 8) {
+    _mm256_storeu_ps(to, _mm512_extractf32x8_ps(value, kLane / 8));
+  } else if constexpr (kWidth == 8) {
     const auto mask = static_cast<__mmask8>((1U << n) - 1U);
     _mm256_mask_storeu_ps(to, mask, own_register(_mm512_extractf32x8_ps(value, kLane / 8)));
   } else if constexpr (kWidth == 4) {
