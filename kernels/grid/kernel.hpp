@@ -14,6 +14,7 @@
 #include "kernels/grid/patch_sweeps.hpp"
 #include "kernels/grid/records.hpp"
 #include "kernels/grid/small_jets.hpp"
+#include "kernels/isa/twice.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -33,6 +34,12 @@ struct ColumnSplit {
     }
   }
 };
+
+/// Whether two registers of columns are swept as one: half of the rows' counting, and no line is
+/// come to twice. There must be registers for their polynomials: 8 of 16 or 32, 16 of 32.
+template <detail::OutputSet kOutputs, typename T>
+constexpr bool kSweepsTwice = (kOutputs == detail::kPosition && sizeof(T) * kLanes<vec<T>> >= 32) ||
+                              (kOutputs == detail::kPositionDerivatives && kLineWide<vec<T>>);
 
 /// Bytes of samples that stay in the first-level cache while one tile follows the other.
 constexpr std::size_t kCachedBytes = 12288;
@@ -73,7 +80,22 @@ SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<ve
       return;
     }
   }
-  for (std::size_t first = 0; first < plain; first += kL) {
+  std::size_t first = 0;
+  if constexpr (kSweepsTwice<kOutputs, T>) {
+    using W = Twice<V>;
+    for (; first + 2 * kL <= plain; first += 2 * kL) {
+      sweep(std::type_identity<Tile<1, true, false, W>>{}, first, 2 * kL);
+    }
+    if (split.column && first + 2 * kL == split.full) {
+      sweep(std::type_identity<Tile<1, true, true, W>>{}, first, 2 * kL);
+      return;
+    }
+    if (split.rest > kL / 2 && first + kL == split.full) {
+      sweep(std::type_identity<Tile<1, false, false, W>>{}, first, kL + split.rest);
+      return;
+    }
+  }
+  for (; first < plain; first += kL) {
     sweep(std::type_identity<Tile<1, true, false, V>>{}, first, kL);
   }
   if constexpr (kL > 1) {
@@ -89,6 +111,10 @@ SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<ve
       }
     } else if (split.rest > kL / 2) {
       sweep(std::type_identity<Tile<1, false, false, V>>{}, split.full, split.rest);
+    } else if (kLineWide<V> && task.nu == kL / 2) { // short registers gain nothing by this
+      sweep(std::type_identity<Tile<kHalf, true, false, V>>{}, 0, kL / 2);
+    } else if (kLineWide<V> && task.nu == kL / 4) {
+      sweep(std::type_identity<Tile<kQuarter, true, false, V>>{}, 0, kL / 4);
     } else if (split.rest > kL / kQuarter) {
       sweep(std::type_identity<Tile<kHalf, false, false, V>>{}, split.full, split.rest);
     } else if (split.rest > 0) {
@@ -104,14 +130,25 @@ SIMDBEZIER_INLINE void sweep_square(const GridTask<T>& task, const SquarePiece<T
   using V = vec<T>;
   constexpr std::size_t kL = kLanes<V>;
   constexpr std::size_t kRest = kSide % kL;
+  if constexpr (kSweepsTwice<kOutputs, T> && kSide >= 2 * kL && kSide % (2 * kL) <= 1) {
+    using W = Twice<V>;
+    constexpr std::size_t kLast = kSide - kRest - 2 * kL;
+    for (std::size_t first = 0; first < kLast; first += 2 * kL) {
+      sweep_tile<kOutputs, kScheme, Tile<1, true, false, W>>(task, piece, first, 2 * kL, patch,
+                                                             end);
+    }
+    sweep_tile<kOutputs, kScheme, Tile<1, true, kRest == 1, W>>(task, piece, kLast, 2 * kL, patch,
+                                                                end);
+    return;
+  }
   constexpr std::size_t kPlain = kSide - kRest - (kRest == 1 ? kL : 0);
   for (std::size_t first = 0; first < kPlain; first += kL) {
     sweep_tile<kOutputs, kScheme, Tile<1, true, false, V>>(task, piece, first, kL, patch, end);
   }
   if constexpr (kRest == 1) {
     sweep_tile<kOutputs, kScheme, Tile<1, true, true, V>>(task, piece, kPlain, kL, patch, end);
-  } else if constexpr (kRest != 0 && kRest * 2 == kL) {
-    sweep_tile<kOutputs, kScheme, Tile<2, true, false, V>>(task, piece, kPlain, kRest, patch, end);
+  } else if constexpr (kSide * 2 == kL) {
+    sweep_tile<kOutputs, kScheme, Tile<2, true, false, V>>(task, piece, 0, kSide, patch, end);
   } else if constexpr (kRest != 0) {
     sweep_tile<kOutputs, kScheme, Tile<1, false, false, V>>(task, piece, kPlain, kRest, patch, end);
   }

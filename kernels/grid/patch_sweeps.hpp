@@ -53,7 +53,7 @@ template <detail::OutputSet kOutputs, Scheme kScheme, typename Piece, typename S
 SIMDBEZIER_INLINE void sweep_component_patches(const GridTask<T>& task, const Piece& piece,
                                                const SomeTile& tile, std::size_t patch,
                                                std::size_t last_patch) {
-  using V = typename SomeTile::Vector;
+  using V = vec<T>;
   constexpr std::size_t kPlanes = kOutputs == detail::kPosition ? 1 : 3;
   const ColumnTile<V> column(task.x, tile.first + (SomeTile::kBuffered ? tile.active : 0), 1,
                              is_watertight(kScheme));

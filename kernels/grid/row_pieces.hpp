@@ -153,13 +153,16 @@ SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::s
       row += kTogether * kRows;
     }
   }
-  while (left > 0) {
-    const std::size_t rows = left < kRows ? left : kRows;
-    interior(y, at, row, rows);
-    at += rows * nu;
-    y += rows;
-    row += rows;
-    left -= rows;
+  for (; left >= kRows; left -= kRows) {
+    interior(y, at, row, kRows);
+    at += kRows * nu;
+    y += kRows;
+    row += kRows;
+  }
+  if (kRows > 1 && left > 0) {
+    interior(y, at, row, left);
+    at += left * nu;
+    row += left;
   }
   if (is_watertight(kScheme) && piece.trail) {
     edge(piece.trail_kind, at, row);

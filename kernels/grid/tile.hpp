@@ -3,7 +3,7 @@
 // A tile is one register of columns, swept along v: kRows rows of lanes/kRows columns at a time.
 //   kRows = 1      the bulk of a row; `kWhole` false: its masked end
 //   kRows = 2, 4   the last lanes/2 or lanes/4 columns, which would leave most lanes empty;
-//                  `kWhole`: exactly as many
+//                  `kWhole`: exactly as many, and the only ones, so that rows follow each other
 //   kRows = lanes  a single column, into consecutive values; `kWhole`: whole registers, also past
 //                  its end (values that masked stores wrote cannot be read back at once)
 // A single column behind whole registers is computed by a tile of its own into a buffer (`kExtra`),
@@ -84,8 +84,8 @@ struct Tile {
       } else {
         store_first(to, value, active);
       }
-    } else if (kLineWide<V> && step == kColumns && columns() == kColumns && rows == kRows) {
-      store_vector(to, value); // nothing in between the rows; short registers gain nothing by this
+    } else if (kWhole && rows == kRows) {
+      store_vector(to, value);
     } else {
       Groups::store_some(to, step, value, columns(), rows);
     }
