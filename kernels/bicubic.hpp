@@ -89,12 +89,14 @@ struct Component {
         origins(task.origins),
         origin_at(patch * detail::kOriginBlock + component * detail::kOriginsPerComponent) {}
 
-  /// On to the patch's next one: what the compiler would form anew from the start, each time.
-  SIMDBEZIER_INLINE void advance() {
-    matrix += kOrder * kOrder;
-    edge += kOrder * kEdges;
-    corner += kEdges;
-    origin_at += detail::kOriginsPerComponent;
+  /// The patch's next one, at constant distances: addresses made anew take registers.
+  [[nodiscard]] SIMDBEZIER_INLINE Component next() const {
+    Component after = *this;
+    after.matrix += kOrder * kOrder;
+    after.edge += kOrder * kEdges;
+    after.corner += kEdges;
+    after.origin_at += detail::kOriginsPerComponent;
+    return after;
   }
 
   /// Of the patch, and from kEdgeOriginsAt on of its edges; for sets with origins only.

@@ -170,14 +170,14 @@ SIMDBEZIER_INLINE bool sweep_square_of(std::index_sequence<kSides...>, const Gri
   return (sweep(std::integral_constant<std::size_t, kSides>{}) || ...);
 }
 
-/// The squares that gain by code of their own, 5 to 60 %: 2^k and 2^k + 1, as far as neither memory
-/// traffic (three planes of 16 and 32) nor roots (normals of 16 and more) set the pace.
+/// The squares that gain by code of their own, 5 to 60 %: 2^k and 2^k + 1, as far as neither stores
+/// (derivatives of 32) nor roots (normals of 16 and more) set the pace.
 template <detail::OutputSet kOutputs>
 SIMDBEZIER_INLINE constexpr auto known_sides() {
   if constexpr (kOutputs == detail::kPosition) {
     return std::index_sequence<8, 9, 16, 17, 32, 33>{};
   } else if constexpr (kOutputs == detail::kPositionDerivatives) {
-    return std::index_sequence<8, 9, 17, 33>{};
+    return std::index_sequence<8, 9, 16, 17, 33>{};
   } else {
     return std::index_sequence<8, 9, 17>{};
   }

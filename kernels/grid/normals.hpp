@@ -49,9 +49,9 @@ struct NormalSweep {
                                 std::size_t the_patch, std::size_t the_status_step,
                                 const NormalExtra<T>& the_extra)
       : task(the_task), shared_task(the_shared_task), tile(the_tile), patch(the_patch),
-        status_step(the_status_step), extra(the_extra), component{{the_task, the_patch, 0},
-                                                                  {the_task, the_patch, 1},
-                                                                  {the_task, the_patch, 2}} {
+        status_step(the_status_step),
+        extra(the_extra), component{
+                              {the_task, the_patch, 0}, component[0].next(), component[1].next()} {
     for (std::size_t c = 0; c < 3; ++c) {
       columns[c].build(component[c], tile);
     }

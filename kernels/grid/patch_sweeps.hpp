@@ -70,7 +70,7 @@ SIMDBEZIER_INLINE void sweep_component_patches(const GridTask<T>& task, const Pi
     }
     const std::size_t at = patch * task.patch_step + piece.first * nu + tile.first;
     Component<T> component(task, patch, 0);
-    for (std::size_t c = 0; c < 3; ++c, component.advance()) {
+    for (std::size_t c = 0; c < 3; ++c, component = component.next()) {
       T* const position = task.out[detail::kPositionGroup].component[c] + at;
       if constexpr (kOutputs == detail::kPosition) {
         if constexpr (SomeTile::kBuffered) {
