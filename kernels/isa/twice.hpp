@@ -54,6 +54,11 @@ SIMDBEZIER_INLINE TwiceMask<V> operator==(Twice<V> a, Twice<V> b) {
 }
 
 template <typename V>
+SIMDBEZIER_INLINE Twice<V> operator+(Twice<V> a, Twice<V> b) {
+  return {a.low + b.low, a.high + b.high};
+}
+
+template <typename V>
 SIMDBEZIER_INLINE Twice<V> vector_fma(Twice<V> a, Twice<V> b, Twice<V> c) {
   return {madd(a.low, b.low, c.low), madd(a.high, b.high, c.high)};
 }
