@@ -59,15 +59,21 @@ SIMDBEZIER_INLINE W difference_of(DoubleDouble a, DoubleDouble b) {
   return renormalised(two_difference(a.high, b.high), a.low - b.low);
 }
 
-/// 3 a, and that times a power of two.
-SIMDBEZIER_INLINE Wide tripled(Wide a) { return Wide(3.0) * a; }
+/// a times a power of two.
+SIMDBEZIER_INLINE Wide scaled(Wide a, double power) { return a * Wide(power); }
+SIMDBEZIER_INLINE DoubleDouble scaled(DoubleDouble a, double power) {
+  return {a.high * Wide(power), a.low * Wide(power)};
+}
+
+/// 3 a, and that times a power of two: in one product of single doubles, which rounds as 3 a does,
+/// since what is carried in them comes from floats and is far from the ends of their range.
+SIMDBEZIER_INLINE Wide tripled(Wide a, double power = 1) { return Wide(3 * power) * a; }
 SIMDBEZIER_INLINE DoubleDouble tripled(DoubleDouble a) {
   const Wide two(2.0);
   return sum_of<DoubleDouble>(DoubleDouble{two * a.high, two * a.low}, a);
 }
-SIMDBEZIER_INLINE Wide scaled(Wide a, double power) { return a * Wide(power); }
-SIMDBEZIER_INLINE DoubleDouble scaled(DoubleDouble a, double power) {
-  return {a.high * Wide(power), a.low * Wide(power)};
+SIMDBEZIER_INLINE DoubleDouble tripled(DoubleDouble a, double power) {
+  return scaled(tripled(a), power);
 }
 
 /// a * b, exact but for 2^-106 of it where both halves have all of their bits; odd in a and in b.

@@ -20,8 +20,8 @@ SIMDBEZIER_INLINE void centred_cubic(In b0, In b1, In b2, In b3, W c[detail::kOr
   const W inner = difference_of<W>(b2, b1);
   const W outer = difference_of<W>(b3, b0);
   c[0] = scaled(sum_of<W>(sum_of<W>(b0, b3), tripled(sum_of<W>(b1, b2))), 0.125);
-  c[1] = scaled(tripled(sum_of<W>(outer, inner)), 0.25);
-  c[2] = scaled(tripled(sum_of<W>(difference_of<W>(b0, b1), difference_of<W>(b3, b2))), 0.5);
+  c[1] = tripled(sum_of<W>(outer, inner), 0.25);
+  c[2] = tripled(sum_of<W>(difference_of<W>(b0, b1), difference_of<W>(b3, b2)), 0.5);
   c[3] = difference_of<W>(outer, tripled(inner));
 }
 

@@ -23,27 +23,33 @@ using CarriedIn =
 template <typename T>
 inline constexpr double kSafeSquares = sizeof(T) == sizeof(float) ? 0x1p236 : 0x1p1000;
 
-/// A whole group at `from`; returns the sum of squares.
+/// A whole group at `from`; returns the sum of squares, which only says where to look again, so
+/// that it may round differently from one instruction set to the other.
 template <typename T, typename S, bool kMoved, typename Lanes>
 SIMDBEZIER_INLINE Wide read_group(const detail::PackTask<T, S>& task, const S* from,
                                   std::ptrdiff_t stride, Lanes& lanes) {
   using W = CarriedIn<T, S>;
   Wide squares(0.0);
-  for (std::size_t e = 0; e < kNet; e += kTransposed) {
-    Wide values[kTransposed];
-    load_transposed(from + e, stride, values);
-    for (std::size_t i = 0; i < kTransposed; ++i) {
-      const std::size_t c = (e + i) % detail::kComponents;
-      const std::size_t k = (e + i) / detail::kComponents;
-      if constexpr (kMoved) {
-        const W moved = difference_of<W>(values[i], Wide(task.relative_to[c]));
-        lanes.net[c][k] = moved;
-        values[i] = to_wide(moved);
-        lanes.points[c][k] = rounded_to<T>(values[i]);
-      } else {
-        lanes.net[c][k] = values[i];
+  // Values go by threes, blocks by eights: in between, nothing is divided at run time.
+  for (std::size_t first = 0; first < kNet; first += detail::kComponents * kTransposed) {
+#pragma GCC unroll 3
+    for (std::size_t block = 0; block < detail::kComponents; ++block) {
+      Wide values[kTransposed];
+      load_transposed(from + first + block * kTransposed, stride, values);
+      for (std::size_t i = 0; i < kTransposed; ++i) {
+        const std::size_t c = (block * kTransposed + i) % detail::kComponents;
+        const std::size_t k =
+            first / detail::kComponents + (block * kTransposed + i) / detail::kComponents;
+        if constexpr (kMoved) {
+          const W moved = difference_of<W>(values[i], Wide(task.relative_to[c]));
+          lanes.net[c][k] = moved;
+          values[i] = to_wide(moved);
+          lanes.points[c][k] = rounded_to<T>(values[i]);
+        } else {
+          lanes.net[c][k] = values[i];
+        }
+        squares = madd(values[i], values[i], squares);
       }
-      squares = squares + values[i] * values[i];
     }
   }
   return squares;
