@@ -71,7 +71,7 @@ struct RecordSweep {
 
   SIMDBEZIER_INLINE RecordSweep(const GridTask<T>& task, const SomeTile& the_tile,
                                 std::size_t patch)
-      : tile(the_tile), component{{task, patch, 0}, {task, patch, 1}, {task, patch, 2}} {
+      : tile(the_tile), component{{task, patch, 0}, component[0].next(), component[1].next()} {
     for (std::size_t c = 0; c < 3; ++c) {
       columns[c].build(component[c], tile);
     }

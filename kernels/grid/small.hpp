@@ -100,8 +100,8 @@ __attribute__((noinline)) void sweep_small_positions(const GridTask<T>& shared_t
     if (task.prefetch) {
       prefetch_patch(task, patch);
     }
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Component<T> component(task, patch, c);
+    Component<T> component(task, patch, 0);
+    for (std::size_t c = 0; c < 3; ++c, component = component.next()) {
       V k[kOrder];
       V q[kOrder];
       V e[kOrder];

@@ -118,9 +118,10 @@ __attribute__((noinline)) void sweep_small_jets(const GridTask<T>& shared_task) 
     if (task.prefetch) {
       prefetch_patch(task, patch);
     }
-    const SmallJets<kScheme, V> jets[3] = {{Component<T>(task, patch, 0), grid, ends},
-                                           {Component<T>(task, patch, 1), grid, ends},
-                                           {Component<T>(task, patch, 2), grid, ends}};
+    const Component<T> x(task, patch, 0);
+    const Component<T> y = x.next();
+    const SmallJets<kScheme, V> jets[3] = {
+        {x, grid, ends}, {y, grid, ends}, {y.next(), grid, ends}};
     for (std::size_t r = 0; r < samples.registers; ++r) {
       const std::size_t first = r * kLanes<V>;
       const std::size_t active = samples.active(r);

@@ -20,8 +20,8 @@ SIMDBEZIER_INLINE void evaluate_run(const Block<kFull, V> block[kRegisters], std
   const auto& task = block[0].task;
   Tangents<kOutcome, V> tangents[kRegisters];
   waiting.take_root();
-  for (std::size_t c = 0; c < 3; ++c) {
-    const Component<ScalarOf<V>> component(task, patch, c);
+  Component<ScalarOf<V>> component(task, patch, 0);
+  for (std::size_t c = 0; c < 3; ++c, component = component.next()) {
     Polynomials<kOutcome, V> q[kRegisters];
     for (std::size_t l = 0; l < kOrder; ++l) {
       V k[kOrder];

@@ -77,7 +77,6 @@ SIMDBEZIER_INLINE void store_normal(const ScatteredTask<T>& task, std::size_t k,
 template <bool kOrigins, typename T>
 SIMDBEZIER_INLINE void evaluate_first(const ScatteredTask<T>& task, std::size_t k,
                                       const Place<T>& place) {
-  const bool on_edge = place.on_edge;
   T p[3];
   T du[3];
   T dv[3];
@@ -88,7 +87,7 @@ SIMDBEZIER_INLINE void evaluate_first(const ScatteredTask<T>& task, std::size_t 
     column_polynomial(component, place.column, q, dq);
     p[c] = with_origin<kOrigins>(horner(q, place.y, dv[c]),
                                  column_origin<kOrigins>(component, place.column));
-    if (on_edge) {
+    if (place.on_edge) {
       p[c] = edge_position<kOrigins>(component, place.column, place.edge, du[c]);
     } else {
       du[c] = horner(dq, place.y);
@@ -105,7 +104,6 @@ SIMDBEZIER_INLINE void evaluate_first(const ScatteredTask<T>& task, std::size_t 
 template <typename T>
 SIMDBEZIER_INLINE void evaluate_second(const ScatteredTask<T>& task, std::size_t k,
                                        const Place<T>& place) {
-  const bool on_edge = place.on_edge;
   T duu[3];
   T duv[3];
   T dvv[3];
@@ -113,7 +111,8 @@ SIMDBEZIER_INLINE void evaluate_second(const ScatteredTask<T>& task, std::size_t
     const Component<T> component(task, place.patch, c);
     SecondColumns<T> columns;
     columns.build(component, place.column);
-    duu[c] = on_edge ? edge_second(component, place.column, place.edge) : columns.duu(place.y);
+    duu[c] =
+        place.on_edge ? edge_second(component, place.column, place.edge) : columns.duu(place.y);
     duv[c] = columns.duv(place.y);
     dvv[c] = columns.dvv(place.y);
   }
