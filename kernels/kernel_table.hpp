@@ -241,6 +241,7 @@ template <typename T>
 struct KernelTable {
   Isa isa;
   std::size_t lanes;
+  bool puts_records; ///< whether usual outputs' grid kernels put records together
   void (*grid[kOutputSets][kSchemes])(GridTask<T>& task);
   void (*scattered[2])(ScatteredTask<T>& task); ///< [1]: sets with origins
   void (*drain)(DrainQueue<T>& queue);          ///< passes on all that is left

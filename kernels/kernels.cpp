@@ -33,6 +33,7 @@ constexpr detail::KernelTable<T> make_table() {
   detail::KernelTable<T> table{};
   table.isa = Isa::SIMDBEZIER_ISA;
   table.lanes = kLanes<vec<T>>;
+  table.puts_records = kPutsRecords<vec<T>>;
   table.highest_index = highest_index;
   table.drain = drain_all<T>;
   table.fence = streaming_fence;

@@ -42,7 +42,10 @@ struct GridKernels {
   /// where all patches are bicubic, and evaluated as such. streamed: past the caches, too.
   [[nodiscard]] DirectRows direct_rows(std::size_t nu, bool streamed) const noexcept {
     const bool bicubic = !any_shape && set->places == nullptr && set->buckets[0].shape.is_bicubic();
-    return {.row = bicubic ? nu : 0, .lanes = table->lanes, .streamed = streamed, .records = true};
+    return {.row = bicubic ? nu : 0,
+            .lanes = table->lanes,
+            .streamed = streamed,
+            .records = table->puts_records};
   }
 };
 

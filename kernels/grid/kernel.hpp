@@ -183,10 +183,10 @@ SIMDBEZIER_INLINE constexpr auto known_sides() {
   }
 }
 
-/// Whether there is such code at all: for the registers of 32 bytes and more, and edges as usual.
+/// Whether there is such code at all: for registers of 32 bytes and more, and edges as usual.
 template <detail::OutputSet kOutputs, Scheme kScheme, typename T>
-constexpr bool kKnowsSquares = kUsual<kOutputs>&& kScheme ==
-                               detail::kWatertight&& kLanes<vec<T>> * sizeof(T) >= 32;
+constexpr bool kKnowsSquares = kUsual<kOutputs> && (kScheme == detail::kWatertight) &&
+                               (kLanes<vec<T>> * sizeof(T) >= 32);
 
 template <typename T, detail::OutputSet kOutputs, Scheme kScheme>
 void grid_kernel(GridTask<T>& task) {

@@ -13,7 +13,7 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Where kernels put records together: OutputPlan::arrange() knows as well.
+/// Where kernels put records together.
 template <typename V>
 inline constexpr bool kPutsRecords = !kIsScalar<V> && kNonuples;
 

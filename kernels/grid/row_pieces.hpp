@@ -64,9 +64,9 @@ struct SquarePiece {
 
   /// Whether `piece` is one.
   static SIMDBEZIER_INLINE bool is(const RowPiece<T>& piece, std::size_t nu) {
-    return nu == kSide && piece.middle.rows == kMiddle && piece.lead && piece.trail &&
-           piece.lead_kind == RowKind::edge_v0 && piece.trail_kind == RowKind::edge_v1 &&
-           piece.middle.kind == RowKind::interior;
+    return nu == kSide && piece.first == 0 && piece.middle.rows == kMiddle && piece.lead &&
+           piece.trail && piece.lead_kind == RowKind::edge_v0 &&
+           piece.trail_kind == RowKind::edge_v1 && piece.middle.kind == RowKind::interior;
   }
 };
 

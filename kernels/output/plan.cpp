@@ -238,9 +238,8 @@ void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
   const WantedGroups wanted = wanted_groups(out_);
   const KernelChoice choice = choose_kernels(wanted);
   const std::size_t record = stream_[0].members;
-  const std::size_t bytes = rows.lanes * sizeof(T); // of a register
-  const bool lines = rows.streamed && bytes == 64 && rows.row % rows.lanes == 0;
-  const bool registers = bytes >= 32 && staged_planes_ == vector_values(wanted, dimension_);
+  const bool lines = rows.streamed && rows.lanes * sizeof(T) == 64 && rows.row % rows.lanes == 0;
+  const bool registers = rows.records && staged_planes_ == vector_values(wanted, dimension_);
   bool possible = staged() && rows.row >= rows.lanes && (streaming_ ? lines : registers) &&
                   !choice.second && choice.outputs != kAnyOutputs &&
                   (record == 1 || (rows.records && (record == 3 || record == staged_planes_)));
