@@ -40,16 +40,18 @@ build_copy() { # program
   cmake -S "$work/source" -B "$work/build" -DCMAKE_BUILD_TYPE=Debug \
         -DCMAKE_CXX_FLAGS_DEBUG="-O1 -DNDEBUG" -DSIMDBEZIER_BUILD_TESTS=ON \
         -DSIMDBEZIER_BUILD_BENCH=OFF -DSIMDBEZIER_SHARED_DATA="$data" >"$work/log" 2>&1 &&
-    cmake --build "$work/build" -j2 --target "${1##*/}" >>"$work/log" 2>&1 ||
+    cmake --build "$work/build" -j"$(nproc)" --target "${1##*/}" >>"$work/log" 2>&1 ||
     { tail -20 "$work/log" >&2; return 1; }
 }
 
 mkdir "$work/source"
 (cd "$root" && tar cf - --exclude=./build* --exclude=./.git .) | tar xf - -C "$work/source"
 status=0
+tried=0
 for row in "${faults[@]}"; do
   IFS='|' read -r fault file substitution program filter <<<"$row"
   [[ $# -eq 0 || $1 == --dry-run || $1 == "$fault" ]] || continue
+  tried=1
   seed "$fault" "$file" "$substitution" || { status=1; continue; }
   [[ ${1-} != --dry-run ]] || { echo "$fault: found in $file"; continue; }
   built=1
@@ -57,11 +59,14 @@ for row in "${faults[@]}"; do
   # With the time of now, so that the next build compiles it anew: the fault would stay otherwise.
   cp "$root/$file" "$work/source/$file"
   (( built )) || { echo "$fault: does not compile" >&2; status=1; continue; }
-  if "$work/build/tests/$program" --gtest_filter="$filter" >"$work/log" 2>&1; then
+  "$work/build/tests/$program" --gtest_filter="$filter" >"$work/log" 2>&1 || true
+  # A program that could not run, or crashed, has found nothing.
+  if caught=$(grep -m1 -oE 'FAILED  \] [A-Za-z/.0-9_]+' "$work/log"); then
+    echo "$fault: caught by ${caught#*] }"
+  else
     echo "$fault: NOT caught by $program --gtest_filter='$filter'"
     status=1
-  else
-    echo "$fault: caught by $(grep -m1 -oE 'FAILED  \] [A-Za-z/.0-9_]+' "$work/log" | cut -c11-)"
   fi
 done
+(( tried )) || { echo "$1: no such fault" >&2; status=1; }
 exit $status
