@@ -8,15 +8,30 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// Rows that a buffered column has room for.
 constexpr std::size_t kBufferRows = 128;
 
+/// A column's planes, the k-th one kPlane values behind the first: one address for all of them.
+template <typename T>
+struct ColumnPlanes {
+  static constexpr std::size_t kPlane = kBufferRows + 2 * detail::kMaxLanes;
+  const T* first;
+
+  SIMDBEZIER_INLINE const T* plane(std::size_t k) const { return first + k * kPlane; }
+};
+
 /// A column on its way to the rows' ends: one plane for each of `kPlanes` outputs.
 template <typename T, std::size_t kPlanes>
 struct ColumnBuffer {
-  alignas(64) T plane[kPlanes][kBufferRows + 2 * detail::kMaxLanes];
+  alignas(64) T values[kPlanes * ColumnPlanes<T>::kPlane];
 
   /// Where the piece's first row goes: registers of rows behind a lead are lines of the buffer.
   template <typename Piece>
   SIMDBEZIER_INLINE T* first(std::size_t k, const Piece& piece) {
-    return plane[k] + (piece.lead ? detail::kMaxLanes - 1 : 0);
+    return values + k * ColumnPlanes<T>::kPlane + (piece.lead ? detail::kMaxLanes - 1 : 0);
+  }
+  /// To read from: values, not the registers that they came from, which would have to be taken
+  /// apart.
+  template <typename Piece>
+  SIMDBEZIER_INLINE ColumnPlanes<T> planes(const Piece& piece) {
+    return {own_address(first(0, piece))};
   }
 };
 
@@ -28,7 +43,8 @@ template <Scheme kScheme, typename Piece, std::size_t kRows, bool kWhole, bool k
           bool kStreams>
 SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<ScalarOf<V>>& c,
                                       const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
-                                      std::size_t nu, ScalarOf<V>* to, const ScalarOf<V>* extra) {
+                                      std::size_t nu, ScalarOf<V>* to,
+                                      ColumnPlanes<ScalarOf<V>> extra) {
   using T = ScalarOf<V>;
   V q[kOrder];
   if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kSingle) {
@@ -46,7 +62,7 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
         const V p = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
                         ? shared
                         : tile.template edge_rows<kScheme>(c, edge_of(kind));
-        tile.store_edge(to + at, p, kind, extra + row);
+        tile.store_edge(to + at, p, kind, extra.plane(0) + row);
       },
       [&](const T* y, std::size_t at, std::size_t row, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
         V p;
@@ -55,7 +71,8 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
         } else {
           p = horner(q, RowGroups<kRows, V>::spread(y));
         }
-        tile.store(to + at, nu, with_origin<has_origins(kScheme)>(p, origin), rows, extra + row);
+        tile.store(to + at, nu, with_origin<has_origins(kScheme)>(p, origin), rows,
+                   extra.plane(0) + row);
       });
 }
 
@@ -114,7 +131,7 @@ template <Scheme kScheme, typename Piece, std::size_t kRows, bool kWhole, bool k
 SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<ScalarOf<V>>& c,
                                          const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                          std::size_t nu, const JetPlanes<ScalarOf<V>>& to,
-                                         const JetPlanes<const ScalarOf<V>>& extra) {
+                                         ColumnPlanes<ScalarOf<V>> extra) {
   using T = ScalarOf<V>;
   JetColumns<kScheme, V> columns;
   columns.build(c, tile);
@@ -128,15 +145,15 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
         const Jet<V> jet = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
                                ? shared
                                : columns.edge(c, tile, edge_of(kind));
-        tile.store_edge(to.position + at, jet.p, kind, extra.position + row);
-        tile.store_edge(to.du + at, jet.du, kind, extra.du + row);
-        tile.store_edge(to.dv + at, jet.dv, kind, extra.dv + row);
+        tile.store_edge(to.position + at, jet.p, kind, extra.plane(0) + row);
+        tile.store_edge(to.du + at, jet.du, kind, extra.plane(1) + row);
+        tile.store_edge(to.dv + at, jet.dv, kind, extra.plane(2) + row);
       },
       [&](const T* y, std::size_t at, std::size_t row, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
         const Jet<V> jet = columns.interior(RowGroups<kRows, V>::spread(y));
-        tile.store(to.position + at, nu, jet.p, rows, extra.position + row);
-        tile.store(to.du + at, nu, jet.du, rows, extra.du + row);
-        tile.store(to.dv + at, nu, jet.dv, rows, extra.dv + row);
+        tile.store(to.position + at, nu, jet.p, rows, extra.plane(0) + row);
+        tile.store(to.du + at, nu, jet.du, rows, extra.plane(1) + row);
+        tile.store(to.dv + at, nu, jet.dv, rows, extra.plane(2) + row);
       });
 }
 

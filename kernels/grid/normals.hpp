@@ -21,13 +21,6 @@ struct NormalSamples {
   }
 };
 
-/// The column behind a kExtra tile.
-template <typename T>
-struct NormalExtra {
-  const T* position[3];
-  const T* normal[3];
-};
-
 /// What the rows of one tile have in common; kAny: groups with null planes are computed and
 /// dropped.
 template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, bool kAny, typename V,
@@ -40,14 +33,14 @@ struct NormalSweep {
   const Tile<kRows, kWhole, kExtra, V, kStreams>& tile;
   std::size_t patch;
   std::size_t status_step; ///< statuses from one sample of the planes to the next
-  NormalExtra<T> extra;
+  ColumnPlanes<T> extra;   ///< positions, then normals
   Component<T> component[3];
   JetColumns<kScheme, V> columns[3];
 
   SIMDBEZIER_INLINE NormalSweep(const GridTask<T>& the_task, const GridTask<T>& the_shared_task,
                                 const Tile<kRows, kWhole, kExtra, V, kStreams>& the_tile,
                                 std::size_t the_patch, std::size_t the_status_step,
-                                const NormalExtra<T>& the_extra)
+                                ColumnPlanes<T> the_extra)
       : task(the_task), shared_task(the_shared_task), tile(the_tile), patch(the_patch),
         status_step(the_status_step),
         extra(the_extra), component{
@@ -72,7 +65,7 @@ struct NormalSweep {
         tile.store_if_wanted(plane(detail::kDvGroup, c), at, task.nu, dv[c], rows);
       } else {
         tile.store(plane(detail::kPositionGroup, c) + at, task.nu, jet.p, rows,
-                   extra.position[c] + row);
+                   extra.plane(c) + row);
       }
     }
     if (kAny && !task.out[detail::kNormalGroup].wanted()) {
@@ -82,7 +75,8 @@ struct NormalSweep {
     const V squared = cross_product(du, dv, n);
     normalise(n, squared);
     for (std::size_t c = 0; c < 3; ++c) {
-      tile.store(plane(detail::kNormalGroup, c) + at, task.nu, n[c], rows, extra.normal[c] + row);
+      tile.store(plane(detail::kNormalGroup, c) + at, task.nu, n[c], rows,
+                 extra.plane(3 + c) + row);
     }
     if (!all_of<V>(squared > floor)) [[unlikely]] {
       resolve_normals(shared_task, patch,
@@ -112,9 +106,9 @@ struct NormalSweep {
         tile.store_edge_if_wanted(plane(detail::kNormalGroup, c), at, s.normal[c], kind);
       } else {
         tile.store_edge(plane(detail::kPositionGroup, c) + at, s.jet[c].p, kind,
-                        extra.position[c] + row);
+                        extra.plane(c) + row);
         tile.store_edge(plane(detail::kNormalGroup, c) + at, s.normal[c], kind,
-                        extra.normal[c] + row);
+                        extra.plane(3 + c) + row);
       }
     }
     if (kAny && !task.out[detail::kNormalGroup].wanted()) {
@@ -141,7 +135,7 @@ SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task,
                                      const GridTask<ScalarOf<V>>& shared_task, const Piece& piece,
                                      const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                      std::size_t patch, std::size_t first, std::size_t status_step,
-                                     const NormalExtra<ScalarOf<V>>& extra) {
+                                     ColumnPlanes<ScalarOf<V>> extra) {
   using T = ScalarOf<V>;
   const NormalSweep<kScheme, kRows, kWhole, kExtra, kAny, V, kStreams> sweep(
       task, shared_task, tile, patch, status_step, extra);

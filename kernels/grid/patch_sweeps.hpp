@@ -21,12 +21,10 @@ SIMDBEZIER_INLINE void sweep_normal_patches(const GridTask<T>& shared_task, cons
   const ColumnTile<V> column(task.x, tile.first + (SomeTile::kBuffered ? tile.active : 0), 1,
                              is_watertight(kScheme));
   ColumnBuffer<T, 6> buffer;
-  NormalExtra<T> extra{};
+  const ColumnPlanes<T> extra = buffer.planes(piece);
   for (std::size_t c = 0; c < 3; ++c) {
-    extra.position[c] = column_task.out[detail::kPositionGroup].component[c] =
-        buffer.first(c, piece);
-    extra.normal[c] = column_task.out[detail::kNormalGroup].component[c] =
-        buffer.first(3 + c, piece);
+    column_task.out[detail::kPositionGroup].component[c] = buffer.first(c, piece);
+    column_task.out[detail::kNormalGroup].component[c] = buffer.first(3 + c, piece);
   }
   column_task.nu = 1;
   const std::size_t samples = piece.rows() * (tile.active + (SomeTile::kBuffered ? 1 : 0));
@@ -59,8 +57,7 @@ SIMDBEZIER_INLINE void sweep_component_patches(const GridTask<T>& task, const Pi
                              is_watertight(kScheme));
   ColumnBuffer<T, 3> buffer;
   const JetPlanes<T> there{buffer.first(0, piece), buffer.first(1, piece), buffer.first(2, piece)};
-  const JetPlanes<const T> extra{own_address(there.position), own_address(there.du),
-                                 own_address(there.dv)};
+  const ColumnPlanes<T> extra = buffer.planes(piece);
   const std::size_t samples = piece.rows() * (tile.active + (SomeTile::kBuffered ? 1 : 0));
   const bool prefetch = task.prefetch && tile.first == 0;
   const std::size_t nu = piece.columns(task.nu);
@@ -74,9 +71,9 @@ SIMDBEZIER_INLINE void sweep_component_patches(const GridTask<T>& task, const Pi
       T* const position = task.out[detail::kPositionGroup].component[c] + at;
       if constexpr (kOutputs == detail::kPosition) {
         if constexpr (SomeTile::kBuffered) {
-          sweep_position<kScheme>(piece, component, column, 1, there.position, extra.position);
+          sweep_position<kScheme>(piece, component, column, 1, there.position, extra);
         }
-        sweep_position<kScheme>(piece, component, tile, nu, position, extra.position);
+        sweep_position<kScheme>(piece, component, tile, nu, position, extra);
       } else if constexpr (kOutputs == detail::kPositionDerivatives) {
         const JetPlanes<T> to{position, task.out[detail::kDuGroup].component[c] + at,
                               task.out[detail::kDvGroup].component[c] + at};

@@ -184,8 +184,9 @@ SIMDBEZIER_INLINE void for_rows(const SquarePiece<T, kSide>& piece, std::size_t 
       interior(piece.middle.y + k, at + (1 + k) * nu, 1 + k, kRows);
     }
   } else {
-    for (std::size_t k = 0; k < kFull; k += kRows) {
-      interior(piece.middle.y + k, at + (1 + k) * nu, 1 + k, kRows);
+    std::size_t to = at + nu;
+    for (std::size_t k = 0; k < kFull; k += kRows, to += kRows * nu) {
+      interior(piece.middle.y + k, to, 1 + k, kRows);
     }
   }
   if constexpr (kFull < kMiddle) {
