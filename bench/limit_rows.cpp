@@ -105,14 +105,15 @@ void register_arithmetic(const std::string& isa, LimitKernels<T> fused, LimitKer
   register_horner("horner_store_muladd", isa, separate, 3);
 }
 
-/// `all` bytes a call; the threads share them.
+/// `all` bytes a call; the threads share them. behind: bytes from a line's start.
 void register_fill(const std::string& name, int threads, void (*fill)(unsigned char*, std::size_t),
-                   std::size_t all = kMemoryBytes) {
-  auto run = [threads, fill, all](benchmark::State& state) {
-    unsigned char* const out = output_buffer();
-    if (out == nullptr) {
+                   std::size_t all = kMemoryBytes, std::size_t behind = 0) {
+  auto run = [threads, fill, all, behind](benchmark::State& state) {
+    unsigned char* const buffer = output_buffer();
+    if (buffer == nullptr) {
       return fail_row(state, "no memory for the output");
     }
+    unsigned char* const out = buffer + behind;
     const std::size_t share = all / static_cast<std::size_t>(threads) / 4096 * 4096;
     const auto bytes = static_cast<double>(share) * threads;
     time_calls(state, threads, bytes / 12, bytes, [&] { // 12 bytes: one f32 position
@@ -133,6 +134,15 @@ void register_fill(const std::string& name, int threads, void (*fill)(unsigned c
   };
   benchmark::RegisterBenchmark(name.c_str(), run)
       ->Unit(all < kMemoryBytes ? benchmark::kMicrosecond : benchmark::kMillisecond);
+}
+
+// Instructions that do nothing: how many the processor takes in, whoever else uses its core.
+void issue(benchmark::State& state) {
+  time_calls(state, 1, 64 * kRounds, 0, [] {
+    for (std::size_t k = 0; k < kRounds; ++k) {
+      asm volatile(".rept 64\n\tnop\n\t.endr");
+    }
+  });
 }
 
 // Three lines a sample in random order: what a scattered call reads when the patches are in memory.
@@ -201,6 +211,8 @@ void register_limit_rows() {
   }
   register_fill("limit/fill_l1", 1, fill.plain, kHornerBytes);
   register_fill("limit/fill_cache", 1, fill.plain, kCacheBytes);
+  register_fill("limit/fill_cache/align:8", 1, fill.plain, kCacheBytes, 8);
+  benchmark::RegisterBenchmark("limit/issue", issue)->Unit(benchmark::kMicrosecond);
   benchmark::RegisterBenchmark("limit/random_lines", random_lines)->Unit(benchmark::kMillisecond);
 }
 

@@ -17,12 +17,13 @@ constexpr double kPattern = 1.5;
 
 void fill_plain(unsigned char* out, std::size_t bytes) {
   using V = RegisterOf<double>;
+  using Anywhere [[gnu::aligned(sizeof(double))]] = V;
   V value = V{} + kPattern;
   hide(value);
   for (unsigned char* const end = out + bytes; out != end; out += 4 * sizeof(V)) {
 #pragma GCC unroll 4
     for (std::size_t k = 0; k < 4; ++k) {
-      *reinterpret_cast<V*>(out + k * sizeof(V)) = value;
+      *reinterpret_cast<Anywhere*>(out + k * sizeof(V)) = value;
     }
   }
 }

@@ -22,10 +22,10 @@ struct LimitKernels {
   void (*horner_store[3][kHornerForms])(T* out, std::size_t count, const T* inputs) = {};
 };
 
-/// Rates at which memory can be filled; `bytes` is a multiple of 256, `out` 64-byte aligned.
+/// Rates at which memory can be filled; `bytes` is a multiple of 256.
 struct FillKernels {
-  void (*stream)(unsigned char* out, std::size_t bytes) = nullptr; ///< past the caches
-  void (*plain)(unsigned char* out, std::size_t bytes) = nullptr;
+  void (*stream)(unsigned char* out, std::size_t bytes) = nullptr; ///< past the caches, whole lines
+  void (*plain)(unsigned char* out, std::size_t bytes) = nullptr;  ///< out: 8-byte aligned
 };
 
 /// `fused` objects may contract a multiplication and an addition, `separate` ones may not.
