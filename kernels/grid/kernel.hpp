@@ -4,8 +4,11 @@
 //   1 column           the buffered column (kExtra) of the last whole register
 //   up to L/4, L/2     a tile of 4 or 2 rows a register
 //   more               a masked register
-// Without normals one component is swept after the other (4 or 8 registers, one to three store
-// streams); normals need all three at once (24 registers, which AVX2 keeps partly in L1).
+// Without normals one component is swept after the other (4 or 8 registers of polynomials, one to
+// three store streams), two registers of columns as one where there is room (isa/twice.hpp);
+// normals need all three components at once (24 registers, which AVX2 keeps partly in L1). Squares
+// of usual sizes are known to the compiler: sweep_square() makes the choices of sweep_tiles() for
+// them, so that it instantiates no tile that they do not have.
 #pragma once
 
 #include <type_traits>
