@@ -1,6 +1,7 @@
 // Which samples of a grid stand in the lanes of a register.
 //
-// A tile is one register of columns (or two: isa/twice.hpp), swept along v: kRows rows of lanes/kRows columns at a time.
+// A tile is one register of columns (or two: isa/twice.hpp), swept along v: kRows rows of
+// lanes/kRows columns at a time.
 //   kRows = 1      the bulk of a row; `kWhole` false: its masked end
 //   kRows = 2, 4   the last lanes/2 or lanes/4 columns, which would leave most lanes empty;
 //                  `kWhole`: exactly as many, and the only ones, so that rows follow each other
