@@ -14,6 +14,16 @@ else()
   set(SIMDBEZIER_ISA_TABLE "scalar|void|")
 endif()
 
+# For builds that are made to be judged, not to be used (coverage, mutations, sanitizers): some of
+# the rows, and flags that come behind all others. Compiling the kernels is most of a build.
+set(SIMDBEZIER_KERNEL_ISAS "" CACHE STRING "Rows of the table that are compiled; empty: all")
+set(SIMDBEZIER_KERNEL_FLAGS "" CACHE STRING "Further compiler flags of the kernels")
+mark_as_advanced(SIMDBEZIER_KERNEL_ISAS SIMDBEZIER_KERNEL_FLAGS)
+if(SIMDBEZIER_KERNEL_ISAS)
+  list(JOIN SIMDBEZIER_KERNEL_ISAS "|" wanted)
+  list(FILTER SIMDBEZIER_ISA_TABLE INCLUDE REGEX "^(${wanted})[|]")
+endif()
+
 # Cores from Skylake to Cascade Lake do not cache decoded instructions around a jump that touches
 # the end of 32 bytes (Intel's erratum on jump conditional code): whether a loop loses a third of
 # its speed would be up to its address. g++ leaves that to the assembler.
@@ -76,6 +86,8 @@ function(simdbezier_add_isa_kernels target)
       # All that is inlined here would take a sanitizing compiler minutes.
       target_compile_options(${object} PRIVATE -O1 -fno-sanitize=undefined)
     endif()
+    separate_arguments(further UNIX_COMMAND "${SIMDBEZIER_KERNEL_FLAGS}")
+    target_compile_options(${object} PRIVATE ${further})
     target_link_libraries(${object} PRIVATE simdbezier_private_flags simdbezier_xsimd)
     set_target_properties(${object} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
