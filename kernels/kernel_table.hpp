@@ -7,6 +7,7 @@
 
 #include <simdbezier/evaluate.hpp>
 
+#include "kernels/given_points.hpp"
 #include "kernels/net_shape.hpp"
 
 namespace simdbezier::detail {
@@ -37,8 +38,8 @@ inline constexpr std::size_t kCurvatures = 4;
 template <typename T>
 struct NormalQuery {
   const NetShape* shape;
-  const T* control_points; ///< of its patch, [j][i][channel]
-  T x;                     ///< half-centred parameters
+  GivenNet net; ///< of its patch
+  T x;          ///< half-centred parameters
   T y;
   T du[3];
   T dv[3];
@@ -77,7 +78,7 @@ struct GridTask {
   const NetShape* shape;
   const T* coefficients;
   const T* edges;
-  const T* control_points;
+  GivenPoints given;
   const T* origins; ///< null where the set has none
   const T* normal_floor;
   std::size_t patch_count;
@@ -107,7 +108,7 @@ struct ScatteredTask {
   const NetShape* shape;
   const T* coefficients;
   const T* edges;
-  const T* control_points;
+  GivenPoints given;
   const T* origins; ///< null where the set has none
   const T* normal_floor;
 
@@ -171,8 +172,8 @@ struct PackTask {
 
   T* coefficients;
   T* edges;
-  T* control_points;
-  T* origins; ///< null where none are wanted
+  S* control_points; ///< as given, see given_points.hpp
+  T* origins;        ///< null where none are wanted
   T* normal_floor;
 };
 
@@ -206,8 +207,8 @@ struct NetPackTask {
 
   T* coefficients;
   T* edges;
-  T* control_points;
-  T* origins; ///< null where none are wanted
+  S* control_points; ///< as given, see given_points.hpp
+  T* origins;        ///< null where none are wanted
   T* normal_floor;
 };
 

@@ -28,7 +28,7 @@ constexpr std::size_t whole_blocks(std::size_t values) { return (values + 15) / 
 ///   coefficients    [patch][cell][channel][power k of X][power l of Y]
 ///   edges           [patch][cell]{ [channel][power][edge v=0, v=1, u=0, u=1], [channel][corner] }
 ///   origins         [patch][cell][channel][8], see kOriginBlock
-///   control points  [patch][j][i][channel], points rather than homogeneous coordinates
+///   given points    [patch][j][i][channel], see given_points.hpp
 /// Cells: lower v first, then lower u. Channels: the components, then the weight. For bicubic
 /// patches in space these are exactly the constants of patch_storage.hpp.
 struct NetShape {

@@ -54,7 +54,7 @@ __attribute__((noinline, cold)) void resolve_normals(const Task& task, std::size
       continue;
     }
     const detail::NormalQuery<T> query{task.shape,
-                                       task.control_points + patch * task.shape->control_values(),
+                                       task.given.net(patch * task.shape->control_values()),
                                        lanes[8][i],
                                        lanes[9][i],
                                        {lanes[0][i], lanes[1][i], lanes[2][i]},

@@ -15,6 +15,7 @@
 
 #include <simdbezier/status.hpp>
 
+#include "kernels/given_points.hpp"
 #include "kernels/net_shape.hpp"
 
 namespace simdbezier::detail {
@@ -47,16 +48,16 @@ struct FreeAligned {
   void operator()(void* memory) const noexcept { ::operator delete (memory, std::align_val_t{64}); }
 };
 
-/// Patches of one shape.
+/// Patches of one shape, whose points were given in one form.
 template <typename T>
 struct PatchStorage {
   NetShape shape;
   std::size_t count = 0;
   std::unique_ptr<void, FreeAligned> memory;
-  T* coefficients = nullptr;   ///< count * shape.coefficients(), 64-byte aligned
-  T* edges = nullptr;          ///< count * shape.edges(), 64-byte aligned
-  T* control_points = nullptr; ///< count * shape.control_values(); read where a normal degenerates
-  T* origins = nullptr;        ///< count * shape.origins(), or null
+  T* coefficients = nullptr; ///< count * shape.coefficients(), 64-byte aligned
+  T* edges = nullptr;        ///< count * shape.edges(), 64-byte aligned
+  GivenPoints given;         ///< count * shape.control_values(); read where a normal degenerates
+  T* origins = nullptr;      ///< count * shape.origins(), or null
   /// count * shape.floors(): |du x dv|^2 above it needs no second look; with weights, what that
   /// floor is made of at a sample (pack/shape_floor.hpp).
   T* normal_floor = nullptr;
@@ -71,7 +72,7 @@ struct PatchPlace {
   std::size_t index;
 };
 
-/// What a PatchSet holds: one bucket for each shape that occurs.
+/// What a PatchSet holds: one bucket for each shape and form of weights that occurs.
 template <typename T>
 struct SetStorage {
   std::size_t count = 0;

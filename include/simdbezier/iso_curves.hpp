@@ -74,13 +74,14 @@ template <typename T, typename S>
                                               CurveSet<T>& curves,
                                               const PackOptions& options = {}) noexcept;
 
-/// The same of every patch of a set, from the control points that it keeps: rounded to T, less the
-/// PackOptions::relative_to with which it was packed, to which the curves are relative as well.
+/// The same of every patch of a set, from the control points that it keeps as they were given; the
+/// curves are packed with the PackOptions::relative_to of the set.
 ///
 /// patches:    of one shape; nothing else is left of the nets, so none of them need to exist still.
 /// options:    relative_to is ignored; local_origin is not taken from the set.
-/// Numerics:   the call above on nets of these values. At 0 and 1 a set packed from values of type
-///             T, with relative_to zero and the same local_origin, gives the bits of its edges.
+/// Numerics:   the call above on the nets themselves. At 0 and 1 a set packed with the same
+///             local_origin gives the bits of its edges. Where some nets had Cartesian and some
+///             homogeneous weights, the points are formed and then divided by their weights.
 /// Allocation: (degree + 1) (components + 1 with weights) doubles a patch during the call, and the
 ///             curves.
 /// Returns:    ok | bad_degree (patches of several shapes) | non_finite_input (u0) |

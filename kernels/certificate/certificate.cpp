@@ -30,11 +30,10 @@ template <typename T>
 class Certificate {
 public:
   Certificate(const PatchStorage<T>& storage, std::size_t index, double per_step)
-      : storage_(storage), shape_(storage.shape),
-        index_(index), u_{shape_.order_u(), shape_.cells_u() == 2, per_step}, v_{shape_.order_v(),
-                                                                                 shape_.cells_v() ==
-                                                                                     2,
-                                                                                 per_step},
+      : storage_(storage), shape_(storage.shape), index_(index),
+        net_(storage.given.net(index * storage.shape.control_values())),
+        u_{shape_.order_u(), shape_.cells_u() == 2, per_step}, v_{shape_.order_v(),
+                                                                  shape_.cells_v() == 2, per_step},
         per_step_(per_step) {}
 
   [[nodiscard]] Bound component(std::size_t c) const {
@@ -83,9 +82,11 @@ private:
                      storage_.origins[index_ * shape_.origins() + cell * shape_.cell_origins() +
                                       channel * kOriginsPerComponent + at]);
   }
+  /// A point's coordinate, or its weight.
   [[nodiscard]] double control_value(std::size_t point, std::size_t channel) const {
-    return static_cast<double>(storage_.control_points[index_ * shape_.control_values() +
-                                                       point * shape_.channels() + channel]);
+    return shape_.rational && channel == weight()
+               ? net_.value(point * shape_.channels() + channel)
+               : net_.coordinate(point, shape_.channels(), channel);
   }
 
   /// What coefficients miss from the start, in all terms together: they are sums of up to 2^(m+n)
@@ -186,6 +187,7 @@ private:
   const PatchStorage<T>& storage_;
   const NetShape& shape_;
   std::size_t index_;
+  GivenNet net_;
   DirectionRoundings u_;
   DirectionRoundings v_;
   double per_step_;

@@ -28,8 +28,7 @@ class CurveCertificate {
 public:
   CurveCertificate(const CurveStorage<T>& storage, std::size_t curve, bool fused)
       : shape_(storage.shape), values_(storage.values + curve * storage.shape.values()),
-        control_(storage.control_points + curve * storage.shape.control_values()),
-        per_step_(fused ? 1 : 2) {}
+        net_(storage.given.net(curve * storage.shape.control_values())), per_step_(fused ? 1 : 2) {}
 
   /// Absolute errors of one component, by t.
   [[nodiscard]] ByOrder bounds(std::size_t component) const {
@@ -96,9 +95,8 @@ private:
     double least = std::numeric_limits<double>::infinity(); // w, and by it all that is computed
     double most = 0;                                        // |C - O|
     for (std::size_t i = 0; i < shape_.order(); ++i) {
-      const T* const point = control_ + i * shape_.channels();
-      least = std::min(least, static_cast<double>(point[shape_.components]));
-      most = std::max(most, std::fabs(static_cast<double>(point[component]) - o));
+      least = std::min(least, net_.value((i + 1) * shape_.channels() - 1));
+      most = std::max(most, std::fabs(net_.coordinate(i, shape_.channels(), component) - o));
     }
     const double divisor = least - w.error.at[0];
     if (!(divisor > 0)) {
@@ -130,7 +128,7 @@ private:
 
   const CurveShape& shape_;
   const T* values_;
-  const T* control_;
+  GivenNet net_;
   int per_step_;
 };
 

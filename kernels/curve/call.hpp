@@ -67,7 +67,7 @@ void fill_arrays(CurveArrays<T>& task, const CurveStorage<T>& curves, std::size_
   const CurveShape& shape = curves.shape;
   task.shape = &shape;
   task.values = curves.values + first * shape.values();
-  task.control_points = curves.control_points + first * shape.control_values();
+  task.given = curves.given.from(first * shape.control_values());
   task.tangent_floor = curves.tangent_floor + first;
   for (std::size_t g = 0; g < kCurveGroups; ++g) {
     task.out[g] = planes[kCurveGroupOf[g]];

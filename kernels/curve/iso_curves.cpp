@@ -2,11 +2,13 @@
 //
 // No kernels: a patch's net is read once and interpolated row against row, which compilers turn
 // into vector code, and without contraction the bits are the same everywhere.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <new>
+#include <span>
 
 #include <simdbezier/iso_curves.hpp>
 
@@ -29,6 +31,8 @@ struct IsoTask {
   std::ptrdiff_t along;
   std::size_t channels;
   double t;
+  const std::size_t* number = nullptr; ///< of each patch among the results; null: its index
+  Weights form;                        ///< of the results: that of the nets, or cartesian
 
   IsoTask(const ControlNets<S>& all, Across direction, double parameter)
       : nets(all), degree(direction == Across::u ? all.degree_u : all.degree_v),
@@ -36,13 +40,25 @@ struct IsoTask {
         across(direction == Across::u ? all.point_stride : all.row_stride),
         along(direction == Across::u ? all.row_stride : all.point_stride),
         channels(static_cast<std::size_t>(all.components) + (all.weights == Weights::none ? 0 : 1)),
-        t(parameter) {}
+        t(parameter), form(all.weights) {}
+  /// The nets of a bucket.
+  template <typename T>
+  IsoTask(const PatchStorage<T>& bucket, Across direction, double parameter)
+      : IsoTask(ControlNets<S>::packed(static_cast<const S*>(bucket.given.values), bucket.count,
+                                       bucket.shape.degree_u, bucket.shape.degree_v,
+                                       bucket.shape.components, bucket.given.weights),
+                direction, parameter) {
+    number = bucket.number.get();
+  }
 
   [[nodiscard]] std::size_t curve_values() const {
     return (static_cast<std::size_t>(curve_degree) + 1) * channels;
   }
   [[nodiscard]] const S* net(std::size_t patch) const {
     return nets.points + static_cast<std::ptrdiff_t>(patch) * nets.patch_stride;
+  }
+  [[nodiscard]] double* place(double* points, std::size_t patch) const {
+    return points + (number == nullptr ? patch : number[patch]) * curve_values();
   }
 };
 
@@ -99,6 +115,16 @@ void copy_boundary(const IsoTask<S>& task, std::size_t patch, double* points) {
   }
 }
 
+/// Homogeneous points become Cartesian ones.
+template <typename S>
+void divide_by_weights(const IsoTask<S>& task, double* points) {
+  for (std::size_t k = 0; k < task.curve_values(); k += task.channels) {
+    for (std::size_t c = 0; c + 1 < task.channels; ++c) {
+      points[k + c] = points[k + c] / points[k + task.channels - 1] + 0.0;
+    }
+  }
+}
+
 /// Nets are read twice, so that nothing is written where one of them is at fault.
 template <typename S>
 PackReport form(const IsoTask<S>& task, double* points, int threads) {
@@ -108,18 +134,21 @@ PackReport form(const IsoTask<S>& task, double* points, int threads) {
   }
   auto body = [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t patch = begin; patch < end; ++patch) {
-      double* const to = points + patch * task.curve_values();
+      double* const to = task.place(points, patch);
       task.t == 0 || task.t == 1 ? copy_boundary(task, patch, to) : interpolate(task, patch, to);
+      if (task.form != task.nets.weights) {
+        divide_by_weights(task, to);
+      }
     }
   };
   for_blocks(task.nets.count, thread_count(threads, task.nets.count), BlockBody(body));
   return {};
 }
 
-/// Bytes of the points; false where they are too many.
+/// Bytes of the points of `count` curves; false where they are too many.
 template <typename S>
-bool count_bytes(const IsoTask<S>& task, std::size_t& bytes) {
-  return !__builtin_mul_overflow(task.nets.count, task.curve_values() * sizeof(double), &bytes) &&
+bool count_bytes(const IsoTask<S>& task, std::size_t count, std::size_t& bytes) {
+  return !__builtin_mul_overflow(count, task.curve_values() * sizeof(double), &bytes) &&
          bytes <= static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max());
 }
 
@@ -138,7 +167,7 @@ Status iso_points(const ControlNets<S>& nets, Across direction, double t, double
   }
   const IsoTask<S> task(nets, direction, t);
   std::size_t bytes = 0;
-  if (!count_bytes(task, bytes)) {
+  if (!count_bytes(task, nets.count, bytes)) {
     return Status::size_overflow;
   }
   if (nets.count == 0) {
@@ -148,9 +177,33 @@ Status iso_points(const ControlNets<S>& nets, Across direction, double t, double
   return apart == Status::ok ? form(task, points, threads).status : apart;
 }
 
+/// Nets of one shape, the results of all of which go to one set.
 template <typename T, typename S>
-PackReport iso_set(const ControlNets<S>& nets, Across direction, double t, CurveSet<T>& curves,
+PackReport iso_set(std::span<const IsoTask<S>> tasks, std::size_t count, CurveSet<T>& curves,
                    const PackOptions& options) {
+  const IsoTask<S>& first = tasks.front();
+  std::size_t bytes = 0;
+  if (!count_bytes(first, count, bytes)) {
+    return {Status::size_overflow};
+  }
+  const std::unique_ptr<double[]> points(new (std::nothrow) double[bytes / sizeof(double)]);
+  if (points == nullptr) {
+    return {Status::out_of_memory};
+  }
+  for (const IsoTask<S>& task : tasks) {
+    const PackReport report = form(task, points.get(), options.threads);
+    if (!report) {
+      return report;
+    }
+  }
+  return pack_curves(ControlCurves<double>::packed(points.get(), count, first.curve_degree,
+                                                   first.nets.components, first.form),
+                     curves, options);
+}
+
+template <typename T, typename S>
+PackReport iso_of_nets(const ControlNets<S>& nets, Across direction, double t, CurveSet<T>& curves,
+                       const PackOptions& options) {
   const Status usable = check_input(nets);
   if (usable != Status::ok) {
     return {usable};
@@ -159,41 +212,39 @@ PackReport iso_set(const ControlNets<S>& nets, Across direction, double t, Curve
     return argument_fault(Status::non_finite_input);
   }
   const IsoTask<S> task(nets, direction, t);
-  std::size_t bytes = 0;
-  if (!count_bytes(task, bytes)) {
-    return {Status::size_overflow};
-  }
-  const std::unique_ptr<double[]> points(new (std::nothrow) double[bytes / sizeof(double)]);
-  if (points == nullptr) {
-    return {Status::out_of_memory};
-  }
-  const PackReport report = form(task, points.get(), options.threads);
-  return report ? pack_curves(ControlCurves<double>::packed(points.get(), nets.count,
-                                                            task.curve_degree, nets.components,
-                                                            nets.weights),
-                              curves, options)
-                : report;
+  return iso_set<T, S>(std::span(&task, 1), nets.count, curves, options);
 }
 
-/// The nets that a set keeps: read where a normal vanishes, and here.
+/// The nets that a set keeps, S as they were given: of one shape, in one form or in both.
+template <typename T, typename S>
+PackReport iso_of_given(const SetStorage<T>& set, Across direction, double t, CurveSet<T>& curves,
+                        const PackOptions& options) {
+  const PatchStorage<T>& front = set.buckets.front();
+  const PatchStorage<T>& back = set.buckets.back();
+  if (set.buckets.size() > 2 || !(front.shape == back.shape)) {
+    return {Status::bad_degree};
+  }
+  IsoTask<S> tasks[] = {{front, direction, t}, {back, direction, t}};
+  if (set.buckets.size() == 2) {
+    tasks[0].form = tasks[1].form = Weights::cartesian;
+  }
+  return iso_set<T, S>({tasks, set.buckets.size()}, set.count, curves, options);
+}
+
 template <typename T>
 PackReport iso_of_set(const PatchSet<T>& patches, Across direction, double t, CurveSet<T>& curves,
                       PackOptions options) {
-  ControlNets<T> nets;
-  if (const SetStorage<T>* const set = patches.storage(); set != nullptr) {
-    if (set->buckets.size() != 1) {
-      return {Status::bad_degree};
-    }
-    const PatchStorage<T>& all = set->buckets.front();
-    const NetShape& shape = all.shape;
-    nets = ControlNets<T>::packed(all.control_points, all.count, shape.degree_u, shape.degree_v,
-                                  shape.components,
-                                  shape.rational ? Weights::cartesian : Weights::none);
+  const SetStorage<T>* const set = patches.storage();
+  if (set == nullptr) {
+    return iso_of_nets(ControlNets<T>{}, direction, t, curves, options);
   }
-  for (double& coordinate : options.relative_to) {
-    coordinate = 0; // has been subtracted
+  if (!std::isfinite(t)) {
+    return argument_fault(Status::non_finite_input);
   }
-  return iso_set(nets, direction, t, curves, options);
+  const GivenPoints& given = set->buckets.front().given;
+  std::copy_n(given.relative_to, 3, options.relative_to);
+  return given.in_double ? iso_of_given<T, double>(*set, direction, t, curves, options)
+                         : iso_of_given<T, float>(*set, direction, t, curves, options);
 }
 
 } // namespace
@@ -212,13 +263,13 @@ Status iso_v(const ControlNets<S>& nets, double v0, double* points, int threads)
 template <typename T, typename S>
 PackReport iso_u(const ControlNets<S>& nets, double u0, CurveSet<T>& curves,
                  const PackOptions& options) noexcept {
-  return detail::iso_set(nets, detail::Across::u, u0, curves, options);
+  return detail::iso_of_nets(nets, detail::Across::u, u0, curves, options);
 }
 
 template <typename T, typename S>
 PackReport iso_v(const ControlNets<S>& nets, double v0, CurveSet<T>& curves,
                  const PackOptions& options) noexcept {
-  return detail::iso_set(nets, detail::Across::v, v0, curves, options);
+  return detail::iso_of_nets(nets, detail::Across::v, v0, curves, options);
 }
 
 template <typename T>

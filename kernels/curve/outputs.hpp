@@ -58,7 +58,7 @@ __attribute__((noinline, cold)) void resolve_lanes(const Task& task, const Curve
     }
     const std::size_t at = range.at + i;
     const detail::TangentQuery<T> query{
-        &shape, task.control_points + range.curve * shape.control_values(), lanes[0][i]};
+        &shape, task.given.net(range.curve * shape.control_values()), lanes[0][i]};
     detail::TangentAnswer<T> answer;
     task.resolve_tangent(query, answer);
     for (std::size_t c = 0; c < 3; ++c) {

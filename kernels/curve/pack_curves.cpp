@@ -39,20 +39,24 @@ Status check(const ControlCurves<S>& curves) {
 template <typename T>
 Status allocate(std::size_t count, CurveStorage<T>& storage) {
   const CurveShape& shape = storage.shape;
-  const std::size_t per_curve = shape.values() + shape.control_values() + 1;
+  const std::size_t given_bytes = shape.control_values() * storage.given.value_bytes();
+  const std::size_t per_curve = (shape.values() + 1) * sizeof(T) + given_bytes;
   constexpr std::size_t kLimit = std::numeric_limits<std::ptrdiff_t>::max();
-  if (count > kLimit / sizeof(T) / per_curve) {
+  constexpr std::size_t kGap = sizeof(double); // to the first double
+  if (count > (kLimit - kGap) / per_curve) {
     return Status::size_overflow;
   }
   storage.memory.reset(
-      ::operator new (count* per_curve * sizeof(T), std::align_val_t{64}, std::nothrow));
+      ::operator new (count* per_curve + kGap, std::align_val_t{64}, std::nothrow));
   if (storage.memory == nullptr) {
     return Status::out_of_memory;
   }
   storage.count = count;
   storage.values = static_cast<T*>(storage.memory.get());
-  storage.control_points = storage.values + count * shape.values();
-  storage.tangent_floor = storage.control_points + count * shape.control_values();
+  storage.tangent_floor = storage.values + count * shape.values();
+  const std::size_t before = count * (shape.values() + 1) * sizeof(T);
+  storage.given.values =
+      static_cast<unsigned char*>(storage.memory.get()) + (before + kGap - 1) / kGap * kGap;
   return Status::ok;
 }
 
@@ -106,9 +110,12 @@ PackReport pack_all(const ControlCurves<S>& curves, const PackOptions& options, 
                     CurveStorage<T>& storage) {
   const CurvePackKernel<T, S> kernel = packing_kernel<S>(*kernel_table<T>(isa).curves);
   const double* const shift = options.relative_to;
-  const CurvePackTask<T, S> task{
-      curves,         storage.shape,          {shift[0], shift[1], shift[2]},
-      storage.values, storage.control_points, storage.tangent_floor};
+  const CurvePackTask<T, S> task{curves,
+                                 storage.shape,
+                                 {shift[0], shift[1], shift[2]},
+                                 storage.values,
+                                 writable_points<S>(storage.given),
+                                 storage.tangent_floor};
   const std::size_t groups = lane_groups(curves.count);
   LowestFault fault;
   auto body = [&](int, std::size_t begin, std::size_t end) {
@@ -166,6 +173,7 @@ PackReport pack_curves(const ControlCurves<S>& curves, CurveSet<T>& set,
   auto storage = std::make_shared<detail::CurveStorage<T>>();
   storage->shape = {curves.degree, curves.components, curves.weights != Weights::none,
                     options.local_origin};
+  storage->given = detail::given_form<S>(curves.weights, options);
   const Status allocated = detail::allocate(curves.count, *storage);
   if (allocated != Status::ok) {
     return {allocated};

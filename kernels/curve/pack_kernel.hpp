@@ -75,6 +75,7 @@ public:
       const auto curve = static_cast<std::ptrdiff_t>(first + (p < count ? p : count - 1));
       polygon_[p] = task_.curves.points + curve * task_.curves.curve_stride;
     }
+    copy_control_points();
     Wide squares(0.0);
     length_ = squares;
     MaskOf<Wide> positive = squares <= squares;
@@ -86,7 +87,6 @@ public:
         squares = squares + weight * weight;
         positive = positive & (weight >= Wide(kSafeCurveWeight<T>));
         floor.add_weight(weight);
-        put_control_value(i, components_, weight);
       }
       pack_weights();
     }
@@ -120,9 +120,18 @@ private:
       *to = static_cast<T>(lanes[p]) + T(0);
     }
   }
-  SIMDBEZIER_INLINE void put_control_value(std::size_t point, std::size_t channel,
-                                           Wide value) const {
-    put(task_.control_points, shape_.control_values(), point * shape_.channels() + channel, value);
+  /// As they were given.
+  void copy_control_points() const {
+    S* to = task_.control_points + first_ * shape_.control_values();
+    for (std::size_t p = 0; p < count_; ++p) {
+      for (std::size_t i = 0; i < order_; ++i) {
+        const S* const point =
+            polygon_[p] + static_cast<std::ptrdiff_t>(i) * task_.curves.point_stride;
+        for (std::size_t c = 0; c < shape_.channels(); ++c) {
+          *to++ = point[static_cast<std::ptrdiff_t>(c) * task_.curves.component_stride] + S(0);
+        }
+      }
+    }
   }
   SIMDBEZIER_INLINE void put_value(std::size_t cell, std::size_t channel, std::size_t k,
                                    Wide value) const {
@@ -192,7 +201,6 @@ private:
         squares = squares + points[i] * points[i];
         length_ = length_ + magnitude(points[i] - points[0]);
       }
-      put_control_value(i, c, points[i]);
     }
     floor.add(points);
     const Wide outer[2] = {points[0], points[order_ - 1]};
@@ -233,9 +241,10 @@ private:
     }
   }
   void pack_point(std::size_t curve, std::size_t cell) const {
-    const T* const point = task_.control_points + curve * shape_.control_values();
+    const T* const first = task_.values + curve * shape_.values();
     T* values = task_.values + curve * shape_.values() + cell * shape_.cell_values();
     for (std::size_t c = 0; c <= components_; ++c, values += shape_.channel_values()) {
+      const T point = first[c * shape_.channel_values() + shape_.ends_at()];
       for (std::size_t k = 0; k < order_; ++k) {
         values[k] = T(0);
       }
@@ -243,8 +252,8 @@ private:
         values[0] = T(1);
         return;
       }
-      values[shape_.ends_at()] = values[shape_.ends_at() + 1] = point[c];
-      values[shape_.origins ? shape_.origin_at() : 0] = point[c];
+      values[shape_.ends_at()] = values[shape_.ends_at() + 1] = point;
+      values[shape_.origins ? shape_.origin_at() : 0] = point;
     }
   }
 

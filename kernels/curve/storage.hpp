@@ -17,7 +17,7 @@ namespace simdbezier::detail {
 
 /// What the curves of a set have in common. Layouts, in elements of T:
 ///   values          [curve][cell][channel]{ powers 0 … degree of X, start, end, origin }
-///   control points  [curve][i][channel], as given (not homogeneous), less PackOptions::relative_to
+///   given points    [curve][i][channel], see given_points.hpp
 /// Channels: the components, then the weight. Start and end are the cell's end points; the origin
 /// exists in sets that were packed with local origins, and is what the powers are relative to.
 struct CurveShape {
@@ -45,9 +45,9 @@ struct CurveStorage {
   CurveShape shape;
   std::size_t count = 0;
   std::unique_ptr<void, FreeAligned> memory;
-  T* values = nullptr;         ///< count * shape.values(), 64-byte aligned
-  T* control_points = nullptr; ///< count * shape.control_values(); read where a tangent vanishes
-  T* tangent_floor = nullptr;  ///< count; |C'|^2 above it needs no second look
+  T* values = nullptr;        ///< count * shape.values(), 64-byte aligned
+  GivenPoints given;          ///< count * shape.control_values(); read where a tangent vanishes
+  T* tangent_floor = nullptr; ///< count; |C'|^2 above it needs no second look
 };
 
 } // namespace simdbezier::detail

@@ -13,8 +13,8 @@ enum CurveGroup : std::size_t { kCurvePosition, kCurveD1, kCurveD2, kCurveTangen
 template <typename T>
 struct TangentQuery {
   const CurveShape* shape;
-  const T* control_points; ///< of its curve
-  T x;                     ///< half-centred parameter
+  GivenNet net; ///< of its curve
+  T x;          ///< half-centred parameter
 };
 
 template <typename T>
@@ -33,7 +33,7 @@ template <typename T>
 struct CurveArrays {
   const CurveShape* shape;
   const T* values;
-  const T* control_points;
+  GivenPoints given;
   const T* tangent_floor;
 
   Planes<T> out[kCurveGroups]; ///< planes of components that do not exist are null
@@ -79,7 +79,7 @@ struct CurvePackTask {
   double relative_to[3]; ///< of the first three components
 
   T* values;
-  T* control_points;
+  S* control_points; ///< as given, see given_points.hpp
   T* tangent_floor;
 };
 

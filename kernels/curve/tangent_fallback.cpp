@@ -68,15 +68,12 @@ private:
     const std::size_t near = x_ <= 0 ? 0 : static_cast<std::size_t>(degree_);
     double largest = 0;
     for (std::size_t i = 0; i < shape.order(); ++i) {
-      const T* const point = query.control_points + i * channels;
-      const T* const origin = query.control_points + near * channels;
       for (std::size_t c = 0; c < components; ++c) {
-        point_[i].c[c] = static_cast<double>(point[c]) - static_cast<double>(origin[c]);
+        point_[i].c[c] =
+            query.net.coordinate(i, channels, c) - query.net.coordinate(near, channels, c);
         largest = std::max(largest, std::fabs(point_[i].c[c]));
       }
-      weight_[i] = shape.rational
-                       ? static_cast<double>(point[static_cast<std::size_t>(shape.components)])
-                       : 1.0;
+      weight_[i] = shape.rational ? query.net.value((i + 1) * channels - 1) : 1.0;
     }
     is_point_ = largest == 0;
     exponent_ = is_point_ ? 0 : std::ilogb(largest);

@@ -48,7 +48,7 @@ SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept {
     normal[0] = normal[1] = normal[2] = std::numeric_limits<T>::quiet_NaN();
     return SampleStatus::non_finite;
   }
-  const SurfaceFrame frame(*query.shape, query.control_points);
+  const SurfaceFrame frame(*query.shape, query.net);
   if (frame.size_u == 0 || frame.size_v == 0) {
     return SampleStatus::degenerate;
   }

@@ -21,22 +21,20 @@ double inverse_power(double size) { return std::scalbn(1.0, -std::ilogb(size)); 
 
 } // namespace
 
-template <typename T>
-SurfaceFrame::SurfaceFrame(const NetShape& shape, const T* control_points)
+SurfaceFrame::SurfaceFrame(const NetShape& shape, const GivenNet& net)
     : degree_u_(static_cast<std::size_t>(shape.degree_u)),
       degree_v_(static_cast<std::size_t>(shape.degree_v)), rational_(shape.rational) {
   const std::size_t count = shape.points();
   const std::size_t channels = shape.channels();
   const auto point_of = [&](std::size_t k) {
-    const T* const p = control_points + k * channels;
-    return Vector{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
+    return Vector{net.coordinate(k, channels, 0), net.coordinate(k, channels, 1),
+                  net.coordinate(k, channels, 2)};
   };
   double size = 0;
   double weight = 0;
   for (std::size_t k = 0; k < count; ++k) {
     size = std::max(size, max_norm(point_of(k)));
-    weight =
-        rational_ ? std::max(weight, static_cast<double>(control_points[k * channels + 3])) : 1;
+    weight = rational_ ? std::max(weight, net.value(k * channels + 3)) : 1;
   }
   if (size == 0) {
     return;
@@ -61,7 +59,7 @@ SurfaceFrame::SurfaceFrame(const NetShape& shape, const T* control_points)
     distance_ = size * scale;
     heaviest_ = weight * weight_scale;
     for (std::size_t k = 0; k < count; ++k) {
-      weights_[k] = static_cast<double>(control_points[k * channels + 3]) * weight_scale;
+      weights_[k] = net.value(k * channels + 3) * weight_scale;
       extent_ = std::max(extent_, max_norm(points_[k]));
     }
   }
@@ -109,9 +107,6 @@ SurfaceFrame::ErrorSizes SurfaceFrame::errors(double weight, double reach, doubl
   const double factor_v = factor * static_cast<double>(degree_v_) * scale_v / weight;
   return {factor_u * (step_u_ + turn_u_ * reach), factor_v * (step_v_ + turn_v_ * reach)};
 }
-
-template SurfaceFrame::SurfaceFrame(const NetShape&, const float*);
-template SurfaceFrame::SurfaceFrame(const NetShape&, const double*);
 
 namespace {
 

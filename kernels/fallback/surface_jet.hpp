@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "kernels/given_points.hpp"
 #include "kernels/net_shape.hpp"
 
 namespace simdbezier::detail {
@@ -27,9 +28,7 @@ double max_norm(Vector a);
 /// size about 1 and that each hodograph is, too.
 class SurfaceFrame {
 public:
-  /// Points and weights as PatchStorage has them.
-  template <typename T>
-  SurfaceFrame(const NetShape& shape, const T* control_points);
+  SurfaceFrame(const NetShape& shape, const GivenNet& net);
 
   [[nodiscard]] bool rational() const { return rational_; }
   [[nodiscard]] std::size_t degree_u() const { return degree_u_; }

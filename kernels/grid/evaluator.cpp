@@ -42,7 +42,7 @@ void GridEvaluator<T>::fill(GridTask<T>& task, const PatchStorage<T>& set, const
   task.shape = &set.shape;
   task.coefficients = set.coefficients + piece.patch * set.shape.coefficients();
   task.edges = set.edges + piece.patch * set.shape.edges();
-  task.control_points = set.control_points + piece.patch * set.shape.control_values();
+  task.given = set.given.from(piece.patch * set.shape.control_values());
   task.origins = set.origins == nullptr ? nullptr : set.origins + piece.patch * set.shape.origins();
   task.normal_floor = set.normal_floor + piece.patch * set.shape.floors();
   task.patch_count = piece.patches;

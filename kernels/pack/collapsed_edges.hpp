@@ -102,10 +102,11 @@ private:
     using T = std::remove_pointer_t<decltype(task.edges)>;
     const detail::NetShape& shape = task.shape;
     const Side side(edge);
-    const std::size_t row = side.along_u ? side.end * (shape.order_v() - 1) * shape.order_u()
-                                         : side.end * (shape.order_u() - 1);
-    const T* const point =
-        task.control_points + patch * shape.control_values() + row * shape.channels();
+    // The point: where the edge begins, in the first cell that has a part of it.
+    T* const first = task.edges + patch * shape.edges() +
+                     (side.along_u ? cell - cell % shape.cells_u() : cell % shape.cells_u()) *
+                         shape.cell_edges() +
+                     shape.corners_at();
     T* const edges = task.edges + patch * shape.edges() + cell * shape.cell_edges();
     const auto components = static_cast<std::size_t>(shape.components);
     for (std::size_t c = 0; c < shape.channels(); ++c) {
@@ -117,14 +118,15 @@ private:
         powers[0] = T(1);
         continue;
       }
+      const T point = first[c * 4 + side.corner(0)];
       if (task.origins == nullptr) {
-        powers[0] = point[c];
+        powers[0] = point;
       } else {
         T* const origins = task.origins + patch * shape.origins() + cell * shape.cell_origins();
-        origins[c * detail::kOriginsPerComponent + detail::kEdgeOriginsAt + edge] = point[c];
+        origins[c * detail::kOriginsPerComponent + detail::kEdgeOriginsAt + edge] = point;
       }
       T* const corners = edges + shape.corners_at() + c * 4;
-      corners[side.corner(0)] = corners[side.corner(1)] = point[c];
+      corners[side.corner(0)] = corners[side.corner(1)] = point;
     }
   }
 

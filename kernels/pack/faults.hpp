@@ -12,11 +12,11 @@
 namespace simdbezier::detail {
 
 template <typename T>
-bool all_finite(const T* values, std::size_t count, std::size_t step = 1) {
+bool all_finite(const T* values, std::size_t count) {
   // x - x is 0 for finite x only, and sums of zeros stay 0.
   T sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    sum += values[i * step] - values[i * step];
+    sum += values[i] - values[i];
   }
   return sum == 0;
 }
@@ -58,9 +58,12 @@ private:
 template <typename T>
 bool channel_is_finite(const PatchStorage<T>& storage, std::size_t place, std::size_t channel) {
   const NetShape& shape = storage.shape;
-  const T* const points = storage.control_points + place * shape.control_values() + channel;
-  if (!all_finite(points, shape.points(), shape.channels())) {
-    return false;
+  const GivenNet net = storage.given.net(place * shape.control_values());
+  const bool weight = channel == static_cast<std::size_t>(shape.components);
+  for (std::size_t k = 0; k < shape.points() && !weight; ++k) {
+    if (!std::isfinite(static_cast<T>(net.coordinate(k, shape.channels(), channel)))) {
+      return false;
+    }
   }
   for (std::size_t cell = 0; cell < shape.cells(); ++cell) {
     const T* const matrix = storage.coefficients + place * shape.coefficients() +

@@ -56,11 +56,11 @@ SIMDBEZIER_INLINE Wide read_group(const detail::PackTask<T, S>& task, const S* f
 }
 
 /// Where the arrays of a group begin.
-template <typename T>
+template <typename T, typename S>
 struct PackedPlaces {
   T* coefficients;
   T* edges;
-  T* control_points;
+  S* control_points;
   T* origins; ///< or null
   T* normal_floor;
 };
@@ -69,10 +69,10 @@ struct PackedPlaces {
 /// where a coefficient may have become infinite or nan.
 template <typename T, typename S, bool kMoved>
 bool pack_group(const detail::PackTask<T, S>& task, const S* from, std::ptrdiff_t stride,
-                const PackedPlaces<T>& to) {
+                const PackedPlaces<T, S>& to) {
   using W = CarriedIn<T, S>;
   using In = std::conditional_t<kMoved, W, Wide>;
-  // Points that move are rounded to T on their own; others are doubles already.
+  // Points that move are rounded to T for the normal floor; others are doubles already.
   struct MovedLanes {
     In net[detail::kComponents][16];
     Wide points[detail::kComponents][16];
@@ -130,21 +130,10 @@ bool pack_group(const detail::PackTask<T, S>& task, const S* from, std::ptrdiff_
   for (std::size_t p = 0; p < kWideLanes; ++p) {
     to.normal_floor[p] = static_cast<T>(floors[p]);
   }
-  if constexpr (kMoved) {
-    for (std::size_t e = 0; e < kNet; e += kTransposed) {
-      Wide values[kTransposed];
-      for (std::size_t i = 0; i < kTransposed; ++i) {
-        values[i] = lanes.points[(e + i) % detail::kComponents][(e + i) / detail::kComponents];
-      }
-      store_transposed(values, to.control_points + e, kStride);
-    }
-  } else {
-    for (std::size_t p = 0; p < kWideLanes; ++p) {
-      for (std::size_t e = 0; e < kNet; e += kLanes<vec<T>>) {
-        const vec<T> values =
-            load_vector<vec<T>>(from + static_cast<std::ptrdiff_t>(p) * stride + e);
-        store_vector<vec<T>>(to.control_points + p * kNet + e, values + vec<T>(T(0)));
-      }
+  for (std::size_t p = 0; p < kWideLanes; ++p) {
+    for (std::size_t e = 0; e < kNet; e += kLanes<vec<S>>) {
+      const vec<S> values = load_vector<vec<S>>(from + static_cast<std::ptrdiff_t>(p) * stride + e);
+      store_vector<vec<S>>(to.control_points + p * kNet + e, values + vec<S>(S(0)));
     }
   }
   return all_of<Wide>(squares <= Wide(kSafeSquares<T>));
@@ -177,14 +166,14 @@ void copy_values(const T* from, std::size_t count, T* to) {
 /// The last, incomplete group of a range: computed whole, copied in part.
 template <typename T, typename S, bool kMoved>
 bool pack_rest(const detail::PackTask<T, S>& task, const S* packed, std::size_t count,
-               const PackedPlaces<T>& to) {
+               const PackedPlaces<T, S>& to) {
   alignas(64) T coefficients[kWideLanes * kNet];
   alignas(64) T edges[kWideLanes * detail::kEdgeBlock];
-  alignas(64) T control_points[kWideLanes * kNet];
+  alignas(64) S control_points[kWideLanes * kNet];
   alignas(64) T origins[kWideLanes * detail::kOriginBlock];
   T floors[kWideLanes];
-  const PackedPlaces<T> scratch{coefficients, edges, control_points,
-                                to.origins == nullptr ? nullptr : origins, floors};
+  const PackedPlaces<T, S> scratch{coefficients, edges, control_points,
+                                   to.origins == nullptr ? nullptr : origins, floors};
   const bool safe = pack_group<T, S, kMoved>(task, packed, kNet, scratch);
   copy_values(coefficients, count * kNet, to.coefficients);
   copy_values(edges, count * detail::kEdgeBlock, to.edges);
@@ -204,11 +193,11 @@ detail::PackDoubt pack_range(const detail::PackTask<T, S>& task, std::size_t beg
   alignas(64) S packed[kWideLanes * kNet];
   for (std::size_t at = begin; at < end; at += kWideLanes) {
     const std::size_t count = end - at < kWideLanes ? end - at : kWideLanes;
-    const PackedPlaces<T> to{task.coefficients + at * kNet, task.edges + at * detail::kEdgeBlock,
-                             task.control_points + at * kNet,
-                             task.origins == nullptr ? nullptr
-                                                     : task.origins + at * detail::kOriginBlock,
-                             task.normal_floor + at};
+    const PackedPlaces<T, S> to{task.coefficients + at * kNet, task.edges + at * detail::kEdgeBlock,
+                                task.control_points + at * kNet,
+                                task.origins == nullptr ? nullptr
+                                                        : task.origins + at * detail::kOriginBlock,
+                                task.normal_floor + at};
     const S* from = task.points + static_cast<std::ptrdiff_t>(at) * task.patch_stride;
     std::ptrdiff_t stride = task.patch_stride;
     if (!triples || count < kWideLanes) {

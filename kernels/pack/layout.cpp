@@ -1,4 +1,5 @@
 #include "kernels/pack/layout.hpp"
+#include "kernels/pack/request.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -49,42 +50,50 @@ void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 #endif
 }
 
-/// One block for all arrays of a bucket.
+/// One block for all arrays of a bucket: given points behind those that start with cache lines.
 template <typename T>
 Status allocate(bool origins, PatchStorage<T>& storage) {
   const NetShape& shape = storage.shape;
-  const std::size_t per_patch = shape.coefficients() + shape.edges() + shape.control_values() +
-                                shape.floors() + (origins ? shape.origins() : 0);
+  const std::size_t given_bytes = shape.control_values() * storage.given.value_bytes();
+  const std::size_t per_patch =
+      (shape.coefficients() + shape.edges() + shape.floors() + (origins ? shape.origins() : 0)) *
+          sizeof(T) +
+      given_bytes;
   constexpr std::size_t kLimit = std::numeric_limits<std::ptrdiff_t>::max();
   const std::size_t count = storage.count;
-  if (count > kLimit / sizeof(T) / per_patch) {
+  if (count > (kLimit - sizeof(T)) / per_patch) {
     return Status::size_overflow;
   }
-  storage.memory.reset(
-      ::operator new (count* per_patch * sizeof(T), std::align_val_t{64}, std::nothrow));
+  const std::size_t bytes = count * per_patch + sizeof(T); // behind floats, doubles may need a gap
+  storage.memory.reset(::operator new (bytes, std::align_val_t{64}, std::nothrow));
   if (storage.memory == nullptr) {
     return Status::out_of_memory;
   }
-  prefer_large_pages(storage.memory.get(), count * per_patch * sizeof(T));
+  prefer_large_pages(storage.memory.get(), bytes);
   storage.coefficients = static_cast<T*>(storage.memory.get());
   storage.edges = storage.coefficients + count * shape.coefficients();
-  storage.control_points = storage.edges + count * shape.edges();
-  storage.normal_floor = storage.control_points + count * shape.control_values();
+  T* const behind_edges = storage.edges + count * shape.edges();
+  storage.given.values = behind_edges;
+  storage.normal_floor = behind_edges + (count * given_bytes + sizeof(T) - 1) / sizeof(T);
   storage.origins = origins ? storage.normal_floor + count * shape.floors() : nullptr;
   return Status::ok;
 }
 
-/// The bucket of a shape, made where there is none.
-template <typename T>
-std::size_t bucket_of(const NetShape& shape, SetStorage<T>& storage) {
+/// The bucket of nets like these, made where there is none.
+template <typename T, typename S>
+std::size_t bucket_of(const ControlNets<S>& nets, const PackOptions& options,
+                      SetStorage<T>& storage) {
   std::vector<PatchStorage<T>>& buckets = storage.buckets;
-  const auto found = std::find_if(buckets.begin(), buckets.end(),
-                                  [&](const auto& bucket) { return bucket.shape == shape; });
+  const NetShape shape = shape_of(nets);
+  const auto found = std::find_if(buckets.begin(), buckets.end(), [&](const auto& bucket) {
+    return bucket.shape == shape && bucket.given.weights == nets.weights;
+  });
   if (found != buckets.end()) {
     return static_cast<std::size_t>(found - buckets.begin());
   }
   buckets.emplace_back();
   buckets.back().shape = shape;
+  buckets.back().given = given_form<S>(nets.weights, options);
   return buckets.size() - 1;
 }
 
@@ -124,24 +133,24 @@ PackReport check_nets(std::span<const ControlNets<S>> nets) noexcept {
 }
 
 template <typename T, typename S>
-Status lay_out(std::span<const ControlNets<S>> nets, bool origins, SetStorage<T>& storage,
-               std::vector<PackRun>& runs) {
+Status lay_out(std::span<const ControlNets<S>> nets, const PackOptions& options,
+               SetStorage<T>& storage, std::vector<PackRun>& runs) {
   for (std::size_t entry = 0; entry < nets.size(); ++entry) {
     const std::size_t count = nets[entry].count;
     if (count == 0) {
       continue;
     }
-    const std::size_t index = bucket_of(shape_of(nets[entry]), storage);
+    const std::size_t index = bucket_of(nets[entry], options, storage);
     PatchStorage<T>& bucket = storage.buckets[index];
     runs.push_back({entry, index, bucket.count, storage.count, count});
     bucket.count += count;
     storage.count += count;
   }
   if (storage.buckets.empty()) { // a set without patches has one without patches
-    bucket_of(nets.empty() ? NetShape{} : shape_of(nets.front()), storage);
+    bucket_of(nets.empty() ? ControlNets<S>{} : nets.front(), options, storage);
   }
   for (PatchStorage<T>& bucket : storage.buckets) {
-    const Status status = allocate(origins, bucket);
+    const Status status = allocate(options.local_origin, bucket);
     if (status != Status::ok) {
       return status;
     }
@@ -154,13 +163,13 @@ Status lay_out(std::span<const ControlNets<S>> nets, bool origins, SetStorage<T>
 
 template PackReport check_nets(std::span<const ControlNets<float>>) noexcept;
 template PackReport check_nets(std::span<const ControlNets<double>>) noexcept;
-template Status lay_out(std::span<const ControlNets<float>>, bool, SetStorage<float>&,
+template Status lay_out(std::span<const ControlNets<float>>, const PackOptions&, SetStorage<float>&,
                         std::vector<PackRun>&);
-template Status lay_out(std::span<const ControlNets<double>>, bool, SetStorage<float>&,
-                        std::vector<PackRun>&);
-template Status lay_out(std::span<const ControlNets<float>>, bool, SetStorage<double>&,
-                        std::vector<PackRun>&);
-template Status lay_out(std::span<const ControlNets<double>>, bool, SetStorage<double>&,
-                        std::vector<PackRun>&);
+template Status lay_out(std::span<const ControlNets<double>>, const PackOptions&,
+                        SetStorage<float>&, std::vector<PackRun>&);
+template Status lay_out(std::span<const ControlNets<float>>, const PackOptions&,
+                        SetStorage<double>&, std::vector<PackRun>&);
+template Status lay_out(std::span<const ControlNets<double>>, const PackOptions&,
+                        SetStorage<double>&, std::vector<PackRun>&);
 
 } // namespace simdbezier::detail

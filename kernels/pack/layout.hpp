@@ -25,10 +25,11 @@ struct PackRun {
 template <typename S>
 PackReport check_nets(std::span<const ControlNets<S>> nets) noexcept;
 
-/// Allocates a bucket for every shape that occurs, in the order in which they do, and says which
-/// patch goes where. Returns ok | size_overflow | out_of_memory; may throw std::bad_alloc.
+/// Allocates a bucket for every shape and form of weights that occurs, in the order in which they
+/// do, and says which patch goes where. Returns ok | size_overflow | out_of_memory; may throw
+/// std::bad_alloc.
 template <typename T, typename S>
-Status lay_out(std::span<const ControlNets<S>> nets, bool origins, SetStorage<T>& storage,
-               std::vector<PackRun>& runs);
+Status lay_out(std::span<const ControlNets<S>> nets, const PackOptions& options,
+               SetStorage<T>& storage, std::vector<PackRun>& runs);
 
 } // namespace simdbezier::detail

@@ -49,7 +49,7 @@ private:
     const double* const shift = options_.relative_to;
     T* const coefficients = storage_.coefficients + run_.place * shape.coefficients();
     T* const edges = storage_.edges + run_.place * shape.edges();
-    T* const points = storage_.control_points + run_.place * shape.control_values();
+    S* const points = writable_points<S>(storage_.given) + run_.place * shape.control_values();
     T* const origins =
         storage_.origins == nullptr ? nullptr : storage_.origins + run_.place * shape.origins();
     T* const floor = storage_.normal_floor + run_.place * shape.floors();
@@ -180,7 +180,7 @@ PackReport pack(std::span<const ControlNets<S>> nets, PatchSet<T>& set,
   }
   auto storage = std::make_shared<detail::SetStorage<T>>();
   std::vector<detail::PackRun> runs;
-  const Status laid_out = detail::lay_out(nets, options.local_origin, *storage, runs);
+  const Status laid_out = detail::lay_out(nets, options, *storage, runs);
   if (laid_out != Status::ok) {
     return {laid_out};
   }

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <type_traits>
 
 #include <simdbezier/patch_set.hpp>
+
+#include "kernels/given_points.hpp"
 
 namespace simdbezier::detail {
 
@@ -28,6 +31,22 @@ inline PackReport check_relative_to(const PackOptions& options, int components) 
     }
   }
   return {};
+}
+
+/// How the control points of a call are kept; they have no place yet.
+template <typename S>
+GivenPoints given_form(Weights weights, const PackOptions& options) noexcept {
+  GivenPoints given;
+  given.in_double = std::is_same_v<S, double>;
+  given.weights = weights;
+  std::copy_n(options.relative_to, 3, given.relative_to);
+  return given;
+}
+
+/// Where a pack call keeps them, in memory of its own.
+template <typename S>
+S* writable_points(const GivenPoints& given) noexcept {
+  return static_cast<S*>(const_cast<void*>(given.values));
 }
 
 /// The fault of the lowest patch or curve, whichever thread finds it.

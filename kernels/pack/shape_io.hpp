@@ -39,6 +39,20 @@ public:
     }
   }
 
+  /// All values of the first `count` patches, as they were given but for the sign of zeros.
+  void copy(std::size_t count, S* to) const {
+    for (std::size_t p = 0; p < count; ++p) {
+      for (std::size_t k = 0; k < order_u_ * order_v_; ++k) {
+        const S* const point = net_[p] +
+                               static_cast<std::ptrdiff_t>(k / order_u_) * task_.nets.row_stride +
+                               static_cast<std::ptrdiff_t>(k % order_u_) * task_.nets.point_stride;
+        for (std::size_t c = 0; c < task_.shape.channels(); ++c) {
+          *to++ = point[static_cast<std::ptrdiff_t>(c) * task_.nets.component_stride] + S(0);
+        }
+      }
+    }
+  }
+
   /// One component: `points` come as read() has them and become Cartesian and relative to the set's
   /// origin; `values` are the same, or times the weight where there are weights (else null).
   void move(std::size_t component, const Wide* weights, Wide* points, W* values) const {

@@ -43,6 +43,7 @@ public:
     first_ = first;
     count_ = count;
     reader_.begin(first, count);
+    reader_.copy(count, task_.control_points + first * shape_.control_values());
     if (shape_.rational) {
       reader_.read(components_, weights_);
     }
@@ -64,17 +65,7 @@ private:
     reader_.move(c, shape_.rational ? weights_ : nullptr, points_, values_);
   }
 
-  SIMDBEZIER_INLINE void store_control_value(std::size_t point, std::size_t channel,
-                                             Wide value) const {
-    alignas(64) double lanes[kWideLanes];
-    store_vector<Wide>(lanes, value);
-    T* to = task_.control_points + first_ * shape_.control_values() + point * shape_.channels();
-    for (std::size_t p = 0; p < count_; ++p, to += shape_.control_values()) {
-      to[channel] = static_cast<T>(lanes[p]) + T(0);
-    }
-  }
-
-  /// Control points, normal floor, and whether all values are of a size that cannot do harm.
+  /// Normal floor, and whether all values are of a size that cannot do harm.
   bool pack_points(CollapsedEdges& collapsed) {
     const std::size_t points = shape_.points();
     Wide squares(0.0);
@@ -84,7 +75,6 @@ private:
       for (std::size_t k = 0; k < points; ++k) {
         squares = squares + weights_[k] * weights_[k];
         positive = positive & (weights_[k] >= Wide(kSafeWeight<T>));
-        store_control_value(k, components_, weights_[k]);
       }
     }
     for (std::size_t c = 0; c < components_; ++c) {
@@ -93,7 +83,6 @@ private:
       for (std::size_t k = 0; k < points; ++k) {
         const Wide value = to_wide(values_[k]);
         squares = squares + value * value + points_[k] * points_[k];
-        store_control_value(k, c, points_[k]);
         points_[k] = rounded_to<T>(points_[k]);
       }
       floor.add(points_);

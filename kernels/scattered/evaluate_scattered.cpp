@@ -79,7 +79,7 @@ struct ScatteredCall {
     task.shape = &patches.shape;
     task.coefficients = patches.coefficients;
     task.edges = patches.edges;
-    task.control_points = patches.control_points;
+    task.given = patches.given;
     task.origins = patches.origins;
     task.normal_floor = patches.normal_floor;
     task.common_floor = patches.common_floor;

@@ -60,7 +60,7 @@ SIMDBEZIER_INLINE void store_normal(const ScatteredTask<T>& task, std::size_t k,
     normalise(n, squared);
   } else {
     const detail::NormalQuery<T> query{task.shape,
-                                       task.control_points + place.patch * detail::kCoefficients,
+                                       task.given.net(place.patch * detail::kCoefficients),
                                        x,
                                        y,
                                        {du[0], du[1], du[2]},

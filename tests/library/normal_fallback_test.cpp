@@ -53,12 +53,19 @@ std::vector<T> control_values(const Surface& surface) {
   return values;
 }
 
+template <typename T>
+detail::GivenPoints given_points(const Surface& surface, const std::vector<T>& values) {
+  return {values.data(), sizeof(T) == sizeof(double),
+          surface.shape.rational ? Weights::cartesian : Weights::none};
+}
+
 /// Tangents that say nothing: the answer has to come from the control points.
 template <typename T>
 Answer resolve(const Surface& surface, double x, double y) {
   const std::vector<T> values = control_values<T>(surface);
-  const detail::NormalQuery<T> query{&surface.shape,    values.data(), static_cast<T>(x),
-                                     static_cast<T>(y), {0, 0, 0},     {0, 0, 0}};
+  const detail::GivenPoints given = given_points(surface, values);
+  const detail::NormalQuery<T> query{&surface.shape,    given.net(0), static_cast<T>(x),
+                                     static_cast<T>(y), {0, 0, 0},    {0, 0, 0}};
   T normal[3];
   const SampleStatus status = detail::resolve_normal(query, normal);
   return {{static_cast<double>(normal[0]), static_cast<double>(normal[1]),
@@ -209,7 +216,8 @@ TEST(NormalFallback, along_a_collapsed_edge_the_tangent_is_exactly_zero) {
   Surface surface = octant();
   for (int degree = 2; degree <= kMostDegree; ++degree) {
     const std::vector<double> values = control_values<double>(surface);
-    const detail::SurfaceFrame frame(surface.shape, values.data());
+    const detail::GivenPoints given = given_points(surface, values);
+    const detail::SurfaceFrame frame(surface.shape, given.net(0));
     for (const double x : kParameters) {
       const detail::SurfaceJet jet = detail::surface_jet(frame, x, 0.5);
       EXPECT_EQ(detail::max_norm(jet.u), 0) << degree << " at " << x;

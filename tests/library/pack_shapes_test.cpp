@@ -210,19 +210,17 @@ private:
     worst_ = std::max(worst_, error.get_d() / (half_ulp(found) + carried * channels_[c].size));
   }
 
+  /// As they were given: whatever T, the form of weights and the set's origin are.
   void check_control_points() {
+    EXPECT_EQ(storage_.given.in_double, sizeof(S) == sizeof(double));
+    EXPECT_EQ(storage_.given.weights, case_.weights);
+    const detail::GivenNet net = storage_.given.net(patch_ * case_.values());
     for (std::size_t e = 0; e < case_.values(); ++e) {
-      const std::size_t k = e / case_.channels();
-      const std::size_t c = e % case_.channels();
-      Rational point = channels_[c].values[k];
-      if (storage_.shape.rational && !is_weight(c)) {
-        point /= channels_[case_.channels() - 1].values[k];
-      }
-      const T found = storage_.control_points[patch_ * case_.values() + e];
-      const Rational error = abs(point - exact(static_cast<double>(found)));
-      const double carried = sizeof(T) == 4 || !storage_.shape.rational ? kCarried : 0x1p-52; // h/w
-      const double allowed = half_ulp(found) * (1 + 0x1p-20) + carried * channels_[c].size;
-      worst_ = std::max(worst_, error.get_d() / allowed);
+      EXPECT_EQ(net.value(e), static_cast<double>(from_[e])) << name_of(case_) << ", value " << e;
+    }
+    for (std::size_t c = 0; c + 1 < case_.channels(); ++c) {
+      EXPECT_EQ(storage_.given.relative_to[std::min<std::size_t>(c, 2)],
+                options_.relative_to[std::min<std::size_t>(c, 2)]);
     }
   }
 
