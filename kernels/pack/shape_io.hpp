@@ -41,15 +41,13 @@ public:
 
   /// All values of the first `count` patches, as they were given but for the sign of zeros.
   void copy(std::size_t count, S* to) const {
-    for (std::size_t p = 0; p < count; ++p) {
-      for (std::size_t k = 0; k < order_u_ * order_v_; ++k) {
-        const S* const point = net_[p] +
-                               static_cast<std::ptrdiff_t>(k / order_u_) * task_.nets.row_stride +
-                               static_cast<std::ptrdiff_t>(k % order_u_) * task_.nets.point_stride;
-        for (std::size_t c = 0; c < task_.shape.channels(); ++c) {
-          *to++ = point[static_cast<std::ptrdiff_t>(c) * task_.nets.component_stride] + S(0);
-        }
-      }
+    const ControlNets<S>& nets = task_.nets;
+    const std::size_t values = order_u_ * order_v_ * task_.shape.channels();
+    const auto channels = static_cast<std::ptrdiff_t>(task_.shape.channels());
+    const bool packed = nets.component_stride == 1 && nets.point_stride == channels &&
+                        nets.row_stride == static_cast<std::ptrdiff_t>(order_u_) * channels;
+    for (std::size_t p = 0; p < count; ++p, to += values) {
+      packed ? copy_packed(net_[p], values, to) : copy_strided(net_[p], to);
     }
   }
 
@@ -79,6 +77,23 @@ public:
   }
 
 private:
+  static void copy_packed(const S* from, std::size_t count, S* to) {
+    for (std::size_t k = 0; k < count; ++k) {
+      to[k] = from[k] + S(0);
+    }
+  }
+  void copy_strided(const S* net, S* to) const {
+    for (std::size_t j = 0; j < order_v_; ++j) {
+      for (std::size_t i = 0; i < order_u_; ++i) {
+        const S* const point = net + static_cast<std::ptrdiff_t>(j) * task_.nets.row_stride +
+                               static_cast<std::ptrdiff_t>(i) * task_.nets.point_stride;
+        for (std::size_t c = 0; c < task_.shape.channels(); ++c) {
+          *to++ = point[static_cast<std::ptrdiff_t>(c) * task_.nets.component_stride] + S(0);
+        }
+      }
+    }
+  }
+
   const detail::NetPackTask<T, S>& task_;
   std::size_t order_u_;
   std::size_t order_v_;
