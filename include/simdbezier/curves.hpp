@@ -94,10 +94,11 @@ private:
 ///             to match a patch's edge must be packed with the patch's options.
 /// Numerics:   S = T = float: formed in double, else in double-double; rounded once to T. Results
 ///             depend neither on the instruction set nor on threads. -0 in the input becomes +0.
-/// Allocation: one block; of cubics in space 31 T a curve, 18 of which positions read.
+/// Allocation: one block; of cubics in space 19 T and 12 S a curve, 18 T of which positions read.
 /// Returns:    ok | null_input | bad_degree | bad_components | bad_stride | bad_weight (also: below
 ///             the smallest normal T, or infinite as T) | non_finite_input | coefficient_overflow |
-///             size_overflow | unsupported_isa | out_of_memory; PackReport::patch is the curve,
+///             size_overflow (also: strides that lead beyond what memory can address) |
+///             unsupported_isa | out_of_memory; PackReport::patch is the curve,
 ///             `point` its control point i. A wrong SIMDBEZIER_ISA is ignored here.
 template <typename T, typename S>
 [[nodiscard]] SIMDBEZIER_API PackReport pack_curves(const ControlCurves<S>& curves,

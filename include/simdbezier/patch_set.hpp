@@ -97,14 +97,16 @@ struct PackOptions {
 /// Numerics:   T and S float: formed in double, else in double-double; rounded once to T. Results
 ///             depend neither on the instruction set nor on threads, nor on which other patches
 ///             are packed. -0 in the input becomes +0.
-/// Allocation: one block for each shape, for bicubic patches in space about 160 T a patch; four
-///             times the control points and more where directions are cut. About 150 KiB of stack
-///             per thread. Threads: see PackOptions::threads.
+/// Allocation: one block for each shape and form of weights, for bicubic patches in space 113 T and
+///             48 S a patch: control points are kept as given. Four times the control points and
+///             more where directions are cut. About 150 KiB of stack per thread. Threads: see
+///             PackOptions::threads.
 /// Returns:    ok | null_input | bad_degree | bad_components (also: not the same in all nets) |
 ///             bad_weight (also: below the smallest normal T, or infinite as T) | bad_stride |
-///             non_finite_input | coefficient_overflow | size_overflow | unsupported_isa |
-///             out_of_memory. A wrong SIMDBEZIER_ISA is ignored here. The report names the lowest
-///             patch at fault, for a fault of whole nets their first one.
+///             non_finite_input | coefficient_overflow | size_overflow (also: strides that
+///             lead beyond what memory can address) | unsupported_isa | out_of_memory. A wrong
+///             SIMDBEZIER_ISA is ignored here. The report names the lowest patch at fault, for a
+///             fault of whole nets their first one.
 /// Cost:       O(count); in cache on AVX-512 about 22 ns (float) or 100 ns (double) a bicubic patch
 ///             in space; others grow with the cube of the degree. New memory costs several times
 ///             that: a set of many megabytes is bound by page faults.

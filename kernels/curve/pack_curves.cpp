@@ -11,6 +11,7 @@
 #include "kernels/batch.hpp"
 #include "kernels/curve/table.hpp"
 #include "kernels/dispatch.hpp"
+#include "kernels/net/places.hpp"
 #include "kernels/pack/faults.hpp"
 #include "kernels/pack/request.hpp"
 
@@ -31,8 +32,15 @@ Status check(const ControlCurves<S>& curves) {
     return Status::null_input;
   }
   const bool single = curves.components == 1 && curves.weights == Weights::none;
-  return curves.point_stride == 0 || (curves.component_stride == 0 && !single) ? Status::bad_stride
-                                                                               : Status::ok;
+  if (curves.point_stride == 0 || (curves.component_stride == 0 && !single)) {
+    return Status::bad_stride;
+  }
+  Lattice lattice; // of nets with one row
+  const bool addressable = lattice_of<S>(
+      {curves.points, curves.count, curves.degree, 0, curves.curve_stride, 0, curves.point_stride,
+       curves.component_stride, curves.components, curves.weights},
+      lattice);
+  return addressable ? Status::ok : Status::size_overflow;
 }
 
 /// One block for all arrays.

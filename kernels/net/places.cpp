@@ -63,8 +63,8 @@ bool lattice_of(const ControlNets<S>& nets, Lattice& lattice) noexcept {
     Lattice::Direction& direction = lattice.direction[k];
     direction.last = std::max<std::ptrdiff_t>(last[k], 0);
     std::ptrdiff_t reach = 0;
-    if (__builtin_mul_overflow(strides[k], static_cast<std::ptrdiff_t>(sizeof(S)),
-                               &direction.stride) ||
+    const std::ptrdiff_t stride = direction.last == 0 ? 0 : strides[k]; // or not taken at all
+    if (__builtin_mul_overflow(stride, static_cast<std::ptrdiff_t>(sizeof(S)), &direction.stride) ||
         __builtin_mul_overflow(direction.stride, direction.last, &reach) ||
         __builtin_add_overflow(reach < 0 ? lattice.lowest : lattice.highest, reach,
                                reach < 0 ? &lattice.lowest : &lattice.highest)) {

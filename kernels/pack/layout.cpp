@@ -1,5 +1,4 @@
 #include "kernels/pack/layout.hpp"
-#include "kernels/pack/request.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -10,28 +9,11 @@
 #include <sys/mman.h>
 #endif
 
+#include "kernels/net/call.hpp"
+#include "kernels/pack/request.hpp"
+
 namespace simdbezier::detail {
 namespace {
-
-template <typename S>
-Status check(const ControlNets<S>& nets) {
-  const auto known = [](int degree) { return degree >= 1 && degree <= kMostDegree; };
-  if (!known(nets.degree_u) || !known(nets.degree_v)) {
-    return Status::bad_degree;
-  }
-  if (nets.components < 1 || nets.components > kMostComponents ||
-      nets.weights > Weights::homogeneous) {
-    return Status::bad_components;
-  }
-  if (nets.points == nullptr && nets.count > 0) {
-    return Status::null_input;
-  }
-  const bool several = shape_of(nets).channels() > 1;
-  if (nets.row_stride == 0 || nets.point_stride == 0 || (several && nets.component_stride == 0)) {
-    return Status::bad_stride;
-  }
-  return Status::ok;
-}
 
 /// Random samples of a large set would otherwise wait for address translations as well. Not for
 /// small ones, which a processor's tables cover.
@@ -118,7 +100,7 @@ template <typename S>
 PackReport check_nets(std::span<const ControlNets<S>> nets) noexcept {
   std::size_t patch = 0;
   for (const ControlNets<S>& entry : nets) {
-    Status status = check(entry);
+    Status status = check_input(entry);
     if (status == Status::ok && entry.components != nets.front().components) {
       status = Status::bad_components;
     }
