@@ -35,10 +35,12 @@ inline constexpr std::size_t kEdges = 4;
 inline constexpr std::size_t kCornersAt = kComponents * kOrder * kEdges;
 enum Edge : std::size_t { kEdgeV0, kEdgeV1, kEdgeU0, kEdgeU1 };
 
-/// Per patch [component][8]: the patch's own origin, three places unused, the origins of its four
-/// edges in their order. Present in sets packed with local origins only.
+/// Per patch [component][8]: the patch's own origin, a place unused, of rational patches the
+/// origins of the edges u=0, u=1 relative to it, the origins of the four edges in their order.
+/// Present in sets packed with local origins only.
 inline constexpr std::size_t kOriginBlock = 24;
 inline constexpr std::size_t kOriginsPerComponent = 8;
+inline constexpr std::size_t kRelativeOriginsAt = 2;
 inline constexpr std::size_t kEdgeOriginsAt = 4;
 
 /// Corner (u,v) stands at corner[v * 2 + u].

@@ -40,12 +40,14 @@ public:
     Bound bound;
     for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
       // A polynomial's edges have no terms that its matrix has not; a quotient's, around an origin
-      // of their own, may have. Those that are points have none: what they add is a bound of 0.
+      // of their own, may have. Those that are zero, as around points, are exact.
       bound.include(shape_.rational ? quotient(cell, c, matrix(cell, c), matrix(cell, weight()), 0)
                                     : polynomial(cell, c));
       for (std::size_t e = 0; shape_.rational && e < kEdges; ++e) {
-        bound.include(
-            quotient(cell, c, edge(cell, c, e), edge(cell, weight(), e), kEdgeOriginsAt + e));
+        const TermSums h = edge(cell, c, e);
+        if (h.size > 0) {
+          bound.include(quotient(cell, c, h, edge(cell, weight(), e), kEdgeOriginsAt + e));
+        }
       }
     }
     bound.du *= static_cast<double>(shape_.cells_u());

@@ -3,6 +3,7 @@
 
 #include "kernels/curve/table.hpp"
 #include "kernels/pack/kernel.hpp"
+#include "kernels/pack/points.hpp"
 #include "kernels/pack/shape_formulas.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -77,7 +78,6 @@ public:
     }
     copy_control_points();
     Wide squares(0.0);
-    length_ = squares;
     MaskOf<Wide> positive = squares <= squares;
     TangentFloor<T> floor(shape_);
     if (shape_.rational) {
@@ -94,7 +94,7 @@ public:
       squares = squares + pack_component(c, floor);
     }
     put(task_.tangent_floor, 1, 0, floor.value());
-    if (shape_.rational && !all_of<Wide>(length_ > Wide(0.0))) {
+    if (shape_.rational) {
       pack_collapsed();
     }
     return all_of<Wide>(positive & (squares <= Wide(kSafeCurveSquares<T>)));
@@ -199,7 +199,6 @@ private:
       squares = squares + value * value;
       if (shape_.rational) {
         squares = squares + points[i] * points[i];
-        length_ = length_ + magnitude(points[i] - points[0]);
       }
     }
     floor.add(points);
@@ -231,16 +230,17 @@ private:
 
   /// Rational curves whose control points are all one, packed as such with a weight of 1: as
   /// collapsed edges of patches are (pack/collapsed_edges.hpp), and for the same reason.
-  __attribute__((noinline, cold)) void pack_collapsed() const {
-    alignas(64) double lengths[kWideLanes];
-    store_vector<Wide>(lengths, length_);
+  void pack_collapsed() const {
     for (std::size_t p = 0; p < count_; ++p) {
-      for (std::size_t cell = 0; lengths[p] == 0 && cell < shape_.cells(); ++cell) {
+      const S* const given = task_.control_points + (first_ + p) * shape_.control_values();
+      const bool point =
+          is_one_point(given, shape_.channels(), order_, shape_.channels(), task_.curves.weights);
+      for (std::size_t cell = 0; point && cell < shape_.cells(); ++cell) {
         pack_point(first_ + p, cell);
       }
     }
   }
-  void pack_point(std::size_t curve, std::size_t cell) const {
+  __attribute__((noinline, cold)) void pack_point(std::size_t curve, std::size_t cell) const {
     const T* const first = task_.values + curve * shape_.values();
     T* values = task_.values + curve * shape_.values() + cell * shape_.cell_values();
     for (std::size_t c = 0; c <= components_; ++c, values += shape_.channel_values()) {
@@ -277,7 +277,6 @@ private:
   std::size_t first_ = 0;
   std::size_t count_ = 0;
   const S* polygon_[kWideLanes];
-  Wide length_ = Wide(0.0); ///< how far the points of a rational curve are apart
   Wide weights_[detail::kMostOrder];
   W cell_weights_[2][detail::kMostOrder]; ///< coefficients
   Wide end_weights_[2][2];

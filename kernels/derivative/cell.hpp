@@ -32,6 +32,8 @@ public:
       : shape_(*task.shape), orders_(*task.orders), cell_(cell), side_u_(side_u), side_v_(side_v),
         x_(x), y_(y) {
     if (shape_.rational) {
+      point_u_ = side_u_ != kInside && cell_.origins == nullptr &&
+                 corner_u(static_cast<std::size_t>(shape_.components)) != T(0);
       prepare_weight();
     }
   }
@@ -41,10 +43,11 @@ public:
     merged_table(component, to);
     if (shape_.rational) {
       V to_patch;
-      if (cell_.origins != nullptr) {
-        to_patch = origin_u(component) - origin(component, 0);
+      const bool moved = point_u_ || (cell_.origins != nullptr && side_u_ != kInside);
+      if (moved) {
+        to_patch = relative_origin_u(component);
       }
-      divide_table(minus_w_, inverse_, orders_, cell_.origins == nullptr ? nullptr : &to_patch, to);
+      divide_table(minus_w_, inverse_, orders_, moved ? &to_patch : nullptr, to);
     }
     if (side_v_ != kInside) {
       TaylorRow<V> along_u;
@@ -142,10 +145,21 @@ private:
       position =
           position + (side_v_ != kInside ? origin(component, detail::kEdgeOriginsAt + edge_v())
                                          : origin_u(component));
+    } else if (point_u_ && side_v_ == kInside) {
+      position = position + broadcast<V>(corner_u(component));
     }
   }
   SIMDBEZIER_INLINE V origin(std::size_t component, std::size_t which) const {
     return broadcast<V>(cell_.origins[component * detail::kOriginsPerComponent + which]);
+  }
+  /// What is added to positions on an edge u = const where derivatives by u use them.
+  SIMDBEZIER_INLINE V relative_origin_u(std::size_t component) const {
+    return point_u_ ? broadcast<V>(corner_u(component))
+                    : origin(component, detail::kRelativeOriginsAt + edge_u() - detail::kEdgeU0);
+  }
+  /// On an edge u = const: the corner where it begins; of the weight, its mark.
+  SIMDBEZIER_INLINE T corner_u(std::size_t channel) const {
+    return cell_.edges[shape_.corners_at() + channel * 4 + edge_u() - detail::kEdgeU0];
   }
   /// Of the edge u = const, if they are on one.
   SIMDBEZIER_INLINE V origin_u(std::size_t component) const {
@@ -157,6 +171,7 @@ private:
   Cell<T> cell_;
   Side side_u_;
   Side side_v_;
+  bool point_u_ = false; ///< on an edge u = const that is packed around its point
   V x_;
   V y_;
   // Of rational patches: the weight, and the one along the edge v = const if they are on one.

@@ -3,68 +3,62 @@
 //
 // Such an edge stays where it is whatever its weights, but evaluated as h / w its derivative is the
 // difference of two equal products, each rounded: noise instead of zero, and with it curvatures.
-// It is therefore packed as what it is, the point with a weight of 1. All that kernels make of an
-// edge depends on its own values only, so they need not know.
+// It is therefore packed around its point, as sets with local origins are: numerators that are
+// zero. An edge u = const keeps its weights, by which kernels divide derivatives across it as well.
+// An edge v = const without an origin is the point with a weight of 1: of those, kernels take
+// derivatives along it only, so they need not know.
 #pragma once
 
-#include "kernels/kernel_table.hpp"
-#include "kernels/pack/formulas.hpp"
+#include <type_traits>
+
+#include "kernels/pack/double_double.hpp"
+#include "kernels/pack/points.hpp"
+#include "kernels/patch_storage.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::kEdges;
 
-/// Sums up how far the points of each edge are apart, and packs those anew that are points.
-/// The points are compared as they are, not as rounded to T: far from the origin an edge can be
-/// shorter than they tell and yet have a derivative. In homogeneous form, quotients are compared.
+/// Finds the edges of a group of patches that are points, and packs them anew.
+template <typename Task>
 class CollapsedEdges {
 public:
-  explicit CollapsedEdges(const detail::NetShape& shape)
-      : order_u_(shape.order_u()), order_v_(shape.order_v()),
-        wanted_(shape.rational && shape.degree_v > 0) {
-    for (Wide& length : length_) {
-      length = Wide(0.0);
-    }
-  }
+  explicit CollapsedEdges(const Task& task)
+      : task_(task), wanted_(task.shape.rational && task.shape.degree_v > 0) {}
 
-  /// One component of the control points, Cartesian, [j][i].
-  void add(const Wide* points) {
-    if (wanted_) {
-      const std::size_t last_row = (order_v_ - 1) * order_u_;
-      add_edge(detail::kEdgeV0, points, 1, order_u_);
-      add_edge(detail::kEdgeV1, points + last_row, 1, order_u_);
-      add_edge(detail::kEdgeU0, points, order_u_, order_v_);
-      add_edge(detail::kEdgeU1, points + (order_u_ - 1), order_u_, order_v_);
-    }
-  }
-
-  /// To be called when all else of the patches [first, first + count) has been written.
-  template <typename Task>
-  void pack(const Task& task, std::size_t first, std::size_t count) const {
-    if (!wanted_) {
-      return;
-    }
+  /// Of patches [first, first + count), whose control points have been stored.
+  void find(std::size_t first, std::size_t count) {
+    first_ = first;
+    count_ = count;
     for (std::size_t e = 0; e < kEdges; ++e) {
-      if (all_of<Wide>(length_[e] > Wide(0.0))) {
-        continue;
+      any_[e] = false;
+      for (std::size_t p = 0; p < kWideLanes; ++p) {
+        const bool point = wanted_ && p < count && is_point(first + p, e);
+        points_[e][p] = point ? 1 : 0;
+        any_[e] = any_[e] || point;
       }
-      alignas(64) double lengths[kWideLanes];
-      store_vector<Wide>(lengths, length_[e]);
-      for (std::size_t p = 0; p < count; ++p) {
-        if (lengths[p] == 0) {
-          pack_edge(task, first + p, e);
+    }
+  }
+
+  [[nodiscard]] bool any(std::size_t edge) const { return any_[edge]; }
+  /// The patches whose edge is a point.
+  [[nodiscard]] MaskOf<Wide> which(std::size_t edge) const {
+    return load_vector<Wide>(points_[edge]) > Wide(0.0);
+  }
+
+  /// To be called when all else of the patches has been written.
+  void pack() const {
+    for (std::size_t e = 0; e < kEdges; ++e) {
+      for (std::size_t p = 0; any_[e] && p < count_; ++p) {
+        if (points_[e][p] != 0) {
+          pack_edge(first_ + p, e);
         }
       }
     }
   }
 
 private:
-  SIMDBEZIER_INLINE void add_edge(std::size_t edge, const Wide* points, std::size_t step,
-                                  std::size_t order) {
-    for (std::size_t k = 1; k < order; ++k) {
-      length_[edge] = length_[edge] + magnitude(points[k * step] - points[0]);
-    }
-  }
+  using T = std::remove_pointer_t<decltype(Task::edges)>;
 
   /// Which side of a cell an edge is: of which direction, and at its end.
   struct Side {
@@ -80,60 +74,72 @@ private:
     }
   };
 
-  /// In every cell that has a part of it.
-  template <typename Task>
-  __attribute__((noinline, cold)) static void pack_edge(const Task& task, std::size_t patch,
-                                                        std::size_t edge) {
-    const detail::NetShape& shape = task.shape;
+  [[nodiscard]] bool is_point(std::size_t patch, std::size_t edge) const {
+    const detail::NetShape& shape = task_.shape;
     const Side side(edge);
-    const std::size_t cells_u = shape.cells_u();
-    const std::size_t across = side.along_u ? shape.cells_v() : cells_u;
+    const std::size_t first = side.along_u ? side.end * (shape.order_v() - 1) * shape.order_u()
+                                           : side.end * (shape.order_u() - 1);
+    const std::size_t step = side.along_u ? 1 : shape.order_u();
+    return is_one_point(task_.control_points + patch * shape.control_values() +
+                            first * shape.channels(),
+                        step * shape.channels(), side.along_u ? shape.order_u() : shape.order_v(),
+                        shape.channels(), task_.nets.weights);
+  }
+
+  /// In every cell that has a part of it.
+  __attribute__((noinline, cold)) void pack_edge(std::size_t patch, std::size_t edge) const {
+    const detail::NetShape& shape = task_.shape;
+    const Side side(edge);
+    const std::size_t across = side.along_u ? shape.cells_v() : shape.cells_u();
     for (std::size_t cell = 0; cell < shape.cells(); ++cell) {
-      const std::size_t place = side.along_u ? cell / cells_u : cell % cells_u;
+      const std::size_t place = side.along_u ? cell / shape.cells_u() : cell % shape.cells_u();
       if (place == side.end * (across - 1)) {
-        pack_cell_edge(task, patch, cell, edge);
+        const std::size_t begin = side.along_u ? cell - cell % shape.cells_u() : place;
+        pack_cell_edge(patch, cell, begin, edge);
       }
     }
   }
 
-  template <typename Task>
-  static void pack_cell_edge(const Task& task, std::size_t patch, std::size_t cell,
-                             std::size_t edge) {
-    using T = std::remove_pointer_t<decltype(task.edges)>;
-    const detail::NetShape& shape = task.shape;
+  /// begin: the cell in which the edge begins, and whose corner there is the point.
+  void pack_cell_edge(std::size_t patch, std::size_t cell, std::size_t begin,
+                      std::size_t edge) const {
+    const detail::NetShape& shape = task_.shape;
     const Side side(edge);
-    // The point: where the edge begins, in the first cell that has a part of it.
-    T* const first = task.edges + patch * shape.edges() +
-                     (side.along_u ? cell - cell % shape.cells_u() : cell % shape.cells_u()) *
-                         shape.cell_edges() +
-                     shape.corners_at();
-    T* const edges = task.edges + patch * shape.edges() + cell * shape.cell_edges();
+    T* const block = task_.edges + patch * shape.edges();
+    T* const edges = block + cell * shape.cell_edges();
+    const T* const points = block + begin * shape.cell_edges() + shape.corners_at();
+    const bool around = task_.origins != nullptr || !side.along_u;
     const auto components = static_cast<std::size_t>(shape.components);
-    for (std::size_t c = 0; c < shape.channels(); ++c) {
-      T* const powers = edges + c * shape.edge_powers() * kEdges + edge;
-      for (std::size_t k = 0; k < shape.edge_powers(); ++k) {
-        powers[k * kEdges] = T(0);
-      }
-      if (c == components) {
-        powers[0] = T(1);
-        continue;
-      }
-      const T point = first[c * 4 + side.corner(0)];
-      if (task.origins == nullptr) {
-        powers[0] = point;
-      } else {
-        T* const origins = task.origins + patch * shape.origins() + cell * shape.cell_origins();
-        origins[c * detail::kOriginsPerComponent + detail::kEdgeOriginsAt + edge] = point;
-      }
+    for (std::size_t c = 0; c < components; ++c) {
+      const T point = points[c * 4 + side.corner(0)];
+      put_constant(edges, c, edge, around ? T(0) : point);
       T* const corners = edges + shape.corners_at() + c * 4;
       corners[side.corner(0)] = corners[side.corner(1)] = point;
+      if (task_.origins != nullptr) {
+        T* const origins = task_.origins + patch * shape.origins() + cell * shape.cell_origins();
+        origins[c * detail::kOriginsPerComponent + detail::kEdgeOriginsAt + edge] = point;
+      }
+    }
+    if (side.along_u) {
+      put_constant(edges, components, edge, T(1));
+    } else if (task_.origins == nullptr) {
+      edges[shape.corners_at() + components * 4 + side.end] = T(1);
     }
   }
 
-  std::size_t order_u_;
-  std::size_t order_v_;
+  void put_constant(T* edges, std::size_t channel, std::size_t edge, T value) const {
+    T* const powers = edges + channel * task_.shape.edge_powers() * kEdges + edge;
+    for (std::size_t k = 0; k < task_.shape.edge_powers(); ++k) {
+      powers[k * kEdges] = k == 0 ? value : T(0);
+    }
+  }
+
+  const Task& task_;
   bool wanted_;
-  Wide length_[kEdges];
+  std::size_t first_ = 0;
+  std::size_t count_ = 0;
+  bool any_[kEdges] = {};
+  alignas(64) double points_[kEdges][kWideLanes] = {}; ///< 1 or 0
 };
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

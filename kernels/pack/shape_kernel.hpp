@@ -35,7 +35,7 @@ public:
 
   explicit ShapeGroup(const detail::NetPackTask<T, S>& task)
       : task_(task), shape_(task.shape), order_u_(shape_.order_u()), order_v_(shape_.order_v()),
-        components_(static_cast<std::size_t>(shape_.components)), reader_(task) {}
+        components_(static_cast<std::size_t>(shape_.components)), reader_(task), collapsed_(task) {}
 
   /// Packs `count` nets from the first on, 1 <= count <= kWideLanes. Returns false where something
   /// may not be finite, or a weight not be positive.
@@ -47,12 +47,12 @@ public:
     if (shape_.rational) {
       reader_.read(components_, weights_);
     }
-    CollapsedEdges collapsed(shape_);
-    const bool safe = pack_points(collapsed);
+    collapsed_.find(first, count);
+    const bool safe = pack_points();
     for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
       pack_cell(cell);
     }
-    collapsed.pack(task_, first_, count_);
+    collapsed_.pack();
     return safe;
   }
 
@@ -66,7 +66,7 @@ private:
   }
 
   /// Normal floor, and whether all values are of a size that cannot do harm.
-  bool pack_points(CollapsedEdges& collapsed) {
+  bool pack_points() {
     const std::size_t points = shape_.points();
     Wide squares(0.0);
     MaskOf<Wide> positive = squares <= squares;
@@ -79,7 +79,6 @@ private:
     }
     for (std::size_t c = 0; c < components_; ++c) {
       read_component(c);
-      collapsed.add(points_);
       for (std::size_t k = 0; k < points; ++k) {
         const Wide value = to_wide(values_[k]);
         squares = squares + value * value + points_[k] * points_[k];
@@ -131,10 +130,14 @@ private:
       for (std::size_t corner = 0; corner < 4; ++corner) {
         corners[components_ * 4 + corner] = to_wide(cell_weights_[corner_point(corner)]);
       }
+      side_weights_[0] = cell_weights_[0];
+      side_weights_[1] = cell_weights_[order_u_ - 1];
       form_channel(shape_, cell_weights_, edge_weights_);
     }
     for (std::size_t c = 0; c < components_; ++c) {
       read_cell_component(cell, c, corners);
+      side_values_[0] = values_[0];
+      side_values_[1] = values_[order_u_ - 1];
       form_channel(shape_, values_, edges_);
       if (task_.origins != nullptr) {
         split_origins(cell, c);
@@ -149,7 +152,7 @@ private:
       }
     }
     for (std::size_t k = 0; k < shape_.channels() * 4; ++k) {
-      edges.put(corners[k]);
+      edges.put(k < components_ * 4 ? corners[k] : Wide(0.0));
     }
     matrices.finish();
     edges.finish();
@@ -220,7 +223,25 @@ private:
       origins.at[detail::kEdgeOriginsAt + e] =
           split_origin(edges_ + e, edge, powers, detail::kEdges);
     }
+    for (std::size_t side = 0; side < 2 && weights != nullptr; ++side) {
+      origins.at[detail::kRelativeOriginsAt + side] = relative_origin(origins, cell, side);
+    }
     store_origins(cell, c, origins);
+  }
+
+  /// Of the edge u = side, to the cell's own origin. A point need not be what its origin is, which
+  /// is rounded to T: it is rounded when it is near.
+  [[nodiscard]] Wide relative_origin(const Origins& origins, std::size_t cell,
+                                     std::size_t side) const {
+    const std::size_t edge = detail::kEdgeU0 + side;
+    const Wide relative = origins.at[detail::kEdgeOriginsAt + edge] - origins.at[0];
+    if (!collapsed_.any(edge) || side * (shape_.cells_u() - 1) != cell % shape_.cells_u()) {
+      return relative;
+    }
+    const W& weight = side_weights_[side];
+    const W near = difference_of<W>(side_values_[side], product(weight, origins.at[0]));
+    return select_where<Wide>(collapsed_.which(edge), divide(to_wide(near), to_wide(weight)),
+                              relative);
   }
 
   void store_origins(std::size_t cell, std::size_t channel, const Origins& origins) const {
@@ -250,6 +271,7 @@ private:
   const std::size_t order_v_;
   const std::size_t components_;
   NetReader<T, S> reader_;
+  CollapsedEdges<detail::NetPackTask<T, S>> collapsed_;
   std::size_t first_ = 0;
   std::size_t count_ = 0;
   // About 150 KiB on the stack where registers have eight doubles.
@@ -257,6 +279,8 @@ private:
   Wide points_[kMostPoints];    ///< of one component
   W values_[kMostPoints];       ///< of one component: control values, then coefficients
   W cell_weights_[kMostPoints]; ///< of the cell: its weights, then their coefficients
+  W side_values_[2];            ///< of one component: where the edges u = 0, 1 of a cell begin
+  W side_weights_[2];
   W edges_[kMostOrder * detail::kEdges];
   W edge_weights_[kMostOrder * detail::kEdges];
 };

@@ -32,19 +32,23 @@ public:
                   : build_slot(row.high, slot, polynomials_.power[slot]);
       }
     });
-    if (has_origins()) {
+    around_origins_ = has_origins();
+    if (around_origins_) {
       slots_.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA { build_origin(slot); });
+    } else if (P::kWeighted && on_edge_) {
+      build_points();
     }
   }
 
   SIMDBEZIER_INLINE const ColumnPolynomials<P, V>& polynomials() const { return polynomials_; }
   SIMDBEZIER_INLINE const typename P::Slots& slots() const { return slots_; }
   SIMDBEZIER_INLINE typename P::OrderV order_v() const { return order_v_; }
-  SIMDBEZIER_INLINE bool has_origins() const { return row_->low.origins != nullptr; }
+  /// Whether positions are relative to origins: of the set, or of edges that are points.
+  SIMDBEZIER_INLINE bool around_origins() const { return around_origins_; }
 
   /// Samples at the local y, off the edges v = const.
   SIMDBEZIER_INLINE void evaluate(V y, SampleJet<V>& jet) const {
-    polynomials_.evaluate(slots_, order_v_, y, has_origins(), jet);
+    polynomials_.evaluate(slots_, order_v_, y, around_origins_, jet);
     if (!P::kKnown && shape_.cells_v() == 2) {
       scale_v(jet);
     }
@@ -83,6 +87,8 @@ public:
   }
 
 private:
+  SIMDBEZIER_INLINE bool has_origins() const { return row_->low.origins != nullptr; }
+
   SIMDBEZIER_INLINE void build_slot(const Cell<T>& cell, std::size_t slot, Powers& to) const {
     const T* const matrix = cell.coefficients + slots_.channel(slot) * shape_.matrix();
     const V x = columns_.local.x;
@@ -142,8 +148,28 @@ private:
       origin = replaced(inside, at + detail::kEdgeOriginsAt + detail::kEdgeU0, &Cell<T>::origins);
     }
     if constexpr (P::kWeighted && kDepth > 0) {
-      polynomials_.to_patch[slot] = origin - inside;
+      const V zero = broadcast<V>(T(0));
+      polynomials_.to_patch[slot] =
+          on_edge_ ? replaced(zero, at + detail::kRelativeOriginsAt, &Cell<T>::origins) : zero;
     }
+  }
+  /// Lanes on edges u = const that are points, in sets without origins: their numerators are zero,
+  /// and their points stand in the corners. To all others, -0 adds nothing.
+  SIMDBEZIER_INLINE void build_points() {
+    const V zero = broadcast<V>(T(0));
+    const std::size_t corners = shape_.corners_at();
+    const V marks =
+        replaced(zero, corners + slots_.channel(P::Slots::kWeight) * 4, &Cell<T>::edges);
+    const MaskOf<V> points = marks > zero;
+    if (!any_of<V>(points)) {
+      return;
+    }
+    around_origins_ = true;
+    slots_.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
+      const V point = replaced(zero, corners + slots_.channel(slot) * 4, &Cell<T>::edges);
+      polynomials_.origin[slot] = polynomials_.to_patch[slot] =
+          select_where<V>(points, point, broadcast<V>(T(-0.0)));
+    });
   }
   SIMDBEZIER_INLINE std::size_t origin_at(std::size_t slot) const {
     return slots_.channel(slot) * detail::kOriginsPerComponent;
@@ -230,6 +256,7 @@ private:
   typename P::OrderU order_u_;
   typename P::OrderV order_v_;
   bool on_edge_;
+  bool around_origins_ = false;
   const CellRow<T>* row_ = nullptr;
   ColumnPolynomials<P, V> polynomials_;
 };

@@ -20,7 +20,7 @@ SIMDBEZIER_INLINE void sweep_rows(const GridTask<T>& task, const ShapeColumns<P,
   using V = vec<T>;
   const ColumnPolynomials<P, V> polynomials = columns.polynomials();
   const V floor = range.floor;
-  const bool origins = columns.has_origins();
+  const bool origins = columns.around_origins();
   range.active = kFull ? kLanes<V> : range.active;
   const auto evaluate = [&](const T* y, SampleJet<V>& jet) SIMDBEZIER_INLINE_LAMBDA {
     range.y = broadcast<V>(*y);

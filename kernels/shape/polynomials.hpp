@@ -47,7 +47,7 @@ struct ColumnPolynomials {
   using Powers = V[kDepth + 1][kMostPowers];
 
   Powers power[kSlots]; ///< [slot][derivative][power of Y]
-  V origin[3];          ///< of each lane's values, in sets with origins
+  V origin[3];          ///< of each lane's values, in sets with origins and where points are
   /// A lane on an edge u = const has its values relative to the edge's origin, and its derivatives
   /// by u to the patch's: what to add to the one for the other. Rational patches only, where the
   /// quotient rule needs both.
