@@ -41,8 +41,6 @@ struct NormalQuery {
   GivenNet net; ///< of its patch
   T x;          ///< half-centred parameters
   T y;
-  T du[3];
-  T dv[3];
 };
 
 /// Writes the unit normal (or zero, or nan at nan parameters); see fallback/normal_fallback.hpp.

@@ -1,6 +1,8 @@
 // Normals of a register of samples that did not all pass the quick test.
 #pragma once
 
+#include <limits>
+
 #include "kernels/isa/lanes.hpp"
 #include "kernels/kernel_table.hpp"
 
@@ -39,30 +41,31 @@ SIMDBEZIER_INLINE V floor_inside(V t, V floor) {
 /// Task: any that has outputs, and the control points of a set.
 template <typename V, typename Task>
 __attribute__((noinline, cold)) void resolve_normals(const Task& task, std::size_t patch,
-                                                     Suspects s, V x, V y, V du0, V du1, V du2,
-                                                     V dv0, V dv1, V dv2, V squared, V floor) {
+                                                     Suspects s, V x, V y, V squared, V floor) {
   using T = ScalarOf<V>;
-  const V vectors[10] = {du0, du1, du2, dv0, dv1, dv2, squared, floor, x, y};
-  alignas(64) T lanes[10][kLanes<V>];
-  for (int i = 0; i < 10; ++i) {
+  const V vectors[4] = {squared, floor, x, y};
+  alignas(64) T lanes[4][kLanes<V>];
+  for (int i = 0; i < 4; ++i) {
     store_vector(lanes[i], vectors[i]);
   }
+  const detail::Planes<T>& normals = task.out[detail::kNormalGroup];
   for (std::size_t k = 0; k < s.rows * s.active; ++k) {
     const std::size_t i = s.lane + k / s.active * s.columns + k % s.active;
     const std::size_t at = s.at + k / s.active * s.row_step + k % s.active;
-    if (lanes[6][i] > lanes[7][i]) {
+    if (lanes[0][i] > lanes[1][i]) {
       continue;
     }
-    const detail::NormalQuery<T> query{task.shape,
-                                       task.given.net(patch * task.shape->control_values()),
-                                       lanes[8][i],
-                                       lanes[9][i],
-                                       {lanes[0][i], lanes[1][i], lanes[2][i]},
-                                       {lanes[3][i], lanes[4][i], lanes[5][i]}};
+    const detail::NormalQuery<T> query{
+        task.shape, task.given.net(patch * task.shape->control_values()), lanes[2][i], lanes[3][i]};
     T normal[3];
     const SampleStatus status = task.resolve_normal(query, normal);
-    for (int c = 0; c < 3; ++c) {
-      task.out[detail::kNormalGroup].component[c][at * s.value_step] = normal[c];
+    for (int c = 0; normals.wanted() && c < 3; ++c) {
+      normals.component[c][at * s.value_step] = normal[c];
+    }
+    for (T* const curvature : task.curvature) {
+      if (curvature != nullptr && status != SampleStatus::regular) {
+        curvature[at] = std::numeric_limits<T>::quiet_NaN();
+      }
     }
     if (task.status != nullptr) {
       task.status[at * s.status_step] = status;

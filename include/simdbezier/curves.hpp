@@ -141,12 +141,13 @@ struct CurveSamples {
 /// Derivatives are with respect to t. Sets of one or two components have null z (and y) pointers,
 /// as do calls for the last components of sets with more than three (Options::first_component).
 ///
-/// The tangent is d1 / |d1|. Where d1 vanishes (a cusp, repeated control points) it is the limit
-/// from the side on which the curve's middle lies (from above at t = 1/2), SampleStatus::limit,
-/// found from the first derivative that does not vanish; on a curve that is a point it is zero,
-/// SampleStatus::degenerate. It is never nan for t in [0,1]. The curvature there is the limit
-/// as well: +infinity at a usual cusp, 0 on a straight line or a point. Both exist for sets of two
-/// and three components.
+/// The tangent is d1 / |d1|. Where d1 is zero (a cusp, repeated control points) it is the direction
+/// of the first Taylor coefficient of d1 that is not, on the way to the curve's middle (upwards from
+/// t = 1/2): SampleStatus::limit. Where all of them are zero the curve is a point and the tangent
+/// zero: SampleStatus::degenerate. Which one it is, is decided exactly, for the control points as
+/// given. The curvature there is its limit on the same way: +infinity at a usual cusp, 0 on a
+/// straight line or a point. Neither is ever nan for t in [0,1]. Both exist for sets of two and
+/// three components.
 /// Source: G. Farin, Curves and Surfaces for CAGD, chapters 4, 5, 10 and 13.
 template <typename T>
 struct CurveOutputs {

@@ -1,21 +1,20 @@
-// Tangents and curvatures where C' is small: a second look in double, and limits at cusps.
+// Tangents and curvatures where C' is small: decided exactly, from the control points as given.
 #pragma once
 
 #include "kernels/curve/table.hpp"
 
 namespace simdbezier::detail {
 
-/// Looks at one sample again, from the control points.
+/// Looks at one sample again.
 ///
-/// Derivatives are formed in double by de Casteljau's algorithm on repeated differences, relative
-/// to the control point at the nearer end, so that repeated points there give zeros. With r the
-/// order of the first one that is more than rounding noise and h the side of the curve's middle,
-///     C'(t + h) = h^(r-1) C^(r)(t) / (r-1)! + …
-/// so the tangent's limit has the direction of h^(r-1) C^(r). With s the first order whose
-/// derivative is not parallel to it, the curvature behaves as |h|^(s-2r): infinite, zero, or
-///     |C^(r) x C^(s)| (s-r) (r-1)!^2 / ((s-1)! |C^(r)|^3) where s = 2r.
-/// r = 1 gives the plain formulas (s = 2), and is SampleStatus::regular. Where all derivatives
-/// vanish, both are zero: SampleStatus::degenerate. Where x is nan, so are both: non_finite.
+/// With tau running from the sample to the curve's middle, C' is a positive factor times a
+/// polynomial G(tau) = sum_k G_k tau^k, and G x G' = Q(tau) = sum_k Q_k tau^k. The tangent has the
+/// direction of the first G_a that is not zero: SampleStatus::regular for a = 0, else limit, and
+/// degenerate (a tangent of zero) where there is none. The curvature is |Q| / |G|^3 up to factors,
+/// so with Q_b the first that is not zero it is infinite for b < 3a, zero for b > 3a, and
+///     |Q_b| w^2 / (n |d| |G_a|^3)
+/// for b = 3a: n the degree, w the weight at the sample, d its distance from the middle (1/2 in the
+/// middle, where tau runs upwards). Where x is not finite, both are nan: non_finite.
 template <typename T>
 void resolve_tangent(const TangentQuery<T>& query, TangentAnswer<T>& answer);
 

@@ -1,19 +1,18 @@
-// Normals where |du x dv| is too small to trust.
+// Normals where |du x dv| is too small for the kernels' own test.
 #pragma once
 
 #include "kernels/kernel_table.hpp"
 
 namespace simdbezier::detail {
 
-/// Second look at one sample, in double, the same on every instruction set. In order:
-///   1. the plain cross product, scaled by powers of two, where it stands clear of the rounding
-///      errors of du and dv: |N| > c (|du|' |dv| + |dv|' |du|), primes being hodograph bounds;
-///   2. the same with du and dv recomputed from the control points (float only);
-///   3. the limit from inside the patch to first order, N + K/8, K the derivative of du x dv
-///      towards the centre;
-///   4. the cross product at a parameter pulled 2^-12 towards the centre;
-///   5. zero: the patch is a point or a line there.
-/// Outside of [0,1] only the cross product in double, where du and dv are not nearly parallel.
+/// Second look at one sample, from its patch's control points as given, the same on every machine.
+///
+/// The normal has the direction of the first Taylor coefficient of du x dv that is not zero, on the
+/// line from the sample to the patch's middle (exact/normal_series.hpp); which one that is, doubles
+/// with error bounds tell in most cases, and arithmetic modulo primes in the others
+/// (exact/leading_term.hpp). The first coefficient is SampleStatus::regular, a later one limit; where
+/// all are zero, so is the normal: degenerate. Outside of a rational patch, where the weight is too
+/// close to zero for its sign to be known, too. Where a parameter is not finite, the normal is nan.
 template <typename T>
 SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept;
 

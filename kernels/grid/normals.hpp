@@ -81,8 +81,7 @@ struct NormalSweep {
     if (!all_of<V>(squared > floor)) [[unlikely]] {
       resolve_normals(shared_task, patch,
                       Suspects{0, tile.kColumns, tile.active, rows, at, task.nu, status_step},
-                      tile.column.x, row_y, du[0], du[1], du[2], dv[0], dv[1], dv[2], squared,
-                      floor);
+                      tile.column.x, row_y, squared, floor);
     }
   }
 
@@ -118,8 +117,7 @@ struct NormalSweep {
       resolve_normals(
           shared_task, patch,
           Suspects{tile.edge_lane(kind), tile.kColumns, tile.active, 1, at, task.nu, status_step},
-          tile.column.x, tile.edge_y(edge_of(kind)), s.jet[0].du, s.jet[1].du, s.jet[2].du,
-          s.jet[0].dv, s.jet[1].dv, s.jet[2].dv, s.squared, floor);
+          tile.column.x, tile.edge_y(edge_of(kind)), s.squared, floor);
     }
   }
 

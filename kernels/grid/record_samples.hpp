@@ -126,8 +126,7 @@ struct RecordSweep {
   SIMDBEZIER_INLINE void resolve(const GridTask<T>& task, std::size_t patch, const Suspects& which,
                                  const Samples& s, V y, V floor) const {
     if constexpr (Groups::kNormals) {
-      resolve_normals(task, patch, which, tile.column.x, y, s.jet[0].du, s.jet[1].du, s.jet[2].du,
-                      s.jet[0].dv, s.jet[1].dv, s.jet[2].dv, s.squared, floor);
+      resolve_normals(task, patch, which, tile.column.x, y, s.squared, floor);
     }
   }
 };

@@ -59,10 +59,9 @@ struct SmallJets {
 
 /// Normals of 16 consecutive samples that did not all pass the quick test.
 template <typename V>
-__attribute__((noinline, cold)) void
-resolve_small_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch, std::size_t first,
-                      std::size_t active, V du0, V du1, V du2, V dv0, V dv1, V dv2, V squared,
-                      V floor) {
+__attribute__((noinline, cold)) void resolve_small_normals(const GridTask<ScalarOf<V>>& task,
+                                                           std::size_t patch, std::size_t first,
+                                                           std::size_t active, V squared, V floor) {
   using T = ScalarOf<V>;
   alignas(64) T x[kLanes<V>] = {};
   alignas(64) T y[kLanes<V>] = {};
@@ -72,8 +71,7 @@ resolve_small_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch, std:
     y[k] = row == 0 ? T(-0.5) : row <= task.runs[1].rows ? task.runs[1].y[row - 1] : T(0.5);
   }
   const Suspects suspects{0, kLanes<V>, active, 1, patch * task.patch_step + first, 0, 1};
-  resolve_normals(task, patch, suspects, load_vector<V>(x), load_vector<V>(y), du0, du1, du2, dv0,
-                  dv1, dv2, squared, floor);
+  resolve_normals(task, patch, suspects, load_vector<V>(x), load_vector<V>(y), squared, floor);
 }
 
 /// Which samples of a small grid stand where.
@@ -145,9 +143,7 @@ __attribute__((noinline)) void sweep_small_jets(const GridTask<T>& shared_task) 
         }
         const V floor = broadcast<V>(task.normal_floor[patch]);
         if (!all_of<V>(s.squared > floor)) [[unlikely]] {
-          resolve_small_normals<V>(shared_task, patch, first, active, s.jet[0].du, s.jet[1].du,
-                                   s.jet[2].du, s.jet[0].dv, s.jet[1].dv, s.jet[2].dv, s.squared,
-                                   floor);
+          resolve_small_normals<V>(shared_task, patch, first, active, s.squared, floor);
         }
       }
     }

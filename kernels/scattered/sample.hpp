@@ -60,11 +60,7 @@ SIMDBEZIER_INLINE void store_normal(const ScatteredTask<T>& task, std::size_t k,
     normalise(n, squared);
   } else {
     const detail::NormalQuery<T> query{task.shape,
-                                       task.given.net(place.patch * detail::kCoefficients),
-                                       x,
-                                       y,
-                                       {du[0], du[1], du[2]},
-                                       {dv[0], dv[1], dv[2]}};
+                                       task.given.net(place.patch * detail::kCoefficients), x, y};
     const SampleStatus status = task.resolve_normal(query, n);
     if (task.status != nullptr) {
       task.status[k] = status;

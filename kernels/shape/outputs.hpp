@@ -57,23 +57,26 @@ SIMDBEZIER_INLINE V rational_floor(const Task& task, const SampleRange<V>& range
   return select_where<V>(squared < no_floor<V>(), floor, no_floor<V>());
 }
 
+/// Normals where wanted, and the second look that tells where there is none, for the curvatures'
+/// sake, too: these have been stored.
 template <typename P, typename V, typename Task>
 SIMDBEZIER_INLINE void store_normals(const Task& task, const SampleRange<V>& range,
                                      const SampleJet<V>& jet) {
   V n[3];
   const V squared = cross_product(jet.du, jet.dv, n);
-  normalise(n, squared);
-  repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
-    range.store(task.out[detail::kNormalGroup].component[c], n[c]);
-  });
+  if (task.out[detail::kNormalGroup].wanted()) {
+    normalise(n, squared);
+    repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
+      range.store(task.out[detail::kNormalGroup].component[c], n[c]);
+    });
+  }
   V floor = range.floor;
   if constexpr (P::kWeighted) {
     floor = rational_floor(task, range, jet, squared);
   }
   if (!all_of<V>(squared > floor)) {
     const Suspects row{0, kLanes<V>, range.active, 1, range.at, 0, 1};
-    resolve_normals(task, range.patch, row, range.x, range.y, jet.du[0], jet.du[1], jet.du[2],
-                    jet.dv[0], jet.dv[1], jet.dv[2], squared, floor);
+    resolve_normals(task, range.patch, row, range.x, range.y, squared, floor);
   }
 }
 
@@ -88,16 +91,18 @@ SIMDBEZIER_INLINE void store_group(const Task& task, detail::Group group,
   });
 }
 
-template <typename V, typename Task>
-SIMDBEZIER_INLINE void store_curvatures(const Task& task, const SampleRange<V>& range,
-                                        const SampleJet<V>& jet) {
+template <typename Task>
+SIMDBEZIER_INLINE bool wants_curvatures(const Task& task) {
   bool wanted = false;
   for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
     wanted = wanted || task.curvature[k] != nullptr;
   }
-  if (!wanted) {
-    return;
-  }
+  return wanted;
+}
+
+template <typename V, typename Task>
+SIMDBEZIER_INLINE void store_curvatures(const Task& task, const SampleRange<V>& range,
+                                        const SampleJet<V>& jet) {
   V curvature[detail::kCurvatures];
   curvatures(jet, curvature);
   for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
@@ -112,18 +117,25 @@ template <typename P, typename V, typename Task>
 SIMDBEZIER_INLINE void store_sample(const Task& task, const SampleRange<V>& range,
                                     const SampleJet<V>& jet) {
   store_group<P>(task, detail::kPositionGroup, range, jet.position);
+  bool normals = false;
   if constexpr (P::kDepth > 0) {
     store_group<P>(task, detail::kDuGroup, range, jet.du);
     store_group<P>(task, detail::kDvGroup, range, jet.dv);
-    if (!P::kSingle && task.out[detail::kNormalGroup].wanted()) {
-      store_normals<P>(task, range, jet);
-    }
+    normals = !P::kSingle && task.out[detail::kNormalGroup].wanted();
   }
   if constexpr (P::kDepth > 1) {
     store_group<P>(task, detail::kDuuGroup, range, jet.duu);
     store_group<P>(task, detail::kDuvGroup, range, jet.duv);
     store_group<P>(task, detail::kDvvGroup, range, jet.dvv);
-    store_curvatures(task, range, jet);
+    if (wants_curvatures(task)) {
+      store_curvatures(task, range, jet);
+      normals = true;
+    }
+  }
+  if constexpr (P::kDepth > 0 && !P::kSingle) {
+    if (normals) {
+      store_normals<P>(task, range, jet);
+    }
   }
 }
 

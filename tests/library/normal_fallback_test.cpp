@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "kernels/fallback/normal_fallback.hpp"
-#include "kernels/fallback/surface_jet.hpp"
 #include "tests/support/random.hpp"
 
 namespace simdbezier::tests {
@@ -59,13 +58,12 @@ detail::GivenPoints given_points(const Surface& surface, const std::vector<T>& v
           surface.shape.rational ? Weights::cartesian : Weights::none};
 }
 
-/// Tangents that say nothing: the answer has to come from the control points.
 template <typename T>
 Answer resolve(const Surface& surface, double x, double y) {
   const std::vector<T> values = control_values<T>(surface);
   const detail::GivenPoints given = given_points(surface, values);
-  const detail::NormalQuery<T> query{&surface.shape,    given.net(0), static_cast<T>(x),
-                                     static_cast<T>(y), {0, 0, 0},    {0, 0, 0}};
+  const detail::NormalQuery<T> query{&surface.shape, given.net(0), static_cast<T>(x),
+                                     static_cast<T>(y)};
   T normal[3];
   const SampleStatus status = detail::resolve_normal(query, normal);
   return {{static_cast<double>(normal[0]), static_cast<double>(normal[1]),
@@ -210,21 +208,6 @@ TEST(NormalFallback, a_sphere_has_its_radii_for_normals) {
   expect_sphere<double>(1e-3);
   // Rounded control points are those of another surface.
   expect_sphere<float>(0.01);
-}
-
-TEST(NormalFallback, along_a_collapsed_edge_the_tangent_is_exactly_zero) {
-  Surface surface = octant();
-  for (int degree = 2; degree <= kMostDegree; ++degree) {
-    const std::vector<double> values = control_values<double>(surface);
-    const detail::GivenPoints given = given_points(surface, values);
-    const detail::SurfaceFrame frame(surface.shape, given.net(0));
-    for (const double x : kParameters) {
-      const detail::SurfaceJet jet = detail::surface_jet(frame, x, 0.5);
-      EXPECT_EQ(detail::max_norm(jet.u), 0) << degree << " at " << x;
-      EXPECT_GT(detail::max_norm(jet.v), 0.1) << degree << " at " << x;
-    }
-    surface = degree % 2 == 0 ? raised_u(surface) : exchanged(raised_u(exchanged(surface)));
-  }
 }
 
 TEST(NormalFallback, far_from_the_origin_poles_stay_poles) {
