@@ -44,7 +44,7 @@ SIMDBEZIER_INLINE Wide read_group(const detail::PackTask<T, S>& task, const S* f
           const W moved = difference_of<W>(values[i], Wide(task.relative_to[c]));
           lanes.net[c][k] = moved;
           values[i] = to_wide(moved);
-          lanes.points[c][k] = rounded_to<T>(values[i]);
+          lanes.points[c][k] = values[i];
         } else {
           lanes.net[c][k] = values[i];
         }
@@ -72,7 +72,7 @@ bool pack_group(const detail::PackTask<T, S>& task, const S* from, std::ptrdiff_
                 const PackedPlaces<T, S>& to) {
   using W = CarriedIn<T, S>;
   using In = std::conditional_t<kMoved, W, Wide>;
-  // Points that move are rounded to T for the normal floor; others are doubles already.
+  // The normal floor takes doubles, which points that move may not be.
   struct MovedLanes {
     In net[detail::kComponents][16];
     Wide points[detail::kComponents][16];

@@ -33,7 +33,7 @@ public:
         in_space_(shape.components == 3 && shape.degree_v > 0), origins_(origins),
         weights_(shape.rational ? weights : nullptr) {}
 
-  /// One component of the control points, Cartesian and rounded to T, [j][i].
+  /// One component of the control points, Cartesian, [j][i].
   void add(const Wide* points) {
     if (!in_space_) {
       return;

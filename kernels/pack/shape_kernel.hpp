@@ -82,7 +82,6 @@ private:
       for (std::size_t k = 0; k < points; ++k) {
         const Wide value = to_wide(values_[k]);
         squares = squares + value * value + points_[k] * points_[k];
-        points_[k] = rounded_to<T>(points_[k]);
       }
       floor.add(points_);
     }
