@@ -1,0 +1,196 @@
+// The oracle of limits against cases known by hand, and against exact rationals a step of 2^-300
+// towards the middle: another algorithm, another formula, another arithmetic.
+#include <gtest/gtest.h>
+
+#include "tests/limits/limit_cases.hpp"
+#include "tests/support/exact_rational.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+struct KnownNormal {
+  const char* name;
+  Net net;
+  double x;
+  double y;
+  int order;
+  Vector3 direction; ///< need not be of unit length
+};
+
+[[nodiscard]] Net net_of(int degree_u, int degree_v, std::vector<Vector3> points,
+                         std::vector<double> weights = {}, bool homogeneous = false) {
+  return {degree_u, degree_v, std::move(points), std::move(weights), homogeneous};
+}
+
+/// P[j][i] = (f_i (4j - 9), 12e-5 f_i, 4j), f = (0, 0, 1, 1).
+[[nodiscard]] Net step_net() {
+  return bicubic([](int j, int i) {
+    const double f = i / 2;
+    return Vector3{f * (4 * j - 9), 12e-5 * f, 4.0 * j};
+  });
+}
+
+/// (u^2, v^2, u v) and other squares.
+[[nodiscard]] std::vector<KnownNormal> known_normals() {
+  const Vector3 o{};
+  return {
+      // du = 0 along u = 0. With u = t/2 + …, f = 3 u^2 - 2 u^3 and S = (f (12 v - 9), 12e-5 f,
+      // 12 v): du x dv = f' (12 v - 9, 12e-5, 0) x (12 f, 0, 12) = 12 f' (12e-5, 9 - 12 v, …); at
+      // v = 3/4 + (1/2 - 3/4) t the first power of t has (12e-5, 0, 0).
+      {"step of the issue", step_net(), -1, 0.5, 1, {1, 0, 0}},
+      // S = (u, v, uv): nothing vanishes.
+      {"saddle", net_of(1, 1, {o, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}), -1, -1, 0, {0, 0, 1}},
+      // S = (u v, v, 0) has du x dv = (v, 0, 0) x (u, 1, 0) = (0, 0, v).
+      {"pole of a triangle", net_of(1, 1, {o, o, {0, 1, 0}, {1, 1, 0}}), 0.5, -1, 1, {0, 0, 1}},
+      // The same with weights: the limit stays, whatever they are.
+      {"pole with weights",
+       net_of(1, 1, {o, o, {0, 1, 0}, {1, 1, 0}}, {1, 1e-4, 1e-4, 1}),
+       0.5,
+       -1,
+       1,
+       {0, 0, 1}},
+      // S = (u^2, v^2, 0) at the corner: 4 u v.
+      {"squares",
+       net_of(2, 2, {o, o, {1, 0, 0}, o, o, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 1, 0}}),
+       -1,
+       -1,
+       2,
+       {0, 0, 1}},
+      // S = ((2u-1)^2, v, 0) in the middle, along (1, 1): du = 4 (2u - 1), from the right.
+      {"fold in the middle",
+       net_of(2, 1, {{1, 0, 0}, {-1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 1, 0}, {1, 1, 0}}),
+       0,
+       0,
+       1,
+       {0, 0, 1}},
+      // Seen from the left side of the middle it would be the other way round.
+      {"fold left of the middle",
+       net_of(2, 1, {{1, 0, 0}, {-1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 1, 0}, {1, 1, 0}}),
+       -0.5,
+       0,
+       0,
+       {0, 0, -1}},
+      {"line", net_of(1, 1, {o, {1, 2, 3}, {2, 4, 6}, {5, 10, 15}}), 0.25, -1, -1, o},
+      // A sphere's octant: the pole looks up, the equator out.
+      {"octant's pole", sphere_octant(), 0.25, 1, 1, {0, 0, 1}},
+      {"octant's corner", sphere_octant(), -1, -1, 0, {1, 0, 0}},
+      // A homogeneous edge that is the point (1, 1, 1) with weights 1, 2.
+      {"homogeneous edge",
+       net_of(1, 1, {{1, 1, 1}, {2, 2, 2}, {0, 1, 1}, {1, 1, 0}}, {1, 2, 1, 1}, true),
+       0.5,
+       -1,
+       1,
+       {0, 1, 0}},
+  };
+}
+
+[[nodiscard]] Vector3 unit(const Vector3& a) {
+  const double length = std::hypot(a[0], a[1], a[2]);
+  return length == 0 ? a : Vector3{a[0] / length, a[1] / length, a[2] / length};
+}
+
+TEST(LimitOracle, KnowsWhatIsKnown) {
+  for (const KnownNormal& known : known_normals()) {
+    const ExactDirection found = exact_normal(IntegerNet(known.net), known.x, known.y);
+    EXPECT_EQ(found.order, known.order) << known.name;
+    EXPECT_LE(degrees_apart(found.direction, unit(known.direction)), 1e-13) << known.name;
+  }
+}
+
+struct KnownTangent {
+  const char* name;
+  std::vector<Vector3> points;
+  std::vector<double> weights;
+  double x;
+  int order;
+  Vector3 direction;
+};
+
+TEST(LimitOracle, KnowsTangents) {
+  const Vector3 o{};
+  const KnownTangent cases[] = {
+      {"two points equal", {o, o, {1, 2, 0}}, {1, 1, 1e-4}, -1, 1, {1, 2, 0}},
+      {"at the other end", {{1, 2, 0}, o, o}, {1e-4, 1, 1}, 1, 1, {-1, -2, 0}},
+      {"three points equal", {o, o, o, {0, -2, 0}}, {}, -1, 2, {0, -1, 0}},
+      // (t - 1/2)^2, (t - 1/2)^3: from above.
+      {"cusp in the middle", {{3, -3, 0}, {-1, 3, 0}, {-1, -3, 0}, {3, 3, 0}}, {}, 0, 1, {1, 0, 0}},
+      {"point", {{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}, {1, 5, 2}, 0.25, -1, o},
+      {"line", {{1, 2, 3}, {1, 2, 4}}, {}, 0.25, 0, {0, 0, 1}},
+  };
+  for (const KnownTangent& known : cases) {
+    const Net curve{static_cast<int>(known.points.size()) - 1, 0, known.points, known.weights};
+    const ExactDirection found = exact_tangent(IntegerNet(curve), known.x);
+    EXPECT_EQ(found.order, known.order) << known.name;
+    EXPECT_LE(degrees_apart(found.direction, unit(known.direction)), 1e-13) << known.name;
+  }
+}
+
+/// du x dv at p + step * d.
+[[nodiscard]] Vector3q pulled_cross(const Net& net, double x, double y, const Rational& step) {
+  const bool middle = x == 0 && y == 0;
+  const auto pulled = [&](double at) -> Rational {
+    return middle ? Rational((1 + step) / 2) : Rational((1 + exact(at) * (1 - step)) / 2);
+  };
+  const Rational u = pulled(x);
+  const Rational v = pulled(y);
+  const ExactChannel weight = exact_channel_at(net, u, v, 3);
+  Vector3q du;
+  Vector3q dv;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const ExactChannel h = exact_channel_at(net, u, v, c);
+    const ExactChannel at = net.is_rational() ? exact_quotient(h, weight) : h;
+    du[c] = at.du;
+    dv[c] = at.dv;
+  }
+  return {du[1] * dv[2] - du[2] * dv[1], du[2] * dv[0] - du[0] * dv[2],
+          du[0] * dv[1] - du[1] * dv[0]};
+}
+
+/// Its direction, and the binary exponent of its size.
+[[nodiscard]] std::pair<Vector3, long> direction_of(const Vector3q& a) {
+  Vector3z numerators;
+  const Integer common = a[0].get_den() * a[1].get_den() * a[2].get_den();
+  for (std::size_t c = 0; c < 3; ++c) {
+    numerators[c] = a[c].get_num() * (common / a[c].get_den());
+  }
+  long size = 0;
+  for (const Integer& value : numerators) {
+    size = std::max(size, value == 0 ? 0 : static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2)));
+  }
+  return {first_direction({numerators}).direction,
+          size - static_cast<long>(mpz_sizeinbase(common.get_mpz_t(), 2))};
+}
+
+TEST(LimitOracle, AgreesWithAFinitePull) {
+  Rational near = 1;
+  mpq_div_2exp(near.get_mpq_t(), near.get_mpq_t(), 300);
+  Rational nearer = 1;
+  mpq_div_2exp(nearer.get_mpq_t(), nearer.get_mpq_t(), 400);
+  std::size_t limits = 0;
+  for (const bool doubles : {false, true}) {
+    for (const LimitNet& net : limit_nets({doubles, doubles}, 38, 5)) {
+      if (net.net.points.size() > 24) {
+        continue;
+      }
+      const IntegerNet integers(net.net);
+      for (std::size_t k = 0; k < net.samples.size(); k += 7) {
+        const LimitSample& sample = net.samples[k];
+        const ExactDirection found = exact_normal(integers, sample.x, sample.y);
+        const auto [direction, size] =
+            direction_of(pulled_cross(net.net, sample.x, sample.y, near));
+        EXPECT_LE(degrees_apart(direction, found.direction), 1e-12) << described(net, sample);
+        if (found.order >= 0) {
+          const long further =
+              direction_of(pulled_cross(net.net, sample.x, sample.y, nearer)).second;
+          EXPECT_NEAR(static_cast<double>(size - further), 100 * found.order, 4)
+              << described(net, sample);
+        }
+        limits += found.order > 0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(limits, 30U);
+}
+
+} // namespace
+} // namespace simdbezier::tests
