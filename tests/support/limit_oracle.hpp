@@ -91,7 +91,8 @@ struct ExactParameter {
     std::vector<Integer> b = differences;
     for (std::size_t last = n - a; last > 0; --last) {
       for (std::size_t i = 0; i < last; ++i) {
-        b[i] = rest * b[i] + at.u * b[i + 1];
+        b[i] *= rest; // in place: half of the oracle's time is spent here
+        mpz_addmul(b[i].get_mpz_t(), at.u.get_mpz_t(), b[i + 1].get_mpz_t());
       }
     }
     series.push_back(binomial * b[0]);
