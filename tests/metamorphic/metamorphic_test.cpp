@@ -77,6 +77,13 @@ protected:
 
   Table table_;
 
+  [[nodiscard]] Sheet evaluate(const MetaBatch& batch, Call call, std::size_t nu, std::size_t nv) {
+    Sheet sheet;
+    run({},
+        [&](const Options& forced) { return batch.set->evaluate(call, nu, nv, forced, sheet); });
+    return sheet;
+  }
+
 private:
   /// One for each relation.
   [[nodiscard]] static std::vector<MetaBatch> related_batches(const std::vector<MetaEntry>& entries,
@@ -119,13 +126,6 @@ private:
       compare(what, entries, batch, sheet, other, found, table_);
     }
   }
-
-  [[nodiscard]] Sheet evaluate(const MetaBatch& batch, Call call, std::size_t nu, std::size_t nv) {
-    Sheet sheet;
-    run({},
-        [&](const Options& forced) { return batch.set->evaluate(call, nu, nv, forced, sheet); });
-    return sheet;
-  }
 };
 
 TEST_P(Metamorphic, EveryCellIsFilledOrImpossible) {
@@ -138,7 +138,66 @@ TEST_P(Metamorphic, EveryCellIsFilledOrImpossible) {
   }
   table_.judge(std::string(to_string(isa())));
 }
-INSTANTIATE_FOR_EVERY_ISA(Metamorphic);
+/// One value of a sheet, for all groups that it has; null behind the last one.
+[[nodiscard]] double* value_of_group(Sheet& sheet, std::size_t group, std::size_t at) {
+  std::vector<std::vector<double>*> groups{&sheet.direction, &sheet.curvature};
+  for (auto& row : sheet.derivatives) {
+    for (std::vector<double>& values : row) {
+      groups.push_back(&values);
+    }
+  }
+  for (std::vector<double>* const values : groups) {
+    if (!values->empty() && group-- == 0) {
+      return &(*values)[at % values->size()];
+    }
+  }
+  return nullptr;
+}
+
+// A table without holes says nothing where wrong values pass: one of them in each group in turn.
+TEST_P(Metamorphic, OneWrongValueIsNoticed) {
+  for (const std::size_t shape : {std::size_t{0}, std::size_t{3}, std::size_t{16}}) {
+    const std::vector<MetaEntry> entries = entries_of(shape, Origin::none);
+    const MetaBatch batch(nets_of(entries), {}, true, isa());
+    const ShapeRow& row = kShapeRows[shape];
+    const Call call = row.is_curve() ? Call::curve_rows : Call::grid;
+    const Sheet right =
+        evaluate(batch, call, static_cast<std::size_t>(row.nu), static_cast<std::size_t>(row.nv));
+    const Comparison what{Relation::reweighted, call, shape, Origin::none, true, true};
+    const std::size_t inner = static_cast<std::size_t>(row.is_curve() ? 2 : row.nu + 1);
+    for (std::size_t group = 0;; ++group) {
+      Sheet wrong = right;
+      double* const value = value_of_group(wrong, group, inner);
+      if (value == nullptr) {
+        EXPECT_GE(group, row.is_curve() ? 5U : 8U);
+        break;
+      }
+      *value += 1e-6;
+      Table table;
+      compare(what, entries, batch, right, batch, wrong, table);
+      EXPECT_EQ(table.sorts_of_failures(), 1U) << "shape " << shape << ", group " << group;
+    }
+    Table none;
+    compare(what, entries, batch, right, batch, right, none);
+    EXPECT_EQ(none.sorts_of_failures(), 0U);
+  }
+}
+
+/// The widest instruction set of each class, for the others have their bits (tests/determinism);
+/// all of them where SIMDBEZIER_EVERY_ISA is in the environment.
+[[nodiscard]] std::vector<Isa> tested_isas() {
+  const std::span<const Isa> available = available_isas();
+  std::vector<Isa> tested;
+  for (std::size_t k = 0; k < available.size(); ++k) {
+    const bool widest = k + 1 == available.size() ||
+                        fuses_multiply_add(available[k]) != fuses_multiply_add(available[k + 1]);
+    if (widest || std::getenv("SIMDBEZIER_EVERY_ISA") != nullptr) {
+      tested.push_back(available[k]);
+    }
+  }
+  return tested;
+}
+INSTANTIATE_TEST_SUITE_P(Isa, Metamorphic, ::testing::ValuesIn(tested_isas()), isa_test_name);
 
 } // namespace
 } // namespace simdbezier::tests

@@ -18,6 +18,7 @@ public:
   void fill(const Cell& cell) { filled_[cell.index()] = 1; }
   /// One value that is not what the relation says; `text` describes the first of its sort.
   void fail(const Cell& cell, const std::string& text);
+  [[nodiscard]] std::size_t sorts_of_failures() const { return failures_.size(); }
 
   /// Fails the test where values differed, where a cell is neither filled nor impossible, and where
   /// it is both. Prints the whole table where SIMDBEZIER_TABLE is in the environment.
