@@ -92,6 +92,12 @@ void answer_curve(const LimitNet& curve, const IntegerNet& integers, LimitSample
     const double size = largest_of(largest_hodographs_u(control_polygon(curve.net)));
     const double slope = length(oracle_sample(curve.net, sample.x, 0).du).to_double();
     sample.kappa = slope > 0 ? size / slope : HUGE_VAL;
+    if (curve.net.is_rational()) {
+      const auto at =
+          channel_derivatives(curve.net, OracleParameter::centred(sample.x), {}, {0, 0});
+      sample.lightness = *std::max_element(curve.net.weights.begin(), curve.net.weights.end()) /
+                         at[kWeightChannel].to_double();
+    }
   }
 }
 

@@ -21,8 +21,9 @@ struct LimitSample {
   double x = 0;
   double y = 0; ///< 0 on curves
   SampleStatus status = SampleStatus::degenerate;
-  Vector3 direction{}; ///< of the normal or the tangent
-  double kappa = 0;    ///< regular ones: how much du x dv or C' magnifies errors, see OracleNormal
+  Vector3 direction{};  ///< of the normal or the tangent
+  double kappa = 0;     ///< regular ones: how much du x dv or C' magnifies errors, see OracleNormal
+  double lightness = 1; ///< of curves: the largest weight over the one here
 };
 
 struct LimitNet {

@@ -53,10 +53,11 @@ void LimitTally::add(const LimitNet& net, const LimitSample& sample, const Found
 }
 
 void LimitTally::add_regular(const Place& at, const FoundDirection& found, double angle) {
-  const double kappa = std::clamp(at.sample->kappa, 1.0, 0x1p60);
+  const double lightness = at.sample->lightness;
+  const double kappa = std::clamp(at.sample->kappa * lightness, 1.0, 0x1p60);
   double& largest = regular_[std::ilogb(kappa) / kBucket * kBucket];
   largest = std::max(largest, angle);
-  if (!(angle <= allowed_.regular)) {
+  if (!(angle <= allowed_.regular_at(lightness))) {
     fail(at, found, "regular direction");
   }
 }

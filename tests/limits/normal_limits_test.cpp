@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 
+#include "tests/limits/known_normals.hpp"
 #include "tests/limits/limit_tally.hpp"
 #include "tests/support/evaluation.hpp"
 #include "tests/support/isa_fixture.hpp"
@@ -56,7 +57,6 @@ protected:
     tally_.report(std::string(to_string(isa())) + ", " + title);
   }
 
-private:
   static constexpr Wanted kAll{true, true, true, true, true, true};
   static constexpr Wanted kNormals{false, false, true, true};
 
@@ -140,6 +140,20 @@ private:
   LimitTally tally_{allowed_angles(false)};
 };
 
+TEST_P(NormalLimits, KnownNets) {
+  std::vector<LimitNet> nets;
+  for (const KnownNormal& known : known_normals()) {
+    const SampleStatus status = known.order == 0  ? SampleStatus::regular
+                                : known.order > 0 ? SampleStatus::limit
+                                                  : SampleStatus::degenerate;
+    nets.push_back(
+        {known.name, known.net, 3, {{known.x, known.y, status, unit(known.direction), 1}}});
+  }
+  nets_ = &nets;
+  tally_ = LimitTally(allowed_angles(true));
+  judge_scattered(packed_from<double, double>({.isa = isa()}));
+  tally_.report(std::string(to_string(isa())) + ", known nets");
+}
 TEST_P(NormalLimits, Float) { judge<float, float>("float"); }
 TEST_P(NormalLimits, Double) { judge<double, double>("double"); }
 TEST_P(NormalLimits, FloatFromDouble) { judge<float, double>("float from double"); }

@@ -6,6 +6,14 @@
 namespace simdbezier::tests {
 // -------------------------------------------------------------------
 
+/// The first row of any net.
+[[nodiscard]] inline Net any_curve(int degree, Random& random) {
+  Net net = any_net({degree, 1}, random);
+  net.degree_v = 0;
+  net.points.resize(static_cast<std::size_t>(degree) + 1);
+  return net;
+}
+
 [[nodiscard]] inline SingularNet repeated_points(Net curve, int points) {
   for (int i = 1; i < points; ++i) {
     curve.at(0, i) = curve.at(0, 0);
@@ -34,7 +42,7 @@ namespace simdbezier::tests {
 
 /// Three quarters of all points fall together, and the last ones weigh next to nothing.
 [[nodiscard]] inline SingularNet light_end(int degree, Random& random) {
-  SingularNet result = repeated_points(any_net({degree, 0}, random), 3 * degree / 4 + 1);
+  SingularNet result = repeated_points(any_curve(degree, random), 3 * degree / 4 + 1);
   for (int i = 0; i <= degree; ++i) {
     result.net.weights.push_back(4 * i > 3 * degree ? graded_weight(1e-10, 16) : 1);
   }
@@ -47,21 +55,18 @@ struct SingularCurveRow {
 };
 
 inline constexpr SingularCurveRow kSingularCurveRows[] = {
-    {"two_points_equal",
-     [](int n, Random& r) {
-       return repeated_points(any_net({n, 0}, r), 2);
-     }},
+    {"two_points_equal", [](int n, Random& r) { return repeated_points(any_curve(n, r), 2); }},
     {"points_equal",
      [](int n, Random& r) {
        const int points = r.integer(2, n + 1);
-       return repeated_points(any_net({n, 0}, r), points);
+       return repeated_points(any_curve(n, r), points);
      }},
     {"cusp", cusp_of_curve},
     {"straight", straight_curve},
     {"light_end", light_end},
     {"regular",
      [](int n, Random& r) {
-       return SingularNet{any_net({n, 0}, r), 0, 0};
+       return SingularNet{any_curve(n, r), 0, 0};
      }},
 };
 
