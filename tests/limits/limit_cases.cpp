@@ -204,7 +204,7 @@ bool same_limit_shape(const LimitNet& a, const LimitNet& b) { return shape_key(a
 
 std::size_t limit_net_count() {
   const char* const given = std::getenv("SIMDBEZIER_LIMIT_NETS");
-  return given == nullptr ? 150 : std::strtoul(given, nullptr, 10);
+  return given == nullptr ? 100 : std::strtoul(given, nullptr, 10);
 }
 
 std::string described(const LimitNet& net, const LimitSample& sample) {
