@@ -10,11 +10,12 @@
 namespace simdbezier::tests {
 namespace {
 
-/// Of iso-curves, whose control points carry 2 (degree + 1) roundings of their own and one of T;
-/// differences of them do not get smaller. The parameters of mirrored ones are rounded, too.
-[[nodiscard]] double iso_bound(const MetaNet& net, std::size_t order, const SizeTable& sizes) {
+/// Of iso-curves, whose control points carry 2 (degree + 1) roundings of their own, relative to the
+/// points as given, and one of T; differences of them do not get smaller. The parameters of
+/// mirrored ones are rounded, too.
+[[nodiscard]] double iso_bound(const MetaNet& net, std::size_t order, double largest) {
   const int degree = std::max(net.degree_u, net.degree_v);
-  return (2 * degree + 6) * std::pow(2.0 * degree, static_cast<double>(order)) * sizes[0][0];
+  return (2 * degree + 6) * std::pow(2.0 * degree, static_cast<double>(order)) * largest;
 }
 
 /// Of one batch: the certificate where there is one, else the bound of positions per unit of that
@@ -29,7 +30,7 @@ namespace {
   const double k = general_bound(shape.degree_u, std::max(shape.degree_v, 1), 0, 0, what.fma);
   const double plain = k * sizes[a][b];
   const double roundings =
-      is_iso_call(what.call) ? 2 * plain + iso_bound(shape, a + b, sizes) : plain;
+      is_iso_call(what.call) ? 2 * plain + iso_bound(shape, a + b, batch.largest[net][c]) : plain;
   // Numerator and denominators of quotients have errors of their own.
   return (shape.weights == Weights::none ? 1 : 4) * roundings *
          (what.is_double ? kUnitRoundoff<double> : kUnitRoundoff<float>);
@@ -42,8 +43,10 @@ MetaBatch::MetaBatch(std::vector<MetaNet> from, const Placement& where, bool is_
   for (std::size_t k = 0; k < nets.size(); ++k) {
     bounds.push_back(set->bounds(k, isa));
     auto& tables = sizes.emplace_back();
+    auto& as_given = largest.emplace_back();
     for (int c = 0; c < nets[k].components; ++c) {
       tables.push_back(derivative_sizes(nets[k], c, placement));
+      as_given.push_back(derivative_sizes(nets[k], c, {})[0][0]);
     }
   }
 }

@@ -16,6 +16,7 @@ struct MetaBatch {
   std::unique_ptr<MetaSet> set;
   std::vector<MetaBounds> bounds;
   std::vector<std::vector<SizeTable>> sizes; ///< [net][component]
+  std::vector<std::vector<double>> largest;  ///< of the points as given, without relative_to
 
   MetaBatch(std::vector<MetaNet> from, const Placement& where, bool is_double, Isa isa);
 };
