@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include <tools/command_line.hpp>
 #include <tools/csv.hpp>
 #include <tools/grid_blocks.hpp>
 #include <tools/patch_file.hpp>
 
 namespace simdbezier::tools {
 
-enum class Command : std::uint8_t { tessellate, evaluate, info };
 enum class Precision : std::uint8_t { f32, f64 };
 
 struct Arguments {
@@ -28,6 +28,9 @@ struct Arguments {
   bool normals = true;
   bool json = false;
 };
+
+/// The names of the files that will be read; "-": standard input.
+[[nodiscard]] std::vector<std::string> inputs_of(const Arguments& arguments);
 
 /// Nothing where help or the version was asked for, which has then been printed.
 /// Throws Failure with exit code 2 on bad usage.

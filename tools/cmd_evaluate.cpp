@@ -69,18 +69,23 @@ double grid_parameter(std::size_t i, std::size_t count) {
   return static_cast<double>(i) / static_cast<double>(count - 1);
 }
 
+// Data in a pipe mostly end on the terminal that would show the bar.
+bool may_show_bar(const Arguments& arguments, const OutputFile& file) {
+  return arguments.out != "-" && !file.is_terminal();
+}
+
 template <typename T>
-void evaluate_on_grid(const Arguments& arguments, const PatchSet<T>& set) {
+void evaluate_on_grid(const Arguments& arguments, const PatchFile& patches) {
   const GridSize grid = arguments.grid;
   const std::size_t columns = column_count(arguments.outputs);
-  const std::uint64_t samples = checked_sample_count(set.size(), grid, columns * sizeof(T));
-  const GridEvaluator<T> evaluator(set, grid, arguments.threads);
+  const std::uint64_t samples = checked_sample_count(patches.count, grid, columns * sizeof(T));
+  GridEvaluator<T> evaluator(patches, grid, arguments.threads);
   OutputFile file(arguments.out);
   file.expect_room(samples * (6 + 2 * columns)); // "0,0,0" and ",0" a column
   ResultWriter writer(file, false, arguments.outputs);
   ResultTable<T> table(arguments.outputs);
-  Progress progress(samples, arguments.out != "-");
-  for_each_block(set.size(), grid, [&](const GridBlock& block) {
+  Progress progress("evaluating", "samples", samples, may_show_bar(arguments, file));
+  for_each_block(patches.count, grid, [&](const GridBlock& block) {
     evaluator.evaluate(block, table.resize(block.samples(grid)));
     std::size_t k = 0;
     for (std::size_t p = block.first_patch; p < block.first_patch + block.patch_count; ++p) {
@@ -138,7 +143,7 @@ void evaluate_samples(const Arguments& arguments, const PatchSet<T>& set) {
   OutputFile file(arguments.out);
   ResultWriter writer(file, reader.centred(), arguments.outputs);
   ResultTable<T> table(arguments.outputs);
-  Progress progress(0, arguments.out != "-");
+  Progress progress("evaluating", "samples", 0, may_show_bar(arguments, file));
   Options options;
   options.threads = arguments.threads;
   for (SampleBlock<T> block; block.read(reader);) {
@@ -156,14 +161,19 @@ void evaluate_samples(const Arguments& arguments, const PatchSet<T>& set) {
 
 template <typename T>
 void evaluate(const Arguments& arguments) {
-  const PatchSet<T> set = pack_patches<T>(read_patches(arguments.in, arguments.format));
-  arguments.samples ? evaluate_samples(arguments, set) : evaluate_on_grid(arguments, set);
+  if (arguments.samples) {
+    // Samples may be of any patch in any order; what has been read is not needed any more.
+    return evaluate_samples(arguments,
+                            pack_patches<T>(read_patches(arguments.in, arguments.format)));
+  }
+  evaluate_on_grid<T>(arguments, read_patches(arguments.in, arguments.format));
 }
 
 } // namespace
 
 void run_evaluate(const Arguments& arguments) {
   chosen_isa();
+  refuse_input_as_output(arguments.out, inputs_of(arguments));
   arguments.precision == Precision::f32 ? evaluate<float>(arguments) : evaluate<double>(arguments);
 }
 

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <tools/grid_blocks.hpp>
 #include <tools/library_status.hpp>
 #include <tools/output_file.hpp>
 #include <tools/topology.hpp>
@@ -38,21 +39,29 @@ struct Summary {
   Isa chosen = Isa::automatic;
 };
 
+void extend_box(const ControlNets<double>& nets, Summary& summary) {
+  const std::ptrdiff_t values = nets.point_stride;
+  const double* const end =
+      nets.points + static_cast<std::ptrdiff_t>(nets.count) * nets.patch_stride;
+  for (const double* point = nets.points; point != end; point += values) {
+    const double divisor = nets.weights == Weights::homogeneous ? point[3] : 1;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double coordinate = point[c] / divisor + 0.0; // -0 is 0 to the library
+      summary.low[c] = std::min(summary.low[c], coordinate);
+      summary.high[c] = std::max(summary.high[c], coordinate);
+    }
+  }
+}
+
 /// The box of all control points, in Cartesian coordinates.
 void measure_box(const PatchFile& file, Summary& summary) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   summary.low.fill(kInfinity);
   summary.high.fill(-kInfinity);
-  for (const PatchRun& run : file.runs) {
-    const std::size_t values = run.values_per_point();
-    const double* point = file.points.data() + run.first_value;
-    for (std::size_t k = 0; k < run.count * run.points_per_patch(); ++k, point += values) {
-      const double divisor = run.weights == Weights::homogeneous ? point[3] : 1;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double coordinate = point[c] / divisor + 0.0; // -0 is 0 to the library
-        summary.low[c] = std::min(summary.low[c], coordinate);
-        summary.high[c] = std::max(summary.high[c], coordinate);
-      }
+  for (std::size_t first = 0; first < file.count; first += kBlockPatches) {
+    const PatchNets<double> block = file.nets<double>(first, kBlockPatches);
+    for (const ControlNets<double>& nets : block.nets) {
+      extend_box(nets, summary);
     }
   }
 }
@@ -149,6 +158,7 @@ std::string as_json(const Summary& summary) {
 
 void run_info(const Arguments& arguments) {
   const Isa chosen = chosen_isa();
+  refuse_input_as_output("-", inputs_of(arguments));
   const Summary summary = summarise(read_patches(arguments.in, arguments.format), chosen);
   OutputFile out("-");
   out.text(arguments.json ? as_json(summary) : as_text(summary));

@@ -14,12 +14,12 @@ namespace {
 
 template <typename T>
 void tessellate(const Arguments& arguments, const PatchFile& patches, const Mesh& mesh) {
-  const GridEvaluator<T> evaluator(pack_patches<T>(patches), mesh.grid, arguments.threads);
+  GridEvaluator<T> evaluator(patches, mesh.grid, arguments.threads);
   OutputFile file(arguments.out);
   const auto writer = extension_of(arguments.out) == "ply" ? make_ply_writer<T>(file, mesh)
                                                            : make_obj_writer<T>(file, mesh);
   const auto stride = static_cast<std::ptrdiff_t>(mesh.stride());
-  Progress progress(mesh.vertices());
+  Progress progress("evaluating", "samples", mesh.vertices(), !file.is_terminal());
   std::vector<T> values;
   for_each_block(mesh.patches, mesh.grid, [&](const GridBlock& block) {
     values.resize(block.samples(mesh.grid) * mesh.stride());
@@ -42,6 +42,7 @@ void tessellate(const Arguments& arguments, const PatchFile& patches, const Mesh
 
 void run_tessellate(const Arguments& arguments) {
   chosen_isa();
+  refuse_input_as_output(arguments.out, inputs_of(arguments));
   const PatchFile patches = read_patches(arguments.in, arguments.format);
   const Mesh mesh{patches.count, arguments.grid, arguments.normals};
   const bool single = arguments.precision == Precision::f32;

@@ -9,7 +9,7 @@ namespace simdbezier::tools {
 
 namespace {
 
-constexpr std::size_t kLongestLine = 4096;
+constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 constexpr std::array<std::string_view, kOutputGroups> kColumns = {
     ",x,y,z",          ",dux,duy,duz",    ",dvx,dvy,dvz", ",duux,duuy,duuz",
     ",duvx,duvy,duvz", ",dvvx,dvvy,dvvz", ",nx,ny,nz",    ",gaussian,mean,kmin,kmax"};
@@ -22,7 +22,7 @@ std::string_view trimmed(std::string_view text) {
              : text.substr(first, text.find_last_not_of(kSpace) - first + 1);
 }
 
-// The fields of a line, trimmed; their number may be anything, three of them are kept.
+// The fields of a line, trimmed; their number may be anything, the first ones are kept.
 struct Fields {
   explicit Fields(std::string_view line) {
     for (bool more = true; more; ++count) {
@@ -34,7 +34,20 @@ struct Fields {
       line.remove_prefix(more ? comma + 1 : line.size());
     }
   }
-  std::array<std::string_view, 3> value;
+  [[nodiscard]] bool are(const std::array<std::string_view, 3>& names) const {
+    return count == names.size() && std::ranges::equal(names, std::span(value).first(names.size()));
+  }
+  /// The first field that another one repeats; empty: none does.
+  [[nodiscard]] std::string_view repeated() const {
+    const auto kept = std::span(value).first(std::min(count, value.size()));
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      if (std::ranges::find(kept.subspan(k + 1), kept[k]) != kept.end()) {
+        return kept[k];
+      }
+    }
+    return {};
+  }
+  std::array<std::string_view, 8> value;
   std::size_t count = 0;
 };
 
@@ -55,10 +68,11 @@ SampleReader::SampleReader(const std::string& path, std::size_t patches)
     fail(expected, "the end of the file");
   }
   const Fields fields(line_);
-  const bool unit = fields.value == std::array<std::string_view, 3>{"patch", "u", "v"};
-  centred_ = fields.value == std::array<std::string_view, 3>{"patch", "x", "y"};
-  if (fields.count != 3 || !(unit || centred_)) {
-    fail(expected, in_quotes(line_));
+  centred_ = fields.are({"patch", "x", "y"});
+  if (!centred_ && !fields.are({"patch", "u", "v"})) {
+    const std::string_view repeated = fields.repeated();
+    fail(expected,
+         in_quotes(line_) + (repeated.empty() ? "" : " with " + in_quotes(repeated) + " twice"));
   }
 }
 

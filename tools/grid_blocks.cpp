@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <tools/counts.hpp>
 #include <tools/failure.hpp>
 #include <tools/library_status.hpp>
 
@@ -24,30 +25,40 @@ std::vector<T> uniform_parameters(std::size_t count) {
 
 std::uint64_t checked_sample_count(std::size_t patches, const GridSize& grid,
                                    std::size_t bytes_per_sample) {
-  std::uint64_t samples = 0;
-  std::uint64_t bytes = 0;
-  if (__builtin_mul_overflow(patches, grid.nu, &samples) ||
-      __builtin_mul_overflow(samples, grid.nv, &samples) ||
-      __builtin_mul_overflow(samples, bytes_per_sample, &bytes) || bytes > kMostBytes) {
+  const Count samples = Count(patches) * grid.nu * grid.nv;
+  if (!(samples * bytes_per_sample).within(kMostBytes)) {
     bad_usage("--grid: expected at most " + std::to_string(kMostBytes) +
               " bytes of results, found " + std::to_string(patches) + " patches of " +
               std::to_string(grid.nu) + "x" + std::to_string(grid.nv) + " samples of " +
               std::to_string(bytes_per_sample) + " bytes");
   }
-  return samples;
+  return *samples.value();
 }
 
 template <typename T>
-GridEvaluator<T>::GridEvaluator(const PatchSet<T>& set, const GridSize& grid, int threads)
-    : set_(set), grid_(grid), threads_(threads), x_(uniform_parameters<T>(grid.nu)),
-      y_(uniform_parameters<T>(grid.nv)) {}
+GridEvaluator<T>::GridEvaluator(const PatchFile& file, const GridSize& grid, int threads)
+    : file_(file), grid_(grid), threads_(threads), x_(uniform_parameters<T>(grid.nu)),
+      y_(uniform_parameters<T>(grid.nv)) {
+  const std::size_t most = patches_per_block(grid);
+  for (std::size_t p = 0; p < file.count; p += most) {
+    pack(p, std::min(most, file.count - p));
+  }
+}
 
 template <typename T>
-void GridEvaluator<T>::evaluate(const GridBlock& block, const Outputs<T>& out) const {
+void GridEvaluator<T>::pack(std::size_t first, std::size_t count) {
+  if (set_.size() != count || first_ != first) {
+    set_ = PatchSet<T>(); // whose memory the next one may take
+    set_ = pack_patches<T>(file_, first, count);
+    first_ = first;
+  }
+}
+
+template <typename T>
+void GridEvaluator<T>::evaluate(const GridBlock& block, const Outputs<T>& out) {
+  pack(block.first_patch, block.patch_count);
   Options options;
   options.threads = threads_;
-  options.first_patch = block.first_patch;
-  options.patch_count = block.patch_count;
   Grid<T> grid = Grid<T>::uniform(grid_.nu, grid_.nv);
   if (block.row_count != grid_.nv) {
     grid = {grid_.nu, block.row_count, x_.data(), y_.data() + block.first_row, Parameters::centred};

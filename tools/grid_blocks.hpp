@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <simdbezier/simdbezier.hpp>
+#include <tools/patch_file.hpp>
 
 namespace simdbezier::tools {
 
@@ -27,6 +28,9 @@ struct GridBlock {
   }
 };
 
+inline constexpr std::size_t kBlockSamples = std::size_t{1} << 18;
+inline constexpr std::size_t kBlockPatches = std::size_t{1} << 14;
+
 /// Larger grids and results are refused: a typo is likelier than a wish.
 inline constexpr std::size_t kMostPerDirection = std::size_t{1} << 20;
 inline constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 40;
@@ -36,35 +40,45 @@ inline constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 40;
 [[nodiscard]] std::uint64_t checked_sample_count(std::size_t patches, const GridSize& grid,
                                                  std::size_t bytes_per_sample);
 
+/// As many patches as make a block of moderate size.
+[[nodiscard]] constexpr std::size_t patches_per_block(const GridSize& grid) noexcept {
+  // Neither many samples nor many packed patches.
+  return std::clamp<std::size_t>(kBlockSamples / (grid.nu * grid.nv), 1, kBlockPatches);
+}
+
 /// Calls f(block) for blocks in output order: patch, then row.
 template <typename F>
 void for_each_block(std::size_t patches, const GridSize& grid, F&& f) {
-  constexpr std::size_t kBlockSamples = std::size_t{1} << 18;
-  const std::size_t patches_per_block =
-      std::max<std::size_t>(1, kBlockSamples / (grid.nu * grid.nv));
+  const std::size_t most = patches_per_block(grid);
   const std::size_t rows_per_block = std::clamp<std::size_t>(kBlockSamples / grid.nu, 1, grid.nv);
-  for (std::size_t p = 0; p < patches; p += patches_per_block) {
-    const std::size_t patch_count = std::min(patches_per_block, patches - p);
+  for (std::size_t p = 0; p < patches; p += most) {
+    const std::size_t patch_count = std::min(most, patches - p);
     for (std::size_t row = 0; row < grid.nv; row += rows_per_block) {
       f(GridBlock{p, patch_count, row, std::min(rows_per_block, grid.nv - row)});
     }
   }
 }
 
-/// Evaluates the blocks of one set on one uniform grid.
+/// Evaluates the blocks of a file's patches on one uniform grid. Only a block's patches are packed
+/// at a time: all of them would take several times the memory of the file.
 template <typename T>
 class GridEvaluator {
 public:
-  GridEvaluator(const PatchSet<T>& set, const GridSize& grid, int threads);
+  /// Throws Failure where T cannot hold a patch, whichever it is, before anything is evaluated.
+  GridEvaluator(const PatchFile& file, const GridSize& grid, int threads);
   /// Throws Failure where the library reports an error.
-  void evaluate(const GridBlock& block, const Outputs<T>& out) const;
+  void evaluate(const GridBlock& block, const Outputs<T>& out);
 
 private:
-  PatchSet<T> set_;
+  void pack(std::size_t first, std::size_t count);
+
+  const PatchFile& file_;
   GridSize grid_;
   int threads_;
   std::vector<T> x_; // the uniform grid's centred parameters, for blocks of rows
   std::vector<T> y_;
+  PatchSet<T> set_; // of the patches from first_ on
+  std::size_t first_ = 0;
 };
 
 } // namespace simdbezier::tools

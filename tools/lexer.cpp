@@ -7,7 +7,12 @@ namespace simdbezier::tools {
 
 namespace {
 
-constexpr std::size_t kLongestWord = 512; // exact decimals of any double fit
+// Words that are no numbers are cut off here. Names are shorter, and binary files have few spaces.
+constexpr std::size_t kLongestWord = 512;
+
+constexpr bool is_of_number(int c) noexcept {
+  return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+' || c == 'e' || c == 'E';
+}
 
 } // namespace
 
@@ -56,15 +61,18 @@ bool Lexer::skip_space() {
 void Lexer::word(int first) {
   kind_ = TokenKind::word;
   text_.push_back(static_cast<char>(first));
+  bool number = is_of_number(first);
   int c = input_.peek();
-  for (; c != TextInput::kEnd && !is_space(c) && text_.size() < kLongestWord; c = input_.peek()) {
+  for (; c != TextInput::kEnd && !is_space(c); c = input_.peek()) {
     if ((syntax_.brackets && (c == '[' || c == ']')) || (syntax_.strings && c == '"')) {
       return;
     }
+    number = number && (is_of_number(c) || (syntax_.lines && c == '\\'));
+    if (text_.size() >= kLongestWord && !number) {
+      text_.push_back('~');
+      return;
+    }
     text_.push_back(static_cast<char>(input_.get()));
-  }
-  if (text_.size() == kLongestWord) {
-    text_.push_back('~');
   }
   if (syntax_.lines && text_.back() == '\\' && c == '\n') {
     text_.pop_back();
@@ -138,6 +146,13 @@ double Lexer::weight() const {
     fail("a weight above 0");
   }
   return weight;
+}
+
+std::size_t Lexer::counted(Count count, const std::string& what) const {
+  if (!count.value()) {
+    fail("a number of " + what + " that can be counted", to_string(count));
+  }
+  return *count.value();
 }
 
 std::size_t Lexer::integer(const std::string& what, std::size_t least, std::size_t most) const {

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include <tools/counts.hpp>
 #include <tools/text_input.hpp>
 
 namespace simdbezier::tools {
@@ -27,8 +28,8 @@ class Lexer {
 public:
   Lexer(TextInput& input, const Syntax& syntax) : input_(input), syntax_(syntax) {}
 
-  /// Reads the next token, which everything below is about. A word of absurd length, as in binary
-  /// files, comes cut off and marked so that it is no number.
+  /// Reads the next token, which everything below is about. Numbers may be of any length; another
+  /// word of absurd length, as in binary files, comes cut off and marked.
   Lexer& next();
   /// The text of a word or string; valid until the next one is read.
   [[nodiscard]] std::string_view text() const noexcept { return text_; }
@@ -62,6 +63,8 @@ public:
   /// An integer within limits; `what` names it in the message.
   [[nodiscard]] std::size_t integer(const std::string& what, std::size_t least,
                                     std::size_t most) const;
+  /// A count that was formed of such integers, if it is one.
+  [[nodiscard]] std::size_t counted(Count count, const std::string& what) const;
   /// 1 to kMostDegree; `where` tells in which direction.
   [[nodiscard]] int degree(const std::string& where) const;
 

@@ -5,9 +5,12 @@
 #include <new>
 #include <string>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <tools/commands.hpp>
 #include <tools/failure.hpp>
-#include <tools/output_file.hpp>
+#include <tools/interruption.hpp>
 
 namespace {
 
@@ -32,10 +35,21 @@ int report(std::string message, int exit_code) {
   return exit_code;
 }
 
+// Files would be opened in the place of a standard stream that the caller has closed, and data or
+// messages go there. Reading and writing these fails.
+void keep_standard_streams_apart() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) < 0) {
+      open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    }
+  }
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
-  handle_signals();
+  keep_standard_streams_apart();
+  handle_interruptions();
   try {
     if (const auto arguments = parse_arguments(argc, argv)) {
       run(*arguments);

@@ -1,13 +1,18 @@
 #include <tools/output_file.hpp>
 
 #include <array>
-#include <atomic>
 #include <cerrno>
-#include <csignal>
+#include <cstring>
+#include <filesystem>
 #include <utility>
 
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <tools/counts.hpp>
 #include <tools/failure.hpp>
 #include <tools/text_input.hpp>
 
@@ -17,28 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What a signal handler may look at: the name of the temporary file, if there is one.
-std::array<char, 4096> temporary_name;
-std::atomic<bool> temporary_exists{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-void remember_temporary(const fs::path& path) {
-  const std::string& name = path.native();
-  if (name.size() < temporary_name.size()) {
-    std::memcpy(temporary_name.data(), name.c_str(), name.size() + 1);
-    temporary_exists = true;
-  }
-}
-
-extern "C" void on_signal(int number) {
-  if (temporary_exists) {
-    unlink(temporary_name.data());
-  }
-  std::signal(number, SIG_DFL);
-  std::raise(number);
-}
-
-std::string system_error_text() { return in_quotes(std::strerror(errno)); }
+std::string error_text(int error) { return in_quotes(std::strerror(error)); }
 
 // These names lead to whatever the program was started with; the file behind them, if it is one,
 // was opened and truncated by the shell.
@@ -48,93 +32,78 @@ bool names_open_descriptor(const fs::path& path) {
          name.starts_with("/proc/");
 }
 
-// The file at the end of a chain of links, which need not exist.
+// The file at the end of a chain of links, which need not exist. A chain without an end stays a
+// link, which the system refuses to open.
 fs::path follow_links(fs::path path) {
-  constexpr int kMostLinks = 40;
-  std::error_code ignored;
-  for (int i = 0; i < kMostLinks && !names_open_descriptor(path) && fs::is_symlink(path, ignored);
+  constexpr int kMostLinks = 40; // as the system has it
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && !names_open_descriptor(path) && fs::is_symlink(path, error);
        ++i) {
-    path = path.parent_path() / fs::read_symlink(path, ignored);
+    path = path.parent_path() / fs::read_symlink(path, error);
   }
   return path;
+}
+
+// What a name stands for, if there is such a file.
+std::optional<struct stat> file_of(const std::string& name, int standard) {
+  struct stat status = {};
+  const bool exists =
+      name == "-" ? fstat(standard, &status) == 0 : stat(name.c_str(), &status) == 0;
+  return exists ? std::optional(status) : std::nullopt;
 }
 
 } // namespace
 
 OutputFile::OutputFile(std::string path) : path_(std::move(path)), buffer_(kBufferSize) {
   if (path_ == "-") {
-    file_ = stdout;
+    descriptor_ = STDOUT_FILENO;
     return;
   }
-  target_ = follow_links(path_);
+  const fs::path target = follow_links(path_);
   std::error_code ignored;
-  if (fs::is_directory(target_, ignored)) {
+  if (fs::is_directory(target, ignored)) {
     fail("a file", "a directory");
   }
+  if (fs::is_symlink(target, ignored) && !names_open_descriptor(target)) {
+    fail("a writable file", error_text(ELOOP));
+  }
   if (is_written_directly(path_)) {
-    open_directly();
-  } else {
-    open_temporary();
+    open_directly(target.native());
+    return;
   }
+  try {
+    temporary_.emplace(target.native());
+  } catch (const std::system_error& error) {
+    fail("a writable file", error_text(error.code().value()));
+  }
+  descriptor_ = temporary_->descriptor();
 }
 
-void OutputFile::open_directly() {
+void OutputFile::open_directly(const std::string& target) {
   // Appending, so that what a shell's >> had kept stays.
-  file_ = std::fopen(target_.c_str(), "ab");
-  if (file_ == nullptr) {
-    fail("a writable file", system_error_text());
+  direct_ =
+      Descriptor(open(target.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY, 0666));
+  if (!direct_.is_open()) {
+    fail("a writable file", error_text(errno));
   }
-}
-
-void OutputFile::open_temporary() {
-  constexpr int kAttempts = 100;
-  std::error_code ignored;
-  const bool replaces = fs::exists(target_, ignored);
-  if (replaces && access(target_.c_str(), W_OK) != 0) {
-    fail("a writable file", system_error_text());
-  }
-  const std::string stem = ".simdbezier-" + std::to_string(getpid()) + "-";
-  for (int i = 0; i < kAttempts && file_ == nullptr; ++i) {
-    temporary_ = target_.parent_path() / (stem + std::to_string(i) + ".tmp");
-    file_ = std::fopen(temporary_.c_str(), "wbx");
-    if (file_ == nullptr && errno != EEXIST) {
-      break;
-    }
-  }
-  if (file_ == nullptr) {
-    temporary_.clear();
-    fail("a writable file", system_error_text());
-  }
-  remember_temporary(temporary_);
-  if (replaces) {
-    fs::permissions(temporary_, fs::status(target_, ignored).permissions(), ignored);
-  }
-}
-
-OutputFile::~OutputFile() {
-  if (file_ != nullptr && file_ != stdout) {
-    std::fclose(file_);
-  }
-  if (!temporary_.empty()) {
-    std::error_code ignored;
-    fs::remove(temporary_, ignored);
-    temporary_exists = false;
-  }
+  descriptor_ = direct_.number();
 }
 
 void OutputFile::fail(const std::string& what, const std::string& found) const {
   bad_input((path_ == "-" ? "standard output" : path_) + ": expected " + what + ", found " + found);
 }
 
+bool OutputFile::is_terminal() const { return isatty(descriptor_) != 0; }
+
 void OutputFile::expect_room(std::uintmax_t bytes) const {
-  if (temporary_.empty()) {
+  struct statvfs space = {};
+  if (!temporary_ || fstatvfs(descriptor_, &space) != 0) {
     return;
   }
-  std::error_code error;
-  const fs::space_info space = fs::space(temporary_, error);
-  if (!error && space.available < bytes) {
+  const Count available = Count(space.f_bavail) * space.f_frsize;
+  if (available.within(bytes) && available.value() != bytes) {
     fail("room for " + std::to_string(bytes) + " bytes or more",
-         std::to_string(space.available) + " bytes free");
+         to_string(available) + " bytes free");
   }
 }
 
@@ -143,47 +112,55 @@ void OutputFile::bytes(const void* data, std::size_t size) {
     flush();
   }
   if (size > kBufferSize) {
-    if (std::fwrite(data, 1, size, file_) != size) {
-      fail("room to write", system_error_text());
-    }
-    return;
+    return write_all(static_cast<const char*>(data), size);
   }
   std::memcpy(buffer_.data() + used_, data, size);
   used_ += size;
 }
 
-void OutputFile::flush() {
-  if (std::fwrite(buffer_.data(), 1, used_, file_) != used_) {
-    fail("room to write", system_error_text());
+void OutputFile::flush() { write_all(buffer_.data(), std::exchange(used_, 0)); }
+
+// Pipes and full disks take a part at times, and pipes of others may not be willing to wait.
+void OutputFile::write_all(const char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = write(descriptor_, data, size);
+    if (written > 0) {
+      data += written;
+      size -= static_cast<std::size_t>(written);
+    } else if (written < 0 && errno == EAGAIN) {
+      pollfd wait = {descriptor_, POLLOUT, 0};
+      poll(&wait, 1, -1);
+    } else if (written == 0 || errno != EINTR) {
+      fail("room to write", error_text(written == 0 ? ENOSPC : errno));
+    }
   }
-  used_ = 0;
 }
 
 void OutputFile::commit() {
   flush();
-  std::FILE* const file = std::exchange(file_, nullptr);
-  if ((file == stdout ? std::fflush(file) : std::fclose(file)) != 0) {
-    fail("room to write", system_error_text());
+  if (temporary_) {
+    try {
+      temporary_->replace_target();
+    } catch (const std::system_error& error) {
+      fail("room to write", error_text(error.code().value()));
+    }
+  } else if (const std::error_code error = direct_.close()) {
+    fail("room to write", error_text(error.value()));
   }
-  if (temporary_.empty()) {
-    return;
-  }
-  std::error_code error;
-  fs::rename(temporary_, target_, error);
-  if (error) {
-    fail("a writable file", in_quotes(error.message()));
-  }
-  temporary_exists = false;
-  temporary_.clear();
 }
 
-void handle_signals() {
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-    if (std::signal(number, on_signal) == SIG_IGN) {
-      std::signal(number, SIG_IGN); // as nohup wants it
+void refuse_input_as_output(const std::string& out, std::span<const std::string> inputs) {
+  const auto written = file_of(out, STDOUT_FILENO);
+  for (const std::string& input : inputs) {
+    const auto read = file_of(input, STDIN_FILENO);
+    // Devices, terminals and the like may well be both.
+    if (written && read && S_ISREG(written->st_mode) && written->st_dev == read->st_dev &&
+        written->st_ino == read->st_ino) {
+      bad_input((out == "-" ? "standard output" : out) +
+                ": expected an output that is no input, found the file that " +
+                (input == "-" ? "standard input" : input) + " is read from");
     }
   }
-  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool is_written_directly(const std::string& path) {

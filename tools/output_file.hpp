@@ -4,25 +4,29 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <tools/temporary_file.hpp>
+
 namespace simdbezier::tools {
 
-/// Writes to a temporary file beside `path`, which commit() renames to it; without commit() the
-/// temporary goes away and an existing file stays as it was. Links are followed. "-", devices and
-/// pipes have no name to rename and are written as they are. Every failure throws Failure.
+/// Writes to a temporary file beside `path`, which commit() puts there, on the disk, with the
+/// owner, group and mode of the file that it replaces; without commit() the temporary goes away and
+/// an existing file stays as it was. Links are followed. "-", devices and pipes have no name to put
+/// anything at and are written as they are. Every failure throws Failure.
 class OutputFile {
 public:
   explicit OutputFile(std::string path);
-  ~OutputFile();
+  ~OutputFile() = default;
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
+  /// Whether people see what is written while it is.
+  [[nodiscard]] bool is_terminal() const;
   /// Fails at once where the file system has no room for that much.
   void expect_room(std::uintmax_t bytes) const;
 
@@ -45,9 +49,9 @@ private:
   static constexpr std::size_t kBufferSize = std::size_t{1} << 18;
 
   [[noreturn]] void fail(const std::string& what, const std::string& found) const;
-  void open_directly();
-  void open_temporary();
+  void open_directly(const std::string& target);
   void flush();
+  void write_all(const char* data, std::size_t size);
   char* room(std::size_t size) {
     if (kBufferSize - used_ < size) {
       flush();
@@ -56,16 +60,16 @@ private:
   }
 
   std::string path_;
-  std::filesystem::path target_;
-  std::filesystem::path temporary_;
-  std::FILE* file_ = nullptr;
+  std::optional<TemporaryFile> temporary_;
+  Descriptor direct_;   // of a device or pipe
+  int descriptor_ = -1; // of whichever it is
   std::vector<char> buffer_;
   std::size_t used_ = 0;
 };
 
-/// An interrupted or terminated program removes its temporary file; a file that outgrows its
-/// limit is a failed write. To be called once, by main().
-void handle_signals();
+/// Throws Failure where the output would go to the file that an input is read from, by whatever
+/// names; "-" are standard input and output.
+void refuse_input_as_output(const std::string& out, std::span<const std::string> inputs);
 
 /// True for "-", devices and pipes, which have no temporary file.
 [[nodiscard]] bool is_written_directly(const std::string& path);

@@ -1,6 +1,5 @@
 // From a file's control points to a packed set, and back to the file where that fails.
-#include <algorithm>
-#include <type_traits>
+#include <span>
 
 #include <tools/failure.hpp>
 #include <tools/output_file.hpp>
@@ -11,21 +10,21 @@ namespace simdbezier::tools {
 namespace {
 
 template <typename T>
-[[noreturn]] void refuse(const PatchFile& file, const PackReport& report) {
+[[noreturn]] void refuse(const PatchFile& file, std::size_t patch, const PackReport& report) {
   const auto point = static_cast<std::size_t>(report.point);
   const std::string type = sizeof(T) == sizeof(float) ? "f32" : "f64";
   const auto found = [&] {
-    return shortest(file.point(report.patch, point)[static_cast<std::size_t>(report.component)]);
+    return shortest(file.point(patch, point)[static_cast<std::size_t>(report.component)]);
   };
   switch (report.status) {
   case Status::non_finite_input:
-    bad_input(file.place(report.patch, point) + ": expected coordinates within the range of " +
-              type + ", found " + found());
+    bad_input(file.place(patch, point) + ": expected coordinates within the range of " + type +
+              ", found " + found());
   case Status::bad_weight:
-    bad_input(file.place(report.patch, point) + ": expected a weight within the range of " + type +
+    bad_input(file.place(patch, point) + ": expected a weight within the range of " + type +
               ", found " + found());
   case Status::coefficient_overflow:
-    bad_input(file.place(report.patch, 0) + ": expected a patch whose coefficients fit " + type +
+    bad_input(file.place(patch, 0) + ": expected a patch whose coefficients fit " + type +
               ", found coordinates too large for that");
   case Status::out_of_memory:
     bad_input("not enough memory");
@@ -34,31 +33,19 @@ template <typename T>
   }
 }
 
+} // namespace
+
 template <typename T>
-PatchSet<T> pack_values(const PatchFile& file, std::span<const T> values) {
+PatchSet<T> pack_patches(const PatchFile& file, std::size_t first, std::size_t patches) {
   PatchSet<T> set;
-  const std::vector<ControlNets<T>> nets = file.nets(values);
-  if (const PackReport report = pack(std::span(nets), set); !report) {
-    refuse<T>(file, report);
+  const PatchNets<T> in = file.nets<T>(first, patches);
+  if (const PackReport report = pack(std::span(in.nets), set); !report) {
+    refuse<T>(file, first + report.patch, report);
   }
   return set;
 }
 
-} // namespace
-
-template <typename T>
-PatchSet<T> pack_patches(const PatchFile& file) {
-  if constexpr (std::is_same_v<T, double>) {
-    return pack_values<double>(file, file.points);
-  } else {
-    std::vector<T> rounded(file.points.size());
-    std::ranges::transform(file.points, rounded.begin(),
-                           [](double x) { return static_cast<T>(x); });
-    return pack_values<T>(file, rounded);
-  }
-}
-
-template PatchSet<float> pack_patches<float>(const PatchFile& file);
-template PatchSet<double> pack_patches<double>(const PatchFile& file);
+template PatchSet<float> pack_patches<float>(const PatchFile&, std::size_t, std::size_t);
+template PatchSet<double> pack_patches<double>(const PatchFile&, std::size_t, std::size_t);
 
 } // namespace simdbezier::tools

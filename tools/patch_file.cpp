@@ -1,11 +1,14 @@
 #include <tools/patch_file.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 
+#include <tools/counts.hpp>
 #include <tools/failure.hpp>
 #include <tools/output_file.hpp>
+#include <tools/progress.hpp>
 #include <tools/teapot.hpp>
 
 namespace simdbezier::tools {
@@ -59,21 +62,73 @@ void PatchFile::add_line(std::size_t line) {
   lines.push_back(static_cast<std::uint32_t>(std::min(line, kLast)));
 }
 
-void PatchFile::close_patch(int degree_u, int degree_v, Weights weights) {
-  PatchRun run{degree_u, degree_v, weights};
-  if (!runs.empty()) {
-    const PatchRun& last = runs.back();
-    run.first_patch = count;
-    run.first_point = last.first_point + last.count * last.points_per_patch();
-    run.first_value =
-        last.first_value + last.count * last.points_per_patch() * last.values_per_point();
+void PatchFile::check_quotients() const {
+  const std::span<const double> point = std::span(points).last(4);
+  for (const double coordinate : point.first(3)) {
+    if (!std::isfinite(coordinate / point[3])) {
+      bad_input(name + ":" + std::to_string(lines.back()) +
+                ": expected coordinates that are finite when divided by their weight, found " +
+                shortest(coordinate) + " / " + shortest(point[3]));
+    }
   }
-  if (runs.empty() || runs.back().degree_u != degree_u || runs.back().degree_v != degree_v ||
-      runs.back().weights != weights) {
+}
+
+void PatchFile::close_patch(int degree_u, int degree_v, Weights weights) {
+  const auto columns = static_cast<std::size_t>(degree_u) + 1;
+  const auto rows = static_cast<std::size_t>(degree_v) + 1;
+  close_mesh(degree_u, degree_v, weights, {columns, columns, 1}, {rows, rows, 1});
+}
+
+void PatchFile::close_mesh(int degree_u, int degree_v, Weights weights, const MeshDirection& u,
+                           const MeshDirection& v) {
+  PatchRun run{degree_u, degree_v, weights};
+  run.stride = run.values_per_point();
+  run.first_value = points.size() - u.points * v.points * run.stride;
+  run.first_point = lines.empty() ? 0 : lines.size() - u.points * v.points;
+  run.u = u;
+  run.v = v;
+  add(run);
+}
+
+void PatchFile::close_indexed_mesh(int degree_u, int degree_v, Weights weights,
+                                   const MeshDirection& u, const MeshDirection& v) {
+  PatchRun run{degree_u, degree_v, weights};
+  run.stride = 4;
+  run.first_vertex = vertices.size() - u.points * v.points;
+  run.u = u;
+  run.v = v;
+  add(run);
+}
+
+void PatchFile::add(PatchRun run) {
+  constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max();
+  const std::size_t patches = run.u.patches * run.v.patches; // fewer than points
+  if (!(Count(count) + patches).within(kMost)) {
+    bad_input(name + ": expected at most " + std::to_string(kMost) + " patches, found more");
+  }
+  const auto rows = static_cast<std::size_t>(run.degree_v) + 1;
+  if (run.is_patch() && !runs.empty() && runs.back().is_column_like(run)) {
+    runs.back().v.points += rows;
+    ++runs.back().v.patches;
+    ++runs.back().count;
+  } else {
+    run.v.step = run.is_patch() ? rows : run.v.step; // another patch may follow
+    run.first_patch = count;
+    run.count = patches;
     runs.push_back(run);
   }
-  ++runs.back().count;
-  ++count;
+  count += patches;
+}
+
+bool PatchRun::is_patch() const noexcept {
+  return u.patches == 1 && v.patches == 1 && u.points * v.points == points_per_patch();
+}
+
+bool PatchRun::is_column_like(const PatchRun& patch) const noexcept {
+  return u.patches == 1 && u.points == static_cast<std::size_t>(degree_u) + 1 &&
+         v.step == static_cast<std::size_t>(degree_v) + 1 && v.points == v.patches * v.step &&
+         degree_u == patch.degree_u && degree_v == patch.degree_v && weights == patch.weights &&
+         first_vertex.has_value() == patch.first_vertex.has_value();
 }
 
 const PatchRun& PatchFile::run_of(std::size_t patch) const {
@@ -81,36 +136,74 @@ const PatchRun& PatchFile::run_of(std::size_t patch) const {
   return *std::prev(after);
 }
 
-std::span<const double> PatchFile::point(std::size_t patch, std::size_t point) const {
+PatchFile::Place PatchFile::find(std::size_t patch, std::size_t point) const {
   const PatchRun& run = run_of(patch);
-  const std::size_t index = (patch - run.first_patch) * run.points_per_patch() + point;
-  return std::span(points).subspan(run.first_value + index * run.values_per_point(),
-                                   run.values_per_point());
+  const std::size_t columns = static_cast<std::size_t>(run.degree_u) + 1;
+  const std::size_t k = run.mesh_point(patch - run.first_patch, point % columns, point / columns);
+  return {run, point_index(run, k)};
+}
+
+std::span<const double> PatchFile::point(std::size_t patch, std::size_t point) const {
+  const auto [run, index] = find(patch, point);
+  return std::span(points).subspan(run.first_value + index * run.stride, run.values_per_point());
 }
 
 std::string PatchFile::place(std::size_t patch, std::size_t point) const {
   if (lines.empty()) {
     return name;
   }
-  const PatchRun& run = run_of(patch);
-  const std::size_t index =
-      run.first_point + (patch - run.first_patch) * run.points_per_patch() + point;
-  return name + ":" + std::to_string(lines[index]);
+  const auto [run, index] = find(patch, point);
+  return name + ":" + std::to_string(lines[run.first_point + index]);
 }
 
 template <typename S>
-std::vector<ControlNets<S>> PatchFile::nets(std::span<const S> values) const {
-  std::vector<ControlNets<S>> entries;
-  entries.reserve(runs.size());
-  for (const PatchRun& run : runs) {
-    entries.push_back(ControlNets<S>::packed(values.data() + run.first_value, run.count,
-                                             run.degree_u, run.degree_v, 3, run.weights));
+void PatchFile::append(const PatchRun& run, std::size_t patch, std::vector<S>& values) const {
+  const auto columns = static_cast<std::size_t>(run.degree_u) + 1;
+  const auto rows = static_cast<std::size_t>(run.degree_v) + 1;
+  const std::size_t each = run.values_per_point();
+  for (std::size_t j = 0; j < rows; ++j) {
+    for (std::size_t i = 0; i < columns; ++i) {
+      const std::size_t index = point_index(run, run.mesh_point(patch, i, j));
+      const double* const value = points.data() + run.first_value + index * run.stride;
+      for (std::size_t c = 0; c < each; ++c) {
+        values.push_back(static_cast<S>(value[c]));
+      }
+    }
   }
-  return entries;
 }
 
-template std::vector<ControlNets<float>> PatchFile::nets(std::span<const float>) const;
-template std::vector<ControlNets<double>> PatchFile::nets(std::span<const double>) const;
+template <typename S>
+PatchNets<S> PatchFile::nets(std::size_t first, std::size_t patches) const {
+  struct Part {
+    const PatchRun* run;
+    std::size_t begin, end; // of its patches
+  };
+  const std::size_t last = first + std::min(patches, count - first);
+  std::vector<Part> parts;
+  std::size_t size = 0;
+  for (std::size_t p = first; p < last;) {
+    const PatchRun& run = parts.empty() ? run_of(p) : parts.back().run[1];
+    const std::size_t end = std::min(last, run.first_patch + run.count);
+    parts.push_back({&run, p - run.first_patch, end - run.first_patch});
+    size += (end - p) * run.points_per_patch() * run.values_per_point();
+    p = end;
+  }
+  PatchNets<S> result;
+  result.values.reserve(size); // pointers into it stay valid
+  result.nets.reserve(parts.size());
+  for (const auto& [run, begin, end] : parts) {
+    result.nets.push_back(ControlNets<S>::packed(result.values.data() + result.values.size(),
+                                                 end - begin, run->degree_u, run->degree_v, 3,
+                                                 run->weights));
+    for (std::size_t p = begin; p < end; ++p) {
+      append(*run, p, result.values);
+    }
+  }
+  return result;
+}
+
+template PatchNets<float> PatchFile::nets<float>(std::size_t, std::size_t) const;
+template PatchNets<double> PatchFile::nets<double>(std::size_t, std::size_t) const;
 
 std::string patch_format_names(const std::string& prefix) {
   std::string names;
@@ -140,6 +233,8 @@ PatchFile read_patches(const std::string& in, PatchFormat format) {
   // Opened before its name is judged: what cannot be read is bad input whatever it is called.
   TextInput input(in);
   const PatchFormat found = format == PatchFormat::by_name ? format_of(in) : format;
+  Progress progress("reading", "bytes", input.size());
+  input.show(progress);
   return std::ranges::find(kFormats, found, &Format::format)->read(input);
 }
 

@@ -3,25 +3,35 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <simdbezier/simdbezier.hpp>
+#include <tools/segment_mesh.hpp>
 #include <tools/text_input.hpp>
 
 namespace simdbezier::tools {
 
-/// Consecutive patches of a file with equal degrees and kind of weights.
+/// Consecutive patches of a file with equal degrees and kind of weights. Their points are those of
+/// a mesh, row after row; patches that share no points are a mesh of one column whose rows are
+/// those of all patches.
 struct PatchRun {
   int degree_u = 3;
   int degree_v = 3;
   Weights weights = Weights::none;
-  std::size_t count = 0;
+  std::size_t count = 0;       ///< u.patches * v.patches
   std::size_t first_patch = 0; ///< its number in the file
   std::size_t first_point = 0; ///< index into PatchFile::lines
   std::size_t first_value = 0; ///< index into PatchFile::points
+  MeshDirection u = {};
+  MeshDirection v = {};
+  /// Points of the mesh are those that PatchFile::vertices names from here on; nothing: they stand
+  /// one after the other.
+  std::optional<std::size_t> first_vertex = std::nullopt;
+  std::size_t stride = 3; ///< from point to point in PatchFile::points
 
   [[nodiscard]] bool rational() const noexcept { return weights != Weights::none; }
   /// x y z, and w.
@@ -29,20 +39,50 @@ struct PatchRun {
   [[nodiscard]] std::size_t points_per_patch() const noexcept {
     return static_cast<std::size_t>((degree_u + 1) * (degree_v + 1));
   }
+  /// Whether all of its points are those of one patch …
+  [[nodiscard]] bool is_patch() const noexcept;
+  /// … and whether that would be the next patch here: below, sharing nothing.
+  [[nodiscard]] bool is_column_like(const PatchRun& patch) const noexcept;
+  /// Which point of the mesh is (i, j) of a patch, counted from the run's first one.
+  [[nodiscard]] std::size_t mesh_point(std::size_t patch, std::size_t i,
+                                       std::size_t j) const noexcept {
+    return v.point(patch / u.patches, j) * u.points + u.point(patch % u.patches, i);
+  }
 };
 
-/// Patches of any degrees, polynomial and rational, in the order of the file; points of a patch
-/// with u fastest. Weights stay in the form in which the format has them.
-struct PatchFile {
-  std::string name;                 ///< for messages
-  std::size_t count = 0;            ///< patches
-  std::vector<PatchRun> runs;       ///< cover all patches, none is empty
-  std::vector<double> points;       ///< x y z or x y z w of every point; finite, weights above 0
-  std::vector<std::uint32_t> lines; ///< of every point's first coordinate; empty: not from a file
+/// Patches side by side, as pack() and its like take them.
+template <typename S>
+struct PatchNets {
+  std::vector<S> values; ///< point after point, u fastest, patch after patch
+  std::vector<ControlNets<S>> nets;
+};
 
-  /// Readers append a point's values, say where it stands, and close the patch after its last one.
+/// Patches of any degrees, polynomial and rational ones, in the order of the file. Points that a
+/// file shares between patches are shared here as well: memory follows the file's size and not the
+/// number of patches. Weights stay in the form in which the format has them.
+struct PatchFile {
+  static constexpr std::size_t kAll = static_cast<std::size_t>(-1);
+
+  std::string name;                    ///< for messages
+  std::size_t count = 0;               ///< patches
+  std::vector<PatchRun> runs;          ///< cover all patches, none is empty
+  std::vector<double> points;          ///< x y z or x y z w; finite, weights that count above 0
+  std::vector<std::uint32_t> lines;    ///< of every point's first coordinate; empty: no file
+  std::vector<std::uint32_t> vertices; ///< where meshes name their points: numbers of points
+
+  /// Readers append a point's values, say where it stands …
   void add_line(std::size_t line);
+  /// … and, where that is homogeneous, whether it can be divided by its weight, …
+  void check_quotients() const;
+  /// … and close a patch after its last point, …
   void close_patch(int degree_u, int degree_v, Weights weights);
+  /// … or a mesh, of all the points that have been appended for it, …
+  void close_mesh(int degree_u, int degree_v, Weights weights, const MeshDirection& u,
+                  const MeshDirection& v);
+  /// … or one of the u.points * v.points points that `vertices` ends with. Then all points have
+  /// four values, of which the last one counts only if there are weights.
+  void close_indexed_mesh(int degree_u, int degree_v, Weights weights, const MeshDirection& u,
+                          const MeshDirection& v);
 
   [[nodiscard]] const PatchRun& run_of(std::size_t patch) const;
   /// The values of one point.
@@ -50,12 +90,23 @@ struct PatchFile {
   /// "FILE:LINE" of a point, or the bare name.
   [[nodiscard]] std::string place(std::size_t patch, std::size_t point) const;
 
-  /// One entry a run, for pack() and its like, over `values` that correspond to `points`.
+  /// Some of the patches in S. Results of the library do not depend on which.
   template <typename S>
-  [[nodiscard]] std::vector<ControlNets<S>> nets(std::span<const S> values) const;
-  [[nodiscard]] std::vector<ControlNets<double>> nets() const {
-    return nets(std::span<const double>(points));
+  [[nodiscard]] PatchNets<S> nets(std::size_t first = 0, std::size_t patches = kAll) const;
+
+private:
+  struct Place {
+    const PatchRun& run;
+    std::size_t index; // of a point, from the run's first one
+  };
+  void add(PatchRun run);
+  [[nodiscard]] Place find(std::size_t patch, std::size_t point) const;
+  [[nodiscard]] std::size_t point_index(const PatchRun& run,
+                                        std::size_t mesh_point) const noexcept {
+    return run.first_vertex ? vertices[*run.first_vertex + mesh_point] : mesh_point;
   }
+  template <typename S>
+  void append(const PatchRun& run, std::size_t patch, std::vector<S>& values) const;
 };
 
 enum class PatchFormat : std::uint8_t { by_name, bez, bpt, bv, itd, obj, rib };
@@ -82,9 +133,10 @@ enum class PatchFormat : std::uint8_t { by_name, bez, bpt, bv, itd, obj, rib };
 /// RenderMan .rib: Patch and PatchMesh with "P", or "Pw" with homogeneous weights.
 [[nodiscard]] PatchFile read_rib(TextInput& input);
 
-/// Packs for evaluation in T. For float the control points are rounded to float first.
-/// Throws Failure naming the place of a control point that T cannot hold.
+/// Packs all patches, or some, for evaluation in T. For float the control points are rounded to
+/// float first. Throws Failure naming the place of a control point that T cannot hold.
 template <typename T>
-[[nodiscard]] PatchSet<T> pack_patches(const PatchFile& file);
+[[nodiscard]] PatchSet<T> pack_patches(const PatchFile& file, std::size_t first = 0,
+                                       std::size_t patches = PatchFile::kAll);
 
 } // namespace simdbezier::tools

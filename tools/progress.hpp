@@ -2,51 +2,43 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <string>
-
-#include <unistd.h>
+#include <string_view>
 
 namespace simdbezier::tools {
 
+/// What a bar of at most `columns` shows: as much of the work's name, a bar and a share as there is
+/// room for; for an unknown total (0) how much has been done, in `unit`.
+[[nodiscard]] std::string progress_line(std::string_view work, std::string_view unit,
+                                        std::uint64_t done, std::uint64_t total,
+                                        std::size_t columns);
+
+/// One piece of work. Its line is cleared at the end, whatever ends it.
 class Progress {
 public:
-  /// total 0: unknown, so only what is done is shown.
-  explicit Progress(std::uint64_t total, bool wanted = true)
-      : total_(total), wanted_(wanted && isatty(STDERR_FILENO) != 0) {}
+  /// total 0: unknown. Not wanted where the bar's terminal may be the one that shows data.
+  Progress(std::string_view work, std::string_view unit, std::uint64_t total, bool wanted = true);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  ~Progress() {
-    if (shown_) {
-      std::fputs("\r\x1b[K", stderr);
-    }
-  }
+  ~Progress();
 
-  void advance(std::uint64_t amount) {
-    done_ += amount;
-    if (const auto now = Clock::now(); wanted_ && now >= next_) {
-      next_ = now + std::chrono::milliseconds(100);
-      show();
+  void advance(std::uint64_t amount) { reach(done_ + amount); }
+  void reach(std::uint64_t done) {
+    done_ = done;
+    if (wanted_) {
+      show_when_due();
     }
   }
 
 private:
   using Clock = std::chrono::steady_clock;
 
-  void show() {
-    constexpr std::uint64_t kWidth = 40;
-    shown_ = true;
-    if (total_ == 0) {
-      std::fprintf(stderr, "\r%s samples", std::to_string(done_).c_str());
-      return;
-    }
-    const auto part = static_cast<double>(done_) / static_cast<double>(total_);
-    std::string bar(static_cast<std::size_t>(part * kWidth), '#');
-    bar.resize(kWidth, ' ');
-    std::fprintf(stderr, "\r[%s] %3.0f %%", bar.c_str(), part * 100);
-  }
+  void show_when_due();
 
+  std::string work_;
+  std::string unit_;
   std::uint64_t total_;
   std::uint64_t done_ = 0;
   bool wanted_;

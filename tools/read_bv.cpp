@@ -73,6 +73,7 @@ private:
     if (rational) {
       next(k, count);
       file_.points.push_back(lexer_.weight());
+      file_.check_quotients();
     }
   }
 

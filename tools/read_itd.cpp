@@ -130,6 +130,7 @@ private:
     }
     if (rational) {
       file_.points.push_back(weight);
+      file_.check_quotients();
     }
     if (!lexer_.next().at(TokenKind::close)) {
       lexer_.fail(rational ? "']' after w x y z" : "']' after x y z");

@@ -3,48 +3,25 @@
 // patches that share rows and columns: k + 1 values of parm make k patches in that direction.
 #include <tools/lexer.hpp>
 #include <tools/patch_file.hpp>
-#include <tools/segment_mesh.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
 #include <tools/failure.hpp>
+#include <tools/obj_statements.hpp>
 #include <tools/output_file.hpp>
 
 namespace simdbezier::tools {
 
 namespace {
-
-// What does not change the shape of a surface.
-constexpr std::string_view kPassedOver[] = {
-    "vt",    "vn",       "vp",       "g",          "s",         "mg",     "o",
-    "bevel", "c_interp", "lod",      "usemtl",     "mtllib",    "usemap", "maplib",
-    "ctech", "stech",    "d_interp", "shadow_obj", "trace_obj", "step",   "bmat"};
-
-struct Other {
-  std::string_view keyword;
-  std::string_view what;
-};
-constexpr Other kOthers[] = {{"p", "points"},
-                             {"l", "lines"},
-                             {"f", "polygons"},
-                             {"curv", "a curve"},
-                             {"curv2", "a curve"},
-                             {"trim", "a trimming curve"},
-                             {"hole", "a trimming curve"},
-                             {"scrv", "a special curve"},
-                             {"sp", "special points"},
-                             {"con", "connectivity"},
-                             {"call", "another file"},
-                             {"csh", "a shell command"},
-                             {"bzp", "a superseded statement"},
-                             {"bsp", "a superseded statement"},
-                             {"cdc", "a superseded statement"},
-                             {"cdp", "a superseded statement"},
-                             {"res", "a superseded statement"}};
 
 /// One direction of a surface as its statements give it.
 struct Range {
@@ -60,7 +37,13 @@ struct Surface {
   bool rational = false;
   Range u;
   Range v;
-  std::vector<std::size_t> vertices;
+  std::size_t first_vertex = 0; // of those that it names, in PatchFile::vertices
+};
+
+/// A direction of a surface: its points, which have to be as many as the statements say.
+struct Direction {
+  MeshDirection mesh;
+  Count points;
 };
 
 class ObjReader {
@@ -86,8 +69,8 @@ public:
 
 private:
   void statement() {
-    const auto* const other = std::ranges::find(kOthers, lexer_.text(), &Other::keyword);
-    if (other != std::end(kOthers)) {
+    const auto* const other = std::ranges::find(kObjOthers, lexer_.text(), &ObjOther::keyword);
+    if (other != std::end(kObjOthers)) {
       lexer_.fail("a Bézier surface and what belongs to it",
                   lexer_.described() + " (" + std::string(other->what) + ")");
     }
@@ -105,7 +88,7 @@ private:
       deg();
     } else if (lexer_.at_word("surf")) {
       surf();
-    } else if (std::ranges::find(kPassedOver, lexer_.text()) != std::end(kPassedOver)) {
+    } else if (std::ranges::find(kObjPassedOver, lexer_.text()) != std::end(kObjPassedOver)) {
       pass_over();
     } else {
       lexer_.fail("a statement of .obj files");
@@ -135,23 +118,26 @@ private:
 
   // Colours may follow x y z, which makes six numbers.
   void vertex() {
-    MeshPoint point;
-    point.line = lexer_.line();
+    const std::size_t line = lexer_.line();
+    std::array<double, 4> value = {0, 0, 0, 1};
     std::size_t count = 0;
     for (lexer_.next(); !at_line_end(); lexer_.next(), ++count) {
       const double number = lexer_.number();
-      if (count < point.value.size()) {
-        point.value[count] = number;
+      if (count < value.size()) {
+        value[count] = number;
       }
     }
     if (count != 3 && count != 4 && count != 6) {
-      bad_input_at(lexer_.name(), point.line, "x y z or x y z w",
-                   std::to_string(count) + " numbers");
+      bad_input_at(lexer_.name(), line, "x y z or x y z w", std::to_string(count) + " numbers");
     }
     if (count == 6) {
-      point.value[3] = 1;
+      value[3] = 1;
     }
-    vertices_.push_back(point);
+    if (file_.lines.size() == std::numeric_limits<std::uint32_t>::max()) {
+      lexer_.fail("at most " + std::to_string(file_.lines.size()) + " vertices", "more");
+    }
+    file_.points.insert(file_.points.end(), value.begin(), value.end());
+    file_.add_line(line);
   }
 
   void cstype() {
@@ -176,29 +162,30 @@ private:
     if (!has_type_ || degree_u_ == 0) {
       lexer_.fail(has_type_ ? "deg before surf" : "cstype before surf");
     }
-    surface_ = Surface{lexer_.line(), degree_u_, degree_v_, rational_, {}, {}, {}};
+    surface_ =
+        Surface{lexer_.line(), degree_u_, degree_v_, rational_, {}, {}, file_.vertices.size()};
     for (double* const bound :
          {&surface_->u.first, &surface_->u.last, &surface_->v.first, &surface_->v.last}) {
       *bound = lexer_.next().number();
     }
     for (lexer_.next(); !at_line_end(); lexer_.next()) {
-      surface_->vertices.push_back(vertex_index());
+      file_.vertices.push_back(vertex_number());
     }
   }
 
-  /// Of v, v/vt, v//vn or v/vt/vn, counted from 0.
-  [[nodiscard]] std::size_t vertex_index() const {
-    if (vertices_.empty()) {
+  /// Counted from 0.
+  [[nodiscard]] std::uint32_t vertex_number() const {
+    const std::size_t vertices = file_.lines.size();
+    if (vertices == 0) {
       lexer_.fail("vertices (v) before the surface");
     }
-    const std::string_view word = lexer_.text().substr(0, lexer_.text().find('/'));
-    const bool from_end = word.starts_with('-');
-    const auto number = parse_integer(word.substr(from_end ? 1 : 0));
-    if (!number || *number == 0 || *number > vertices_.size()) {
-      lexer_.fail("the number of a vertex, 1 to " + std::to_string(vertices_.size()) +
-                  " or -1 to -" + std::to_string(vertices_.size()));
+    const auto reference = parse_obj_reference(lexer_.text());
+    if (!reference || reference->number > vertices) {
+      lexer_.fail("the number of a vertex, 1 to " + std::to_string(vertices) + " or -1 to -" +
+                  std::to_string(vertices));
     }
-    return from_end ? vertices_.size() - *number : *number - 1;
+    return static_cast<std::uint32_t>(reference->from_end ? vertices - reference->number
+                                                          : reference->number - 1);
   }
 
   void parm() {
@@ -227,8 +214,7 @@ private:
 
   /// The patches of one direction. The part of a surface that a range of its own cuts out is
   /// another surface, so ranges must be whole.
-  [[nodiscard]] MeshDirection direction(const Range& range, int degree,
-                                        const std::string& name) const {
+  [[nodiscard]] Direction direction(const Range& range, int degree, const std::string& name) const {
     const std::vector<double>& parameters = range.parameters;
     if (parameters.empty()) {
       lexer_.fail("parm " + name + " before the end of the surface in line " +
@@ -242,37 +228,53 @@ private:
     }
     const auto step = static_cast<std::size_t>(degree);
     const std::size_t patches = parameters.size() - 1;
-    return {degree, patches * step + 1, step, patches};
+    const Count points = Count(patches) * step + 1;
+    return {{points.value().value_or(0), step, patches}, points};
   }
 
   void end() {
     if (!surface_) {
       lexer_.fail("surf before end");
     }
-    const MeshDirection u = direction(surface_->u, surface_->degree_u, "u");
-    const MeshDirection v = direction(surface_->v, surface_->degree_v, "v");
-    const std::vector<std::size_t>& vertices = surface_->vertices;
-    if (vertices.size() != u.points * v.points) {
+    const Direction u = direction(surface_->u, surface_->degree_u, "u");
+    const Direction v = direction(surface_->v, surface_->degree_v, "v");
+    const Count expected = u.points * v.points;
+    const std::size_t found = file_.vertices.size() - surface_->first_vertex;
+    if (expected.value() != found) {
       bad_input_at(lexer_.name(), surface_->line,
-                   std::to_string(u.points * v.points) + " points (" + std::to_string(u.points) +
-                       " x " + std::to_string(v.points) + ")",
-                   std::to_string(vertices.size()));
+                   to_string(expected) + " points (" + to_string(u.points) + " x " +
+                       to_string(v.points) + ")",
+                   std::to_string(found));
     }
-    const auto at = [&](std::size_t k) -> const MeshPoint& {
-      const MeshPoint& point = vertices_[vertices[k]];
-      if (surface_->rational && point.value[3] <= 0) {
-        bad_input_at(lexer_.name(), point.line, "a weight above 0", shortest(point.value[3]));
-      }
-      return point;
-    };
-    add_mesh(file_, u, v, surface_->rational ? Weights::cartesian : Weights::none, at);
+    if (surface_->rational) {
+      check_weights();
+    }
+    file_.close_indexed_mesh(surface_->degree_u, surface_->degree_v,
+                             surface_->rational ? Weights::cartesian : Weights::none, u.mesh,
+                             v.mesh);
     surface_.reset();
     expect_line_end();
   }
 
+  void check_weights() const {
+    for (std::size_t k = surface_->first_vertex; k < file_.vertices.size(); ++k) {
+      const std::size_t vertex = file_.vertices[k];
+      const std::span<const double> point = std::span(file_.points).subspan(4 * vertex, 4);
+      if (point[3] <= 0) {
+        bad_input_at(lexer_.name(), file_.lines[vertex], "a weight above 0", shortest(point[3]));
+      }
+      for (const double coordinate : point.first(3)) {
+        if (!std::isfinite(coordinate * point[3])) {
+          bad_input_at(lexer_.name(), file_.lines[vertex],
+                       "coordinates that are finite when multiplied by their weight",
+                       shortest(coordinate) + " * " + shortest(point[3]));
+        }
+      }
+    }
+  }
+
   Lexer lexer_;
   PatchFile file_;
-  std::vector<MeshPoint> vertices_;
   bool has_type_ = false;
   bool rational_ = false;
   int degree_u_ = 0; // 0: not given yet

@@ -3,8 +3,8 @@
 // like all requests that are no geometry, are passed over.
 #include <tools/lexer.hpp>
 #include <tools/patch_file.hpp>
-#include <tools/segment_mesh.hpp>
 
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -16,6 +16,9 @@ namespace simdbezier::tools {
 namespace {
 
 constexpr double kBezierBasis[16] = {-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0};
+
+constexpr const char* kPoints = "\"P\" or \"Pw\" of the patch";
+constexpr std::string_view kSpace = " \t\n\r\f\v";
 
 // Counts beyond this are no counts of points in a file.
 constexpr std::size_t kMostPoints = std::size_t{1} << 31;
@@ -82,9 +85,24 @@ private:
       lexer_.fail("a request of .rib files");
     }
     if (lexer_.at(TokenKind::open)) {
-      lexer_.skip_list();
+      pass_over_array();
     }
     lexer_.next();
+  }
+
+  [[nodiscard]] bool at_number() const {
+    return lexer_.at(TokenKind::word) && parse_finite(lexer_.text());
+  }
+
+  /// From its opening to its closing bracket. Anything but numbers and strings means that the
+  /// latter is missing, and what follows could be geometry.
+  void pass_over_array() {
+    const std::string expected = "']' for the array in line " + std::to_string(lexer_.line());
+    while (!lexer_.next().at(TokenKind::close)) {
+      if (!lexer_.at(TokenKind::string) && !at_number()) {
+        lexer_.fail(expected);
+      }
+    }
   }
 
   void basis() {
@@ -114,16 +132,14 @@ private:
   void patch() {
     const int degree = patch_type();
     const auto order = static_cast<std::size_t>(degree) + 1;
-    lexer_.next();
-    add({degree, order, 1, 1}, {degree, order, 1, 1});
+    add(degree, {order, order, 1}, {order, order, 1});
   }
 
   void patch_mesh() {
     const int degree = patch_type();
     const MeshDirection u = direction(degree, bases_.back().u, "u");
     const MeshDirection v = direction(degree, bases_.back().v, "v");
-    lexer_.next();
-    add(u, v);
+    add(degree, u, v);
   }
 
   /// The degree; bicubic patches are refused where they stand in another basis.
@@ -163,63 +179,73 @@ private:
                                   " more a patch",
                    found);
     }
-    return {degree, points, step, periodic ? points / step : (points - order) / step + 1};
+    return {points, step, periodic ? points / step : (points - order) / step + 1};
   }
 
-  /// Reads the parameter list, which begins with the current token, and adds the patches.
-  void add(const MeshDirection& u, const MeshDirection& v) {
-    bool found = false;
-    bool rational = false;
-    std::vector<MeshPoint> points;
-    while (lexer_.at(TokenKind::string)) {
-      // Declarations may stand in front of the name: "vertex point P".
-      const std::string_view name = lexer_.text().substr(lexer_.text().find_last_of(' ') + 1);
-      if (name == "P" || name == "Pw") {
-        if (found) {
-          lexer_.fail("one of \"P\" and \"Pw\"");
+  /// Reads the parameter list and adds the patches. What follows a list has to be a request:
+  /// anything else belongs to a list that is not as it should be.
+  void add(int degree, const MeshDirection& u, const MeshDirection& v) {
+    std::optional<Weights> weights;
+    for (lexer_.next(); lexer_.at(TokenKind::string); lexer_.next()) {
+      const std::string name = parameter_name();
+      if (name == "P" || name == "Pw" || name == "Pz") {
+        if (weights || name == "Pz") {
+          lexer_.fail(weights ? "one of \"P\" and \"Pw\"" : kPoints);
         }
-        found = true;
-        rational = name == "Pw";
-        points = read_points(u.points * v.points, rational);
-        lexer_.next();
+        weights = name == "Pw" ? Weights::homogeneous : Weights::none;
+        read_points(Count(u.points) * v.points, *weights);
       } else {
-        pass_over_value();
+        pass_over_value(name);
       }
     }
-    if (!found) {
-      lexer_.fail("\"P\" or \"Pw\" of the patch");
+    if (!weights) {
+      lexer_.fail(kPoints);
     }
-    add_mesh(file_, u, v, rational ? Weights::homogeneous : Weights::none,
-             [&](std::size_t k) -> const MeshPoint& { return points[k]; });
+    if (!lexer_.at(TokenKind::end) && (!lexer_.at(TokenKind::word) || at_number())) {
+      lexer_.fail("a parameter's name or a request behind the patch");
+    }
+    file_.close_mesh(degree, degree, *weights, u, v);
+  }
+
+  /// Declarations may stand in front of the name: "vertex point P".
+  [[nodiscard]] std::string parameter_name() const {
+    const std::string_view text = lexer_.text();
+    const std::size_t end = text.find_last_not_of(kSpace) + 1;
+    return std::string(text.substr(0, end).substr(text.substr(0, end).find_last_of(kSpace) + 1));
   }
 
   /// A number, a string, or an array of them, behind a parameter's name.
-  void pass_over_value() {
+  void pass_over_value(const std::string& name) {
     if (lexer_.next().at(TokenKind::open)) {
-      lexer_.skip_list();
+      pass_over_array();
+    } else if (!lexer_.at(TokenKind::string) && !at_number()) {
+      lexer_.fail("a value of the parameter " + in_quotes(name));
     }
-    lexer_.next();
   }
 
-  std::vector<MeshPoint> read_points(std::size_t count, bool rational) {
+  void read_points(Count count, Weights weights) {
+    const std::size_t values = weights == Weights::none ? 3 : 4;
+    const std::size_t all = lexer_.counted(count * values, "coordinates");
+    const std::string what =
+        std::to_string(all / values) + " points of " + std::to_string(values) + " numbers";
     if (!lexer_.next().at(TokenKind::open)) {
-      lexer_.fail("'[' and " + std::to_string(count) + " points");
+      lexer_.fail("'[' and " + std::to_string(all / values) + " points");
     }
-    const std::size_t values = rational ? 4 : 3;
-    std::vector<MeshPoint> points;
-    for (std::size_t k = 0; k < count * values; ++k) {
+    for (std::size_t k = 0; k < all; ++k) {
       lexer_.next();
       if (lexer_.at(TokenKind::close) || lexer_.at(TokenKind::end)) {
-        lexer_.fail(std::to_string(count) + " points of " + std::to_string(values) + " numbers",
-                    lexer_.described() + " after " + std::to_string(k) + " numbers");
+        lexer_.fail(what, lexer_.described() + " after " + std::to_string(k) + " numbers");
       }
       if (k % values == 0) {
-        points.push_back({{}, lexer_.line()});
+        file_.add_line(lexer_.line());
       }
-      points.back().value[k % values] = k % values == 3 ? lexer_.weight() : lexer_.number();
+      const bool is_weight = k % values == 3;
+      file_.points.push_back(is_weight ? lexer_.weight() : lexer_.number());
+      if (is_weight) {
+        file_.check_quotients();
+      }
     }
-    expect_close(std::to_string(count) + " points of " + std::to_string(values) + " numbers");
-    return points;
+    expect_close(what);
   }
 
   void expect_close(const std::string& what) {

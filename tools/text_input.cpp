@@ -9,7 +9,10 @@
 #include <system_error>
 #include <utility>
 
+#include <sys/stat.h>
+
 #include <tools/failure.hpp>
+#include <tools/progress.hpp>
 
 namespace simdbezier::tools {
 
@@ -66,6 +69,12 @@ TextInput::TextInput(const std::string& path)
   }
 }
 
+std::uint64_t TextInput::size() const {
+  struct stat status = {};
+  const bool known = fstat(fileno(file_.get()), &status) == 0 && S_ISREG(status.st_mode);
+  return known ? static_cast<std::uint64_t>(status.st_size) : 0;
+}
+
 bool TextInput::fill() {
   do {
     next_ = 0;
@@ -75,6 +84,9 @@ bool TextInput::fill() {
     }
     if (end_ == 0) {
       return false;
+    }
+    if (progress_ != nullptr) {
+      progress_->advance(end_);
     }
     skip_byte_order_mark();
     unify_line_ends();
@@ -137,8 +149,12 @@ std::string in_quotes(std::string_view word) {
 }
 
 std::string describe_non_number(std::string_view word) {
-  const bool too_large =
-      parse_number(word).is_number && word.find_first_of("0123456789") != std::string_view::npos;
+  const ParsedNumber number = parse_number(word);
+  if (number.is_number && std::isnan(number.value)) { // with a payload or without: nan(1)
+    return in_quotes(word) + ", which is not a number";
+  }
+  const bool too_large = number.is_number && std::isinf(number.value) &&
+                         word.find_first_of("0123456789") != std::string_view::npos;
   return in_quotes(word) + (too_large ? ", which is too large for a double" : "");
 }
 

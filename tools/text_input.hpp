@@ -12,6 +12,8 @@
 
 namespace simdbezier::tools {
 
+class Progress;
+
 /// A file or standard input ("-"), one character at a time. All formats have in common that a
 /// UTF-8 byte-order mark is passed over and that LF, CR LF and CR are line ends, which come as \n.
 class TextInput {
@@ -23,6 +25,10 @@ public:
 
   /// The name for messages.
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  /// In bytes; 0 where that is unknown, as of pipes.
+  [[nodiscard]] std::uint64_t size() const;
+  /// How much has been read is shown from now on.
+  void show(Progress& progress) noexcept { progress_ = &progress; }
   /// The line of the character that get() returned last; at the end, the last line there is.
   [[nodiscard]] std::size_t line() const noexcept { return line_; }
 
@@ -50,6 +56,7 @@ private:
 
   std::string name_;
   std::unique_ptr<std::FILE, Close> file_;
+  Progress* progress_ = nullptr;
   std::vector<char> buffer_;
   std::size_t next_ = 0;
   std::size_t end_ = 0;

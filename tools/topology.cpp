@@ -9,8 +9,8 @@ namespace simdbezier::tools {
 
 EdgeCounts count_edges(const PatchFile& file) {
   std::vector<EdgeLink> edges(file.count * kPatchEdges);
-  const std::vector<ControlNets<double>> nets = file.nets();
-  check(find_adjacency(std::span<const ControlNets<double>>(nets), edges.data()));
+  const PatchNets<double> in = file.nets<double>();
+  check(find_adjacency(std::span<const ControlNets<double>>(in.nets), edges.data()));
   EdgeCounts counts;
   for (const EdgeLink& edge : edges) {
     switch (edge.kind) {

@@ -2,6 +2,7 @@
 #include <tools/mesh_writer.hpp>
 
 #include <bit>
+#include <cstring>
 
 namespace simdbezier::tools {
 

@@ -10,7 +10,8 @@ namespace simdbezier::tests {
 
 std::vector<WeightedPoint> patch_points(const tools::PatchFile& file, std::size_t patch) {
   std::vector<WeightedPoint> points;
-  for (const ControlNets<double>& nets : file.nets()) {
+  const tools::PatchNets<double> all = file.nets<double>();
+  for (const ControlNets<double>& nets : all.nets) {
     if (patch >= nets.count) {
       patch -= nets.count;
       continue;

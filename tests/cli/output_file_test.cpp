@@ -1,10 +1,14 @@
 // Output appears complete or not at all, and nothing that was there before is harmed.
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <csignal>
 #include <thread>
 
+#include "tests/cli/format_files.hpp"
 #include "tests/cli/program.hpp"
 
 namespace simdbezier::tests {
@@ -112,6 +116,94 @@ TEST(OutputFile, FollowsLinks) {
   }
   EXPECT_NE(read_file(existing), kOld);
   EXPECT_EQ(read_file(existing), read_file(folder.path("deep/absent.obj")));
+}
+
+TEST(OutputFile, RefusesLinksWithoutEnd) {
+  const TemporaryFolder folder;
+  fs::create_symlink("b.obj", folder.path("a.obj"));
+  fs::create_symlink("a.obj", folder.path("b.obj"));
+  fs::create_symlink("self.obj", folder.path("self.obj"));
+  for (const std::string name : {"a.obj", "b.obj", "self.obj"}) {
+    expect_failure(run({"tessellate", "builtin:teapot", "-o", folder.path(name)}), 1,
+                   folder.path(name) +
+                       ": expected a writable file, found 'Too many levels of symbolic links'");
+    EXPECT_TRUE(fs::is_symlink(folder.path(name)));
+  }
+  EXPECT_EQ(folder.names(), (Names{"a.obj", "b.obj", "self.obj"}));
+}
+
+// The name gets the new file; other names of the old one keep the old one.
+TEST(OutputFile, LeavesOtherHardLinksAlone) {
+  const TemporaryFolder folder;
+  const std::string out = folder.write("out.obj", kOld);
+  fs::create_hard_link(out, folder.path("other.obj"));
+  expect_silent_success(run({"tessellate", "builtin:teapot", "-o", out}));
+  EXPECT_NE(read_file(out), kOld);
+  EXPECT_EQ(read_file(folder.path("other.obj")), kOld);
+}
+
+TEST(OutputFile, KeepsModeButNotWhatRunsAsItsOwner) {
+  const TemporaryFolder folder;
+  const std::string out = folder.write("out.obj", kOld);
+  for (const auto& [before, after] : std::vector<std::pair<mode_t, mode_t>>{{0600, 0600},
+                                                                            {0640, 0640},
+                                                                            {0666, 0666},
+                                                                            {0755, 0755},
+                                                                            {04755, 0755},
+                                                                            {02775, 0775},
+                                                                            {01777, 0777}}) {
+    ASSERT_EQ(chmod(out.c_str(), before), 0);
+    expect_silent_success(run({"tessellate", "builtin:teapot", "-o", out}));
+    struct stat status = {};
+    ASSERT_EQ(stat(out.c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 07777, after);
+  }
+}
+
+TEST(OutputFile, KeepsOwnerAndGroup) {
+  const TemporaryFolder folder;
+  const std::string out = folder.write("out.obj", kOld);
+  if (chown(out.c_str(), 12345, 23456) != 0) {
+    GTEST_SKIP() << "this user may not give files away";
+  }
+  expect_silent_success(run({"tessellate", "builtin:teapot", "-o", out}));
+  struct stat status = {};
+  ASSERT_EQ(stat(out.c_str(), &status), 0);
+  EXPECT_EQ(status.st_uid, 12345U);
+  EXPECT_EQ(status.st_gid, 23456U);
+}
+
+// By whatever names the same file goes.
+TEST(OutputFile, IsNoInput) {
+  const TemporaryFolder folder;
+  const std::string samples = folder.write("s.csv", "patch,u,v\n0,0.5,0.5\n");
+  fs::create_symlink("s.csv", folder.path("link.csv"));
+  fs::create_hard_link(samples, folder.path("hard.csv"));
+  const std::string model = folder.write("m.obj", read_file(sample_path("obj")));
+  fs::create_symlink("m.obj", folder.path("link.obj"));
+  const std::string expected = ": expected an output that is no input, found the file that ";
+  fs::create_directory(folder.path("deep"));
+  for (const std::string out : {"s.csv", "link.csv", "hard.csv", "deep/../s.csv"}) {
+    expect_failure(
+        run({"evaluate", "builtin:teapot", "--samples", samples, "-o", folder.path(out)}), 1,
+        folder.path(out) + expected + samples + " is read from");
+    expect_failure(run({"evaluate", "builtin:teapot", "--samples", "-", "-o", folder.path(out)},
+                       {.input_path = samples}),
+                   1, folder.path(out) + expected + "standard input is read from");
+  }
+  for (const std::string out : {"m.obj", "link.obj"}) {
+    expect_failure(run({"tessellate", model, "-o", folder.path(out)}), 1, expected + model);
+  }
+  expect_failure(run({"evaluate", "builtin:teapot", "--samples", samples, "-o", "-"},
+                     {.append_path = samples}),
+                 1, "standard output" + expected + samples);
+  expect_failure(run({"info", model}, {.append_path = model}), 1,
+                 "standard output" + expected + model);
+  EXPECT_EQ(read_file(samples), "patch,u,v\n0,0.5,0.5\n");
+  EXPECT_EQ(read_file(model), read_file(sample_path("obj")));
+  // Devices may well be both.
+  expect_failure(run({"info", "/dev/null", "--format", "bez"}, {.append_path = "/dev/null"}), 1,
+                 "expected the number of patches");
 }
 
 TEST(OutputFile, MayBeADevice) {

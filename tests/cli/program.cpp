@@ -1,6 +1,8 @@
 #include "tests/cli/program.hpp"
 
 #include <fcntl.h>
+#include <pty.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -25,13 +27,36 @@ void redirect(const std::string& path, int descriptor) {
   close(file);
 }
 
+void redirect_to(const Circumstances& circumstances, const std::string& out, const std::string& err,
+                 int terminal) {
+  redirect(out, STDOUT_FILENO);
+  if (circumstances.append_path == "closed") {
+    close(STDOUT_FILENO);
+  } else if (!circumstances.append_path.empty()) {
+    dup2(open(circumstances.append_path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC), STDOUT_FILENO);
+  }
+  if (!circumstances.input_path.empty()) {
+    dup2(open(circumstances.input_path.c_str(), O_RDONLY | O_CLOEXEC), STDIN_FILENO);
+  }
+  if (terminal >= 0) {
+    dup2(terminal, STDERR_FILENO);
+  } else {
+    redirect(err, STDERR_FILENO);
+  }
+}
+
 // What the child does between fork() and exec(); nothing it changes reaches the test itself.
 [[noreturn]] void become_program(std::vector<std::string> arguments,
-                                 const Circumstances& circumstances, const std::string& out,
-                                 const std::string& err) {
-  redirect(out, STDOUT_FILENO);
-  redirect(err, STDERR_FILENO);
+                                 const Circumstances& circumstances) {
+  for (const int number : circumstances.ignored_signals) {
+    std::signal(number, SIG_IGN);
+  }
   unsetenv("SIMDBEZIER_ISA");
+  if (!circumstances.fault.empty()) {
+    setenv("LD_PRELOAD", SIMDBEZIER_FAULT_LIBRARY, 1);
+    setenv("ASAN_OPTIONS", "verify_asan_link_order=0", 1);
+    setenv("SIMDBEZIER_TEST_FAULT", circumstances.fault.c_str(), 1);
+  }
   for (const auto& [name, value] : circumstances.environment) {
     setenv(name.c_str(), value.c_str(), 1);
   }
@@ -91,11 +116,24 @@ Program::Program(const std::vector<std::string>& arguments, const Circumstances&
     ADD_FAILURE() << "no pipe";
     return;
   }
+  int inner = -1;
+  if (circumstances.columns > 0) {
+    winsize size = {};
+    size.ws_col = circumstances.columns;
+    size.ws_row = 24;
+    if (openpty(&terminal_, &inner, nullptr, nullptr, &size) != 0) {
+      ADD_FAILURE() << "no terminal";
+    }
+  }
   id_ = fork();
   if (id_ == 0) {
     std::signal(SIGPIPE, SIG_DFL);
     dup2(ends[0], STDIN_FILENO);
-    become_program(arguments, circumstances, folder_.path("out"), folder_.path("err"));
+    redirect_to(circumstances, folder_.path("out"), folder_.path("err"), inner);
+    become_program(arguments, circumstances);
+  }
+  if (inner >= 0) {
+    close(inner);
   }
   close(ends[0]);
   input_ = ends[1];
@@ -117,15 +155,44 @@ void Program::feed(const std::string& text) {
   }
 }
 
+void Program::await_on_terminal(const std::string& part) {
+  for (char block[256]; shown_.find(part) == std::string::npos;) {
+    const ssize_t got = read(terminal_, block, sizeof block);
+    if (got <= 0) { // the program has ended
+      ADD_FAILURE() << "not shown: " << part << "\nshown: " << shown_;
+      return;
+    }
+    shown_.append(block, static_cast<std::size_t>(got));
+  }
+}
+
+void Program::close_input() {
+  if (input_ >= 0) {
+    close(std::exchange(input_, -1));
+  }
+}
+
 Outcome Program::finish() {
-  close(input_);
+  close_input();
   int status = 0;
-  waitpid(std::exchange(id_, -1), &status, 0);
+  rusage usage = {};
+  if (terminal_ >= 0) {
+    for (char block[256]; true;) {
+      const ssize_t got = read(terminal_, block, sizeof block);
+      if (got <= 0) {
+        break;
+      }
+      shown_.append(block, static_cast<std::size_t>(got));
+    }
+    close(std::exchange(terminal_, -1));
+  }
+  wait4(std::exchange(id_, -1), &status, 0, &usage);
   Outcome outcome;
+  outcome.memory = usage.ru_maxrss;
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   outcome.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   outcome.out = read_file(folder_.path("out"));
-  outcome.err = read_file(folder_.path("err"));
+  outcome.err = shown_.empty() ? read_file(folder_.path("err")) : shown_;
   return outcome;
 }
 

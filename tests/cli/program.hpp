@@ -35,12 +35,18 @@ struct Outcome {
   int signal = 0;
   std::string out;
   std::string err;
+  long memory = 0; ///< the most that it had at once, in KiB
 };
 
 struct Circumstances {
   std::string input = {}; ///< standard input
   std::vector<std::pair<std::string, std::string>> environment = {};
   long file_size_limit = -1; ///< bytes; -1: none
+  std::string fault = {};    ///< one of fault_preload.cpp
+  std::vector<int> ignored_signals = {};
+  std::string input_path = {};  ///< standard input is this file instead
+  std::string append_path = {}; ///< standard output goes to the end of this file instead; or closed
+  unsigned short columns = 0;   ///< standard error is a terminal this wide; 0: it is a file
 };
 
 /// A started program whose standard input is a pipe.
@@ -54,6 +60,9 @@ public:
 
   [[nodiscard]] pid_t id() const { return id_; }
   void feed(const std::string& text);
+  void close_input();
+  /// Waits for this on a terminal that is standard error.
+  void await_on_terminal(const std::string& part);
   /// Closes standard input and waits.
   Outcome finish();
 
@@ -61,6 +70,8 @@ private:
   TemporaryFolder folder_;
   pid_t id_ = -1;
   int input_ = -1;
+  int terminal_ = -1;
+  std::string shown_;
 };
 
 /// Runs the program from start to end.

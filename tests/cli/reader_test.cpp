@@ -170,7 +170,17 @@ std::vector<BadFile> bad_files() {
        ":1: expected the number of patches (1 or more), found '\\x7fELF\\x00\\x01\\x02'"},
       {"BinaryInside", "bez", replaced(bez, "201 ", std::string("\0\r\x1b[2J ", 7)),
        ":19: expected a finite number, found '\\x00'"},
-      {"EndlessWord", "bez", "2\n" + std::string(100000, '0'), ":2: expected a finite number"},
+      {"EndlessWord", "bez", "2\n" + std::string(100000, 'x'), ":2: expected a finite number"},
+      {"EndlessNumber", "bez", "2\n" + std::string(100000, '9'),
+       ":2: expected a finite number, found '9999999999999999999999999999999999999999…', which is "
+       "too "
+       "large for a double"},
+      {"LettersBehindALongNumber", "bez", "2\n" + std::string(600, '1') + "x",
+       ":2: expected a finite number, found '1111111111111111111111111111111111111111…'"},
+      {"NanWithPayload", "bez", replaced(bez, "201 ", "nan(1) "),
+       ":19: expected a finite number, found 'nan(1)', which is not a number"},
+      {"NegativeNan", "bpt", replaced(bpt, "201 ", "-NaN "),
+       ":21: expected a finite number, found '-NaN', which is not a number"},
       {"Compressed", "gz", "\x1f\x8b", ": expected a file of patches, found a compressed one"},
   };
 }
@@ -195,12 +205,42 @@ TEST(Reader, DoublePrecisionTakesWhatFloatCannot) {
       run({"tessellate", in, "--precision", "f64", "-o", folder.path("out.obj")}));
 }
 
+std::string bez_of_zeros() {
+  std::string text = " ";
+  for (int k = 0; k < 48; ++k) {
+    text += "0 ";
+  }
+  return text;
+}
+
 TEST(Reader, TakesNumbersTooSmallForADoubleAsZero) {
   const TemporaryFolder folder;
   const std::string text = replaced(two_patches("2\n", "", " ", "\n"), "100 ", "1e-999 ");
   const Outcome outcome = run({"evaluate", folder.write("in.bez", text), "--grid", "2", "-o", "-"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(parse_csv(outcome.out).rows.at(0).at(3), 0);
+}
+
+// As many digits as one likes are a number, in all formats and in files of samples.
+TEST(Reader, TakesNumbersOfAnyLength) {
+  for (const std::size_t length : {511U, 512U, 513U, 1024U, 5000U, 100000U}) {
+    const std::string five = std::string(length - 1, '0') + "5";
+    const std::string third = "0." + std::string(length - 2, '3');
+    for (const char* const format : kSampleFormats) {
+      std::string text = read_file(sample_path(format));
+      const std::size_t at = text.find("-7");
+      ASSERT_NE(at, std::string::npos) << format;
+      text.replace(at, 2, "-" + std::string(length - 2, '0') + "7");
+      EXPECT_EQ(refusal(format, text), "") << format << ", " << length;
+    }
+    const std::string bez = "1\n" + five + " " + third + replaced(bez_of_zeros(), "0 0 ", " ");
+    const tools::PatchFile file = read_text("bez", bez);
+    EXPECT_EQ(file.points.at(0), 5);
+    EXPECT_EQ(file.points.at(1), 1.0 / 3);
+    const Outcome outcome = run({"evaluate", "builtin:teapot", "--samples", "-", "-o", "-"},
+                                {.input = "patch,u,v\n" + five + "," + third + ",0\n"});
+    EXPECT_TRUE(outcome.out.find("\n5,0.3333333333333333,0,") != std::string::npos) << outcome.err;
+  }
 }
 
 TEST(Reader, RefusesWhatIsNoReadableFile) {

@@ -1,0 +1,95 @@
+#include <tools/interruption.hpp>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <string_view>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace simdbezier::tools {
+
+namespace {
+
+// All that a signal handler may look at.
+std::atomic<const char*> temporary_name{nullptr};
+std::atomic<int> temporary_folder{-1};
+std::atomic<bool> bar_is_shown{false};
+static_assert(std::atomic<const char*>::is_always_lock_free &&
+              std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+void clean_up() noexcept {
+  if (const char* const name = temporary_name.exchange(nullptr)) {
+    unlinkat(temporary_folder, name, 0);
+  }
+  if (bar_is_shown.exchange(false)) {
+    clear_bar();
+  }
+}
+
+extern "C" void clean_up_at_exit() { clean_up(); }
+
+extern "C" void on_signal(int number) {
+  clean_up();
+  struct sigaction action = {};
+  action.sa_handler = SIG_DFL;
+  sigaction(number, &action, nullptr);
+  raise(number); // takes effect when this function returns
+}
+
+// Signals that end a process unless somebody handles them are all but these.
+bool ends_by_default(int number) {
+  switch (number) {
+  case SIGKILL: // neither can be caught
+  case SIGSTOP:
+  case SIGTSTP:
+  case SIGTTIN:
+  case SIGTTOU:
+  case SIGCONT:
+  case SIGCHLD:
+  case SIGURG:
+  case SIGWINCH:
+  case SIGXFSZ: // ignored below: the write fails instead
+    return false;
+  default:
+    return true;
+  }
+}
+
+} // namespace
+
+void handle_interruptions() {
+  std::atexit(clean_up_at_exit);
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  sigfillset(&action.sa_mask);
+  for (int number = 1; number <= SIGRTMAX; ++number) {
+    struct sigaction before = {};
+    // Others than the default were wished for: nohup ignores, sanitizers handle.
+    if (ends_by_default(number) && sigaction(number, nullptr, &before) == 0 &&
+        (before.sa_flags & SA_SIGINFO) == 0 && before.sa_handler == SIG_DFL) {
+      sigaction(number, &action, nullptr);
+    }
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void remember_temporary(int folder, const std::string& name) noexcept {
+  temporary_folder = folder;
+  temporary_name = name.c_str();
+}
+
+void forget_temporary() noexcept { temporary_name = nullptr; }
+
+void remember_bar(bool shown) noexcept { bar_is_shown = shown; }
+
+void clear_bar() noexcept {
+  constexpr std::string_view kClear = "\r\x1b[K";
+  const int before = errno;
+  static_cast<void>(!write(STDERR_FILENO, kClear.data(), kClear.size()));
+  errno = before;
+}
+
+} // namespace simdbezier::tools
