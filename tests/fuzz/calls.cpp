@@ -9,6 +9,7 @@
 
 #include "tests/fuzz/grids.hpp"
 #include "tests/fuzz/outputs.hpp"
+#include "tests/fuzz/run_case.hpp"
 #include "tests/fuzz/scene.hpp"
 
 namespace simdbezier::fuzz {
@@ -275,12 +276,5 @@ private:
 } // namespace simdbezier::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace simdbezier::fuzz;
-  ByteSource bytes(std::span(data, size));
-  if (bytes.flag()) {
-    CallCase<double>(bytes).run();
-  } else {
-    CallCase<float>(bytes).run();
-  }
-  return 0;
+  return simdbezier::fuzz::run_case<simdbezier::fuzz::CallCase>(data, size);
 }

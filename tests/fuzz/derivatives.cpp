@@ -10,6 +10,7 @@
 
 #include "tests/fuzz/grids.hpp"
 #include "tests/fuzz/outputs.hpp"
+#include "tests/fuzz/run_case.hpp"
 #include "tests/fuzz/scene.hpp"
 
 namespace simdbezier::fuzz {
@@ -162,12 +163,5 @@ private:
 } // namespace simdbezier::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace simdbezier::fuzz;
-  ByteSource bytes(std::span(data, size));
-  if (bytes.flag()) {
-    DerivativeCase<double>(bytes).run();
-  } else {
-    DerivativeCase<float>(bytes).run();
-  }
-  return 0;
+  return simdbezier::fuzz::run_case<simdbezier::fuzz::DerivativeCase>(data, size);
 }

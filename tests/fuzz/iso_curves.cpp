@@ -10,6 +10,7 @@
 
 #include "tests/fuzz/grids.hpp"
 #include "tests/fuzz/hostile.hpp"
+#include "tests/fuzz/run_case.hpp"
 #include "tests/fuzz/scene.hpp"
 
 namespace simdbezier::fuzz {
@@ -167,21 +168,5 @@ private:
 } // namespace simdbezier::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace simdbezier::fuzz;
-  ByteSource bytes(std::span(data, size));
-  switch (bytes.below(4)) {
-  case 0:
-    IsoCase<float, float>(bytes).run();
-    break;
-  case 1:
-    IsoCase<double, double>(bytes).run();
-    break;
-  case 2:
-    IsoCase<float, double>(bytes).run();
-    break;
-  default:
-    IsoCase<double, float>(bytes).run();
-    break;
-  }
-  return 0;
+  return simdbezier::fuzz::run_mixed_case<simdbezier::fuzz::IsoCase>(data, size);
 }

@@ -14,6 +14,7 @@
 #include "tests/fuzz/nets.hpp"
 #include "tests/fuzz/reference.hpp"
 #include "tests/fuzz/require.hpp"
+#include "tests/fuzz/run_case.hpp"
 
 namespace simdbezier::fuzz {
 namespace {
@@ -290,12 +291,5 @@ private:
 } // namespace simdbezier::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace simdbezier::fuzz;
-  ByteSource bytes(std::span(data, size));
-  if (bytes.flag()) {
-    NetCase<double>(bytes).run();
-  } else {
-    NetCase<float>(bytes).run();
-  }
-  return 0;
+  return simdbezier::fuzz::run_case<simdbezier::fuzz::NetCase>(data, size);
 }

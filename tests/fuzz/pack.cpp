@@ -9,6 +9,7 @@
 
 #include "tests/fuzz/grids.hpp"
 #include "tests/fuzz/hostile.hpp"
+#include "tests/fuzz/run_case.hpp"
 #include "tests/fuzz/scene.hpp"
 
 namespace simdbezier::fuzz {
@@ -154,21 +155,5 @@ private:
 } // namespace simdbezier::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace simdbezier::fuzz;
-  ByteSource bytes(std::span(data, size));
-  switch (bytes.below(4)) {
-  case 0:
-    PackCase<float, float>(bytes).run();
-    break;
-  case 1:
-    PackCase<double, double>(bytes).run();
-    break;
-  case 2:
-    PackCase<float, double>(bytes).run();
-    break;
-  default:
-    PackCase<double, float>(bytes).run();
-    break;
-  }
-  return 0;
+  return simdbezier::fuzz::run_mixed_case<simdbezier::fuzz::PackCase>(data, size);
 }

@@ -9,20 +9,13 @@
 
 #include "tests/fuzz/grids.hpp"
 #include "tests/fuzz/hostile.hpp"
+#include "tests/fuzz/layout_model.hpp"
 #include "tests/fuzz/outputs.hpp"
+#include "tests/fuzz/run_case.hpp"
 #include "tests/fuzz/scene.hpp"
 
 namespace simdbezier::fuzz {
 namespace {
-
-/// One component of one output: `samples` values from an offset on.
-struct Member {
-  std::ptrdiff_t offset;
-  std::ptrdiff_t stride;
-};
-
-/// What is known of a request before it is made.
-enum class Expectation : std::uint8_t { anything, success, failure, untried };
 
 template <typename T>
 class RequestCase {
@@ -151,7 +144,7 @@ private:
       next %= static_cast<std::ptrdiff_t>(kElements) - 3;
     }
     if (bytes_.flag()) {
-      out_.status = statuses_.data() + bytes_.below(20);
+      out_.status = statuses_.data() + bytes_.below(kStatusPlaces);
     }
     if (wild && bytes_.rarely(16)) {
       out_.curvature.mean = block_.data() + bytes_.below(kElements);
@@ -224,42 +217,10 @@ private:
 
   Expectation of_layout() {
     const Wide count = samples();
-    if (count == 0) {
-      return Expectation::anything;
-    }
-    bool overflow = count > kLastOffset;
-    for (const Member& member : members()) {
-      const Wide reach = (count - 1) * member.stride;
-      overflow = overflow || (reach < 0 ? -reach : reach) > kLastOffset / 2;
-      if (!overflow &&
-          (member.offset + reach < 0 || member.offset + reach >= static_cast<Wide>(kElements))) {
-        return Expectation::untried;
-      }
-    }
-    if (overflow || (out_.status != nullptr && count > static_cast<Wide>(kElements) - 20)) {
-      return overflow ? Expectation::failure : Expectation::untried;
-    }
-    return of_places(static_cast<std::ptrdiff_t>(count));
-  }
-
-  /// Which elements the outputs take, and whether two take one.
-  Expectation of_places(std::ptrdiff_t count) {
-    taken_.assign(kElements, 0);
-    bool shared = false;
-    bool equal_strides = true;
-    const std::vector<Member> all = members();
-    for (const Member& member : all) {
-      equal_strides = equal_strides && member.stride == all.front().stride;
-      for (std::ptrdiff_t k = 0; k < count; ++k) {
-        auto& taken = taken_[static_cast<std::size_t>(member.offset + k * member.stride)];
-        shared = shared || taken != 0;
-        taken = 1;
-      }
-    }
-    if (shared) {
-      return Expectation::failure;
-    }
-    return equal_strides && !planes_apart() ? Expectation::success : Expectation::anything;
+    const Expectation expectation =
+        expect_of(members(), count, out_.status != nullptr, kElements, taken_);
+    return expectation == Expectation::success && planes_apart() ? Expectation::anything
+                                                                 : expectation;
   }
 
   /// Records of planes that lie between one another in another way than as members of a vertex.
@@ -332,12 +293,5 @@ private:
 } // namespace simdbezier::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace simdbezier::fuzz;
-  ByteSource bytes(std::span(data, size));
-  if (bytes.flag()) {
-    RequestCase<double>(bytes).run();
-  } else {
-    RequestCase<float>(bytes).run();
-  }
-  return 0;
+  return simdbezier::fuzz::run_case<simdbezier::fuzz::RequestCase>(data, size);
 }
