@@ -83,7 +83,8 @@ function(simdbezier_add_isa_kernels target)
                         "$<$<CXX_COMPILER_ID:GNU>:-fno-ivopts;-fno-tree-pre;-fno-tree-slp-vectorize>"
                         "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>")
     if(SIMDBEZIER_SANITIZE)
-      # All that is inlined here would take a sanitizing compiler minutes.
+      # All that is inlined here would take a sanitizing compiler minutes. Undefined behaviour of
+      # the kernels is looked for where SIMDBEZIER_KERNEL_FLAGS say so (CMakePresets.json).
       target_compile_options(${object} PRIVATE -O1 -fno-sanitize=undefined)
     endif()
     separate_arguments(further UNIX_COMMAND "${SIMDBEZIER_KERNEL_FLAGS}")
