@@ -62,7 +62,7 @@ TEST(Signals, AtRandomTimesLeaveNothing) {
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
   const std::vector<int> signals = catchable_signals();
-  const Job file{"file", {"tessellate", "--grid", "64", "--threads", "2"}, "out.obj"};
+  const Job file{"file", {"tessellate", "--grid", "40", "--threads", "2"}, "out.obj"};
   Scene fresh(file, false);
   Scene replacing(file, true);
   const auto usual = std::max(duration(fresh), duration(replacing));
