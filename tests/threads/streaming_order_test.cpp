@@ -123,16 +123,15 @@ struct Memory {
 };
 
 std::vector<Call> calls() {
-  static Memory memory;
-  Memory& m = memory;
-  const auto grid = [&m](const Vectors<float>& to) {
-    return [&m, to](const Options& options) {
+  static Memory m;
+  const auto grid = [](const Vectors<float>& to) {
+    return [to](const Options& options) {
       Outputs<float> out;
       out.position = to;
       return evaluate_grid(m.set, Grid<float>::uniform(n, n), out, options);
     };
   };
-  const auto curve_out = [&m] {
+  const auto curve_out = [] {
     CurveOutputs<float> out;
     out.position = m.planes();
     return out;
@@ -140,14 +139,14 @@ std::vector<Call> calls() {
   return {{"grid_planes", grid(m.planes())},
           {"grid_triples", grid(m.triples())},
           {"patch_grids",
-           [&m](const Options& options) {
+           [](const Options& options) {
              Outputs<float> out;
              out.position = m.planes();
              return evaluate_patch_grids(m.set, {m.sizes.data(), m.sizes.data(), nullptr}, out,
                                          options);
            }},
           {"scattered",
-           [&m](const Options& options) {
+           [](const Options& options) {
              Outputs<float> out;
              out.position = m.planes();
              const Samples<float> samples{kSamples, m.numbers.data(), m.parameters.data(),
@@ -155,16 +154,15 @@ std::vector<Call> calls() {
              return evaluate_scattered(m.set, samples, out, options);
            }},
           {"curves",
-           [&m, curve_out](const Options& options) {
-             return evaluate_curves(m.curves, CurveGrid<float>::uniform(n), curve_out(),
-                                    options);
+           [curve_out](const Options& options) {
+             return evaluate_curves(m.curves, CurveGrid<float>::uniform(n), curve_out(), options);
            }},
           {"curve_counts",
-           [&m, curve_out](const Options& options) {
+           [curve_out](const Options& options) {
              return evaluate_curves(m.curves, CurveCounts{m.sizes.data(), nullptr}, curve_out(),
                                     options);
            }},
-          {"curve_samples", [&m, curve_out](const Options& options) {
+          {"curve_samples", [curve_out](const Options& options) {
              const CurveSamples<float> samples{kSamples, m.numbers.data(), m.parameters.data(),
                                                Parameters::unit};
              return evaluate_curves(m.curves, samples, curve_out(), options);
