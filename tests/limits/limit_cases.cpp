@@ -26,12 +26,18 @@ constexpr int kManyPoints = 60;        ///< nets with more points have fewer sam
   return to_double ? rounded_to<double>(std::move(net)) : rounded_to<float>(std::move(net));
 }
 
-/// One coordinate moved by its last bit, or by more: nearly singular, and regular most often.
-void perturb(Net& net, int components, int digits, Random& random) {
+/// One coordinate moved by its last bit, or by more, or from zero by next to nothing: nearly
+/// singular, and regular most often.
+void perturb(Net& net, int components, bool points_double, Random& random) {
   Vector3& point = net.points[random.below(net.points.size())];
   double& value = point[random.below(static_cast<std::uint64_t>(components))];
+  const int digits = points_double ? 52 : 23;
   const int down = random.below(2) == 0 ? digits : random.integer(4, digits);
-  value += std::ldexp(random.sign(), (value == 0 ? 0 : std::ilogb(value)) - down);
+  if (value == 0) {
+    value = random.sign() * std::ldexp(1, -random.integer(1, points_double ? 400 : 100));
+  } else {
+    value += std::ldexp(random.sign(), std::ilogb(value) - down);
+  }
 }
 
 /// Weights in one of their forms, or none.
@@ -125,7 +131,7 @@ void sort_by_shape(std::vector<LimitNet>& nets) {
   }
   net = rounded(std::move(net), points_double);
   if (random.below(8) == 0) {
-    perturb(net, components, points_double ? 52 : 23, random);
+    perturb(net, components, points_double, random);
   }
   return {kind, rounded(std::move(net), points_double), components, {}};
 }
@@ -204,7 +210,7 @@ bool same_limit_shape(const LimitNet& a, const LimitNet& b) { return shape_key(a
 
 std::size_t limit_net_count() {
   const char* const given = std::getenv("SIMDBEZIER_LIMIT_NETS");
-  return given == nullptr ? 100 : std::strtoul(given, nullptr, 10);
+  return given == nullptr ? 60 : std::strtoul(given, nullptr, 10);
 }
 
 std::string described(const LimitNet& net, const LimitSample& sample) {

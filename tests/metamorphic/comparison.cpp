@@ -65,12 +65,6 @@ private:
   [[nodiscard]] std::size_t related_component(std::size_t c) const {
     return tests::related_component(what_.relation, from_.components, c);
   }
-  [[nodiscard]] double sign_and_scale(std::size_t a, std::size_t b) const {
-    return tests::sign_and_scale(what_.relation, a, b);
-  }
-  [[nodiscard]] double offset(std::size_t a, std::size_t b, std::size_t c) const {
-    return what_.relation == Relation::translated && a + b == 0 && c < 3 ? kTranslation[c] : 0;
-  }
   [[nodiscard]] bool equal_bits(std::size_t a, std::size_t b) const {
     switch (what_.relation) {
     case Relation::scaled:
@@ -109,24 +103,21 @@ private:
 
   void compare_derivative(std::size_t a, std::size_t b) {
     const bool swapped = what_.relation == Relation::transposed;
-    const std::vector<double>& expected = from_.derivatives[a][b];
-    const std::vector<double>& found = swapped ? to_.derivatives[b][a] : to_.derivatives[a][b];
     const auto d = static_cast<std::size_t>(from_.components);
+    const double* const expected = &from_.derivatives[a][b][index_ * d];
+    const double* const found =
+        &(swapped ? to_.derivatives[b][a] : to_.derivatives[a][b])[related_index_ * d];
+    const double factor = sign_and_scale(what_.relation, a, b);
+    const double bounded = equal_bits(a, b) ? 0 : std::abs(factor);
+    const bool moved = what_.relation == Relation::translated && a + b == 0;
     const Output output = output_of(a, b);
     for (std::size_t c = 0; c < d; ++c) {
-      const double e = sign_and_scale(a, b) * expected[index_ * d + c] + offset(a, b, c);
-      const double f = found[related_index_ * d + related_component(c)];
-      // Where the offset is added here, in double, one rounding of T is left.
-      const double allowed =
-          equal_bits(a, b)
-              ? 0
-              : std::abs(sign_and_scale(a, b)) * bounds_.of[a][b][c] + 2 * unit() * tiny(a, b, e);
-      judge(output, e, f, allowed);
+      const double e = factor * expected[c] + (moved && c < 3 ? kTranslation[c] : 0);
+      // Where the translation is added here, in double, one rounding of T is left.
+      const double allowed = bounded * bounds_.of[a][b][c] + (moved ? 2 * unit() * std::abs(e) : 0);
+      judge(output, e, found[related_component(c)], allowed);
     }
     fill(output);
-  }
-  [[nodiscard]] double tiny(std::size_t a, std::size_t b, double value) const {
-    return a + b == 0 && what_.relation == Relation::translated ? std::abs(value) : 0;
   }
 
   [[nodiscard]] static Output output_of(std::size_t a, std::size_t b) {
@@ -247,8 +238,8 @@ private:
     }
   }
   void judge(Output output, double expected, double found, double allowed) {
-    const bool same = expected == found || (std::isnan(expected) && std::isnan(found));
-    if (same || std::abs(expected - found) <= allowed) {
+    if (expected == found || std::abs(expected - found) <= allowed ||
+        (std::isnan(expected) && std::isnan(found))) {
       return;
     }
     std::ostringstream text;
