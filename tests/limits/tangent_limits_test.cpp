@@ -163,6 +163,41 @@ TEST_P(TangentLimits, KnownCurves) {
   add(3, 1, 1, 1, 0.5);
   tally.report(std::string(to_string(isa())) + ", known curves");
 }
+
+/// A straight line has one tangent, however light one of its ends is and however far away it lies.
+TEST_P(TangentLimits, LightAndFarLines) {
+  const Vector3 along{1 / 3.0, 2 / 3.0, -2 / 3.0};
+  AllowedAngles strict = allowed_angles(false);
+  strict.unit_roundoff = 0; // sums of weights are no excuse
+  LimitTally tally(strict);
+  std::vector<LimitNet> lines;
+  for (const bool rational : {false, true}) {
+    for (int light = rational ? -30 : 0; light <= 0; light += 5) {
+      for (int far = 0; far <= 20; far += 5) {
+        const double away = std::ldexp(1.0, far);
+        const Vector3 start{away + 1, 3 - away, away};
+        Net net{1, 0, {start, plus(start, 1, {1, 2, -2})}};
+        if (rational) {
+          net.weights = {1, std::ldexp(1.0, light)};
+        }
+        LimitNet line{"line", std::move(net), 3, {}};
+        for (const double x : {-1.0, -0.5, 0.0, 0.75, 1.0}) {
+          line.samples.push_back({x, 0, SampleStatus::regular, along, 1});
+        }
+        lines.push_back(std::move(line));
+      }
+    }
+  }
+  const Curves plain(lines.data(), 5);
+  const Curves weighted(lines.data() + 5, lines.size() - 5);
+  for (const Curves& part : {plain, weighted}) {
+    for (const bool origins : {false, true}) {
+      judge_scattered(packed_curves<float, float>(part, {.local_origin = origins, .isa = isa()}),
+                      part, tally);
+    }
+  }
+  tally.report(std::string(to_string(isa())) + ", lines");
+}
 INSTANTIATE_FOR_EVERY_ISA(TangentLimits);
 
 } // namespace
