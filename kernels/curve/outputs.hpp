@@ -46,14 +46,15 @@ SIMDBEZIER_INLINE void prefetch_values(const T* values, std::size_t count) {
 /// Lane by lane, for those that did not pass the quick test. Rare, so kept out of line.
 template <typename V, typename Task>
 __attribute__((noinline, cold)) void resolve_lanes(const Task& task, const CurveShape& shape,
-                                                   const CurveRange<V>& range, V x, V squared) {
+                                                   const CurveRange<V>& range, V x, V squared,
+                                                   V floor) {
   using T = ScalarOf<V>;
-  alignas(64) T lanes[2][kLanes<V>];
+  alignas(64) T lanes[3][kLanes<V>];
   store_vector(lanes[0], x);
   store_vector(lanes[1], squared);
-  const T floor = task.tangent_floor[range.curve];
+  store_vector(lanes[2], floor);
   for (std::size_t i = 0; i < range.own; ++i) {
-    if (lanes[1][i] > floor) {
+    if (lanes[1][i] > lanes[2][i]) {
       continue;
     }
     const std::size_t at = range.at + i;
@@ -76,10 +77,27 @@ __attribute__((noinline, cold)) void resolve_lanes(const Task& task, const Curve
   }
 }
 
+/// What |C'|^2 has to exceed; inverse: 1 / w of rational curves. Of those, squares below kLeast
+/// take a second look, too, since products on the way might have left the range of T.
+template <bool kRational, typename V>
+SIMDBEZIER_INLINE V tangent_floor(ScalarOf<V> of_curve, V inverse, V squared) {
+  using T = ScalarOf<V>;
+  const V size = broadcast<V>(of_curve);
+  if constexpr (!kRational) {
+    return size;
+  }
+  constexpr T kLeast = static_cast<T>(sizeof(T) == sizeof(float) ? 0x1p-94 : 0x1p-940);
+  const V infinity = broadcast<V>(static_cast<T>(__builtin_inf()));
+  const V error = size * inverse * inverse;
+  const V floor = madd(error, error, broadcast<V>(kLeast));
+  return select_where<V>(squared < infinity, floor, infinity);
+}
+
 /// Of a planar curve, the third components are zero.
-template <typename V, typename Task>
+template <bool kRational, typename V, typename Task>
 SIMDBEZIER_INLINE void store_tangents(const Task& task, const CurveShape& shape,
-                                      const CurveRange<V>& range, V x, const CurveJet<V>& jet) {
+                                      const CurveRange<V>& range, V x, V inverse_weight,
+                                      const CurveJet<V>& jet) {
   using T = ScalarOf<V>;
   const auto& planes = task.out[detail::kCurveTangent];
   const V squared = dot(jet.d1, jet.d1);
@@ -95,8 +113,10 @@ SIMDBEZIER_INLINE void store_tangents(const Task& task, const CurveShape& shape,
     range.store(task.curvature, divide(bend, squared));
   }
   // Parameters outside of the curve are as likely to find a small C' as any.
-  if (!all_of<V>(squared > broadcast<V>(task.tangent_floor[range.curve]))) {
-    resolve_lanes(task, shape, range, x, squared);
+  const V floor =
+      tangent_floor<kRational>(task.tangent_floor[range.curve], inverse_weight, squared);
+  if (!all_of<V>(squared > floor)) {
+    resolve_lanes(task, shape, range, x, squared, floor);
   }
 }
 
@@ -166,7 +186,7 @@ SIMDBEZIER_INLINE void finish_samples(const Task& task, const CurveShape& shape,
     }
   }
   if (kDepth > 0 && (task.curvature != nullptr || task.out[detail::kCurveTangent].wanted())) {
-    store_tangents(task, shape, range, points.x, jet);
+    store_tangents<kRational>(task, shape, range, points.x, quotient.inverse, jet);
   }
 }
 

@@ -16,45 +16,71 @@ inline constexpr double kSafeCurveSquares = sizeof(T) == sizeof(float) ? 0x1p80 
 template <typename T>
 inline constexpr double kSafeCurveWeight = sizeof(T) == sizeof(float) ? 0x1p-40 : 0x1p-400;
 
-/// Finds the value of |C'|^2 above which the kernel's own tangent is good: 2^-7 (float) or 2^-20
-/// (double) of what the errors of C' are relative to, squared.
+/// Finds what |C'| is compared with: where it is above 2^-7 (float) or 2^-20 (double) of what its
+/// errors are relative to, the kernel's own tangent is good.
+///
+/// Polynomial, the square of that: errors of C' are some u times its largest control value.
+/// Rational, the part of it that does not hang on the sample; over w^2, squared, it is the floor.
+/// As of patches (pack/shape_floor.hpp), errors are some u times
+///     n (D + 4 B R) W / w^2:
+/// R >= |P - O|, W the largest weight, D and B the largest max(w,w') |P' - P| and |w' - w| of
+/// neighbours.
 template <typename T>
 class TangentFloor {
 public:
-  explicit TangentFloor(const detail::CurveShape& shape) : shape_(shape) {}
+  /// weights: null for polynomials.
+  TangentFloor(const detail::CurveShape& shape, const Wide* weights)
+      : shape_(shape), weights_(weights) {}
 
-  SIMDBEZIER_INLINE void add_weight(Wide weight) {
-    most_ = larger(weight, most_);
-    least_ = select_where<Wide>(weight < least_, weight, least_);
-  }
   SIMDBEZIER_INLINE void add(const Wide* points) {
     for (std::size_t i = 0; i < shape_.order(); ++i) {
       extent_ = larger(magnitude(points[i] - points[0]), extent_);
       size_ = larger(magnitude(points[i]), size_);
     }
-  }
-  /// Infinity where squares could leave the range of T. Rational derivatives are differences of
-  /// products with the position, whose errors are relative to the distance from the origin.
-  SIMDBEZIER_INLINE Wide value() const {
-    constexpr bool kSingle = sizeof(T) == sizeof(float);
-    Wide hodograph = Wide(static_cast<double>(shape_.degree)) * extent_;
-    if (shape_.rational) {
-      const Wide distance = shape_.origins ? extent_ : extent_ + size_;
-      hodograph = Wide(static_cast<double>(shape_.degree)) * distance * divide(most_, least_);
+    for (std::size_t i = 1; weights_ != nullptr && i < shape_.order(); ++i) {
+      const Wide weight = larger(weights_[i - 1], weights_[i]);
+      step_ = larger(weight * magnitude(points[i] - points[i - 1]), step_);
     }
-    const Wide power = power_of_two_below(hodograph);
+  }
+  /// Infinity where products of the test could leave the range of T.
+  SIMDBEZIER_INLINE Wide value() const {
+    const Wide degree(static_cast<double>(shape_.degree));
+    if (weights_ != nullptr) {
+      return rational_size(degree);
+    }
+    const Wide power = power_of_two_below(degree * extent_);
     const MaskOf<Wide> in_range =
         (power >= Wide(kSingle ? 0x1p-40 : 0x1p-450)) & (power <= Wide(kSingle ? 0x1p40 : 0x1p450));
-    return select_where<Wide>(in_range, power * power * Wide(kSingle ? 0x1p-14 : 0x1p-40),
-                              Wide(std::numeric_limits<double>::infinity()));
+    return select_where<Wide>(in_range, power * power * Wide(kClear * kClear), infinity());
   }
 
 private:
+  static constexpr bool kSingle = sizeof(T) == sizeof(float);
+  static constexpr double kClear = kSingle ? 0x1p-7 : 0x1p-20;
+
+  static Wide infinity() { return Wide(std::numeric_limits<double>::infinity()); }
+
+  SIMDBEZIER_INLINE Wide rational_size(Wide degree) const {
+    Wide heaviest = weights_[0];
+    Wide turn(0.0);
+    for (std::size_t i = 1; i < shape_.order(); ++i) {
+      heaviest = larger(weights_[i], heaviest);
+      turn = larger(magnitude(weights_[i] - weights_[i - 1]), turn);
+    }
+    const Wide reach = shape_.origins ? extent_ + extent_ : size_;
+    const Wide size = Wide(kClear) * degree * (step_ + Wide(4.0) * turn * reach) * heaviest;
+    const MaskOf<Wide> in_range = (size >= Wide(kSingle ? 0x1p-100 : 0x1p-900)) &
+                                  (size <= Wide(kSingle ? 0x1p120 : 0x1p1000)) &
+                                  (heaviest >= Wide(kSingle ? 0x1p-40 : 0x1p-400)) &
+                                  (heaviest <= Wide(kSingle ? 0x1p40 : 0x1p400));
+    return select_where<Wide>(in_range, size, infinity());
+  }
+
   const detail::CurveShape& shape_;
+  const Wide* weights_;
   Wide extent_ = Wide(0.0); ///< largest distance from the first point, max norm
   Wide size_ = Wide(0.0);   ///< largest distance from the origin
-  Wide most_ = Wide(0.0);
-  Wide least_ = Wide(std::numeric_limits<double>::infinity());
+  Wide step_ = Wide(0.0);   ///< largest weighted distance of neighbours
 };
 
 /// One group of curves while it is packed.
@@ -79,17 +105,16 @@ public:
     copy_control_points();
     Wide squares(0.0);
     MaskOf<Wide> positive = squares <= squares;
-    TangentFloor<T> floor(shape_);
     if (shape_.rational) {
       for (std::size_t i = 0; i < order_; ++i) {
         const Wide weight = value_at(i, components_);
         weights_[i] = weight;
         squares = squares + weight * weight;
         positive = positive & (weight >= Wide(kSafeCurveWeight<T>));
-        floor.add_weight(weight);
       }
       pack_weights();
     }
+    TangentFloor<T> floor(shape_, shape_.rational ? weights_ : nullptr);
     for (std::size_t c = 0; c < components_; ++c) {
       squares = squares + pack_component(c, floor);
     }
