@@ -1,6 +1,7 @@
 #include "tests/cli/program.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <pty.h>
 #include <sys/ioctl.h>
 #include <sys/resource.h>
@@ -157,8 +158,10 @@ void Program::feed(const std::string& text) {
 
 void Program::await_on_terminal(const std::string& part) {
   for (char block[256]; shown_.find(part) == std::string::npos;) {
-    const ssize_t got = read(terminal_, block, sizeof block);
-    if (got <= 0) { // the program has ended
+    constexpr int kPatience = 20000; // milliseconds
+    pollfd wait = {terminal_, POLLIN, 0};
+    const ssize_t got = poll(&wait, 1, kPatience) > 0 ? read(terminal_, block, sizeof block) : 0;
+    if (got <= 0) { // the program has ended, or says no more
       ADD_FAILURE() << "not shown: " << part << "\nshown: " << shown_;
       return;
     }

@@ -104,16 +104,18 @@ TEST(Signals, LeaveTheOldFileAsItWas) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"out.csv"});
 }
 
-// A path of nearly as many characters as the system allows, so that the temporary's has more.
+// A path of as many characters as the system allows, so that the temporary's would have more.
 TEST(Signals, LeaveNothingUnderLongNames) {
   const TemporaryFolder folder;
   constexpr std::size_t kLongest = 4095;
+  const std::string name = "o.csv";
   std::string deep = folder.path("");
-  while (deep.size() + 200 < kLongest) {
-    deep += std::string(150, 'd') + "/";
+  while (deep.size() < kLongest - name.size()) {
+    const std::size_t rest = kLongest - name.size() - deep.size() - 1;
+    deep += std::string(rest > 250 ? 150 : rest, 'd') + "/";
     std::filesystem::create_directory(deep);
   }
-  const std::string out = deep + std::string(kLongest - deep.size() - 4, 'o') + ".csv";
+  const std::string out = deep + name;
   ASSERT_EQ(out.size(), kLongest);
   const auto count = [&] { return std::distance(std::filesystem::directory_iterator(deep), {}); };
   {
