@@ -162,9 +162,9 @@ void evaluate_samples(const Arguments& arguments, const PatchSet<T>& set) {
 template <typename T>
 void evaluate(const Arguments& arguments) {
   if (arguments.samples) {
-    // Samples may be of any patch in any order; what has been read is not needed any more.
-    return evaluate_samples(arguments,
-                            pack_patches<T>(read_patches(arguments.in, arguments.format)));
+    // Samples may be of any patch; what was read for packing goes away before they are.
+    const PatchSet<T> set = pack_patches<T>(read_patches(arguments.in, arguments.format));
+    return evaluate_samples(arguments, set);
   }
   evaluate_on_grid<T>(arguments, read_patches(arguments.in, arguments.format));
 }
