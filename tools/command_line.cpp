@@ -97,7 +97,8 @@ void check_option(const OptionEntry& entry, const CLI::Option& option, const std
 // The first word that is left over is the mistake: what is missing was most likely meant by it.
 void check_rest(const CLI::App& app, const std::string& command,
                 const std::optional<std::string>& in) {
-  const std::vector<std::string> rest = app.remaining(true);
+  std::vector<std::string> rest = app.remaining(true);
+  std::erase(rest, "--"); // what stands behind it is no option
   if (rest.empty()) {
     return;
   }

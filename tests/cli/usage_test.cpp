@@ -189,6 +189,23 @@ TEST(Usage, HelpAndVersionAreAnswers) {
   }
 }
 
+TEST(Usage, WordsMayStandInManyWays) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path("out.ply");
+  const std::vector<std::vector<std::string>> commands = {
+      {"tessellate", "builtin:teapot", "-o", out},
+      {"tessellate", "-o", out, "builtin:teapot"},
+      {"tessellate", "-o" + out, "builtin:teapot"},
+      {"tessellate", "-o", out, "--", "builtin:teapot"},
+      {"tessellate", "builtin:teapot", "-o", out, "--grid=16", "--threads=1"}};
+  std::string first;
+  for (const std::vector<std::string>& command : commands) {
+    expect_silent_success(run(command));
+    first = first.empty() ? read_file(out) : first;
+    EXPECT_TRUE(read_file(out) == first);
+  }
+}
+
 TEST(Usage, HelpHasExamplesRangesDefaultsAndExitCodes) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
       {"tessellate",
