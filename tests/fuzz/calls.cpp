@@ -43,7 +43,7 @@ public:
 private:
   /// Time should go into many inputs.
   void limit_patches() {
-    constexpr std::size_t kMostSamples = 3000;
+    constexpr std::size_t kMostSamples = 1200;
     options_.patch_count =
         std::min(patches_of(options_, scene_.set().size()), kMostSamples / grid_.samples() + 1);
     samples_ = options_.patch_count * grid_.samples();

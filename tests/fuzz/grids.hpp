@@ -52,7 +52,8 @@ template <typename T>
                           : std::numeric_limits<T>::infinity();
   case 6: {
     const T raw = bytes.raw<T>();
-    return std::isfinite(raw) ? raw : T(0);
+    // Twice as much has to be finite, too.
+    return std::fabs(raw) < std::numeric_limits<T>::max() / 4 ? raw : T(0);
   }
   default:
     return centred ? 2 * within - 1 : within;
