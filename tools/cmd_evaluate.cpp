@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <tools/library_status.hpp>
@@ -105,7 +107,7 @@ void evaluate_on_grid(const Arguments& arguments, const PatchFile& patches) {
 /// As many samples as fit into one call.
 template <typename T>
 struct SampleBlock {
-  static constexpr std::size_t kMost = std::size_t{1} << 16;
+  static constexpr std::size_t kMost = std::size_t{1} << 14;
   std::vector<CsvSample> given;
   std::vector<std::uint32_t> patch;
   std::vector<T> x;
@@ -137,20 +139,65 @@ private:
   }
 };
 
+/// Evaluates blocks of samples of a file's patches. Where there are many patches, only those of a
+/// block's samples are packed.
 template <typename T>
-void evaluate_samples(const Arguments& arguments, const PatchSet<T>& set) {
-  SampleReader reader(*arguments.samples, set.size());
+class SampleEvaluator {
+public:
+  /// Throws Failure where T cannot hold a patch, whether it has samples or not.
+  SampleEvaluator(const PatchFile& file, int threads) : file_(file) {
+    options_.threads = threads;
+    for (std::size_t p = 0; p < file.count; p += kBlockPatches) {
+      set_ = PatchSet<T>(); // whose memory the next one may take
+      set_ = pack_patches<T>(file, p, kBlockPatches);
+    }
+    all_ = set_.size() == file.count;
+  }
+
+  void evaluate(const SampleBlock<T>& block, const Outputs<T>& out) {
+    std::vector<std::uint32_t> patch = block.patch;
+    if (!all_) {
+      pack(block.patch);
+      for (std::uint32_t& number : patch) {
+        const auto at = std::ranges::lower_bound(packed_, number);
+        number = static_cast<std::uint32_t>(at - packed_.begin());
+      }
+    }
+    const Samples<T> samples{patch.size(), patch.data(), block.x.data(), block.y.data(),
+                             Parameters::centred};
+    check(evaluate_scattered(set_, samples, out, options_));
+  }
+
+private:
+  void pack(const std::vector<std::uint32_t>& patches) {
+    std::vector<std::uint32_t> wanted = patches;
+    std::ranges::sort(wanted);
+    wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+    if (wanted != packed_) {
+      packed_ = std::move(wanted);
+      set_ = PatchSet<T>();
+      set_ = pack_patches<T>(file_, packed_);
+    }
+  }
+
+  const PatchFile& file_;
+  Options options_;
+  PatchSet<T> set_;
+  bool all_ = false;                  // of the file's patches are in the set
+  std::vector<std::uint32_t> packed_; // otherwise these
+};
+
+template <typename T>
+void evaluate_samples(const Arguments& arguments, const PatchFile& patches) {
+  SampleEvaluator<T> evaluator(patches, arguments.threads);
+  SampleReader reader(*arguments.samples, patches.count);
   OutputFile file(arguments.out);
   ResultWriter writer(file, reader.centred(), arguments.outputs);
   ResultTable<T> table(arguments.outputs);
   Progress progress("evaluating", "samples", 0, may_show_bar(arguments, file));
-  Options options;
-  options.threads = arguments.threads;
   for (SampleBlock<T> block; block.read(reader);) {
     const std::size_t count = block.given.size();
-    const Samples<T> samples{count, block.patch.data(), block.x.data(), block.y.data(),
-                             Parameters::centred};
-    check(evaluate_scattered(set, samples, table.resize(count), options));
+    evaluator.evaluate(block, table.resize(count));
     for (std::size_t k = 0; k < count; ++k) {
       writer.line(block.given[k], table.row(k));
     }
@@ -161,12 +208,9 @@ void evaluate_samples(const Arguments& arguments, const PatchSet<T>& set) {
 
 template <typename T>
 void evaluate(const Arguments& arguments) {
-  if (arguments.samples) {
-    // Samples may be of any patch; what was read for packing goes away before they are.
-    const PatchSet<T> set = pack_patches<T>(read_patches(arguments.in, arguments.format));
-    return evaluate_samples(arguments, set);
-  }
-  evaluate_on_grid<T>(arguments, read_patches(arguments.in, arguments.format));
+  const PatchFile patches = read_patches(arguments.in, arguments.format);
+  arguments.samples ? evaluate_samples<T>(arguments, patches)
+                    : evaluate_on_grid<T>(arguments, patches);
 }
 
 } // namespace

@@ -29,7 +29,6 @@ struct GridBlock {
 };
 
 inline constexpr std::size_t kBlockSamples = std::size_t{1} << 18;
-inline constexpr std::size_t kBlockPatches = std::size_t{1} << 14;
 
 /// Larger grids and results are refused: a typo is likelier than a wish.
 inline constexpr std::size_t kMostPerDirection = std::size_t{1} << 20;

@@ -33,19 +33,31 @@ template <typename T>
   }
 }
 
-} // namespace
-
-template <typename T>
-PatchSet<T> pack_patches(const PatchFile& file, std::size_t first, std::size_t patches) {
+/// patch_of(k) is the number of the k-th of these patches in the file.
+template <typename T, typename F>
+PatchSet<T> pack_nets(const PatchFile& file, const PatchNets<T>& in, F&& patch_of) {
   PatchSet<T> set;
-  const PatchNets<T> in = file.nets<T>(first, patches);
   if (const PackReport report = pack(std::span(in.nets), set); !report) {
-    refuse<T>(file, first + report.patch, report);
+    refuse<T>(file, patch_of(report.patch), report);
   }
   return set;
 }
 
+} // namespace
+
+template <typename T>
+PatchSet<T> pack_patches(const PatchFile& file, std::size_t first, std::size_t patches) {
+  return pack_nets<T>(file, file.nets<T>(first, patches), [&](std::size_t k) { return first + k; });
+}
+
+template <typename T>
+PatchSet<T> pack_patches(const PatchFile& file, std::span<const std::uint32_t> patches) {
+  return pack_nets<T>(file, file.nets<T>(patches), [&](std::size_t k) { return patches[k]; });
+}
+
 template PatchSet<float> pack_patches<float>(const PatchFile&, std::size_t, std::size_t);
 template PatchSet<double> pack_patches<double>(const PatchFile&, std::size_t, std::size_t);
+template PatchSet<float> pack_patches<float>(const PatchFile&, std::span<const std::uint32_t>);
+template PatchSet<double> pack_patches<double>(const PatchFile&, std::span<const std::uint32_t>);
 
 } // namespace simdbezier::tools

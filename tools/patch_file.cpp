@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <ranges>
 
 #include <tools/counts.hpp>
 #include <tools/failure.hpp>
@@ -172,38 +173,51 @@ void PatchFile::append(const PatchRun& run, std::size_t patch, std::vector<S>& v
   }
 }
 
-template <typename S>
-PatchNets<S> PatchFile::nets(std::size_t first, std::size_t patches) const {
+template <typename S, typename Patches>
+PatchNets<S> PatchFile::gather(const Patches& patches) const {
   struct Part {
     const PatchRun* run;
-    std::size_t begin, end; // of its patches
+    std::size_t count;
   };
-  const std::size_t last = first + std::min(patches, count - first);
   std::vector<Part> parts;
   std::size_t size = 0;
-  for (std::size_t p = first; p < last;) {
-    const PatchRun& run = parts.empty() ? run_of(p) : parts.back().run[1];
-    const std::size_t end = std::min(last, run.first_patch + run.count);
-    parts.push_back({&run, p - run.first_patch, end - run.first_patch});
-    size += (end - p) * run.points_per_patch() * run.values_per_point();
-    p = end;
+  for (const std::size_t p : patches) {
+    if (parts.empty() || p - parts.back().run->first_patch >= parts.back().run->count) {
+      parts.push_back({&run_of(p), 0});
+    }
+    const PatchRun& run = *parts.back().run;
+    ++parts.back().count;
+    size += run.points_per_patch() * run.values_per_point();
   }
   PatchNets<S> result;
   result.values.reserve(size); // pointers into it stay valid
   result.nets.reserve(parts.size());
-  for (const auto& [run, begin, end] : parts) {
+  auto next = patches.begin();
+  for (const auto& [run, number] : parts) {
     result.nets.push_back(ControlNets<S>::packed(result.values.data() + result.values.size(),
-                                                 end - begin, run->degree_u, run->degree_v, 3,
+                                                 number, run->degree_u, run->degree_v, 3,
                                                  run->weights));
-    for (std::size_t p = begin; p < end; ++p) {
-      append(*run, p, result.values);
+    for (std::size_t k = 0; k < number; ++k, ++next) {
+      append(*run, *next - run->first_patch, result.values);
     }
   }
   return result;
 }
 
+template <typename S>
+PatchNets<S> PatchFile::nets(std::size_t first, std::size_t patches) const {
+  return gather<S>(std::views::iota(first, first + std::min(patches, count - first)));
+}
+
+template <typename S>
+PatchNets<S> PatchFile::nets(std::span<const std::uint32_t> patches) const {
+  return gather<S>(patches);
+}
+
 template PatchNets<float> PatchFile::nets<float>(std::size_t, std::size_t) const;
 template PatchNets<double> PatchFile::nets<double>(std::size_t, std::size_t) const;
+template PatchNets<float> PatchFile::nets<float>(std::span<const std::uint32_t>) const;
+template PatchNets<double> PatchFile::nets<double>(std::span<const std::uint32_t>) const;
 
 std::string patch_format_names(const std::string& prefix) {
   std::string names;

@@ -93,6 +93,9 @@ struct PatchFile {
   /// Some of the patches in S. Results of the library do not depend on which.
   template <typename S>
   [[nodiscard]] PatchNets<S> nets(std::size_t first = 0, std::size_t patches = kAll) const;
+  /// The same of any of them, in ascending order.
+  template <typename S>
+  [[nodiscard]] PatchNets<S> nets(std::span<const std::uint32_t> patches) const;
 
 private:
   struct Place {
@@ -105,6 +108,8 @@ private:
                                         std::size_t mesh_point) const noexcept {
     return run.first_vertex ? vertices[*run.first_vertex + mesh_point] : mesh_point;
   }
+  template <typename S, typename Patches>
+  [[nodiscard]] PatchNets<S> gather(const Patches& patches) const;
   template <typename S>
   void append(const PatchRun& run, std::size_t patch, std::vector<S>& values) const;
 };
@@ -138,5 +143,13 @@ enum class PatchFormat : std::uint8_t { by_name, bez, bpt, bv, itd, obj, rib };
 template <typename T>
 [[nodiscard]] PatchSet<T> pack_patches(const PatchFile& file, std::size_t first = 0,
                                        std::size_t patches = PatchFile::kAll);
+/// The same of any of them, in ascending order.
+template <typename T>
+[[nodiscard]] PatchSet<T> pack_patches(const PatchFile& file,
+                                       std::span<const std::uint32_t> patches);
+
+/// As many patches as are packed at a time where a file has many: packed they take several times
+/// the memory of the file.
+inline constexpr std::size_t kBlockPatches = std::size_t{1} << 12;
 
 } // namespace simdbezier::tools

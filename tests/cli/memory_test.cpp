@@ -1,9 +1,10 @@
 // How much memory a file takes: in proportion to its size, whatever its points are used for.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <ostream>
+#include <sstream>
 
+#include "tests/cli/format_files.hpp"
 #include "tests/cli/program.hpp"
 
 namespace simdbezier::tests {
@@ -44,6 +45,14 @@ std::string closed_mesh(std::size_t side) {
   return text + "]\n";
 }
 
+std::string every_third_patch(std::size_t patches) {
+  std::string text = "patch,u,v\n";
+  for (std::size_t k = 0; k < patches; k += 3) {
+    text += std::to_string(k) + ",0.5,0.5\n";
+  }
+  return text;
+}
+
 std::string separate(const std::string& head, const std::string& patch, std::size_t count,
                      const std::string& tail = "") {
   std::string text = head;
@@ -51,6 +60,16 @@ std::string separate(const std::string& head, const std::string& patch, std::siz
     text += patch;
   }
   return text + tail;
+}
+
+// One a line; the corners of patch k are (k, 0, 0) and (k, 1, 2).
+std::string counted_patches(std::size_t count) {
+  std::string text = std::to_string(count) + "\n";
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::string first = std::to_string(k) + " 0 0";
+    text += first + separate("", " " + first, 14) + " " + std::to_string(k) + " 1 2\n";
+  }
+  return text;
 }
 
 std::string bilinear_of_bv() { return "4 1 0 0 0 1 0 0 0 1 0 1 1 0\n"; }
@@ -78,7 +97,7 @@ const Dense kDense[] = {
 
 class MemoryTest : public ::testing::TestWithParam<Dense> {};
 
-// What the program takes for grids, beyond what it takes for any. docs/formats.md promises this.
+// What the program takes beyond what it takes for any file. docs/formats.md promises this.
 TEST_P(MemoryTest, IsAFewTimesTheFile) {
   if (kSanitized) {
     GTEST_SKIP() << "memory of a sanitizer";
@@ -90,13 +109,49 @@ TEST_P(MemoryTest, IsAFewTimesTheFile) {
   const std::string in = folder.write(std::string("in.") + GetParam().format, text);
   const long most = kAlways + static_cast<long>(kTimes * text.size() / 1024);
   const Outcome none = run({"tessellate", "builtin:teapot", "-o", folder.path("none.ply")});
-  for (const std::string out : {"out.ply", "out.csv"}) {
-    const bool csv = out == "out.csv";
-    const Outcome outcome = run({csv ? "evaluate" : "tessellate", in, "--grid", "2", "--threads",
-                                 "1", "-o", folder.path(out)});
+  const std::string samples = folder.write("samples.csv", every_third_patch(9000));
+  const std::vector<std::vector<std::string>> commands = {
+      {"tessellate", in, "--grid", "2", "-o", folder.path("out.ply")},
+      {"evaluate", in, "--grid", "2", "-o", folder.path("out.csv")},
+      {"evaluate", in, "--samples", samples, "-o", folder.path("out.csv")}};
+  for (std::vector<std::string> command : commands) {
+    command.insert(command.end(), {"--precision", "f64", "--threads", "1"});
+    const Outcome outcome = run(command);
     expect_silent_success(outcome);
     EXPECT_LT(outcome.memory - none.memory, most) << text.size() << " bytes";
   }
+}
+
+// Patches that are packed alone give the bits that they give among all.
+TEST(Memory, BlocksDoNotShowInResults) {
+  const TemporaryFolder folder;
+  const std::string in = folder.write("in.bez", counted_patches(9000));
+  std::string samples = "patch,u,v\n";
+  for (std::size_t k = 0; k < 40000; ++k) {
+    samples += std::to_string(k * 7919 % 9000) + (k % 2 == 0 ? ",0,0\n" : ",1,1\n");
+  }
+  const Outcome scattered = run({"evaluate", in, "--samples", "-", "-o", "-"}, {.input = samples});
+  ASSERT_EQ(scattered.exit_code, 0) << scattered.err;
+  std::istringstream lines(scattered.out);
+  std::string line;
+  std::getline(lines, line);
+  for (std::size_t k = 0; k < 40000; ++k) {
+    std::getline(lines, line);
+    const std::string patch = std::to_string(k * 7919 % 9000);
+    const std::string corner = k % 2 == 0 ? ",0,0," + patch + ",0,0" : ",1,1," + patch + ",1,2";
+    ASSERT_EQ(line, patch + corner);
+  }
+}
+
+TEST(Memory, BlocksDoNotHideBadPatches) {
+  const TemporaryFolder folder;
+  const std::string bad = replaced(counted_patches(9000), " 8999 1 2\n", " 1e39 1 2\n");
+  const std::string in = folder.write("in.bez", bad);
+  const std::string expected = in + ":9001: expected coordinates within the range of f32";
+  expect_failure(
+      run({"evaluate", in, "--samples", "-", "-o", "-"}, {.input = "patch,u,v\n0,0,0\n"}), 1,
+      expected);
+  expect_failure(run({"evaluate", in, "--grid", "2", "-o", "-"}), 1, expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MemoryTest, ::testing::ValuesIn(kDense),
