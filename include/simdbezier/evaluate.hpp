@@ -155,7 +155,13 @@ enum class Destination : std::uint8_t {
 
 /// How a call runs. The defaults are what most callers want.
 struct Options {
-  int threads = 0; ///< 0: OpenMP's default; 1: no OpenMP region; most: 16 or two a core
+  /// 0: OpenMP's default; 1: the calling thread alone; most: 16 or two a core.
+  ///
+  /// 1 enters no OpenMP region and never starts a thread: such a call always returns, with a
+  /// status. Otherwise OpenMP's runtime starts the threads that its pool lacks. Where the system
+  /// refuses one (ulimit -u, a container's limit of processes, no memory for a stack), GNU's
+  /// runtime prints a line on stderr and calls exit(1); nothing above it can prevent that.
+  int threads = 0;
   /// false: edges and corners come from the interior's formula; derivatives along an edge that is a
   /// point are then of the size of rounding errors instead of zero, and curvatures there anything.
   bool watertight = true;
