@@ -25,7 +25,8 @@ import subprocess
 import sys
 import time
 
-from mutators import Mutation, mutations_of
+sys.dont_write_bytecode = True # the folder is a part of the sources
+from mutators import Mutation, mutations_of # pylint: disable=wrong-import-position
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = ROOT / 'build' / 'mutate'
