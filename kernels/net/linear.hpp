@@ -10,8 +10,10 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// One value of a row's image; `in` is the value's place in element 0, elements `block` apart.
 SIMDBEZIER_INLINE Wide mapped_value(const detail::LinearMap::Row& row, bool keeps_constants,
                                     const double* in, std::size_t block) {
-  const Wide first = value_of<Wide>(in, row.pair[0].a * block);
-  MaskOf<Wide> differ = first != first;
+  const detail::LinearMap::Pair& front = row.pair[0];
+  const Wide first = value_of<Wide>(in, (front.entry_a != 0 ? front.a : front.b) * block);
+  // By comparisons that are false for nan on every instruction set, which != is not in xsimd.
+  MaskOf<Wide> same = Wide(0.0) <= Wide(0.0);
   Wide sum(0.0);
   for (std::size_t q = 0; q < row.pairs; ++q) {
     const detail::LinearMap::Pair& pair = row.pair[q];
@@ -22,14 +24,14 @@ SIMDBEZIER_INLINE Wide mapped_value(const detail::LinearMap::Row& row, bool keep
     const Wide right = Wide(pair.entry_b) * b;
     sum = sum + (left + right);
     if (pair.entry_a != 0) {
-      differ = differ | (a != first);
+      same = same & (a == first);
     }
     if (pair.entry_b != 0) {
-      differ = differ | (b != first);
+      same = same & (b == first);
     }
   }
   const Wide value = divide(sum * Wide(row.factor), Wide(row.divisor));
-  return keeps_constants ? select_where<Wide>(differ, value, first) : value;
+  return keeps_constants ? select_where<Wide>(same, first, value) : value;
 }
 
 /// All lines from `in` to `out`.
