@@ -63,11 +63,20 @@ public:
       s = {divided(s.value, w.value), quotient(s.value, w.value, s.first, w.first)};
     }
     s.first *= static_cast<T>(e < 2 ? shape_.cells_u() : shape_.cells_v());
-    s.value += origin(c, 4 + e);
+    s.value += storage_.origins == nullptr ? point(c, e) : origin(c, 4 + e);
     return s;
   }
 
 private:
+  /// What an edge u = const that is packed around its point is relative to, in sets without origins.
+  [[nodiscard]] T point(std::size_t c, std::size_t e) const {
+    if (!shape_.rational || e < detail::kEdgeU0) {
+      return T(0);
+    }
+    const T* const corners = storage_.edges + cell_ * shape_.cell_edges() + shape_.corners_at();
+    const std::size_t at = e - detail::kEdgeU0;
+    return corners[(shape_.channels() - 1) * 4 + at] == T(0) ? T(0) : corners[c * 4 + at];
+  }
   [[nodiscard]] T divided(T h, T w) const { return h * (T(1) / w); }
   [[nodiscard]] T quotient(T h, T w, T h_slope, T w_slope) const {
     const T s = divided(h, w);
