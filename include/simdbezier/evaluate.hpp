@@ -160,10 +160,12 @@ struct Options {
   /// 1 enters no OpenMP region and never starts a thread: such a call always returns, with a
   /// status. Otherwise OpenMP's runtime starts the threads that its pool lacks. Where the system
   /// refuses one (ulimit -u, a container's limit of processes, no memory for a stack), GNU's
-  /// runtime prints a line on stderr and calls exit(1); nothing above it can prevent that.
+  /// runtime prints a line on stderr and calls exit(1); nothing above it can prevent that. Nor does
+  /// its pool survive fork(): in a child of a process that has used several threads, only calls
+  /// with 1 return.
   int threads = 0;
   /// false: edges and corners come from the interior's formula; derivatives along an edge that is a
-  /// point are then of the size of rounding errors instead of zero, and curvatures there anything.
+  /// point are then of the size of rounding errors instead of zero.
   bool watertight = true;
   Isa isa = Isa::automatic; ///< see resolve_isa()
   Isa* executed = nullptr;  ///< where given, the kernel that ran writes its own name here
