@@ -1,9 +1,9 @@
 // simdbezier: the command-line program.
-#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
-#include <string>
+#include <string_view>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -27,12 +27,33 @@ void run(const Arguments& arguments) {
   }
 }
 
-// One line, whatever a file name brings along.
-int report(std::string message, int exit_code) {
-  std::ranges::replace_if(
-      message, [](char c) { return (c >= 0 && c < 0x20) || c == 0x7f; }, ' ');
-  std::fprintf(stderr, "simdbezier: %s\n", message.c_str());
+// One line, whatever a file name brings along. Its memory is here already: what is reported may be
+// that there is none.
+int report(std::string_view message, int exit_code) {
+  static char line[BUFSIZ];
+  std::setvbuf(stderr, line, _IOFBF, sizeof line);
+  std::fputs("simdbezier: ", stderr);
+  for (const char c : message) {
+    const bool control = (c >= 0 && c < 0x20) || c == 0x7f;
+    std::putc(control ? ' ' : c, stderr);
+  }
+  std::putc('\n', stderr);
+  std::fflush(stderr);
   return exit_code;
+}
+
+// Parsers that we use allocate where they must not throw, in destructors for instance: what memory
+// cannot be had for there comes here. exit() removes the temporary file.
+[[noreturn]] void end_without_memory() {
+  try {
+    if (const std::exception_ptr error = std::current_exception()) {
+      std::rethrow_exception(error);
+    }
+  } catch (const std::bad_alloc&) {
+    std::exit(report("not enough memory", 1));
+  } catch (...) { // a defect of ours
+  }
+  std::abort();
 }
 
 // Files would be opened in the place of a standard stream that the caller has closed, and data or
@@ -50,6 +71,7 @@ void keep_standard_streams_apart() {
 int main(int argc, char** argv) {
   keep_standard_streams_apart();
   handle_interruptions();
+  std::set_terminate(end_without_memory);
   try {
     if (const auto arguments = parse_arguments(argc, argv)) {
       run(*arguments);
