@@ -51,7 +51,9 @@ int report(std::string_view message, int exit_code) {
     }
   } catch (const std::bad_alloc&) {
     std::exit(report("not enough memory", 1));
-  } catch (...) { // a defect of ours
+  } catch (const std::exception& error) { // a defect of ours, whose trace is wanted
+    report(error.what(), 1);
+  } catch (...) {
   }
   std::abort();
 }
