@@ -124,7 +124,8 @@ std::string as_text(const Summary& summary) {
 
 // "degrees" is there where all patches have the same ones; "shapes" always is.
 std::string as_json(const Summary& summary) {
-  nlohmann::ordered_json json;
+  // Objects are made as such: null that becomes one is not destroyed properly without memory.
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
   json["name"] = summary.name;
   json["patches"] = summary.patches;
   const Shape& first = summary.shapes.begin()->first;
@@ -145,6 +146,7 @@ std::string as_json(const Summary& summary) {
                    {"shared", summary.edges.shared},
                    {"boundary", summary.edges.boundary},
                    {"collapsed", summary.edges.collapsed}};
+  json["instruction_sets"] = nlohmann::ordered_json::object();
   json["instruction_sets"]["available"] = nlohmann::ordered_json::array();
   for (const Isa isa : available_isas()) {
     json["instruction_sets"]["available"].push_back(std::string(to_string(isa)));
