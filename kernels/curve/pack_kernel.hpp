@@ -67,7 +67,9 @@ private:
       heaviest = larger(weights_[i], heaviest);
       turn = larger(magnitude(weights_[i] - weights_[i - 1]), turn);
     }
-    const Wide reach = shape_.origins ? extent_ + extent_ : size_;
+    // Origins are rounded to T.
+    constexpr double kUnit = kSingle ? 0x1p-24 : 0x1p-53;
+    const Wide reach = shape_.origins ? extent_ + extent_ + Wide(kUnit) * size_ : size_;
     const Wide size = Wide(kClear) * degree * (step_ + Wide(4.0) * turn * reach) * heaviest;
     const MaskOf<Wide> in_range = (size >= Wide(kSingle ? 0x1p-100 : 0x1p-900)) &
                                   (size <= Wide(kSingle ? 0x1p120 : 0x1p1000)) &

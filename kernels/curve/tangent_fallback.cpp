@@ -21,6 +21,23 @@ int exponent_of(const TangentQuestion& question, const LeadingTerm& term, int ta
   return sum;
 }
 
+/// A product of numbers of any size: fraction times 2^exponent.
+struct Product {
+  double fraction = 1;
+  int exponent = 0;
+
+  void multiply(double factor) { fraction *= split(factor, 1); }
+  void divide(double divisor) { fraction /= split(divisor, -1); }
+
+private:
+  double split(double number, int sign) {
+    int shift = 0;
+    const double part = std::frexp(number, &shift);
+    exponent += sign * shift;
+    return part;
+  }
+};
+
 double weight_at(const TangentQuestion& question) {
   if (!question.points().rational()) {
     return 1;
@@ -42,10 +59,17 @@ double limit_curvature(const TangentQuestion& question, const LeadingTerm& tange
   }
   const double w = weight_at(question);
   const double size = length(tangent.vector);
-  const double ratio = length(term.vector) / (size * size * size) * w * w *
-                       question.points().numerator_factor(question.nearest()) /
-                       (static_cast<double>(question.degree()) * std::fabs(question.t().d));
-  return std::ldexp(ratio, exponent_of(question, term, 2) - 3 * exponent_of(question, tangent, 1));
+  Product curvature;
+  curvature.exponent = exponent_of(question, term, 2) - 3 * exponent_of(question, tangent, 1);
+  for (const double factor :
+       {length(term.vector), w, w, question.points().numerator_factor(question.nearest())}) {
+    curvature.multiply(factor);
+  }
+  for (const double divisor :
+       {size, size, size, static_cast<double>(question.degree()), std::fabs(question.t().d)}) {
+    curvature.divide(divisor);
+  }
+  return std::ldexp(curvature.fraction, curvature.exponent);
 }
 
 } // namespace

@@ -19,7 +19,8 @@ struct Bounded {
 /// from zero factors and equal terms only, and certifies that the true number is zero.
 ///
 /// Every rounding is taken for twice as large as it can be, which makes up for those of the bounds
-/// themselves. Where something overflows, bounds are infinite or nan, which certifies nothing.
+/// themselves. Where something overflows, values or bounds are infinite or nan, which certifies
+/// nothing.
 class BoundedField {
 public:
   using Value = Bounded;

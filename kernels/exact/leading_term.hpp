@@ -35,15 +35,29 @@ struct QuestionDigits {
 enum class Verdict { zero, found, doubtful };
 
 inline Verdict verdict(const Bounded vector[3], double tolerance) {
-  const double size = std::fmax(std::fabs(vector[0].value),
-                                std::fmax(std::fabs(vector[1].value), std::fabs(vector[2].value)));
-  const double error = std::fmax(vector[0].error, std::fmax(vector[1].error, vector[2].error));
+  double size = 0;
+  double error = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!std::isfinite(vector[c].value) || !std::isfinite(vector[c].error)) {
+      return Verdict::doubtful;
+    }
+    size = std::fmax(size, std::fabs(vector[c].value));
+    error = std::fmax(error, vector[c].error);
+  }
   if (size == 0 && error == 0) {
     return Verdict::zero;
   }
-  constexpr double kLeast = 0x1p-800; // so that its square is within the range of doubles, too
-  const bool clear = error <= tolerance * size && size >= kLeast && std::isfinite(size);
-  return clear ? Verdict::found : Verdict::doubtful;
+  return error <= tolerance * size ? Verdict::found : Verdict::doubtful;
+}
+
+/// A vector over a power of two of about its size, so that it can be squared.
+inline void take(const Bounded vector[3], LeadingTerm& term) {
+  const double size = std::fmax(std::fabs(vector[0].value),
+                                std::fmax(std::fabs(vector[1].value), std::fabs(vector[2].value)));
+  term.exponent = std::ilogb(size);
+  for (std::size_t c = 0; c < 3; ++c) {
+    term.vector[c] = std::ldexp(vector[c].value, -term.exponent);
+  }
 }
 
 /// What regular directions are known to: samples close to where they vanish are many, and exact
@@ -62,9 +76,7 @@ bool find_in_doubles(Series& series, int lowest, int highest, double tolerance, 
       continue;
     case Verdict::found:
       term.order = order;
-      for (std::size_t c = 0; c < 3; ++c) {
-        term.vector[c] = vector[c].value;
-      }
+      take(vector, term);
       return true;
     case Verdict::doubtful:
       return false;
@@ -79,7 +91,8 @@ bool find_in_doubles(Series& series, int lowest, int highest, double tolerance, 
 /// such one are kept until their product says what it is. Where a later prime finds a lower one,
 /// all that came before it had remainders of zero there.
 template <typename Make>
-LeadingTerm find_by_primes(const QuestionDigits& size, int lowest, int highest, const Make& make) {
+__attribute__((noinline)) LeadingTerm find_by_primes(const QuestionDigits& size, int lowest,
+                                                     int highest, const Make& make) {
   LeadingTerm term;
   for (std::size_t q = 0; q < kQuantities; ++q) {
     term.units[q] = size.numbers[q].low;
@@ -113,20 +126,34 @@ LeadingTerm find_by_primes(const QuestionDigits& size, int lowest, int highest, 
   return term;
 }
 
+/// The first way, in a stack frame of its own: neither way's tables are small.
+template <typename Question, typename Make>
+__attribute__((noinline)) bool find_quickly(const Question& question, int lowest, int highest,
+                                            double tolerance, const Make& make, LeadingTerm& term) {
+  const BoundedField field = question.field();
+  auto series = make(field);
+  if (!find_in_doubles(series, lowest, highest, tolerance, term)) {
+    return false;
+  }
+  term.units[kPoint] = -field.scale_exponent(kPoint);
+  term.units[kWeight] = -field.scale_exponent(kWeight);
+  return true;
+}
+
 /// make(field) gives the polynomial's coefficients in the arithmetic of a field: coefficient(k,
 /// vector) is called for k = lowest, lowest + 1, …. tolerance: of the vector's components, relative
-/// to the largest. Question: has field(), the doubles to begin with, and digits().
+/// to the largest. Question: has field(), the doubles to begin with, digits(), and may have
+/// is_zero(), which tells in less time than all coefficients take that they are zero.
 template <typename Question, typename Make>
 LeadingTerm leading_term(const Question& question, int lowest, int highest, double tolerance,
                          const Make& make) {
   LeadingTerm term;
-  {
-    const BoundedField field = question.field();
-    auto series = make(field);
-    if (find_in_doubles(series, lowest, highest, tolerance, term)) {
-      term.units[kPoint] = -field.scale_exponent(kPoint);
-      term.units[kWeight] = -field.scale_exponent(kWeight);
-      return term;
+  if (find_quickly(question, lowest, highest, tolerance, make, term)) {
+    return term;
+  }
+  if constexpr (requires { question.is_zero(); }) {
+    if (question.is_zero()) {
+      return LeadingTerm{};
     }
   }
   return find_by_primes(question.digits(), lowest, highest, make);

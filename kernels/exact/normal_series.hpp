@@ -55,7 +55,60 @@ public:
     return all;
   }
 
+  /// Whether the patch is a line, decided exactly; a point is for the series to find.
+  [[nodiscard]] bool is_zero() const {
+    const std::size_t count = (degree_u_ + 1) * (degree_v_ + 1);
+    const BoundedField doubles = field();
+    std::size_t far = 0;
+    double size = 0;
+    for (std::size_t k = 1; k < count; ++k) {
+      Bounded at[4];
+      points_.place(doubles, k, 0, at);
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (std::fabs(at[c].value) > std::fmax(size, at[c].error)) {
+          size = std::fabs(at[c].value);
+          far = k;
+        }
+      }
+    }
+    const auto beside_line = [](const Bounded& a) { return std::fabs(a.value) > a.error; };
+    if (far == 0 || !on_line(doubles, far, count, beside_line)) {
+      return false;
+    }
+    const QuestionDigits all = digits();
+    const int needed = 2 * points_.digits(all.numbers[kPoint], all.numbers[kWeight]) + 4;
+    Primes primes;
+    for (double known = 0; known < needed; known += Primes::kDigits) {
+      const PrimeField field(primes.next(), all.numbers);
+      if (!on_line(field, far, count, [](Residue a) { return !PrimeField::vanishes(a); })) {
+        return false;
+      }
+    }
+    return true;
+  }
+
 private:
+  /// Whether no point is beside the line through the first one and point `far`: by the cross
+  /// products' components, each judged by beside().
+  template <typename Field, typename Beside>
+  [[nodiscard]] bool on_line(const Field& field, std::size_t far, std::size_t count,
+                             const Beside& beside) const {
+    typename Field::Value along[4];
+    points_.place(field, far, 0, along);
+    for (std::size_t k = 1; k < count; ++k) {
+      typename Field::Value at[4];
+      points_.place(field, k, 0, at);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t d = (c + 1) % 3;
+        const std::size_t e = (c + 2) % 3;
+        if (beside(field.subtract_product(along[e], at[d], field.multiply(along[d], at[e])))) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
   static std::size_t nearest(double half_centred, std::size_t degree) {
     const double t = std::clamp(0.5 + half_centred, 0.0, 1.0);
     return static_cast<std::size_t>(t * static_cast<double>(degree) + 0.5);

@@ -90,7 +90,7 @@ class MixedRadix {
 public:
   static constexpr std::size_t kComponents = 3;
   /// Enough for every question about samples inside of a patch: see leading_term.hpp.
-  static constexpr std::size_t kMostPrimes = 4096;
+  static constexpr std::size_t kMostPrimes = 3584;
 
   /// All that has been put in so far had remainders of zero.
   void forget_all() { started_ = count_; }

@@ -111,7 +111,10 @@ private:
       highest = larger(points[k], highest);
       lowest = select_where<Wide>(points[k] < lowest, points[k], lowest);
     }
-    return origins_ ? highest - lowest : larger(magnitude(highest), magnitude(lowest));
+    const Wide distance = larger(magnitude(highest), magnitude(lowest));
+    // Origins are rounded to T.
+    constexpr double kUnit = sizeof(T) == sizeof(float) ? 0x1p-24 : 0x1p-53;
+    return origins_ ? highest - lowest + Wide(kUnit) * distance : distance;
   }
 
   std::size_t order_u_;

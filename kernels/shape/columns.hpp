@@ -35,7 +35,7 @@ public:
     around_origins_ = has_origins();
     if (around_origins_) {
       slots_.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA { build_origin(slot); });
-    } else if (P::kWeighted && on_edge_) {
+    } else if (P::kWeighted && on_edge_ && has_points()) [[unlikely]] {
       build_points();
     }
   }
@@ -153,6 +153,11 @@ private:
           on_edge_ ? replaced(zero, at + detail::kRelativeOriginsAt, &Cell<T>::origins) : zero;
     }
   }
+  /// Whether an edge u = const of this row of cells has the mark of a point.
+  SIMDBEZIER_INLINE bool has_points() const {
+    const std::size_t marks = shape_.corners_at() + slots_.channel(P::Slots::kWeight) * 4;
+    return row_->low.edges[marks] != T(0) || row_->high.edges[marks + 1] != T(0);
+  }
   /// Lanes on edges u = const that are points, in sets without origins: their numerators are zero,
   /// and their points stand in the corners. To all others, -0 adds nothing.
   SIMDBEZIER_INLINE void build_points() {
@@ -161,9 +166,6 @@ private:
     const V marks =
         replaced(zero, corners + slots_.channel(P::Slots::kWeight) * 4, &Cell<T>::edges);
     const MaskOf<V> points = marks > zero;
-    if (!any_of<V>(points)) {
-      return;
-    }
     around_origins_ = true;
     slots_.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
       const V point = replaced(zero, corners + slots_.channel(slot) * 4, &Cell<T>::edges);

@@ -57,19 +57,10 @@ SIMDBEZIER_INLINE V rational_floor(const Task& task, const SampleRange<V>& range
   return select_where<V>(squared < no_floor<V>(), floor, no_floor<V>());
 }
 
-/// Normals where wanted, and the second look that tells where there is none, for the curvatures'
-/// sake, too: these have been stored.
+/// The second look at samples whose |du x dv|^2 is not above their floor.
 template <typename P, typename V, typename Task>
-SIMDBEZIER_INLINE void store_normals(const Task& task, const SampleRange<V>& range,
-                                     const SampleJet<V>& jet) {
-  V n[3];
-  const V squared = cross_product(jet.du, jet.dv, n);
-  if (task.out[detail::kNormalGroup].wanted()) {
-    normalise(n, squared);
-    repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
-      range.store(task.out[detail::kNormalGroup].component[c], n[c]);
-    });
-  }
+SIMDBEZIER_INLINE void look_again(const Task& task, const SampleRange<V>& range,
+                                  const SampleJet<V>& jet, V squared) {
   V floor = range.floor;
   if constexpr (P::kWeighted) {
     floor = rational_floor(task, range, jet, squared);
@@ -78,6 +69,18 @@ SIMDBEZIER_INLINE void store_normals(const Task& task, const SampleRange<V>& ran
     const Suspects row{0, kLanes<V>, range.active, 1, range.at, 0, 1};
     resolve_normals(task, range.patch, row, range.x, range.y, squared, floor);
   }
+}
+
+template <typename P, typename V, typename Task>
+SIMDBEZIER_INLINE void store_normals(const Task& task, const SampleRange<V>& range,
+                                     const SampleJet<V>& jet) {
+  V n[3];
+  const V squared = cross_product(jet.du, jet.dv, n);
+  normalise(n, squared);
+  repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
+    range.store(task.out[detail::kNormalGroup].component[c], n[c]);
+  });
+  look_again<P>(task, range, jet, squared);
 }
 
 template <typename P, typename V, typename Task>
@@ -91,18 +94,17 @@ SIMDBEZIER_INLINE void store_group(const Task& task, detail::Group group,
   });
 }
 
-template <typename Task>
-SIMDBEZIER_INLINE bool wants_curvatures(const Task& task) {
+/// Those of samples that turn out to have no normal, or a limit only, become nan afterwards.
+template <typename P, typename V, typename Task>
+SIMDBEZIER_INLINE void store_curvatures(const Task& task, const SampleRange<V>& range,
+                                        const SampleJet<V>& jet) {
   bool wanted = false;
   for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
     wanted = wanted || task.curvature[k] != nullptr;
   }
-  return wanted;
-}
-
-template <typename V, typename Task>
-SIMDBEZIER_INLINE void store_curvatures(const Task& task, const SampleRange<V>& range,
-                                        const SampleJet<V>& jet) {
+  if (!wanted) {
+    return;
+  }
   V curvature[detail::kCurvatures];
   curvatures(jet, curvature);
   for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
@@ -110,6 +112,8 @@ SIMDBEZIER_INLINE void store_curvatures(const Task& task, const SampleRange<V>& 
       range.store(task.curvature[k], curvature[k]);
     }
   }
+  V n[3];
+  look_again<P>(task, range, jet, cross_product(jet.du, jet.dv, n));
 }
 
 /// All outputs that a task wants and a kernel of this plan computes.
@@ -117,25 +121,18 @@ template <typename P, typename V, typename Task>
 SIMDBEZIER_INLINE void store_sample(const Task& task, const SampleRange<V>& range,
                                     const SampleJet<V>& jet) {
   store_group<P>(task, detail::kPositionGroup, range, jet.position);
-  bool normals = false;
   if constexpr (P::kDepth > 0) {
     store_group<P>(task, detail::kDuGroup, range, jet.du);
     store_group<P>(task, detail::kDvGroup, range, jet.dv);
-    normals = !P::kSingle && task.out[detail::kNormalGroup].wanted();
+    if (!P::kSingle && task.out[detail::kNormalGroup].wanted()) {
+      store_normals<P>(task, range, jet);
+    }
   }
   if constexpr (P::kDepth > 1) {
     store_group<P>(task, detail::kDuuGroup, range, jet.duu);
     store_group<P>(task, detail::kDuvGroup, range, jet.duv);
     store_group<P>(task, detail::kDvvGroup, range, jet.dvv);
-    if (wants_curvatures(task)) {
-      store_curvatures(task, range, jet);
-      normals = true;
-    }
-  }
-  if constexpr (P::kDepth > 0 && !P::kSingle) {
-    if (normals) {
-      store_normals<P>(task, range, jet);
-    }
+    store_curvatures<P>(task, range, jet);
   }
 }
 

@@ -135,6 +135,20 @@ TEST_P(CurveTangents, KnownOnes) {
   }
 }
 
+/// (0,0,0), (s,0,0), (1,1,0): the curvature at 0 is 1 / (2 s^2), however small s is.
+TEST_P(CurveTangents, TinyStepsHaveTangentsAndCurvatures) {
+  for (const int exponent : {-100, -300, -360, -500, -600, -1000}) {
+    const double step = std::ldexp(1.0, exponent);
+    const CurveBatch<double> batch{1, 2, 3, Weights::none, {0, 0, 0, step, 0, 0, 1, 1, 0}};
+    CurveResults<double> results(2, 3);
+    evaluate(packed<double>(batch), CurveGrid<double>::uniform(2), results.outputs());
+    EXPECT_EQ(results.status[0], SampleStatus::regular) << exponent;
+    EXPECT_EQ(results.at(3, 0, 0), 1) << exponent;
+    EXPECT_EQ(results.at(3, 1, 0), 0) << exponent;
+    EXPECT_EQ(results.curvature(0), std::ldexp(0.5, -2 * exponent)) << exponent;
+  }
+}
+
 TEST_P(CurveTangents, QuarterCircleHasCurvatureOne) {
   CurveBatch<double> batch{1, 2, 2, Weights::cartesian, {1, 0, 1, 1, 1, std::sqrt(0.5), 0, 1, 1}};
   CurveResults<double> results(37, 2);

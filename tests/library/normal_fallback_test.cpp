@@ -246,6 +246,55 @@ TEST(NormalFallback, large_weight_ratios_and_scales) {
   }
 }
 
+/// Squares of what is summed up leave the range of doubles, on one side or the other.
+TEST(NormalFallback, of_any_size) {
+  for (int exponent = -500; exponent <= 500; exponent += 50) {
+    const double size = std::ldexp(1.0, exponent);
+    Surface corner(1, 1, false);
+    corner.points = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {1, 1, 0}};
+    const Answer small = resolve<double>(corner, -0.5, -0.5);
+    EXPECT_EQ(small.status, SampleStatus::regular) << exponent;
+    EXPECT_EQ(small.normal, (Point{0, 0, 1})) << exponent;
+    corner.shape.rational = true;
+    corner.weights = {size, 1, 1, 1 / size};
+    EXPECT_EQ(resolve<double>(corner, -0.5, -0.5).normal, (Point{0, 0, 1})) << exponent;
+  }
+}
+
+TEST(NormalFallback, far_outside_of_the_patch) {
+  for (const int degree : {1, 3, 15}) {
+    Surface plane(degree, degree, false);
+    for (int j = 0; j <= degree; ++j) {
+      for (int i = 0; i <= degree; ++i) {
+        plane.at(j, i) = {1.0 * i + 0.25 * j, 2.0 * j, 0};
+      }
+    }
+    for (const double x : {2.0, 1e3, 1e20, 1e60}) {
+      const Answer found = resolve<double>(plane, x, 1.5 * x);
+      EXPECT_EQ(found.status, SampleStatus::regular) << degree << " at " << x;
+      EXPECT_EQ(std::fabs(found.normal[2]), 1) << degree << " at " << x;
+    }
+  }
+}
+
+/// On a line in general position, which sums of doubles leave.
+TEST(NormalFallback, lines_in_space_have_none) {
+  for (const bool rational : {false, true}) {
+    for (const int degree : {1, 3, 5, 15}) {
+      Surface line(degree, degree, rational);
+      for (std::size_t k = 0; k < line.points.size(); ++k) {
+        const double t = std::floor(static_cast<double>(k * k % 17)) / 64;
+        line.points[k] = {3 * t, 5 * t - 1, 2 - 7 * t};
+        line.weights[k] = 1 + static_cast<double>(k % 3) / 3;
+      }
+      EXPECT_EQ(resolve<double>(line, 0.3, 0.1).status, SampleStatus::degenerate) << degree;
+      line.points[1][0] += 0x1p-30; // no longer one
+      const Answer found = resolve<double>(line, 0.3, 0.1);
+      EXPECT_NE(found.status, SampleStatus::degenerate) << degree;
+    }
+  }
+}
+
 TEST(NormalFallback, points_and_lines_have_none) {
   for (const bool rational : {false, true}) {
     for (int degree = 1; degree <= kMostDegree; ++degree) {
