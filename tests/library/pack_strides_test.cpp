@@ -151,6 +151,22 @@ void expect_curve_strides() {
   }
 }
 
+/// All patches in one place: each net could be addressed, and the counts wrap around to 0 and 1.
+TEST(PackStrides, counts_that_add_up_beyond_what_fits) {
+  const std::vector<double> values(48, 1.0);
+  for (const std::size_t more : {0U, 1U}) {
+    ControlNets<double> first{values.data(), std::size_t{1} << 63};
+    first.patch_stride = 0;
+    ControlNets<double> second = first;
+    second.count += more;
+    const ControlNets<double> nets[] = {first, second};
+    PatchSet<double> set;
+    const PackReport report = pack(std::span<const ControlNets<double>>(nets), set);
+    EXPECT_EQ(to_string(report.status), to_string(Status::size_overflow)) << more;
+    EXPECT_EQ(set.size(), 0U);
+  }
+}
+
 TEST(PackStrides, of_curves_likewise) {
   expect_curve_strides<float, float>();
   expect_curve_strides<float, double>();
