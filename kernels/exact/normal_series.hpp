@@ -62,8 +62,8 @@ public:
     std::size_t far = 0;
     double size = 0;
     for (std::size_t k = 1; k < count; ++k) {
-      Bounded at[4];
-      points_.place(doubles, k, 0, at);
+      Bounded at[3];
+      place_from_first(doubles, k, at);
       for (std::size_t c = 0; c < 3; ++c) {
         if (std::fabs(at[c].value) > std::fmax(size, at[c].error)) {
           size = std::fabs(at[c].value);
@@ -88,16 +88,27 @@ public:
   }
 
 private:
+  /// Numerators of point k relative to the first point: place() moves rational ones only.
+  template <typename Field>
+  void place_from_first(const Field& field, std::size_t k, typename Field::Value to[3]) const {
+    typename Field::Value first[4];
+    typename Field::Value point[4];
+    points_.place(field, 0, 0, first);
+    points_.place(field, k, 0, point);
+    for (std::size_t c = 0; c < 3; ++c) {
+      to[c] = field.subtract(point[c], first[c]);
+    }
+  }
   /// Whether no point is beside the line through the first one and point `far`: by the cross
   /// products' components, each judged by beside().
   template <typename Field, typename Beside>
   [[nodiscard]] bool on_line(const Field& field, std::size_t far, std::size_t count,
                              const Beside& beside) const {
-    typename Field::Value along[4];
-    points_.place(field, far, 0, along);
+    typename Field::Value along[3];
+    place_from_first(field, far, along);
     for (std::size_t k = 1; k < count; ++k) {
-      typename Field::Value at[4];
-      points_.place(field, k, 0, at);
+      typename Field::Value at[3];
+      place_from_first(field, k, at);
       for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t d = (c + 1) % 3;
         const std::size_t e = (c + 2) % 3;

@@ -295,6 +295,16 @@ TEST(NormalFallback, lines_in_space_have_none) {
   }
 }
 
+/// All points but the first are on a line through the origin: not a line, and a flat corner.
+TEST(NormalFallback, rays_from_the_origin_are_no_line) {
+  Surface patch(1, 1, false);
+  patch.points = {{1, 0, 0}, {3, 9, 21}, {5, 15, 35}, {0, 0, 0}};
+  const Answer found = resolve<double>(patch, 0.5, 0.5);
+  EXPECT_EQ(found.status, SampleStatus::limit);
+  EXPECT_NEAR(found.normal[0], 0, 1e-15);
+  EXPECT_NEAR(std::fabs(found.normal[1]), 7 / std::sqrt(58.0), 1e-15);
+}
+
 TEST(NormalFallback, points_and_lines_have_none) {
   for (const bool rational : {false, true}) {
     for (int degree = 1; degree <= kMostDegree; ++degree) {
