@@ -53,7 +53,7 @@ function(simdbezier_isa_flags name result)
 endfunction()
 
 # Compiles the kernels once per instruction set, appends the objects to `target` and lists
-# them for kernels/dispatch.cpp in isa_list.inc.
+# them for src/runtime/dispatch.cpp in isa_list.inc.
 function(simdbezier_add_isa_kernels target)
   set(entries "")
   foreach(row IN LISTS SIMDBEZIER_ISA_TABLE)
@@ -63,7 +63,7 @@ function(simdbezier_add_isa_kernels target)
     simdbezier_isa_flags(${name} flags)
     string(TOUPPER ${name} upper)
     set(object simdbezier_kernels_${name})
-    set(sources kernels.cpp shapes.cpp curves.cpp nets.cpp)
+    set(sources bicubic_kernels.cpp shape_kernels.cpp curve_kernels.cpp net_kernels.cpp)
     list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../kernels/)
     add_library(${object} OBJECT ${sources})
     target_compile_definitions(${object} PRIVATE SIMDBEZIER_ISA=${name} SIMDBEZIER_ARCH=${arch}
@@ -75,7 +75,7 @@ function(simdbezier_add_isa_kernels target)
     # more symbol to merge. Without -fno-ivopts and -fno-tree-pre g++ 12 makes many addresses of a
     # sweep's few, most of them on the stack: 10 % of the speed of 8 x 8 and 17 x 17 positions.
     # Its SLP vectoriser joins loads of fields that were stored one by one, which then wait for
-    # streaming stores (kernels/output/drain.hpp); and it drops the rounding to float where two
+    # streaming stores (src/tables/drain_queue.hpp); and it drops the rounding to float where two
     # statements like double(float(x)) - y stand side by side, as they do in packing.
     # g++ 12 warns about its own _mm512_undefined_ps (GCC bug 105593).
     target_compile_options(

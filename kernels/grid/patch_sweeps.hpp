@@ -1,10 +1,10 @@
 // One tile of consecutive patches.
 #pragma once
 
-#include "kernels/grid/components.hpp"
-#include "kernels/grid/normals.hpp"
+#include "kernels/drain/drain_kernel.hpp"
 #include "kernels/grid/prefetch.hpp"
-#include "kernels/output/drain_kernel.hpp"
+#include "kernels/grid/tile_components.hpp"
+#include "kernels/grid/tile_normals.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

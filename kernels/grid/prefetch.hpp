@@ -1,9 +1,9 @@
 // Patches that grid kernels will soon come to.
 #pragma once
 
-#include "kernels/isa/arch.hpp"
-#include "kernels/kernel_table.hpp"
-#include "kernels/patch_storage.hpp"
+#include "kernels/simd/vector.hpp"
+#include "src/storage/patch_storage.hpp"
+#include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

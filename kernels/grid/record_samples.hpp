@@ -1,9 +1,9 @@
 // A register of samples as records: triples of each group, or one vertex of all.
 #pragma once
 
-#include "kernels/grid/components.hpp"
-#include "kernels/isa/records.hpp"
-#include "kernels/normal_lanes.hpp"
+#include "kernels/grid/tile_components.hpp"
+#include "kernels/poly/normal_lanes.hpp"
+#include "kernels/simd/registers_to_records.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

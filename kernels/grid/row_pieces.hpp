@@ -1,8 +1,8 @@
 // The rows of a grid in pieces that a tile sweeps in one go.
 #pragma once
 
-#include "kernels/isa/row_groups.hpp"
-#include "kernels/kernel_table.hpp"
+#include "kernels/simd/row_groups.hpp"
+#include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -11,9 +11,9 @@
 
 #include <type_traits>
 
+#include "kernels/pack/coinciding_points.hpp"
 #include "kernels/pack/double_double.hpp"
-#include "kernels/pack/points.hpp"
-#include "kernels/patch_storage.hpp"
+#include "src/storage/patch_storage.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -4,7 +4,7 @@
 // precision", Numerische Mathematik 18 (1971); two_sum after D. E. Knuth, TAOCP vol. 2, 4.2.2.
 #pragma once
 
-#include "kernels/isa/transpose.hpp"
+#include "kernels/simd/transpose.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -1,7 +1,7 @@
 // Where the plain cross product of du and dv is good enough as a normal, for patches of any shape.
 #pragma once
 
-#include "kernels/pack/formulas.hpp"
+#include "kernels/pack/pack_formulas.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Lines and branches of the library (include/, kernels/) and of the readers and writers (tools/)
+# Lines and branches of the library (include/, kernels/, src/) and of the readers and writers (tools/)
 # that the test suite runs: a table of folders, and every line in build/coverage/html/index.html.
 #
 #     tests/coverage/coverage.sh [--report]     --report: of the last run, without running anything
@@ -26,7 +26,7 @@ if [[ ${1-} != --report ]]; then
 fi
 
 mkdir -p "$build/html"
-gcovr --root . --object-directory "$build" --filter 'include/' --filter 'kernels/' \
+gcovr --root . --object-directory "$build" --filter 'include/' --filter 'kernels/' --filter 'src/' \
   --filter 'tools/' --exclude-throw-branches --exclude-unreachable-branches \
   --json "$build/coverage.json" "$build"
 gcovr --root . --add-tracefile "$build/coverage.json" --exclude-throw-branches \

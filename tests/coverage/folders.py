@@ -16,7 +16,7 @@ import json
 import os
 import sys
 
-SOURCES = {'library': ('include/', 'kernels/'), 'readers': ('tools/',)}
+SOURCES = {'library': ('include/', 'kernels/', 'src/'), 'readers': ('tools/',)}
 
 
 def branches_of(line, folded):

@@ -8,10 +8,10 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
-#include "kernels/exact/bounded.hpp"
-#include "kernels/exact/leading_term.hpp"
-#include "kernels/exact/normal_series.hpp"
-#include "kernels/exact/prime_field.hpp"
+#include "src/exact/bounded.hpp"
+#include "src/exact/leading_term.hpp"
+#include "src/exact/normal_series.hpp"
+#include "src/exact/prime_field.hpp"
 #include "tests/support/random.hpp"
 
 namespace simdbezier::tests {

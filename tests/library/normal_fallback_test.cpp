@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/fallback/normal_fallback.hpp"
+#include "src/exact/normal_fallback.hpp"
 #include "tests/support/random.hpp"
 
 namespace simdbezier::tests {

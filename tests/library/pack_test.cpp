@@ -12,7 +12,7 @@
 
 #include <simdbezier/simdbezier.hpp>
 
-#include "kernels/patch_storage.hpp"
+#include "src/storage/patch_storage.hpp"
 #include "tests/support/exact_rational.hpp"
 #include "tests/support/random.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels/patch_storage.hpp"
+#include "src/storage/patch_storage.hpp"
 #include "tests/support/evaluation.hpp"
 #include "tests/support/generators.hpp"
 #include "tests/support/isa_fixture.hpp"

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "kernels/patch_storage.hpp"
+#include "src/storage/patch_storage.hpp"
 
 namespace simdbezier::tests {
 

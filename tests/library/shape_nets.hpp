@@ -11,7 +11,7 @@
 
 #include <simdbezier/simdbezier.hpp>
 
-#include "kernels/patch_storage.hpp"
+#include "src/storage/patch_storage.hpp"
 #include "tests/support/random.hpp"
 
 namespace simdbezier::tests {

@@ -31,7 +31,7 @@ from mutators import Mutation, mutations_of # pylint: disable=wrong-import-posit
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORK = ROOT / 'build' / 'mutate'
 SOURCE = WORK / 'source'
-SHIPPED = ('include', 'kernels', 'tools')
+SHIPPED = ('include', 'kernels', 'src', 'tools')
 COPIED = SHIPPED + ('tests', 'cmake', 'examples', 'docs')
 # Instruction sets of the two builds; what the first cannot see the second may.
 STAGES = (('scalar', 'scalar'), ('vectors', 'scalar;avx2;avx512'))
@@ -39,9 +39,10 @@ MOST_MEMORY = 1 << 34
 # Builds of their own, or checks of Release builds only.
 NOT_JUDGES = r'^(same_bits_|installed_tree|symbols_|mutation)|_NOT_BUILT$'
 # Tests that are asked first where a file of a folder was changed.
-NEAREST = (('tools/', r'^cli\.'), ('kernels/curve/', r'^curves\.'), ('kernels/net/', r'^nets\.'),
-           ('kernels/shape/', r'^shapes\.'), ('kernels/derivative/', r'Derivative'),
-           ('kernels/fallback/', r'^fallback|ormal'), ('kernels/pack/', r'Pack'))
+NEAREST = (('tools/', r'^cli\.'), ('kernels/curve/', r'^curves\.'), ('kernels/nets/', r'^nets\.'),
+           ('src/nets/', r'^nets\.'), ('kernels/shape/', r'^shapes\.'),
+           ('kernels/derivative/', r'Derivative'), ('src/exact/', r'^fallback|ormal'),
+           ('kernels/pack/', r'Pack'))
 
 
 def run(command, **options):

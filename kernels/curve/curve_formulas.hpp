@@ -1,0 +1,131 @@
+// The formulas of one curve, over V = one register of its samples or a single one.
+//
+// The order of operations is that of a patch's edges (bicubic.hpp, shape/shape_formulas.hpp):
+// Horner's rule in X, derivatives by synthetic division, h * (1 / w), the origin added last, ends
+// replaced.
+#pragma once
+
+#include "kernels/shape/shape_formulas.hpp"
+#include "src/tables/curve_table.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::CurveShape;
+
+/// A register of parameters: in which cell they are, where in there, and which are its ends.
+template <typename V, bool kHalves>
+struct CurvePoints {
+  using T = ScalarOf<V>;
+  V x;     ///< half-centred, of the whole curve
+  V local; ///< and of the cell
+  MaskOf<V> low;
+  bool any_low;
+  bool mixed; ///< some are in either cell
+  PairSelector<V> ends;
+
+  explicit SIMDBEZIER_INLINE CurvePoints(V half_centred)
+      : x(half_centred), local(in_cell(half_centred)), low(half_centred < broadcast<V>(T(0))),
+        any_low(!kHalves || any_of<V>(low)), mixed(kHalves && any_low && !all_of<V>(low)),
+        ends(local == broadcast<V>(T(-0.5)), local == broadcast<V>(T(0.5))) {}
+
+private:
+  static SIMDBEZIER_INLINE V in_cell(V x) {
+    if constexpr (kHalves) {
+      return cell_parameter(x);
+    } else {
+      return x;
+    }
+  }
+};
+
+/// The packed values of one channel of a curve. kMixed: lanes are in different halves.
+template <typename V, bool kMixed>
+class CurveChannel {
+  using T = ScalarOf<V>;
+
+public:
+  /// curve: the values of the whole curve.
+  template <bool kHalves>
+  SIMDBEZIER_INLINE CurveChannel(const CurveShape& shape, const T* curve, std::size_t channel,
+                                 const CurvePoints<V, kHalves>& at)
+      : low_(curve + channel * shape.channel_values() +
+             (kMixed || at.any_low ? 0 : shape.cell_values())),
+        high_(low_ + (kMixed ? shape.cell_values() : 0)), x_(at.local), in_low_(at.low),
+        ends_(at.ends) {}
+
+  template <std::size_t kDepth, typename N>
+  SIMDBEZIER_INLINE Series<V> series(N order) const {
+    return horner_series<kDepth>(order, x_,
+                                 [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return chosen(k); });
+  }
+
+  /// A position from what the polynomials gave.
+  SIMDBEZIER_INLINE V finished(const CurveShape& shape, V value) const {
+    if (shape.origins) {
+      value = value + chosen(shape.origin_at());
+    }
+    return with_ends(value, shape.ends_at());
+  }
+
+private:
+  /// Of each lane's own cell.
+  SIMDBEZIER_INLINE V chosen(std::size_t k) const {
+    if constexpr (!kMixed) {
+      return broadcast<V>(low_[k]);
+    } else {
+      return select_where<V>(in_low_, broadcast<V>(low_[k]), broadcast<V>(high_[k]));
+    }
+  }
+  SIMDBEZIER_INLINE V with_ends(V value, std::size_t k) const {
+    if constexpr (!kMixed) {
+      return ends_.replace(value, low_ + k);
+    } else {
+      return select_where<V>(in_low_, ends_.replace(value, low_ + k),
+                             ends_.replace(value, high_ + k));
+    }
+  }
+
+  const T* low_;
+  const T* high_;
+  const V& x_;
+  const MaskOf<V>& in_low_;
+  const PairSelector<V>& ends_;
+};
+
+/// Up to three components of a register of samples, with derivatives by t.
+template <typename V>
+struct CurveJet {
+  V position[3];
+  V d1[3];
+  V d2[3];
+};
+
+/// Calls body.template operator()<kMixed>().
+template <typename V, bool kHalves, typename Body>
+SIMDBEZIER_INLINE void by_cells(const CurvePoints<V, kHalves>& points, Body body) {
+  if constexpr (kHalves) {
+    if (points.mixed) {
+      return body.template operator()<true>();
+    }
+  }
+  body.template operator()<false>();
+}
+
+/// From derivatives by a cell's parameter to those by t: nothing that rounds.
+template <bool kHalves, typename V>
+SIMDBEZIER_INLINE V scaled_first(V d1) {
+  return kHalves ? d1 + d1 : d1;
+}
+template <bool kHalves, typename V>
+SIMDBEZIER_INLINE V scaled_second(V d2) {
+  return scaled_first<kHalves>(scaled_first<kHalves>(d2));
+}
+
+/// |a x b|^2
+template <typename V>
+SIMDBEZIER_INLINE V squared_cross(const V a[3], const V b[3]) {
+  V n[3];
+  return cross_product(a, b, n);
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

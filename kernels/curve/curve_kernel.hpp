@@ -1,0 +1,256 @@
+// Curves on common parameters: lanes = samples of one curve.
+//
+// A curve of n samples takes whole registers, the last of which may repeat samples of the one
+// before. Where n is less than a register, its idle lanes are written all the same, into the place
+// of the next curve, which comes later; only the end of the task is masked. Neither costs what a
+// masked store would, and lanes are independent, so the bits are those of any other arrangement.
+//
+// Polynomial curves are swept component by component, a few of them at a time: long streams to one
+// plane, out of coefficients that stay in the first-level cache. Where components meet (weights,
+// tangents, curvatures) a register of samples is finished at once.
+#pragma once
+
+#include "kernels/curve/curve_row_kernel.hpp"
+#include "kernels/drain/drain_kernel.hpp"
+#include "kernels/simd/row_groups.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Samples of the curves that are swept together: enough for long stores to one plane, and so few
+/// that draining what was staged before, in between, overlaps with computing.
+inline constexpr std::size_t kBlockSamples = 256;
+
+/// How far ahead values are asked for.
+inline constexpr std::size_t kCurvesAhead = 32;
+
+/// Consecutive curves of a task.
+struct CurveBlock {
+  std::size_t begin;
+  std::size_t end;
+};
+
+template <typename T, typename Body>
+SIMDBEZIER_INLINE void for_curve_blocks(const CurveTask<T>& task, std::size_t values, Body body) {
+  const std::size_t most = task.n < kBlockSamples ? kBlockSamples / task.n : 1;
+  for (std::size_t begin = 0; begin < task.curve_count; begin += most) {
+    const std::size_t left = task.curve_count - begin;
+    const CurveBlock block{begin, begin + (left < most ? left : most)};
+    body(block);
+    pace(task.drain, values * task.n * (block.end - begin));
+  }
+}
+
+/// Where the registers of a curve of n samples begin. n: at least 1.
+template <typename V, typename Body>
+SIMDBEZIER_INLINE void for_registers(std::size_t n, Body body) {
+  std::size_t first = 0;
+  for (; first + kLanes<V> < n; first += kLanes<V>) {
+    body(first);
+  }
+  body(n < kLanes<V> ? 0 : n - kLanes<V>);
+}
+
+/// Calls body(range) for each curve of a block: places of a register of its samples.
+template <typename V, typename T, typename Body>
+SIMDBEZIER_INLINE void for_curves(const CurveTask<T>& task, CurveBlock block, std::size_t first,
+                                  Body body) {
+  const std::size_t own = task.n - first;
+  CurveRange<V> range{block.begin, block.begin * task.n + first, 0,
+                      own < kLanes<V> ? own : kLanes<V>, task.streaming};
+  std::size_t left = task.curve_count * task.n - range.at;
+  for (; range.curve < block.end; ++range.curve, range.at += task.n, left -= task.n) {
+    range.writable = left < kLanes<V> ? left : kLanes<V>;
+    body(range);
+  }
+}
+
+/// Values and derivatives of one component of some curves.
+template <typename V, std::size_t kOrder, std::size_t kDepth, bool kMixed, bool kHalves, typename T>
+SIMDBEZIER_INLINE void sweep_component(const CurveTask<T>& task, const CurveShape& shape,
+                                       CurveBlock block, std::size_t first,
+                                       const CurvePoints<V, kHalves>& points, std::size_t slot) {
+  T* const position = task.out[detail::kCurvePosition].component[slot];
+  T* const d1 = task.out[detail::kCurveD1].component[slot];
+  T* const d2 = task.out[detail::kCurveD2].component[slot];
+  const Order<kOrder> order(shape.order());
+  const std::size_t step = shape.values();
+  const T* values = task.values + block.begin * step;
+  // Hardware does not follow across the pauses between blocks.
+  const std::size_t ahead = task.prefetch && slot == 0 && first == 0 ? kCurvesAhead * step : 0;
+  for_curves<V>(task, block, first, [&](const CurveRange<V>& range) SIMDBEZIER_INLINE_LAMBDA {
+    if (ahead > 0) {
+      prefetch_values(values + ahead, step);
+    }
+    const CurveChannel<V, kMixed> channel(shape, values, task.first_component + slot, points);
+    values += step;
+    const Series<V> s = channel.template series<kDepth>(order);
+    if (kDepth == 0 || position != nullptr) {
+      range.store(position, channel.finished(shape, s.value));
+    }
+    if constexpr (kDepth > 0) {
+      if (d1 != nullptr) {
+        range.store(d1, scaled_first<kHalves>(s.first));
+      }
+    }
+    if constexpr (kDepth > 1) {
+      if (d2 != nullptr) {
+        range.store(d2, scaled_second<kHalves>(s.second));
+      }
+    }
+  });
+}
+
+template <typename T>
+SIMDBEZIER_INLINE void store_ends(const CurveTask<T>& task, const CurveShape& shape,
+                                  CurveBlock block, std::size_t slot) {
+  const T* const values = task.values + (shape.cells() - 1) * shape.cell_values() +
+                          (task.first_component + slot) * shape.channel_values() + shape.ends_at() +
+                          1;
+  T* const position = task.out[detail::kCurvePosition].component[slot] + task.n - 1;
+  for (std::size_t curve = block.begin; curve < block.end; ++curve) {
+    move_value(position + curve * task.n, values + curve * shape.values());
+  }
+}
+
+template <typename T>
+SIMDBEZIER_INLINE bool wants_slot(const CurveTask<T>& task, std::size_t slot) {
+  return task.out[detail::kCurvePosition].component[slot] != nullptr ||
+         task.out[detail::kCurveD1].component[slot] != nullptr ||
+         task.out[detail::kCurveD2].component[slot] != nullptr;
+}
+
+template <typename T>
+SIMDBEZIER_INLINE std::size_t values_per_sample(const CurveTask<T>& task) {
+  std::size_t values = 0;
+  for (const auto& planes : task.out) {
+    values += planes.wanted() ? 3 : 0;
+  }
+  return values;
+}
+
+template <std::size_t kOrder, bool kHalves, std::size_t kDepth, typename T>
+__attribute__((noinline)) void sweep_components(const CurveTask<T>& shared_task) {
+  using V = vec<T>;
+  // Copies, because stores through vector types might change anything that others can see.
+  const CurveTask<T> task = shared_task;
+  CurveShape shape = *shared_task.shape;
+  if constexpr (kOrder > 0) {
+    shape.degree = static_cast<int>(kOrder) - 1; // a constant for the compiler
+  }
+  const bool lone_end = kDepth == 0 && ends_alone<V>(task);
+  const std::size_t swept = task.n - (lone_end ? 1 : 0);
+  for_curve_blocks(task, values_per_sample(task), [&](CurveBlock block) SIMDBEZIER_INLINE_LAMBDA {
+    for (std::size_t slot = 0; slot < 3; ++slot) {
+      if (!wants_slot(task, slot)) {
+        continue;
+      }
+      for_registers<V>(swept, [&](std::size_t first) SIMDBEZIER_INLINE_LAMBDA {
+        const CurvePoints<V, kHalves> points(load_vector<V>(task.x + first));
+        by_cells(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
+          sweep_component<V, kOrder, kDepth, kMixed>(task, shape, block, first, points, slot);
+        });
+      });
+      if (lone_end) {
+        store_ends(task, shape, block, slot);
+      }
+    }
+  });
+}
+
+template <std::size_t kOrder, bool kHalves, bool kRational, std::size_t kDepth, typename T>
+__attribute__((noinline)) void sweep_samples(const CurveTask<T>& shared_task) {
+  using V = vec<T>;
+  const CurveTask<T> task = shared_task;
+  CurveShape shape = *shared_task.shape;
+  if constexpr (kOrder > 0) {
+    shape.degree = static_cast<int>(kOrder) - 1;
+  }
+  shape.rational = kRational;
+  for_curve_blocks(task, values_per_sample(task), [&](CurveBlock block) SIMDBEZIER_INLINE_LAMBDA {
+    for_registers<V>(task.n, [&](std::size_t first) SIMDBEZIER_INLINE_LAMBDA {
+      const CurvePoints<V, kHalves> points(load_vector<V>(task.x + first));
+      by_cells(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
+        for_curves<V>(task, block, first, [&](const CurveRange<V>& range) SIMDBEZIER_INLINE_LAMBDA {
+          finish_samples<kOrder, kRational, kDepth, kMixed>(task, shape, points, range);
+        });
+      });
+    });
+  });
+}
+
+template <std::size_t kOrder, bool kHalves, bool kRational, typename T>
+SIMDBEZIER_INLINE void sweep_depth(const CurveTask<T>& task) {
+  const std::size_t depth = depth_of(task);
+  if (depth == 2) {
+    sweep_samples<kOrder, kHalves, kRational, 2>(task);
+  } else if (depth == 1) {
+    sweep_samples<kOrder, kHalves, kRational, 1>(task);
+  } else if constexpr (kRational) {
+    sweep_samples<kOrder, kHalves, kRational, 0>(task);
+  }
+}
+
+/// Where components meet, fewer degrees are compiled on their own.
+template <bool kRational, typename T>
+SIMDBEZIER_INLINE void sweep_joint(const CurveTask<T>& task) {
+  switch (task.shape->degree) {
+  case 2:
+    return sweep_depth<3, false, kRational>(task);
+  case 3:
+    return sweep_depth<4, false, kRational>(task);
+  case 1:
+  case 4:
+  case 5:
+    return sweep_depth<0, false, kRational>(task);
+  default:
+    return sweep_depth<0, true, kRational>(task);
+  }
+}
+
+template <std::size_t kOrder, bool kHalves, typename T>
+SIMDBEZIER_INLINE void sweep_degree(const CurveTask<T>& task) {
+  if (task.out[detail::kCurveD2].wanted()) {
+    sweep_components<kOrder, kHalves, 2>(task);
+  } else if (task.out[detail::kCurveD1].wanted()) {
+    sweep_components<kOrder, kHalves, 1>(task);
+  } else {
+    sweep_components<kOrder, kHalves, 0>(task);
+  }
+}
+
+template <typename T>
+SIMDBEZIER_INLINE void sweep_apart(const CurveTask<T>& task) {
+  switch (task.shape->degree) {
+  case 1:
+    return sweep_degree<2, false>(task);
+  case 2:
+    return sweep_degree<3, false>(task);
+  case 3:
+    return sweep_degree<4, false>(task);
+  case 4:
+    return sweep_degree<5, false>(task);
+  case 5:
+    return sweep_degree<6, false>(task);
+  default:
+    return sweep_degree<0, true>(task);
+  }
+}
+
+template <typename T>
+void curve_grid_kernel(CurveTask<T>& task) {
+  task.executed = Isa::SIMDBEZIER_ISA;
+  if constexpr (!kIsScalar<vec<T>>) {
+    if (task.rows) {
+      return evaluate_rows(task);
+    }
+  }
+  if (task.shape->rational) {
+    sweep_joint<true>(task);
+  } else if (task.curvature != nullptr || task.out[detail::kCurveTangent].wanted()) {
+    sweep_joint<false>(task);
+  } else {
+    sweep_apart(task);
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,193 @@
+// From a register of samples of one curve to the planes of a task.
+#pragma once
+
+#include "kernels/curve/curve_formulas.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Where a register of samples goes: consecutive values from `at` on.
+template <typename V>
+struct CurveRange {
+  std::size_t curve;
+  std::size_t at;
+  std::size_t writable; ///< lanes that may be written
+  std::size_t own;      ///< lanes that are samples of this curve
+  bool streaming;
+
+  SIMDBEZIER_INLINE void store(ScalarOf<V>* plane, V value) const {
+    if (writable < kLanes<V>) [[unlikely]] {
+      store_first(plane + at, value, writable);
+      return;
+    }
+    if constexpr (kLineWide<V>) {
+      if (streaming) {
+        store_streaming(plane + at, value);
+        return;
+      }
+    }
+    store_vector(plane + at, value);
+  }
+  SIMDBEZIER_INLINE void store_if_wanted(ScalarOf<V>* plane, V value) const {
+    if (plane != nullptr) {
+      store(plane, value);
+    }
+  }
+};
+
+/// Asks for the values of a curve that comes soon.
+template <typename T>
+SIMDBEZIER_INLINE void prefetch_values(const T* values, std::size_t count) {
+  constexpr std::size_t kLine = 64 / sizeof(T);
+  for (std::size_t i = 0; i < count; i += kLine) {
+    __builtin_prefetch(values + i);
+  }
+}
+
+/// Lane by lane, for those that did not pass the quick test. Rare, so kept out of line.
+template <typename V, typename Task>
+__attribute__((noinline, cold)) void resolve_lanes(const Task& task, const CurveShape& shape,
+                                                   const CurveRange<V>& range, V x, V squared,
+                                                   V floor) {
+  using T = ScalarOf<V>;
+  alignas(64) T lanes[3][kLanes<V>];
+  store_vector(lanes[0], x);
+  store_vector(lanes[1], squared);
+  store_vector(lanes[2], floor);
+  for (std::size_t i = 0; i < range.own; ++i) {
+    if (lanes[1][i] > lanes[2][i]) {
+      continue;
+    }
+    const std::size_t at = range.at + i;
+    const detail::TangentQuery<T> query{
+        &shape, task.given.net(range.curve * shape.control_values()), lanes[0][i]};
+    detail::TangentAnswer<T> answer;
+    task.resolve_tangent(query, answer);
+    for (std::size_t c = 0; c < 3; ++c) {
+      T* const plane = task.out[detail::kCurveTangent].component[c];
+      if (plane != nullptr) {
+        plane[at] = answer.tangent[c];
+      }
+    }
+    if (task.curvature != nullptr) {
+      task.curvature[at] = answer.curvature;
+    }
+    if (task.status != nullptr) {
+      task.status[at] = answer.status;
+    }
+  }
+}
+
+/// What |C'|^2 has to exceed; inverse: 1 / w of rational curves. Of those, squares below kLeast
+/// take a second look, too, since products on the way might have left the range of T.
+template <bool kRational, typename V>
+SIMDBEZIER_INLINE V tangent_floor(ScalarOf<V> of_curve, V inverse, V squared) {
+  using T = ScalarOf<V>;
+  const V size = broadcast<V>(of_curve);
+  if constexpr (!kRational) {
+    return size;
+  }
+  constexpr T kLeast = static_cast<T>(sizeof(T) == sizeof(float) ? 0x1p-94 : 0x1p-940);
+  const V infinity = broadcast<V>(static_cast<T>(__builtin_inf()));
+  const V error = size * inverse * inverse;
+  const V floor = madd(error, error, broadcast<V>(kLeast));
+  return select_where<V>(squared < infinity, floor, infinity);
+}
+
+/// Of a planar curve, the third components are zero.
+template <bool kRational, typename V, typename Task>
+SIMDBEZIER_INLINE void store_tangents(const Task& task, const CurveShape& shape,
+                                      const CurveRange<V>& range, V x, V inverse_weight,
+                                      const CurveJet<V>& jet) {
+  using T = ScalarOf<V>;
+  const auto& planes = task.out[detail::kCurveTangent];
+  const V squared = dot(jet.d1, jet.d1);
+  const V inverse = divide(broadcast<V>(T(1)), square_root(squared));
+  V tangent[3];
+  for (std::size_t c = 0; c < 3; ++c) {
+    tangent[c] = jet.d1[c] * inverse;
+    range.store_if_wanted(planes.component[c], tangent[c]);
+  }
+  if (task.curvature != nullptr) {
+    // |C' x C''| / |C'|^3 = |t x C''| / |C'|^2, whose squares have a smaller range.
+    const V bend = square_root(squared_cross(tangent, jet.d2));
+    range.store(task.curvature, divide(bend, squared));
+  }
+  // Parameters outside of the curve are as likely to find a small C' as any.
+  const V floor =
+      tangent_floor<kRational>(task.tangent_floor[range.curve], inverse_weight, squared);
+  if (!all_of<V>(squared > floor)) {
+    resolve_lanes(task, shape, range, x, squared, floor);
+  }
+}
+
+/// How far a task needs derivatives.
+template <typename Task>
+SIMDBEZIER_INLINE std::size_t depth_of(const Task& task) {
+  if (task.curvature != nullptr || task.out[detail::kCurveD2].wanted()) {
+    return 2;
+  }
+  return task.out[detail::kCurveD1].wanted() || task.out[detail::kCurveTangent].wanted() ? 1 : 0;
+}
+
+/// The quotient rule: h and its derivatives become those of h / w. The weight's are negated.
+template <std::size_t kDepth, typename V>
+SIMDBEZIER_INLINE void divide_series(const Quotient<V>& quotient, const Series<V>& weight,
+                                     Series<V>& s) {
+  s.value = quotient.value(s.value);
+  if constexpr (kDepth > 0) {
+    s.first = quotient.first(s.first, s.value, weight.first);
+  }
+  if constexpr (kDepth > 1) {
+    s.second = quotient.second(s.second, s.value, s.first, s.first, weight.first, weight.first,
+                               weight.second);
+  }
+}
+
+/// All outputs that a task wants, of a register of samples; kDepth: see depth_of().
+template <std::size_t kOrder, bool kRational, std::size_t kDepth, bool kMixed, typename V,
+          bool kHalves, typename Task>
+SIMDBEZIER_INLINE void finish_samples(const Task& task, const CurveShape& shape,
+                                      const CurvePoints<V, kHalves>& points,
+                                      const CurveRange<V>& range) {
+  using T = ScalarOf<V>;
+  using Channel = CurveChannel<V, kMixed>;
+  const T* const values = task.values + range.curve * shape.values();
+  const auto components = static_cast<std::size_t>(shape.components);
+  const Order<kOrder> order(shape.order());
+  const V zero = broadcast<V>(T(0));
+  Series<V> weight{points.x, zero, zero};
+  if constexpr (kRational) {
+    weight = Channel(shape, values, components, points).template series<kDepth>(order);
+    weight.first = kDepth > 0 ? negated(weight.first) : zero;
+    weight.second = kDepth > 1 ? negated(weight.second) : zero;
+  }
+  const Quotient<V> quotient(weight.value);
+  CurveJet<V> jet;
+  for (std::size_t slot = 0; slot < 3; ++slot) {
+    const std::size_t component = task.first_component + slot;
+    if (component >= components) {
+      jet.d1[slot] = jet.d2[slot] = zero;
+      continue;
+    }
+    const Channel channel(shape, values, component, points);
+    Series<V> s = channel.template series<kDepth>(order);
+    if constexpr (kRational) {
+      divide_series<kDepth>(quotient, weight, s);
+    }
+    range.store_if_wanted(task.out[detail::kCurvePosition].component[slot],
+                          channel.finished(shape, s.value));
+    jet.d1[slot] = kDepth > 0 ? scaled_first<kHalves>(s.first) : zero;
+    jet.d2[slot] = kDepth > 1 ? scaled_second<kHalves>(s.second) : zero;
+    if constexpr (kDepth > 0) {
+      range.store_if_wanted(task.out[detail::kCurveD1].component[slot], jet.d1[slot]);
+    }
+    if constexpr (kDepth > 1) {
+      range.store_if_wanted(task.out[detail::kCurveD2].component[slot], jet.d2[slot]);
+    }
+  }
+  if (kDepth > 0 && (task.curvature != nullptr || task.out[detail::kCurveTangent].wanted())) {
+    store_tangents<kRational>(task, shape, range, points.x, quotient.inverse, jet);
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

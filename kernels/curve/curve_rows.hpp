@@ -1,0 +1,27 @@
+// Where positions of curves go: rows of n samples, in x y z triples or in three planes.
+#pragma once
+
+#include "kernels/curve/curve_outputs.hpp"
+#include "kernels/simd/registers_to_records.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::CurveTask;
+
+/// One stream of triples, or three of planes; curve k's row begins k * row(n) values later.
+template <bool kTriples, typename T>
+struct CurveRows {
+  static constexpr std::size_t kStreams = kTriples ? 1 : 3;
+  T* first[kStreams];
+
+  static constexpr std::size_t row(std::size_t n) { return kTriples ? 3 * n : n; }
+  SIMDBEZIER_INLINE CurveRows at(std::size_t values) const {
+    CurveRows rows;
+    for (std::size_t k = 0; k < kStreams; ++k) {
+      rows.first[k] = first[k] + values;
+    }
+    return rows;
+  }
+};
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,184 @@
+// A register of samples that lie alike: in one cell of one patch, all of them inside, or all on the
+// same edge or corner. No lane so needs another formula than its neighbours.
+#pragma once
+
+#include "kernels/derivative/derivative_formulas.hpp"
+#include "kernels/shape/shape_cell.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::DerivativeTask;
+
+/// Where in a cell, along one direction.
+enum Side : std::size_t { kInside, kLowEnd, kHighEnd, kSides };
+
+template <typename T>
+SIMDBEZIER_INLINE Cell<T> cell_of(const DerivativeTask<T>& task, std::size_t patch,
+                                  std::size_t index) {
+  const NetShape& shape = *task.shape;
+  const std::size_t at = patch * shape.cells() + index;
+  return {task.coefficients + at * shape.cell_coefficients(), task.edges + at * shape.cell_edges(),
+          task.origins == nullptr ? nullptr : task.origins + at * shape.cell_origins()};
+}
+
+/// Taylor coefficients of single channels and of quotients, at the local x, y.
+template <typename V>
+class CellDerivatives {
+  using T = ScalarOf<V>;
+
+public:
+  CellDerivatives(const DerivativeTask<T>& task, const Cell<T>& cell, Side side_u, Side side_v, V x,
+                  V y)
+      : shape_(*task.shape), orders_(*task.orders), cell_(cell), side_u_(side_u), side_v_(side_v),
+        x_(x), y_(y) {
+    if (shape_.rational) {
+      point_u_ = side_u_ != kInside && cell_.origins == nullptr &&
+                 corner_u(static_cast<std::size_t>(shape_.components)) != T(0);
+      prepare_weight();
+    }
+  }
+
+  /// All that orders ask for, of one component.
+  void evaluate(std::size_t component, TaylorTable<V>& to) const {
+    merged_table(component, to);
+    if (shape_.rational) {
+      V to_patch;
+      const bool moved = point_u_ || (cell_.origins != nullptr && side_u_ != kInside);
+      if (moved) {
+        to_patch = relative_origin_u(component);
+      }
+      divide_table(minus_w_, inverse_, orders_, moved ? &to_patch : nullptr, to);
+    }
+    if (side_v_ != kInside) {
+      TaylorRow<V> along_u;
+      along_edge_v(component, along_u);
+      if (shape_.rational) {
+        divide_row(minus_w_v_, inverse_v_, highest_u(), along_u);
+      }
+      for (std::size_t a = 0; a <= highest_u(); ++a) {
+        to[a][0] = along_u[a];
+      }
+    }
+    place(component, to[0][0]);
+  }
+
+private:
+  [[nodiscard]] SIMDBEZIER_INLINE std::size_t highest_u() const {
+    return static_cast<std::size_t>(orders_.highest_u);
+  }
+  [[nodiscard]] SIMDBEZIER_INLINE std::size_t highest_v(std::size_t a) const {
+    return static_cast<std::size_t>(orders_.highest_v[a]);
+  }
+  [[nodiscard]] SIMDBEZIER_INLINE std::size_t edge_u() const {
+    return side_u_ == kLowEnd ? detail::kEdgeU0 : detail::kEdgeU1;
+  }
+  [[nodiscard]] SIMDBEZIER_INLINE std::size_t edge_v() const {
+    return side_v_ == kLowEnd ? detail::kEdgeV0 : detail::kEdgeV1;
+  }
+
+  /// The patch's own, whatever the sides are.
+  __attribute__((noinline)) void table(std::size_t channel, TaylorTable<V>& to) const {
+    const T* const matrix = cell_.coefficients + channel * shape_.matrix();
+    const std::size_t order_v = shape_.order_v();
+    V power[detail::kMostOrder][kMostDerivatives]; // [power of Y][order in u]
+    for (std::size_t l = 0; l < order_v; ++l) {
+      taylor_series(
+          shape_.order_u(), x_,
+          [&](std::size_t k) { return broadcast<V>(matrix[k * order_v + l]); }, highest_u(),
+          power[l]);
+    }
+    for (std::size_t a = 0; a <= highest_u(); ++a) {
+      if (orders_.highest_v[a] >= 0) {
+        taylor_series(
+            order_v, y_, [&](std::size_t l) { return power[l][a]; }, highest_v(a), to[a]);
+      }
+    }
+  }
+
+  /// The same, but what does not depend on u comes from an edge u = const if they are on one.
+  void merged_table(std::size_t channel, TaylorTable<V>& to) const {
+    table(channel, to);
+    if (side_u_ != kInside && orders_.highest_v[0] >= 0) {
+      along_edge_u(channel, to[0]);
+    }
+  }
+
+  __attribute__((noinline)) void edge(std::size_t channel, std::size_t number, std::size_t order,
+                                      V t, std::size_t highest, V* to) const {
+    const T* const powers = cell_.edges + channel * shape_.edge_powers() * 4 + number;
+    taylor_series(
+        order, t, [&](std::size_t k) { return broadcast<V>(powers[k * 4]); }, highest, to);
+  }
+  void along_edge_u(std::size_t channel, V* to) const {
+    edge(channel, edge_u(), shape_.order_v(), y_, highest_v(0), to);
+  }
+  void along_edge_v(std::size_t channel, V* to) const {
+    edge(channel, edge_v(), shape_.order_u(), x_, highest_u(), to);
+  }
+
+  void prepare_weight() {
+    const auto weight = static_cast<std::size_t>(shape_.components);
+    merged_table(weight, minus_w_);
+    inverse_ = Quotient<V>(minus_w_[0][0]).inverse;
+    for (std::size_t a = 0; a <= highest_u(); ++a) {
+      negate(minus_w_[a], highest_v(a));
+    }
+    if (side_v_ != kInside) {
+      along_edge_v(weight, minus_w_v_);
+      inverse_v_ = Quotient<V>(minus_w_v_[0]).inverse;
+      negate(minus_w_v_, highest_u());
+    }
+  }
+  static SIMDBEZIER_INLINE void negate(V* row, std::size_t highest) {
+    for (std::size_t d = 0; d <= highest; ++d) {
+      row[d] = negated(row[d]);
+    }
+  }
+
+  /// Positions are relative to origins; corners are stored.
+  SIMDBEZIER_INLINE void place(std::size_t component, V& position) const {
+    if (side_u_ != kInside && side_v_ != kInside) {
+      const std::size_t corner =
+          detail::corner_index(side_u_ == kHighEnd ? 1 : 0, side_v_ == kHighEnd ? 1 : 0);
+      position = broadcast<V>(cell_.edges[shape_.corners_at() + component * 4 + corner]);
+    } else if (cell_.origins != nullptr) {
+      position =
+          position + (side_v_ != kInside ? origin(component, detail::kEdgeOriginsAt + edge_v())
+                                         : origin_u(component));
+    } else if (point_u_ && side_v_ == kInside) {
+      position = position + broadcast<V>(corner_u(component));
+    }
+  }
+  SIMDBEZIER_INLINE V origin(std::size_t component, std::size_t which) const {
+    return broadcast<V>(cell_.origins[component * detail::kOriginsPerComponent + which]);
+  }
+  /// What is added to positions on an edge u = const where derivatives by u use them.
+  SIMDBEZIER_INLINE V relative_origin_u(std::size_t component) const {
+    return point_u_ ? broadcast<V>(corner_u(component))
+                    : origin(component, detail::kRelativeOriginsAt + edge_u() - detail::kEdgeU0);
+  }
+  /// On an edge u = const: the corner where it begins; of the weight, its mark.
+  SIMDBEZIER_INLINE T corner_u(std::size_t channel) const {
+    return cell_.edges[shape_.corners_at() + channel * 4 + edge_u() - detail::kEdgeU0];
+  }
+  /// Of the edge u = const, if they are on one.
+  SIMDBEZIER_INLINE V origin_u(std::size_t component) const {
+    return origin(component, side_u_ == kInside ? 0 : detail::kEdgeOriginsAt + edge_u());
+  }
+
+  const NetShape& shape_;
+  const detail::DerivativeOrders& orders_;
+  Cell<T> cell_;
+  Side side_u_;
+  Side side_v_;
+  bool point_u_ = false; ///< on an edge u = const that is packed around its point
+  V x_;
+  V y_;
+  // Of rational patches: the weight, and the one along the edge v = const if they are on one.
+  TaylorTable<V> minus_w_;
+  TaylorRow<V> minus_w_v_;
+  V inverse_;
+  V inverse_v_;
+};
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

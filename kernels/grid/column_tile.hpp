@@ -1,0 +1,188 @@
+// Which samples of a grid stand in the lanes of a register.
+//
+// A tile is one register of columns (or two: simd/register_pair.hpp), swept along v: kRows rows of
+// lanes/kRows columns at a time.
+//   kRows = 1      the bulk of a row; `kWhole` false: its masked end
+//   kRows = 2, 4   the last lanes/2 or lanes/4 columns, which would leave most lanes empty;
+//                  `kWhole`: exactly as many, and the only ones, so that rows follow each other
+//   kRows = lanes  a single column, into consecutive values; `kWhole`: whole registers, also past
+//                  its end (values that masked stores wrote cannot be read back at once)
+// A single column behind whole registers is computed by a tile of its own into a buffer (`kExtra`),
+// from where it is moved to the rows' ends as they are stored: stores to one place after the other.
+// With several rows in a register, both edges v = const share one: v = 0 in its first half, v = 1
+// in its second.
+#pragma once
+
+#include "kernels/grid/row_pieces.hpp"
+#include "kernels/poly/bicubic.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// The lanes that are corners of the patch, where both edges v = const share a register.
+template <typename V>
+struct SharedCorners {
+  PairSelector<V> at_v0;
+  PairSelector<V> at_v1;
+
+  static SIMDBEZIER_INLINE MaskOf<V> first_half() {
+    const ScalarOf<V> halves[2] = {0, 1};
+    return RowGroups<2, V>::spread(halves) == broadcast<V>(ScalarOf<V>(0));
+  }
+  SIMDBEZIER_INLINE SharedCorners(V x, MaskOf<V> half)
+      : at_v0((x == broadcast<V>(ScalarOf<V>(-0.5))) & half,
+              (x == broadcast<V>(ScalarOf<V>(0.5))) & half),
+        at_v1((x == broadcast<V>(ScalarOf<V>(-0.5))) & !half,
+              (x == broadcast<V>(ScalarOf<V>(0.5))) & !half) {}
+  explicit SIMDBEZIER_INLINE SharedCorners(V x) : SharedCorners(x, first_half()) {}
+
+  SIMDBEZIER_INLINE V replace(V value, const ScalarOf<V>* corner) const {
+    return at_v0.replace(at_v1.replace(value, corner + detail::corner_index(0, 1)),
+                         corner + detail::corner_index(0, 0));
+  }
+};
+
+struct NoSharedCorners {
+  template <typename V>
+  explicit SIMDBEZIER_INLINE NoSharedCorners(V /*x*/) {}
+};
+
+template <std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams = false>
+struct Tile {
+  static_assert(!kStreams || (kRows == 1 && kWhole && !kExtra));
+  using T = ScalarOf<V>;
+  using Vector = V;
+  static constexpr bool kBuffered = kExtra;
+  using Groups = RowGroups<kRows, V>;
+  static constexpr std::size_t kColumns = kLanes<V> / kRows;
+  static constexpr bool kShared = kRows > 1; ///< edges v = const share a register
+  static constexpr bool kSingle = kRows == kLanes<V> && kHasFours<V>; ///< all lanes one column
+
+  std::size_t first;  ///< column
+  std::size_t active; ///< columns of kColumns that exist
+  Column<V> column;
+  std::conditional_t<kShared, SharedCorners<V>, NoSharedCorners> corners;
+
+  SIMDBEZIER_INLINE Tile(const T* x, std::size_t first_column, std::size_t active_columns,
+                         bool watertight)
+      : first(first_column), active(active_columns),
+        column(Groups::repeat(x + first_column), watertight), corners(column.x) {}
+
+  /// The first `rows` rows of `value`, `step` samples from one to the next. extra: what follows
+  /// them in kExtra tiles.
+  SIMDBEZIER_INLINE void store(T* to, std::size_t step, V value, std::size_t rows,
+                               const T* extra) const {
+    if constexpr (kRows == kLanes<V>) {
+      if (kWhole || rows == kRows) {
+        store_vector(to, value);
+      } else {
+        store_first(to, value, rows);
+      }
+    } else if constexpr (kRows == 1) {
+      if constexpr (kStreams) {
+        store_streaming(to, value);
+      } else if constexpr (kWhole) {
+        store_vector(to, value);
+      } else {
+        store_first(to, value, active);
+      }
+    } else if (kWhole && rows == kRows) {
+      store_vector(to, value);
+    } else {
+      Groups::store_some(to, step, value, columns(), rows);
+    }
+    if constexpr (kExtra) {
+      for (std::size_t r = 0; r < rows; ++r) {
+        move_value(to + r * step + kColumns, extra + r);
+      }
+    }
+  }
+  SIMDBEZIER_INLINE void store_if_wanted(T* plane, std::size_t at, std::size_t step, V value,
+                                         std::size_t rows) const {
+    if (plane != nullptr) {
+      store(plane + at, step, value, rows, nullptr);
+    }
+  }
+
+  /// First of the lanes in which an edge v = const stands.
+  static SIMDBEZIER_INLINE std::size_t edge_lane(RowKind kind) {
+    return kShared && kind == RowKind::edge_v1 ? kLanes<V> / 2 : 0;
+  }
+  SIMDBEZIER_INLINE void store_edge(T* to, V value, RowKind kind, const T* extra) const {
+    if constexpr (!kShared) {
+      store(to, 0, value, 1, extra);
+      return;
+    } else if (kind == RowKind::edge_v0) {
+      store_lanes_from<kColumns, 0>(to, value, columns());
+    } else {
+      store_lanes_from<kColumns, kLanes<V> / 2>(to, value, columns());
+    }
+    if constexpr (kExtra) {
+      move_value(to + kColumns, extra);
+    }
+  }
+  SIMDBEZIER_INLINE void store_edge_if_wanted(T* plane, std::size_t at, V value,
+                                              RowKind kind) const {
+    if (plane != nullptr) {
+      store_edge(plane + at, value, kind, nullptr);
+    }
+  }
+
+  /// Positions on the edge `edge`, or on both where they share a register; and du.
+  template <Scheme kScheme>
+  SIMDBEZIER_INLINE V edge_rows(const Component<T>& c, std::size_t edge, V& du) const {
+    if constexpr (!kShared) {
+      return edge_position<has_origins(kScheme)>(c, column, edge, du);
+    } else {
+      V k[kOrder];
+      shared_edges(c, k);
+      return finish<kScheme>(c, horner(k, column.x, du));
+    }
+  }
+  template <Scheme kScheme>
+  SIMDBEZIER_INLINE V edge_rows(const Component<T>& c, std::size_t edge) const {
+    if constexpr (!kShared) {
+      return edge_position<has_origins(kScheme)>(c, column, edge);
+    } else {
+      V k[kOrder];
+      shared_edges(c, k);
+      return finish<kScheme>(c, horner(k, column.x));
+    }
+  }
+  SIMDBEZIER_INLINE V edge_rows_second(const Component<T>& c, std::size_t edge) const {
+    if constexpr (!kShared) {
+      return edge_second(c, column, edge);
+    } else {
+      V k[kOrder];
+      shared_edges(c, k);
+      return horner_second(k, column.x);
+    }
+  }
+  /// Their Y.
+  static SIMDBEZIER_INLINE V edge_y(std::size_t edge) {
+    constexpr T kBoth[2] = {T(-0.5), T(0.5)};
+    if constexpr (kShared) {
+      return RowGroups<2, V>::spread(kBoth);
+    }
+    return broadcast<V>(kBoth[edge]);
+  }
+
+private:
+  /// As `active`; known to the compiler where all exist.
+  SIMDBEZIER_INLINE std::size_t columns() const { return kWhole ? kColumns : active; }
+
+  static SIMDBEZIER_INLINE void shared_edges(const Component<T>& c, V k[kOrder]) {
+    for (std::size_t i = 0; i < kOrder; ++i) {
+      k[i] = RowGroups<2, V>::spread(c.edge + i * kEdges + detail::kEdgeV0);
+    }
+  }
+  template <Scheme kScheme>
+  SIMDBEZIER_INLINE V finish(const Component<T>& c, V value) const {
+    if constexpr (has_origins(kScheme)) {
+      constexpr std::size_t kAt = detail::kEdgeOriginsAt + detail::kEdgeV0;
+      value = value + RowGroups<2, V>::spread(c.origin() + kAt);
+    }
+    return corners.replace(value, c.corner);
+  }
+};
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,138 @@
+// Watertight grids of 3 x 3 to 6 x 6 samples that end at the patch's edges, in one piece.
+//
+// Most of their samples are on the border, and all preparations of a tile (grid/column_tile.hpp)
+// would serve a row or two. So a component takes registers of four groups of four lanes:
+//   columns   group g, lane l   power l of Y of the polynomial that inner column g is: Horner in X
+//                               of the coefficients as they lie in memory
+//   inner     group g, lane r   inner column g, inner row r: Horner in Y
+//   border    group s, lane e   inner sample s of edge e: Horner along the edge
+// of which one permutation makes 16 consecutive samples, and another one adds corners. The
+// operations of a sample are those of the tiles, and so are its bits. Positions stand here,
+// derivatives in grid/small_grid_jets.hpp.
+#pragma once
+
+#include "kernels/drain/drain_kernel.hpp"
+#include "kernels/grid/column_tile.hpp"
+#include "kernels/grid/prefetch.hpp"
+#include "kernels/grid/small_grid_sources.hpp"
+#include "kernels/simd/assembly.hpp"
+#include "kernels/simd/fours.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+
+/// Whether registers have four groups of four lanes: floats of AVX-512.
+template <typename V>
+constexpr bool kFourGroups = kLanes<V> == 16;
+
+/// Whether the task's grid is a small one with edges of its own.
+template <typename T>
+SIMDBEZIER_INLINE bool is_small_grid(const GridTask<T>& task) {
+  if (!task.watertight || task.nu < kLeastSmall || task.nu > kMostSmall || task.run_count != 3) {
+    return false;
+  }
+  const RowRun<T>* const run = task.runs;
+  bool small = run[0].kind == RowKind::edge_v0 && run[0].rows == 1 &&
+               run[1].kind == RowKind::interior && run[1].rows <= kMostInner &&
+               run[2].kind == RowKind::edge_v1 && run[2].rows == 1 && task.x[0] == T(-0.5) &&
+               task.x[task.nu - 1] == T(0.5);
+  for (std::size_t i = 1; i + 1 < task.nu; ++i) {
+    small = small && task.x[i] > T(-0.5) && task.x[i] < T(0.5);
+  }
+  return small;
+}
+
+/// The parameters of a small grid. Groups and lanes that are too many repeat the last edge.
+template <typename V>
+struct SmallGrid {
+  using T = ScalarOf<V>;
+  using Groups = RowGroups<4, V>;
+
+  std::size_t rows;    ///< inner ones
+  std::size_t samples; ///< of a patch
+  MaskOf<V> edges_v;   ///< lanes of edges v = const
+  V x;                 ///< of column g, in all lanes of group g
+  V y;                 ///< of row r, in lane r of all groups
+  V along;             ///< of sample s, in group s: X on edges v = const, Y on u = const
+
+  explicit SIMDBEZIER_INLINE SmallGrid(const GridTask<T>& task)
+      : rows(task.runs[1].rows), samples(task.nu * (rows + 2)), edges_v(lanes_of_edges_v()),
+        x(Groups::spread(task.x + 1)), y(Groups::repeat(task.runs[1].y)),
+        along(select_where<V>(edges_v, x, Groups::spread(task.runs[1].y))) {}
+
+private:
+  static SIMDBEZIER_INLINE MaskOf<V> lanes_of_edges_v() {
+    static_assert(detail::kEdgeV0 < 2 && detail::kEdgeV1 < 2);
+    constexpr T kFirstTwo[kEdges] = {0, 0, 1, 1};
+    return repeat_four<V>(kFirstTwo) == broadcast<V>(T(0));
+  }
+};
+
+template <Scheme kScheme, typename V>
+SIMDBEZIER_INLINE V with_inner_origin(const Component<ScalarOf<V>>& c, V p) {
+  if constexpr (has_origins(kScheme)) {
+    p = p + broadcast<V>(c.origin()[0]);
+  }
+  return p;
+}
+template <Scheme kScheme, typename V>
+SIMDBEZIER_INLINE V with_edge_origins(const Component<ScalarOf<V>>& c, V p) {
+  if constexpr (has_origins(kScheme)) {
+    p = p + repeat_four<V>(c.origin() + detail::kEdgeOriginsAt);
+  }
+  return p;
+}
+
+/// kFull: whole registers of samples, before the last one.
+template <Scheme kScheme, std::size_t kFull, typename T>
+__attribute__((noinline)) void sweep_small_positions(const GridTask<T>& shared_task) {
+  using V = vec<T>;
+  const GridTask<T> task = shared_task;
+  const SmallGrid<V> grid(task);
+  const SmallGridSources& sources = kSmallGrids.of(task.nu, grid.rows + 2).position;
+  Assembly sample[kFull + 1];
+  for (std::size_t k = 0; k <= kFull; ++k) {
+    sample[k] = Assembly(sources.of_register(k));
+  }
+  const std::size_t rest = grid.samples - kFull * kLanes<V>;
+  for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
+    if (task.prefetch) {
+      prefetch_patch(task, patch);
+    }
+    Component<T> component(task, patch, 0);
+    for (std::size_t c = 0; c < 3; ++c, component = component.next()) {
+      V k[kOrder];
+      V q[kOrder];
+      V e[kOrder];
+      load_fours(component.matrix, k);
+      load_fours(component.edge, e);
+      split_fours(horner(k, grid.x), q);
+      const V inner = with_inner_origin<kScheme>(component, horner(q, grid.y));
+      const V border = with_edge_origins<kScheme>(component, horner(e, grid.along));
+      const V corner = repeat_four<V>(component.corner);
+      T* const to = task.out[detail::kPositionGroup].component[c] + patch * task.patch_step;
+      for (std::size_t r = 0; r < kFull; ++r) {
+        store_vector(to + r * kLanes<V>, sample[r].with_quad(inner, border, corner));
+      }
+      masked_store(to + kFull * kLanes<V>, sample[kFull].with_quad(inner, border, corner), rest);
+    }
+    pace(task.drain, 3 * grid.samples);
+  }
+}
+
+template <Scheme kScheme, typename T>
+SIMDBEZIER_INLINE void small_grid_positions(const GridTask<T>& task) {
+  const std::size_t samples = task.nu * (task.runs[1].rows + 2);
+  if (samples <= 16) {
+    sweep_small_positions<kScheme, 0>(task);
+  } else if (samples <= 32) {
+    sweep_small_positions<kScheme, 1>(task);
+  } else {
+    sweep_small_positions<kScheme, 2>(task);
+  }
+}
+
+#endif
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,190 @@
+// One component of one tile: positions, positions with both first derivatives, second derivatives.
+#pragma once
+
+#include "kernels/grid/column_tile.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Rows that a buffered column has room for.
+constexpr std::size_t kBufferRows = 128;
+
+/// A column's planes, the k-th one kPlane values behind the first: one address for all of them.
+template <typename T>
+struct ColumnPlanes {
+  static constexpr std::size_t kPlane = kBufferRows + 2 * detail::kMaxLanes;
+  const T* first;
+
+  SIMDBEZIER_INLINE const T* plane(std::size_t k) const { return first + k * kPlane; }
+};
+
+/// A column on its way to the rows' ends: one plane for each of `kPlanes` outputs.
+template <typename T, std::size_t kPlanes>
+struct ColumnBuffer {
+  alignas(64) T values[kPlanes * ColumnPlanes<T>::kPlane];
+
+  /// Where the piece's first row goes: registers of rows behind a lead are lines of the buffer.
+  template <typename Piece>
+  SIMDBEZIER_INLINE T* first(std::size_t k, const Piece& piece) {
+    return values + k * ColumnPlanes<T>::kPlane + (piece.lead ? detail::kMaxLanes - 1 : 0);
+  }
+  /// To read from: values, not the registers that they came from, which would have to be taken
+  /// apart.
+  template <typename Piece>
+  SIMDBEZIER_INLINE ColumnPlanes<T> planes(const Piece& piece) {
+    return {own_address(first(0, piece))};
+  }
+};
+
+/// The single column behind a tile.
+template <typename V>
+using ColumnTile = Tile<kLanes<V>, true, false, V>;
+
+template <Scheme kScheme, typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V,
+          bool kStreams>
+SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<ScalarOf<V>>& c,
+                                      const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
+                                      std::size_t nu, ScalarOf<V>* to,
+                                      ColumnPlanes<ScalarOf<V>> extra) {
+  using T = ScalarOf<V>;
+  V q[kOrder];
+  if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kSingle) {
+    single_column_polynomial(c, tile.column, q);
+  } else {
+    column_polynomial(c, tile.column, q);
+  }
+  const V origin = column_origin<has_origins(kScheme)>(c, tile.column);
+  const V shared = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
+                       ? tile.template edge_rows<kScheme>(c, 0)
+                       : origin;
+  for_rows<kScheme, kRows, kRows == 1 ? 4 : 1>(
+      piece, 0, nu,
+      [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
+        const V p = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
+                        ? shared
+                        : tile.template edge_rows<kScheme>(c, edge_of(kind));
+        tile.store_edge(to + at, p, kind, extra.plane(0) + row);
+      },
+      [&](const T* y, std::size_t at, std::size_t row, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
+        V p;
+        if constexpr (kRows == 1) {
+          p = horner_at(q, y);
+        } else {
+          p = horner(q, RowGroups<kRows, V>::spread(y));
+        }
+        tile.store(to + at, nu, with_origin<has_origins(kScheme)>(p, origin), rows,
+                   extra.plane(0) + row);
+      });
+}
+
+/// Position and first derivatives of one component, a register of samples.
+template <typename V>
+struct Jet {
+  V p;
+  V du;
+  V dv;
+};
+
+/// A register of columns as cubics in Y: one component's positions and u derivatives.
+template <Scheme kScheme, typename V>
+struct JetColumns {
+  V q[kOrder];
+  V dq[kOrder];
+  V origin;
+
+  template <typename Tile>
+  SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const Tile& tile) {
+    if constexpr (Tile::kSingle) {
+      single_column_polynomial(c, tile.column, q, dq);
+    } else {
+      column_polynomial(c, tile.column, q, dq);
+    }
+    origin = column_origin<has_origins(kScheme)>(c, tile.column);
+  }
+  SIMDBEZIER_INLINE Jet<V> interior(V y) const {
+    Jet<V> jet;
+    const V p = horner(q, y, jet.dv);
+    jet.du = horner(dq, y);
+    jet.p = with_origin<has_origins(kScheme)>(p, origin);
+    return jet;
+  }
+  /// On the edge v = const number `edge`, or on both where they share a register.
+  template <typename Tile>
+  SIMDBEZIER_INLINE Jet<V> edge(const Component<ScalarOf<V>>& c, const Tile& tile,
+                                std::size_t edge) const {
+    Jet<V> jet;
+    jet.dv = horner_slope(q, tile.edge_y(edge));
+    jet.p = tile.template edge_rows<kScheme>(c, edge, jet.du);
+    return jet;
+  }
+};
+
+/// Where the samples of one component go.
+template <typename T>
+struct JetPlanes {
+  T* position;
+  T* du;
+  T* dv;
+};
+
+template <Scheme kScheme, typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V,
+          bool kStreams>
+SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<ScalarOf<V>>& c,
+                                         const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
+                                         std::size_t nu, const JetPlanes<ScalarOf<V>>& to,
+                                         ColumnPlanes<ScalarOf<V>> extra) {
+  using T = ScalarOf<V>;
+  JetColumns<kScheme, V> columns;
+  columns.build(c, tile);
+  Jet<V> shared;
+  if constexpr (is_watertight(kScheme) && (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)) {
+    shared = columns.edge(c, tile, 0);
+  }
+  for_rows<kScheme, kRows, Piece::kKnown ? 2 : 1>(
+      piece, 0, nu,
+      [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
+        const Jet<V> jet = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
+                               ? shared
+                               : columns.edge(c, tile, edge_of(kind));
+        tile.store_edge(to.position + at, jet.p, kind, extra.plane(0) + row);
+        tile.store_edge(to.du + at, jet.du, kind, extra.plane(1) + row);
+        tile.store_edge(to.dv + at, jet.dv, kind, extra.plane(2) + row);
+      },
+      [&](const T* y, std::size_t at, std::size_t row, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
+        const Jet<V> jet = columns.interior(RowGroups<kRows, V>::spread(y));
+        tile.store(to.position + at, nu, jet.p, rows, extra.plane(0) + row);
+        tile.store(to.du + at, nu, jet.du, rows, extra.plane(1) + row);
+        tile.store(to.dv + at, nu, jet.dv, rows, extra.plane(2) + row);
+      });
+}
+
+/// Groups with null planes are computed and dropped.
+template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
+SIMDBEZIER_INLINE void
+sweep_second(const GridTask<ScalarOf<V>>& task, const RowPiece<ScalarOf<V>>& piece,
+             const Component<ScalarOf<V>>& c, const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
+             std::size_t component, std::size_t first) {
+  using T = ScalarOf<V>;
+  SecondColumns<V> columns;
+  columns.build(c, tile.column);
+  T* const duu = task.out[detail::kDuuGroup].component[component];
+  T* const duv = task.out[detail::kDuvGroup].component[component];
+  T* const dvv = task.out[detail::kDvvGroup].component[component];
+  const std::size_t nu = task.nu;
+  for_rows<kScheme, kRows>(
+      piece, first, nu,
+      [&](RowKind kind, std::size_t at, std::size_t) SIMDBEZIER_INLINE_LAMBDA {
+        const std::size_t edge = edge_of(kind);
+        const V y = tile.edge_y(edge);
+        tile.store_edge_if_wanted(duu, at, tile.edge_rows_second(c, edge), kind);
+        tile.store_edge_if_wanted(duv, at, columns.duv(y), kind);
+        tile.store_edge_if_wanted(dvv, at, columns.dvv(y), kind);
+      },
+      [&](const T* y, std::size_t at, std::size_t, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
+        const V row = RowGroups<kRows, V>::spread(y);
+        tile.store_if_wanted(duu, at, nu, columns.duu(row), rows);
+        tile.store_if_wanted(duv, at, nu, columns.duv(row), rows);
+        tile.store_if_wanted(dvv, at, nu, columns.dvv(row), rows);
+      });
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

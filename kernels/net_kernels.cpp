@@ -1,0 +1,19 @@
+// Compiled once per instruction set: kernels for operations on control nets.
+#include "kernels/nets/casteljau.hpp"
+#include "kernels/nets/net_boxes.hpp"
+#include "kernels/nets/net_flatness.hpp"
+#include "kernels/nets/net_maps.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+template <typename T>
+constexpr detail::NetTable<T> make_net_table() {
+  return {split_kernel<T>, segment_kernel<T>, map_kernel<T>, box_kernel<T>, flatness_kernel<T>};
+}
+
+extern const detail::NetTable<float> net_table_f32;
+extern const detail::NetTable<double> net_table_f64;
+constinit const detail::NetTable<float> net_table_f32 = make_net_table<float>();
+constinit const detail::NetTable<double> net_table_f64 = make_net_table<double>();
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

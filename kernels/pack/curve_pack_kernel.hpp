@@ -1,0 +1,319 @@
+// Packing of curves: a group at a time, one curve a lane, with the formulas of patches' edges.
+#pragma once
+
+#include "kernels/pack/bicubic_pack_kernel.hpp"
+#include "kernels/pack/coinciding_points.hpp"
+#include "kernels/pack/shape_pack_formulas.hpp"
+#include "src/tables/curve_table.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Squares of control values up to which nothing can overflow: a coefficient is at most 2^22 times
+/// its control values (C(15,k) 2^k), and with weights those are products of two such numbers.
+template <typename T>
+inline constexpr double kSafeCurveSquares = sizeof(T) == sizeof(float) ? 0x1p80 : 0x1p800;
+/// Weights that need no second look.
+template <typename T>
+inline constexpr double kSafeCurveWeight = sizeof(T) == sizeof(float) ? 0x1p-40 : 0x1p-400;
+
+/// Finds what |C'| is compared with: where it is above 2^-7 (float) or 2^-20 (double) of what its
+/// errors are relative to, the kernel's own tangent is good.
+///
+/// Polynomial, the square of that: errors of C' are some u times its largest control value.
+/// Rational, the part of it that does not hang on the sample; over w^2, squared, it is the floor.
+/// As of patches (pack/shape_floor.hpp), errors are some u times
+///     n (D + 4 B R) W / w^2:
+/// R >= |P - O|, W the largest weight, D and B the largest max(w,w') |P' - P| and |w' - w| of
+/// neighbours.
+template <typename T>
+class TangentFloor {
+public:
+  /// weights: null for polynomials.
+  TangentFloor(const detail::CurveShape& shape, const Wide* weights)
+      : shape_(shape), weights_(weights) {}
+
+  SIMDBEZIER_INLINE void add(const Wide* points) {
+    for (std::size_t i = 0; i < shape_.order(); ++i) {
+      extent_ = larger(magnitude(points[i] - points[0]), extent_);
+      size_ = larger(magnitude(points[i]), size_);
+    }
+    for (std::size_t i = 1; weights_ != nullptr && i < shape_.order(); ++i) {
+      const Wide weight = larger(weights_[i - 1], weights_[i]);
+      step_ = larger(weight * magnitude(points[i] - points[i - 1]), step_);
+    }
+  }
+  /// Infinity where products of the test could leave the range of T.
+  SIMDBEZIER_INLINE Wide value() const {
+    const Wide degree(static_cast<double>(shape_.degree));
+    if (weights_ != nullptr) {
+      return rational_size(degree);
+    }
+    const Wide power = power_of_two_below(degree * extent_);
+    const MaskOf<Wide> in_range =
+        (power >= Wide(kSingle ? 0x1p-40 : 0x1p-450)) & (power <= Wide(kSingle ? 0x1p40 : 0x1p450));
+    return select_where<Wide>(in_range, power * power * Wide(kClear * kClear), infinity());
+  }
+
+private:
+  static constexpr bool kSingle = sizeof(T) == sizeof(float);
+  static constexpr double kClear = kSingle ? 0x1p-7 : 0x1p-20;
+
+  static Wide infinity() { return Wide(std::numeric_limits<double>::infinity()); }
+
+  SIMDBEZIER_INLINE Wide rational_size(Wide degree) const {
+    Wide heaviest = weights_[0];
+    Wide turn(0.0);
+    for (std::size_t i = 1; i < shape_.order(); ++i) {
+      heaviest = larger(weights_[i], heaviest);
+      turn = larger(magnitude(weights_[i] - weights_[i - 1]), turn);
+    }
+    // Origins are rounded to T.
+    constexpr double kUnit = kSingle ? 0x1p-24 : 0x1p-53;
+    const Wide reach = shape_.origins ? extent_ + extent_ + Wide(kUnit) * size_ : size_;
+    const Wide size = Wide(kClear) * degree * (step_ + Wide(4.0) * turn * reach) * heaviest;
+    const MaskOf<Wide> in_range = (size >= Wide(kSingle ? 0x1p-100 : 0x1p-900)) &
+                                  (size <= Wide(kSingle ? 0x1p120 : 0x1p1000)) &
+                                  (heaviest >= Wide(kSingle ? 0x1p-40 : 0x1p-400)) &
+                                  (heaviest <= Wide(kSingle ? 0x1p40 : 0x1p400));
+    return select_where<Wide>(in_range, size, infinity());
+  }
+
+  const detail::CurveShape& shape_;
+  const Wide* weights_;
+  Wide extent_ = Wide(0.0); ///< largest distance from the first point, max norm
+  Wide size_ = Wide(0.0);   ///< largest distance from the origin
+  Wide step_ = Wide(0.0);   ///< largest weighted distance of neighbours
+};
+
+/// One group of curves while it is packed.
+template <typename T, typename S>
+class CurveGroup {
+  using W = CarriedIn<T, S>;
+
+public:
+  explicit CurveGroup(const detail::CurvePackTask<T, S>& task)
+      : task_(task), shape_(task.shape), order_(shape_.order()),
+        components_(static_cast<std::size_t>(shape_.components)) {}
+
+  /// Packs `count` curves from the first on, 1 <= count <= kWideLanes; lanes behind them repeat the
+  /// last one. Returns false where something may not be finite, or a weight not be positive.
+  bool pack(std::size_t first, std::size_t count) {
+    first_ = first;
+    count_ = count;
+    for (std::size_t p = 0; p < kWideLanes; ++p) {
+      const auto curve = static_cast<std::ptrdiff_t>(first + (p < count ? p : count - 1));
+      polygon_[p] = task_.curves.points + curve * task_.curves.curve_stride;
+    }
+    copy_control_points();
+    Wide squares(0.0);
+    MaskOf<Wide> positive = squares <= squares;
+    if (shape_.rational) {
+      for (std::size_t i = 0; i < order_; ++i) {
+        const Wide weight = value_at(i, components_);
+        weights_[i] = weight;
+        squares = squares + weight * weight;
+        positive = positive & (weight >= Wide(kSafeCurveWeight<T>));
+      }
+      pack_weights();
+    }
+    TangentFloor<T> floor(shape_, shape_.rational ? weights_ : nullptr);
+    for (std::size_t c = 0; c < components_; ++c) {
+      squares = squares + pack_component(c, floor);
+    }
+    put(task_.tangent_floor, 1, 0, floor.value());
+    if (shape_.rational) {
+      pack_collapsed();
+    }
+    return all_of<Wide>(positive & (squares <= Wide(kSafeCurveSquares<T>)));
+  }
+
+private:
+  SIMDBEZIER_INLINE Wide value_at(std::size_t point, std::size_t channel) const {
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(point) * task_.curves.point_stride +
+                              static_cast<std::ptrdiff_t>(channel) * task_.curves.component_stride;
+    alignas(64) double lanes[kWideLanes];
+    for (std::size_t p = 0; p < kWideLanes; ++p) {
+      lanes[p] = static_cast<double>(polygon_[p][at]);
+    }
+    return load_vector<Wide>(lanes);
+  }
+
+  /// To place `at` of every curve's `stride` values, rounded; -0 becomes +0.
+  SIMDBEZIER_INLINE void put(T* array, std::size_t stride, std::size_t at, Wide value) const {
+    alignas(64) double lanes[kWideLanes];
+    store_vector<Wide>(lanes, value);
+    T* to = array + first_ * stride + at;
+    for (std::size_t p = 0; p < count_; ++p, to += stride) {
+      *to = static_cast<T>(lanes[p]) + T(0);
+    }
+  }
+  /// As they were given.
+  void copy_control_points() const {
+    S* to = task_.control_points + first_ * shape_.control_values();
+    for (std::size_t p = 0; p < count_; ++p) {
+      for (std::size_t i = 0; i < order_; ++i) {
+        const S* const point =
+            polygon_[p] + static_cast<std::ptrdiff_t>(i) * task_.curves.point_stride;
+        for (std::size_t c = 0; c < shape_.channels(); ++c) {
+          *to++ = point[static_cast<std::ptrdiff_t>(c) * task_.curves.component_stride] + S(0);
+        }
+      }
+    }
+  }
+  SIMDBEZIER_INLINE void put_value(std::size_t cell, std::size_t channel, std::size_t k,
+                                   Wide value) const {
+    put(task_.values, shape_.values(),
+        cell * shape_.cell_values() + channel * shape_.channel_values() + k, value);
+  }
+
+  /// One component's control value, homogeneous where there are weights, and its Cartesian one.
+  SIMDBEZIER_INLINE W read_value(std::size_t point, std::size_t component, Wide& cartesian) const {
+    const Wide value = value_at(point, component);
+    const Wide origin(component < 3 ? task_.relative_to[component] : 0.0);
+    if (!shape_.rational) {
+      const W moved = difference_of<W>(value, origin);
+      cartesian = to_wide(moved);
+      return moved;
+    }
+    const Wide weight = weights_[point];
+    if (task_.curves.weights == Weights::homogeneous) {
+      const W moved = difference_of<W>(carried<W>(value), product(carried<W>(origin), weight));
+      cartesian = divide(to_wide(moved), weight);
+      return moved;
+    }
+    const W moved = difference_of<W>(value, origin);
+    cartesian = to_wide(moved);
+    return product(moved, weight);
+  }
+
+  /// Forms the weights of both cells, which the components need.
+  void pack_weights() {
+    for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
+      W* const w = cell_weights_[cell];
+      for (std::size_t i = 0; i < order_; ++i) {
+        w[i] = carried<W>(weights_[i]);
+      }
+      take_cell(w, cell);
+      end_weights_[cell][0] = to_wide(w[0]);
+      end_weights_[cell][1] = to_wide(w[order_ - 1]);
+      centre(w, 1, order_ - 1);
+      for (std::size_t k = 0; k < order_; ++k) {
+        put_value(cell, components_, k, to_wide(w[k]));
+      }
+      for (std::size_t end = 0; end < 2; ++end) {
+        put_value(cell, components_, shape_.ends_at() + end, end_weights_[cell][end]);
+      }
+      if (shape_.origins) {
+        put_value(cell, components_, shape_.origin_at(), Wide(0.0));
+      }
+    }
+  }
+
+  SIMDBEZIER_INLINE void take_cell(W* values, std::size_t cell) const {
+    if (shape_.cells() == 2) {
+      halve(values, 1, order_ - 1, cell);
+    }
+  }
+
+  /// Returns the sum of squares of its control values.
+  Wide pack_component(std::size_t c, TangentFloor<T>& floor) {
+    W control[detail::kMostOrder];
+    Wide points[detail::kMostOrder];
+    Wide squares(0.0);
+    for (std::size_t i = 0; i < order_; ++i) {
+      control[i] = read_value(i, c, points[i]);
+      const Wide value = to_wide(control[i]);
+      squares = squares + value * value;
+      if (shape_.rational) {
+        squares = squares + points[i] * points[i];
+      }
+    }
+    floor.add(points);
+    const Wide outer[2] = {points[0], points[order_ - 1]};
+    for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
+      W values[detail::kMostOrder];
+      for (std::size_t i = 0; i < order_; ++i) {
+        values[i] = control[i];
+      }
+      take_cell(values, cell);
+      for (std::size_t end = 0; end < 2; ++end) {
+        const bool given = shape_.cells() == 1 || end == cell;
+        const Wide inner = to_wide(values[end * (order_ - 1)]);
+        const Wide point = given             ? outer[end]
+                           : shape_.rational ? divide(inner, end_weights_[cell][end])
+                                             : inner;
+        put_value(cell, c, shape_.ends_at() + end, point);
+      }
+      centre(values, 1, order_ - 1);
+      if (shape_.origins) {
+        put_value(cell, c, shape_.origin_at(), split_origin(values, cell));
+      }
+      for (std::size_t k = 0; k < order_; ++k) {
+        put_value(cell, c, k, to_wide(values[k]));
+      }
+    }
+    return squares;
+  }
+
+  /// Rational curves whose control points are all one, packed as such with a weight of 1: as
+  /// collapsed edges of patches are (pack/collapsed_edges.hpp), and for the same reason.
+  void pack_collapsed() const {
+    for (std::size_t p = 0; p < count_; ++p) {
+      const S* const given = task_.control_points + (first_ + p) * shape_.control_values();
+      const bool point =
+          is_one_point(given, shape_.channels(), order_, shape_.channels(), task_.curves.weights);
+      for (std::size_t cell = 0; point && cell < shape_.cells(); ++cell) {
+        pack_point(first_ + p, cell);
+      }
+    }
+  }
+  __attribute__((noinline, cold)) void pack_point(std::size_t curve, std::size_t cell) const {
+    const T* const first = task_.values + curve * shape_.values();
+    T* values = task_.values + curve * shape_.values() + cell * shape_.cell_values();
+    for (std::size_t c = 0; c <= components_; ++c, values += shape_.channel_values()) {
+      const T point = first[c * shape_.channel_values() + shape_.ends_at()];
+      for (std::size_t k = 0; k < order_; ++k) {
+        values[k] = T(0);
+      }
+      if (c == components_) {
+        values[0] = T(1);
+        return;
+      }
+      values[shape_.ends_at()] = values[shape_.ends_at() + 1] = point;
+      values[shape_.origins ? shape_.origin_at() : 0] = point;
+    }
+  }
+
+  /// Takes the point in the middle of a cell, as rounded to T, out of its coefficients.
+  SIMDBEZIER_INLINE Wide split_origin(W* values, std::size_t cell) const {
+    if (!shape_.rational) {
+      return take_origin<T>(values[0]);
+    }
+    const W* const w = cell_weights_[cell];
+    const Wide origin = rounded_to<T>(divide(to_wide(values[0]), to_wide(w[0])));
+    for (std::size_t k = 0; k < order_; ++k) {
+      values[k] = difference_of<W>(values[k], product(w[k], origin));
+    }
+    return origin;
+  }
+
+  const detail::CurvePackTask<T, S>& task_;
+  const detail::CurveShape shape_;
+  std::size_t order_;
+  std::size_t components_;
+  std::size_t first_ = 0;
+  std::size_t count_ = 0;
+  const S* polygon_[kWideLanes];
+  Wide weights_[detail::kMostOrder];
+  W cell_weights_[2][detail::kMostOrder]; ///< coefficients
+  Wide end_weights_[2][2];
+};
+
+template <typename T, typename S>
+detail::PackDoubt curve_pack_kernel(const detail::CurvePackTask<T, S>& task, std::size_t begin,
+                                    std::size_t end) {
+  CurveGroup<T, S> group(task);
+  return pack_groups(group, begin, end);
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,114 @@
+// What packing computes, for one component of as many patches as a register has doubles.
+//
+// All sums are folded: even coefficients are symmetric, odd ones antisymmetric under reversal of
+// the control points, operation by operation. With x_i = -x_{N-i} that makes both sides of a
+// shared edge round alike, however it is oriented. Nothing is fused, so that the bits are the same
+// on every instruction set.
+#pragma once
+
+#include <limits>
+
+#include "kernels/pack/double_double.hpp"
+#include "src/storage/patch_storage.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Half-centred power coefficients of a cubic: c[k] multiplies X^k, X = u - 1/2. W is what they are
+/// carried in; control values may be single doubles.
+template <typename W, typename In>
+SIMDBEZIER_INLINE void centred_cubic(In b0, In b1, In b2, In b3, W c[detail::kOrder]) {
+  const W inner = difference_of<W>(b2, b1);
+  const W outer = difference_of<W>(b3, b0);
+  c[0] = scaled(sum_of<W>(sum_of<W>(b0, b3), tripled(sum_of<W>(b1, b2))), 0.125);
+  c[1] = tripled(sum_of<W>(outer, inner), 0.25);
+  c[2] = tripled(sum_of<W>(difference_of<W>(b0, b1), difference_of<W>(b3, b2)), 0.5);
+  c[3] = difference_of<W>(outer, tripled(inner));
+}
+
+/// The coefficients of one component.
+template <typename W>
+struct PackedComponent {
+  W matrix[detail::kOrder * detail::kOrder]; ///< [k][l]
+  W edges[detail::kOrder * detail::kEdges];  ///< [power][edge]
+};
+
+/// net: [j][i].
+template <typename W, typename In>
+SIMDBEZIER_INLINE void form_component(const In net[16], PackedComponent<W>& out) {
+  constexpr std::size_t n = detail::kOrder;
+  W rows[n][n]; // [j][k]: row j as a polynomial in X
+  for (std::size_t j = 0; j < n; ++j) {
+    centred_cubic<W>(net[n * j], net[n * j + 1], net[n * j + 2], net[n * j + 3], rows[j]);
+  }
+  W sides[2][n];
+  centred_cubic<W>(net[0], net[4], net[8], net[12], sides[0]);
+  centred_cubic<W>(net[3], net[7], net[11], net[15], sides[1]);
+  for (std::size_t k = 0; k < n; ++k) {
+    W* const edges = out.edges + k * detail::kEdges;
+    edges[detail::kEdgeV0] = rows[0][k];
+    edges[detail::kEdgeV1] = rows[3][k];
+    edges[detail::kEdgeU0] = sides[0][k];
+    edges[detail::kEdgeU1] = sides[1][k];
+    centred_cubic<W>(rows[0][k], rows[1][k], rows[2][k], rows[3][k], out.matrix + n * k);
+  }
+}
+
+SIMDBEZIER_INLINE Wide less(Wide constant, Wide origin) { return constant - origin; }
+SIMDBEZIER_INLINE DoubleDouble less(DoubleDouble constant, Wide origin) {
+  return difference_of<DoubleDouble>(constant, DoubleDouble{origin, Wide(0.0)});
+}
+
+/// Splits the rounded constant term off, so that it can be added last.
+template <typename T, typename W>
+SIMDBEZIER_INLINE Wide take_origin(W& constant) {
+  const Wide origin = rounded_to<T>(to_wide(constant));
+  constant = less(constant, origin);
+  return origin;
+}
+
+/// The value of |du x dv|^2 above which the plain cross product is good (2^-14 for float, 2^-40 for
+/// double, of what the hodographs allow), from what |du| and |dv| stay below.
+///
+/// Infinity where the squares could leave the range of T. Powers of two are kept as such: 2^e is
+/// x without its mantissa, and all products that pass the comparisons are exact.
+template <typename T>
+SIMDBEZIER_INLINE Wide normal_floor(Wide hodograph_u, Wide hodograph_v) {
+  constexpr bool kSingle = sizeof(T) == sizeof(float);
+  // Each factor and the product must leave room for squares above and below.
+  const Wide lowest(kSingle ? 0x1p-40 : 0x1p-450);
+  const Wide highest(kSingle ? 0x1p50 : 0x1p480);
+  const Wide u = power_of_two_below(hodograph_u);
+  const Wide v = power_of_two_below(hodograph_v);
+  const Wide uv = u * v;
+  const MaskOf<Wide> in_range = (u >= lowest * lowest) & (u <= highest * highest) &
+                                (v >= lowest * lowest) & (v <= highest * highest) & (uv >= lowest) &
+                                (uv <= highest);
+  // As kKernelError of the second look, in one compare: |N| > 2^-7 of the hodographs' powers of
+  // two, which are up to four times smaller than the hodographs' product.
+  const Wide floor = uv * uv * Wide(kSingle ? 0x1p-14 : 0x1p-40);
+  return select_where<Wide>(in_range, floor, Wide(std::numeric_limits<double>::infinity()));
+}
+
+/// Finds the normal floor of bicubic patches.
+template <typename T>
+class NormalFloor {
+public:
+  /// One component of the control points as they are stored, [j][i].
+  SIMDBEZIER_INLINE void add(const Wide points[16]) {
+    for (int j = 0; j < 4; ++j) {
+      for (int i = 0; i < 3; ++i) {
+        size_u_ = larger(magnitude(points[4 * j + i + 1] - points[4 * j + i]), size_u_);
+        size_v_ = larger(magnitude(points[4 * i + 4 + j] - points[4 * i + j]), size_v_);
+      }
+    }
+  }
+  SIMDBEZIER_INLINE Wide value() const {
+    return normal_floor<T>(Wide(3.0) * size_u_, Wide(3.0) * size_v_);
+  }
+
+private:
+  Wide size_u_ = Wide(0.0); ///< largest difference of neighbours, max norm
+  Wide size_v_ = Wide(0.0);
+};
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,295 @@
+// Packing of patches of any shape: a group of patches at a time, one patch a lane.
+//
+// A group is read channel by channel, and again for each of its cells: what lies in between then is
+// one channel's net, in the first-level cache, rather than all of them.
+#pragma once
+
+#include <type_traits>
+
+#include "kernels/pack/collapsed_edges.hpp"
+#include "kernels/pack/shape_floor.hpp"
+#include "kernels/pack/shape_pack_formulas.hpp"
+#include "kernels/pack/shape_pack_io.hpp"
+#include "src/tables/kernel_table.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::kMostChannels;
+
+inline constexpr std::size_t kMostPoints = kMostOrder * kMostOrder;
+
+/// Squares of control values up to which nothing can overflow: a coefficient is at most 2^43 times
+/// its control values (C(15,k) 2^k < 2^22 in each direction), sums on the way 2^30 times, and with
+/// weights, control values are products of two such numbers.
+template <typename T>
+inline constexpr double kSafeShapeSquares = sizeof(T) == sizeof(float) ? 0x1p80 : 0x1p800;
+/// Weights that need no second look.
+template <typename T>
+inline constexpr double kSafeWeight = sizeof(T) == sizeof(float) ? 0x1p-40 : 0x1p-400;
+
+/// One group of nets while it is packed.
+template <typename T, typename S>
+class ShapeGroup {
+public:
+  using W = CarriedIn<T, S>;
+
+  explicit ShapeGroup(const detail::NetPackTask<T, S>& task)
+      : task_(task), shape_(task.shape), order_u_(shape_.order_u()), order_v_(shape_.order_v()),
+        components_(static_cast<std::size_t>(shape_.components)), reader_(task), collapsed_(task) {}
+
+  /// Packs `count` nets from the first on, 1 <= count <= kWideLanes. Returns false where something
+  /// may not be finite, or a weight not be positive.
+  bool pack(std::size_t first, std::size_t count) {
+    first_ = first;
+    count_ = count;
+    reader_.begin(first, count);
+    reader_.copy(count, task_.control_points + first * shape_.control_values());
+    if (shape_.rational) {
+      reader_.read(components_, weights_);
+    }
+    collapsed_.find(first, count);
+    const bool safe = pack_points();
+    for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
+      pack_cell(cell);
+    }
+    collapsed_.pack();
+    return safe;
+  }
+
+private:
+  // Points ---------------------------------------------------------------------------------------
+
+  /// One component of all points: values_, and Cartesian ones in points_.
+  void read_component(std::size_t c) {
+    reader_.read(c, points_);
+    reader_.move(c, shape_.rational ? weights_ : nullptr, points_, values_);
+  }
+
+  /// Normal floor, and whether all values are of a size that cannot do harm.
+  bool pack_points() {
+    const std::size_t points = shape_.points();
+    Wide squares(0.0);
+    MaskOf<Wide> positive = squares <= squares;
+    ShapeFloor<T> floor(shape_, task_.origins != nullptr, weights_);
+    if (shape_.rational) {
+      for (std::size_t k = 0; k < points; ++k) {
+        squares = squares + weights_[k] * weights_[k];
+        positive = positive & (weights_[k] >= Wide(kSafeWeight<T>));
+      }
+    }
+    for (std::size_t c = 0; c < components_; ++c) {
+      read_component(c);
+      for (std::size_t k = 0; k < points; ++k) {
+        const Wide value = to_wide(values_[k]);
+        squares = squares + value * value + points_[k] * points_[k];
+      }
+      floor.add(points_);
+    }
+    Wide floors[2];
+    floor.finish(floors);
+    for (std::size_t f = 0; f < shape_.floors(); ++f) {
+      alignas(64) double lanes[kWideLanes];
+      store_vector<Wide>(lanes, floors[f]);
+      for (std::size_t p = 0; p < count_; ++p) {
+        task_.normal_floor[(first_ + p) * shape_.floors() + f] = static_cast<T>(lanes[p]);
+      }
+    }
+    return all_of<Wide>(positive & (squares <= Wide(kSafeShapeSquares<T>)));
+  }
+
+  // Cells ----------------------------------------------------------------------------------------
+
+  /// Cuts the values of one channel down to those of a cell.
+  void take_cell(W* values, std::size_t cell) const {
+    if (shape_.cells_u() == 2) {
+      for (std::size_t j = 0; j < order_v_; ++j) {
+        halve(values + j * order_u_, 1, order_u_ - 1, cell % 2);
+      }
+    }
+    if (shape_.cells_v() == 2) {
+      for (std::size_t i = 0; i < order_u_; ++i) {
+        halve(values + i, order_u_, order_v_ - 1, cell / shape_.cells_u());
+      }
+    }
+  }
+
+  void pack_cell(std::size_t cell) {
+    const std::size_t patch_stride = shape_.coefficients();
+    BlockWriter<T> matrices(task_.coefficients + first_ * patch_stride +
+                                cell * shape_.cell_coefficients(),
+                            patch_stride, count_);
+    BlockWriter<T> edges(task_.edges + first_ * shape_.edges() + cell * shape_.cell_edges(),
+                         shape_.edges(), count_);
+    Wide corners[kMostChannels * 4];
+    if (shape_.rational) {
+      for (std::size_t k = 0; k < shape_.points(); ++k) {
+        cell_weights_[k] = carried<W>(weights_[k]);
+      }
+      take_cell(cell_weights_, cell);
+      for (std::size_t corner = 0; corner < 4; ++corner) {
+        corners[components_ * 4 + corner] = to_wide(cell_weights_[corner_point(corner)]);
+      }
+      side_weights_[0] = cell_weights_[0];
+      side_weights_[1] = cell_weights_[order_u_ - 1];
+      form_channel(shape_, cell_weights_, edge_weights_);
+    }
+    for (std::size_t c = 0; c < components_; ++c) {
+      read_cell_component(cell, c, corners);
+      side_values_[0] = values_[0];
+      side_values_[1] = values_[order_u_ - 1];
+      form_channel(shape_, values_, edges_);
+      if (task_.origins != nullptr) {
+        split_origins(cell, c);
+      }
+      write_channel(values_, edges_, matrices, edges);
+    }
+    if (shape_.rational) {
+      write_channel(cell_weights_, edge_weights_, matrices, edges);
+      if (task_.origins != nullptr) {
+        Origins none;
+        store_origins(cell, components_, none);
+      }
+    }
+    for (std::size_t k = 0; k < shape_.channels() * 4; ++k) {
+      edges.put(k < components_ * 4 ? corners[k] : Wide(0.0));
+    }
+    matrices.finish();
+    edges.finish();
+  }
+
+  /// Corner (u,v) stands at v * 2 + u; a curve's row is its first and its last one.
+  [[nodiscard]] std::size_t corner_point(std::size_t corner) const {
+    return corner / 2 * (order_v_ - 1) * order_u_ + corner % 2 * (order_u_ - 1);
+  }
+
+  /// Whether a corner of a cell is one of the patch.
+  [[nodiscard]] bool is_outer(std::size_t cell, std::size_t corner) const {
+    const std::size_t cell_u = cell % shape_.cells_u();
+    const std::size_t cell_v = cell / shape_.cells_u();
+    return (shape_.cells_u() == 1 || corner % 2 == cell_u) &&
+           (shape_.cells_v() == 1 || corner / 2 == cell_v);
+  }
+
+  /// One component's control values of a cell, and its corners, which are points.
+  void read_cell_component(std::size_t cell, std::size_t c, Wide* corners) {
+    read_component(c);
+    take_cell(values_, cell);
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const std::size_t at = corner_point(corner);
+      Wide point = points_[at];
+      if (!is_outer(cell, corner)) {
+        point = to_wide(values_[at]);
+        if (shape_.rational) {
+          point = divide(point, corners[components_ * 4 + corner]);
+        }
+      }
+      corners[c * 4 + corner] = point;
+    }
+  }
+
+  // Origins --------------------------------------------------------------------------------------
+
+  struct Origins {
+    Wide at[detail::kOriginsPerComponent];
+
+    SIMDBEZIER_INLINE Origins() {
+      for (Wide& origin : at) {
+        origin = Wide(0.0);
+      }
+    }
+  };
+
+  /// Splits the origin of a polynomial of `count` coefficients off; of h/w it is h0/w0, and the
+  /// numerator of h/w - origin is h - origin w.
+  Wide split_origin(W* values, const W* weights, std::size_t count, std::size_t step) const {
+    if (weights == nullptr) {
+      return take_origin<T>(values[0]);
+    }
+    const Wide origin = rounded_to<T>(divide(to_wide(values[0]), to_wide(weights[0])));
+    for (std::size_t k = 0; k < count; ++k) {
+      values[k * step] = difference_of<W>(values[k * step], product(weights[k * step], origin));
+    }
+    return origin;
+  }
+
+  void split_origins(std::size_t cell, std::size_t c) {
+    Origins origins;
+    const W* const weights = shape_.rational ? cell_weights_ : nullptr;
+    origins.at[0] = split_origin(values_, weights, shape_.points(), 1);
+    const std::size_t powers = shape_.edge_powers();
+    for (std::size_t e = 0; powers > 0 && e < detail::kEdges; ++e) {
+      const W* const edge = shape_.rational ? edge_weights_ + e : nullptr;
+      origins.at[detail::kEdgeOriginsAt + e] =
+          split_origin(edges_ + e, edge, powers, detail::kEdges);
+    }
+    for (std::size_t side = 0; side < 2 && weights != nullptr; ++side) {
+      origins.at[detail::kRelativeOriginsAt + side] = relative_origin(origins, cell, side);
+    }
+    store_origins(cell, c, origins);
+  }
+
+  /// Of the edge u = side, to the cell's own origin. A point need not be what its origin is, which
+  /// is rounded to T: it is rounded when it is near.
+  [[nodiscard]] Wide relative_origin(const Origins& origins, std::size_t cell,
+                                     std::size_t side) const {
+    const std::size_t edge = detail::kEdgeU0 + side;
+    const Wide relative = origins.at[detail::kEdgeOriginsAt + edge] - origins.at[0];
+    if (!collapsed_.any(edge) || side * (shape_.cells_u() - 1) != cell % shape_.cells_u()) {
+      return relative;
+    }
+    const W& weight = side_weights_[side];
+    const W near = difference_of<W>(side_values_[side], product(weight, origins.at[0]));
+    return select_where<Wide>(collapsed_.which(edge), divide(to_wide(near), to_wide(weight)),
+                              relative);
+  }
+
+  void store_origins(std::size_t cell, std::size_t channel, const Origins& origins) const {
+    BlockWriter<T> to(task_.origins + first_ * shape_.origins() + cell * shape_.cell_origins() +
+                          channel * detail::kOriginsPerComponent,
+                      shape_.origins(), count_);
+    for (const Wide& origin : origins.at) {
+      to.put(origin);
+    }
+  }
+
+  void write_channel(const W* values, const W* edges, BlockWriter<T>& matrices,
+                     BlockWriter<T>& edge_blocks) const {
+    for (std::size_t k = 0; k < order_u_; ++k) {
+      for (std::size_t l = 0; l < order_v_; ++l) {
+        matrices.put(to_wide(values[l * order_u_ + k]));
+      }
+    }
+    for (std::size_t e = 0; e < shape_.edge_powers() * detail::kEdges; ++e) {
+      edge_blocks.put(to_wide(edges[e]));
+    }
+  }
+
+  const detail::NetPackTask<T, S>& task_;
+  const detail::NetShape& shape_;
+  const std::size_t order_u_;
+  const std::size_t order_v_;
+  const std::size_t components_;
+  NetReader<T, S> reader_;
+  CollapsedEdges<detail::NetPackTask<T, S>> collapsed_;
+  std::size_t first_ = 0;
+  std::size_t count_ = 0;
+  // About 150 KiB on the stack where registers have eight doubles.
+  Wide weights_[kMostPoints];
+  Wide points_[kMostPoints];    ///< of one component
+  W values_[kMostPoints];       ///< of one component: control values, then coefficients
+  W cell_weights_[kMostPoints]; ///< of the cell: its weights, then their coefficients
+  W side_values_[2];            ///< of one component: where the edges u = 0, 1 of a cell begin
+  W side_weights_[2];
+  W edges_[kMostOrder * detail::kEdges];
+  W edge_weights_[kMostOrder * detail::kEdges];
+};
+
+/// Packs patches [begin, end) up to the first group that may hold a fault; see PackDoubt.
+template <typename T, typename S>
+detail::PackDoubt shape_pack_kernel(const detail::NetPackTask<T, S>& task, std::size_t begin,
+                                    std::size_t end) {
+  ShapeGroup<T, S> group(task);
+  return pack_groups(group, begin, end);
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,277 @@
+// The formulas of one bicubic component, over V = one register of samples or one sample.
+//
+// Order of operations, on which the bits of every result hang:
+//   q_l(X)  = Horner in X over C[.][l]     once per column, 3 madd (5 with the derivative in X)
+//   S(X,Y)  = Horner in Y over q_l(X)      once per sample, 3 madd
+// Derivatives are synthetic divisions of the same Horner chains, so they reuse its intermediates.
+// Where X (Y) is exactly -1/2 or 1/2 the edge's own cubic takes the place of the column (row).
+#pragma once
+
+#include "kernels/simd/fours.hpp"
+#include "kernels/simd/operands.hpp"
+#include "src/storage/patch_storage.hpp"
+#include "src/tables/kernel_table.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::kEdges;
+using detail::kOrder;
+
+/// c[0] + t c[1] + t^2 c[2] + t^3 c[3]
+template <typename V>
+SIMDBEZIER_INLINE V horner(const V c[kOrder], V t) {
+  return madd(madd(madd(c[3], t, c[2]), t, c[1]), t, c[0]);
+}
+
+/// The same value, bit for bit, and its derivative.
+template <typename V>
+SIMDBEZIER_INLINE V horner(const V c[kOrder], V t, V& derivative) {
+  const V b1 = madd(c[3], t, c[2]);
+  const V b0 = madd(b1, t, c[1]);
+  derivative = madd(madd(c[3], t, b1), t, b0);
+  return madd(b0, t, c[0]);
+}
+
+/// The value at a parameter in memory, which all lanes share.
+template <typename V>
+SIMDBEZIER_INLINE V horner_at(const V c[kOrder], const ScalarOf<V>* t) {
+  const V b1 = madd(broadcast<V>(*t), c[3], c[2]);
+  return madd_by(madd_by(b1, t, c[1]), t, c[0]);
+}
+
+/// The derivative alone.
+template <typename V>
+SIMDBEZIER_INLINE V horner_slope(const V c[kOrder], V t) {
+  V slope;
+  horner(c, t, slope);
+  return slope;
+}
+
+/// The second derivative: two more synthetic divisions, and a factor 2 that rounds nothing.
+template <typename V>
+SIMDBEZIER_INLINE V horner_second(const V c[kOrder], V t) {
+  const V b1 = madd(c[3], t, c[2]);
+  const V half = madd(c[3], t, madd(c[3], t, b1));
+  return half + half;
+}
+
+/// One column position X, or a register of them, and which lanes lie on the edges u = 0 and u = 1.
+template <typename V>
+struct Column {
+  V x;
+  PairSelector<V> edges;
+  bool on_edge; ///< false: no lane is on an edge u = const
+
+  /// Not watertight: edges are as good as any column.
+  SIMDBEZIER_INLINE Column(V half_centred, bool watertight)
+      : x(half_centred),
+        edges(x == broadcast<V>(ScalarOf<V>(-0.5)), x == broadcast<V>(ScalarOf<V>(0.5))),
+        on_edge(watertight && edges.worthwhile()) {}
+};
+
+/// The coefficients of one component of one patch.
+template <typename T>
+struct Component {
+  const T* matrix;       ///< [k][l]
+  const T* edge;         ///< [power][edge]
+  const T* corner;       ///< [corner]
+  const T* origins;      ///< of the set; null where it has none
+  std::size_t origin_at; ///< of this component in there
+
+  /// task: any that holds coefficients, edges and origins.
+  template <typename Task>
+  SIMDBEZIER_INLINE Component(const Task& task, std::size_t patch, std::size_t component)
+      : matrix(own_address(task.coefficients + patch * detail::kCoefficients +
+                           component * kOrder * kOrder)),
+        edge(own_address(task.edges + patch * detail::kEdgeBlock + component * kOrder * kEdges)),
+        corner(own_address(task.edges + patch * detail::kEdgeBlock + detail::kCornersAt +
+                           component * kEdges)),
+        origins(task.origins),
+        origin_at(patch * detail::kOriginBlock + component * detail::kOriginsPerComponent) {}
+
+  /// The patch's next one, at constant distances: addresses made anew take registers.
+  [[nodiscard]] SIMDBEZIER_INLINE Component next() const {
+    Component after = *this;
+    after.matrix += kOrder * kOrder;
+    after.edge += kOrder * kEdges;
+    after.corner += kEdges;
+    after.origin_at += detail::kOriginsPerComponent;
+    return after;
+  }
+
+  /// Of the patch, and from kEdgeOriginsAt on of its edges; for sets with origins only.
+  SIMDBEZIER_INLINE const T* origin() const { return origins + origin_at; }
+};
+
+/// The polynomial in Y that a column is, for position and v derivative.
+template <typename V>
+SIMDBEZIER_INLINE void replace_edge_columns(const Component<ScalarOf<V>>& c,
+                                            const Column<V>& column, V q[kOrder]) {
+  if (column.on_edge) {
+    for (std::size_t l = 0; l < kOrder; ++l) {
+      q[l] = column.edges.replace(q[l], c.edge + l * kEdges + detail::kEdgeU0);
+    }
+  }
+}
+
+template <typename V>
+SIMDBEZIER_INLINE void matrix_column(const Component<ScalarOf<V>>& c, std::size_t l, V k[kOrder]) {
+  for (std::size_t i = 0; i < kOrder; ++i) {
+    k[i] = broadcast<V>(c.matrix[i * kOrder + l]);
+  }
+}
+
+template <typename V>
+SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                         V q[kOrder]) {
+  for (std::size_t l = 0; l < kOrder; ++l) {
+    V k[kOrder];
+    matrix_column(c, l, k);
+    q[l] = horner(k, column.x);
+  }
+  replace_edge_columns(c, column, q);
+}
+
+/// As above; dq is the polynomial of the u derivative, which on an edge u = const still comes from
+/// the patch, because the edge's control points do not determine it.
+template <typename V>
+SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                         V q[kOrder], V dq[kOrder]) {
+  for (std::size_t l = 0; l < kOrder; ++l) {
+    V k[kOrder];
+    matrix_column(c, l, k);
+    q[l] = horner(k, column.x, dq[l]);
+  }
+  replace_edge_columns(c, column, q);
+}
+
+/// The same two for a single column, which all lanes share: all four powers of Y at once, for a
+/// quarter of the operations.
+template <typename V>
+SIMDBEZIER_INLINE void single_column_polynomial(const Component<ScalarOf<V>>& c,
+                                                const Column<V>& column, V q[kOrder]) {
+  V k[kOrder];
+  load_fours(c.matrix, k);
+  split_fours(horner(k, column.x), q);
+  replace_edge_columns(c, column, q);
+}
+
+template <typename V>
+SIMDBEZIER_INLINE void single_column_polynomial(const Component<ScalarOf<V>>& c,
+                                                const Column<V>& column, V q[kOrder],
+                                                V dq[kOrder]) {
+  V k[kOrder];
+  load_fours(c.matrix, k);
+  V slopes;
+  split_fours(horner(k, column.x, slopes), q);
+  split_fours(slopes, dq);
+  replace_edge_columns(c, column, q);
+}
+
+/// What second derivatives are made of: q as above, dq and ddq of the patch.
+template <typename V>
+struct SecondColumns {
+  V q[kOrder];
+  V dq[kOrder];
+  V ddq[kOrder];
+
+  SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const Column<V>& column) {
+    for (std::size_t l = 0; l < kOrder; ++l) {
+      V k[kOrder];
+      matrix_column(c, l, k);
+      q[l] = horner(k, column.x, dq[l]);
+      ddq[l] = horner_second(k, column.x);
+    }
+    replace_edge_columns(c, column, q);
+  }
+
+  /// Away from the edges v = 0 and 1, where duu comes from the edge: edge_second().
+  SIMDBEZIER_INLINE V duu(V y) const { return horner(ddq, y); }
+  SIMDBEZIER_INLINE V duv(V y) const { return horner_slope(dq, y); }
+  SIMDBEZIER_INLINE V dvv(V y) const { return horner_second(q, y); }
+};
+
+/// What a column's positions are relative to; a column on an edge u = const has that edge's origin.
+template <bool kOrigins, typename V>
+SIMDBEZIER_INLINE V column_origin(const Component<ScalarOf<V>>& c, const Column<V>& column) {
+  if constexpr (!kOrigins) {
+    return column.x; // not used
+  }
+  const V inside = broadcast<V>(c.origin()[0]);
+  constexpr std::size_t kAt = detail::kEdgeOriginsAt + detail::kEdgeU0;
+  return column.on_edge ? column.edges.replace(inside, c.origin() + kAt) : inside;
+}
+
+/// Origins are added last, so that far away only this addition rounds at the size of the result.
+template <bool kOrigins, typename V>
+SIMDBEZIER_INLINE V with_origin(V p, V origin) {
+  if constexpr (kOrigins) {
+    return p + origin;
+  }
+  return p;
+}
+
+template <typename V>
+SIMDBEZIER_INLINE void edge_cubic(const Component<ScalarOf<V>>& c, std::size_t edge, V k[kOrder]) {
+  const ScalarOf<V>* const from = own_address(c.edge + edge);
+  for (std::size_t i = 0; i < kOrder; ++i) {
+    k[i] = broadcast<V>(from[i * kEdges]);
+  }
+}
+
+/// From the value of the edge's cubic to the position: origin added, corners as stored.
+template <bool kOrigins, typename V>
+SIMDBEZIER_INLINE V finished_edge(const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                  std::size_t edge, V value) {
+  if constexpr (kOrigins) {
+    value = value + broadcast<V>(c.origin()[detail::kEdgeOriginsAt + edge]);
+  }
+  return column.edges.replace(value, c.corner + detail::corner_index(0, edge));
+}
+
+/// Position on the edge v = 0 or 1 (`edge` = kEdgeV0 or kEdgeV1).
+template <bool kOrigins, typename V>
+SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                  std::size_t edge) {
+  V k[kOrder];
+  edge_cubic(c, edge, k);
+  return finished_edge<kOrigins>(c, column, edge, horner(k, column.x));
+}
+
+template <bool kOrigins, typename V>
+SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                  std::size_t edge, V& du) {
+  V k[kOrder];
+  edge_cubic(c, edge, k);
+  return finished_edge<kOrigins>(c, column, edge, horner(k, column.x, du));
+}
+
+/// d2S/du2 on the edge v = 0 or 1.
+template <typename V>
+SIMDBEZIER_INLINE V edge_second(const Component<ScalarOf<V>>& c, const Column<V>& column,
+                                std::size_t edge) {
+  V k[kOrder];
+  edge_cubic(c, edge, k);
+  return horner_second(k, column.x);
+}
+
+/// N = du x dv and |N|^2.
+template <typename V>
+SIMDBEZIER_INLINE V cross_product(const V du[3], const V dv[3], V n[3]) {
+  n[0] = msub(du[1], dv[2], du[2] * dv[1]);
+  n[1] = msub(du[2], dv[0], du[0] * dv[2]);
+  n[2] = msub(du[0], dv[1], du[1] * dv[0]);
+  return madd(n[0], n[0], madd(n[1], n[1], n[2] * n[2]));
+}
+
+/// IEEE square root and division: reproducible, unlike the reciprocal estimates, and hidden behind
+/// the other arithmetic.
+template <typename V>
+SIMDBEZIER_INLINE void normalise(V n[3], V squared_length) {
+  const V inverse = divide(broadcast<V>(ScalarOf<V>(1)), square_root(squared_length));
+  for (int c = 0; c < 3; ++c) {
+    n[c] = n[c] * inverse;
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

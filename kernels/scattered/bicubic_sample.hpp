@@ -1,0 +1,134 @@
+// One scattered sample, V = T: what edges, normals that need a second look and instruction sets
+// without registers are left to.
+#pragma once
+
+#include "kernels/poly/bicubic.hpp"
+#include "src/tables/kernel_table.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::ScatteredTask;
+
+/// Exact where the parameter is centred, rounded once where it is not: one of shift and scale
+/// leaves values as they are, so that one operation does.
+template <typename V>
+SIMDBEZIER_INLINE V half_centred(const ScatteredTask<ScalarOf<V>>& task, V given) {
+  return madd(given, broadcast<V>(task.scale), broadcast<V>(-task.shift));
+}
+
+/// As above; nan where the parameter is not finite.
+template <typename T>
+SIMDBEZIER_INLINE T finite_half_centred(const ScatteredTask<T>& task, T given) {
+  return given - given == T(0) ? half_centred(task, given) : static_cast<T>(__builtin_nan(""));
+}
+
+/// Where in the parameter plane a sample lies.
+template <typename T>
+struct Place {
+  std::size_t patch;
+  Column<T> column;
+  T y;
+  bool on_edge; ///< v = 0 or 1
+  std::size_t edge;
+
+  SIMDBEZIER_INLINE Place(const ScatteredTask<T>& task, std::size_t k)
+      : patch(task.patch[k]), column(finite_half_centred(task, task.u[k]), task.watertight),
+        y(finite_half_centred(task, task.v[k])),
+        on_edge(task.watertight && (y == T(-0.5) || y == T(0.5))),
+        edge(y == T(0.5) ? detail::kEdgeV1 : detail::kEdgeV0) {}
+};
+
+template <typename T>
+SIMDBEZIER_INLINE void store_point(const detail::Planes<T>& planes, std::size_t at,
+                                   const T value[3]) {
+  if (planes.wanted()) {
+    for (int c = 0; c < 3; ++c) {
+      planes.component[c][at] = value[c];
+    }
+  }
+}
+
+template <typename T>
+SIMDBEZIER_INLINE void store_normal(const ScatteredTask<T>& task, std::size_t k,
+                                    const Place<T>& place, const T du[3], const T dv[3]) {
+  const T x = place.column.x;
+  const T y = place.y;
+  T n[3];
+  const T squared = cross_product(du, dv, n);
+  const bool inside = x <= T(0.5) && x >= T(-0.5) && y <= T(0.5) && y >= T(-0.5);
+  if (inside && squared > task.normal_floor[place.patch]) {
+    normalise(n, squared);
+  } else {
+    const detail::NormalQuery<T> query{task.shape,
+                                       task.given.net(place.patch * detail::kCoefficients), x, y};
+    const SampleStatus status = task.resolve_normal(query, n);
+    if (task.status != nullptr) {
+      task.status[k] = status;
+    }
+  }
+  store_point(task.out[detail::kNormalGroup], k, n);
+}
+
+/// Position and first derivatives.
+template <bool kOrigins, typename T>
+SIMDBEZIER_INLINE void evaluate_first(const ScatteredTask<T>& task, std::size_t k,
+                                      const Place<T>& place) {
+  T p[3];
+  T du[3];
+  T dv[3];
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Component<T> component(task, place.patch, c);
+    T q[kOrder];
+    T dq[kOrder];
+    column_polynomial(component, place.column, q, dq);
+    p[c] = with_origin<kOrigins>(horner(q, place.y, dv[c]),
+                                 column_origin<kOrigins>(component, place.column));
+    if (place.on_edge) {
+      p[c] = edge_position<kOrigins>(component, place.column, place.edge, du[c]);
+    } else {
+      du[c] = horner(dq, place.y);
+    }
+  }
+  store_point(task.out[detail::kPositionGroup], k, p);
+  store_point(task.out[detail::kDuGroup], k, du);
+  store_point(task.out[detail::kDvGroup], k, dv);
+  if (task.out[detail::kNormalGroup].wanted()) {
+    store_normal(task, k, place, du, dv);
+  }
+}
+
+template <typename T>
+SIMDBEZIER_INLINE void evaluate_second(const ScatteredTask<T>& task, std::size_t k,
+                                       const Place<T>& place) {
+  T duu[3];
+  T duv[3];
+  T dvv[3];
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Component<T> component(task, place.patch, c);
+    SecondColumns<T> columns;
+    columns.build(component, place.column);
+    duu[c] =
+        place.on_edge ? edge_second(component, place.column, place.edge) : columns.duu(place.y);
+    duv[c] = columns.duv(place.y);
+    dvv[c] = columns.dvv(place.y);
+  }
+  store_point(task.out[detail::kDuuGroup], k, duu);
+  store_point(task.out[detail::kDuvGroup], k, duv);
+  store_point(task.out[detail::kDvvGroup], k, dvv);
+}
+
+/// Sample k from start to end: the outputs of order <= 1, or (kSecond) those of order 2.
+template <bool kOrigins, bool kSecond, typename T>
+__attribute__((noinline)) void evaluate_sample(const ScatteredTask<T>& task, std::size_t k) {
+  const Place<T> place(task, k);
+  if (task.status != nullptr && (place.column.x != place.column.x || place.y != place.y)) {
+    task.status[k] = SampleStatus::non_finite;
+  }
+  if constexpr (kSecond) {
+    evaluate_second(task, k, place);
+  } else {
+    evaluate_first<kOrigins>(task, k, place);
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

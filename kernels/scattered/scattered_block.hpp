@@ -1,0 +1,239 @@
+// One register of scattered samples: from parameters to outputs, whatever way the columns'
+// polynomials come about (scattered/patch_runs.hpp: samples of one patch;
+// scattered/mixed_patches.hpp: of any).
+//
+// Registers run the interior's formula. Samples on edges and others that it does not fit are rare:
+// they are found by one comparison and evaluated again, one by one.
+#pragma once
+
+#include "kernels/scattered/bicubic_sample.hpp"
+#include "kernels/simd/quads.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// What a kernel computes.
+enum Outcome : std::size_t {
+  kPositions,  ///< from q
+  kFirstOrder, ///< from q and dq: positions, du, dv
+  kNormals,    ///< these and normals
+  kSecondOrder ///< from q, dq and ddq: second derivatives
+};
+
+/// Polynomials in Y that a column needs.
+template <Outcome kOutcome>
+inline constexpr std::size_t kPolynomials = kOutcome == kPositions     ? 1
+                                            : kOutcome == kSecondOrder ? 3
+                                                                       : 2;
+
+/// q, its derivative in X, and its second derivative, as far as they are needed.
+template <Outcome kOutcome, typename V>
+struct Polynomials {
+  V power[kPolynomials<kOutcome>][kOrder];
+
+  /// Coefficient l of all of them: Horner in X.
+  SIMDBEZIER_INLINE void set(std::size_t l, const V k[kOrder], V x) {
+    if constexpr (kOutcome == kPositions) {
+      power[0][l] = horner(k, x);
+    } else {
+      power[0][l] = horner(k, x, power[1][l]);
+    }
+    if constexpr (kOutcome == kSecondOrder) {
+      power[2][l] = horner_second(k, x);
+    }
+  }
+};
+
+/// The samples that stand in one register: `active` of them, from the task's sample `first` on.
+template <bool kFull, typename V>
+struct Block {
+  using T = ScalarOf<V>;
+
+  const ScatteredTask<T>& task;
+  std::size_t first;
+  std::size_t active;
+  V x;
+  V y;
+
+  /// u, v: one register each; those of the samples, or copies behind which there is more.
+  SIMDBEZIER_INLINE Block(const ScatteredTask<T>& the_task, std::size_t first_sample,
+                          std::size_t samples, const T* u, const T* v)
+      : task(the_task), first(first_sample), active(samples),
+        x(half_centred(the_task, load_vector<V>(u))), y(half_centred(the_task, load_vector<V>(v))) {
+  }
+
+  SIMDBEZIER_INLINE void store(T* plane, V value) const {
+    if constexpr (kFull) {
+      store_vector(plane + first, value);
+    } else {
+      store_first(plane + first, value, active);
+    }
+  }
+  SIMDBEZIER_INLINE void store_if_wanted(detail::Group group, std::size_t component,
+                                         V value) const {
+    compute_here(value);
+    T* const plane = task.out[group].component[component];
+    if (plane != nullptr) {
+      store(plane, value);
+    }
+  }
+
+  /// Strictly inside of the patch: nothing special about any sample.
+  SIMDBEZIER_INLINE MaskOf<V> interior() const {
+    const V half = broadcast<V>(T(0.5));
+    return (x < half) & (x > -half) & (y < half) & (y > -half);
+  }
+};
+
+/// The normals of one block, made unit vectors while the next block is computed: root and quotient
+/// take so long that processors run out of room for what is behind them, unless their operands have
+/// been there for a while.
+template <Outcome kOutcome, typename V>
+class WaitingNormals {
+public:
+  SIMDBEZIER_INLINE void take_root() {}
+  SIMDBEZIER_INLINE void store(const ScatteredTask<ScalarOf<V>>&) {}
+};
+
+template <typename V>
+class WaitingNormals<kNormals, V> {
+public:
+  using T = ScalarOf<V>;
+
+  /// n = du x dv and |n|^2 of the samples from `first` on.
+  SIMDBEZIER_INLINE void put(const V n[3], V squared, std::size_t first) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      n_[c] = n[c];
+    }
+    length_ = squared;
+    first_ = first;
+    waiting_ = true;
+  }
+
+  // The two steps of normalise(), with other work before and between them.
+  SIMDBEZIER_INLINE void take_root() {
+    if (waiting_) {
+      length_ = square_root(length_);
+      compute_here(length_);
+    }
+  }
+  SIMDBEZIER_INLINE void store(const ScatteredTask<T>& task) {
+    if (waiting_) {
+      const V inverse = divide(broadcast<V>(T(1)), length_);
+      for (std::size_t c = 0; c < 3; ++c) {
+        store_vector(task.out[detail::kNormalGroup].component[c] + first_, n_[c] * inverse);
+      }
+      waiting_ = false;
+    }
+  }
+
+private:
+  V n_[3];
+  V length_; ///< its square at first
+  std::size_t first_ = 0;
+  bool waiting_ = false;
+};
+
+/// What is left to do about a block once its three components are known.
+template <Outcome kOutcome, typename V>
+struct Tangents {
+  V du[3];
+  V dv[3];
+};
+
+/// Horner in Y for one component.
+template <bool kOrigins, Outcome kOutcome, bool kFull, typename V>
+SIMDBEZIER_INLINE void finish_component(const Block<kFull, V>& block,
+                                        const Polynomials<kOutcome, V>& q, std::size_t c, V origin,
+                                        Tangents<kOutcome, V>& tangents) {
+  if constexpr (kOutcome == kPositions) {
+    block.store(block.task.out[detail::kPositionGroup].component[c],
+                with_origin<kOrigins>(horner(q.power[0], block.y), origin));
+  } else if constexpr (kOutcome != kSecondOrder) {
+    const V p = horner(q.power[0], block.y, tangents.dv[c]);
+    tangents.du[c] = horner(q.power[1], block.y);
+    block.store_if_wanted(detail::kPositionGroup, c, with_origin<kOrigins>(p, origin));
+    block.store_if_wanted(detail::kDuGroup, c, tangents.du[c]);
+    block.store_if_wanted(detail::kDvGroup, c, tangents.dv[c]);
+  } else {
+    block.store_if_wanted(detail::kDuuGroup, c, horner(q.power[2], block.y));
+    block.store_if_wanted(detail::kDuvGroup, c, horner_slope(q.power[1], block.y));
+    block.store_if_wanted(detail::kDvvGroup, c, horner_second(q.power[0], block.y));
+  }
+}
+
+/// The samples of a block that the interior's formula does not fit, or whose normal did not pass
+/// the quick test. Vectors come by value, or the fast path would have to keep them in memory.
+template <bool kOrigins, Outcome kOutcome, typename V>
+__attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf<V>>& task,
+                                                    std::size_t first, std::size_t active, V x, V y,
+                                                    V squared, V floor) {
+  using T = ScalarOf<V>;
+  const V vectors[4] = {x, y, squared, floor};
+  alignas(64) T lanes[4][kLanes<V>];
+  for (int i = 0; i < 4; ++i) {
+    store_vector(lanes[i], vectors[i]);
+  }
+  for (std::size_t i = 0; i < active; ++i) {
+    const T ax = lanes[0][i] < 0 ? -lanes[0][i] : lanes[0][i];
+    const T ay = lanes[1][i] < 0 ? -lanes[1][i] : lanes[1][i];
+    const bool edge = task.watertight && (ax == T(0.5) || ay == T(0.5));
+    const bool finite = ax - ax == T(0) && ay - ay == T(0);
+    const bool normal = lanes[2][i] > lanes[3][i] && ax <= T(0.5) && ay <= T(0.5);
+    if (edge || !finite || !normal) {
+      evaluate_sample<kOrigins, kOutcome == kSecondOrder>(task, first + i);
+    }
+  }
+}
+
+/// As above for outputs that are no normals: outside of the patch the formula holds, too.
+template <bool kOrigins, Outcome kOutcome, typename V>
+__attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf<V>>& task,
+                                                    std::size_t first, std::size_t active, V x,
+                                                    V y) {
+  using T = ScalarOf<V>;
+  alignas(64) T lanes[2][kLanes<V>];
+  store_vector(lanes[0], x);
+  store_vector(lanes[1], y);
+  for (std::size_t i = 0; i < active; ++i) {
+    const T ax = lanes[0][i] < 0 ? -lanes[0][i] : lanes[0][i];
+    const T ay = lanes[1][i] < 0 ? -lanes[1][i] : lanes[1][i];
+    const bool edge = task.watertight && (ax == T(0.5) || ay == T(0.5));
+    if (edge || ax - ax != T(0) || ay - ay != T(0)) {
+      evaluate_sample<kOrigins, kOutcome == kSecondOrder>(task, first + i);
+    }
+  }
+}
+
+/// Normals, where they are wanted, and the samples that have to be evaluated again.
+/// Floor: normal_floor of the samples' patches, and at first a bound on all of them.
+template <bool kOrigins, Outcome kOutcome, bool kFull, typename V, typename Floor>
+SIMDBEZIER_INLINE void finish_block(const Block<kFull, V>& block,
+                                    const Tangents<kOutcome, V>& tangents, const Floor& floor,
+                                    WaitingNormals<kOutcome, V>& waiting) {
+  const auto& task = block.task;
+  const MaskOf<V> interior = block.interior();
+  if constexpr (kOutcome == kNormals) {
+    V n[3];
+    const V squared = cross_product(tangents.du, tangents.dv, n);
+    const auto all_above = [&](V enough) SIMDBEZIER_INLINE_LAMBDA {
+      return all_of<V>(interior & (squared > enough));
+    };
+    if (kFull && (all_above(floor.highest()) || all_above(floor.each()))) [[likely]] {
+      waiting.put(n, squared, block.first);
+      return;
+    }
+    normalise(n, squared);
+    for (std::size_t c = 0; c < 3; ++c) {
+      block.store(task.out[detail::kNormalGroup].component[c], n[c]);
+    }
+    const V enough = floor.each();
+    if (!all_above(enough)) {
+      evaluate_again<kOrigins, kOutcome>(task, block.first, block.active, block.x, block.y, squared,
+                                         enough);
+    }
+  } else if (!all_of<V>(interior)) [[unlikely]] {
+    evaluate_again<kOrigins, kOutcome>(task, block.first, block.active, block.x, block.y);
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

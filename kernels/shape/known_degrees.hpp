@@ -1,0 +1,95 @@
+// Grids of patches whose degree in v the compiler knows: the columns' polynomials stay in registers
+// from the first row to the last.
+#pragma once
+
+#include "kernels/shape/shape_rows.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// How many planes outputs have: up to three components.
+template <typename T>
+SIMDBEZIER_INLINE std::size_t wanted_components(const GridTask<T>& task) {
+  const std::size_t left = static_cast<std::size_t>(task.shape->components) - task.first_component;
+  return left < 3 ? left : 3;
+}
+
+/// kFull: all lanes are columns.
+template <typename P, bool kFull, typename T>
+SIMDBEZIER_INLINE void sweep_rows(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
+                                  SampleRange<vec<T>> range) {
+  using V = vec<T>;
+  const ColumnPolynomials<P, V> polynomials = columns.polynomials();
+  const V floor = range.floor;
+  const bool origins = columns.around_origins();
+  range.active = kFull ? kLanes<V> : range.active;
+  const auto evaluate = [&](const T* y, SampleJet<V>& jet) SIMDBEZIER_INLINE_LAMBDA {
+    range.y = broadcast<V>(*y);
+    polynomials.evaluate(columns.slots(), columns.order_v(), range.y, origins, jet);
+  };
+  for (std::size_t r = 0; r < task.run_count; ++r) {
+    const RowRun<T> run = task.runs[r];
+    range.floor = run.kind == RowKind::outside ? no_floor<V>() : floor;
+    if (task.watertight && (run.kind == RowKind::edge_v0 || run.kind == RowKind::edge_v1)) {
+      const std::size_t edge = run.kind == RowKind::edge_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
+      SampleJet<V> on_edge;
+      if constexpr (P::kDepth == 0) {
+        columns.replace_row(edge, on_edge);
+      }
+      for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
+        if constexpr (P::kDepth > 0) {
+          evaluate(run.y + j, on_edge);
+          columns.replace_row(edge, on_edge);
+        }
+        store_sample<P>(task, range, on_edge);
+      }
+    } else {
+      for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
+        SampleJet<V> jet;
+        evaluate(run.y + j, jet);
+        store_sample<P>(task, range, jet);
+      }
+    }
+  }
+}
+
+/// The columns from `first` on of one patch; components from `component` on.
+template <typename P, typename T>
+SIMDBEZIER_INLINE void sweep_columns(const GridTask<T>& task, const NetShape& shape,
+                                     std::size_t patch, std::size_t first, std::size_t component) {
+  using V = vec<T>;
+  const CellRow<T> cells(task, shape, patch, 0);
+  const V x = load_vector<V>(task.x + first);
+  const CellColumns<V> at(x, 1, task.watertight);
+  const std::size_t first_component = P::kSingle ? task.first_component + component : 0;
+  ShapeColumns<P, V> columns(shape, at, first_component);
+  columns.build(cells);
+  const std::size_t left = task.nu - first < kLanes<V> ? task.nu - first : kLanes<V>;
+  SampleRange<V> range{patch, patch * task.patch_step + first, left, component, x, x, x};
+  if constexpr (P::kDepth > 0 && !P::kSingle) {
+    range.floor = floor_inside(x, patch_floor<P, V>(task, patch));
+  }
+  if constexpr (P::kDepth > 0 && !P::kSingle) { // much code, and many operations for each store
+    sweep_rows<P, false>(task, columns, range);
+  } else {
+    left == kLanes<V> ? sweep_rows<P, true>(task, columns, range)
+                      : sweep_rows<P, false>(task, columns, range);
+  }
+}
+
+template <typename P, typename T>
+__attribute__((noinline)) void sweep_known(const GridTask<T>& shared_task) {
+  // Copies, because stores through vector types might change anything that others can see.
+  const GridTask<T> task = shared_task;
+  const NetShape shape = P::shape(*shared_task.shape);
+  const std::size_t components = P::kSingle ? wanted_components(task) : 1;
+  for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
+    for (std::size_t first = 0; first < task.nu; first += kLanes<vec<T>>) {
+      for (std::size_t c = 0; c < components; ++c) {
+        sweep_columns<P>(task, shape, patch, first, c);
+      }
+    }
+    pace(task.drain, task.patch_step * 3);
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,104 @@
+// Cells of a patch, and a register of columns of them; see net_shape.hpp.
+#pragma once
+
+#include "kernels/shape/shape_formulas.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::NetShape;
+
+/// Columns of a patch: where in which cell they are.
+template <typename V>
+struct CellColumns {
+  Column<V> local; ///< in there, and which are on its edges
+  MaskOf<V> low;   ///< in the cell of lower u
+  bool any_low;
+  bool any_high;
+
+  SIMDBEZIER_INLINE CellColumns(V half_centred, std::size_t cells, bool watertight)
+      : local(cells == 1 ? half_centred : cell_parameter(half_centred), watertight),
+        low(half_centred < broadcast<V>(ScalarOf<V>(0))), any_low(cells == 1 || any_of<V>(low)),
+        any_high(cells == 2 && !all_of<V>(low)) {}
+};
+
+/// The packed values of a cell.
+template <typename T>
+struct Cell {
+  const T* coefficients;
+  const T* edges;
+  const T* origins; ///< null where the set has none
+};
+
+/// Two cells side by side in u (or the same one twice).
+template <typename T>
+struct CellRow {
+  Cell<T> low;
+  Cell<T> high;
+
+  /// Task: any that holds the arrays of a set.
+  template <typename Task>
+  SIMDBEZIER_INLINE CellRow(const Task& task, const NetShape& shape, std::size_t patch,
+                            std::size_t row)
+      : low(cell(task, shape, patch, row * shape.cells_u())),
+        high(cell(task, shape, patch, row * shape.cells_u() + shape.cells_u() - 1)) {}
+
+private:
+  template <typename Task>
+  static SIMDBEZIER_INLINE Cell<T> cell(const Task& task, const NetShape& shape, std::size_t patch,
+                                        std::size_t index) {
+    const std::size_t at = patch * shape.cells() + index;
+    return {task.coefficients + at * shape.cell_coefficients(),
+            task.edges + at * shape.cell_edges(),
+            task.origins == nullptr ? nullptr : task.origins + at * shape.cell_origins()};
+  }
+};
+
+/// Which values of a cell belong to which output: up to three components, then the weight.
+/// kComponents: as many as the compiler knows there are, or 0.
+template <bool kRational, std::size_t kComponents>
+struct Channels {
+  static constexpr std::size_t kMost = kComponents == 0 ? 3 : kComponents;
+  static constexpr std::size_t kWeight = kMost;
+  static constexpr std::size_t kSlots = kMost + (kRational ? 1 : 0);
+
+  SIMDBEZIER_INLINE Channels(const NetShape& shape, std::size_t first_component)
+      : first_(first_component),
+        count_(static_cast<std::size_t>(shape.components) - first_component),
+        weight_(static_cast<std::size_t>(shape.components)) {}
+  /// The packed channel of a slot.
+  SIMDBEZIER_INLINE std::size_t channel(std::size_t slot) const {
+    return slot == kWeight ? weight_ : first_ + slot;
+  }
+
+  /// f(slot) for the components. Unrolled only where their number is known, because that keeps
+  /// polynomials in registers: it is much code.
+  template <typename F>
+  SIMDBEZIER_INLINE void for_components(const F& f) const {
+    for_slots<kMost>(f);
+  }
+  /// The same, and f(kWeight) in the end.
+  template <typename F>
+  SIMDBEZIER_INLINE void for_channels(const F& f) const {
+    for_slots<kSlots>(f);
+  }
+
+private:
+  template <std::size_t kCount, typename F>
+  SIMDBEZIER_INLINE void for_slots(const F& f) const {
+    if constexpr (kComponents != 0) {
+      repeat<kCount>(f);
+    } else {
+      for (std::size_t slot = 0; slot < kCount; ++slot) {
+        if (slot < count_ || slot == kWeight) {
+          f(slot);
+        }
+      }
+    }
+  }
+
+  std::size_t first_;
+  std::size_t count_;
+  std::size_t weight_;
+};
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

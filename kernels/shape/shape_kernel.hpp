@@ -1,0 +1,131 @@
+// Kernels for patches of any shape: which plan a task takes.
+#pragma once
+
+#include "kernels/shape/known_degrees.hpp"
+#include "kernels/shape/shape_scattered.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+template <typename Task>
+SIMDBEZIER_INLINE std::size_t highest_derivative(const Task& task) {
+  bool second = task.out[detail::kDuuGroup].wanted() || task.out[detail::kDuvGroup].wanted() ||
+                task.out[detail::kDvvGroup].wanted();
+  for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
+    second = second || task.curvature[k] != nullptr;
+  }
+  const bool first = task.out[detail::kDuGroup].wanted() || task.out[detail::kDvGroup].wanted() ||
+                     task.out[detail::kNormalGroup].wanted();
+  return second ? 2 : first ? 1 : 0;
+}
+
+template <std::size_t kDepth, bool kRational>
+using AnyPlan = Plan<kDepth, kRational, 0, 0, 0>;
+
+/// Calls run.operator()<Plan>(), with a plan for the degree in v where there is one.
+template <std::size_t kDepth, bool kRational, std::size_t kComponents, typename Run>
+SIMDBEZIER_INLINE void with_order_v(const NetShape& shape, const Run& run) {
+  switch (shape.cells() == 1 ? shape.degree_v : 0) {
+  case 1:
+    return run.template operator()<Plan<kDepth, kRational, kComponents, 0, 2>>();
+  case 2:
+    return run.template operator()<Plan<kDepth, kRational, kComponents, 0, 3>>();
+  case 3:
+    return run.template operator()<Plan<kDepth, kRational, kComponents, 0, 4>>();
+  case 4:
+    return run.template operator()<Plan<kDepth, kRational, kComponents, 0, 5>>();
+  case 5:
+    return run.template operator()<Plan<kDepth, kRational, kComponents, 0, 6>>();
+  default:
+    return run.template operator()<AnyPlan<kDepth, kRational>>();
+  }
+}
+
+/// Positions of common degrees, for which the compiler knows everything. Whether it has run.
+template <typename Run>
+SIMDBEZIER_INLINE bool with_common_degrees(const NetShape& shape, const Run& run) {
+  switch (shape.degree_u * 16 + shape.degree_v) {
+  case 0x11:
+    run.template operator()<Plan<0, false, 3, 2, 2>>();
+    return true;
+  case 0x22:
+    run.template operator()<Plan<0, false, 3, 3, 3>>();
+    return true;
+  case 0x44:
+    run.template operator()<Plan<0, false, 3, 5, 5>>();
+    return true;
+  case 0x55:
+    run.template operator()<Plan<0, false, 3, 6, 6>>();
+    return true;
+  case 0x31:
+    run.template operator()<Plan<0, false, 3, 4, 2>>();
+    return true;
+  case 0x13:
+    run.template operator()<Plan<0, false, 3, 2, 4>>();
+    return true;
+  default:
+    return false;
+  }
+}
+
+/// Components that do not need each other go one after the other, which leaves registers for the
+/// polynomials of derivatives; three that do have to go together.
+template <std::size_t kDepth, bool kRational, typename Task, typename Run>
+SIMDBEZIER_INLINE void with_grid_plan(const Task& task, const Run& run) {
+  const NetShape& shape = *task.shape;
+  const bool in_space = shape.components == 3 && task.first_component == 0;
+  if constexpr (kDepth == 0 && !kRational) {
+    if (in_space && with_common_degrees(shape, run)) {
+      return;
+    }
+  }
+  if constexpr (kDepth == 1 || (kDepth == 0 && kRational)) {
+    if (in_space && (kRational || task.out[detail::kNormalGroup].wanted())) {
+      return with_order_v<kDepth, kRational, 3>(shape, run);
+    }
+  }
+  if constexpr (kDepth < 2 && !kRational) {
+    return with_order_v<kDepth, kRational, 1>(shape, run);
+  }
+  run.template operator()<AnyPlan<kDepth, kRational>>();
+}
+
+/// Calls run.operator()<kDepth, kRational>().
+template <typename Task, typename Run>
+SIMDBEZIER_INLINE void with_depth(const Task& task, const Run& run) {
+  const auto with_weights = [&]<std::size_t kDepth>() SIMDBEZIER_INLINE_LAMBDA {
+    task.shape->rational ? run.template operator()<kDepth, true>()
+                         : run.template operator()<kDepth, false>();
+  };
+  switch (highest_derivative(task)) {
+  case 0:
+    return with_weights.template operator()<0>();
+  case 1:
+    return with_weights.template operator()<1>();
+  default:
+    return with_weights.template operator()<2>();
+  }
+}
+
+template <typename T>
+void shape_grid_kernel(GridTask<T>& task) {
+  task.executed = Isa::SIMDBEZIER_ISA;
+  with_depth(task, [&]<std::size_t kDepth, bool kRational>() {
+    with_grid_plan<kDepth, kRational>(task, [&]<typename P>() {
+      if constexpr (P::kKnown) {
+        sweep_known<P>(task);
+      } else {
+        sweep_shape<P>(task);
+      }
+    });
+  });
+}
+
+template <typename T>
+void shape_scattered_kernel(ScatteredTask<T>& task) {
+  task.executed = Isa::SIMDBEZIER_ISA;
+  with_depth(task, [&]<std::size_t kDepth, bool kRational>() {
+    scatter_shape<AnyPlan<kDepth, kRational>>(task);
+  });
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

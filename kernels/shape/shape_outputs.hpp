@@ -1,0 +1,139 @@
+// From a register of samples to the planes of a task.
+#pragma once
+
+#include "kernels/poly/normal_lanes.hpp"
+#include "kernels/shape/shape_columns.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Of a rational patch, |du x dv|^2 below this takes a second look: products on the way might have
+/// left the range of T.
+template <typename T>
+inline constexpr T kLeastArea2 = sizeof(T) == sizeof(float) ? static_cast<T>(0x1p-94)
+                                                            : static_cast<T>(0x1p-940);
+
+/// The first `active` lanes of a register go to consecutive samples from `at` on.
+template <typename V>
+struct SampleRange {
+  std::size_t patch;
+  std::size_t at;
+  std::size_t active;
+  std::size_t first_plane; ///< of those of an output
+  V x;                     ///< half-centred, of the whole patch
+  V y;
+  V floor; ///< |du x dv|^2 at or below it is for the second look; see patch_floor()
+
+  SIMDBEZIER_INLINE void store(ScalarOf<V>* plane, V value) const {
+    if (active == kLanes<V>) {
+      store_vector(plane + at, value);
+    } else {
+      store_first(plane + at, value, active);
+    }
+  }
+};
+
+/// The floor of all samples of a patch; those of a rational one have floors of their own above it.
+template <typename P, typename V, typename Task>
+SIMDBEZIER_INLINE V patch_floor(const Task& task, std::size_t patch) {
+  using T = ScalarOf<V>;
+  return broadcast<V>(P::kWeighted ? kLeastArea2<T> : task.normal_floor[patch]);
+}
+
+/// The floor of samples on a rational patch; see ShapeFloor.
+template <typename V, typename Task>
+SIMDBEZIER_INLINE V rational_floor(const Task& task, const SampleRange<V>& range,
+                                   const SampleJet<V>& jet, V squared) {
+  using T = ScalarOf<V>;
+  const T* const sizes = task.normal_floor + 2 * range.patch;
+  const V inverse2 = jet.inverse_weight * jet.inverse_weight;
+  const V size_u = broadcast<V>(sizes[0]) * inverse2;
+  const V size_v = broadcast<V>(sizes[1]) * inverse2;
+  V floor = range.floor;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const V turned_u = size_u * jet.dv[c];
+    const V turned_v = size_v * jet.du[c];
+    floor = madd(turned_u, turned_u, madd(turned_v, turned_v, floor));
+  }
+  return select_where<V>(squared < no_floor<V>(), floor, no_floor<V>());
+}
+
+/// The second look at samples whose |du x dv|^2 is not above their floor.
+template <typename P, typename V, typename Task>
+SIMDBEZIER_INLINE void look_again(const Task& task, const SampleRange<V>& range,
+                                  const SampleJet<V>& jet, V squared) {
+  V floor = range.floor;
+  if constexpr (P::kWeighted) {
+    floor = rational_floor(task, range, jet, squared);
+  }
+  if (!all_of<V>(squared > floor)) {
+    const Suspects row{0, kLanes<V>, range.active, 1, range.at, 0, 1};
+    resolve_normals(task, range.patch, row, range.x, range.y, squared, floor);
+  }
+}
+
+template <typename P, typename V, typename Task>
+SIMDBEZIER_INLINE void store_normals(const Task& task, const SampleRange<V>& range,
+                                     const SampleJet<V>& jet) {
+  V n[3];
+  const V squared = cross_product(jet.du, jet.dv, n);
+  normalise(n, squared);
+  repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
+    range.store(task.out[detail::kNormalGroup].component[c], n[c]);
+  });
+  look_again<P>(task, range, jet, squared);
+}
+
+template <typename P, typename V, typename Task>
+SIMDBEZIER_INLINE void store_group(const Task& task, detail::Group group,
+                                   const SampleRange<V>& range, const V value[3]) {
+  repeat<P::Slots::kMost>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
+    ScalarOf<V>* const plane = task.out[group].component[range.first_plane + c];
+    if ((P::kKnown && P::kDepth == 0) || plane != nullptr) {
+      range.store(plane, value[c]);
+    }
+  });
+}
+
+/// Those of samples that turn out to have no normal, or a limit only, become nan afterwards.
+template <typename P, typename V, typename Task>
+SIMDBEZIER_INLINE void store_curvatures(const Task& task, const SampleRange<V>& range,
+                                        const SampleJet<V>& jet) {
+  bool wanted = false;
+  for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
+    wanted = wanted || task.curvature[k] != nullptr;
+  }
+  if (!wanted) {
+    return;
+  }
+  V curvature[detail::kCurvatures];
+  curvatures(jet, curvature);
+  for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
+    if (task.curvature[k] != nullptr) {
+      range.store(task.curvature[k], curvature[k]);
+    }
+  }
+  V n[3];
+  look_again<P>(task, range, jet, cross_product(jet.du, jet.dv, n));
+}
+
+/// All outputs that a task wants and a kernel of this plan computes.
+template <typename P, typename V, typename Task>
+SIMDBEZIER_INLINE void store_sample(const Task& task, const SampleRange<V>& range,
+                                    const SampleJet<V>& jet) {
+  store_group<P>(task, detail::kPositionGroup, range, jet.position);
+  if constexpr (P::kDepth > 0) {
+    store_group<P>(task, detail::kDuGroup, range, jet.du);
+    store_group<P>(task, detail::kDvGroup, range, jet.dv);
+    if (!P::kSingle && task.out[detail::kNormalGroup].wanted()) {
+      store_normals<P>(task, range, jet);
+    }
+  }
+  if constexpr (P::kDepth > 1) {
+    store_group<P>(task, detail::kDuuGroup, range, jet.duu);
+    store_group<P>(task, detail::kDuvGroup, range, jet.duv);
+    store_group<P>(task, detail::kDvvGroup, range, jet.dvv);
+    store_curvatures<P>(task, range, jet);
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

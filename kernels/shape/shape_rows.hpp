@@ -1,0 +1,114 @@
+// Grids on patches of any shape: lanes = columns, swept along v.
+#pragma once
+
+#include "kernels/drain/drain_kernel.hpp"
+#include "kernels/shape/shape_columns.hpp"
+#include "kernels/shape/shape_outputs.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+using detail::GridTask;
+using detail::RowKind;
+using detail::RowRun;
+
+/// A register of columns of one patch, through all rows. One function for each step: loops over
+/// unknown numbers of powers have them in memory anyway.
+template <typename P, typename T>
+class ColumnSweep {
+  using V = vec<T>;
+
+public:
+  SIMDBEZIER_INLINE ColumnSweep(const GridTask<T>& task, const NetShape& shape, std::size_t patch,
+                                std::size_t first)
+      : task_(task), x_(load_vector<V>(task.x + first), shape.cells_u(), task.watertight),
+        columns_(shape, x_, task.first_component) {
+    const std::size_t left = task.nu - first;
+    range_.patch = patch;
+    range_.active = left < kLanes<V> ? left : kLanes<V>;
+    range_.first_plane = 0;
+    range_.x = load_vector<V>(task.x + first);
+    floor_ = floor_inside(range_.x, patch_floor<P, V>(task, patch));
+    first_at_ = patch * task.patch_step + first;
+  }
+
+  void run(const NetShape& shape) {
+    const std::size_t cells = shape.cells_v();
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      const CellRow<T> row(task_, shape, range_.patch, cell);
+      build(row);
+      range_.at = first_at_;
+      for (std::size_t r = 0; r < task_.run_count; ++r) {
+        const RowRun<T> run = task_.runs[r];
+        range_.floor = floor_of(run);
+        for (std::size_t j = 0; j < run.rows; ++j, range_.at += task_.nu) {
+          const T y = run.y[j];
+          if (cells == 1) {
+            put(y, y);
+          } else if ((y < T(0)) == (cell == 0)) {
+            put(y, cell_parameter(y));
+          }
+        }
+      }
+    }
+  }
+
+private:
+  __attribute__((noinline)) void build(const CellRow<T>& row) { columns_.build(row); }
+
+  __attribute__((noinline)) void put(T y, T local) {
+    const bool on_edge = task_.watertight && (local == T(-0.5) || local == T(0.5));
+    range_.y = broadcast<V>(y);
+    SampleJet<V> jet;
+    if (P::kDepth > 0 || !on_edge) {
+      columns_.evaluate(broadcast<V>(local), jet);
+    }
+    if (on_edge) {
+      put_edge(local, jet);
+    }
+    store_sample<P>(task_, range_, jet);
+  }
+
+  /// What a row on an edge v = const has of its own.
+  SIMDBEZIER_INLINE void put_edge(T local, SampleJet<V>& jet) const {
+    SampleJet<V> edge; // so that the caller's need not be in memory
+    edge_row(local < T(0) ? detail::kEdgeV0 : detail::kEdgeV1, edge);
+    for (std::size_t c = 0; c < P::Slots::kMost; ++c) {
+      jet.position[c] = edge.position[c];
+      if constexpr (P::kDepth > 0) {
+        jet.du[c] = edge.du[c];
+      }
+      if constexpr (P::kDepth > 1) {
+        jet.duu[c] = edge.duu[c];
+      }
+    }
+  }
+  __attribute__((noinline)) void edge_row(std::size_t edge, SampleJet<V>& jet) const {
+    columns_.replace_row(edge, jet);
+  }
+
+  SIMDBEZIER_INLINE V floor_of(const RowRun<T>& run) const {
+    return run.kind == RowKind::outside ? no_floor<V>() : floor_;
+  }
+
+  const GridTask<T>& task_;
+  CellColumns<V> x_;
+  ShapeColumns<P, V> columns_;
+  SampleRange<V> range_;
+  V floor_; ///< of rows that are not outside
+  std::size_t first_at_;
+};
+
+template <typename P, typename T>
+__attribute__((noinline)) void sweep_shape(const GridTask<T>& shared_task) {
+  // Copies, because stores through vector types might change anything that others can see.
+  const GridTask<T> task = shared_task;
+  const NetShape shape = P::shape(*shared_task.shape);
+  for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
+    for (std::size_t first = 0; first < task.nu; first += kLanes<vec<T>>) {
+      ColumnSweep<P, T>(task, shape, patch, first).run(shape);
+    }
+    pace(task.drain, task.patch_step * 3);
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,126 @@
+// Cache lines to memory, in parts that are registers where those have 256 or 512 bits; planes into
+// records in 128 bits.
+#pragma once
+
+#include <cstddef>
+
+#include "kernels/simd/vector.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+inline constexpr std::size_t kPartBytes = 64;
+#elif defined(SIMDBEZIER_KERNELS_AVX2)
+inline constexpr std::size_t kPartBytes = 32;
+#else
+inline constexpr std::size_t kPartBytes = 16;
+#endif
+
+template <typename T, std::size_t kBytes>
+struct VectorOf {
+  typedef T type __attribute__((vector_size(kBytes)));
+};
+/// What lines are moved in, and 128 bits of it.
+template <typename T>
+using LinePart = typename VectorOf<T, kPartBytes>::type;
+template <typename T>
+using Part128 = typename VectorOf<T, 16>::type;
+
+template <typename T>
+inline constexpr std::size_t kPartLanes = kPartBytes / sizeof(T);
+/// Values in 128 bits.
+template <typename T>
+inline constexpr std::size_t kGroupLanes = 16 / sizeof(T);
+
+template <typename Vector, typename T>
+SIMDBEZIER_INLINE Vector load_any(const T* from) {
+  Vector value;
+  __builtin_memcpy(&value, from, sizeof(value));
+  return value;
+}
+
+/// Streaming: `to` is aligned to the vector; takes effect on x86 only.
+template <bool kStreaming, typename Vector, typename T>
+SIMDBEZIER_INLINE void store_any(T* to, Vector value) {
+#if defined(__x86_64__) && !defined(SIMDBEZIER_KERNELS_SCALAR)
+  if constexpr (kStreaming && sizeof(Vector) == 16) {
+    __m128 bits;
+    __builtin_memcpy(&bits, &value, sizeof(bits));
+    _mm_stream_ps(reinterpret_cast<float*>(to), bits);
+    return;
+  }
+#if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
+  if constexpr (kStreaming && sizeof(Vector) == 32) {
+    __m256 bits;
+    __builtin_memcpy(&bits, &value, sizeof(bits));
+    _mm256_stream_ps(reinterpret_cast<float*>(to), bits);
+    return;
+  }
+#endif
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  if constexpr (kStreaming && sizeof(Vector) == 64) {
+    __m512 bits;
+    __builtin_memcpy(&bits, &value, sizeof(bits));
+    _mm512_stream_ps(reinterpret_cast<float*>(to), bits);
+    return;
+  }
+#endif
+#endif
+  __builtin_memcpy(to, &value, sizeof(value));
+}
+
+/// Makes streaming stores of this thread visible before whatever it does next.
+inline void streaming_fence() {
+#if defined(__x86_64__)
+  __builtin_ia32_sfence();
+#endif
+}
+
+template <bool kStreaming, typename T>
+SIMDBEZIER_INLINE void copy_line(const T* from, T* to) {
+  constexpr std::size_t kParts = 64 / kPartBytes;
+  LinePart<T> part[kParts];
+  for (std::size_t k = 0; k < kParts; ++k) {
+    part[k] = load_any<LinePart<T>>(from + k * kPartLanes<T>);
+  }
+  for (std::size_t k = 0; k < kParts; ++k) {
+    store_any<kStreaming>(to + k * kPartLanes<T>, part[k]);
+  }
+}
+
+// Groups of members ------------------------------------------------------------------------------
+
+/// Members [0, kCount) of kDrainStep records, kCount <= kGroupLanes: transposed in 128 bits.
+template <std::size_t kCount, typename T>
+SIMDBEZIER_INLINE void interleave_group(const T* const* plane, std::size_t at, T* to,
+                                        std::ptrdiff_t stride) {
+  constexpr std::size_t kN = kGroupLanes<T>;
+  for (std::size_t k = 0; k < 64 / sizeof(T); k += kN) {
+    Part128<T> record[kN];
+    if constexpr (kN == 4) {
+      Part128<T> p[4] = {};
+      for (std::size_t m = 0; m < kCount; ++m) {
+        p[m] = load_any<Part128<T>>(plane[m] + at + k);
+      }
+      const Part128<T> low01 = __builtin_shufflevector(p[0], p[1], 0, 4, 1, 5);
+      const Part128<T> high01 = __builtin_shufflevector(p[0], p[1], 2, 6, 3, 7);
+      const Part128<T> low23 = __builtin_shufflevector(p[2], p[3], 0, 4, 1, 5);
+      const Part128<T> high23 = __builtin_shufflevector(p[2], p[3], 2, 6, 3, 7);
+      record[0] = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
+      record[1] = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
+      record[2] = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
+      record[3] = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
+    } else {
+      const Part128<T> p = load_any<Part128<T>>(plane[0] + at + k);
+      const Part128<T> q = kCount == 2 ? load_any<Part128<T>>(plane[kCount - 1] + at + k) : p;
+      record[0] = __builtin_shufflevector(p, q, 0, 2);
+      record[1] = __builtin_shufflevector(p, q, 1, 3);
+    }
+    for (std::size_t r = 0; r < kN; ++r, to += stride) {
+      // Nothing behind the last member: it may be the caller's.
+      __builtin_memcpy(to, &record[r], kCount * sizeof(T));
+    }
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

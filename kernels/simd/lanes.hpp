@@ -1,0 +1,219 @@
+// Lanes of a register: masks and selection, loads, and stores of the first few. Intrinsics stand
+// here where xsimd 8 has nothing (masked stores come with xsimd 14, portable permutes with 13).
+#pragma once
+
+#include "kernels/simd/vector.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+// Masks ------------------------------------------------------------------------------------------
+
+template <typename V>
+SIMDBEZIER_INLINE V select_where(MaskOf<V> mask, V yes, V no) {
+  if constexpr (kIsScalar<V>) {
+    return mask ? yes : no;
+  } else {
+    return select(mask, yes, no);
+  }
+}
+
+template <typename V>
+SIMDBEZIER_INLINE bool any_of(MaskOf<V> mask) {
+  if constexpr (kIsScalar<V>) {
+    return mask;
+  } else {
+    return any(mask);
+  }
+}
+
+template <typename V>
+SIMDBEZIER_INLINE bool all_of(MaskOf<V> mask) {
+  if constexpr (kIsScalar<V>) {
+    return mask;
+  } else {
+    return all(mask);
+  }
+}
+
+/// Replaces the lanes of a vector that lie on one of two edges by that edge's value. The values
+/// stand side by side in memory: pair[0] goes to the lanes of `first`, pair[1] to those of
+/// `second`.
+template <typename V>
+class PairSelector {
+public:
+  SIMDBEZIER_INLINE PairSelector(MaskOf<V> first, MaskOf<V> second)
+      : first_(first), second_(second) {}
+  /// Whether replace() can change anything; true where finding out costs more than replacing.
+  SIMDBEZIER_INLINE bool worthwhile() const { return any_of<V>(first_ | second_); }
+  SIMDBEZIER_INLINE V replace(V inside, const ScalarOf<V>* pair) const {
+    return select_where<V>(first_, broadcast<V>(pair[0]),
+                           select_where<V>(second_, broadcast<V>(pair[1]), inside));
+  }
+
+private:
+  MaskOf<V> first_;
+  MaskOf<V> second_;
+};
+
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+// One load of the pair into all lanes and one masked in-lane permute: half of the work of two
+// masked broadcasts, which matters where every sixth sample is on an edge.
+template <>
+class PairSelector<vec<float>> {
+public:
+  SIMDBEZIER_INLINE PairSelector(MaskOf<vec<float>> first, MaskOf<vec<float>> second)
+      : lanes_(static_cast<__mmask16>(__mmask16(first) | __mmask16(second))),
+        index_(_mm512_maskz_set1_epi32(__mmask16(second), 1)) {}
+  SIMDBEZIER_INLINE bool worthwhile() const { return true; }
+  SIMDBEZIER_INLINE vec<float> replace(vec<float> inside, const float* pair) const {
+    double both;
+    __builtin_memcpy(&both, pair, sizeof(both));
+    const __m512 pairs = _mm512_castpd_ps(_mm512_set1_pd(both));
+    return vec<float>(_mm512_mask_permutevar_ps(inside, lanes_, pairs, index_));
+  }
+
+private:
+  __mmask16 lanes_;
+  __m512i index_;
+};
+
+template <>
+class PairSelector<vec<double>> {
+public:
+  SIMDBEZIER_INLINE PairSelector(MaskOf<vec<double>> first, MaskOf<vec<double>> second)
+      : lanes_(static_cast<__mmask8>(__mmask8(first) | __mmask8(second))),
+        index_(_mm512_maskz_set1_epi64(__mmask8(second), 2)) {}
+  SIMDBEZIER_INLINE bool worthwhile() const { return true; }
+  SIMDBEZIER_INLINE vec<double> replace(vec<double> inside, const double* pair) const {
+    const __m512d pairs = _mm512_broadcast_f64x2(_mm_loadu_pd(pair));
+    return vec<double>(_mm512_mask_permutevar_pd(inside, lanes_, pairs, index_));
+  }
+
+private:
+  __mmask8 lanes_;
+  __m512i index_;
+};
+#endif
+
+/// The power of two at or below |x|; 0 for a denormal x, infinity where x is not finite.
+template <typename V>
+SIMDBEZIER_INLINE V power_of_two_below(V x) {
+  if constexpr (!kIsScalar<V>) {
+    return x & V(static_cast<ScalarOf<V>>(__builtin_inf())); // whose bits are the exponent's
+  } else if constexpr (sizeof(V) == sizeof(float)) {
+    return __builtin_bit_cast(float, __builtin_bit_cast(unsigned, x) & 0xffU << 23);
+  } else {
+    return __builtin_bit_cast(double, __builtin_bit_cast(unsigned long long, x) & 0x7ffULL << 52);
+  }
+}
+
+// Memory -----------------------------------------------------------------------------------------
+
+template <typename V>
+SIMDBEZIER_INLINE V load_vector(const ScalarOf<V>* from) {
+  if constexpr (kIsScalar<V>) {
+    return *from;
+  } else {
+    return V::load_unaligned(from);
+  }
+}
+
+template <typename V>
+SIMDBEZIER_INLINE void store_vector(ScalarOf<V>* to, V value) {
+  if constexpr (kIsScalar<V>) {
+    *to = value;
+  } else {
+    value.store_unaligned(to);
+  }
+}
+
+/// Whether one register is one cache line: only then may a kernel stream by itself. Half a line
+/// that is streamed alone costs three times as much.
+template <typename V>
+inline constexpr bool kLineWide = kLanes<V> * sizeof(ScalarOf<V>) == 64;
+
+/// Past the caches; `to` at a line's start. The call ends with streaming_fence().
+template <typename V>
+SIMDBEZIER_INLINE void store_streaming(ScalarOf<V>* to, V value) {
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  if constexpr (sizeof(ScalarOf<V>) == sizeof(float)) {
+    _mm512_stream_ps(to, value);
+  } else {
+    _mm512_stream_pd(to, value);
+  }
+#else
+  store_vector(to, value);
+#endif
+}
+
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+SIMDBEZIER_INLINE void masked_store(float* to, vec<float> value, std::size_t n) {
+  _mm512_mask_storeu_ps(to, static_cast<__mmask16>((1U << n) - 1U), value);
+}
+SIMDBEZIER_INLINE void masked_store(double* to, vec<double> value, std::size_t n) {
+  _mm512_mask_storeu_pd(to, static_cast<__mmask8>((1U << n) - 1U), value);
+}
+#elif defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_SSE2)
+// In halves: on some processors vmaskmovps to memory costs as much as twenty stores.
+SIMDBEZIER_INLINE void store_first_of_128(float* to, __m128 value, std::size_t n) {
+  if ((n & 2) != 0) {
+    _mm_storel_pi(reinterpret_cast<__m64*>(to), value);
+    value = _mm_movehl_ps(value, value);
+    to += 2;
+  }
+  if ((n & 1) != 0) {
+    _mm_store_ss(to, value);
+  }
+}
+#if defined(SIMDBEZIER_KERNELS_AVX2)
+SIMDBEZIER_INLINE void masked_store(float* to, vec<float> value, std::size_t n) {
+  __m128 half = _mm256_castps256_ps128(value);
+  if ((n & 4) != 0) {
+    _mm_storeu_ps(to, half);
+    half = _mm256_extractf128_ps(value, 1);
+    to += 4;
+  }
+  store_first_of_128(to, half, n);
+}
+SIMDBEZIER_INLINE void masked_store(double* to, vec<double> value, std::size_t n) {
+  __m128d half = _mm256_castpd256_pd128(value);
+  if ((n & 2) != 0) {
+    _mm_storeu_pd(to, half);
+    half = _mm256_extractf128_pd(value, 1);
+    to += 2;
+  }
+  if ((n & 1) != 0) {
+    _mm_store_sd(to, half);
+  }
+}
+#else
+SIMDBEZIER_INLINE void masked_store(float* to, vec<float> value, std::size_t n) {
+  store_first_of_128(to, value, n);
+}
+SIMDBEZIER_INLINE void masked_store(double* to, vec<double> value, std::size_t) {
+  _mm_store_sd(to, value); // of two lanes, one
+}
+#endif
+#else
+template <typename V>
+SIMDBEZIER_INLINE void masked_store(ScalarOf<V>* to, V value, std::size_t n) {
+  alignas(64) ScalarOf<V> lanes[kLanes<V>];
+  store_vector(lanes, value);
+  for (std::size_t i = 0; i < n; ++i) {
+    to[i] = lanes[i];
+  }
+}
+#endif
+
+/// Stores the first n lanes, 1 <= n < lanes (n = 1 where there is one lane); touches nothing
+/// behind them.
+template <typename V>
+SIMDBEZIER_INLINE void store_first(ScalarOf<V>* to, V value, std::size_t n) {
+  if constexpr (kIsScalar<V>) {
+    *to = value;
+  } else {
+    masked_store(to, value, n);
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

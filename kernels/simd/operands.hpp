@@ -1,0 +1,38 @@
+// Operands that instructions take from memory by themselves.
+//
+// Sweeps are short of issue slots before they are short of multiply-adds: four a cycle on many
+// processors, two where the core is shared with another thread. An operand in memory costs none,
+// as long as its address is one register and a constant.
+#pragma once
+
+#include "kernels/simd/vector.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// The same address in a register of its own, so that what is read behind it needs no index.
+template <typename T>
+SIMDBEZIER_INLINE T* own_address(T* address) {
+  asm("" : "+r"(address));
+  return address;
+}
+
+/// a * *t + c, with *t in all lanes. Where the instruction set can, *t is never in a register, and
+/// the result takes the place of a: with two operands in registers nothing has to be copied.
+template <typename V>
+SIMDBEZIER_INLINE V madd_by(V a, const ScalarOf<V>* t, V c) {
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  if constexpr (!kIsScalar<V>) {
+    typename V::register_type r = a;
+    const typename V::register_type addend = c;
+    if constexpr (sizeof(ScalarOf<V>) == sizeof(float)) {
+      asm("vfmadd132ps %2%{1to16%}, %1, %0" : "+v"(r) : "v"(addend), "m"(*t));
+    } else {
+      asm("vfmadd132pd %2%{1to8%}, %1, %0" : "+v"(r) : "v"(addend), "m"(*t));
+    }
+    return V(r);
+  }
+#endif
+  return madd(a, broadcast<V>(*t), c);
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

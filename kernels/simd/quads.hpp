@@ -1,0 +1,305 @@
+// 128-bit lanes of a register: loads that bring each of them from another place, and permutations
+// that stay within them, which cost no multiply-add its turn (permutations across lanes do).
+//
+// A register has kQuads lanes of kQuad values: 4 floats or 2 doubles.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernels/simd/lanes.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+template <typename V>
+inline constexpr std::size_t kQuad = 16 / sizeof(ScalarOf<V>);
+template <typename V>
+inline constexpr std::size_t kQuads = kLanes<V> / kQuad<V>;
+
+// 128-bit lanes from memory -----------------------------------------------------------------------
+
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+SIMDBEZIER_INLINE __m512 to_bits(vec<float> v) { return v; }
+SIMDBEZIER_INLINE __m512 to_bits(vec<double> v) { return _mm512_castpd_ps(v); }
+template <typename V>
+SIMDBEZIER_INLINE V from_bits(__m512 v) {
+  if constexpr (sizeof(ScalarOf<V>) == sizeof(float)) {
+    return V(v);
+  } else {
+    return V(_mm512_castps_pd(v));
+  }
+}
+
+/// Two adjacent lanes of two places.
+template <typename T>
+SIMDBEZIER_INLINE __m512d two_halves(const T* low, const T* high) {
+  __m256d first;
+  __builtin_memcpy(&first, low, sizeof(first));
+  __m256d second;
+  __builtin_memcpy(&second, high, sizeof(second));
+  return _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(first), second, 1);
+}
+#endif
+
+/// Has a value computed here. Compilers would move the arithmetic behind it into the branches that
+/// use the value, but not the loads before it, and spill all that those have brought.
+template <typename V>
+SIMDBEZIER_INLINE void compute_here(V& value) {
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  __m512 bits = to_bits(value);
+  asm volatile("" : "+v"(bits));
+  value = from_bits<V>(bits);
+#elif defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_SSE2)
+  typename V::register_type bits = value;
+  asm volatile("" : "+x"(bits));
+  value = V(bits);
+#elif defined(SIMDBEZIER_KERNELS_NEON64)
+  typename V::register_type bits = value;
+  asm volatile("" : "+w"(bits));
+  value = V(bits);
+#else
+  static_cast<void>(value);
+#endif
+}
+
+/// Lane q of chunk[j] becomes the j-th 128 bits of the 64 bytes at from[q]. Halves of cache lines
+/// and one permutation a register: whole lines would need two.
+template <typename V>
+SIMDBEZIER_INLINE void load_quads(const ScalarOf<V>* const from[kQuads<V>], V chunk[4]) {
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  for (std::size_t j = 0; j < 4; j += 2) {
+    const std::size_t at = j * kQuad<V>;
+    const __m512d a = two_halves(from[0] + at, from[1] + at);
+    const __m512d b = two_halves(from[2] + at, from[3] + at);
+    chunk[j] = from_bits<V>(_mm512_castpd_ps(_mm512_maskz_shuffle_f64x2(0xff, a, b, 0x88)));
+    chunk[j + 1] = from_bits<V>(_mm512_castpd_ps(_mm512_maskz_shuffle_f64x2(0xff, a, b, 0xdd)));
+  }
+#elif defined(SIMDBEZIER_KERNELS_AVX2)
+  for (std::size_t j = 0; j < 4; ++j) {
+    const std::size_t at = j * kQuad<V>;
+    if constexpr (sizeof(ScalarOf<V>) == sizeof(float)) {
+      chunk[j] = V(_mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(from[0] + at)),
+                                        _mm_loadu_ps(from[1] + at), 1));
+    } else {
+      chunk[j] = V(_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(from[0] + at)),
+                                        _mm_loadu_pd(from[1] + at), 1));
+    }
+  }
+#else
+  for (std::size_t j = 0; j < 4; ++j) {
+    chunk[j] = load_vector<V>(from[0] + j * kQuad<V>);
+  }
+#endif
+}
+
+// Within 128-bit lanes ----------------------------------------------------------------------------
+
+/// Value k of each lane, in all places of the lane.
+template <std::size_t k, typename V>
+SIMDBEZIER_INLINE V lane_broadcast(V v) {
+  [[maybe_unused]] constexpr bool kFloat = sizeof(ScalarOf<V>) == sizeof(float);
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  if constexpr (kFloat) {
+    return V(_mm512_maskz_permute_ps(0xffff, v, k * 0x55));
+  } else {
+    return V(_mm512_maskz_permute_pd(0xff, v, k * 0xff));
+  }
+#elif defined(SIMDBEZIER_KERNELS_AVX2)
+  if constexpr (kFloat) {
+    return V(_mm256_permute_ps(v, k * 0x55));
+  } else {
+    return V(_mm256_permute_pd(v, k * 0xf));
+  }
+#elif defined(SIMDBEZIER_KERNELS_SSE2)
+  if constexpr (kFloat) {
+    return V(_mm_shuffle_ps(v, v, k * 0x55));
+  } else {
+    return V(_mm_shuffle_pd(v, v, k * 0x3));
+  }
+#elif defined(SIMDBEZIER_KERNELS_NEON64)
+  if constexpr (kFloat) {
+    return V(vdupq_laneq_f32(v, k));
+  } else {
+    return V(vdupq_laneq_f64(v, k));
+  }
+#else
+  return v;
+#endif
+}
+
+// The names say where results come from: the low or high halves of each lane of a and b.
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+SIMDBEZIER_INLINE vec<float> zip_low(vec<float> a, vec<float> b) {
+  return vec<float>(_mm512_maskz_unpacklo_ps(0xffff, a, b));
+}
+SIMDBEZIER_INLINE vec<float> zip_high(vec<float> a, vec<float> b) {
+  return vec<float>(_mm512_maskz_unpackhi_ps(0xffff, a, b));
+}
+SIMDBEZIER_INLINE vec<double> zip_low(vec<double> a, vec<double> b) {
+  return vec<double>(_mm512_maskz_unpacklo_pd(0xff, a, b));
+}
+SIMDBEZIER_INLINE vec<double> zip_high(vec<double> a, vec<double> b) {
+  return vec<double>(_mm512_maskz_unpackhi_pd(0xff, a, b));
+}
+SIMDBEZIER_INLINE vec<float> join_low(vec<float> a, vec<float> b) {
+  return vec<float>(
+      _mm512_castpd_ps(_mm512_maskz_unpacklo_pd(0xff, _mm512_castps_pd(a), _mm512_castps_pd(b))));
+}
+SIMDBEZIER_INLINE vec<float> join_high(vec<float> a, vec<float> b) {
+  return vec<float>(
+      _mm512_castpd_ps(_mm512_maskz_unpackhi_pd(0xff, _mm512_castps_pd(a), _mm512_castps_pd(b))));
+}
+#elif defined(SIMDBEZIER_KERNELS_AVX2)
+SIMDBEZIER_INLINE vec<float> zip_low(vec<float> a, vec<float> b) {
+  return vec<float>(_mm256_unpacklo_ps(a, b));
+}
+SIMDBEZIER_INLINE vec<float> zip_high(vec<float> a, vec<float> b) {
+  return vec<float>(_mm256_unpackhi_ps(a, b));
+}
+SIMDBEZIER_INLINE vec<double> zip_low(vec<double> a, vec<double> b) {
+  return vec<double>(_mm256_unpacklo_pd(a, b));
+}
+SIMDBEZIER_INLINE vec<double> zip_high(vec<double> a, vec<double> b) {
+  return vec<double>(_mm256_unpackhi_pd(a, b));
+}
+SIMDBEZIER_INLINE vec<float> join_low(vec<float> a, vec<float> b) {
+  return vec<float>(_mm256_shuffle_ps(a, b, 0x44));
+}
+SIMDBEZIER_INLINE vec<float> join_high(vec<float> a, vec<float> b) {
+  return vec<float>(_mm256_shuffle_ps(a, b, 0xee));
+}
+#elif defined(SIMDBEZIER_KERNELS_SSE2)
+SIMDBEZIER_INLINE vec<float> zip_low(vec<float> a, vec<float> b) {
+  return vec<float>(_mm_unpacklo_ps(a, b));
+}
+SIMDBEZIER_INLINE vec<float> zip_high(vec<float> a, vec<float> b) {
+  return vec<float>(_mm_unpackhi_ps(a, b));
+}
+SIMDBEZIER_INLINE vec<double> zip_low(vec<double> a, vec<double> b) {
+  return vec<double>(_mm_unpacklo_pd(a, b));
+}
+SIMDBEZIER_INLINE vec<double> zip_high(vec<double> a, vec<double> b) {
+  return vec<double>(_mm_unpackhi_pd(a, b));
+}
+SIMDBEZIER_INLINE vec<float> join_low(vec<float> a, vec<float> b) {
+  return vec<float>(_mm_movelh_ps(a, b));
+}
+SIMDBEZIER_INLINE vec<float> join_high(vec<float> a, vec<float> b) {
+  return vec<float>(_mm_movehl_ps(b, a));
+}
+#elif defined(SIMDBEZIER_KERNELS_NEON64)
+SIMDBEZIER_INLINE vec<float> zip_low(vec<float> a, vec<float> b) {
+  return vec<float>(vzip1q_f32(a, b));
+}
+SIMDBEZIER_INLINE vec<float> zip_high(vec<float> a, vec<float> b) {
+  return vec<float>(vzip2q_f32(a, b));
+}
+SIMDBEZIER_INLINE vec<double> zip_low(vec<double> a, vec<double> b) {
+  return vec<double>(vzip1q_f64(a, b));
+}
+SIMDBEZIER_INLINE vec<double> zip_high(vec<double> a, vec<double> b) {
+  return vec<double>(vzip2q_f64(a, b));
+}
+SIMDBEZIER_INLINE vec<float> join_low(vec<float> a, vec<float> b) {
+  return vec<float>(
+      vreinterpretq_f32_f64(vzip1q_f64(vreinterpretq_f64_f32(a), vreinterpretq_f64_f32(b))));
+}
+SIMDBEZIER_INLINE vec<float> join_high(vec<float> a, vec<float> b) {
+  return vec<float>(
+      vreinterpretq_f32_f64(vzip2q_f64(vreinterpretq_f64_f32(a), vreinterpretq_f64_f32(b))));
+}
+#endif
+
+/// Transposes the kQuad x kQuad values that kQuad registers hold in each lane.
+template <typename V>
+SIMDBEZIER_INLINE void lane_transpose(V r[kQuad<V>]) {
+  if constexpr (kQuad<V> == 2) {
+    const V low = zip_low(r[0], r[1]);
+    r[1] = zip_high(r[0], r[1]);
+    r[0] = low;
+  } else {
+    const V a = zip_low(r[0], r[1]);
+    const V b = zip_high(r[0], r[1]);
+    const V c = zip_low(r[2], r[3]);
+    const V d = zip_high(r[2], r[3]);
+    r[0] = join_low(a, c);
+    r[1] = join_high(a, c);
+    r[2] = join_low(b, d);
+    r[3] = join_high(b, d);
+  }
+}
+
+// Indices -----------------------------------------------------------------------------------------
+
+/// Lane i becomes from[step * index[i]]. In registers: a reload of what single stores have put
+/// together would wait for all of them.
+template <typename V>
+SIMDBEZIER_INLINE V gather_lanes(const ScalarOf<V>* from, const std::uint32_t* index,
+                                 std::size_t step) {
+  [[maybe_unused]] constexpr bool kFloat = sizeof(ScalarOf<V>) == sizeof(float);
+  const auto at = [&](std::size_t i) __attribute__((always_inline)) {
+    return from[step * std::size_t{index[i]}];
+  };
+#if defined(SIMDBEZIER_KERNELS_SCALAR)
+  return at(0);
+#elif defined(SIMDBEZIER_KERNELS_NEON64)
+  alignas(16) ScalarOf<V> lanes[kLanes<V>];
+  for (std::size_t i = 0; i < kLanes<V>; ++i) {
+    lanes[i] = at(i);
+  }
+  return load_vector<V>(lanes);
+#else
+  if constexpr (kFloat) {
+    const auto four = [&](std::size_t i) __attribute__((always_inline)) {
+      return _mm_setr_ps(at(i), at(i + 1), at(i + 2), at(i + 3));
+    };
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+    return V(_mm512_maskz_insertf32x8(0xffff,
+                                      _mm512_castps256_ps512(_mm256_set_m128(four(4), four(0))),
+                                      _mm256_set_m128(four(12), four(8)), 1));
+#elif defined(SIMDBEZIER_KERNELS_AVX2)
+    return V(_mm256_set_m128(four(4), four(0)));
+#else
+    return V(four(0));
+#endif
+  } else {
+    const auto two = [&](std::size_t i) __attribute__((always_inline)) {
+      return _mm_setr_pd(at(i), at(i + 1));
+    };
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+    return V(_mm512_maskz_insertf64x4(0xff,
+                                      _mm512_castpd256_pd512(_mm256_set_m128d(two(2), two(0))),
+                                      _mm256_set_m128d(two(6), two(4)), 1));
+#elif defined(SIMDBEZIER_KERNELS_AVX2)
+    return V(_mm256_set_m128d(two(2), two(0)));
+#else
+    return V(two(0));
+#endif
+  }
+#endif
+}
+
+/// Whether kCount indices, a power of two, are all equal to `same`.
+template <std::size_t kCount>
+SIMDBEZIER_INLINE bool all_equal(const std::uint32_t* index, std::uint32_t same) {
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  if constexpr (kCount == 16) {
+    return _mm512_cmpneq_epi32_mask(_mm512_loadu_si512(index),
+                                    _mm512_set1_epi32(static_cast<int>(same))) == 0;
+  }
+#endif
+#if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
+  if constexpr (kCount == 8) {
+    const __m256i eight = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(index));
+    const __m256i equal = _mm256_cmpeq_epi32(eight, _mm256_set1_epi32(static_cast<int>(same)));
+    return _mm256_movemask_epi8(equal) == -1;
+  }
+#endif
+  std::uint32_t different = 0;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    different |= index[i] ^ same;
+  }
+  return different == 0;
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

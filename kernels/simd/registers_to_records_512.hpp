@@ -1,0 +1,150 @@
+// Planes into packed records, for registers of 512 bits.
+//
+// By shuffles of two registers across all lanes: 6, 18 and 38 of them. Members are joined in units
+// (one member, pairs, fours), whose registers hold whole runs of samples; the lines are then merged
+// from those units of which they have a part.
+#pragma once
+
+#include <utility>
+
+#include "kernels/simd/interleave.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Values that are joined first.
+template <std::size_t kMembers>
+inline constexpr std::size_t kUnit = kMembers == 9   ? 4
+                                     : kMembers == 6 ? 2
+                                                     : 1;
+
+/// Where the values of lines are among the sources: kUnit registers for each unit of members, one
+/// for a member that is left over.
+template <std::size_t kMembers, std::size_t kN>
+struct RecordLines {
+  static constexpr std::size_t kU = kUnit<kMembers>;
+
+  /// The lane of `source` that lane `lane` of a line comes from, kN where it comes from another.
+  static constexpr std::size_t place(std::size_t line, std::size_t source, std::size_t lane) {
+    const std::size_t e = line * kN + lane;
+    const std::size_t record = e / kMembers;
+    const std::size_t member = e % kMembers;
+    if (source >= kMembers / kU * kU) {
+      return member == source ? record : kN;
+    }
+    const std::size_t run = kN / kU; // samples
+    const bool here = member / kU == source / kU && record / run == source % kU;
+    return here ? record % run * kU + member % kU : kN;
+  }
+  static constexpr bool has(std::size_t line, std::size_t source) {
+    for (std::size_t lane = 0; lane < kN; ++lane) {
+      if (place(line, source, lane) < kN) {
+        return true;
+      }
+    }
+    return false;
+  }
+  /// How many sources before this one the line has values of.
+  static constexpr std::size_t before(std::size_t line, std::size_t source) {
+    std::size_t count = 0;
+    for (std::size_t s = 0; s < source; ++s) {
+      count += has(line, s) ? 1 : 0;
+    }
+    return count;
+  }
+  static constexpr std::size_t first(std::size_t line) {
+    std::size_t source = 0;
+    while (!has(line, source)) {
+      ++source;
+    }
+    return source;
+  }
+  /// Index of the shuffle that adds `source` to a line; with the second source values of the first
+  /// take their places, too.
+  static constexpr int index(std::size_t line, std::size_t source, std::size_t lane) {
+    const std::size_t own = place(line, source, lane);
+    if (own < kN) {
+      return static_cast<int>(kN + own);
+    }
+    const std::size_t other =
+        before(line, source) == 1 ? place(line, first(line), lane) : std::size_t{kN};
+    return static_cast<int>(other < kN ? other : lane);
+  }
+};
+
+template <std::size_t kMembers, std::size_t kLine, std::size_t kSource, typename Part,
+          std::size_t... kLane>
+SIMDBEZIER_INLINE void add_source(Part& line, Part source, std::index_sequence<kLane...>) {
+  using Lines = RecordLines<kMembers, sizeof...(kLane)>;
+  if constexpr (Lines::has(kLine, kSource)) {
+    if constexpr (Lines::before(kLine, kSource) == 0) {
+      line = source;
+    } else {
+      line = __builtin_shufflevector(line, source, Lines::index(kLine, kSource, kLane)...);
+    }
+  }
+}
+
+template <std::size_t kLine, typename T, std::size_t kMembers, std::size_t... kSource>
+SIMDBEZIER_INLINE LinePart<T> merge_line(const LinePart<T> (&source)[kMembers],
+                                         std::index_sequence<kSource...>) {
+  constexpr auto kLanes = std::make_index_sequence<kPartLanes<T>>{};
+  LinePart<T> line;
+  (add_source<kMembers, kLine, kSource>(line, source[kSource], kLanes), ...);
+  return line;
+}
+
+/// Units of kWidth values of a and b in turn, from the lower or the upper half of them.
+template <std::size_t kWidth, std::size_t kHalf, typename Part, std::size_t... kLane>
+SIMDBEZIER_INLINE Part join_half(Part a, Part b, std::index_sequence<kLane...>) {
+  constexpr std::size_t kN = sizeof...(kLane);
+  return __builtin_shufflevector(a, b,
+                                 static_cast<int>(kHalf * kN / 2 + kLane / kWidth / 2 * kWidth +
+                                                  kLane % kWidth + kLane / kWidth % 2 * kN)...);
+}
+
+template <std::size_t kWidth, typename T>
+SIMDBEZIER_INLINE void join(LinePart<T> a, LinePart<T> b, LinePart<T>* joined) {
+  constexpr auto kLanes = std::make_index_sequence<kPartLanes<T>>{};
+  joined[0] = join_half<kWidth, 0>(a, b, kLanes);
+  joined[1] = join_half<kWidth, 1>(a, b, kLanes);
+}
+
+template <typename T>
+SIMDBEZIER_INLINE void join_four(const LinePart<T>* p, LinePart<T>* joined) {
+  LinePart<T> pairs[4];
+  join<1, T>(p[0], p[1], pairs);
+  join<1, T>(p[2], p[3], pairs + 2);
+  join<2, T>(pairs[0], pairs[2], joined);
+  join<2, T>(pairs[1], pairs[3], joined + 2);
+}
+
+template <typename T, std::size_t kMembers, std::size_t... kLine>
+SIMDBEZIER_INLINE void merge_lines(const LinePart<T> (&source)[kMembers],
+                                   LinePart<T> (&line)[kMembers],
+                                   std::index_sequence<kLine...> all) {
+  ((line[kLine] = merge_line<kLine, T>(source, all)), ...);
+}
+
+/// A part of each plane to packed records.
+template <typename T, std::size_t kMembers>
+SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[kMembers],
+                                    LinePart<T> (&line)[kMembers]) {
+  constexpr auto kAll = std::make_index_sequence<kMembers>{};
+  if constexpr (kMembers == 3) {
+    merge_lines<T>(p, line, kAll);
+  } else if constexpr (kMembers == 6) {
+    LinePart<T> source[kMembers];
+    join<1, T>(p[0], p[1], source);
+    join<1, T>(p[2], p[3], source + 2);
+    join<1, T>(p[4], p[5], source + 4);
+    merge_lines<T>(source, line, kAll);
+  } else {
+    LinePart<T> source[kMembers];
+    join_four<T>(p, source);
+    join_four<T>(p + 4, source + 4);
+    source[8] = p[8];
+    merge_lines<T>(source, line, kAll);
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,160 @@
+// See src/calls/grid_evaluator.hpp.
+#include "src/calls/grid_evaluator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/exact/normal_fallback.hpp"
+#include "src/runtime/dispatch.hpp"
+
+namespace simdbezier::detail {
+namespace {
+
+template <typename T>
+void prefill_status(const GridTask<T>& task, SampleStatus* status) noexcept {
+  for (std::size_t r = 0; r < task.run_count; ++r) {
+    const RowRun<T>& run = task.runs[r];
+    for (std::size_t j = 0; j < run.rows; ++j, status += task.nu) {
+      for (std::size_t i = 0; i < task.nu; ++i) {
+        const bool finite = !std::isnan(task.x[i]) && !std::isnan(run.y[j]);
+        status[i] = finite ? SampleStatus::regular : SampleStatus::non_finite;
+      }
+    }
+  }
+}
+
+} // namespace
+
+template <typename T>
+std::size_t GridEvaluator<T>::scratch_bytes(std::size_t rows) noexcept {
+  return rows > kInlineRows ? rows * sizeof(RowRun<T>) : 0;
+}
+
+template <typename T>
+GridEvaluator<T>::GridEvaluator(const GridKernels<T>& kernels, std::size_t rows,
+                                void* scratch) noexcept
+    : kernels_(kernels),
+      runs_(rows > kInlineRows ? static_cast<RowRun<T>*>(scratch) : inline_runs_) {}
+
+template <typename T>
+void GridEvaluator<T>::fill(GridTask<T>& task, const PatchStorage<T>& set, const GridPlan<T>& plan,
+                            const GridPiece& piece, const Target& to) const noexcept {
+  task.shape = &set.shape;
+  task.coefficients = set.coefficients + piece.patch * set.shape.coefficients();
+  task.edges = set.edges + piece.patch * set.shape.edges();
+  task.given = set.given.from(piece.patch * set.shape.control_values());
+  task.origins = set.origins == nullptr ? nullptr : set.origins + piece.patch * set.shape.origins();
+  task.normal_floor = set.normal_floor + piece.patch * set.shape.floors();
+  task.patch_count = piece.patches;
+  task.x = plan.x();
+  task.nu = plan.nu();
+  task.runs = runs_;
+  task.run_count = run_count_;
+  for (std::size_t g = 0; g < kGroups; ++g) {
+    task.out[g] = to.planes[g];
+  }
+  std::copy_n(to.curvature, kCurvatures, task.curvature);
+  task.first_component = kernels_.first_component;
+  task.status = to.status;
+  task.patch_step = (piece.last_row - piece.first_row) * plan.nu();
+  task.resolve_normal = resolve_normal<T>;
+  task.prefetch = set.count > second_level_cache() /
+                                  ((set.shape.coefficients() + set.shape.edges()) * sizeof(T));
+  task.streaming = to.streaming;
+  task.watertight = kernels_.watertight;
+  task.record = to.record;
+  task.drain = to.drain;
+}
+
+template <typename T>
+void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
+                           const Target& to) noexcept {
+  if (plan_ != &plan || generation_ != plan.generation() || first_row_ != piece.first_row ||
+      last_row_ != piece.last_row) {
+    plan_ = &plan;
+    generation_ = plan.generation();
+    first_row_ = piece.first_row;
+    last_row_ = piece.last_row;
+    run_count_ = plan.fill_runs(first_row_, last_row_, runs_);
+    guessed_ = false;
+  }
+  if (kernels_.set->places != nullptr) {
+    run_mixed(plan, piece, to);
+  } else {
+    run_bucket(kernels_.set->buckets[0], plan, piece, to);
+  }
+}
+
+/// Patches of one shape that are stored one after the other go to a kernel together.
+template <typename T>
+void GridEvaluator<T>::run_mixed(const GridPlan<T>& plan, const GridPiece& piece,
+                                 const Target& to) noexcept {
+  const PatchPlace* const places = kernels_.set->places.get() + piece.patch;
+  const std::size_t patch_samples = (piece.last_row - piece.first_row) * plan.nu();
+  for (std::size_t k = 0; k < piece.patches;) {
+    std::size_t last = k + 1;
+    while (last < piece.patches && places[last].bucket == places[k].bucket &&
+           places[last].index == places[k].index + (last - k)) {
+      ++last;
+    }
+    Planes<T> planes[kGroups];
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        T* const plane = to.planes[g].component[c];
+        planes[g].component[c] = plane == nullptr ? nullptr : plane + k * patch_samples;
+      }
+    }
+    Target part{planes, nullptr, {}, to.drain, false, nullptr};
+    if (to.status != nullptr) {
+      part.status = to.status + k * patch_samples;
+    }
+    for (std::size_t c = 0; c < kCurvatures; ++c) {
+      part.curvature[c] =
+          to.curvature[c] == nullptr ? nullptr : to.curvature[c] + k * patch_samples;
+    }
+    run_bucket(kernels_.set->buckets[places[k].bucket], plan,
+               {places[k].index, last - k, piece.first_row, piece.last_row}, part);
+    k = last;
+  }
+}
+
+template <typename T>
+void GridEvaluator<T>::run_bucket(const PatchStorage<T>& bucket, const GridPlan<T>& plan,
+                                  const GridPiece& piece, const Target& to) noexcept {
+  GridTask<T>& task = task_[turn_];
+  if (!guessed_ || !(guess_ == piece) || to.status != nullptr || kernels_.any_shape) {
+    fill(task, bucket, plan, piece, to);
+  }
+  guessed_ = to.drain != nullptr && to.next != nullptr;
+  if (guessed_) {
+    guess_ = piece;
+    guess_.patch += piece.patches;
+    Target next = to;
+    next.planes = to.next;
+    turn_ = 1 - turn_;
+    fill(task_[turn_], bucket, plan, guess_, next);
+  }
+  if (to.status != nullptr) {
+    for (std::size_t p = 0; p < piece.patches; ++p) {
+      prefill_status(task, to.status + p * task.patch_step);
+    }
+  }
+  if (kernels_.any_shape || !bucket.shape.is_bicubic()) {
+    kernels_.table->shapes->grid(task);
+    executed_ = task.executed;
+    return;
+  }
+  const Scheme used = scheme(task.watertight, task.origins != nullptr);
+  if (kernels_.choice.first) {
+    kernels_.table->grid[kernels_.choice.outputs][used](task);
+  }
+  if (kernels_.choice.second) {
+    kernels_.table->grid[kSecondDerivatives][used](task);
+  }
+  executed_ = task.executed;
+}
+
+template class GridEvaluator<float>;
+template class GridEvaluator<double>;
+
+} // namespace simdbezier::detail

@@ -1,0 +1,61 @@
+// What all patches of a grid call have in common: parameters, and which rows are edges.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include <simdbezier/evaluate.hpp>
+
+#include "src/tables/kernel_table.hpp"
+
+namespace simdbezier::detail {
+
+/// Half-centred parameters of a grid, in the form in which kernels read them. Small grids need no
+/// allocation: for a few patches it would cost as much as the evaluation.
+template <typename T>
+class GridPlan {
+public:
+  /// Samples in a row or column: above this, indices and numerators would leave 63 bits, and
+  /// runs 32.
+  static constexpr std::size_t kMost = std::numeric_limits<std::uint32_t>::max() - kMaxLanes;
+  /// Whether a plan needs no memory besides its own.
+  [[nodiscard]] static bool fits_inline(std::size_t nu, std::size_t nv) noexcept {
+    return nu <= kInline && nv <= kInline;
+  }
+
+  /// Checks the grid and fills the plan. Returns ok | bad_grid | size_overflow | out_of_memory; the
+  /// last not where `memory` has room for memory_values() of the grid.
+  [[nodiscard]] Status build(const Grid<T>& grid, T* memory = nullptr) noexcept;
+  [[nodiscard]] static std::size_t memory_values(std::size_t nu, std::size_t nv) noexcept;
+
+  [[nodiscard]] std::size_t nu() const noexcept { return nu_; }
+  [[nodiscard]] std::size_t nv() const noexcept { return nv_; }
+  [[nodiscard]] const T* x() const noexcept { return x_; }
+  [[nodiscard]] const T* y() const noexcept { return y_; }
+  /// Changes with every build().
+  [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
+
+  /// Describes rows [first, last) by runs, of which there is room for last - first; returns how
+  /// many there are.
+  std::size_t fill_runs(std::size_t first, std::size_t last, RowRun<T>* runs) const noexcept;
+
+private:
+  static constexpr std::size_t kInline = 128;
+
+  std::size_t nu_ = 0;
+  std::size_t nv_ = 0;
+  std::uint32_t generation_ = 0;
+  T* x_ = nullptr;
+  T* y_ = nullptr;
+  std::unique_ptr<T[]> heap_;
+  alignas(64) T inline_x_[kInline + kMaxLanes];
+  alignas(64) T inline_y_[kInline + kMaxLanes];
+};
+
+/// Half-centred X = u - 1/2 (exactly half of 2u - 1 rounded once); nan where u is not finite.
+template <typename T>
+T half_centred(T value, Parameters parameters) noexcept;
+
+} // namespace simdbezier::detail

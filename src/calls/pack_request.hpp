@@ -1,0 +1,71 @@
+// What packing patches and packing curves have in common, apart from arithmetic.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <type_traits>
+
+#include <simdbezier/patch_set.hpp>
+
+#include "src/storage/given_points.hpp"
+
+namespace simdbezier::detail {
+
+/// The instruction set that packs. ok | unsupported_isa; a wrong SIMDBEZIER_ISA is for evaluate
+/// calls to report.
+inline Status packing_isa(const PackOptions& options, Isa& isa) noexcept {
+  const Status status = resolve_isa(options.isa, isa);
+  if (status == Status::ok || options.isa != Isa::automatic) {
+    return status;
+  }
+  isa = available_isas().back();
+  return Status::ok;
+}
+
+/// A relative_to that is finite where points have components.
+inline PackReport check_relative_to(const PackOptions& options, int components) noexcept {
+  for (int c = 0; c < std::min(components, 3); ++c) {
+    if (!std::isfinite(options.relative_to[c])) {
+      return {Status::non_finite_input, 0, -1, c};
+    }
+  }
+  return {};
+}
+
+/// How the control points of a call are kept; they have no place yet.
+template <typename S>
+GivenPoints given_form(Weights weights, const PackOptions& options) noexcept {
+  GivenPoints given;
+  given.in_double = std::is_same_v<S, double>;
+  given.weights = weights;
+  std::copy_n(options.relative_to, 3, given.relative_to);
+  return given;
+}
+
+/// Where a pack call keeps them, in memory of its own.
+template <typename S>
+S* writable_points(const GivenPoints& given) noexcept {
+  return static_cast<S*>(const_cast<void*>(given.values));
+}
+
+/// The fault of the lowest patch or curve, whichever thread finds it.
+class LowestFault {
+public:
+  void add(const PackReport& report) {
+    if (!report) {
+      const std::lock_guard<std::mutex> lock(guard_);
+      if (lowest_ || report.patch < lowest_.patch) {
+        lowest_ = report;
+      }
+    }
+  }
+  /// After all threads have finished.
+  [[nodiscard]] const PackReport& report() const noexcept { return lowest_; }
+
+private:
+  std::mutex guard_;
+  PackReport lowest_;
+};
+
+} // namespace simdbezier::detail

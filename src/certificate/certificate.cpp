@@ -1,0 +1,246 @@
+// See certificate.hpp. Computed from the packed values on demand: they are all it depends on.
+#include <simdbezier/certificate.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/certificate/certificate_sums.hpp"
+#include "src/runtime/fp_environment.hpp"
+#include "src/storage/patch_storage.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// Bounds of one component.
+struct Bound {
+  double position = 0;
+  double du = 0;
+  double dv = 0;
+
+  void include(const Bound& other) {
+    position = std::max(position, other.position);
+    du = std::max(du, other.du);
+    dv = std::max(dv, other.dv);
+  }
+};
+
+template <typename T>
+class Certificate {
+public:
+  Certificate(const PatchStorage<T>& storage, std::size_t index, double per_step)
+      : storage_(storage), shape_(storage.shape), index_(index),
+        net_(storage.given.net(index * storage.shape.control_values())),
+        u_{shape_.order_u(), shape_.cells_u() == 2, per_step}, v_{shape_.order_v(),
+                                                                  shape_.cells_v() == 2, per_step},
+        per_step_(per_step) {}
+
+  [[nodiscard]] Bound component(std::size_t c) const {
+    Bound bound;
+    for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
+      // A polynomial's edges have no terms that its matrix has not; a quotient's, around an origin
+      // of their own, may have. Those that are zero, as around points, are exact.
+      bound.include(shape_.rational ? quotient(cell, c, matrix(cell, c), matrix(cell, weight()), 0)
+                                    : polynomial(cell, c));
+      for (std::size_t e = 0; shape_.rational && e < kEdges; ++e) {
+        const TermSums h = edge(cell, c, e);
+        if (h.size > 0) {
+          bound.include(quotient(cell, c, h, edge(cell, weight(), e), kEdgeOriginsAt + e));
+        }
+      }
+    }
+    bound.du *= static_cast<double>(shape_.cells_u());
+    bound.dv *= static_cast<double>(shape_.cells_v());
+    return bound;
+  }
+
+private:
+  static constexpr double kUnit = std::numeric_limits<T>::epsilon() / 2;
+  /// First order in u, and what the higher orders add.
+  static constexpr double kRoundings = 1.01 * kUnit;
+  static constexpr double kDenormals =
+      64 * static_cast<double>(std::numeric_limits<T>::denorm_min());
+
+  [[nodiscard]] std::size_t weight() const { return static_cast<std::size_t>(shape_.components); }
+
+  [[nodiscard]] TermSums matrix(std::size_t cell, std::size_t channel) const {
+    const T* const c = storage_.coefficients + index_ * shape_.coefficients() +
+                       cell * shape_.cell_coefficients() + channel * shape_.matrix();
+    return {u_, v_, [&](std::size_t k, std::size_t l) { return c[k * shape_.order_v() + l]; }};
+  }
+  [[nodiscard]] TermSums edge(std::size_t cell, std::size_t channel, std::size_t e) const {
+    const T* const c = storage_.edges + index_ * shape_.edges() + cell * shape_.cell_edges() +
+                       channel * shape_.edge_powers() * kEdges + e;
+    const bool along_u = e == kEdgeV0 || e == kEdgeV1;
+    constexpr DirectionRoundings kNone;
+    return {along_u ? u_ : kNone, along_u ? kNone : v_,
+            [&](std::size_t k, std::size_t l) { return c[(k + l) * kEdges]; }};
+  }
+  [[nodiscard]] double origin(std::size_t cell, std::size_t channel, std::size_t at) const {
+    return storage_.origins == nullptr
+               ? 0
+               : static_cast<double>(
+                     storage_.origins[index_ * shape_.origins() + cell * shape_.cell_origins() +
+                                      channel * kOriginsPerComponent + at]);
+  }
+  /// A point's coordinate, or its weight.
+  [[nodiscard]] double control_value(std::size_t point, std::size_t channel) const {
+    return shape_.rational && channel == weight()
+               ? net_.value(point * shape_.channels() + channel)
+               : net_.coordinate(point, shape_.channels(), channel);
+  }
+
+  /// What coefficients miss from the start, in all terms together: they are sums of up to 2^(m+n)
+  /// control values in double where T is float and in double-double else, rounded at every one of
+  /// about 2 (m + n) levels. Only products and halvings do not come out exact there.
+  [[nodiscard]] double carried(double largest) const {
+    const int degrees = shape_.degree_u + shape_.degree_v;
+    const double unit = sizeof(T) == sizeof(float) ? 0x1p-53 : 0x1p-104;
+    return std::ldexp(unit * (2 * degrees + 4) * largest, degrees) +
+           std::ldexp(std::numeric_limits<double>::denorm_min(), degrees + 6);
+  }
+  /// Largest |value| of a channel's control points.
+  [[nodiscard]] double largest(std::size_t channel) const {
+    double most = 0;
+    for (std::size_t k = 0; k < shape_.points(); ++k) {
+      most = std::max(most, std::fabs(control_value(k, channel)));
+    }
+    return most;
+  }
+
+  [[nodiscard]] Bound polynomial(std::size_t cell, std::size_t c) const {
+    const TermSums sums = matrix(cell, c);
+    double position = sums.value;
+    if (storage_.origins != nullptr) {
+      double most = 0;
+      for (std::size_t i = 0; i < kOriginsPerComponent; ++i) {
+        most = std::max(most, std::fabs(origin(cell, c, i)));
+      }
+      position += sums.size + most;
+    }
+    const double lost = shape_.cells() == 1 ? 0 : carried(largest(c));
+    return {kRoundings * position + kDenormals + lost,
+            kRoundings * sums.du + kDenormals + 2 * shape_.degree_u * lost,
+            kRoundings * sums.dv + kDenormals + 2 * shape_.degree_v * lost};
+  }
+
+  /// Bounds of S = h / w around an origin O, S_u = (h_u - S w_u) / w and S_v, from those of h, w
+  /// and their derivatives: each operation's error and what it inherits.
+  [[nodiscard]] Bound quotient(std::size_t cell, std::size_t c, const TermSums& h,
+                               const TermSums& w, std::size_t origin_at) const {
+    const double around = origin(cell, c, origin_at);
+    const double reach = reach_from(c, around); // bounds |S|
+    const double most_w = largest(weight());
+    const double lost_w = carried(most_w);
+    const double lost_h = carried((largest(c) + std::fabs(around)) * most_w);
+    const double error_h = kRoundings * h.value + kDenormals + lost_h;
+    const double error_w = kRoundings * w.value + kDenormals + lost_w;
+    const double lowest = lowest_weight(w, error_w);
+    if (!(lowest > 0)) {
+      constexpr double kUnknown = std::numeric_limits<double>::infinity();
+      return {kUnknown, kUnknown, kUnknown};
+    }
+    // The reciprocal of w and its product with h round once each.
+    const double error_s =
+        (error_h + reach * error_w) / lowest + 2 * kRoundings * reach + kDenormals;
+    const auto slope = [&](double size_h, double size_w, double sum_h, double sum_w, int degree) {
+      const double factor = 2.0 * degree;
+      const double error_hu = kRoundings * sum_h + kDenormals + factor * lost_h;
+      const double error_wu = kRoundings * sum_w + kDenormals + factor * lost_w;
+      const double numerator = size_h + reach * size_w;
+      const double error = error_hu + size_w * error_s + reach * error_wu +
+                           kRoundings * per_step_ * numerator + kDenormals;
+      const double most = numerator / lowest; // bounds |S_u|
+      return 1.01 * (error + most * error_w) / lowest + 2 * kRoundings * most + kDenormals;
+    };
+    Bound bound;
+    bound.position = 1.01 * error_s;
+    if (storage_.origins != nullptr) {
+      const double size = std::fabs(around) + reach;
+      bound.position =
+          std::max(bound.position + kRoundings * size, 2 * kRoundings * size); // corner
+    }
+    bound.du = slope(h.size_u, w.size_u, h.du, w.du, shape_.degree_u);
+    bound.dv = slope(h.size_v, w.size_v, h.dv, w.dv, shape_.degree_v);
+    return bound;
+  }
+
+  /// Bounds |S - origin|: the patch lies in the hull of its control points.
+  [[nodiscard]] double reach_from(std::size_t c, double around) const {
+    double reach = 0;
+    for (std::size_t k = 0; k < shape_.points(); ++k) {
+      const double point = control_value(k, c);
+      reach = std::max(reach, std::fabs(point - around) + 8 * kUnit * std::fabs(point));
+    }
+    return reach;
+  }
+
+  /// A lower bound of w as computed: the least of its control values, or what the other terms leave
+  /// of its constant.
+  [[nodiscard]] double lowest_weight(const TermSums& w, double error) const {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < shape_.points(); ++k) {
+      lowest = std::min(lowest, control_value(k, weight()));
+    }
+    return std::max(lowest * (1 - 4 * kUnit), 2 * w.constant - w.size - error) - error;
+  }
+
+  const PatchStorage<T>& storage_;
+  const NetShape& shape_;
+  std::size_t index_;
+  GivenNet net_;
+  DirectionRoundings u_;
+  DirectionRoundings v_;
+  double per_step_;
+};
+
+} // namespace
+} // namespace detail
+
+template <typename T>
+ErrorBounds error_bounds(const PatchSet<T>& set, std::size_t patch, Isa isa) noexcept {
+  ErrorBounds bounds;
+  Isa chosen = Isa::automatic;
+  if (resolve_isa(isa, chosen) != Status::ok) {
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    std::fill(std::begin(bounds.position), std::end(bounds.position), kUnknown);
+    std::fill(std::begin(bounds.du), std::end(bounds.du), kUnknown);
+    std::fill(std::begin(bounds.dv), std::end(bounds.dv), kUnknown);
+    return bounds;
+  }
+  if (patch >= set.size()) {
+    return bounds;
+  }
+  const detail::DefaultFpEnvironment environment;
+  const detail::PatchPlace place = set.storage()->place(patch);
+  const detail::PatchStorage<T>& storage = set.storage()->buckets[place.bucket];
+  const detail::Certificate<T> certificate(storage, place.index,
+                                           fuses_multiply_add(chosen) ? 1 : 2);
+  for (int c = 0; c < storage.shape.components; ++c) {
+    const detail::Bound bound = certificate.component(static_cast<std::size_t>(c));
+    bounds.position[c] = bound.position;
+    bounds.du[c] = bound.du;
+    bounds.dv[c] = bound.dv;
+  }
+  return bounds;
+}
+
+template <typename T>
+double largest_position_bound(const PatchSet<T>& set, Isa isa) noexcept {
+  double largest = 0;
+  for (std::size_t patch = 0; patch < set.size(); ++patch) {
+    const ErrorBounds bounds = error_bounds(set, patch, isa);
+    largest = std::max(largest,
+                       *std::max_element(std::begin(bounds.position), std::end(bounds.position)));
+  }
+  return largest;
+}
+
+template SIMDBEZIER_API ErrorBounds error_bounds(const PatchSet<float>&, std::size_t, Isa) noexcept;
+template SIMDBEZIER_API ErrorBounds error_bounds(const PatchSet<double>&, std::size_t,
+                                                 Isa) noexcept;
+template SIMDBEZIER_API double largest_position_bound(const PatchSet<float>&, Isa) noexcept;
+template SIMDBEZIER_API double largest_position_bound(const PatchSet<double>&, Isa) noexcept;
+
+} // namespace simdbezier

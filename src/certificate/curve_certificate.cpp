@@ -1,0 +1,167 @@
+// See curve_bounds(). Computed from the packed values on demand: they are all it depends on.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <simdbezier/curves.hpp>
+
+#include "src/runtime/fp_environment.hpp"
+#include "src/storage/curve_storage.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// A quantity by derivative: 0, 1, 2.
+struct ByOrder {
+  double at[3] = {0, 0, 0};
+};
+
+/// What is known of one polynomial on a cell, by the cell's parameter.
+struct PolynomialBounds {
+  ByOrder size;  ///< of the values
+  ByOrder error; ///< of the computed ones
+};
+
+template <typename T>
+class CurveCertificate {
+public:
+  CurveCertificate(const CurveStorage<T>& storage, std::size_t curve, bool fused)
+      : shape_(storage.shape), values_(storage.values + curve * storage.shape.values()),
+        net_(storage.given.net(curve * storage.shape.control_values())), per_step_(fused ? 1 : 2) {}
+
+  /// Absolute errors of one component, by t.
+  [[nodiscard]] ByOrder bounds(std::size_t component) const {
+    ByOrder worst;
+    for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
+      const ByOrder here = shape_.rational ? quotient(cell, component) : plain(cell, component);
+      double scale = 1;
+      for (std::size_t d = 0; d < 3; ++d) {
+        worst.at[d] = std::max(worst.at[d], scale * here.at[d]);
+        scale *= static_cast<double>(shape_.cells());
+      }
+    }
+    return worst;
+  }
+
+private:
+  static constexpr double kUnit = 1.01 * std::numeric_limits<T>::epsilon() / 2;
+  static constexpr double kDenormals =
+      64 * static_cast<double>(std::numeric_limits<T>::denorm_min());
+
+  [[nodiscard]] const T* channel(std::size_t cell, std::size_t index) const {
+    return values_ + cell * shape_.cell_values() + index * shape_.channel_values();
+  }
+  [[nodiscard]] double origin(std::size_t cell, std::size_t component) const {
+    return shape_.origins ? static_cast<double>(channel(cell, component)[shape_.origin_at()]) : 0;
+  }
+
+  /// Term k of the d-th derivative is k!/(k-d)! a_k 2^-(k-d) at the cell's ends. On its way it is
+  /// rounded min(k+1, n) times in Horner's rule as well as in every synthetic division; once as a
+  /// coefficient; and k times with the parameter of a half.
+  [[nodiscard]] PolynomialBounds polynomial(std::size_t cell, std::size_t index) const {
+    PolynomialBounds bounds;
+    const T* const a = channel(cell, index);
+    for (int k = 0; k <= shape_.degree; ++k) {
+      const double roundings =
+          per_step_ * std::min(k + 1, shape_.degree) + 1 + (shape_.cells() == 2 ? k : 0);
+      double term = std::ldexp(std::fabs(static_cast<double>(a[k])), -k);
+      for (int d = 0; d < 3; ++d) {
+        bounds.size.at[d] += term;
+        bounds.error.at[d] += kUnit * roundings * term;
+        term *= 2.0 * (k - d);
+      }
+    }
+    for (double& error : bounds.error.at) {
+      error += kDenormals;
+    }
+    return bounds;
+  }
+
+  [[nodiscard]] ByOrder plain(std::size_t cell, std::size_t component) const {
+    PolynomialBounds bounds = polynomial(cell, component);
+    if (shape_.origins) {
+      bounds.error.at[0] += kUnit * (std::fabs(origin(cell, component)) + bounds.size.at[0]);
+    }
+    return bounds.error;
+  }
+
+  /// Errors of C = h/w and its derivatives w C^(d) = h^(d) - …, in the order of their computation:
+  /// those of the operands, then the operations' own.
+  [[nodiscard]] ByOrder quotient(std::size_t cell, std::size_t component) const {
+    const PolynomialBounds h = polynomial(cell, component);
+    const PolynomialBounds w = polynomial(cell, static_cast<std::size_t>(shape_.components));
+    const double o = origin(cell, component);
+    double least = std::numeric_limits<double>::infinity(); // w, and by it all that is computed
+    double most = 0;                                        // |C - O|
+    for (std::size_t i = 0; i < shape_.order(); ++i) {
+      least = std::min(least, net_.value((i + 1) * shape_.channels() - 1));
+      most = std::max(most, std::fabs(net_.coordinate(i, shape_.channels(), component) - o));
+    }
+    const double divisor = least - w.error.at[0];
+    if (!(divisor > 0)) {
+      constexpr double kUnknown = std::numeric_limits<double>::infinity();
+      return {{kUnknown, kUnknown, kUnknown}};
+    }
+    const double by_inverse = w.error.at[0] / divisor + 2 * kUnit;
+    ByOrder error;
+    const double position = 1.01 * (h.error.at[0] / divisor + most * by_inverse);
+    // Where two halves meet, a point is stored that three roundings made out of h and w.
+    const double last = shape_.cells() == 2 ? 3 : 1;
+    error.at[0] = position + last * kUnit * (std::fabs(o) + most);
+
+    const double numerator = h.size.at[1] + most * w.size.at[1];
+    const double first = numerator / divisor;
+    error.at[1] = 1.01 * ((h.error.at[1] + most * w.error.at[1] + position * w.size.at[1] +
+                           per_step_ * kUnit * numerator) /
+                              divisor +
+                          first * by_inverse);
+
+    const double second_numerator = h.size.at[2] + most * w.size.at[2] + 2 * first * w.size.at[1];
+    error.at[2] = 1.01 * ((h.error.at[2] + most * w.error.at[2] + position * w.size.at[2] +
+                           2 * (first * w.error.at[1] + error.at[1] * w.size.at[1]) +
+                           3 * per_step_ * kUnit * second_numerator) /
+                              divisor +
+                          second_numerator / divisor * by_inverse);
+    return error;
+  }
+
+  const CurveShape& shape_;
+  const T* values_;
+  GivenNet net_;
+  int per_step_;
+};
+
+} // namespace
+} // namespace detail
+
+template <typename T>
+CurveBounds curve_bounds(const CurveSet<T>& set, std::size_t curve, Isa isa) noexcept {
+  CurveBounds bounds;
+  Isa chosen = Isa::automatic;
+  if (resolve_isa(isa, chosen) != Status::ok) {
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    std::fill_n(bounds.position, kMostComponents, kUnknown);
+    std::fill_n(bounds.d1, kMostComponents, kUnknown);
+    std::fill_n(bounds.d2, kMostComponents, kUnknown);
+    return bounds;
+  }
+  if (curve >= set.size()) {
+    return bounds;
+  }
+  const detail::DefaultFpEnvironment environment;
+  const detail::CurveCertificate<T> certificate(*set.storage(), curve, fuses_multiply_add(chosen));
+  for (std::size_t c = 0; c < static_cast<std::size_t>(set.components()); ++c) {
+    const detail::ByOrder error = certificate.bounds(c);
+    bounds.position[c] = error.at[0];
+    bounds.d1[c] = error.at[1];
+    bounds.d2[c] = error.at[2];
+  }
+  return bounds;
+}
+
+template SIMDBEZIER_API CurveBounds curve_bounds(const CurveSet<float>&, std::size_t, Isa) noexcept;
+template SIMDBEZIER_API CurveBounds curve_bounds(const CurveSet<double>&, std::size_t,
+                                                 Isa) noexcept;
+
+} // namespace simdbezier

@@ -1,0 +1,237 @@
+// See src/nets/linear_maps.hpp.
+#include "src/nets/linear_maps.hpp"
+
+#include <cstdint>
+#include <initializer_list>
+#include <numeric>
+
+namespace simdbezier::detail {
+namespace {
+
+std::int64_t binomial(int n, int k) noexcept {
+  if (k < 0 || k > n) {
+    return 0;
+  }
+  std::int64_t value = 1;
+  for (int i = 1; i <= k; ++i) {
+    value = value * (n - k + i) / i;
+  }
+  return value;
+}
+
+/// Rows are given by their entries; terms pair up from both ends, which keeps rows that mirror each
+/// other mirrored in their order of additions, too.
+template <typename Entry>
+void set_folded_row(LinearMap::Row& row, int degree, std::int64_t factor, std::int64_t divisor,
+                    Entry entry) noexcept {
+  row.factor = static_cast<double>(factor);
+  row.divisor = static_cast<double>(divisor);
+  for (int k = 0; 2 * k <= degree; ++k) {
+    const int other = degree - k;
+    const std::int64_t a = entry(k);
+    const std::int64_t b = other == k ? 0 : entry(other);
+    if (a != 0 || b != 0) {
+      row.pair[row.pairs++] = {static_cast<std::size_t>(k), static_cast<std::size_t>(other),
+                               static_cast<double>(a), static_cast<double>(b)};
+    }
+  }
+}
+
+LinearMap sized(int degree) noexcept {
+  LinearMap map;
+  map.rows = static_cast<std::size_t>(degree) + 1;
+  return map;
+}
+
+/// Coefficient of z^k in (1 + z)^i (1 - z)^j.
+std::int64_t krawtchouk(int i, int j, int k) noexcept {
+  std::int64_t sum = 0;
+  for (int l = 0; l <= k; ++l) {
+    const std::int64_t term = binomial(j, l) * binomial(i, k - l);
+    sum += l % 2 == 0 ? term : -term;
+  }
+  return sum;
+}
+
+LinearMap power_to_bezier(int n) noexcept {
+  LinearMap map = sized(n);
+  for (int i = 0; i <= n; ++i) {
+    std::int64_t divisor = 1;
+    for (int k = 0; k <= i; ++k) {
+      divisor = std::lcm(divisor, binomial(n, k));
+    }
+    set_folded_row(map.row[i], n, 1, divisor,
+                   [&](int k) { return binomial(i, k) * divisor / binomial(n, k); });
+  }
+  return map;
+}
+
+LinearMap bezier_to_power(int n) noexcept {
+  LinearMap map = sized(n);
+  for (int k = 0; k <= n; ++k) {
+    set_folded_row(map.row[k], n, binomial(n, k), 1,
+                   [&](int i) { return (k - i) % 2 == 0 ? binomial(k, i) : -binomial(k, i); });
+  }
+  return map;
+}
+
+/// x = u - (1-u) and 1 = u + (1-u), so x^k has the control values of (z-1)^k (z+1)^(n-k).
+LinearMap centred_power_to_bezier(int n) noexcept {
+  LinearMap map = sized(n);
+  for (int i = 0; i <= n; ++i) {
+    set_folded_row(map.row[i], n, 1, binomial(n, i), [&](int k) {
+      const std::int64_t value = krawtchouk(n - k, k, i);
+      return k % 2 == 0 ? value : -value;
+    });
+  }
+  return map;
+}
+
+/// u = (1+x)/2.
+LinearMap bezier_to_centred_power(int n) noexcept {
+  LinearMap map = sized(n);
+  for (int k = 0; k <= n; ++k) {
+    set_folded_row(map.row[k], n, 1, std::int64_t{1} << n,
+                   [&](int i) { return binomial(n, i) * krawtchouk(i, n - i, k); });
+  }
+  return map;
+}
+
+using Pairs = std::initializer_list<LinearMap::Pair>;
+
+/// A cubic's row with its own order of additions.
+void set_row(LinearMap::Row& row, Pairs pairs, double factor, double divisor) noexcept {
+  for (const LinearMap::Pair& pair : pairs) {
+    row.pair[row.pairs++] = pair;
+  }
+  row.factor = factor;
+  row.divisor = divisor;
+}
+
+/// One of the values alone.
+void set_copy(LinearMap::Row& row, std::size_t k) noexcept { set_row(row, {{k, k, 1, 0}}, 1, 1); }
+
+LinearMap hermite_to_bezier() noexcept {
+  LinearMap map = sized(3);
+  set_copy(map.row[0], 0);
+  set_row(map.row[1], {{0, 2, 3, 1}}, 1, 3);
+  set_row(map.row[2], {{1, 3, 3, -1}}, 1, 3);
+  set_copy(map.row[3], 1);
+  return map;
+}
+
+LinearMap bezier_to_hermite() noexcept {
+  LinearMap map = sized(3);
+  set_copy(map.row[0], 0);
+  set_copy(map.row[1], 3);
+  set_row(map.row[2], {{0, 1, -1, 1}}, 3, 1);
+  set_row(map.row[3], {{2, 3, -1, 1}}, 3, 1);
+  return map;
+}
+
+LinearMap catmull_rom_to_bezier() noexcept {
+  LinearMap map = sized(3);
+  set_copy(map.row[0], 1);
+  set_row(map.row[1], {{0, 2, -1, 1}, {1, 1, 6, 0}}, 1, 6);
+  set_row(map.row[2], {{1, 3, 1, -1}, {2, 2, 6, 0}}, 1, 6);
+  set_copy(map.row[3], 2);
+  map.keeps_constants = true;
+  return map;
+}
+
+LinearMap bezier_to_catmull_rom() noexcept {
+  LinearMap map = sized(3);
+  set_row(map.row[0], {{0, 1, 6, -6}, {3, 3, 1, 0}}, 1, 1);
+  set_copy(map.row[1], 0);
+  set_copy(map.row[2], 3);
+  set_row(map.row[3], {{2, 3, -6, 6}, {0, 0, 1, 0}}, 1, 1);
+  map.keeps_constants = true;
+  return map;
+}
+
+/// The outer points first: the last one of a piece and the first one of the next are then the same
+/// sum of the same three points.
+LinearMap b_spline_to_bezier() noexcept {
+  LinearMap map = sized(3);
+  set_row(map.row[0], {{0, 2, 1, 1}, {1, 1, 4, 0}}, 1, 6);
+  set_row(map.row[1], {{1, 2, 4, 2}}, 1, 6);
+  set_row(map.row[2], {{1, 2, 2, 4}}, 1, 6);
+  set_row(map.row[3], {{1, 3, 1, 1}, {2, 2, 4, 0}}, 1, 6);
+  map.keeps_constants = true;
+  return map;
+}
+
+LinearMap bezier_to_b_spline() noexcept {
+  LinearMap map = sized(3);
+  set_row(map.row[0], {{0, 1, 6, -7}, {2, 2, 2, 0}}, 1, 1);
+  set_row(map.row[1], {{1, 2, 2, -1}}, 1, 1);
+  set_row(map.row[2], {{1, 2, -1, 2}}, 1, 1);
+  set_row(map.row[3], {{2, 3, -7, 6}, {1, 1, 2, 0}}, 1, 1);
+  map.keeps_constants = true;
+  return map;
+}
+
+} // namespace
+
+LinearMap identity_map(int degree) noexcept {
+  LinearMap map = sized(degree);
+  map.identity = true;
+  return map;
+}
+
+LinearMap elevation_map(int degree, int new_degree) noexcept {
+  if (degree == new_degree) {
+    return identity_map(degree);
+  }
+  const int steps = new_degree - degree;
+  LinearMap map = sized(new_degree);
+  for (int i = 0; i <= new_degree; ++i) {
+    set_folded_row(map.row[i], degree, 1, binomial(new_degree, i),
+                   [&](int k) { return binomial(degree, k) * binomial(steps, i - k); });
+  }
+  map.keeps_constants = true;
+  return map;
+}
+
+LinearMap hodograph_map(int degree) noexcept {
+  LinearMap map = sized(degree > 1 ? degree - 1 : 1);
+  for (std::size_t i = 0; i < map.rows; ++i) {
+    const std::size_t k = degree > 1 ? i : 0;
+    set_row(map.row[i], {{k, k + 1, -1, 1}}, degree, 1);
+  }
+  return map;
+}
+
+LinearMap to_bezier_map(Basis basis, int degree) noexcept {
+  switch (basis) {
+  case Basis::power:
+    return power_to_bezier(degree);
+  case Basis::centred_power:
+    return centred_power_to_bezier(degree);
+  case Basis::hermite:
+    return hermite_to_bezier();
+  case Basis::catmull_rom:
+    return catmull_rom_to_bezier();
+  case Basis::b_spline:
+    break;
+  }
+  return b_spline_to_bezier();
+}
+
+LinearMap from_bezier_map(Basis basis, int degree) noexcept {
+  switch (basis) {
+  case Basis::power:
+    return bezier_to_power(degree);
+  case Basis::centred_power:
+    return bezier_to_centred_power(degree);
+  case Basis::hermite:
+    return bezier_to_hermite();
+  case Basis::catmull_rom:
+    return bezier_to_catmull_rom();
+  case Basis::b_spline:
+    break;
+  }
+  return bezier_to_b_spline();
+}
+
+} // namespace simdbezier::detail

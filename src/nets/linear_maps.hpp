@@ -1,0 +1,17 @@
+// The matrices behind degree elevation, derivatives and changes of basis, from exact integers.
+#pragma once
+
+#include <simdbezier/bases.hpp>
+
+#include "src/tables/net_table.hpp"
+
+namespace simdbezier::detail {
+
+LinearMap identity_map(int degree) noexcept;
+LinearMap elevation_map(int degree, int new_degree) noexcept;
+/// Degree 1 gives two equal values.
+LinearMap hodograph_map(int degree) noexcept;
+LinearMap to_bezier_map(Basis basis, int degree) noexcept;
+LinearMap from_bezier_map(Basis basis, int degree) noexcept;
+
+} // namespace simdbezier::detail

@@ -1,0 +1,91 @@
+// What all operations on control nets have in common: checks of views, faults in the values, and
+// the way to a kernel.
+#pragma once
+
+#include <initializer_list>
+
+#include "src/runtime/batch.hpp"
+#include "src/runtime/dispatch.hpp"
+#include "src/tables/net_table.hpp"
+
+namespace simdbezier::detail {
+
+/// A view that kernels take; its degrees and components must be sound.
+template <typename S>
+NetView<const S> view_of(const ControlNets<S>& nets) noexcept;
+template <typename S>
+NetView<S> view_of(const MutableNets<S>& nets) noexcept;
+
+/// The report where no control point is at fault but a parameter, or the presence of weights.
+constexpr NetReport argument_fault(Status status) noexcept { return {status, 0, -1, 0}; }
+
+/// Whether a view can be read: ok | bad_degree | bad_components | null_input | bad_stride |
+/// size_overflow. Overlapping nets are allowed, a point that repeats itself is not.
+template <typename S>
+Status check_input(const ControlNets<S>& nets) noexcept;
+
+/// Whether a view can be written: ok | null_output | bad_stride | size_overflow, as well as
+/// bad_patch_range, bad_degree and bad_components where it is not what the operation writes.
+template <typename S>
+Status check_output(const MutableNets<S>& out, const ControlNets<S>& nets, int degree_u,
+                    int degree_v) noexcept;
+
+/// ok | overlapping_outputs: no value of one view stands where one of the other does.
+template <typename S>
+Status check_apart(const ControlNets<S>& a, const ControlNets<S>& b) noexcept;
+
+/// Bytes that a call reads or writes besides nets.
+struct MemoryRange {
+  const void* begin;
+  std::size_t bytes;
+};
+/// ok | overlapping_outputs, where the range meets the memory of the view, gaps included: so are
+/// inputs of grids compared with outputs.
+template <typename S>
+Status check_apart(const ControlNets<S>& nets, const MemoryRange& range) noexcept;
+
+/// The first value that is not finite, or weight that is not positive, in order of patches, then
+/// control points, then components. With signed_weights weights may be anything finite.
+template <typename S>
+NetReport find_fault(const ControlNets<S>& nets, int threads, bool signed_weights = false) noexcept;
+
+/// check_input, check_output and check_apart of all.
+template <typename S>
+Status check_nets(const ControlNets<S>& nets, std::initializer_list<const MutableNets<S>*> out,
+                  int degree_u, int degree_v) noexcept;
+
+/// Runs a kernel on all patches; `values` of a group are scratch.
+template <typename T, typename Task>
+Status run_net_kernel(NetKernel<Task> NetTable<T>::*kernel, const Task& task, std::size_t count,
+                      std::size_t values, const Options& options) noexcept {
+  Isa isa = Isa::automatic;
+  const Status runs = resolve_isa(options.isa, isa);
+  if (runs != Status::ok) {
+    return runs;
+  }
+  const NetKernel<Task> run = kernel_table<T>(isa).nets->*kernel;
+  return run_blocks(lane_groups(count), options, values * kLineBytes,
+                    [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
+                      const std::size_t last = end * kMaxLanes < count ? end * kMaxLanes : count;
+                      return run(task, begin * kMaxLanes, last, scratch);
+                    });
+}
+
+/// The way of all operations on nets whose views have been checked: find faults, then compute.
+template <typename T, typename Task>
+NetReport compute_nets(const ControlNets<T>& nets, NetKernel<Task> NetTable<T>::*kernel,
+                       const Task& task, std::size_t values, const Options& options,
+                       bool signed_weights = false) noexcept {
+  Isa isa = Isa::automatic;
+  const Status runs = resolve_isa(options.isa, isa);
+  if (runs != Status::ok) {
+    return {runs};
+  }
+  const NetReport fault = find_fault(nets, options.threads, signed_weights);
+  if (!fault) {
+    return fault;
+  }
+  return {run_net_kernel<T, Task>(kernel, task, nets.count, values, options)};
+}
+
+} // namespace simdbezier::detail

@@ -1,0 +1,295 @@
+// The calls of nets.hpp: arguments to tasks.
+#include <simdbezier/nets.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/nets/linear_maps.hpp"
+#include "src/nets/net_call.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+template <typename T>
+Weighting<T> weighting(const UnitParameter<T>& at) noexcept {
+  return {at.t(), at.complement()};
+}
+
+/// ok | non_finite_input | bad_weight where a weight could lose its sign.
+template <typename T>
+Status check_parameter(const ControlNets<T>& nets, const UnitParameter<T>& at) noexcept {
+  if (!std::isfinite(at.t()) || !std::isfinite(at.complement())) {
+    return Status::non_finite_input;
+  }
+  const bool inside = at.t() >= 0 && at.complement() >= 0;
+  return inside || nets.weights == Weights::none ? Status::ok : Status::bad_weight;
+}
+
+template <typename T>
+std::size_t net_values(const ControlNets<T>& nets) noexcept {
+  return shape_of(nets).control_values();
+}
+
+/// All cuts; outputs that are not wanted are null.
+template <typename T>
+NetReport run_split(const ControlNets<T>& nets, const UnitParameter<T>* u,
+                    const UnitParameter<T>* v, const MutableNets<T>* const (&out)[4],
+                    const Options& options) noexcept {
+  SplitTask<T> task{};
+  task.in_u = u != nullptr;
+  task.in_v = v != nullptr;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (out[k] != nullptr) {
+      task.out[k] = view_of(*out[k]);
+    }
+  }
+  for (const UnitParameter<T>* const at : {u, v}) {
+    const Status status = at == nullptr ? Status::ok : check_parameter(nets, *at);
+    if (status != Status::ok) {
+      return argument_fault(status);
+    }
+  }
+  task.in = view_of(nets);
+  task.u = u == nullptr ? Weighting<T>{} : weighting(*u);
+  task.v = v == nullptr ? Weighting<T>{} : weighting(*v);
+  return compute_nets(nets, &NetTable<T>::split, task, 3 * net_values(nets), options);
+}
+
+template <typename T>
+bool is_whole(const UnitParameter<T>& from, const UnitParameter<T>& to) noexcept {
+  return from.t() == 0 && to.complement() == 0 && from.complement() == 1 && to.t() == 1;
+}
+
+template <typename T>
+KeptPoints kept_points(const UnitParameter<T>& from, const UnitParameter<T>& to) noexcept {
+  const bool first = from.t() == 0 && from.complement() == 1;
+  const bool last = to.complement() == 0 && to.t() == 1;
+  return {first && last, first, last};
+}
+
+template <typename T>
+NetReport run_map(const ControlNets<T>& nets, const MutableNets<T>& out, const LinearMap& u,
+                  const LinearMap& v, bool keeps_ends, const Options& options) noexcept {
+  const KeptPoints kept_u{u.identity, keeps_ends, keeps_ends};
+  const KeptPoints kept_v{v.identity, keeps_ends, keeps_ends};
+  const MapTask<T> task{view_of(nets), view_of(out), &u, &v, kept_u, kept_v};
+  NetShape most = shape_of(nets);
+  most.degree_u = std::max(most.degree_u, out.degree_u);
+  most.degree_v = std::max(most.degree_v, out.degree_v);
+  return compute_nets(nets, &NetTable<T>::map, task, 3 * most.control_values(), options);
+}
+
+/// Values from one place to another, in the order of `nets`, which is `original` seen another way;
+/// nothing to compute.
+template <typename T>
+NetReport run_copy(const ControlNets<T>& original, const ControlNets<T>& nets,
+                   const MutableNets<T>& out, const Options& options) noexcept {
+  Isa isa = Isa::automatic;
+  const Status runs = resolve_isa(options.isa, isa);
+  if (runs != Status::ok) {
+    return {runs};
+  }
+  const NetReport fault = find_fault(original, options.threads);
+  if (!fault) {
+    return fault;
+  }
+  const std::ptrdiff_t channels = static_cast<std::ptrdiff_t>(shape_of(nets).channels());
+  const auto copy_patch = [&](std::ptrdiff_t patch) {
+    const T* from_row = nets.points + patch * nets.patch_stride;
+    T* to_row = out.points + patch * out.patch_stride;
+    for (int j = 0; j <= nets.degree_v; ++j) {
+      for (int i = 0; i <= nets.degree_u; ++i) {
+        for (std::ptrdiff_t c = 0; c < channels; ++c) {
+          to_row[i * out.point_stride + c * out.component_stride] =
+              from_row[i * nets.point_stride + c * nets.component_stride] + T(0);
+        }
+      }
+      from_row += nets.row_stride;
+      to_row += out.row_stride;
+    }
+  };
+  return {run_blocks(nets.count, options, 0,
+                     [&](int, std::size_t begin, std::size_t end, unsigned char*) {
+                       for (std::size_t patch = begin; patch < end; ++patch) {
+                         copy_patch(static_cast<std::ptrdiff_t>(patch));
+                       }
+                       return isa;
+                     })};
+}
+
+/// A result of other degrees than the input's.
+template <typename T>
+Status check_result(const ControlNets<T>& nets, const MutableNets<T>& out, int degree_u,
+                    int degree_v) noexcept {
+  return check_nets<T>(nets, {&out}, degree_u, degree_v);
+}
+
+/// The nets as `view` sees them, which is with these degrees.
+template <typename T, typename View>
+NetReport run_view(const ControlNets<T>& nets, const MutableNets<T>& out, int degree_u,
+                   int degree_v, View view, const Options& options) noexcept {
+  const Status status = check_result<T>(nets, out, degree_u, degree_v);
+  return status != Status::ok ? NetReport{status} : run_copy<T>(nets, view(nets), out, options);
+}
+
+/// Derivatives of these orders, 0 or 1; lines keep degree 1.
+template <typename T>
+NetReport run_hodograph(const ControlNets<T>& nets, const MutableNets<T>& out, int order_u,
+                        int order_v, const Options& options) noexcept {
+  const Status status = check_result<T>(nets, out, std::max(nets.degree_u - order_u, 1),
+                                        std::max(nets.degree_v - order_v, 1));
+  if (status != Status::ok) {
+    return {status};
+  }
+  if (nets.weights != Weights::none) {
+    return argument_fault(Status::bad_weight);
+  }
+  const auto map = [](int degree, int order) {
+    return order == 0 ? identity_map(degree) : hodograph_map(degree);
+  };
+  return run_map<T>(nets, out, map(nets.degree_u, order_u), map(nets.degree_v, order_v), false,
+                    options);
+}
+
+} // namespace
+} // namespace detail
+
+template <typename T>
+NetReport split_u(const ControlNets<T>& nets, AtParameter<T> u,
+                  const std::type_identity_t<MutableNets<T>>& low,
+                  const std::type_identity_t<MutableNets<T>>& high,
+                  const Options& options) noexcept {
+  const Status status = detail::check_nets<T>(nets, {&low, &high}, nets.degree_u, nets.degree_v);
+  if (status != Status::ok) {
+    return {status};
+  }
+  return detail::run_split<T>(nets, &u, nullptr, {&low, &high, nullptr, nullptr}, options);
+}
+
+template <typename T>
+NetReport split_v(const ControlNets<T>& nets, AtParameter<T> v,
+                  const std::type_identity_t<MutableNets<T>>& low,
+                  const std::type_identity_t<MutableNets<T>>& high,
+                  const Options& options) noexcept {
+  const Status status = detail::check_nets<T>(nets, {&low, &high}, nets.degree_u, nets.degree_v);
+  if (status != Status::ok) {
+    return {status};
+  }
+  return detail::run_split<T>(nets, nullptr, &v, {&low, nullptr, &high, nullptr}, options);
+}
+
+template <typename T>
+NetReport split(const ControlNets<T>& nets, AtParameter<T> u, AtParameter<T> v,
+                const std::array<std::type_identity_t<MutableNets<T>>, 4>& out,
+                const Options& options) noexcept {
+  const Status status = detail::check_nets<T>(nets, {&out[0], &out[1], &out[2], &out[3]},
+                                              nets.degree_u, nets.degree_v);
+  if (status != Status::ok) {
+    return {status};
+  }
+  return detail::run_split<T>(nets, &u, &v, {&out[0], &out[1], &out[2], &out[3]}, options);
+}
+
+template <typename T>
+NetReport segment(const ControlNets<T>& nets, const std::type_identity_t<SubPatch<T>>& piece,
+                  const std::type_identity_t<MutableNets<T>>& out,
+                  const Options& options) noexcept {
+  const Status status = detail::check_result<T>(nets, out, nets.degree_u, nets.degree_v);
+  if (status != Status::ok) {
+    return {status};
+  }
+  for (const UnitParameter<T>* const at : {&piece.u0, &piece.u1, &piece.v0, &piece.v1}) {
+    const Status usable = detail::check_parameter(nets, *at);
+    if (usable != Status::ok) {
+      return detail::argument_fault(usable);
+    }
+  }
+  const detail::SegmentTask<T> task{detail::view_of(nets),
+                                    detail::view_of(out),
+                                    !detail::is_whole(piece.u0, piece.u1),
+                                    !detail::is_whole(piece.v0, piece.v1),
+                                    {detail::weighting(piece.u0), detail::weighting(piece.u1)},
+                                    {detail::weighting(piece.v0), detail::weighting(piece.v1)},
+                                    detail::kept_points(piece.u0, piece.u1),
+                                    detail::kept_points(piece.v0, piece.v1)};
+  return detail::compute_nets(nets, &detail::NetTable<T>::segment, task,
+                              4 * detail::net_values(nets), options);
+}
+
+template <typename T>
+NetReport elevate(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
+                  const Options& options) noexcept {
+  Status status = detail::check_input(nets);
+  const bool rises = out.degree_u >= nets.degree_u && out.degree_u <= kMostDegree &&
+                     out.degree_v >= nets.degree_v && out.degree_v <= kMostDegree;
+  if (status == Status::ok) {
+    status =
+        rises ? detail::check_result<T>(nets, out, out.degree_u, out.degree_v) : Status::bad_degree;
+  }
+  if (status != Status::ok) {
+    return {status};
+  }
+  return detail::run_map<T>(nets, out, detail::elevation_map(nets.degree_u, out.degree_u),
+                            detail::elevation_map(nets.degree_v, out.degree_v), true, options);
+}
+
+template <typename T>
+NetReport hodograph_u(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
+                      const Options& options) noexcept {
+  return detail::run_hodograph<T>(nets, out, 1, 0, options);
+}
+
+template <typename T>
+NetReport hodograph_v(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
+                      const Options& options) noexcept {
+  return detail::run_hodograph<T>(nets, out, 0, 1, options);
+}
+
+template <typename T>
+NetReport reverse_u(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
+                    const Options& options) noexcept {
+  return detail::run_view<T>(nets, out, nets.degree_u, nets.degree_v, reversed_u<T>, options);
+}
+
+template <typename T>
+NetReport reverse_v(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
+                    const Options& options) noexcept {
+  return detail::run_view<T>(nets, out, nets.degree_u, nets.degree_v, reversed_v<T>, options);
+}
+
+template <typename T>
+NetReport transpose(const ControlNets<T>& nets, const std::type_identity_t<MutableNets<T>>& out,
+                    const Options& options) noexcept {
+  return detail::run_view<T>(nets, out, nets.degree_v, nets.degree_u, transposed<T>, options);
+}
+
+#define SIMDBEZIER_INSTANTIATE_MAP(function, T)                                                    \
+  template SIMDBEZIER_API NetReport function(const ControlNets<T>&,                                \
+                                             const std::type_identity_t<MutableNets<T>>&,          \
+                                             const Options&) noexcept;
+#define SIMDBEZIER_INSTANTIATE(T)                                                                  \
+  template SIMDBEZIER_API NetReport split_u(                                                       \
+      const ControlNets<T>&, AtParameter<T>, const std::type_identity_t<MutableNets<T>>&,          \
+      const std::type_identity_t<MutableNets<T>>&, const Options&) noexcept;                       \
+  template SIMDBEZIER_API NetReport split_v(                                                       \
+      const ControlNets<T>&, AtParameter<T>, const std::type_identity_t<MutableNets<T>>&,          \
+      const std::type_identity_t<MutableNets<T>>&, const Options&) noexcept;                       \
+  template SIMDBEZIER_API NetReport split(                                                         \
+      const ControlNets<T>&, AtParameter<T>, AtParameter<T>,                                       \
+      const std::array<std::type_identity_t<MutableNets<T>>, 4>&, const Options&) noexcept;        \
+  template SIMDBEZIER_API NetReport segment(                                                       \
+      const ControlNets<T>&, const std::type_identity_t<SubPatch<T>>&,                             \
+      const std::type_identity_t<MutableNets<T>>&, const Options&) noexcept;                       \
+  SIMDBEZIER_INSTANTIATE_MAP(elevate, T)                                                           \
+  SIMDBEZIER_INSTANTIATE_MAP(hodograph_u, T)                                                       \
+  SIMDBEZIER_INSTANTIATE_MAP(hodograph_v, T)                                                       \
+  SIMDBEZIER_INSTANTIATE_MAP(reverse_u, T)                                                         \
+  SIMDBEZIER_INSTANTIATE_MAP(reverse_v, T)                                                         \
+  SIMDBEZIER_INSTANTIATE_MAP(transpose, T)
+SIMDBEZIER_INSTANTIATE(float)
+SIMDBEZIER_INSTANTIATE(double)
+#undef SIMDBEZIER_INSTANTIATE
+#undef SIMDBEZIER_INSTANTIATE_MAP
+
+} // namespace simdbezier

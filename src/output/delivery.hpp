@@ -1,0 +1,66 @@
+// One thread's way from staged planes to the caller's memory, chunk by chunk.
+//
+// Kernels write planes of unit stride, and where OutputPlan::arrange() says so records.
+// Where the caller wants other records, or stores that bypass the caches, they write into staging
+// instead, and a drain forms the caller's bytes from there in whole cache lines. Samples that do
+// not fill a line wait in front of the next chunk's planes. When streaming there are two stagings:
+// one chunk is passed on while the next one is computed.
+#pragma once
+
+#include <cstddef>
+
+#include "src/output/output_plan.hpp"
+
+namespace simdbezier::detail {
+
+template <typename T>
+class Delivery {
+public:
+  /// Samples that one chunk should hold.
+  [[nodiscard]] static std::size_t chunk_samples(const OutputPlan<T>& plan) noexcept;
+  /// Bytes of scratch that a thread needs for chunks of up to `samples`; 64-byte aligned.
+  [[nodiscard]] static std::size_t scratch_bytes(std::size_t staged_planes, bool streaming,
+                                                 std::size_t samples) noexcept;
+
+  Delivery(const OutputPlan<T>& plan, const KernelTable<T>& table, std::size_t samples,
+           void* scratch) noexcept;
+
+  /// Where the kernel is to put a chunk whose first sample has the caller's index `sample`: kGroups
+  /// of planes, null where not wanted, until end().
+  const Planes<T>* begin(std::size_t sample) noexcept;
+  /// Those of the chunk after it, where all of them are staged.
+  [[nodiscard]] const Planes<T>* next() const noexcept { return planes_[1 - buffer_]; }
+  /// What the kernel passes on meanwhile; null where there is nothing to overlap.
+  [[nodiscard]] DrainQueue<T>* queue() noexcept {
+    return plan_.streaming() && plan_.staged() ? &queue_ : nullptr;
+  }
+  /// The chunk is computed: `count` samples.
+  void end(std::size_t count) noexcept;
+  /// After the last chunk: nothing is left behind, streaming stores are complete.
+  void finish() noexcept;
+
+private:
+  /// One stream between two chunks.
+  struct State {
+    std::size_t next = 0;    ///< record that goes out next
+    std::size_t pending = 0; ///< records that wait in front of the planes
+    std::size_t peel = 0;    ///< records to go before the first whole line
+  };
+
+  [[nodiscard]] T* plane(std::size_t index) const noexcept;
+  void restart(std::size_t sample) noexcept;
+  void put_single(std::size_t stream, std::ptrdiff_t from, std::size_t count) noexcept;
+  void flush() noexcept;
+
+  const OutputPlan<T>& plan_;
+  const KernelTable<T>& table_;
+  T* staging_[2];
+  std::size_t plane_step_;
+  std::size_t buffer_ = 0;
+  std::size_t expected_; ///< sample with which a chunk that continues this one begins
+  State state_[kMostMembers];
+  Planes<T> planes_[2][kGroups];
+  DrainQueue<T> queue_;
+};
+
+} // namespace simdbezier::detail

@@ -1,0 +1,147 @@
+// Instruction sets by name, and the choice of one. isa_list.inc is written by cmake/isa.cmake: one
+// SIMDBEZIER_ISA_ENTRY(name) for each instruction set of this build, narrowest first.
+#include "src/runtime/dispatch.hpp"
+
+#include <array>
+#include <cstdlib>
+
+namespace simdbezier {
+
+#define SIMDBEZIER_ISA_ENTRY(isa)                                                                  \
+  namespace isa_##isa {                                                                            \
+    extern const detail::KernelTable<float> table_f32;                                             \
+    extern const detail::KernelTable<double> table_f64;                                            \
+  }
+#include "isa_list.inc"
+#undef SIMDBEZIER_ISA_ENTRY
+
+namespace {
+
+struct Tables {
+  const detail::KernelTable<float>* f32;
+  const detail::KernelTable<double>* f64;
+};
+
+#define SIMDBEZIER_ISA_ENTRY(isa) {&isa_##isa::table_f32, &isa_##isa::table_f64},
+constexpr Tables kTables[] = {
+#include "isa_list.inc"
+};
+#undef SIMDBEZIER_ISA_ENTRY
+
+struct IsaName {
+  Isa isa;
+  std::string_view name;
+};
+
+constexpr IsaName kNames[] = {{Isa::automatic, "automatic"}, {Isa::scalar, "scalar"},
+                              {Isa::sse2, "sse2"},           {Isa::avx2, "avx2"},
+                              {Isa::avx512, "avx512"},       {Isa::neon64, "neon64"}};
+
+struct AvailableIsas {
+  std::array<Isa, std::size(kTables)> list{};
+  std::size_t count = 0;
+
+  AvailableIsas() noexcept {
+    for (const Tables& tables : kTables) {
+      if (detail::cpu_supports(tables.f32->isa)) {
+        list[count++] = tables.f32->isa;
+      }
+    }
+  }
+};
+
+bool is_available(Isa wanted) noexcept {
+  for (const Isa isa : available_isas()) {
+    if (isa == wanted) {
+      return true;
+    }
+  }
+  return false;
+}
+
+struct Resolution {
+  Status status;
+  Isa isa;
+};
+
+Resolution resolve_automatic() noexcept {
+  const char* const wish = std::getenv("SIMDBEZIER_ISA");
+  if (wish == nullptr || *wish == '\0') {
+    return {Status::ok, available_isas().back()};
+  }
+  const std::optional<Isa> isa = isa_from_name(wish);
+  if (!isa) {
+    return {Status::unknown_isa, Isa::automatic};
+  }
+  if (*isa == Isa::automatic) {
+    return {Status::ok, available_isas().back()};
+  }
+  return {is_available(*isa) ? Status::ok : Status::unsupported_isa, *isa};
+}
+
+} // namespace
+
+std::string_view to_string(Isa isa) noexcept {
+  for (const IsaName& entry : kNames) {
+    if (entry.isa == isa) {
+      return entry.name;
+    }
+  }
+  return "unknown";
+}
+
+std::optional<Isa> isa_from_name(std::string_view name) noexcept {
+  for (const IsaName& entry : kNames) {
+    if (entry.name == name) {
+      return entry.isa;
+    }
+  }
+  return std::nullopt;
+}
+
+std::span<const Isa> available_isas() noexcept {
+  static const AvailableIsas available;
+  return {available.list.data(), available.count};
+}
+
+bool fuses_multiply_add(Isa isa) noexcept {
+  return isa == Isa::avx2 || isa == Isa::avx512 || isa == Isa::neon64;
+}
+
+Status resolve_isa(Isa requested, Isa& chosen) noexcept {
+  if (requested == Isa::automatic) {
+    static const Resolution automatic = resolve_automatic();
+    if (automatic.status == Status::ok) {
+      chosen = automatic.isa;
+    }
+    return automatic.status;
+  }
+  if (!is_available(requested)) {
+    return Status::unsupported_isa;
+  }
+  chosen = requested;
+  return Status::ok;
+}
+
+namespace detail {
+
+template <>
+const KernelTable<float>& kernel_table<float>(Isa isa) noexcept {
+  const Tables* found = kTables;
+  for (const Tables& tables : kTables) {
+    found = tables.f32->isa == isa ? &tables : found;
+  }
+  return *found->f32;
+}
+
+template <>
+const KernelTable<double>& kernel_table<double>(Isa isa) noexcept {
+  const Tables* found = kTables;
+  for (const Tables& tables : kTables) {
+    found = tables.f64->isa == isa ? &tables : found;
+  }
+  return *found->f64;
+}
+
+} // namespace detail
+} // namespace simdbezier

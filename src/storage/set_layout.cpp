@@ -1,0 +1,157 @@
+#include "src/storage/set_layout.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <limits>
+#include <new>
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+#include "src/calls/pack_request.hpp"
+#include "src/nets/net_call.hpp"
+
+namespace simdbezier::detail {
+namespace {
+
+/// Random samples of a large set would otherwise wait for address translations as well. Not for
+/// small ones, which a processor's tables cover.
+void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__)
+  constexpr std::size_t kWorthwhile = std::size_t{4} << 20;
+  constexpr std::size_t kPage = 4096;
+  if (bytes >= kWorthwhile) {
+    const std::size_t skipped = -reinterpret_cast<std::uintptr_t>(memory) % kPage;
+    // Advice: whatever comes of it, the memory is good, and errno remains the caller's.
+    const int before = errno;
+    (void)madvise(static_cast<unsigned char*>(memory) + skipped, (bytes - skipped) / kPage * kPage,
+                  MADV_HUGEPAGE);
+    errno = before;
+  }
+#endif
+}
+
+/// One block for all arrays of a bucket: given points behind those that start with cache lines.
+template <typename T>
+Status allocate(bool origins, PatchStorage<T>& storage) {
+  const NetShape& shape = storage.shape;
+  const std::size_t given_bytes = shape.control_values() * storage.given.value_bytes();
+  const std::size_t per_patch =
+      (shape.coefficients() + shape.edges() + shape.floors() + (origins ? shape.origins() : 0)) *
+          sizeof(T) +
+      given_bytes;
+  constexpr std::size_t kLimit = std::numeric_limits<std::ptrdiff_t>::max();
+  const std::size_t count = storage.count;
+  if (count > (kLimit - sizeof(T)) / per_patch) {
+    return Status::size_overflow;
+  }
+  const std::size_t bytes = count * per_patch + sizeof(T); // behind floats, doubles may need a gap
+  storage.memory.reset(::operator new (bytes, std::align_val_t{64}, std::nothrow));
+  if (storage.memory == nullptr) {
+    return Status::out_of_memory;
+  }
+  prefer_large_pages(storage.memory.get(), bytes);
+  storage.coefficients = static_cast<T*>(storage.memory.get());
+  storage.edges = storage.coefficients + count * shape.coefficients();
+  T* const behind_edges = storage.edges + count * shape.edges();
+  storage.given.values = behind_edges;
+  storage.normal_floor = behind_edges + (count * given_bytes + sizeof(T) - 1) / sizeof(T);
+  storage.origins = origins ? storage.normal_floor + count * shape.floors() : nullptr;
+  return Status::ok;
+}
+
+/// The bucket of nets like these, made where there is none.
+template <typename T, typename S>
+std::size_t bucket_of(const ControlNets<S>& nets, const PackOptions& options,
+                      SetStorage<T>& storage) {
+  std::vector<PatchStorage<T>>& buckets = storage.buckets;
+  const NetShape shape = shape_of(nets);
+  const auto found = std::find_if(buckets.begin(), buckets.end(), [&](const auto& bucket) {
+    return bucket.shape == shape && bucket.given.weights == nets.weights;
+  });
+  if (found != buckets.end()) {
+    return static_cast<std::size_t>(found - buckets.begin());
+  }
+  buckets.emplace_back();
+  buckets.back().shape = shape;
+  buckets.back().given = given_form<S>(nets.weights, options);
+  return buckets.size() - 1;
+}
+
+/// Both ways between a patch's number and its place; a set of one shape needs neither.
+template <typename T>
+void number_patches(std::span<const PackRun> runs, SetStorage<T>& storage) {
+  storage.places = std::make_unique<PatchPlace[]>(storage.count);
+  for (PatchStorage<T>& bucket : storage.buckets) {
+    bucket.number = std::make_unique<std::size_t[]>(bucket.count);
+  }
+  for (const PackRun& run : runs) {
+    for (std::size_t i = 0; i < run.count; ++i) {
+      storage.places[run.number + i] = {static_cast<std::uint32_t>(run.bucket), run.place + i};
+      storage.buckets[run.bucket].number[run.place + i] = run.number + i;
+    }
+  }
+}
+
+} // namespace
+
+template <typename S>
+PackReport check_nets(std::span<const ControlNets<S>> nets) noexcept {
+  std::size_t patch = 0;
+  for (const ControlNets<S>& entry : nets) {
+    Status status = check_input(entry);
+    if (status == Status::ok && entry.components != nets.front().components) {
+      status = Status::bad_components;
+    }
+    if (status == Status::ok && __builtin_add_overflow(patch, entry.count, &patch)) {
+      status = Status::size_overflow;
+    }
+    if (status != Status::ok) {
+      return {status, status == Status::size_overflow ? 0 : patch};
+    }
+  }
+  return {};
+}
+
+template <typename T, typename S>
+Status lay_out(std::span<const ControlNets<S>> nets, const PackOptions& options,
+               SetStorage<T>& storage, std::vector<PackRun>& runs) {
+  for (std::size_t entry = 0; entry < nets.size(); ++entry) {
+    const std::size_t count = nets[entry].count;
+    if (count == 0) {
+      continue;
+    }
+    const std::size_t index = bucket_of(nets[entry], options, storage);
+    PatchStorage<T>& bucket = storage.buckets[index];
+    runs.push_back({entry, index, bucket.count, storage.count, count});
+    bucket.count += count;
+    storage.count += count;
+  }
+  if (storage.buckets.empty()) { // a set without patches has one without patches
+    bucket_of(nets.empty() ? ControlNets<S>{} : nets.front(), options, storage);
+  }
+  for (PatchStorage<T>& bucket : storage.buckets) {
+    const Status status = allocate(options.local_origin, bucket);
+    if (status != Status::ok) {
+      return status;
+    }
+  }
+  if (storage.buckets.size() > 1) {
+    number_patches<T>(runs, storage);
+  }
+  return Status::ok;
+}
+
+template PackReport check_nets(std::span<const ControlNets<float>>) noexcept;
+template PackReport check_nets(std::span<const ControlNets<double>>) noexcept;
+template Status lay_out(std::span<const ControlNets<float>>, const PackOptions&, SetStorage<float>&,
+                        std::vector<PackRun>&);
+template Status lay_out(std::span<const ControlNets<double>>, const PackOptions&,
+                        SetStorage<float>&, std::vector<PackRun>&);
+template Status lay_out(std::span<const ControlNets<float>>, const PackOptions&,
+                        SetStorage<double>&, std::vector<PackRun>&);
+template Status lay_out(std::span<const ControlNets<double>>, const PackOptions&,
+                        SetStorage<double>&, std::vector<PackRun>&);
+
+} // namespace simdbezier::detail

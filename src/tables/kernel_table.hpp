@@ -1,0 +1,258 @@
+// The contract between the base code and the kernels of one instruction set. No xsimd in here.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include <simdbezier/evaluate.hpp>
+
+#include "src/storage/given_points.hpp"
+#include "src/storage/net_shape.hpp"
+
+namespace simdbezier::detail {
+
+/// The vector-valued outputs, in the order of Outputs.
+enum Group : std::size_t {
+  kPositionGroup,
+  kDuGroup,
+  kDvGroup,
+  kDuuGroup,
+  kDuvGroup,
+  kDvvGroup,
+  kNormalGroup,
+  kGroups
+};
+
+/// Three planes of one output group, unit stride; null where the group was not asked for.
+template <typename T>
+struct Planes {
+  T* component[3] = {nullptr, nullptr, nullptr};
+  [[nodiscard]] bool wanted() const noexcept { return component[0] != nullptr; }
+};
+
+/// The curvatures, in the order of Curvatures.
+inline constexpr std::size_t kCurvatures = 4;
+
+/// A sample whose |du x dv|^2 did not pass the quick test.
+template <typename T>
+struct NormalQuery {
+  const NetShape* shape;
+  GivenNet net; ///< of its patch
+  T x;          ///< half-centred parameters
+  T y;
+};
+
+/// Writes the unit normal (or zero, or nan at nan parameters); see src/exact/normal_fallback.hpp.
+template <typename T>
+using ResolveNormal = SampleStatus (*)(const NormalQuery<T>& query, T normal[3]);
+
+/// How a row of samples is evaluated.
+enum class RowKind : std::uint8_t {
+  interior,
+  edge_v0, ///< Y is exactly -1/2
+  edge_v1, ///< Y is exactly 1/2
+  outside  ///< |Y| > 1/2 or nan: the interior's formula, every normal takes a second look
+};
+
+/// Consecutive rows of one kind.
+template <typename T>
+struct RowRun {
+  const T* y; ///< `rows` half-centred parameters, then at least kMaxLanes more readable values
+  std::uint32_t rows;
+  RowKind kind;
+};
+
+/// Finished samples on their way from staging to the caller's memory; see
+/// src/tables/drain_queue.hpp.
+template <typename T>
+struct DrainQueue;
+
+/// Consecutive patches on consecutive rows of one grid.
+///
+/// Sample (patch, row, column) of the task goes to plane[patch * patch_step + row * nu + column],
+/// counted from the task's first patch and first row.
+template <typename T>
+struct GridTask {
+  const NetShape* shape;
+  const T* coefficients;
+  const T* edges;
+  GivenPoints given;
+  const T* origins; ///< null where the set has none
+  const T* normal_floor;
+  std::size_t patch_count;
+
+  const T* x; ///< nu values, then kMaxLanes more that repeat the last one
+  std::size_t nu;
+  const RowRun<T>* runs; ///< the rows, first to last
+  std::size_t run_count;
+
+  Planes<T> out[kGroups];
+  T* curvature[kCurvatures];   ///< null where not wanted; read by the kernels of any shape only
+  std::size_t first_component; ///< the component that goes to component[0]; likewise
+  SampleStatus* status; ///< may be null; filled beforehand, changed where a normal is unusual
+  std::size_t patch_step;
+  ResolveNormal<T> resolve_normal;
+  bool prefetch;        ///< the set does not fit the second-level cache
+  bool streaming;       ///< rows are whole cache lines, to be stored past the caches
+  bool watertight;      ///< edges come from their own control points
+  std::size_t record;   ///< values from one sample to the next: see OutputPlan::record()
+  DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see pace()
+  Isa executed;         ///< written by the kernel
+};
+
+/// Scattered samples with unit-stride outputs.
+template <typename T>
+struct ScatteredTask {
+  const NetShape* shape;
+  const T* coefficients;
+  const T* edges;
+  GivenPoints given;
+  const T* origins; ///< null where the set has none
+  const T* normal_floor;
+
+  const std::uint32_t* patch;
+  const T* u; ///< as given; half-centred parameters are (u - shift) * scale
+  const T* v;
+  T shift;
+  T scale;
+  std::size_t count;
+  std::size_t patches_known; ///< how many of `patch` may be read: those of later tasks as well
+  bool watertight;           ///< as in GridTask
+  bool prefetch;             ///< the set's coefficients do not fit the second-level cache
+  T common_floor; ///< no patch has a higher normal_floor; infinity where they differ much
+
+  Planes<T> out[kGroups];
+  T* curvature[kCurvatures];   ///< as in GridTask
+  std::size_t first_component; ///< likewise
+  SampleStatus* status;        ///< may be null; `regular` beforehand, changed where a sample is not
+  ResolveNormal<T> resolve_normal;
+  Isa executed; ///< written by the kernel
+};
+
+/// X and Y arrays are padded so that the widest kernel may read past the last column or row.
+inline constexpr std::size_t kMaxLanes = 16;
+
+/// Patches, curves or nets in whole groups of the widest kernel: work that is cut at groups has one
+/// incomplete register at the most, the last one.
+constexpr std::size_t lane_groups(std::size_t count) noexcept {
+  return count / kMaxLanes + (count % kMaxLanes == 0 ? 0 : 1);
+}
+
+/// Which outputs a kernel is compiled for.
+enum OutputSet : std::size_t {
+  kPosition,
+  kPositionNormal,
+  kPositionDerivatives,
+  kAnyOutputs,        ///< position, du, dv, normal: all computed, null groups not stored
+  kSecondDerivatives, ///< duu, duv, dvv: all computed, null groups not stored
+  kOutputSets
+};
+
+/// What positions are made of: the interior's formula everywhere, edges from their own control
+/// points, and these around local origins.
+enum Scheme : std::size_t { kOpen, kOpenOrigin, kWatertight, kWatertightOrigin, kSchemes };
+
+inline constexpr Scheme scheme(bool watertight, bool origins) {
+  return watertight ? (origins ? kWatertightOrigin : kWatertight) : (origins ? kOpenOrigin : kOpen);
+}
+inline constexpr bool is_watertight(Scheme s) { return s == kWatertight || s == kWatertightOrigin; }
+inline constexpr bool has_origins(Scheme s) { return s == kOpenOrigin || s == kWatertightOrigin; }
+
+/// Nets to pack, and where the arrays of patch 0 begin.
+template <typename T, typename S>
+struct PackTask {
+  const S* points;
+  std::ptrdiff_t patch_stride;
+  std::ptrdiff_t row_stride;
+  std::ptrdiff_t point_stride;
+  std::ptrdiff_t component_stride;
+  double relative_to[3];
+
+  T* coefficients;
+  T* edges;
+  S* control_points; ///< as given, see given_points.hpp
+  T* origins;        ///< null where none are wanted
+  T* normal_floor;
+};
+
+/// Patches [begin, end) have been packed, but something among them may not be finite, and what
+/// follows them has not been looked at. begin == end where all is well.
+struct PackDoubt {
+  std::size_t begin;
+  std::size_t end;
+};
+
+/// Packs patches [begin, end).
+template <typename T, typename S>
+using PackKernel = PackDoubt (*)(const PackTask<T, S>& task, std::size_t begin, std::size_t end);
+
+/// The packing kernel of `table` for control points in S.
+template <typename S, typename Table>
+constexpr auto packing_kernel(const Table& table) noexcept {
+  if constexpr (std::is_same_v<S, float>) {
+    return table.pack_f32;
+  } else {
+    return table.pack_f64;
+  }
+}
+
+/// Nets of any shape to pack, and where the arrays of patch 0 begin.
+template <typename T, typename S>
+struct NetPackTask {
+  ControlNets<S> nets;
+  NetShape shape;
+  double relative_to[3]; ///< of the first three components
+
+  T* coefficients;
+  T* edges;
+  S* control_points; ///< as given, see given_points.hpp
+  T* origins;        ///< null where none are wanted
+  T* normal_floor;
+};
+
+template <typename T, typename S>
+using NetPackKernel = PackDoubt (*)(const NetPackTask<T, S>& task, std::size_t begin,
+                                    std::size_t end);
+
+/// Samples whose derivatives of any order are wanted: src/tables/derivative_task.hpp.
+template <typename T>
+struct DerivativeTask;
+
+/// Kernels for patches of any shape. They read NetShape where those of KernelTable know theirs, but
+/// the tasks are the same, and so are the bits where both can run.
+template <typename T>
+struct ShapeTable {
+  void (*grid)(GridTask<T>& task); ///< all outputs that the task wants
+  void (*scattered)(ScatteredTask<T>& task);
+  void (*derivatives)(DerivativeTask<T>& task);
+  NetPackKernel<T, float> pack_f32;
+  NetPackKernel<T, double> pack_f64;
+};
+
+/// Kernels for curves (src/tables/curve_table.hpp), and for operations on control nets
+/// (src/tables/net_table.hpp).
+template <typename T>
+struct CurveTable;
+template <typename T>
+struct NetTable;
+
+/// Kernels for bicubic patches in space, and the way to all others.
+template <typename T>
+struct KernelTable {
+  Isa isa;
+  std::size_t lanes;
+  bool puts_records; ///< whether usual outputs' grid kernels put records together
+  void (*grid[kOutputSets][kSchemes])(GridTask<T>& task);
+  void (*scattered[2])(ScatteredTask<T>& task); ///< [1]: sets with origins
+  void (*drain)(DrainQueue<T>& queue);          ///< passes on all that is left
+  void (*fence)();                              ///< completes streaming stores
+  std::uint32_t (*highest_index)(const std::uint32_t* index, std::size_t count);
+  PackKernel<T, float> pack_f32;
+  PackKernel<T, double> pack_f64;
+  const ShapeTable<T>* shapes;
+  const CurveTable<T>* curves;
+  const NetTable<T>* nets;
+};
+
+} // namespace simdbezier::detail

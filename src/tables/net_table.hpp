@@ -1,0 +1,136 @@
+// The contract between the base code and the kernels for operations on control nets.
+//
+// Kernels work on groups of as many patches as a register has lanes. A group is gathered to
+// [value][lane], value being (j * order_u + i) * channels + channel, in homogeneous coordinates;
+// every algorithm is written once over a register and runs on such arrays, which lie in scratch
+// memory that the base code provides.
+#pragma once
+
+#include <simdbezier/nets.hpp>
+
+#include "src/tables/kernel_table.hpp"
+
+namespace simdbezier::detail {
+
+/// Bytes of one value of a group, whatever the instruction set and the type.
+inline constexpr std::size_t kLineBytes = 64;
+
+/// Nets in memory, read or written: ControlNets and MutableNets with sizes instead of degrees.
+template <typename S>
+struct NetView {
+  S* points;
+  std::size_t order_u;
+  std::size_t order_v;
+  std::size_t components;
+  std::size_t channels; ///< components and weight
+  std::ptrdiff_t patch_stride;
+  std::ptrdiff_t row_stride;
+  std::ptrdiff_t point_stride;
+  std::ptrdiff_t component_stride;
+  bool cartesian; ///< weights that multiply the components on the way in, divide on the way out
+  bool packed;    ///< the values of a net lie side by side, in the order of a group
+};
+
+/// Which control points of a result are points of the input, in one direction: these are copied
+/// where nets are cartesian, since (w P) / w is not always P.
+struct KeptPoints {
+  bool all = false;   ///< the direction was not touched
+  bool first = false; ///< point 0 is point 0
+  bool last = false;  ///< the last one is the last one
+};
+
+/// Parameters as UnitParameter holds them.
+template <typename T>
+struct Weighting {
+  T t;
+  T complement;
+};
+
+/// Cuts in u (into out[0] and out[1]), in v (out[0] and out[2]), or both. Scratch: three nets.
+template <typename T>
+struct SplitTask {
+  NetView<const T> in;
+  NetView<T> out[4]; ///< [2 * half in v + half in u]; points null where not wanted
+  bool in_u;
+  bool in_v;
+  Weighting<T> u;
+  Weighting<T> v;
+};
+
+/// Scratch: four nets.
+template <typename T>
+struct SegmentTask {
+  NetView<const T> in;
+  NetView<T> out;
+  bool in_u; ///< not the whole of [0,1]
+  bool in_v;
+  Weighting<T> u[2];
+  Weighting<T> v[2];
+  KeptPoints kept_u;
+  KeptPoints kept_v;
+};
+
+/// A linear map of one direction's values: out_r = factor_r sum_k entry_rk in_k / divisor_r.
+///
+/// Terms are added in pairs, the order of which is part of the map: pairs that mirror each other
+/// give reversed input the reversed result, bit for bit.
+struct LinearMap {
+  struct Pair {
+    std::size_t a, b; ///< columns; equal with entry_b = 0 where a term is alone
+    double entry_a, entry_b;
+  };
+  struct Row {
+    Pair pair[kMostOrder];
+    std::size_t pairs = 0;
+    double factor = 1;
+    double divisor = 1;
+  };
+  Row row[kMostOrder];
+  std::size_t rows = 0;
+  bool identity = false;
+  bool keeps_constants = false; ///< rows sum to 1: where all terms of a row are equal, so is it
+};
+
+/// Maps both directions, in double. Scratch: three nets of the larger order in each direction.
+template <typename T>
+struct MapTask {
+  NetView<const T> in;
+  NetView<T> out;
+  const LinearMap* u;
+  const LinearMap* v;
+  KeptPoints kept_u;
+  KeptPoints kept_v;
+};
+
+/// Scratch: one net, and two for each level.
+template <typename T>
+struct BoxTask {
+  NetView<const T> in;
+  T* low; ///< [patch][component]
+  T* high;
+  int levels; ///< 0: boxes of the control points
+};
+
+/// Scratch: one net.
+template <typename T>
+struct FlatnessTask {
+  NetView<const T> in;
+  T* out;            ///< [patch]
+  T root_components; ///< sqrt(components), rounded up
+};
+
+/// Works on patches [begin, end) and says what it was compiled for.
+template <typename Task>
+using NetKernel = Isa (*)(const Task& task, std::size_t begin, std::size_t end,
+                          unsigned char* scratch);
+
+template <typename T>
+struct NetTable {
+  NetKernel<SplitTask<T>> split;
+  NetKernel<SegmentTask<T>> segment;
+  NetKernel<MapTask<T>> map;
+  NetKernel<BoxTask<T>> boxes;
+  NetKernel<FlatnessTask<T>> flatness;
+};
+
+} // namespace simdbezier::detail
