@@ -34,27 +34,42 @@ struct QuestionDigits {
 /// What double precision says of a coefficient.
 enum class Verdict { zero, found, doubtful };
 
+/// The largest component's magnitude.
+inline double largest(const Bounded vector[3]) {
+  return std::fmax(std::fabs(vector[0].value),
+                   std::fmax(std::fabs(vector[1].value), std::fabs(vector[2].value)));
+}
+
 inline Verdict verdict(const Bounded vector[3], double tolerance) {
-  double size = 0;
   double error = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     if (!std::isfinite(vector[c].value) || !std::isfinite(vector[c].error)) {
       return Verdict::doubtful;
     }
-    size = std::fmax(size, std::fabs(vector[c].value));
     error = std::fmax(error, vector[c].error);
   }
+  const double size = largest(vector);
   if (size == 0 && error == 0) {
     return Verdict::zero;
   }
   return error <= tolerance * size ? Verdict::found : Verdict::doubtful;
 }
 
+/// sum + a x b
+template <typename Field>
+void add_cross(const Field& field, const typename Field::Value* a, const typename Field::Value* b,
+               typename Field::Value* sum) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::size_t d = (c + 1) % 3;
+    const std::size_t e = (c + 2) % 3;
+    sum[c] = field.multiply_add(a[d], b[e], sum[c]);
+    sum[c] = field.subtract_product(a[e], b[d], sum[c]);
+  }
+}
+
 /// A vector over a power of two of about its size, so that it can be squared.
 inline void take(const Bounded vector[3], LeadingTerm& term) {
-  const double size = std::fmax(std::fabs(vector[0].value),
-                                std::fmax(std::fabs(vector[1].value), std::fabs(vector[2].value)));
-  term.exponent = std::ilogb(size);
+  term.exponent = std::ilogb(largest(vector));
   for (std::size_t c = 0; c < 3; ++c) {
     term.vector[c] = std::ldexp(vector[c].value, -term.exponent);
   }

@@ -59,11 +59,12 @@ public:
   [[nodiscard]] bool is_zero() const {
     const std::size_t count = (degree_u_ + 1) * (degree_v_ + 1);
     const BoundedField doubles = field();
+    const FromFirst<BoundedField> points(doubles, points_);
     std::size_t far = 0;
     double size = 0;
     for (std::size_t k = 1; k < count; ++k) {
       Bounded at[3];
-      place_from_first(doubles, k, at);
+      points.place(k, at);
       for (std::size_t c = 0; c < 3; ++c) {
         if (std::fabs(at[c].value) > std::fmax(size, at[c].error)) {
           size = std::fabs(at[c].value);
@@ -75,11 +76,12 @@ public:
     if (far == 0 || !on_line(doubles, far, count, beside_line)) {
       return false;
     }
-    const QuestionDigits all = digits();
-    const int needed = 2 * points_.digits(all.numbers[kPoint], all.numbers[kWeight]) + 4;
+    DigitRange ranges[kQuantities];
+    points_.include_in(ranges[kPoint], ranges[kWeight]);
+    const int needed = 2 * points_.digits(ranges[kPoint], ranges[kWeight]) + 4;
     Primes primes;
     for (double known = 0; known < needed; known += Primes::kDigits) {
-      const PrimeField field(primes.next(), all.numbers);
+      const PrimeField field(primes.next(), ranges);
       if (!on_line(field, far, count, [](Residue a) { return !PrimeField::vanishes(a); })) {
         return false;
       }
@@ -88,33 +90,42 @@ public:
   }
 
 private:
-  /// Numerators of point k relative to the first point: place() moves rational ones only.
+  /// Numerators relative to the first point: ExactPoints::place() moves rational ones only.
   template <typename Field>
-  void place_from_first(const Field& field, std::size_t k, typename Field::Value to[3]) const {
-    typename Field::Value first[4];
-    typename Field::Value point[4];
-    points_.place(field, 0, 0, first);
-    points_.place(field, k, 0, point);
-    for (std::size_t c = 0; c < 3; ++c) {
-      to[c] = field.subtract(point[c], first[c]);
+  class FromFirst {
+  public:
+    FromFirst(const Field& field, const ExactPoints& points) : field_(field), points_(points) {
+      points.place(field, 0, 0, first_);
     }
-  }
+    void place(std::size_t k, typename Field::Value to[3]) const {
+      typename Field::Value point[4];
+      points_.place(field_, k, 0, point);
+      for (std::size_t c = 0; c < 3; ++c) {
+        to[c] = field_.subtract(point[c], first_[c]);
+      }
+    }
+
+  private:
+    const Field& field_;
+    const ExactPoints& points_;
+    typename Field::Value first_[4];
+  };
   /// Whether no point is beside the line through the first one and point `far`: by the cross
   /// products' components, each judged by beside().
   template <typename Field, typename Beside>
   [[nodiscard]] bool on_line(const Field& field, std::size_t far, std::size_t count,
                              const Beside& beside) const {
-    typename Field::Value along[3];
-    place_from_first(field, far, along);
+    using Value = typename Field::Value;
+    const FromFirst<Field> points(field, points_);
+    Value along[3];
+    points.place(far, along);
     for (std::size_t k = 1; k < count; ++k) {
-      typename Field::Value at[3];
-      place_from_first(field, k, at);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t d = (c + 1) % 3;
-        const std::size_t e = (c + 2) % 3;
-        if (beside(field.subtract_product(along[e], at[d], field.multiply(along[d], at[e])))) {
-          return false;
-        }
+      Value at[3];
+      points.place(k, at);
+      Value cross[3] = {field.zero(), field.zero(), field.zero()};
+      add_cross(field, along, at, cross);
+      if (std::any_of(cross, cross + 3, beside)) {
+        return false;
       }
     }
     return true;
@@ -228,14 +239,8 @@ private:
   /// Adds coefficient k of a x b.
   void add_crosses(const Terms& a, const Terms& b, std::size_t k, Value* sum) const {
     for (std::size_t i = 0; i <= k; ++i) {
-      if (i >= kMostTerms || k - i >= kMostTerms) {
-        continue;
-      }
-      for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t d = (c + 1) % 3;
-        const std::size_t e = (c + 2) % 3;
-        sum[c] = field_.multiply_add(a[i][d], b[k - i][e], sum[c]);
-        sum[c] = field_.subtract_product(a[i][e], b[k - i][d], sum[c]);
+      if (i < kMostTerms && k - i < kMostTerms) {
+        add_cross(field_, a[i], b[k - i], sum);
       }
     }
   }

@@ -1,6 +1,7 @@
 // The tangent of a curve along its parameter, and how it bends, as polynomials.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include "src/exact/exact_points.hpp"
@@ -160,13 +161,11 @@ public:
       Value b[3];
       tangent_.coefficient(i, a);
       tangent_.coefficient(j, b);
+      Value product[3] = {field_.zero(), field_.zero(), field_.zero()};
+      add_cross(field_, a, b, product);
       const Value factor = field_.integer(static_cast<std::uint32_t>(j - i));
       for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t d = (c + 1) % 3;
-        const std::size_t e = (c + 2) % 3;
-        Value product = field_.multiply(a[d], b[e]);
-        product = field_.subtract_product(a[e], b[d], product);
-        vector[c] = field_.multiply_add(factor, product, vector[c]);
+        vector[c] = field_.multiply_add(factor, product[c], vector[c]);
       }
     }
   }
