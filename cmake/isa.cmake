@@ -69,7 +69,7 @@ function(simdbezier_add_isa_kernels target)
     target_compile_definitions(${object} PRIVATE SIMDBEZIER_ISA=${name} SIMDBEZIER_ARCH=${arch}
                                                  SIMDBEZIER_KERNELS_${upper})
     # Without optimisation xsimd's small functions leave weak symbols behind that the linker could
-    # hand to objects of another instruction set (tests/library/check_symbols.cmake watches).
+    # hand to objects of another instruction set (tests/runtime/check_symbols.cmake watches).
     # -O3 in every other build: below it g++ 12 keeps the registers' arrays in memory, which costs a
     # factor of two. No errno: sqrt becomes one instruction. No exceptions: their personality routine would be one
     # more symbol to merge. Without -fno-ivopts and -fno-tree-pre g++ 12 makes many addresses of a

@@ -8,7 +8,7 @@
 
 #include <simdbezier/simdbezier.hpp>
 
-#include "tests/support/oracle.hpp"
+#include "tests/support/oracle/oracle.hpp"
 #include "tests/support/random.hpp"
 
 namespace simdbezier::tests {

@@ -1,6 +1,6 @@
 // Curves on patches: boundaries have the patch's own bits, iso-parametric curves its points.
 #include "tests/curves/curve_results.hpp"
-#include "tests/curves/net_batch.hpp"
+#include "tests/curves/iso_batch.hpp"
 
 namespace simdbezier::tests {
 namespace {

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "tests/curves/curve_results.hpp"
-#include "tests/curves/net_batch.hpp"
+#include "tests/curves/iso_batch.hpp"
 
 namespace simdbezier::tests {
 namespace {

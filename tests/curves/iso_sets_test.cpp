@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/library/shape_nets.hpp"
+#include "tests/support/nets/shape_nets.hpp"
 
 namespace simdbezier::tests {
 namespace {

@@ -6,8 +6,8 @@
 #include <tools/teapot.hpp>
 #include <tools/topology.hpp>
 
-#include "tests/nets/batch.hpp"
-#include "tests/support/data_files.hpp"
+#include "tests/nets/net_batches.hpp"
+#include "tests/support/nets/data_files.hpp"
 
 namespace simdbezier::tests {
 namespace {

@@ -2,7 +2,7 @@
 // and whole B-spline meshes.
 #include <gtest/gtest.h>
 
-#include "tests/nets/batch.hpp"
+#include "tests/nets/net_batches.hpp"
 
 namespace simdbezier::tests {
 namespace {

@@ -12,7 +12,7 @@
 #include <simdbezier/simdbezier.hpp>
 
 #include "tests/support/hash.hpp"
-#include "tests/support/net.hpp"
+#include "tests/support/nets/net.hpp"
 
 namespace simdbezier::tests {
 

@@ -1,0 +1,275 @@
+// Scattered samples in any company: a call for many gives each the bits of a call for it alone.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/evaluation.hpp"
+#include "tests/support/isa_fixture.hpp"
+#include "tests/support/nets/generators.hpp"
+#include "tests/support/random.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+constexpr std::size_t kPatches = 24;
+
+// In what order samples name their patches -----------------------------------------------------
+
+struct Pattern {
+  const char* name;
+  std::size_t (*patch)(std::size_t k, std::size_t hash);
+};
+
+/// Runs of 1, 2, … 40 samples of one patch, then again.
+std::size_t growing_runs(std::size_t k, std::size_t /*hash*/) {
+  std::size_t run = 1;
+  std::size_t id = 0;
+  for (std::size_t end = run; end <= k; ++id) {
+    run = run % 40 + 1;
+    end += run;
+  }
+  return id;
+}
+
+const Pattern kPatterns[] = {
+    {"equal", [](std::size_t, std::size_t) { return std::size_t{5}; }},
+    {"growing_runs", growing_runs},
+    {"runs_of_64", [](std::size_t k, std::size_t) { return k / 64; }},
+    {"descending", [](std::size_t k, std::size_t) { return kPatches - 1 - k % kPatches; }},
+    {"alternating", [](std::size_t k, std::size_t) { return k % 2; }},
+    {"last_differs", [](std::size_t k, std::size_t) { return std::size_t{k % 16 == 15}; }},
+    {"random", [](std::size_t, std::size_t hash) { return hash; }},
+};
+
+// What is special about some parameters --------------------------------------------------------
+
+enum Special { kInside, kOnEdges, kOutside, kNotFinite, kAll, kSpecials };
+constexpr const char* kSpecialNames[] = {"inside", "edges", "outside", "not_finite", "all"};
+
+double ordinary(std::size_t hash) { return (static_cast<double>(hash % 4093) + 0.5) / 4093; }
+
+template <typename T>
+T parameter(Special special, std::size_t hash) {
+  const std::size_t kind = hash / 4093 % 7;
+  const auto inside = static_cast<T>(ordinary(hash));
+  if ((special == kOnEdges || special == kAll) && kind < 2) {
+    return static_cast<T>(kind);
+  }
+  if ((special == kOutside || special == kAll) && kind == 2) {
+    return inside * 3 - 1;
+  }
+  if ((special == kNotFinite || special == kAll) && kind == 3) {
+    constexpr T kValues[] = {std::numeric_limits<T>::quiet_NaN(),
+                             std::numeric_limits<T>::infinity(),
+                             -std::numeric_limits<T>::infinity()};
+    return kValues[hash % 3];
+  }
+  return inside;
+}
+
+template <typename T>
+SampleArrays<T> make_samples(std::size_t count, const Pattern& pattern, Special special) {
+  Random random(count + 1);
+  const auto hash = [&] { return static_cast<std::size_t>(random.below(1U << 30)); };
+  SampleArrays<T> samples;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t patch = pattern.patch(k, hash()) % kPatches;
+    const T u = parameter<T>(special, hash());
+    samples.add(patch, u, parameter<T>(special, hash()));
+  }
+  return samples;
+}
+
+// What is asked for ----------------------------------------------------------------------------
+
+/// Bits of a set of groups, in the order of Outputs: position du dv duu duv dvv normal.
+constexpr unsigned kGroupSets[] = {0b0000001, 0b1000001, 0b0000111, 0b1000000, 0b0000010,
+                                   0b0000100, 0b1111111, 0b0111000, 0b0010001, 0b1000100};
+constexpr std::size_t kGroups = 7;
+
+/// Planes of all groups, prefilled, and `kGuard` values behind each that must stay as they are.
+template <typename T>
+struct Results {
+  static constexpr std::size_t kGuard = 17;
+  static constexpr T kUntouched = T(-777);
+
+  std::size_t count;
+  std::vector<T> values;
+  std::vector<SampleStatus> status;
+
+  explicit Results(std::size_t samples)
+      : count(samples), values(3 * kGroups * (samples + kGuard), kUntouched),
+        status(samples + kGuard, static_cast<SampleStatus>(77)) {}
+
+  T* plane(std::size_t index) { return values.data() + index * (count + kGuard); }
+
+  Outputs<T> outputs(unsigned groups, std::size_t first = 0) {
+    Outputs<T> out;
+    Vectors<T>* const all[kGroups] = {&out.position, &out.du,  &out.dv,    &out.duu,
+                                      &out.duv,      &out.dvv, &out.normal};
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      if ((groups >> g & 1U) != 0) {
+        *all[g] = Vectors<T>::planes(plane(3 * g) + first, plane(3 * g + 1) + first,
+                                     plane(3 * g + 2) + first);
+      }
+    }
+    out.status = status.data() + first;
+    return out;
+  }
+
+  /// The first sample in which two results differ, or count + kGuard.
+  std::size_t first_difference(Results& other) {
+    for (std::size_t k = 0; k < count + kGuard; ++k) {
+      for (std::size_t p = 0; p < 3 * kGroups; ++p) {
+        if (!same_bits(plane(p)[k], other.plane(p)[k])) {
+          return k;
+        }
+      }
+      if (status[k] != other.status[k]) {
+        return k;
+      }
+    }
+    return count + kGuard;
+  }
+};
+
+// Checks ---------------------------------------------------------------------------------------
+
+template <typename T>
+class Scattered : public IsaTest {
+protected:
+  void make_sets() {
+    Random random(11);
+    std::vector<Net> nets;
+    for (std::size_t i = 0; i < kPatches; ++i) {
+      nets.push_back(i % 6 == 5 ? signs_net(random) : wave_net(random));
+    }
+    for (std::size_t k = 1; k < 4; ++k) { // a pole: normals that take a second look
+      nets[3].at(0, static_cast<int>(k)) = nets[3].at(0, 0);
+    }
+    plain_ = packed<T>(nets);
+    origins_ = packed<T>(nets, {.local_origin = true});
+  }
+
+  /// Each sample of a call against a call for it alone.
+  void check(std::size_t count, const Pattern& pattern, Special special, unsigned groups,
+             bool watertight, bool origins) {
+    const PatchSet<T>& set = origins ? origins_ : plain_;
+    const SampleArrays<T> samples = make_samples<T>(count, pattern, special);
+    const Samples<T> all = samples.view(Parameters::unit);
+    Options options;
+    options.watertight = watertight;
+    options.threads = 1;
+    Results<T> together(count);
+    scattered(set, all, together.outputs(groups), options);
+    Results<T> alone(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Samples<T> one{1, all.patch + k, all.u + k, all.v + k, all.parameters};
+      scattered(set, one, alone.outputs(groups, k), options);
+    }
+    EXPECT_EQ(together.first_difference(alone), count + Results<T>::kGuard)
+        << count << " samples, " << pattern.name << ", " << kSpecialNames[special] << ", groups "
+        << groups << (watertight ? ", watertight" : ", open") << (origins ? ", origins" : "");
+  }
+
+  void check_all() {
+    make_sets();
+    for (const Pattern& pattern : kPatterns) {
+      for (std::size_t count = 1; count <= 100; ++count) {
+        check(count, pattern, static_cast<Special>(count % kSpecials),
+              kGroupSets[count % std::size(kGroupSets)], count % 3 != 0, count % 4 == 0);
+      }
+      for (const unsigned groups : kGroupSets) {
+        for (int special = 0; special < kSpecials; ++special) {
+          for (const bool watertight : {false, true}) {
+            check(1061, pattern, static_cast<Special>(special), groups, watertight, false);
+          }
+        }
+        check(1061, pattern, kAll, groups, true, true);
+        check(1061, pattern, kInside, groups, false, true);
+      }
+    }
+  }
+
+  /// One patch is larger than the others, whose normals ought not to notice. Some samples, one in a
+  /// register at the most, are about poles, where normals take a second look or nearly do.
+  void check_company_of(std::size_t large, double scale) {
+    Random random(13);
+    std::vector<Net> nets;
+    std::vector<PatchSet<T>> single;
+    for (std::size_t i = 0; i < kPatches; ++i) {
+      nets.push_back(wave_net(random));
+      for (Vector3& point : nets[i].points) {
+        for (double& value : point) {
+          value *= i == large ? scale : 1;
+        }
+      }
+      for (int k = 1; k < 4; ++k) {
+        nets[i].at(0, k) = nets[i].at(0, 0);
+      }
+      single.push_back(packed<T>({&nets[i], 1}));
+    }
+    SampleArrays<T> samples = make_samples<T>(4243, kPatterns[6], kInside);
+    for (std::size_t k = 0; k < samples.v.size(); k += 17) {
+      samples.v[k] = std::ldexp(samples.v[k], -static_cast<int>(k % 24));
+    }
+    const Samples<T> all = samples.view(Parameters::unit);
+    Results<T> together(all.count);
+    scattered(packed<T>(nets), all, together.outputs(kGroupSets[1]));
+    Results<T> alone(all.count);
+    constexpr std::uint32_t kFirst = 0;
+    for (std::size_t k = 0; k < all.count; ++k) {
+      const Samples<T> one{1, &kFirst, all.u + k, all.v + k, all.parameters};
+      scattered(single[all.patch[k]], one, alone.outputs(kGroupSets[1], k));
+    }
+    EXPECT_EQ(together.first_difference(alone), all.count + Results<T>::kGuard)
+        << "patch " << large << " is " << scale << " times larger";
+  }
+
+  void check_companies() {
+    for (const std::size_t large : {std::size_t{0}, std::size_t{15}, kPatches - 1}) {
+      check_company_of(large, 2);    // one floor for all
+      check_company_of(large, 1024); // none
+    }
+  }
+
+  PatchSet<T> plain_;
+  PatchSet<T> origins_;
+};
+
+using ScatteredF32 = Scattered<float>;
+using ScatteredF64 = Scattered<double>;
+INSTANTIATE_FOR_EVERY_ISA(ScatteredF32);
+INSTANTIATE_FOR_EVERY_ISA(ScatteredF64);
+
+TEST_P(ScatteredF32, samples_do_not_depend_on_their_company) { check_all(); }
+TEST_P(ScatteredF64, samples_do_not_depend_on_their_company) { check_all(); }
+TEST_P(ScatteredF32, normals_do_not_depend_on_other_patches) { check_companies(); }
+TEST_P(ScatteredF64, normals_do_not_depend_on_other_patches) { check_companies(); }
+
+/// Indices are checked before anything is written, wherever the bad one stands.
+TEST(ScatteredIndices, one_bad_index_is_found_anywhere) {
+  Random random(5);
+  const std::vector<Net> nets(kPatches, wave_net(random));
+  const PatchSet<float> set = packed<float>(nets);
+  constexpr std::size_t kCount = 133;
+  for (const std::uint32_t bad : {std::uint32_t{kPatches}, 0x7fffffffU, 0x80000000U, ~0U}) {
+    for (const std::size_t at : {std::size_t{0}, std::size_t{64}, kCount - 1}) {
+      SampleArrays<float> samples = make_samples<float>(kCount, kPatterns[6], kInside);
+      samples.patch[at] = bad;
+      Results<float> results(kCount);
+      EXPECT_EQ(to_string(evaluate_scattered(set, samples.view(Parameters::unit),
+                                             results.outputs(kGroupSets[0]))),
+                to_string(Status::bad_patch_index));
+      EXPECT_EQ(results.values[0], Results<float>::kUntouched);
+    }
+  }
+}
+
+} // namespace
+} // namespace simdbezier::tests

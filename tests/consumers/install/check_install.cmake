@@ -1,0 +1,54 @@
+# See CMakeLists.txt beside this file.
+set(prefix ${WORK}/prefix)
+file(REMOVE_RECURSE ${prefix} ${WORK}/consumer)
+
+include(${CMAKE_CURRENT_LIST_DIR}/../../support/run.cmake)
+
+function(expect_no_leak what text)
+  foreach(word IN ITEMS xsimd fopenmp omp mavx msse mfma ffp-contract)
+    if(text MATCHES "${word}")
+      message(FATAL_ERROR "${what} mentions ${word}:\n${text}")
+    endif()
+  endforeach()
+endfunction()
+
+function(expect_teapot_point text)
+  if(NOT text MATCHES "corner 0 0 0")
+    message(FATAL_ERROR "the consumer printed: ${text}")
+  endif()
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --config ${CONFIG})
+
+# By CMake.
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/consumer -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX}
+    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_EXE_LINKER_FLAGS=${LINK_FLAGS}
+    -DCMAKE_EXPORT_COMPILE_COMMANDS=ON)
+run(${CMAKE_COMMAND} --build ${WORK}/consumer)
+run(${WORK}/consumer/consumer)
+expect_teapot_point("${output}")
+file(READ ${WORK}/consumer/compile_commands.json commands)
+string(REGEX MATCHALL "\"command\": [^\n]*" commands "${commands}")
+string(REPLACE "${prefix}" "" commands "${commands}")
+expect_no_leak("the consumer's compile command" "${commands}")
+
+# By pkg-config.
+find_program(pkg_config pkg-config)
+if(NOT pkg_config)
+  message(FATAL_ERROR "pkg-config is needed for this test")
+endif()
+set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
+run(${pkg_config} --cflags --libs simdbezier)
+expect_no_leak("pkg-config" "${output}")
+separate_arguments(flags UNIX_COMMAND "${output}")
+run(${CXX} -std=c++20 ${SOURCE}/main.cpp -o ${WORK}/by_pkg_config ${flags} ${LINK_FLAGS}
+    -Wl,-rpath,${prefix}/${LIBDIR})
+run(${WORK}/by_pkg_config)
+expect_teapot_point("${output}")
+
+# The installed programs find the installed library.
+foreach(program IN ITEMS simdbezier simdbezier_bench)
+  if(EXISTS ${prefix}/bin/${program})
+    run(${prefix}/bin/${program} --help)
+  endif()
+endforeach()

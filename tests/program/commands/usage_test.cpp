@@ -1,0 +1,295 @@
+// Command lines that the program refuses, and those that it answers without any data.
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <sstream>
+
+#include "tests/program/process/program.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+struct BadUsage {
+  const char* name;
+  std::vector<std::string> arguments;
+  std::string message;
+};
+void PrintTo(const BadUsage& item, std::ostream* out) { *out << item.name; }
+
+std::vector<std::string> tessellate(std::vector<std::string> rest) {
+  rest.insert(rest.begin(), {"tessellate", "builtin:teapot"});
+  return rest;
+}
+std::vector<std::string> tessellate_obj(std::vector<std::string> rest) {
+  rest.insert(rest.begin(), {"tessellate", "builtin:teapot", "-o", "out.obj"});
+  return rest;
+}
+std::vector<std::string> tessellate_ply(std::vector<std::string> rest) {
+  rest.insert(rest.begin(), {"tessellate", "builtin:teapot", "-o", "out.ply"});
+  return rest;
+}
+std::vector<std::string> evaluate(std::vector<std::string> rest) {
+  rest.insert(rest.begin(), {"evaluate", "builtin:teapot", "-o", "out.csv"});
+  return rest;
+}
+
+std::vector<BadUsage> bad_usages() {
+  const std::string command = "expected tessellate, evaluate, info or --help, found ";
+  const std::string grid = "--grid: expected N or NUxNV, each from 2 to 1048576, found '";
+  return {
+      {"Nothing", {}, command + "nothing"},
+      {"UnknownCommand", {"draw", "builtin:teapot"}, command + "'draw'"},
+      {"EmptyCommand", {"", "builtin:teapot"}, command + "''"},
+      {"OptionForCommand", {"--bogus"}, command + "'--bogus'"},
+      {"OptionBeforeCommand", {"--bogus", "info", "builtin:teapot"}, "found '--bogus'"},
+      {"UnknownOption",
+       {"info", "builtin:teapot", "--bogus", "3"},
+       "info: expected what 'simdbezier info --help' lists, found '--bogus'"},
+      {"UnknownOptionForOutput", tessellate({"--out", "out.obj"}), "--help' lists, found '--out'"},
+      {"OutputWithoutOption", tessellate({"out.obj"}), "found 'out.obj'"},
+      {"OptionOfAnotherCommand", {"info", "builtin:teapot", "--grid", "3"}, "found '--grid'"},
+      {"OutputWithoutName", tessellate({"-o"}),
+       "-o: expected a name that ends in .obj or .ply, found the end of the command line"},
+      {"CsvWithoutName",
+       {"evaluate", "builtin:teapot", "-o"},
+       "-o: expected a name that ends in .csv, or - for standard output, found the end of the"},
+      {"FormatWithoutName",
+       {"info", "builtin:teapot", "--format"},
+       "--format: expected bez, bpt, bv, itd, obj or rib, found the end of the command line"},
+      {"GridWithoutValue", tessellate_obj({"--grid"}),
+       "--grid: expected N or NUxNV, each from 2 to "
+       "1048576, found the end of the command line"},
+      {"OptionForValue", tessellate({"-o", "--grid", "4"}),
+       "-o: expected a name that ends in .obj or .ply, found '--grid'"},
+      {"OptionForOptionsValue", tessellate_obj({"--threads", "--grid=4"}),
+       "--threads: expected 1 to 1024, or 0 for all, found '--grid=4'"},
+      {"FlagWithValue",
+       {"info", "builtin:teapot", "--json=3"},
+       "--json: expected no value, found '3'"},
+      {"OtherFlagWithValue", tessellate_obj({"--no-normals=false"}),
+       "--no-normals: expected no value, found 'false'"},
+      {"FlagTwice",
+       {"info", "builtin:teapot", "--json", "--json"},
+       "--json: expected once, found 2 times"},
+      {"OutputTwice", tessellate_obj({"-o", "other.obj"}), "-o: expected once, found 2 times"},
+      {"NoInput",
+       {"info"},
+       "IN: expected builtin:teapot, the name of a file or - for standard input, found nothing"},
+      {"EmptyInput",
+       {"info", ""},
+       "IN: expected builtin:teapot, the name of a file or - for standard input, found ''"},
+      {"TwoInputs",
+       {"info", "builtin:teapot", "b.bez"},
+       "info: expected one IN, found 'b.bez' behind 'builtin:teapot'"},
+      {"UnknownBuiltin", {"info", "builtin:cup"}, "expected builtin:teapot"},
+      {"StandardInputWithoutFormat", {"info", "-"}, "--format"},
+      {"UnknownFormat",
+       {"info", "-", "--format", "xyz"},
+       "--format: expected bez, bpt, bv, itd, obj or rib, found 'xyz'"},
+      {"EmptyFormat", {"info", "-", "--format", ""}, "--format"},
+      {"LaterFormat",
+       {"info", "-", "--format", "step"},
+       "reading .step files is not supported yet"},
+      {"NoOutput", tessellate({}), "-o: expected a name that ends in .obj or .ply, found nothing"},
+      {"NoOutputOfCsv",
+       {"evaluate", "builtin:teapot"},
+       "-o: expected a name that ends in .csv, or - for standard output, found nothing"},
+      {"UnknownOutput", tessellate({"-o", "out.xyz"}), "expected a name that ends in .obj or .ply"},
+      {"OutputWithoutExtension", tessellate({"-o", "obj"}), "expected a name that ends in"},
+      {"MeshToStandardOutput", tessellate({"-o", "-"}), "expected a name that ends in"},
+      {"LaterStl", tessellate({"-o", "out.stl"}), ".stl files is not supported yet"},
+      {"LaterGlb", tessellate({"-o", "out.glb"}), ".glb files is not supported yet"},
+      {"LaterTolerance", tessellate_obj({"--tolerance", "0.1"}), "not supported yet"},
+      {"GridAndTolerance", tessellate_obj({"--tolerance", "0.1", "--grid", "4"}),
+       "not supported yet"},
+      {"GridZero", tessellate_obj({"--grid", "0"}), grid},
+      {"GridOne", tessellate_obj({"--grid", "1"}), grid},
+      {"GridOneSide", tessellate_obj({"--grid", "4x1"}), grid},
+      {"GridOtherSide", tessellate_obj({"--grid", "0x4"}), grid},
+      {"GridNegative", tessellate_obj({"--grid", "-4"}), grid},
+      {"GridWord", tessellate_obj({"--grid", "fine"}), grid},
+      {"GridFraction", tessellate_obj({"--grid", "4.5"}), grid},
+      {"GridHalf", tessellate_obj({"--grid", "4x"}), grid},
+      {"GridThreeSides", tessellate_obj({"--grid", "4x4x4"}), grid},
+      {"GridSpaces", tessellate_obj({"--grid", " 4"}), grid},
+      {"GridTwice", tessellate_obj({"--grid", "4", "--grid", "5"}),
+       "--grid: expected once, found 2 times"},
+      {"GridEmpty", tessellate_obj({"--grid", ""}), grid},
+      {"GridBeyondLimit", tessellate_obj({"--grid", "1048577"}), grid},
+      {"GridBeyondIntegers", tessellate_obj({"--grid", "18446744073709551618"}), grid},
+      {"GridBeyondMemory", tessellate_obj({"--grid", "1048576"}), "bytes of results"},
+      {"GridBeyondMemoryInCsv", evaluate({"--grid", "200000"}), "bytes of results"},
+      {"GridBeyondPlyIndices", tessellate_ply({"--grid", "8193"}),
+       "expected at most 2147483648 vertices in a PLY file, found 2148007968"},
+      {"ThreadsNegative", tessellate_obj({"--threads", "-1"}), "--threads: expected 1 to 1024"},
+      {"ThreadsWord", tessellate_obj({"--threads", "all"}), "--threads: expected 1 to 1024"},
+      {"ThreadsBeyondLimit", tessellate_obj({"--threads", "99999999999"}), "--threads"},
+      {"Precision", tessellate_obj({"--precision", "f16"}), "expected f32 or f64, found 'f16'"},
+      {"EvaluateUnknownOutput", {"evaluate", "builtin:teapot", "-o", "out.txt"}, "ends in .csv"},
+      {"OutputsUnknown", evaluate({"--outputs", "colour"}),
+       "expected position, du, dv, duu, duv, dvv, normal, curvature separated by commas, found "
+       "'colour'"},
+      {"OutputsEmptyItem", evaluate({"--outputs", "position,"}), "expected position, du, dv"},
+      {"OutputsThirdDerivative", evaluate({"--outputs", "duu,duuu"}), "found 'duu,duuu'"},
+      {"OutputsDvu", evaluate({"--outputs", "dvu"}), "found 'dvu'"},
+      {"SamplesAndGrid", evaluate({"--samples", "s.csv", "--grid", "4"}),
+       "--samples: expected without --grid, found both"},
+      {"StandardInputTwice",
+       {"evaluate", "-", "--format", "bez", "--samples", "-", "-o", "-"},
+       "found standard input, which IN is read from"},
+      {"SamplesEmpty", evaluate({"--samples", ""}), "--samples: expected the name of a CSV file"},
+  };
+}
+
+class BadUsageTest : public ::testing::TestWithParam<BadUsage> {};
+
+TEST_P(BadUsageTest, ExitsTwoWithOneLine) {
+  const TemporaryFolder folder;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path(""));
+  expect_failure(run(GetParam().arguments), 2, GetParam().message);
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(folder.names().empty()) << folder.names().front() << " was left behind";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadUsageTest, ::testing::ValuesIn(bad_usages()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Usage, InputsOfUnknownOrLaterFormats) {
+  const TemporaryFolder folder;
+  expect_failure(run({"info", folder.write("in.xyz", "1\n")}), 2,
+                 ".itd, .obj or .rib, or --format");
+  for (const std::string later : {"iges", "igs", "step", "stp", "pov"}) {
+    expect_failure(run({"info", folder.write("in." + later, "1\n")}), 2,
+                   "." + later + " files is not supported yet");
+  }
+}
+
+const std::vector<std::string> kCommands = {"tessellate", "evaluate", "info"};
+
+std::string help_of(const std::string& command) {
+  const Outcome outcome = run({command, "--help"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(run({command, "-h"}).out, outcome.out);
+  EXPECT_EQ(run({command, "--help", "IN", "--bogus"}).out, outcome.out);
+  return outcome.out;
+}
+
+TEST(Usage, HelpAndVersionAreAnswers) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"--help"}, "usage: simdbezier COMMAND"},
+      {{"-h"}, "tessellate IN -o OUT [options]"},
+      {{"--version"}, "simdbezier 0."}};
+  for (const auto& [arguments, part] : cases) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << outcome.out;
+  }
+}
+
+TEST(Usage, WordsMayStandInManyWays) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path("out.ply");
+  const std::vector<std::vector<std::string>> commands = {
+      {"tessellate", "builtin:teapot", "-o", out},
+      {"tessellate", "-o", out, "builtin:teapot"},
+      {"tessellate", "-o" + out, "builtin:teapot"},
+      {"tessellate", "-o", out, "--", "builtin:teapot"},
+      {"tessellate", "builtin:teapot", "-o", out, "--grid=16", "--threads=1"}};
+  std::string first;
+  for (const std::vector<std::string>& command : commands) {
+    expect_silent_success(run(command));
+    first = first.empty() ? read_file(out) : first;
+    EXPECT_TRUE(read_file(out) == first);
+  }
+}
+
+TEST(Usage, HelpHasExamplesRangesDefaultsAndExitCodes) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
+      {"tessellate",
+       {"N or NUxNV, each from 2 to 1048576", "(default 16)", "1 to 1024, or 0 for all",
+        "(default f32", "rounded to float first", "--no-normals", ".obj or .ply"}},
+      {"evaluate",
+       {"position, du, dv, duu, duv, dvv, normal, curvature", "(default position)",
+        "patch,x,y with x = 2u-1"}},
+      {"info", {"--json", "bez, bpt, bv, itd, obj or rib"}}};
+  for (const auto& [command, parts] : cases) {
+    std::string help = help_of(command);
+    EXPECT_NE(help.find("Examples:\n  simdbezier " + command), std::string::npos) << help;
+    EXPECT_NE(help.find("Exit codes: 0 done, 1 bad input or failed write, 2 bad usage"),
+              std::string::npos);
+    for (std::size_t at = help.find("\n                        "); at != std::string::npos;
+         at = help.find("\n                        ")) {
+      help.replace(at, 25, " "); // lines that go on
+    }
+    for (const std::string& part : parts) {
+      EXPECT_NE(help.find(part), std::string::npos) << part << "\n" << help;
+    }
+  }
+}
+
+// Every option that help lists is one, and needs what help says.
+TEST(Usage, HelpListsNoOptionThatIsNotThere) {
+  for (const std::string& command : kCommands) {
+    const std::string help = help_of(command);
+    EXPECT_EQ(help.find("not supported"), std::string::npos) << help;
+    std::size_t options = 0;
+    for (std::size_t at = help.find("\n  --"); at != std::string::npos;
+         at = help.find("\n  --", at + 1)) {
+      const std::string name = help.substr(at + 3, help.find_first_of(" \n", at + 3) - at - 3);
+      const Outcome outcome = run({command, "builtin:teapot", name, "--bogus"});
+      EXPECT_EQ(outcome.err.find("found '" + name + "'"), std::string::npos) << outcome.err;
+      ++options;
+    }
+    EXPECT_GE(options, 2U) << help;
+  }
+}
+
+TEST(Usage, ExamplesOfHelpRun) {
+  const TemporaryFolder folder;
+  for (const std::string& command : kCommands) {
+    const std::string help = help_of(command);
+    const std::size_t at = help.find("  simdbezier " + command + " builtin:teapot");
+    ASSERT_NE(at, std::string::npos) << help;
+    std::vector<std::string> words;
+    std::istringstream line(help.substr(at, help.find('\n', at) - at));
+    for (std::string word; line >> word;) {
+      words.push_back(words.size() > 1 && words.back() == "-o" ? folder.path(word) : word);
+    }
+    words.erase(words.begin());
+    EXPECT_EQ(run(words).exit_code, 0) << help;
+  }
+}
+
+TEST(Usage, HelpKeepsToTheTerminal) {
+  std::string all = run({"--help"}).out;
+  for (const std::string& command : kCommands) {
+    all += help_of(command);
+  }
+  std::istringstream lines(all);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(),
+              line.starts_with("  simdbezier ") || line.starts_with("  printf") ? 100U : 82U)
+        << line; // examples are not broken; an accent is two characters here
+  }
+}
+
+TEST(Usage, AnswersThatCannotBeWrittenAreFailures) {
+  const std::vector<std::vector<std::string>> answers = {{"--help"},
+                                                         {"--version"},
+                                                         {"info", "--help"},
+                                                         {"info", "builtin:teapot"},
+                                                         {"info", "builtin:teapot", "--json"},
+                                                         {"evaluate", "builtin:teapot", "-o", "-"}};
+  for (const auto& arguments : answers) {
+    expect_failure(run(arguments, {.append_path = "/dev/full"}), 1,
+                   "standard output: expected room to write, found 'No space left on device'");
+    expect_failure(run(arguments, {.append_path = "closed"}), 1,
+                   "standard output: expected room to write, found 'Bad file descriptor'");
+  }
+}
+
+} // namespace
+} // namespace simdbezier::tests

@@ -1,0 +1,153 @@
+// What one direction of a patch adds to the error bounds, maximised from the scheme's own steps.
+//
+// A running-error formula is a sum of absolute values of terms linear in the control values (in the
+// hodograph's, for derivatives), hence convex in them: its maximum over values in [-1,1] lies at
+// values of 1 and -1. All of these are tried, at a grid of parameters with both ends.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "tests/properties/accuracy/judge/shape_bounds.hpp"
+
+namespace simdbezier::tests {
+
+/// The centred power coefficients that a direction's control values give, on its whole range or on
+/// the lower half where the direction is cut in two: coefficient k is row k times the values.
+class CentredBasis {
+public:
+  explicit CentredBasis(int degree) : degree_(degree) {
+    for (int i = 0; i <= degree; ++i) {
+      std::vector<double> values(size(degree), 0.0);
+      values[static_cast<std::size_t>(i)] = 1;
+      columns_.push_back(centred(is_cut(degree) ? lower_half(values) : values));
+    }
+  }
+
+  [[nodiscard]] std::vector<double> coefficients(const std::vector<double>& values) const {
+    std::vector<double> sum(values.size(), 0.0);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      for (std::size_t k = 0; k < sum.size(); ++k) {
+        sum[k] += values[i] * columns_[i][k];
+      }
+    }
+    return sum;
+  }
+
+private:
+  [[nodiscard]] static std::size_t size(int degree) { return static_cast<std::size_t>(degree) + 1; }
+
+  /// The control values of the half [0, 1/2], by repeated means.
+  [[nodiscard]] static std::vector<double> lower_half(std::vector<double> values) {
+    std::vector<double> half;
+    while (!values.empty()) {
+      half.push_back(values.front());
+      for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+        values[i] = (values[i] + values[i + 1]) / 2;
+      }
+      values.pop_back();
+    }
+    return half;
+  }
+
+  /// a_k = C(n,k) (difference/2)^k mean^(n-k): Taylor's formula at the middle, in x in [-1,1].
+  [[nodiscard]] std::vector<double> centred(const std::vector<double>& values) const {
+    std::vector<double> result;
+    double binomial = 1;
+    for (int k = 0; k <= degree_; ++k) {
+      std::vector<double> row = values;
+      for (int step = 0; step < degree_; ++step) {
+        for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+          row[i] = step < k ? (row[i + 1] - row[i]) / 2 : (row[i] + row[i + 1]) / 2;
+        }
+        row.pop_back();
+      }
+      result.push_back(binomial * row[0]);
+      binomial = binomial * (degree_ - k) / (k + 1);
+    }
+    return result;
+  }
+
+  int degree_;
+  std::vector<std::vector<double>> columns_;
+};
+
+/// Control values whose hodograph of that order has the given ones; those of order 0 themselves.
+[[nodiscard]] inline std::vector<double> integrated(std::vector<double> values, int order) {
+  for (; order > 0; --order) {
+    std::vector<double> sums{0};
+    for (const double value : values) {
+      sums.push_back(sums.back() + value / static_cast<double>(values.size()));
+    }
+    values = sums;
+  }
+  return values;
+}
+
+/// The errors of a chain of multiply-adds c[k] = c[k+1] x + below[k], which starts with c[n] =
+/// below[n]; errors in units of u.
+struct Chain {
+  std::vector<double> value;
+  std::vector<double> error;
+
+  [[nodiscard]] Chain next(double x, std::size_t last, bool fma) const {
+    Chain chain = *this;
+    for (std::size_t k = value.size() - 1; k-- > last;) {
+      const double product = chain.value[k + 1] * x;
+      chain.value[k] = product + value[k];
+      chain.error[k] = chain.error[k + 1] * std::abs(x) + error[k] + std::abs(chain.value[k]) +
+                       (fma ? 0 : std::abs(product));
+    }
+    return chain;
+  }
+};
+
+/// The error of the derivative d/dt^order, t over the patch's whole range, by Horner's rule and
+/// `order` synthetic divisions from coefficients without error.
+[[nodiscard]] inline double running_error(const std::vector<double>& coefficients, int order,
+                                          double x, bool fma, double x_per_t) {
+  Chain chain{coefficients, std::vector<double>(coefficients.size(), 0.0)};
+  double factor = 1;
+  for (int division = 0; division <= order; ++division) {
+    chain = chain.next(x, static_cast<std::size_t>(order), fma);
+    factor *= division > 0 ? division * x_per_t : 1;
+  }
+  return factor * chain.error[static_cast<std::size_t>(order)];
+}
+
+/// All that shape_bounds.hpp tabulates of one degree, for the derivative of one order.
+[[nodiscard]] inline DirectionError largest_direction_error(int degree, int order) {
+  const CentredBasis basis(degree);
+  const double x_per_t = is_cut(degree) ? 4 : 2;
+  const std::size_t count = static_cast<std::size_t>(degree + 1 - order);
+  DirectionError largest;
+  std::vector<double> norms(static_cast<std::size_t>(degree) + 1, 0.0);
+  for (std::size_t bits = 0; bits < std::size_t{1} << (count - 1); ++bits) {
+    std::vector<double> signs(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      signs[k] = ((bits >> k) & 1) != 0 ? -1 : 1;
+    }
+    const std::vector<double> a = basis.coefficients(integrated(signs, order));
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      norms[k] = std::max(norms[k], std::abs(a[k]));
+    }
+    for (const double x : {-1.0, -0.9, -0.75, -0.5, 0.0, 0.5, 0.75, 0.9, 1.0}) {
+      largest.fused = std::max(largest.fused, running_error(a, order, x, true, x_per_t));
+      largest.rounded_twice =
+          std::max(largest.rounded_twice, running_error(a, order, x, false, x_per_t));
+    }
+  }
+  // Each coefficient at its own worst control values: in two directions they are not independent.
+  for (int k = order; k <= degree; ++k) {
+    double factor = 1;
+    for (int step = 0; step < order; ++step) {
+      factor *= (k - step) * x_per_t;
+    }
+    largest.coefficients += factor * norms[static_cast<std::size_t>(k)];
+  }
+  return largest;
+}
+
+} // namespace simdbezier::tests

@@ -1,0 +1,72 @@
+// The table of shape_bounds.hpp against the formulas that it comes from, and against the bounds of
+// bicubic patches and the figures in docs/accuracy.md.
+#include <cstdio>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/properties/accuracy/bounds_text.hpp"
+#include "tests/properties/accuracy/judge/direction_errors.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+struct DirectionCase {
+  int degree;
+  int order;
+};
+
+void expect_tabulated(double found, double tabulated, const char* what) {
+  EXPECT_LE(found, tabulated * (1 + 1e-9)) << what;
+  EXPECT_GE(found, 0.98 * tabulated) << what << ": the table says more than it must";
+}
+
+class DirectionErrorTest : public ::testing::TestWithParam<int> {};
+
+TEST_P(DirectionErrorTest, TableHoldsTheMaximum) {
+  const int degree = GetParam();
+  for (int order = 0; order <= std::min(2, degree); ++order) {
+    const DirectionError found = largest_direction_error(degree, order);
+    const DirectionError& table = direction_error(degree, order);
+    const std::string name = "order " + std::to_string(order);
+    expect_tabulated(found.coefficients, table.coefficients, (name + ", S").c_str());
+    expect_tabulated(found.fused, table.fused, (name + ", R fused").c_str());
+    expect_tabulated(found.rounded_twice, table.rounded_twice, (name + ", R").c_str());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Degrees, DirectionErrorTest, ::testing::Range(1, 16));
+
+// A curve's formula is the surface's with a constant across: the coefficients as written in the
+// documentation of the scheme.
+TEST(CentredBasisTest, CubicCoefficients) {
+  const CentredBasis cubic(3);
+  const auto a = cubic.coefficients({1, 2, -1, 5});
+  EXPECT_DOUBLE_EQ(a[0], ((1 + 5) + 3 * (2 - 1)) / 8.0);
+  EXPECT_DOUBLE_EQ(a[1], 3 * ((5 - 1) + (-1 - 2)) / 8.0);
+  EXPECT_DOUBLE_EQ(a[2], 3 * ((1 - 2) + (5 + 1)) / 8.0);
+  EXPECT_DOUBLE_EQ(a[3], ((5 - 1) - 3 * (-1 - 2)) / 8.0);
+}
+
+// The general formula is no tighter than the one that was maximised over whole nets.
+TEST(ShapeBoundsTest, GeneralFormulaCoversBicubics) {
+  for (const bool fma : {true, false}) {
+    const ShapeBounds general = general_bounds(3, 3, fma);
+    const ShapeBounds own = shape_bounds(3, 3, fma);
+    EXPECT_GE(general.position, own.position);
+    EXPECT_GE(general.du, own.du);
+    EXPECT_GE(general.dv, own.dv);
+    EXPECT_GE(general.duu, own.duu);
+    EXPECT_GE(general.duv, own.duv);
+    EXPECT_GE(general.dvv, own.dvv);
+  }
+}
+
+TEST(ShapeBoundsTest, DocumentationHasTheTable) {
+  const std::string text = bounds_text();
+  EXPECT_NE(documentation().find(text), std::string::npos) << "docs/accuracy.md should contain:\n"
+                                                           << text;
+}
+
+} // namespace
+} // namespace simdbezier::tests

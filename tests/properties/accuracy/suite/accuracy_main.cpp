@@ -1,0 +1,138 @@
+// simdbezier_accuracy: the whole accuracy suite. Every family x type x evaluator, against the
+// oracle; prints a table, writes rows as JSON, judges the gates, exits 1 naming what regressed.
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <optional>
+#include <string>
+
+#include "tests/properties/accuracy/suite/evaluators.hpp"
+#include "tests/properties/accuracy/suite/report.hpp"
+#include "tests/support/nets/shape_families.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+constexpr const char* kUsage =
+    "usage: simdbezier_accuracy [--json FILE] [--thresholds FILE] [--write-thresholds]\n"
+    "                           [--nets N] [--samples N]\n"
+    "  --json FILE          write all rows, worst inputs as hexadecimal floats\n"
+    "  --thresholds FILE    compare with committed figures "
+    "(tests/properties/accuracy/suite/thresholds.json)\n"
+    "  --write-thresholds   write that file instead of comparing; to be reviewed by hand\n"
+    "  --nets, --samples    nets a family (500) and samples a net (100); committed figures hold\n"
+    "                       for the defaults only\n"
+    "exit: 0 all gates hold, 1 a regression (each is named), 2 bad usage or a file's error\n";
+
+struct Settings {
+  std::string json;
+  std::string thresholds;
+  bool write_thresholds = false;
+  std::size_t nets = 500;
+  std::size_t samples = 100;
+};
+
+[[nodiscard]] std::optional<Settings> parse(int argc, char** argv) {
+  Settings settings;
+  for (int k = 1; k < argc; ++k) {
+    const std::string name = argv[k];
+    if (name == "--write-thresholds") {
+      settings.write_thresholds = true;
+      continue;
+    }
+    if (k + 1 == argc) {
+      return std::nullopt;
+    }
+    const std::string value = argv[++k];
+    if (name == "--json") {
+      settings.json = value;
+    } else if (name == "--thresholds") {
+      settings.thresholds = value;
+    } else if (name == "--nets") {
+      settings.nets = std::stoul(value);
+    } else if (name == "--samples") {
+      settings.samples = std::stoul(value);
+    } else {
+      return std::nullopt;
+    }
+  }
+  const bool complete = !settings.write_thresholds || !settings.thresholds.empty();
+  return complete && settings.nets > 0 && settings.samples > 0 ? std::optional(settings)
+                                                               : std::nullopt;
+}
+
+template <typename T>
+[[nodiscard]] FamilyInfo describe(const Family<T>& family, const std::string& variant) {
+  const Net& net = family.nets.front();
+  double least = 1;
+  double most = 1;
+  for (const double weight : net.weights) {
+    least = std::min(least, weight);
+    most = std::max(most, weight);
+  }
+  return {family.name + variant, net.degree_u, net.degree_v, most / least};
+}
+
+template <typename T>
+void run(const char* type, const Settings& settings, Report& report) {
+  const Evaluators<T> evaluators = all_evaluators<T>();
+  std::vector<Family<T>> families = all_families<T>(settings.nets, settings.samples);
+  // There are many shapes: a twelfth of the samples each.
+  for (Family<T>& family : shape_families<T>(settings.nets / 4 + 1, settings.samples / 3 + 1)) {
+    families.push_back(std::move(family));
+  }
+  for (const Family<T>& family : families) {
+    std::fprintf(stderr, "%s/%s\n", family.name.c_str(), type);
+    const Reference at_centred = make_reference(family, true);
+    const Reference at_unit = make_reference(family, false);
+    for (const auto& evaluator : evaluators) {
+      if (evaluator->variant().empty() || family.with_origins) {
+        const Measurement measured =
+            measure(*evaluator, family, evaluator->reads_centred() ? at_centred : at_unit);
+        report.add(describe(family, evaluator->variant()), type, evaluator->result_class(),
+                   evaluator->name(), measured);
+      }
+    }
+  }
+}
+
+[[nodiscard]] int run_suite(const Settings& settings) {
+  Report report;
+  run<float>("f32", settings, report);
+  run<double>("f64", settings, report);
+  report.judge_contracts();
+  if (!settings.thresholds.empty() && !settings.write_thresholds) {
+    report.judge_thresholds(read_thresholds(settings.thresholds));
+  }
+  print_table(report);
+  if (!settings.json.empty()) {
+    write_json(report, settings.json);
+  }
+  for (const std::string& failure : report.failures) {
+    std::printf("FAILED %s\n", failure.c_str());
+  }
+  std::printf("%zu rows, %zu failures\n", report.rows.size(), report.failures.size());
+  if (settings.write_thresholds) {
+    write_thresholds(report, settings.thresholds);
+  }
+  return report.failures.empty() ? 0 : 1;
+}
+
+} // namespace
+} // namespace simdbezier::tests
+
+int main(int argc, char** argv) {
+  using namespace simdbezier::tests;
+  try {
+    const auto settings = parse(argc, argv);
+    if (!settings) {
+      std::fputs(kUsage, stderr);
+      return 2;
+    }
+    return run_suite(*settings);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "simdbezier_accuracy: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,72 @@
+// The suite's rows: one per family, type, evaluator and quantity; printed, written, and judged.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/properties/accuracy/judge/measure.hpp"
+
+namespace simdbezier::tests {
+
+/// A family by its name (with the evaluator's variant), and what its nets have in common.
+struct FamilyInfo {
+  std::string name;
+  int degree_u = 3;
+  int degree_v = 3;
+  double weight_ratio = 1; ///< largest weight to smallest; 1 where there are none
+};
+
+struct Row {
+  FamilyInfo family;
+  std::string type; ///< f32, f64
+  ResultClass result_class = ResultClass::other;
+  std::string evaluator; ///< an instruction set, or another evaluator's name
+  Quantity quantity = Quantity::position;
+  Metric metric;
+  double max_condition_error = 0; ///< position rows only
+
+  [[nodiscard]] std::string quantity_name() const {
+    return kQuantityNames[static_cast<std::size_t>(quantity)];
+  }
+  /// The key of thresholds: the same for all instruction sets of a class.
+  [[nodiscard]] std::string key() const { return family.name + "/" + type + "/" + quantity_name(); }
+  [[nodiscard]] std::string name() const { return key() + "/" + evaluator; }
+};
+
+/// "fma", "nofma" or "other".
+[[nodiscard]] std::string class_name(ResultClass result_class);
+
+/// Whether a row has committed figures: ours, and not a curvature, whose errors are those of the
+/// derivatives, which have them.
+[[nodiscard]] bool has_threshold(const Row& row);
+
+/// Committed maximum and RMS of one key.
+struct Threshold {
+  double max = 0;
+  double rms = 0;
+};
+
+/// Class name -> key -> figures.
+using Thresholds = std::map<std::string, std::map<std::string, Threshold>>;
+
+/// What a run found: rows, and counts that must be zero.
+struct Report {
+  std::vector<Row> rows;
+  std::vector<std::string> failures; ///< one line each, naming the row
+
+  void add(const FamilyInfo& family, const std::string& type, ResultClass result_class,
+           const std::string& evaluator, const Measurement& measurement);
+  /// G1 ratios, G4 hashes inside a class, G5 against de Casteljau, G6 limits.
+  void judge_contracts();
+  /// G2: not above the committed figures by more than 5 %.
+  void judge_thresholds(const Thresholds& thresholds);
+};
+
+void print_table(const Report& report);
+/// Throw std::runtime_error naming the file where it cannot be read or written.
+void write_json(const Report& report, const std::string& path);
+[[nodiscard]] Thresholds read_thresholds(const std::string& path);
+void write_thresholds(const Report& report, const std::string& path);
+
+} // namespace simdbezier::tests

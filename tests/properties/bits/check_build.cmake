@@ -1,0 +1,54 @@
+# See CMakeLists.txt beside this file. OTHER is gcc, clang or aarch64.
+#
+# At -O1, unless SIMDBEZIER_SAME_BITS_RELEASE is set in the environment, as ./run accuracy does:
+# the kernels of a Release build take more than twice the time to compile. What differs between
+# compilers and machines (contraction, order of evaluation, instructions that stand for one
+# another) shows at any level; what only shows at -O3 are faults of the other optimiser.
+set(configure -DBUILD_SHARED_LIBS=OFF -DSIMDBEZIER_BUILD_TOOLS=OFF -DSIMDBEZIER_BUILD_BENCH=OFF
+              -DSIMDBEZIER_BUILD_EXAMPLES=OFF)
+if(DEFINED ENV{SIMDBEZIER_SAME_BITS_RELEASE})
+  list(APPEND configure -DCMAKE_BUILD_TYPE=Release)
+else() # a Debug build has its kernels at -O1
+  list(APPEND configure -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -DNDEBUG")
+endif()
+set(emulator)
+set(compiler_of_gcc g++)
+set(compiler_of_clang clang++)
+set(compiler_of_aarch64 aarch64-linux-gnu-g++)
+find_program(compiler ${compiler_of_${OTHER}})
+if(NOT compiler)
+  message("skipped: ${compiler_of_${OTHER}} is not installed")
+  return()
+endif()
+if(OTHER STREQUAL "aarch64")
+  find_program(emulator_program qemu-aarch64)
+  if(NOT emulator_program)
+    message("skipped: qemu-aarch64 is not installed")
+    return()
+  endif()
+  set(emulator ${emulator_program} -L /usr/aarch64-linux-gnu)
+  # Only xsimd may come from the host's include folder, whose other headers are the host's own.
+  file(COPY ${XSIMD_INCLUDE_DIR}/xsimd DESTINATION ${WORK}/include)
+  list(APPEND configure -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64
+       -DSIMDBEZIER_XSIMD_INCLUDE_DIR=${WORK}/include)
+endif()
+
+include(${CMAKE_CURRENT_LIST_DIR}/../../support/run.cmake)
+
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_CXX_COMPILER=${compiler}
+    ${configure})
+run(${CMAKE_COMMAND} --build ${WORK}/build --target simdbezier --parallel ${JOBS})
+run(${compiler} -std=c++20 -O1 -ffp-contract=off -DSIMDBEZIER_STATIC
+    -DSIMDBEZIER_SHARED_DATA="" -I${SOURCE} -I${SOURCE}/include
+    ${SOURCE}/tests/properties/bits/determinism_hash.cpp ${WORK}/build/libsimdbezier.a -fopenmp -o
+    ${WORK}/determinism_hash)
+run(${emulator} ${WORK}/determinism_hash)
+set(there "${output}")
+run(${HASH})
+if(there STREQUAL "")
+  message(FATAL_ERROR "no hashes were printed")
+endif()
+if(NOT there STREQUAL output)
+  message(FATAL_ERROR "bits differ.\nThis build:\n${output}\n${OTHER}:\n${there}")
+endif()
+message("equal bits:\n${there}")

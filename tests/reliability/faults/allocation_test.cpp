@@ -1,0 +1,185 @@
+// When memory is short a call says so, before anything is written, wherever it was short; when the
+// system does not take advice about memory, nobody hears of it.
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/canvas.hpp"
+#include "tests/support/nets/generators.hpp"
+
+namespace {
+
+/// Allocations that still succeed; negative: all of them. The library's nothrow forms come here.
+std::atomic<int> g_allocations_left{-1};
+
+void* allocate(std::size_t bytes, std::size_t alignment) {
+  const int left = g_allocations_left;
+  if (left == 0) {
+    throw std::bad_alloc();
+  }
+  if (left > 0) {
+    --g_allocations_left;
+  }
+  const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
+  void* const memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
+  if (memory == nullptr) {
+    throw std::bad_alloc();
+  }
+  return memory;
+}
+
+} // namespace
+
+void* operator new(std::size_t bytes) { return allocate(bytes, alignof(std::max_align_t)); }
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  return allocate(bytes, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*bytes*/) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+
+#if defined(__linux__)
+namespace {
+std::atomic<int> g_advice{0};
+}
+/// As of a kernel without large pages; stands before the C library's.
+extern "C" __attribute__((visibility("default"))) int
+madvise(void* /*memory*/, std::size_t /*bytes*/, int /*advice*/) noexcept {
+  ++g_advice;
+  errno = EINVAL;
+  return -1;
+}
+#endif
+
+namespace simdbezier::tests {
+namespace {
+
+constexpr std::size_t kPatches = 3;
+
+class Allocation : public ::testing::Test {
+protected:
+  /// Fails the first allocation of `call`, then the second, … until it succeeds. `call` gets
+  /// vertices without gaps in memory that must stay as it is.
+  template <typename Call>
+  void run(std::size_t samples, const Call& call) {
+    Canvas<float> canvas(6 * samples);
+    Outputs<float> out;
+    out.position = Vectors<float>::xyz(canvas.at(0), 6);
+    out.duv = Vectors<float>::xyz(canvas.at(3), 6);
+    int failed = 0;
+    for (Status status = Status::out_of_memory; status == Status::out_of_memory; ++failed) {
+      ASSERT_LT(failed, 100);
+      g_allocations_left = failed;
+      status = call(out);
+      g_allocations_left = -1;
+      ASSERT_EQ(canvas.untouched(), status == Status::out_of_memory);
+      ASSERT_TRUE(status == Status::ok || status == Status::out_of_memory) << to_string(status);
+    }
+    EXPECT_GT(failed, 1) << "the call allocates nothing: the test tests nothing";
+  }
+
+  PatchSet<float> set_ = packed<float>(mixed_nets(kPatches));
+};
+
+TEST_F(Allocation, Grids) {
+  for (const Destination destination : {Destination::cache, Destination::memory}) {
+    for (const std::size_t n : {9U, 300U}) {
+      run(kPatches * n * n, [&](const Outputs<float>& out) {
+        return evaluate_grid(set_, Grid<float>::uniform(n, n), out,
+                             {.threads = 2, .destination = destination});
+      });
+    }
+  }
+}
+
+/// Records that kernels put together by themselves need no staging: proof of which ones they do.
+template <typename T>
+void records_without_staging(Isa isa, std::size_t lanes) {
+  const PatchSet<T> set = packed<T>(mixed_nets(kPatches));
+  for (const std::size_t nu : {2U, 3U, 4U, 7U, 8U, 9U, 13U, 15U, 16U, 17U, 20U, 33U}) {
+    for (const std::ptrdiff_t stride : {3, 6, 7}) {
+      Canvas<T> canvas(7 * kPatches * nu * 5);
+      Outputs<T> out;
+      out.position = Vectors<T>::xyz(canvas.at(0), stride);
+      if (stride == 6) {
+        out.normal = Vectors<T>::xyz(canvas.at(3), stride);
+      }
+      g_allocations_left = 0;
+      const Status status =
+          evaluate_grid(set, Grid<T>::uniform(nu, 5), out, {.threads = 1, .isa = isa});
+      g_allocations_left = -1;
+      const bool direct = lanes > 0 && nu >= lanes && stride != 7;
+      EXPECT_EQ(status, direct ? Status::ok : Status::out_of_memory)
+          << to_string(isa) << ", " << nu << " samples a row, " << stride << " values a record";
+    }
+  }
+}
+
+TEST_F(Allocation, RecordsWithoutStaging) {
+  for (const Isa isa : available_isas()) {
+    const std::size_t bytes = isa == Isa::avx512 ? 64 : isa == Isa::avx2 ? 32 : 0;
+    records_without_staging<float>(isa, bytes / sizeof(float));
+    records_without_staging<double>(isa, bytes / sizeof(double));
+  }
+}
+
+TEST_F(Allocation, PatchGrids) {
+  const std::uint32_t nu[kPatches] = {3, 700, 500};
+  const std::uint32_t nv[kPatches] = {400, 4, 500};
+  for (const int threads : {1, 2}) {
+    run(400 * 3 + 700 * 4 + 500 * 500, [&](const Outputs<float>& out) {
+      return evaluate_patch_grids(set_, {nu, nv, nullptr}, out, {.threads = threads});
+    });
+  }
+}
+
+TEST_F(Allocation, Samples) {
+  std::vector<std::uint32_t> patch(5000);
+  const std::vector<float> u(5000, 0.25F);
+  run(5000, [&](const Outputs<float>& out) {
+    return evaluate_scattered(set_, {5000, patch.data(), u.data(), u.data()}, out, {.threads = 2});
+  });
+}
+
+TEST_F(Allocation, TilesComeAllOrNot) {
+  for (const std::size_t n : {9U, 300U}) {
+    int failed = 0;
+    for (Status status = Status::out_of_memory; status == Status::out_of_memory; ++failed) {
+      ASSERT_LT(failed, 100);
+      std::size_t samples = 0;
+      const auto count = [&](const Tile<float>& tile) { samples += tile.samples; };
+      g_allocations_left = failed;
+      status = evaluate_tiles(set_, Grid<float>::uniform(n, n), {}, count, {.threads = 1});
+      g_allocations_left = -1;
+      ASSERT_EQ(samples, status == Status::ok ? kPatches * n * n : 0) << to_string(status);
+    }
+    EXPECT_GT(failed, 1);
+  }
+}
+
+#if defined(__linux__)
+TEST(Advice, LeavesErrnoAlone) {
+  constexpr std::size_t kMany = 10000; // 4 MiB and more in float
+  const std::vector<float> points(48 * kMany, 0.5F);
+  PatchSet<float> set;
+  g_advice = 0;
+  errno = EDOM;
+  const PackReport report = pack(ControlNets<float>{points.data(), kMany}, set, {.threads = 1});
+  const int after = errno;
+  EXPECT_TRUE(report);
+  EXPECT_EQ(after, EDOM);
+  EXPECT_GT(g_advice, 0);
+}
+#endif
+
+} // namespace
+} // namespace simdbezier::tests

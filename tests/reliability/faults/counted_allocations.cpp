@@ -1,0 +1,53 @@
+#include "tests/reliability/faults/counted_allocations.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+std::atomic<int> g_left{-1};
+std::atomic<long> g_live{0};
+
+void* allocate(std::size_t bytes, std::size_t alignment) {
+  if (g_left == 0) {
+    throw std::bad_alloc();
+  }
+  if (g_left > 0) {
+    --g_left;
+  }
+  const std::size_t rounded = (bytes / alignment + 1) * alignment;
+  void* const memory = std::aligned_alloc(alignment, rounded);
+  if (memory == nullptr) {
+    throw std::bad_alloc();
+  }
+  ++g_live;
+  return memory;
+}
+
+void release(void* memory) {
+  g_live -= memory != nullptr ? 1 : 0;
+  std::free(memory);
+}
+
+} // namespace
+
+namespace simdbezier::tests {
+
+void allow_allocations(int number) { g_left = number; }
+long live_allocations() { return g_live; }
+
+} // namespace simdbezier::tests
+
+// The other forms, arrays and nothrow ones, call these.
+void* operator new(std::size_t bytes) { return allocate(bytes, alignof(std::max_align_t)); }
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  return allocate(bytes, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t /*bytes*/) noexcept { release(memory); }
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
+  release(memory);
+}

@@ -1,0 +1,54 @@
+// Every allocation of every public call fails once: the call says so, has changed nothing and lost
+// nothing, and works afterwards.
+#include <gtest/gtest.h>
+
+#include "tests/reliability/faults/counted_allocations.hpp"
+#include "tests/reliability/faults/library_calls.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+class LibraryMemory : public ::testing::TestWithParam<Call> {
+protected:
+  /// Fails the first allocation, then the second, … until the call succeeds; returns how many.
+  static int fail_each(const Call& call, const Options& options, const Results& expected) {
+    for (int allowed = 0; allowed < 1000; ++allowed) {
+      Results results;
+      const Results before = results;
+      const long live = live_allocations();
+      allow_allocations(allowed);
+      const Status status = call.run(results, options);
+      allow_allocations(-1);
+      if (status == Status::ok) {
+        EXPECT_TRUE(results.same_values(expected));
+        return allowed;
+      }
+      EXPECT_EQ(to_string(status), to_string(Status::out_of_memory));
+      EXPECT_EQ(live_allocations(), live) << "memory was lost";
+      EXPECT_TRUE(results.same_values(before) && results.same_sets(before)) << "written to";
+      EXPECT_EQ(to_string(call.run(results, options)), to_string(Status::ok));
+      EXPECT_TRUE(results.same_values(expected)) << "another result after a failure";
+    }
+    ADD_FAILURE() << "the call never succeeds";
+    return 0;
+  }
+};
+
+TEST_P(LibraryMemory, EachAllocationFailsOnce) {
+  const Call& call = GetParam();
+  Results(); // makes the inputs
+  const long live = live_allocations();
+  for (const int threads : {1, 2}) {
+    const Options options{.threads = threads};
+    Results expected;
+    EXPECT_EQ(to_string(call.run(expected, options)), to_string(Status::ok));
+    const int failed = fail_each(call, options, expected);
+    EXPECT_EQ(failed > 0, call.allocates) << failed << " allocations, " << threads << " threads";
+  }
+  EXPECT_EQ(live_allocations(), live) << "memory was lost";
+}
+
+INSTANTIATE_TEST_SUITE_P(Calls, LibraryMemory, ::testing::ValuesIn(all_calls()));
+
+} // namespace
+} // namespace simdbezier::tests

@@ -1,0 +1,190 @@
+// Calls from many threads at once, from regions inside of regions, and after fork(). Right results
+// are checked here; `./run sanitize` has the thread sanitizer look at who touches what.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "tests/support/evaluation.hpp"
+#include "tests/support/nets/generators.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+constexpr std::size_t kPatches = 24;
+constexpr std::size_t n = 9;
+constexpr int kCallers = 16;
+
+/// What every caller shares: one constant set, and what it must give.
+struct Shared {
+  std::vector<Net> nets = mixed_nets(kPatches);
+  PatchSet<float> set = packed<float>(nets);
+  Grid<float> grid = Grid<float>::uniform(n, n);
+  Planes<float> reference{kPatches * n * n, {.second = true}};
+
+  Shared() { EXPECT_EQ(evaluate_grid(set, grid, reference.outputs(), {.threads = 1}), Status::ok); }
+};
+
+const Shared& shared() {
+  static const Shared all;
+  return all;
+}
+
+/// Values that differ from the reference after one call of each kind with this many threads.
+std::size_t grid_errors(int threads) {
+  const Shared& all = shared();
+  Planes<float> planes(kPatches * n * n, {.second = true});
+  const Status status = evaluate_grid(all.set, all.grid, planes.outputs(),
+                                      {.threads = threads, .destination = Destination::memory});
+  return status == Status::ok ? differing_values(planes, all.reference) : 1;
+}
+
+std::size_t patch_grid_errors(int threads) {
+  const Shared& all = shared();
+  const std::vector<std::uint32_t> sizes(kPatches, n);
+  Planes<float> planes(kPatches * n * n, {.second = true});
+  const Status status = evaluate_patch_grids(all.set, {sizes.data(), sizes.data(), nullptr},
+                                             planes.outputs(), {.threads = threads});
+  return status == Status::ok ? differing_values(planes, all.reference) : 1;
+}
+
+std::size_t scattered_errors(int threads) {
+  const Shared& all = shared();
+  SampleArrays<float> samples;
+  for (std::size_t p = 0; p < kPatches; ++p) {
+    for (std::size_t k = 0; k < n * n; ++k) {
+      samples.add(p, uniform_centred<float>(static_cast<int>(k % n), n - 1),
+                  uniform_centred<float>(static_cast<int>(k / n), n - 1));
+    }
+  }
+  Planes<float> planes(kPatches * n * n, {.second = true});
+  const Status status = evaluate_scattered(all.set, samples.view(Parameters::centred),
+                                           planes.outputs(), {.threads = threads});
+  return status == Status::ok ? differing_values(planes, all.reference) : 1;
+}
+
+/// Tiles come from several threads at once, each with a worker's number of its own; what they write
+/// is apart, so nothing has to be locked.
+std::size_t tile_errors(int threads) {
+  const Shared& all = shared();
+  std::vector<float> x(kPatches * n * n, -777);
+  const auto take = [&](const Tile<float>& tile) {
+    float* const to = x.data() + (tile.first_patch * n + tile.first_row) * n;
+    std::copy_n(tile.out.position.x, tile.samples, to);
+  };
+  TileFormat format;
+  format.samples = n * n;
+  const Status status =
+      evaluate_tiles<float>(all.set, all.grid, format, take, {.threads = threads});
+  std::size_t different = status == Status::ok ? 0 : 1;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    different += same_bits(x[k], all.reference.at(0, 0, k)) ? 0 : 1;
+  }
+  return different;
+}
+
+/// Packing anew while others read; the set that is packed into has a reader as well, of its copy.
+std::size_t packing_errors(int threads) {
+  const Shared& all = shared();
+  PatchSet<float> own = all.set;
+  const PatchSet<float> copy = own;
+  const std::vector<float> points = packed_points<float>(std::span(all.nets));
+  if (!pack(control_nets<float>(all.nets, points), own, {.threads = threads})) {
+    return 1;
+  }
+  Planes<float> planes(kPatches * n * n, {.second = true});
+  Planes<float> of_copy(kPatches * n * n, {.second = true});
+  if (evaluate_grid(own, all.grid, planes.outputs(), {.threads = threads}) != Status::ok ||
+      evaluate_grid(copy, all.grid, of_copy.outputs(), {.threads = 1}) != Status::ok) {
+    return 1;
+  }
+  return differing_values(planes, all.reference) + differing_values(of_copy, all.reference);
+}
+
+std::size_t net_errors(int threads) {
+  const Shared& all = shared();
+  const std::vector<float> points = packed_points<float>(std::span(all.nets));
+  const ControlNets<float> nets = control_nets<float>(all.nets, points);
+  std::vector<EdgeLink> links(4 * kPatches);
+  std::vector<float> boxes(6 * kPatches);
+  const bool done =
+      find_adjacency(nets, links.data(), {.threads = threads}) == Status::ok &&
+      tight_boxes(nets, 1, {boxes.data(), boxes.data() + 3 * kPatches}, {.threads = threads});
+  return done ? 0 : 1;
+}
+
+struct Work {
+  const char* name;
+  std::size_t (*errors)(int threads);
+};
+
+constexpr Work kWork[] = {{"grid", grid_errors},           {"patch_grids", patch_grid_errors},
+                          {"scattered", scattered_errors}, {"tiles", tile_errors},
+                          {"packing", packing_errors},     {"nets", net_errors}};
+
+class Threads : public ::testing::TestWithParam<Work> {
+protected:
+  Threads() { shared(); }
+  [[nodiscard]] static std::size_t errors(int threads) { return GetParam().errors(threads); }
+};
+
+TEST_P(Threads, SixteenCallersWithRegionsOfTheirOwn) {
+  std::atomic<std::size_t> wrong{0};
+  std::vector<std::thread> callers;
+  for (int k = 0; k < kCallers; ++k) {
+    callers.emplace_back([&, k] {
+      for (int round = 0; round < 2; ++round) {
+        wrong += errors(1 + (k + round) % 3);
+      }
+    });
+  }
+  for (std::thread& caller : callers) {
+    caller.join();
+  }
+  EXPECT_EQ(wrong, 0U);
+}
+
+TEST_P(Threads, RegionsInsideOfRegions) {
+  omp_set_max_active_levels(3);
+  std::atomic<std::size_t> wrong{0};
+  std::atomic<int> outer{0};
+#pragma omp parallel num_threads(4)
+  {
+    ++outer;
+    wrong += errors(2); // asked for by name, so the call opens a region inside of this one
+    wrong += errors(0); // its own choice: this thread alone
+  }
+  EXPECT_EQ(outer, 4);
+  EXPECT_EQ(wrong, 0U);
+}
+
+/// Exit code of a child that makes the calls; a child that hangs is ended by its alarm.
+int in_child(const std::function<std::size_t()>& body) {
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(60);
+    _exit(body() == 0 ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+TEST_P(Threads, AfterFork) {
+  EXPECT_EQ(in_child([] { return errors(1); }), 0) << "one thread";
+  EXPECT_EQ(errors(3), 0U);
+  EXPECT_EQ(in_child([] { return errors(1); }), 0) << "one thread, its parent had several";
+}
+
+INSTANTIATE_TEST_SUITE_P(Calls, Threads, ::testing::ValuesIn(kWork),
+                         [](const auto& each) { return std::string(each.param.name); });
+
+} // namespace
+} // namespace simdbezier::tests

@@ -1,0 +1,118 @@
+// The caller's rounding mode and flush-to-zero neither change the bits nor get lost.
+#include <cfenv>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/environment.hpp"
+#include "tests/support/isa_fixture.hpp"
+#include "tests/support/workload.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+struct EnvironmentCase {
+  const char* name;
+  int rounding;
+  bool flush;
+};
+
+constexpr EnvironmentCase kEnvironments[] = {{"upward", FE_UPWARD, false},
+                                             {"downward", FE_DOWNWARD, false},
+                                             {"toward_zero", FE_TOWARDZERO, false},
+                                             {"flush", FE_TONEAREST, true},
+                                             {"upward_flush", FE_UPWARD, true}};
+
+/// Nets whose coefficients and results are partly subnormal, beside ordinary ones.
+template <typename T>
+[[nodiscard]] std::vector<Net> delicate_nets() {
+  std::vector<Net> nets = mixed_nets(16);
+  const double tiny = sizeof(T) == 4 ? 0x1p-128 : 0x1p-1024;
+  for (std::size_t k = 0; k < nets.size(); k += 2) {
+    nets[k] = rounded_to<T>(scaled_by(nets[k], {tiny, tiny, tiny}));
+  }
+  return nets;
+}
+
+class EnvironmentTest : public IsaTest {
+protected:
+  template <typename T>
+  void expect_independent_grids() {
+    const std::vector<Net> nets = delicate_nets<T>();
+    const std::vector<T> points = packed_points<T>(nets);
+    const PatchSet<T> set = packed<T>(nets);
+    const Grid<T> samples = Grid<T>::uniform(17, 9);
+    Planes<T> reference(nets.size() * 17 * 9);
+    grid(set, samples, reference.outputs(), {.threads = 1});
+    for (const EnvironmentCase& test : kEnvironments) {
+      for (const int threads : {1, 2}) {
+        Planes<T> planes(reference.count());
+        Planes<T> repacked(reference.count());
+        bool untouched = false;
+        {
+          const ScopedEnvironment environment(test.rounding, test.flush);
+          grid(set, samples, planes.outputs(), {.threads = threads});
+          PatchSet<T> again;
+          const PackReport report = pack(ControlNets<T>{points.data(), nets.size()}, again);
+          grid(again, samples, repacked.outputs(), {.threads = threads});
+          untouched = environment.untouched() && report.status == Status::ok;
+        }
+        EXPECT_TRUE(untouched) << test.name << ": the caller's environment was not restored";
+        EXPECT_EQ(differing_values(planes, reference), 0u)
+            << test.name << ", evaluate_grid, " << threads << " threads";
+        EXPECT_EQ(differing_values(repacked, reference), 0u) << test.name << ", pack";
+      }
+    }
+  }
+
+  template <typename T>
+  void expect_independent_samples() {
+    const std::vector<Net> nets = delicate_nets<T>();
+    const PatchSet<T> set = packed<T>(nets);
+    const SampleArrays<T> samples = random_samples<T>(nets.size(), 5000);
+    for (const Parameters parameters : {Parameters::centred, Parameters::unit}) {
+      Planes<T> reference(samples.patch.size());
+      scattered(set, samples.view(parameters), reference.outputs(), {.threads = 1});
+      for (const EnvironmentCase& test : kEnvironments) {
+        for (const int threads : {1, 2}) {
+          Planes<T> planes(reference.count());
+          bool untouched = false;
+          {
+            const ScopedEnvironment environment(test.rounding, test.flush);
+            scattered(set, samples.view(parameters), planes.outputs(), {.threads = threads});
+            untouched = environment.untouched();
+          }
+          EXPECT_TRUE(untouched) << test.name << ": the caller's environment was not restored";
+          EXPECT_EQ(differing_values(planes, reference), 0u)
+              << test.name << ", evaluate_scattered, " << threads << " threads";
+        }
+      }
+    }
+  }
+};
+
+TEST_P(EnvironmentTest, GridFloat) { expect_independent_grids<float>(); }
+TEST_P(EnvironmentTest, GridDouble) { expect_independent_grids<double>(); }
+TEST_P(EnvironmentTest, ScatteredFloat) { expect_independent_samples<float>(); }
+TEST_P(EnvironmentTest, ScatteredDouble) { expect_independent_samples<double>(); }
+INSTANTIATE_FOR_EVERY_ISA(EnvironmentTest);
+
+// The counterproof: the environments really do what their names say, in this thread.
+TEST(EnvironmentCounterproof, ModesTakeEffect) {
+  volatile float one = 1;
+  volatile float small = 0x1p-30f;
+  volatile float subnormal = 0x1p-130f;
+  {
+    const ScopedEnvironment environment(FE_UPWARD, false);
+    EXPECT_GT(one + small, 1.0f);
+  }
+  if (flush_bits() != 0) {
+    const ScopedEnvironment environment(FE_TONEAREST, true);
+    EXPECT_EQ(subnormal * one, 0.0f);
+  }
+  EXPECT_EQ(one + small, 1.0f);
+  EXPECT_NE(subnormal * one, 0.0f);
+}
+
+} // namespace
+} // namespace simdbezier::tests

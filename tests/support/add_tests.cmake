@@ -1,0 +1,29 @@
+# simdbezier_add_tests(PROGRAM PREFIX SOURCES file… [LIBRARIES target…])
+#
+# A GoogleTest program, and one ctest test for each of its suites, named PREFIX + suite.
+#
+# Not one for each case, as gtest_discover_tests() makes them: suites prepare their patches and the
+# oracle's answers once for all of their cases and instruction sets, which a process for each case
+# does anew: three quarters of their time.
+function(simdbezier_add_tests program prefix)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "SOURCES;LIBRARIES")
+  add_executable(${program} ${arg_SOURCES})
+  target_link_libraries(${program} PRIVATE simdbezier_test_support simdbezier_private_flags
+                                           ${arg_LIBRARIES} GTest::gtest_main)
+  set(list ${CMAKE_CURRENT_BINARY_DIR}/${program}_suites.cmake)
+  file(GENERATE OUTPUT ${list}
+       CONTENT "set(program \"$<TARGET_FILE:${program}>\")
+set(prefix \"${prefix}\")
+set(label \"${SIMDBEZIER_TEST_LABEL}\")
+include(\"${PROJECT_SOURCE_DIR}/tests/support/list_suites.cmake\")
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${list})
+endfunction()
+
+# At the end of a folder's CMakeLists.txt: its label for tests that are no GoogleTest suites.
+function(simdbezier_label_tests)
+  get_property(tests DIRECTORY PROPERTY TESTS)
+  if(tests)
+    set_tests_properties(${tests} PROPERTIES LABELS "${SIMDBEZIER_TEST_LABEL}")
+  endif()
+endfunction()
