@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
-"""Draws the plots of docs/performance.md from what measure.py kept. Needs matplotlib.
+"""Draws the plots of docs/performance.md from what measure.py kept.
 
 usage: bench/plots.py RESULTS.json SWEEP.json [FOLDER]
 
 FOLDER (default: docs/) receives
-  speed_by_size.svg     samples/s in cache against grid size (SWEEP.json: measure.py --sweep)
-  speed_to_baseline.svg the same as a ratio to scalar de Casteljau
-  roofline.svg          multiply-adds/s against multiply-adds per byte written, with the machine's
-                        limits (RESULTS.json); multiply-adds as the library counts them
-The same files give the same bytes with one version of matplotlib.
+  speed_by_size.svg  samples/s in cache against grid size (SWEEP.json: measure.py --sweep)
+  roofline.svg       multiply-adds/s against multiply-adds per byte written, with the machine's
+                     limits (RESULTS.json); multiply-adds as the library counts them
+The same files give the same bytes with one version of matplotlib, which this script needs (Debian:
+python3-matplotlib).
 """
 
+import math
+import re
 import sys
 from pathlib import Path
 
@@ -42,9 +44,19 @@ def multiply_adds(outputs, n):
     return per_sample[outputs] + per_column[outputs] / n
 
 
+def rounded(number):
+    value = float(number[0])
+    return f"{value:.2f}" if abs(value) < 10 else f"{value:.1f}"
+
+
 def save(figure, path):
     figure.savefig(path, format="svg", metadata={"Date": None, "Creator": None})
     pyplot.close(figure)
+    # matplotlib writes six digits and a line for every point. A tenth of a point is as fine as
+    # anybody can see, and the files are read in reviews.
+    text = re.sub(r"-?\d+\.\d{3,}", rounded, path.read_text(encoding="utf-8"))
+    text = re.sub(r' ?\n(?=[LMCz"])', "", text)
+    path.write_text(text, encoding="utf-8")
 
 
 def grids(rows, kind="f32"):
@@ -57,29 +69,30 @@ def grids(rows, kind="f32"):
                 yield name, nu, row.median
 
 
-def by_size(rows, path, label, value):
-    figure, axes = pyplot.subplots(2, 2, figsize=(9, 6.5), sharex=True)
+def by_size(rows, path):
     lines = {}
     for name, n, rate in grids(rows):
         if name.place == "cache" and name.who in COLOURS:
-            lines.setdefault((name.outputs, name.who), {})[n] = rate
-    for axis, outputs in zip(axes.flat, TITLES):
-        for who in COLOURS:
-            rates = lines.get((outputs, who), {})
-            points = [(n, value(rates[n], lines.get((outputs, "de_casteljau"), {}).get(n)))
-                      for n in sorted(rates)]
-            points = [(n, y) for n, y in points if y is not None]
-            if points:
-                axis.plot(*zip(*points), color=COLOURS[who], label=who, linewidth=1.2)
+            lines.setdefault(name.outputs, {}).setdefault(name.who, {})[n] = rate / 1e9
+    shown = [outputs for outputs in TITLES if outputs in lines]
+    height = (len(shown) + 1) // 2
+    figure = pyplot.figure(figsize=(9, 3.1 * height))
+    for place, outputs in enumerate(shown, 1):
+        axis = figure.add_subplot(height, 2, place)
+        for who, colour in COLOURS.items():
+            rates = lines[outputs].get(who, {})
+            if rates:
+                axis.plot(*zip(*sorted(rates.items())), color=colour, label=who, linewidth=1.2)
         axis.set_title(TITLES[outputs], fontsize=10)
         axis.set_xticks(range(0, 65, 8))
         axis.set_ylim(bottom=0)
         axis.grid(color="#e0e0e0", linewidth=0.6)
-    axes[0, 0].legend(fontsize=8)
-    for axis in axes[:, 0]:
-        axis.set_ylabel(label)
-    for axis in axes[1]:
-        axis.set_xlabel("n of n × n samples a patch, float, in cache")
+        axis.tick_params(labelsize=8)
+        if place % 2 == 1:
+            axis.set_ylabel("10⁹ samples/s", fontsize=9)
+        if place > len(shown) - 2:
+            axis.set_xlabel("n of n × n samples a patch, float, in cache", fontsize=9)
+    figure.axes[0].legend(fontsize=8)
     figure.tight_layout()
     save(figure, path)
 
@@ -96,17 +109,20 @@ def roofline(rows, path):
     axis.plot(xs, [peak, peak], color="black", linewidth=1)
     axis.annotate(f"limit/fma {widest}", (xs[0], peak), xytext=(2, 3), textcoords="offset points",
                   fontsize=8)
-    for name, text in (("limit/fill_l1", "stores to the first-level cache"),
-                       ("limit/fill_cache", "stores to the second-level cache"),
-                       ("limit/fill_stream/threads:1", "stores to memory, streaming")):
+    for name, text in (("limit/fill_l1", "stores to L1"),
+                       ("limit/fill_cache", "stores to L2"),
+                       ("limit/fill_stream/threads:1", "streaming stores to memory")):
         bandwidth = limit(name, 12)
         if bandwidth is not None:
             ends = [xs[0], min(xs[1], peak / bandwidth)]
             axis.plot(ends, [x * bandwidth for x in ends], color="black", linewidth=1)
-            axis.annotate(f"{text}: {bandwidth:.0f} GB/s", (ends[0], ends[0] * bandwidth),
-                          xytext=(2, -12), textcoords="offset points", fontsize=8)
+            axis.text(ends[0] * 1.02, ends[0] * bandwidth * 1.05, f"{text}: {bandwidth:.0f} GB/s",
+                      rotation=math.degrees(math.atan(bandwidth)), rotation_mode="anchor",
+                      transform_rotates_text=True, fontsize=8)
+    shown = set()
     for name, n, rate in grids(rows):
         if n in (16, 32) and name.who in COLOURS and name.who != "de_casteljau":
+            shown |= {name.outputs, name.who}
             work = multiply_adds(name.outputs, n)
             filled = name.place == "cache"
             axis.plot(work / name.bytes_per_sample, rate * work / 1e9, MARKERS[name.outputs],
@@ -114,14 +130,18 @@ def roofline(rows, path):
                       markerfacecolor=COLOURS[name.who] if filled else "white")
     axis.set_xscale("log")
     axis.set_yscale("log")
-    axis.set_xticks([0.3, 0.5, 1, 2, 3], ["0.3", "0.5", "1", "2", "3"])
     axis.minorticks_off()
+    axis.set_xticks([0.3, 0.5, 1, 2, 3], ["0.3", "0.5", "1", "2", "3"])
+    low, high = axis.get_ylim()
+    ticks = [y for y in (5, 10, 20, 50, 100, 200, 500) if low < y < high]
+    axis.set_yticks(ticks, map(str, ticks))
     axis.set_xlabel("multiply-adds per byte written (float, 16 × 16 small, 32 × 32 large)")
     axis.set_ylabel("10⁹ multiply-adds/s")
     axis.grid(color="#e0e0e0", linewidth=0.6)
-    handles = [axis.plot([], [], MARKERS[o], color="grey", label=TITLES[o])[0] for o in TITLES]
-    handles += [axis.plot([], [], "o", color=c, label=w)[0] for w, c in COLOURS.items()
-                if w != "de_casteljau" and (w != "neon64" or widest == "neon64")]
+    handles = [axis.plot([], [], MARKERS[o], color="grey", label=TITLES[o])[0]
+               for o in TITLES if o in shown]
+    handles += [axis.plot([], [], "o", color=c, label=w)[0]
+                for w, c in COLOURS.items() if w in shown]
     handles.append(axis.plot([], [], "o", color="grey", markerfacecolor="white",
                              label="to memory")[0])
     axis.legend(handles=handles, fontsize=8, loc="upper left", bbox_to_anchor=(1.01, 1))
@@ -135,12 +155,10 @@ def main(arguments):
         return 2
     folder = Path(arguments[2]) if len(arguments) == 3 else Path(__file__).parent.parent / "docs"
     matplotlib.rcParams.update({"svg.hashsalt": "simdbezier", "svg.fonttype": "none",
-                                "font.family": "sans-serif", "path.simplify": False})
+                                "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"]})
     _, results = read(arguments[0])
     _, sweep = read(arguments[1])
-    by_size(sweep, folder / "speed_by_size.svg", "10⁹ samples/s", lambda rate, _: rate / 1e9)
-    by_size(sweep, folder / "speed_to_baseline.svg", "× scalar de Casteljau",
-            lambda rate, baseline: rate / baseline if baseline else None)
+    by_size(sweep, folder / "speed_by_size.svg")
     roofline(results, folder / "roofline.svg")
     return 0
 
