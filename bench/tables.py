@@ -12,12 +12,14 @@ A page says where tables belong, and of which files below bench/results/ they ar
 What stands between the two lines is replaced. With --check nothing is written, and the exit code is 1
 where a page is not what the results say. KIND is one of
 
-  summary  16 x 16 grids, and how they compare with both baselines
+  summary  16 x 16 grids, and how they compare with both baselines; of the second file, a sweep of
+           sizes, how they all do
   limits   what machines can do at the most, one column each
   machine  grids in cache and to memory; tiles, scattered samples and packing
 """
 
 import re
+import statistics
 import sys
 from pathlib import Path
 
@@ -73,16 +75,20 @@ def grid(outputs, kind, who, n, place="cache", more=""):
     return f"grid/{outputs}/{kind}/{who}/{n}x{n}/{place}/threads:1{more}"
 
 
-def summary(results):
+def summary(results, sweep):
+    """The second file is one of measure.py --sweep."""
     rows = []
     for outputs, title in OUTPUTS.items():
-        own = grid(outputs, "f32", results.isa, 16)
-        loops = {n: results.ratio(grid(outputs, "f32", results.isa, n),
-                                  grid(outputs, "f32", "autovectorised", n)) for n in SIZES}
+        own, scalar, loops = (grid(outputs, "f32", who, 16)
+                              for who in (results.isa, "de_casteljau", "autovectorised"))
+        ratios = [ratio for ratio in (sweep.ratio(grid(outputs, "f32", results.isa, n),
+                                                  grid(outputs, "f32", "autovectorised", n))
+                                      for n in range(2, 66)) if ratio]
         rows.append([title, f"{results.rate(own) / 1e9:.1f} · 10⁹ samples/s",
-                     f"{results.ratio(own, grid(outputs, 'f32', 'de_casteljau', 16)):.0f} ×",
-                     f"{loops[16]:.2f} × ({min(loops.values()):.2f} to {max(loops.values()):.2f})"])
-    return table(["", "speed", "to scalar de Casteljau", "to auto-vectorised loops"], rows)
+                     f"{results.ratio(own, scalar):.0f} ×", f"{results.ratio(own, loops):.1f} ×",
+                     f"{statistics.median(ratios):.1f} × ({min(ratios):.1f} to {max(ratios):.1f})"])
+    return table(["", "16 × 16 samples a patch", "to scalar de Casteljau", "to auto-vectorised loops",
+                  "the same from 2 × 2 to 65 × 65: median (range)"], rows)
 
 
 # What a row of the limits' table says: its unit, and the limits in it with the size of an item.
