@@ -1,9 +1,9 @@
 // Subdivision to a tolerance: pieces that are flat enough are kept, the others are cut into four,
-// all pieces of a level in one call. What flatness() says is a bound for the whole piece, so the
-// two triangles of a kept piece are within the tolerance (and their own fold) everywhere.
+// and all pieces of a level are one call. flatness() gives a bound for the whole piece, so the two
+// triangles of a kept piece are within the tolerance (and their own fold) everywhere.
 //
-// Neighbours of different levels meet in T-junctions: who needs a closed mesh still has to join
-// them. Per-patch grids (evaluate_patch_grids) are the other way to spend samples where they count.
+// Neighbours of different levels meet in T-junctions, which a closed mesh would still have to join.
+// Per-patch grids (evaluate_patch_grids) are the other way to spend samples where they count.
 #include <array>
 #include <cstdio>
 #include <vector>
@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kNet = 48; ///< values of a bicubic net
 constexpr double kTolerance = 0.01;
 
-/// Moves the nets that are flat enough behind `kept`, leaves the others; false on an error.
+/// Moves the nets that are flat enough to the end of `kept`. Returns false on an error.
 bool keep_flat_ones(std::vector<double>& nets, std::vector<double>& kept) {
   std::vector<double> bound(nets.size() / kNet);
   if (!flatness(ControlNets<double>{nets.data(), bound.size()}, bound.data())) {
@@ -35,7 +35,7 @@ bool keep_flat_ones(std::vector<double>& nets, std::vector<double>& kept) {
   return true;
 }
 
-/// Every net into four, which follow each other; false on an error.
+/// Cuts every net into four, which follow each other. Returns false on an error.
 bool quarter(std::vector<double>& nets) {
   const std::size_t count = nets.size() / kNet;
   std::vector<double> quarters(4 * nets.size());
@@ -70,7 +70,7 @@ int main() {
   }
   std::printf("%zu pieces within %g\n", kept.size() / kNet, kTolerance);
 
-  // Which precision will do is a question to the packed set: rounding is certified, too.
+  // The packed set knows which precision will do, since its rounding errors are certified, too.
   PatchSet<float> patches;
   if (!pack(ControlNets<double>{kept.data(), kept.size() / kNet}, patches)) {
     return 1;

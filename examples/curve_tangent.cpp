@@ -1,5 +1,5 @@
-// A curve with its tangents: a batch of one cubic, the first row of the sample patch, evaluated at
-// nine parameters, next to de Casteljau's algorithm.
+// A curve with its tangents: the first row of the sample patch, as a batch of one cubic, evaluated
+// at nine parameters and compared with de Casteljau's algorithm.
 #include <algorithm>
 #include <cstdio>
 #include <vector>

@@ -14,7 +14,7 @@ using namespace simdbezier;
 
 namespace {
 
-// The quarter circle ((1-t^2), 2t) / (1+t^2), swung about the axis by itself.
+// The quarter circle ((1-t^2), 2t) / (1+t^2), turned about the axis along another one of its kind.
 const std::vector<double> kOctant = {
     1, 0, 0, 1, 1, 1, 0, 1, 0, 1, 0, 2, // x y z w, along the equator
     1, 0, 1, 1, 1, 1, 1, 1, 0, 1, 1, 2, //
@@ -22,7 +22,7 @@ const std::vector<double> kOctant = {
 };
 const std::vector<double> kBilinear = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1};
 
-/// A sheet over the unit square: degree 4 along u, 2 along v, its middle lifted.
+/// A sheet of degree 4 x 2 over the unit square, whose middle is lifted.
 std::vector<double> sheet() {
   std::vector<double> points;
   for (int j = 0; j <= 2; ++j) {

@@ -1,5 +1,5 @@
 // A patch with its normals, written as the vertices that a renderer wants: x y z nx ny nz in single
-// precision. The error bound comes from the set itself, the comparison from de Casteljau.
+// precision. The set itself gives the error bound, and de Casteljau's algorithm confirms it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // Uniform subdivision against one grid call: cutting a patch four times in each direction gives the
-// vertices of a 17 x 17 mesh, which evaluate_grid() computes straight away. One cut of a whole
-// batch is a call as well, split().
+// vertices of a 17 x 17 mesh, which evaluate_grid() computes straight away. split() cuts all
+// patches of a batch once.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,7 +33,7 @@ double difference_from_grid(const seed::Mesh& mesh, const std::vector<double>& p
   return worst;
 }
 
-/// The largest difference between the four quarters and the library's own.
+/// The largest difference between four quarters cut here and those of split().
 double difference_from_split(const seed::Net& net, const std::vector<double>& points) {
   std::vector<double> quarters(4 * points.size()); // quarter after quarter
   std::array<MutableNets<double>, 4> out;

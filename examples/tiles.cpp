@@ -1,6 +1,6 @@
-// Samples consumed in the cache: 20 million of them, and no memory to hold them. Every thread gets
-// its finished tiles one by one and keeps what it wants, here a bounding box and the steepest
-// place; what the threads found is put together at the end.
+// 20 million samples are consumed in the cache, and no memory holds them. Every thread gets its
+// finished tiles one by one and keeps what it wants, here a bounding box and the steepest place. At
+// the end, what the threads found is put together.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,7 +18,7 @@ constexpr std::size_t kPatches = 20000;
 constexpr std::size_t n = 32;
 constexpr int kThreads = 4;
 
-/// One thread's findings, in cache lines of its own.
+/// What one thread found, in cache lines of its own.
 struct alignas(128) Findings {
   std::size_t samples = 0;
   float steepest = 1; ///< the smallest |z| of a normal: 1 is level, 0 upright
@@ -70,7 +70,7 @@ int main() {
     return 1;
   }
 
-  TileFormat format; // positions come by default
+  TileFormat format; // has positions by default
   format.normal = true;
   std::vector<Findings> findings(kThreads);
   Options options;
