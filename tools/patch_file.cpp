@@ -21,10 +21,9 @@ struct Format {
   PatchFormat format;
   PatchFile (*read)(TextInput&);
 };
-constexpr Format kFormats[] = {
-    {"bez", PatchFormat::bez, read_bez}, {"bpt", PatchFormat::bpt, read_bpt},
-    {"bv", PatchFormat::bv, read_bv},    {"itd", PatchFormat::itd, read_itd},
-    {"obj", PatchFormat::obj, read_obj}, {"rib", PatchFormat::rib, read_rib}};
+#define SIMDBEZIER_PATCH_FORMAT_ROW(NAME) {#NAME, PatchFormat::NAME, read_##NAME},
+constexpr Format kFormats[] = {SIMDBEZIER_EACH_PATCH_FORMAT(SIMDBEZIER_PATCH_FORMAT_ROW)};
+#undef SIMDBEZIER_PATCH_FORMAT_ROW
 
 // What later releases read; until then the answer names the format instead of calling it unknown.
 constexpr std::string_view kLaterFormats[] = {"iges", "igs", "step", "stp", "pov"};

@@ -114,7 +114,28 @@ private:
   void append(const PatchRun& run, std::size_t patch, std::vector<S>& values) const;
 };
 
-enum class PatchFormat : std::uint8_t { by_name, bez, bpt, bv, itd, obj, rib };
+/// The formats that can be read, one row each: the name, which is also the extension of files, and
+/// what the reader takes. read_NAME.cpp holds that reader; help and messages list these rows.
+// clang-format off
+#define SIMDBEZIER_EACH_PATCH_FORMAT(X)                                                            \
+  X(bez) /* Berkeley: a count, then 48 coordinates a patch */                                      \
+  X(bpt) /* Holmes3D: a count, then per patch two degrees and its coordinates */                   \
+  X(bv)  /* BezierView: kinds 4 and 5, and 8 with homogeneous weights */                           \
+  X(itd) /* IRIT: SURFACE BEZIER of point types E3, and P3 with homogeneous weights */             \
+  X(obj) /* Wavefront: cstype bezier, and rat bezier with Cartesian weights */                     \
+  X(rib) /* RenderMan: Patch and PatchMesh with "P", or "Pw" with homogeneous weights */
+// clang-format on
+
+#define SIMDBEZIER_DECLARE_PATCH_FORMAT(NAME) NAME,
+enum class PatchFormat : std::uint8_t {
+  by_name,
+  SIMDBEZIER_EACH_PATCH_FORMAT(SIMDBEZIER_DECLARE_PATCH_FORMAT)
+};
+#undef SIMDBEZIER_DECLARE_PATCH_FORMAT
+
+#define SIMDBEZIER_DECLARE_PATCH_READER(NAME) [[nodiscard]] PatchFile read_##NAME(TextInput& input);
+SIMDBEZIER_EACH_PATCH_FORMAT(SIMDBEZIER_DECLARE_PATCH_READER)
+#undef SIMDBEZIER_DECLARE_PATCH_READER
 
 /// "bez, bpt, … or rib", every name behind `prefix`.
 [[nodiscard]] std::string patch_format_names(const std::string& prefix);
@@ -124,19 +145,6 @@ enum class PatchFormat : std::uint8_t { by_name, bez, bpt, bv, itd, obj, rib };
 /// Reads "builtin:teapot", a file, or standard input ("-", which needs a format).
 /// Throws Failure: exit code 2 where the name or format is not one of ours, otherwise 1.
 [[nodiscard]] PatchFile read_patches(const std::string& in, PatchFormat format);
-
-/// Berkeley .bez: a count, then 48 coordinates a patch.
-[[nodiscard]] PatchFile read_bez(TextInput& input);
-/// Holmes3D .bpt: a count, then per patch two degrees and its coordinates.
-[[nodiscard]] PatchFile read_bpt(TextInput& input);
-/// BezierView .bv: kinds 4 and 5, and 8 with homogeneous weights.
-[[nodiscard]] PatchFile read_bv(TextInput& input);
-/// IRIT .itd: SURFACE BEZIER of point types E3, and P3 with homogeneous weights.
-[[nodiscard]] PatchFile read_itd(TextInput& input);
-/// Wavefront .obj: surfaces of cstype bezier, and rat bezier with Cartesian weights.
-[[nodiscard]] PatchFile read_obj(TextInput& input);
-/// RenderMan .rib: Patch and PatchMesh with "P", or "Pw" with homogeneous weights.
-[[nodiscard]] PatchFile read_rib(TextInput& input);
 
 /// Packs all patches, or some, for evaluation in T. For float the control points are rounded to
 /// float first. Throws Failure naming the place of a control point that T cannot hold.
