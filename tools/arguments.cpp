@@ -10,7 +10,7 @@ namespace simdbezier::tools {
 
 namespace {
 
-// Of options that are the same in all commands which have them.
+// For options that are the same in all commands that have them.
 [[noreturn]] void refuse(const char* name, const std::string& found) {
   const auto entry = std::ranges::find(option_entries(), name, &OptionEntry::name);
   bad_usage(entry->name + ": expected " + entry->expected + ", found " + found);

@@ -1,4 +1,4 @@
-// The command line, understood.
+// What the command line asks for.
 #pragma once
 
 #include <cstdint>
@@ -21,18 +21,18 @@ struct Arguments {
   PatchFormat format = PatchFormat::by_name;
   std::string out;
   GridSize grid;
-  std::optional<std::string> samples; ///< evaluate: a file instead of the grid
+  std::optional<std::string> samples; ///< for evaluate: a file instead of the grid
   Precision precision = Precision::f32;
-  std::vector<OutputGroup> outputs; ///< evaluate: in column order, no duplicates
-  int threads = 0;                  ///< 0: all
+  std::vector<OutputGroup> outputs; ///< for evaluate: in the order of the columns, each once
+  int threads = 0;                  ///< 0 means all
   bool normals = true;
   bool json = false;
 };
 
-/// The names of the files that will be read; "-": standard input.
+/// The names of the files that will be read; "-" is standard input.
 [[nodiscard]] std::vector<std::string> inputs_of(const Arguments& arguments);
 
-/// Nothing where help or the version was asked for, which has then been printed.
+/// Returns nothing where help or the version was asked for, which has then been printed.
 /// Throws Failure with exit code 2 on bad usage.
 [[nodiscard]] std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
 

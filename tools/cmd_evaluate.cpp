@@ -15,8 +15,8 @@ namespace simdbezier::tools {
 
 namespace {
 
-// Vectors lie as their columns do, side by side, one row a sample. The library writes curvatures as
-// planes, which follow the rows.
+// Vectors lie side by side, as their columns do, with one row a sample. The library writes
+// curvatures as planes, which follow the rows.
 template <typename T>
 class ResultTable {
 public:
@@ -66,12 +66,12 @@ private:
   std::vector<T> values_;
 };
 
-// i/N in double, which is what the grid's x_i = (2i-N)/N is in u.
+// i/N in double: the u that belongs to the grid's x_i = (2i-N)/N.
 double grid_parameter(std::size_t i, std::size_t count) {
   return static_cast<double>(i) / static_cast<double>(count - 1);
 }
 
-// Data in a pipe mostly end on the terminal that would show the bar.
+// Data in a pipe mostly end up on the terminal that would show the bar.
 bool may_show_bar(const Arguments& arguments, const OutputFile& file) {
   return arguments.out != "-" && !file.is_terminal();
 }
@@ -113,7 +113,7 @@ struct SampleBlock {
   std::vector<T> x;
   std::vector<T> y;
 
-  /// False at the end of the file.
+  /// Returns false at the end of the file.
   bool read(SampleReader& reader) {
     given.clear(), patch.clear(), x.clear(), y.clear();
     while (given.size() < kMost) {
@@ -139,7 +139,7 @@ private:
   }
 };
 
-/// Evaluates blocks of samples of a file's patches. Where there are many patches, only those of a
+/// Evaluates blocks of samples of a file's patches. Where there are many patches, only those of the
 /// block's samples are packed.
 template <typename T>
 class SampleEvaluator {
@@ -148,7 +148,7 @@ public:
   SampleEvaluator(const PatchFile& file, int threads) : file_(file) {
     options_.threads = threads;
     for (std::size_t p = 0; p < file.count; p += kBlockPatches) {
-      set_ = PatchSet<T>(); // whose memory the next one may take
+      set_ = PatchSet<T>(); // frees memory that the next set may take
       set_ = pack_patches<T>(file, p, kBlockPatches);
     }
     all_ = set_.size() == file.count;
@@ -183,8 +183,8 @@ private:
   const PatchFile& file_;
   Options options_;
   PatchSet<T> set_;
-  bool all_ = false;                  // of the file's patches are in the set
-  std::vector<std::uint32_t> packed_; // otherwise these
+  bool all_ = false;                  // whether all of the file's patches are in the set
+  std::vector<std::uint32_t> packed_; // if not, these are
 };
 
 template <typename T>

@@ -19,7 +19,7 @@ namespace simdbezier::tools {
 
 namespace {
 
-/// What patches have in common that are evaluated alike; ordered by degrees.
+/// Patches of one shape are evaluated alike. Shapes are ordered by degrees.
 struct Shape {
   int degree_u;
   int degree_v;
@@ -46,7 +46,7 @@ void extend_box(const ControlNets<double>& nets, Summary& summary) {
   for (const double* point = nets.points; point != end; point += values) {
     const double divisor = nets.weights == Weights::homogeneous ? point[3] : 1;
     for (std::size_t c = 0; c < 3; ++c) {
-      const double coordinate = point[c] / divisor + 0.0; // -0 is 0 to the library
+      const double coordinate = point[c] / divisor + 0.0; // -0 becomes 0, as in the library
       summary.low[c] = std::min(summary.low[c], coordinate);
       summary.high[c] = std::max(summary.high[c], coordinate);
     }
@@ -94,7 +94,7 @@ std::string describe(const Shape& shape) {
          (shape.rational ? ", rational" : "");
 }
 
-// One line where all patches are alike, otherwise one for each shape with its count.
+// Prints one line where all patches are alike, and otherwise one for each shape with its count.
 std::string describe(const std::map<Shape, std::size_t>& shapes) {
   std::string text;
   for (const auto& [shape, count] : shapes) {
@@ -122,9 +122,9 @@ std::string as_text(const Summary& summary) {
   return text;
 }
 
-// "degrees" is there where all patches have the same ones; "shapes" always is.
+// "degrees" appears where all patches have the same ones, and "shapes" always.
 std::string as_json(const Summary& summary) {
-  // Objects are made as such: null that becomes one is not destroyed properly without memory.
+  // These are made as objects, because null that becomes one leaks where memory runs out.
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   json["name"] = summary.name;
   json["patches"] = summary.patches;

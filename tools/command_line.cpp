@@ -1,5 +1,5 @@
-// CLI11 takes the words apart. What is wrong with them is said here, in one way for all: the
-// argument, what was expected, what was found.
+// CLI11 takes the words apart. The messages about what is wrong with them are made here, all in one
+// way: the argument, what was expected, what was found.
 #include <tools/command_line.hpp>
 
 #include <algorithm>
@@ -56,8 +56,8 @@ std::unique_ptr<Parser> make_parser() {
   bad_usage(entry.name + ": expected " + entry.expected + ", found " + found);
 }
 
-// CLI11 objects in two cases only: a value with an option that has none, and none with the last
-// one.
+// CLI11 objects in two cases only: an option that takes no value has one, or the last option lacks
+// its value.
 [[noreturn]] void refuse_values(int argc, const char* const* argv) {
   std::string_view command = "simdbezier";
   for (int k = 1; k < argc; ++k) {
@@ -88,13 +88,13 @@ void check_option(const OptionEntry& entry, const CLI::Option& option, const std
   if (option.count() > 1) {
     bad_usage(entry.name + ": expected once, found " + std::to_string(option.count()) + " times");
   }
-  // Its own value is missing then, and not the one that CLI11 misses at the end.
+  // Then the value of this option is missing, and not the one that CLI11 misses at the end.
   if (!entry.value.empty() && is_name_of_option(value, command)) {
     refuse_missing(entry, in_quotes(value));
   }
 }
 
-// The first word that is left over is the mistake: what is missing was most likely meant by it.
+// The first word that is left over is the mistake, since it most likely stands for what is missing.
 void check_rest(const CLI::App& app, const std::string& command,
                 const std::optional<std::string>& in) {
   std::vector<std::string> rest = app.remaining(true);

@@ -16,18 +16,18 @@ enum class Command : std::uint8_t { tessellate, evaluate, info };
 /// are the same entries.
 struct OptionEntry {
   std::string name;     ///< as it is typed; IN for the input, which is typed without its name
-  std::string value;    ///< what help calls its value; empty: it has none
+  std::string value;    ///< what help calls its value; empty where it has none
   std::string expected; ///< what the value has to be, for messages and for help
   std::string help;     ///< what it is for
   std::string commands; ///< " tessellate evaluate info "
-  bool listed = true;   ///< false: a later release has it, this one says so
+  bool listed = true;   ///< false where a later release has it and this one says so
   std::string alias = {};
 
   [[nodiscard]] bool is_of(std::string_view command) const;
 };
 
 [[nodiscard]] const std::vector<OptionEntry>& option_entries();
-/// Null where the command has no such option.
+/// Returns null where the command has no such option.
 [[nodiscard]] const OptionEntry* find_option(std::string_view name, std::string_view command);
 [[nodiscard]] std::string_view command_name(Command command);
 
@@ -40,11 +40,11 @@ struct Words {
   [[nodiscard]] bool has(std::string_view name) const { return values.contains(name); }
 };
 
-/// Nothing where help or the version was asked for, which has then been printed.
+/// Returns nothing where help or the version was asked for, which has then been printed.
 /// Throws Failure with exit code 2 where words are missing or left over.
 [[nodiscard]] std::optional<Words> split_command_line(int argc, const char* const* argv);
 
-/// What --help prints, of a command or of the program.
+/// What --help prints for a command, or for the program where there is none.
 [[nodiscard]] std::string help_text(std::optional<Command> command);
 
 /// The names of the outputs, in the order of their columns.

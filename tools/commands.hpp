@@ -1,4 +1,4 @@
-// What the program does. All throw Failure.
+// The commands of the program. All of them throw Failure.
 #pragma once
 
 #include <tools/arguments.hpp>

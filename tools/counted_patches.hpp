@@ -9,18 +9,19 @@
 
 namespace simdbezier::tools {
 
-/// Reads the count, the patches' coordinates and the end of the file. Counts lie in the wild, so
-/// every message about too few or too many patches says what was declared, and where.
+/// Reads the count, the patches' coordinates and the end of the file. Counts of real files are
+/// often wrong, so every message about too few or too many patches says what was declared, and
+/// where.
 class CountedPatches {
 public:
   /// `each` goes into messages, between "N patches" and "as declared".
   CountedPatches(TextInput& input, std::string each);
 
-  /// True while patches are due.
+  /// Whether another patch is due.
   [[nodiscard]] bool more() const noexcept { return file_.count < count_; }
-  /// The next word as a degree.
+  /// Reads the next word as a degree.
   [[nodiscard]] int degree(const std::string& where);
-  /// The coordinates of the next patch.
+  /// Reads the coordinates of the next patch.
   void patch(int degree_u, int degree_v);
   /// To be called after the last patch.
   [[nodiscard]] PatchFile finish();

@@ -8,17 +8,17 @@
 
 namespace simdbezier::tools {
 
-/// A number of things. A sum or product that std::size_t cannot hold has no value, nor has anything
-/// that is formed of it: a product that wraps around would pass for a small one.
+/// A number of things. A sum or product that std::size_t cannot hold has no value, and neither has
+/// anything that is formed of it, because a product that wraps around would pass for a small one.
 class Count {
 public:
   constexpr Count(std::size_t value) noexcept : value_(value), fits_(true) {} // NOLINT: a number
 
-  /// Nothing where it cannot be counted.
+  /// Has no value where it cannot be counted.
   [[nodiscard]] constexpr std::optional<std::size_t> value() const noexcept {
     return fits_ ? std::optional(value_) : std::nullopt;
   }
-  /// Whether there are no more than so many.
+  /// Whether there are at most so many.
   [[nodiscard]] constexpr bool within(std::size_t most) const noexcept {
     return fits_ && value_ <= most;
   }
@@ -40,7 +40,7 @@ private:
   bool fits_;
 };
 
-/// Its digits, or what there are more of.
+/// The count's digits, or "more than" the largest one.
 [[nodiscard]] inline std::string to_string(Count count) {
   return count.value() ? std::to_string(*count.value())
                        : "more than " + std::to_string(std::numeric_limits<std::size_t>::max());

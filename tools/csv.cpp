@@ -22,7 +22,7 @@ std::string_view trimmed(std::string_view text) {
              : text.substr(first, text.find_last_not_of(kSpace) - first + 1);
 }
 
-// The fields of a line, trimmed; their number may be anything, the first ones are kept.
+// The trimmed fields of a line. There may be any number of them, of which the first ones are kept.
 struct Fields {
   explicit Fields(std::string_view line) {
     for (bool more = true; more; ++count) {
@@ -37,7 +37,7 @@ struct Fields {
   [[nodiscard]] bool are(const std::array<std::string_view, 3>& names) const {
     return count == names.size() && std::ranges::equal(names, std::span(value).first(names.size()));
   }
-  /// The first field that another one repeats; empty: none does.
+  /// The first field that another one repeats, or an empty one.
   [[nodiscard]] std::string_view repeated() const {
     const auto kept = std::span(value).first(std::min(count, value.size()));
     for (std::size_t k = 0; k < kept.size(); ++k) {

@@ -1,4 +1,4 @@
-// Samples in and results out as comma-separated values.
+// Samples that are read and results that are written as comma-separated values.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace simdbezier::tools {
 
-/// One sample as its line gives it; u and v are centred where the header says patch,x,y.
+/// One sample as its line gives it. u and v are centred where the header says patch,x,y.
 struct CsvSample {
   std::uint32_t patch = 0;
   double u = 0;
@@ -31,8 +31,7 @@ public:
   [[nodiscard]] bool centred() const noexcept { return centred_; }
   /// The next sample, or nothing at the end.
   [[nodiscard]] std::optional<CsvSample> next();
-  /// Throws the Failure for a parameter of the last sample that the precision asked for cannot
-  /// hold.
+  /// Throws the Failure for a parameter of the last sample that the chosen precision cannot hold.
   [[noreturn]] void refuse(double parameter, const std::string& precision) const;
 
 private:
@@ -50,10 +49,10 @@ private:
 enum class OutputGroup : std::uint8_t { position, du, dv, duu, duv, dvv, normal, curvature };
 inline constexpr std::size_t kOutputGroups = 8;
 
-/// Vectors have three columns, the curvatures of a sample are four.
+/// Vectors have three columns; the curvatures of a sample have four.
 [[nodiscard]] std::size_t column_count(std::span<const OutputGroup> groups);
 
-/// Writes the header and one line per sample, numbers so that they read back to the same bits.
+/// Writes the header and one line a sample, with numbers that read back to the same bits.
 class ResultWriter {
 public:
   ResultWriter(OutputFile& file, bool centred, std::span<const OutputGroup> groups);
@@ -74,7 +73,7 @@ private:
   void separated(T value) {
     file_.character(',');
     if (std::isnan(value)) {
-      file_.text("nan"); // whose sign depends on the machine
+      file_.text("nan"); // without its sign, which depends on the machine
     } else {
       file_.number(value);
     }

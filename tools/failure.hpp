@@ -1,4 +1,4 @@
-// How the program's own errors travel to main(), which prints each as one line.
+// The program's own errors on their way to main(), which prints each as one line.
 #pragma once
 
 #include <stdexcept>

@@ -10,7 +10,7 @@ namespace simdbezier::tools {
 
 namespace {
 
-// (2i-N)/N by one division, as the library defines its uniform grid: equal bits.
+// (2i-N)/N by one division, as the library defines its uniform grid, so that bits are equal.
 template <typename T>
 std::vector<T> uniform_parameters(std::size_t count) {
   std::vector<T> x(count);
@@ -48,7 +48,7 @@ GridEvaluator<T>::GridEvaluator(const PatchFile& file, const GridSize& grid, int
 template <typename T>
 void GridEvaluator<T>::pack(std::size_t first, std::size_t count) {
   if (set_.size() != count || first_ != first) {
-    set_ = PatchSet<T>(); // whose memory the next one may take
+    set_ = PatchSet<T>(); // frees memory that the next set may take
     set_ = pack_patches<T>(file_, first, count);
     first_ = first;
   }

@@ -30,7 +30,7 @@ struct GridBlock {
 
 inline constexpr std::size_t kBlockSamples = std::size_t{1} << 18;
 
-/// Larger grids and results are refused: a typo is likelier than a wish.
+/// Larger grids and results are refused, because they are most likely a typing error.
 inline constexpr std::size_t kMostPerDirection = std::size_t{1} << 20;
 inline constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 40;
 
@@ -39,9 +39,9 @@ inline constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 40;
 [[nodiscard]] std::uint64_t checked_sample_count(std::size_t patches, const GridSize& grid,
                                                  std::size_t bytes_per_sample);
 
-/// As many patches as make a block of moderate size.
+/// How many patches make a block of moderate size.
 [[nodiscard]] constexpr std::size_t patches_per_block(const GridSize& grid) noexcept {
-  // Neither many samples nor many packed patches.
+  // A block has neither many samples nor many packed patches.
   return std::clamp<std::size_t>(kBlockSamples / (grid.nu * grid.nv), 1, kBlockPatches);
 }
 
@@ -59,11 +59,11 @@ void for_each_block(std::size_t patches, const GridSize& grid, F&& f) {
 }
 
 /// Evaluates the blocks of a file's patches on one uniform grid. Only a block's patches are packed
-/// at a time: all of them would take several times the memory of the file.
+/// at a time, because all of them would take several times the memory of the file.
 template <typename T>
 class GridEvaluator {
 public:
-  /// Throws Failure where T cannot hold a patch, whichever it is, before anything is evaluated.
+  /// Throws Failure where T cannot hold one of the patches, before anything is evaluated.
   GridEvaluator(const PatchFile& file, const GridSize& grid, int threads);
   /// Throws Failure where the library reports an error.
   void evaluate(const GridBlock& block, const Outputs<T>& out);

@@ -1,4 +1,4 @@
-// What --help says: the options that there are, with ranges and defaults, examples, exit codes.
+// The texts of --help: options with ranges and defaults, examples, exit codes.
 #include <tools/command_line.hpp>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ constexpr std::string_view kEnvironment =
     "SIMDBEZIER_ISA=scalar|sse2|avx2|avx512|neon64 in the environment overrides the\n"
     "choice of instruction set; OMP_NUM_THREADS limits what --threads 0 takes.\n";
 
-// A term and what it means, in lines of kWidth at most.
+// A term and what it means, in lines of at most kWidth.
 std::string explained(const std::string& term, std::string_view meaning) {
   std::string text;
   std::string line = "  " + term;

@@ -13,7 +13,7 @@ namespace simdbezier::tools {
 
 namespace {
 
-// All that a signal handler may look at.
+// This is all that a signal handler may look at.
 std::atomic<const char*> temporary_name{nullptr};
 std::atomic<int> temporary_folder{-1};
 std::atomic<bool> bar_is_shown{false};
@@ -39,7 +39,7 @@ extern "C" void on_signal(int number) {
   raise(number); // takes effect when this function returns
 }
 
-// Signals that end a process unless somebody handles them are all but these.
+// All signals but these end a process that does not handle them.
 bool ends_by_default(int number) {
   switch (number) {
   case SIGKILL: // neither can be caught
@@ -51,7 +51,7 @@ bool ends_by_default(int number) {
   case SIGCHLD:
   case SIGURG:
   case SIGWINCH:
-  case SIGXFSZ: // ignored below: the write fails instead
+  case SIGXFSZ: // is ignored below, so that the write fails instead
     return false;
   default:
     return true;
@@ -67,7 +67,7 @@ void handle_interruptions() {
   sigfillset(&action.sa_mask);
   for (int number = 1; number <= SIGRTMAX; ++number) {
     struct sigaction before = {};
-    // Others than the default were wished for: nohup ignores, sanitizers handle.
+    // Somebody wants another action than the default: nohup ignores, sanitizers handle.
     if (ends_by_default(number) && sigaction(number, nullptr, &before) == 0 &&
         (before.sa_flags & SA_SIGINFO) == 0 && before.sa_handler == SIG_DFL) {
       sigaction(number, &action, nullptr);

@@ -1,4 +1,4 @@
-// Text as tokens: words, and what more a format has.
+// Text as tokens: words, and what else a format has.
 #pragma once
 
 #include <cstddef>
@@ -22,14 +22,14 @@ struct Syntax {
 
 enum class TokenKind : std::uint8_t { word, string, open, close, line_end, end };
 
-/// Reads tokens one by one and never ahead. What it refuses ends in a Failure that names the file
-/// and the line of the current token.
+/// Reads tokens one by one and never ahead. Where it refuses something, it throws a Failure that
+/// names the file and the line of the current token.
 class Lexer {
 public:
   Lexer(TextInput& input, const Syntax& syntax) : input_(input), syntax_(syntax) {}
 
-  /// Reads the next token, which everything below is about. Numbers may be of any length; another
-  /// word of absurd length, as in binary files, comes cut off and marked.
+  /// Reads the next token, which all other functions are about. Numbers may have any length.
+  /// Another word of absurd length, as in binary files, is cut off and marked.
   Lexer& next();
   /// The text of a word or string; valid until the next one is read.
   [[nodiscard]] std::string_view text() const noexcept { return text_; }
@@ -49,14 +49,14 @@ public:
   /// closing bracket becomes the current one.
   void skip_list();
 
-  /// "FILE:LINE: expected …, found the token" or what else was found.
+  /// Throws "FILE:LINE: expected …, found …" with the token, or with what else was found.
   [[noreturn]] void fail(const std::string& expected) const { fail(expected, described()); }
   [[noreturn]] void fail(const std::string& expected, const std::string& found) const;
 
   /// The token as messages show it.
   [[nodiscard]] std::string described() const;
 
-  /// What the token has to be.
+  /// Each of these says what the token has to be.
   [[nodiscard]] double number() const;
   /// A number that can be a weight: more than 0.
   [[nodiscard]] double weight() const;
@@ -65,13 +65,13 @@ public:
                                     std::size_t most) const;
   /// A count that was formed of such integers, if it is one.
   [[nodiscard]] std::size_t counted(Count count, const std::string& what) const;
-  /// 1 to kMostDegree; `where` tells in which direction.
+  /// A degree from 1 to kMostDegree; `where` names its direction in the message.
   [[nodiscard]] int degree(const std::string& where) const;
 
 private:
   void word(int first);
   void string();
-  /// True where it ends behind a line end that is a token.
+  /// Whether it ends behind a line end that is a token.
   bool skip_space();
 
   TextInput& input_;

@@ -8,14 +8,14 @@
 
 namespace simdbezier::tools {
 
-/// Does nothing on ok, otherwise throws the Failure that the status means to a user.
+/// Does nothing for ok, and otherwise throws the Failure that the status means to a user.
 void check(Status status);
 
 /// The instruction set that evaluate calls will run on. Throws Failure (bad usage) naming
 /// SIMDBEZIER_ISA where that is not available.
 Isa chosen_isa();
 
-/// The names of the instruction sets that there are, narrowest first.
+/// The names of the available instruction sets, narrowest first.
 [[nodiscard]] std::string available_isa_names(std::string_view separator);
 
 } // namespace simdbezier::tools

@@ -27,7 +27,7 @@ void run(const Arguments& arguments) {
   }
 }
 
-// One line, whatever a file name brings along. Its memory is here already: what is reported may be
+// Prints one line, whatever a file name contains. It takes no memory, because the message may be
 // that there is none.
 int report(std::string_view message, int exit_code) {
   static char line[BUFSIZ];
@@ -42,8 +42,8 @@ int report(std::string_view message, int exit_code) {
   return exit_code;
 }
 
-// Parsers that we use allocate where they must not throw, in destructors for instance: what memory
-// cannot be had for there comes here. exit() removes the temporary file.
+// The parsers that we use allocate where they must not throw, for instance in destructors. Where
+// memory runs out there, the program comes here. exit() removes the temporary file.
 [[noreturn]] void end_without_memory() {
   try {
     if (const std::exception_ptr error = std::current_exception()) {
@@ -51,15 +51,15 @@ int report(std::string_view message, int exit_code) {
     }
   } catch (const std::bad_alloc&) {
     std::exit(report("not enough memory", 1));
-  } catch (const std::exception& error) { // a defect of ours, whose trace is wanted
+  } catch (const std::exception& error) { // a defect of ours, of which abort() leaves a trace
     report(error.what(), 1);
   } catch (...) {
   }
   std::abort();
 }
 
-// Files would be opened in the place of a standard stream that the caller has closed, and data or
-// messages go there. Reading and writing these fails.
+// Where the caller has closed a standard stream, the next file would be opened in its place, and
+// data or messages would go there. What is opened instead here refuses to be read or written.
 void keep_standard_streams_apart() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) < 0) {

@@ -1,4 +1,4 @@
-// Triangle meshes: what is common to the formats, and one writer for each.
+// Triangle meshes: what all formats have in common, and one writer for each.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct Mesh {
     return patches * (grid.nu - 1) * (grid.nv - 1) * 2;
   }
 
-  /// Calls f({a, b, c}) for a patch's triangles, vertices counted from 0 in the whole mesh.
+  /// Calls f({a, b, c}) for a patch's triangles. Vertices are counted from 0 in the whole mesh.
   template <typename F>
   void for_each_triangle(std::size_t patch, F&& f) const {
     for (std::size_t j = 0; j + 1 < grid.nv; ++j) {
@@ -53,9 +53,9 @@ template <typename T>
 class MeshWriter {
 public:
   virtual ~MeshWriter() = default;
-  /// The next vertices in order, stride() values each.
+  /// Takes the next vertices in order, stride() values each.
   virtual void vertices(std::span<const T> values) = 0;
-  /// All vertices of these patches have been handed over.
+  /// Is told that all vertices of these patches have been handed over.
   virtual void patches_done(std::size_t first, std::size_t count) = 0;
 };
 
@@ -63,8 +63,8 @@ public:
 template <typename T>
 [[nodiscard]] std::unique_ptr<MeshWriter<T>> make_obj_writer(OutputFile& file, const Mesh& mesh);
 
-/// Binary PLY in this machine's byte order, T's precision, 32-bit indices; vertices, then faces.
-/// Writes its header at once.
+/// Binary PLY in this machine's byte order and T's precision, with 32-bit indices: vertices, then
+/// faces. The header is written at once.
 template <typename T>
 [[nodiscard]] std::unique_ptr<MeshWriter<T>> make_ply_writer(OutputFile& file, const Mesh& mesh);
 

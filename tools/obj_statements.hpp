@@ -9,7 +9,7 @@
 
 namespace simdbezier::tools {
 
-// What does not change the shape of a surface.
+// These statements do not change the shape of a surface.
 inline constexpr std::string_view kObjPassedOver[] = {
     "vt",    "vn",       "vp",       "g",          "s",         "mg",     "o",
     "bevel", "c_interp", "lod",      "usemtl",     "mtllib",    "usemap", "maplib",
@@ -37,20 +37,20 @@ inline constexpr ObjOther kObjOthers[] = {{"p", "points"},
                                           {"cdp", "a superseded statement"},
                                           {"res", "a superseded statement"}};
 
-/// The number of a vertex, from 1, or from the last one backwards.
+/// The number of a vertex, counted from 1, or backwards from the last one.
 struct ObjReference {
   std::uint64_t number = 0;
   bool from_end = false;
 };
 
-/// One number, which is not 0.
+/// Reads one number, which must not be 0.
 [[nodiscard]] inline std::optional<ObjReference> parse_obj_number(std::string_view word) {
   const bool from_end = word.starts_with('-') && !word.starts_with("-+");
   const auto number = parse_integer(word.substr(from_end ? 1 : 0));
   return number.value_or(0) == 0 ? std::nullopt : std::optional(ObjReference{*number, from_end});
 }
 
-/// v of v, v/vt, v//vn or v/vt/vn; nothing where the word is none of these.
+/// The v of v, v/vt, v//vn or v/vt/vn; nothing where the word is none of these.
 [[nodiscard]] inline std::optional<ObjReference> parse_obj_reference(std::string_view word) {
   const std::string_view vertex = word.substr(0, word.find('/'));
   word.remove_prefix(vertex.size());

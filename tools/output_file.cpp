@@ -24,8 +24,8 @@ namespace {
 
 std::string error_text(int error) { return in_quotes(std::strerror(error)); }
 
-// These names lead to whatever the program was started with; the file behind them, if it is one,
-// was opened and truncated by the shell.
+// These names lead to whatever the program was started with. If there is a file behind them, the
+// shell has opened and truncated it.
 bool names_open_descriptor(const fs::path& path) {
   const std::string& name = path.native();
   return name == "/dev/stdout" || name == "/dev/stderr" || name.starts_with("/dev/fd/") ||
@@ -35,7 +35,7 @@ bool names_open_descriptor(const fs::path& path) {
 // The file at the end of a chain of links, which need not exist. A chain without an end stays a
 // link, which the system refuses to open.
 fs::path follow_links(fs::path path) {
-  constexpr int kMostLinks = 40; // as the system has it
+  constexpr int kMostLinks = 40; // the system's own limit
   std::error_code error;
   for (int i = 0; i < kMostLinks && !names_open_descriptor(path) && fs::is_symlink(path, error);
        ++i) {
@@ -80,7 +80,7 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), buffer_(kBuff
 }
 
 void OutputFile::open_directly(const std::string& target) {
-  // Appending, so that what a shell's >> had kept stays.
+  // It is opened for appending, so that what a shell's >> has kept stays.
   direct_ =
       Descriptor(open(target.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY, 0666));
   if (!direct_.is_open()) {
@@ -120,7 +120,7 @@ void OutputFile::bytes(const void* data, std::size_t size) {
 
 void OutputFile::flush() { write_all(buffer_.data(), std::exchange(used_, 0)); }
 
-// Pipes and full disks take a part at times, and pipes of others may not be willing to wait.
+// Pipes and full disks sometimes take a part only, and pipes of others may be set not to wait.
 void OutputFile::write_all(const char* data, std::size_t size) {
   while (size > 0) {
     const ssize_t written = write(descriptor_, data, size);

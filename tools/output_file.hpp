@@ -14,10 +14,10 @@
 
 namespace simdbezier::tools {
 
-/// Writes to a temporary file beside `path`, which commit() puts there, on the disk, with the
-/// owner, group and mode of the file that it replaces; without commit() the temporary goes away and
-/// an existing file stays as it was. Links are followed. "-", devices and pipes have no name to put
-/// anything at and are written as they are. Every failure throws Failure.
+/// Writes to a temporary file beside `path`. commit() puts it there, on the disk, with the owner,
+/// group and mode of the file that it replaces. Without commit() the temporary file is removed, and
+/// an existing file stays as it was. Links are followed. "-", devices and pipes have no name that
+/// could be replaced and are written as they are. Every failure throws Failure.
 class OutputFile {
 public:
   explicit OutputFile(std::string path);
@@ -25,7 +25,7 @@ public:
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Whether people see what is written while it is.
+  /// Whether people can see the output while it is written.
   [[nodiscard]] bool is_terminal() const;
   /// Fails at once where the file system has no room for that much.
   void expect_room(std::uintmax_t bytes) const;
@@ -62,13 +62,13 @@ private:
   std::string path_;
   std::optional<TemporaryFile> temporary_;
   Descriptor direct_;   // of a device or pipe
-  int descriptor_ = -1; // of whichever it is
+  int descriptor_ = -1; // of either of them
   std::vector<char> buffer_;
   std::size_t used_ = 0;
 };
 
 /// Throws Failure where the output would go to the file that an input is read from, by whatever
-/// names; "-" are standard input and output.
+/// names. "-" means standard input or standard output.
 void refuse_input_as_output(const std::string& out, std::span<const std::string> inputs);
 
 /// True for "-", devices and pipes, which have no temporary file.

@@ -1,4 +1,4 @@
-// From a file's control points to a packed set, and back to the file where that fails.
+// Packs the control points of a file. Where that fails, the message names the place in the file.
 #include <span>
 
 #include <tools/failure.hpp>

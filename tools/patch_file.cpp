@@ -25,7 +25,7 @@ struct Format {
 constexpr Format kFormats[] = {SIMDBEZIER_EACH_PATCH_FORMAT(SIMDBEZIER_PATCH_FORMAT_ROW)};
 #undef SIMDBEZIER_PATCH_FORMAT_ROW
 
-// What later releases read; until then the answer names the format instead of calling it unknown.
+// Later releases will read these; until then the answer names the format as not supported yet.
 constexpr std::string_view kLaterFormats[] = {"iges", "igs", "step", "stp", "pov"};
 
 const Format* find_format(const std::string& name) {
@@ -243,7 +243,7 @@ PatchFile read_patches(const std::string& in, PatchFormat format) {
   if (in == "-" && format == PatchFormat::by_name) {
     bad_usage("reading standard input needs --format " + patch_format_names(""));
   }
-  // Opened before its name is judged: what cannot be read is bad input whatever it is called.
+  // It is opened before its name is judged: what cannot be read is bad input, whatever its name.
   TextInput input(in);
   const PatchFormat found = format == PatchFormat::by_name ? format_of(in) : format;
   Progress progress("reading", "bytes", input.size());

@@ -16,7 +16,7 @@
 namespace simdbezier::tools {
 
 /// Consecutive patches of a file with equal degrees and kind of weights. Their points are those of
-/// a mesh, row after row; patches that share no points are a mesh of one column whose rows are
+/// a mesh, row after row. Patches that share no points are a mesh of one column, whose rows are
 /// those of all patches.
 struct PatchRun {
   int degree_u = 3;
@@ -28,13 +28,13 @@ struct PatchRun {
   std::size_t first_value = 0; ///< index into PatchFile::points
   MeshDirection u = {};
   MeshDirection v = {};
-  /// Points of the mesh are those that PatchFile::vertices names from here on; nothing: they stand
-  /// one after the other.
+  /// The points of the mesh are those that PatchFile::vertices names from here on. Without a value,
+  /// they stand one after the other.
   std::optional<std::size_t> first_vertex = std::nullopt;
   std::size_t stride = 3; ///< from point to point in PatchFile::points
 
   [[nodiscard]] bool rational() const noexcept { return weights != Weights::none; }
-  /// x y z, and w.
+  /// 3 for x y z, 4 with w.
   [[nodiscard]] std::size_t values_per_point() const noexcept { return rational() ? 4 : 3; }
   [[nodiscard]] std::size_t points_per_patch() const noexcept {
     return static_cast<std::size_t>((degree_u + 1) * (degree_v + 1));
@@ -43,7 +43,7 @@ struct PatchRun {
   [[nodiscard]] bool is_patch() const noexcept;
   /// … and whether that would be the next patch here: below, sharing nothing.
   [[nodiscard]] bool is_column_like(const PatchRun& patch) const noexcept;
-  /// Which point of the mesh is (i, j) of a patch, counted from the run's first one.
+  /// The number of the mesh's point that is (i, j) of a patch; the run's first one has 0.
   [[nodiscard]] std::size_t mesh_point(std::size_t patch, std::size_t i,
                                        std::size_t j) const noexcept {
     return v.point(patch / u.patches, j) * u.points + u.point(patch % u.patches, i);
@@ -58,16 +58,17 @@ struct PatchNets {
 };
 
 /// Patches of any degrees, polynomial and rational ones, in the order of the file. Points that a
-/// file shares between patches are shared here as well: memory follows the file's size and not the
-/// number of patches. Weights stay in the form in which the format has them.
+/// file shares between patches are shared here as well, so memory depends on the file's size and
+/// not on the number of patches. Weights stay in the form in which the format has them.
 struct PatchFile {
   static constexpr std::size_t kAll = static_cast<std::size_t>(-1);
 
-  std::string name;                    ///< for messages
-  std::size_t count = 0;               ///< patches
-  std::vector<PatchRun> runs;          ///< cover all patches, none is empty
-  std::vector<double> points;          ///< x y z or x y z w; finite, weights that count above 0
-  std::vector<std::uint32_t> lines;    ///< of every point's first coordinate; empty: no file
+  std::string name;           ///< for messages
+  std::size_t count = 0;      ///< patches
+  std::vector<PatchRun> runs; ///< cover all patches, none is empty
+  std::vector<double> points; ///< x y z or x y z w; finite, weights that count above 0
+  std::vector<std::uint32_t>
+      lines; ///< of every point's first coordinate; empty where there is no file
   std::vector<std::uint32_t> vertices; ///< where meshes name their points: numbers of points
 
   /// Readers append a point's values, say where it stands …
@@ -90,17 +91,17 @@ struct PatchFile {
   /// "FILE:LINE" of a point, or the bare name.
   [[nodiscard]] std::string place(std::size_t patch, std::size_t point) const;
 
-  /// Some of the patches in S. Results of the library do not depend on which.
+  /// Some of the patches, in S. The library's results do not depend on which ones.
   template <typename S>
   [[nodiscard]] PatchNets<S> nets(std::size_t first = 0, std::size_t patches = kAll) const;
-  /// The same of any of them, in ascending order.
+  /// The same for any of them, in ascending order.
   template <typename S>
   [[nodiscard]] PatchNets<S> nets(std::span<const std::uint32_t> patches) const;
 
 private:
   struct Place {
     const PatchRun& run;
-    std::size_t index; // of a point, from the run's first one
+    std::size_t index; // of a point; the run's first one has 0
   };
   void add(PatchRun run);
   [[nodiscard]] Place find(std::size_t patch, std::size_t point) const;
@@ -114,8 +115,8 @@ private:
   void append(const PatchRun& run, std::size_t patch, std::vector<S>& values) const;
 };
 
-/// The formats that can be read, one row each: the name, which is also the extension of files, and
-/// what the reader takes. read_NAME.cpp holds that reader; help and messages list these rows.
+/// The formats that can be read. Each row has a name, which is also the extension of files, and
+/// says what the reader in read_NAME.cpp takes. Help and messages list these rows.
 // clang-format off
 #define SIMDBEZIER_EACH_PATCH_FORMAT(X)                                                            \
   X(bez) /* Berkeley: a count, then 48 coordinates a patch */                                      \
@@ -151,13 +152,13 @@ SIMDBEZIER_EACH_PATCH_FORMAT(SIMDBEZIER_DECLARE_PATCH_READER)
 template <typename T>
 [[nodiscard]] PatchSet<T> pack_patches(const PatchFile& file, std::size_t first = 0,
                                        std::size_t patches = PatchFile::kAll);
-/// The same of any of them, in ascending order.
+/// The same for any of them, in ascending order.
 template <typename T>
 [[nodiscard]] PatchSet<T> pack_patches(const PatchFile& file,
                                        std::span<const std::uint32_t> patches);
 
-/// As many patches as are packed at a time where a file has many: packed they take several times
-/// the memory of the file.
+/// How many patches are packed at a time where a file has many, because packed patches take several
+/// times the memory of the file.
 inline constexpr std::size_t kBlockPatches = std::size_t{1} << 12;
 
 } // namespace simdbezier::tools

@@ -11,7 +11,7 @@ namespace simdbezier::tools {
 
 namespace {
 
-// Asked each time, for windows change their size.
+// It is asked each time, because windows change their size.
 std::size_t terminal_columns() {
   constexpr std::size_t kUsual = 80;
   winsize size = {};
@@ -70,8 +70,8 @@ void Progress::show_when_due() {
   next_ = now + std::chrono::milliseconds(100);
   shown_ = true;
   remember_bar(true);
-  // One column is left free: some terminals go to the next line with the last one. What a longer
-  // line has left, before the window became narrow, is cleared.
+  // One column is left free, because some terminals go to the next line with the last one. What a
+  // longer line left behind before the window became narrow is cleared.
   std::string line = "\r";
   line += progress_line(work_, unit_, done_, total_, terminal_columns() - 1);
   line += "\x1b[K";

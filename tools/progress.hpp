@@ -10,7 +10,7 @@
 namespace simdbezier::tools {
 
 /// What a bar of at most `columns` shows: as much of the work's name, a bar and a share as there is
-/// room for; for an unknown total (0) how much has been done, in `unit`.
+/// room for. Where the total is unknown (0), it shows how much has been done, in `unit`.
 [[nodiscard]] std::string progress_line(std::string_view work, std::string_view unit,
                                         std::uint64_t done, std::uint64_t total,
                                         std::size_t columns);
@@ -18,7 +18,8 @@ namespace simdbezier::tools {
 /// One piece of work. Its line is cleared at the end, whatever ends it.
 class Progress {
 public:
-  /// total 0: unknown. Not wanted where the bar's terminal may be the one that shows data.
+  /// A total of 0 means unknown. No bar is wanted where its terminal may be the one that shows
+  /// data.
   Progress(std::string_view work, std::string_view unit, std::uint64_t total, bool wanted = true);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

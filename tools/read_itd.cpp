@@ -1,5 +1,5 @@
 // IRIT .itd: lists in brackets. [OBJECT … NAME …] holds data, attributes such as [COLOR 4], and
-// further objects; what stands outside of objects is comment. A surface is
+// further objects; what stands outside of objects is a comment. A surface is
 //     [SURFACE BEZIER {attributes} UORDER VORDER TYPE [x y z] …]       TYPE E3, or
 //                                                     [w wx wy wz] …   P3,
 // VORDER rows of UORDER points: u is fastest, as it is here.
@@ -47,7 +47,7 @@ private:
            std::ranges::find(kOtherGeometry, lexer_.text()) != std::end(kOtherGeometry);
   }
 
-  /// Everything up to the object's closing bracket, objects inside of it included.
+  /// Reads everything up to the object's closing bracket, with the objects inside of it.
   void object() {
     const std::size_t begin = lexer_.line();
     for (std::size_t depth = 1; depth > 0;) {
@@ -64,7 +64,7 @@ private:
     }
   }
 
-  /// A list in an object, its first token read.
+  /// Reads a list in an object, whose first token has been read.
   void item() {
     if (at_other_geometry()) {
       lexer_.fail("a SURFACE BEZIER");

@@ -27,7 +27,7 @@ namespace {
 struct Range {
   double first = 0;
   double last = 0;
-  std::vector<double> parameters; // of parm; empty before it
+  std::vector<double> parameters; // of the parm statement; empty before it
 };
 
 struct Surface {
@@ -37,10 +37,10 @@ struct Surface {
   bool rational = false;
   Range u;
   Range v;
-  std::size_t first_vertex = 0; // of those that it names, in PatchFile::vertices
+  std::size_t first_vertex = 0; // where those that it names begin in PatchFile::vertices
 };
 
-/// A direction of a surface: its points, which have to be as many as the statements say.
+/// One direction of a surface, which has to have as many points as the statements say.
 struct Direction {
   MeshDirection mesh;
   Count points;
@@ -173,7 +173,7 @@ private:
     }
   }
 
-  /// Counted from 0.
+  /// The number of a vertex, counted from 0.
   [[nodiscard]] std::uint32_t vertex_number() const {
     const std::size_t vertices = file_.lines.size();
     if (vertices == 0) {
@@ -212,8 +212,8 @@ private:
     }
   }
 
-  /// The patches of one direction. The part of a surface that a range of its own cuts out is
-  /// another surface, so ranges must be whole.
+  /// The patches of one direction. A range that cuts out a part of the surface would make another
+  /// surface of it, so ranges have to be whole.
   [[nodiscard]] Direction direction(const Range& range, int degree, const std::string& name) const {
     const std::vector<double>& parameters = range.parameters;
     if (parameters.empty()) {
@@ -277,7 +277,7 @@ private:
   PatchFile file_;
   bool has_type_ = false;
   bool rational_ = false;
-  int degree_u_ = 0; // 0: not given yet
+  int degree_u_ = 0; // 0 until it is given
   int degree_v_ = 0;
   std::optional<Surface> surface_;
 };

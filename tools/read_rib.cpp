@@ -51,7 +51,7 @@ public:
   }
 
 private:
-  /// From the request's name to the first token behind what is read of it.
+  /// Reads a request, from its name to the first token behind it.
   void request() {
     if (lexer_.at_word("Patch")) {
       patch();
@@ -65,7 +65,7 @@ private:
     }
   }
 
-  /// Anything but a patch or a basis. Its numbers come here one by one, for they are words, too.
+  /// Passes over anything but a patch or a basis. Its numbers come here one by one, as words do.
   void other_request() {
     const std::string_view name = lexer_.text();
     if (is_listed(name, kRibOtherGeometry)) {
@@ -79,7 +79,7 @@ private:
     }
   }
 
-  /// A string or an array behind a request that is passed over.
+  /// Passes over a string or an array behind such a request.
   void parameter() {
     if (lexer_.at(TokenKind::close)) {
       lexer_.fail("a request of .rib files");
@@ -94,8 +94,8 @@ private:
     return lexer_.at(TokenKind::word) && parse_finite(lexer_.text());
   }
 
-  /// From its opening to its closing bracket. Anything but numbers and strings means that the
-  /// latter is missing, and what follows could be geometry.
+  /// Passes over an array, from its opening to its closing bracket. Anything but numbers and
+  /// strings means that the latter is missing, and what follows could be geometry.
   void pass_over_array() {
     const std::string expected = "']' for the array in line " + std::to_string(lexer_.line());
     while (!lexer_.next().at(TokenKind::close)) {
@@ -142,7 +142,7 @@ private:
     add(degree, u, v);
   }
 
-  /// The degree; bicubic patches are refused where they stand in another basis.
+  /// Reads the degree. Bicubic patches in another basis are refused.
   int patch_type() {
     const std::size_t line = lexer_.line();
     lexer_.next();
@@ -214,7 +214,7 @@ private:
     return std::string(text.substr(0, end).substr(text.substr(0, end).find_last_of(kSpace) + 1));
   }
 
-  /// A number, a string, or an array of them, behind a parameter's name.
+  /// Reads a number, a string, or an array of them, behind a parameter's name.
   void pass_over_value(const std::string& name) {
     if (lexer_.next().at(TokenKind::open)) {
       pass_over_array();

@@ -1,5 +1,5 @@
-// The requests of RIB files by what the reader does with them. All are listed: a request that is
-// not known could be geometry of a newer version, binary code or a patch with its name misspelt.
+// The requests of RIB files by what the reader does with them. All are listed, because an unknown
+// request could be geometry of a newer version, binary code or a patch with its name misspelt.
 // Sources: The RenderMan Interface, version 3.2, appendix C; RenderMan 21 for those added since.
 #pragma once
 
@@ -15,13 +15,13 @@ inline constexpr std::string_view kRibOtherGeometry =
     "Points PointsGeneralPolygons PointsPolygons Polygon Procedural Procedural2 ReadArchive Sphere "
     "SubdivisionMesh Torus TrimCurve Volume ";
 
-/// What opens and closes a scope of the bases.
+/// These requests open and close a scope of the bases.
 inline constexpr std::string_view kRibScopeBegins =
     " AttributeBegin FrameBegin ObjectBegin SolidBegin WorldBegin ";
 inline constexpr std::string_view kRibScopeEnds =
     " AttributeEnd FrameEnd ObjectEnd SolidEnd WorldEnd ";
 
-/// What does not change the shape of a patch in its own coordinates.
+/// These requests do not change the shape of a patch in its own coordinates.
 inline constexpr std::string_view kRibPassedOver =
     " ArchiveBegin ArchiveEnd ArchiveRecord AreaLightSource Atmosphere Attribute Bound Bxdf Camera "
     "Clipping ClippingPlane Color ColorSamples ConcatTransform CoordSysTransform CoordinateSystem "

@@ -5,8 +5,8 @@
 
 namespace simdbezier::tools {
 
-/// One direction of a mesh: patch k of it has the points k * step to k * step + degree, counted
-/// around the end where the mesh is closed.
+/// One direction of a mesh: patch k has the points k * step to k * step + degree, counted on from
+/// the beginning where the mesh is closed.
 struct MeshDirection {
   std::size_t points = 0;
   std::size_t step = 3;

@@ -16,7 +16,7 @@ namespace {
 
 [[noreturn]] void fail(int error) { throw std::system_error(error, std::generic_category()); }
 
-// For fsync() of the folder it has to be readable; for everything else a path to it will do.
+// fsync() needs a folder that can be read; for everything else a path to it will do.
 Descriptor open_folder(const std::string& path) {
   constexpr int kFlags = O_DIRECTORY | O_CLOEXEC;
   Descriptor folder(open(path.c_str(), O_RDONLY | kFlags));
@@ -29,7 +29,7 @@ Descriptor open_folder(const std::string& path) {
   return folder;
 }
 
-// Not to be met by another process, even one with the same number in a container of its own.
+// No other process has this name, not even one with the same number in a container of its own.
 std::string random_name() {
   constexpr const char* kDigits = "0123456789abcdefghijklmnopqrstuv";
   std::uint64_t bits = 0;
@@ -43,7 +43,7 @@ std::string random_name() {
   return name + ".tmp";
 }
 
-// Some file systems have nothing to wait for, and say so.
+// Some file systems have nothing to wait for, which is no failure.
 bool can_be_synced(int error) { return error != EINVAL && error != ENOTSUP && error != ENOSYS; }
 
 } // namespace
@@ -77,7 +77,7 @@ TemporaryFile::TemporaryFile(const std::string& target) {
   if (replaces && faccessat(folder_.number(), target_.c_str(), W_OK, AT_EACCESS) != 0) {
     fail(errno);
   }
-  // What replaces a file may be secret and gets its mode later; others have the usual one.
+  // A file that replaces another may be secret and gets its mode later; others have the usual one.
   create(replaces ? 0600 : 0666);
 }
 
@@ -105,11 +105,11 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::take_over(const struct stat& target) const {
-  mode_t mode = target.st_mode & 0777; // what runs as its owner is not for us to make
+  mode_t mode = target.st_mode & 0777; // without setuid and setgid
   const int file = file_.number();
   if (fchown(file, target.st_uid, target.st_gid) != 0 &&
       fchown(file, static_cast<uid_t>(-1), target.st_gid) != 0) {
-    // Another group must not get what was that group's.
+    // Another group must not get the rights of the old one.
     mode &= 0707 | ((mode & 07) << 3);
   }
   static_cast<void>(!fchmod(file, mode));
@@ -131,7 +131,7 @@ void TemporaryFile::replace_target() {
   }
   forget_temporary();
   name_.clear();
-  // The file is in its place already; whether its name survives a crash is the file system's word.
+  // The file is in its place already. Only the file system knows if its name survives a crash.
   static_cast<void>(!fsync(folder_.number()));
 }
 

@@ -19,15 +19,15 @@ public:
   [[nodiscard]] int number() const noexcept { return number_; }
   [[nodiscard]] bool is_open() const noexcept { return number_ >= 0; }
   int release() noexcept;
-  /// What the system says to it; nothing where none was open.
+  /// The system's answer; nothing where none was open.
   std::error_code close() noexcept;
 
 private:
   int number_;
 };
 
-/// Files get a random name in the folder of the one that they are to become. Whatever ends the
-/// program, but for SIGKILL and a crash of the system, removes them.
+/// A temporary file has a random name in the folder of its target. Whatever ends the program
+/// removes it, except SIGKILL and a crash of the system.
 class TemporaryFile {
 public:
   /// Creates one for `target`, a path without a link at its end. Throws std::system_error.
@@ -37,8 +37,8 @@ public:
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   [[nodiscard]] int descriptor() const noexcept { return file_.number(); }
-  /// Gives it the name of its target, and what the target had of owner, group and mode, as far as
-  /// that is permitted; the data are on the disk before. Throws std::system_error.
+  /// Gives it the name of its target, and the target's owner, group and mode as far as that is
+  /// permitted. Before that, the data are on the disk. Throws std::system_error.
   void replace_target();
 
 private:
@@ -48,7 +48,7 @@ private:
   Descriptor folder_;
   Descriptor file_;
   std::string target_; // in the folder
-  std::string name_;   // in the folder; empty: there is no such file any more
+  std::string name_;   // in the folder; empty where there is no such file any more
 };
 
 } // namespace simdbezier::tools

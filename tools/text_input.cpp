@@ -39,7 +39,7 @@ ParsedNumber parse_number(std::string_view word) {
     return {};
   }
   if (error == std::errc::result_out_of_range) {
-    // from_chars() does not tell too large from too small.
+    // from_chars() does not say whether the number is too large or too small.
     value = std::strtod(std::string(word).c_str(), nullptr);
   }
   return {true, value};
@@ -102,7 +102,7 @@ void TextInput::skip_byte_order_mark() {
   }
 }
 
-// CR LF is a CR and what goes with it, even where a block ends in between.
+// An LF behind a CR belongs to it, even where a block ends in between.
 void TextInput::unify_line_ends() {
   std::size_t kept = next_;
   for (std::size_t k = next_; k < end_; ++k) {

@@ -1,4 +1,4 @@
-// Text in, piece by piece, with line numbers; nothing is read ahead of its use but one buffer.
+// Text that is read piece by piece, with line numbers, and at most one buffer ahead of its use.
 #pragma once
 
 #include <cstddef>
@@ -25,9 +25,9 @@ public:
 
   /// The name for messages.
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  /// In bytes; 0 where that is unknown, as of pipes.
+  /// In bytes; 0 where that is unknown, as for pipes.
   [[nodiscard]] std::uint64_t size() const;
-  /// How much has been read is shown from now on.
+  /// Shows from now on how much has been read.
   void show(Progress& progress) noexcept { progress_ = &progress; }
   /// The line of the character that get() returned last; at the end, the last line there is.
   [[nodiscard]] std::size_t line() const noexcept { return line_; }
@@ -67,8 +67,8 @@ private:
   bool line_break_pending_ = false;
 };
 
-/// The whole word as a finite number; nothing where it is none. Numbers too small for a double
-/// become 0 or subnormal, numbers too large are none.
+/// The whole word as a finite number; nothing where it is none. Numbers that are too small for a
+/// double become 0 or subnormal, and numbers that are too large count as none.
 [[nodiscard]] std::optional<double> parse_finite(std::string_view word);
 /// The whole word as a non-negative integer.
 [[nodiscard]] std::optional<std::uint64_t> parse_integer(std::string_view word);

@@ -9,9 +9,9 @@ namespace simdbezier::tools {
 
 /// Every patch counts its four edges, so shared edges are counted from each side.
 struct EdgeCounts {
-  std::size_t shared = 0;    ///< another edge has bit-equal control points, in either direction,
-                             ///< and as many of them; with weights, those too
-  std::size_t boundary = 0;  ///< no other edge has
+  std::size_t shared = 0;    ///< another edge has as many control points, bit-equal in either
+                             ///< direction, and the same weights where there are any
+  std::size_t boundary = 0;  ///< no other edge has them
   std::size_t collapsed = 0; ///< its control points are one point
 };
 

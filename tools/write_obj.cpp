@@ -1,4 +1,4 @@
-// Wavefront OBJ. Lines may come in any order so long as a face's vertices precede it, so nothing
+// Wavefront OBJ. Lines may come in any order as long as a face's vertices precede it, so nothing
 // has to wait for the end of the mesh.
 #include <tools/mesh_writer.hpp>
 
@@ -10,7 +10,8 @@ template <typename T>
 class ObjWriter final : public MeshWriter<T> {
 public:
   ObjWriter(OutputFile& file, const Mesh& mesh) : file_(file), mesh_(mesh) {
-    // The fewest bytes there can be: "v 0 0 0", "vn 0 0 1", "f 1 2 3" or "f 1//1 2//2 3//3".
+    // These are the fewest bytes that there can be: "v 0 0 0", "vn 0 0 1", "f 1 2 3" or "f 1//1
+    // 2//2 3//3".
     file.expect_room(mesh.normals ? mesh.vertices() * 17 + mesh.triangles() * 17
                                   : mesh.vertices() * 8 + mesh.triangles() * 8);
   }
