@@ -1,5 +1,5 @@
 // curves/<outputs>/<type>/<isa>/<n>/<destination>/threads:<t>[/degree:N][/rational:on]: batches of
-// curves on n common parameters each; cubics in space unless the name says otherwise.
+// curves on n common parameters each. They are cubics in space unless the name says otherwise.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -18,17 +18,17 @@ namespace {
 
 using simdbezier::Isa;
 
-/// What is asked for, besides positions.
+/// What is asked for besides positions.
 enum class CurveOutput { position, derivatives, tangent };
 
 constexpr const char* kOutputNames[] = {"position", "position_derivatives", "position_tangent"};
-/// Vectors a sample: position; position, d1, d2; position, tangent.
+/// The number of vectors a sample: position; position, d1, d2; position, tangent.
 constexpr std::size_t kVectors[] = {1, 3, 2};
 
 struct CurveRow {
   CurveOutput output = CurveOutput::position;
   bool library = true;
-  Isa isa = Isa::automatic; ///< of the library only
+  Isa isa = Isa::automatic; ///< for the library only
   std::size_t n = 16;
   Place place = Place::cache;
   int threads = 1;
@@ -51,7 +51,7 @@ std::string name_of(const CurveRow& row) {
   return name;
 }
 
-/// At most 1024 curves in cache; in memory as many as the output buffer holds.
+/// The number of curves: at most 1024 in cache, and as many as the output buffer holds in memory.
 template <typename T>
 std::size_t curves_of(const CurveRow& row) {
   const std::size_t bytes = row.n * 3 * kVectors[static_cast<int>(row.output)] * sizeof(T);
@@ -135,7 +135,8 @@ private:
   [[nodiscard]] std::size_t order() const { return static_cast<std::size_t>(row_.degree) + 1; }
   [[nodiscard]] std::size_t channels() const { return row_.rational ? 4 : 3; }
 
-  /// Rows of the shared nets; other shapes take the same values, weights near 1.
+  /// The curves are rows of the shared nets; other shapes take the same values, with weights
+  /// near 1.
   void make_points() {
     if (row_.degree == 3 && !row_.rational) {
       points_ = shared_nets<T>((count_ + 3) / 4);
@@ -150,7 +151,7 @@ private:
     points_ = own_.data();
   }
 
-  /// Some samples of some curves, by a Bernstein sum in double.
+  /// Compares some samples of some curves with a Bernstein sum in double.
   [[nodiscard]] std::string check_positions() const {
     for (std::size_t curve = 0; curve < count_; curve += 1 + count_ / 64) {
       for (std::size_t i = 0; i < row_.n; ++i) {

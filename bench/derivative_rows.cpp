@@ -1,6 +1,6 @@
 // derivatives/order_<n>/<type>/<isa>/16x16/cache/threads:1: evaluate_derivatives on grids of
-// bicubic patches, all derivatives of orders up to n together, (n+1)(n+2)/2 vectors a sample, as
-// planes.
+// bicubic patches. All derivatives of orders up to n are computed together, (n+1)(n+2)/2 vectors a
+// sample, as planes.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -25,8 +25,8 @@ constexpr std::size_t kSide = 16;
 constexpr std::size_t kSamples = kSide * kSide;
 constexpr int kDegree = 3;
 
-/// The derivative of that order at t of a cubic through de Casteljau's scheme: differences of the
-/// points, then interpolation of what they leave.
+/// The derivative of that order of a cubic at t, by de Casteljau's scheme: differences of the
+/// points, then interpolation of these.
 double derivative_of(std::vector<double> points, int order, double t) {
   if (order > kDegree) {
     return 0;
@@ -66,7 +66,7 @@ public:
       }
     }
     patches_ = cached_patches(kSamples * 3 * wanted_.size() * sizeof(T));
-    // A line's start each, and not a power of two apart, as place_results() has it.
+    // Each plane begins at a line's start, and not a power of two apart, as in place_results().
     plane_ = patches_ * kSamples + 5 * kLineBytes / sizeof(T);
     T* plane = reinterpret_cast<T*>(output_buffer());
     for (PartialDerivative<T>& one : wanted_) {

@@ -25,13 +25,13 @@ struct Size {
 struct GridRow {
   OutputGroups outputs;
   Algorithm algorithm;
-  simdbezier::Isa isa; ///< of Algorithm::library only
+  simdbezier::Isa isa; ///< for Algorithm::library only
   Size size;
   Place place;
   int threads = 1;
   Layout layout = Layout::planes;
   bool watertight = true;
-  bool aligned = true; ///< false: planes begin 1, 2, 3… elements behind a line's start
+  bool aligned = true; ///< false where planes begin 1, 2, 3… elements behind a line's start
   bool plain = false;  ///< plain stores, wherever the output ends
   NetShape shape = {}; ///< bicubic for the baselines
 };
@@ -60,14 +60,14 @@ std::string grid_row_name(const GridRow& row) {
   return row.shape.rational ? text + "/weights:rational" : text;
 }
 
-/// As many patches as fit the cache's share, or as it takes to leave every cache.
+/// How many patches fit the cache's share, or leave every cache.
 template <typename T>
 std::size_t grid_patch_count(const GridRow& row) {
   const std::size_t bytes = row.size.nu * row.size.nv * value_count(row.outputs) * sizeof(T);
   return row.place == Place::cache ? cached_patches(bytes) : (kMemoryBytes + bytes - 1) / bytes;
 }
 
-/// A row made ready to run: the job, and what the library's call needs besides.
+/// A row that is ready to run: the job, and what the library's call needs besides.
 template <typename T>
 class GridCall {
 public:

@@ -28,7 +28,7 @@ void add_library(OutputGroups outputs, Isa isa, Size size, Place place) {
   }
 }
 
-/// What only the widest instructions set and AVX2 show: other layouts.
+/// Rows of other layouts, which only the widest instruction set and AVX2 have.
 template <typename T>
 void add_layouts(OutputGroups outputs, Isa isa, Size size, Place place) {
   for (const Layout layout : {Layout::triples, Layout::vertices}) {
@@ -73,7 +73,7 @@ void add_size(OutputGroups outputs, Size size) {
   }
 }
 
-/// Every size in cache, for the plot of speed against size.
+/// Rows of every size in cache, for the plot of speed against size.
 template <typename T>
 void add_sweep(OutputGroups outputs) {
   for (std::size_t n = 2; n <= kLargestSwept; ++n) {

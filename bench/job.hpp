@@ -1,5 +1,5 @@
-// What one call computes, in terms that the library's rows and the baselines share.
-// Objects of every instruction set include this file: plain data only, nothing with a body that
+// What one call computes, in terms that the library's rows and the baselines share. Objects of
+// every instruction set include this file, so it has plain data only, and nothing with a body that
 // the linker could take from the wrong object.
 #pragma once
 
@@ -32,10 +32,10 @@ constexpr std::size_t value_count(OutputGroups groups) {
   return 3 * group_count(groups) + (groups == OutputGroups::curvature ? kCurvatures : 0);
 }
 
-/// Where results lie: component c of group g of sample k is component[3 * g + c][k * stride], the
-/// groups in the order of OutputGroups' names. Planes: stride 1; x y z triples: stride 3, and the
-/// components of a group follow each other; vertices: stride value_count. Curvatures follow the
-/// vectors and are planes always, as are vectors next to them.
+/// Where results lie: component c of group g of sample k is component[3 * g + c][k * stride], with
+/// the groups in the order of OutputGroups' names. Planes have stride 1. x y z triples have stride
+/// 3, and the components of a group follow each other. Vertices have stride value_count. Curvatures
+/// follow the vectors and are always planes, and so are vectors beside them.
 template <typename T>
 struct Results {
   OutputGroups groups = OutputGroups::position;
@@ -61,7 +61,7 @@ constexpr std::size_t values_per_patch(NetShape shape) {
          values_per_point(shape);
 }
 
-/// Every patch of a batch on one uniform nu x nv grid, u fastest, patch after patch.
+/// Every patch of a batch is evaluated on one uniform nu x nv grid, u fastest, patch after patch.
 template <typename T>
 struct GridJob {
   std::size_t patches = 0;
@@ -76,7 +76,7 @@ struct GridJob {
   NetShape shape = {};  ///< bicubic for both
 };
 
-/// Every cubic of a batch at the same n parameters, curve after curve.
+/// Every cubic of a batch is evaluated at the same n parameters, curve after curve.
 template <typename T>
 struct CurveJob {
   std::size_t curves = 0;
@@ -86,7 +86,7 @@ struct CurveJob {
   Results<T> out;            ///< triples for de_casteljau
 };
 
-/// Single samples: sample k lies on patch[k] at (u[k], v[k]).
+/// Single samples are evaluated: sample k lies on patch[k] at (u[k], v[k]).
 template <typename T>
 struct ScatteredJob {
   std::size_t count = 0;

@@ -1,4 +1,4 @@
-// What the library's rows have in common: outputs in its terms, and the proof of what ran.
+// What the library's rows have in common: outputs in its terms, and the proof which code ran.
 #pragma once
 
 #include <span>
@@ -55,8 +55,8 @@ Results<T> results_of(const simdbezier::Outputs<T>& out, OutputGroups groups) {
   return results;
 }
 
-/// Runs call(options), which returns a Status; empty, or what went wrong: an error, or another
-/// instruction set than options.isa.
+/// Runs call(options), which returns a Status. Returns an empty string, or what went wrong: an
+/// error, or another instruction set than options.isa.
 template <typename Call>
 std::string run_verified(simdbezier::Options options, Call call) {
   simdbezier::Isa executed = simdbezier::Isa::automatic;
@@ -71,7 +71,7 @@ std::string run_verified(simdbezier::Options options, Call call) {
   return {};
 }
 
-/// As above, of a call that reads `patches` patches of a set.
+/// The same for a call that reads `patches` patches of a set.
 template <typename T, typename Call>
 std::string run_verified(const simdbezier::PatchSet<T>& set, std::size_t patches,
                          const simdbezier::Options& options, Call call) {

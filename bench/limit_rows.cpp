@@ -36,7 +36,7 @@ void register_multiply_add(const std::string& isa, LimitKernels<T> kernels) {
       kernels.multiply_add(kRounds, sink);
       benchmark::DoNotOptimize(sink);
     });
-    // From 0, a number of steps x/2 + 1 bring every lane to 2.
+    // From 0 on, some number of steps x/2 + 1 brings every lane to 2.
     if (sink[0] != T(24)) {
       fail_row(state, "wrong sum of the chains");
     }
@@ -105,7 +105,7 @@ void register_arithmetic(const std::string& isa, LimitKernels<T> fused, LimitKer
   register_horner("horner_store_muladd", isa, separate, 3);
 }
 
-/// `all` bytes a call; the threads share them. behind: bytes from a line's start.
+/// A call fills `all` bytes, which the threads share, `behind` bytes from a line's start on.
 void register_fill(const std::string& name, int threads, void (*fill)(unsigned char*, std::size_t),
                    std::size_t all = kMemoryBytes, std::size_t behind = 0) {
   auto run = [threads, fill, all, behind](benchmark::State& state) {
@@ -136,7 +136,7 @@ void register_fill(const std::string& name, int threads, void (*fill)(unsigned c
       ->Unit(all < kMemoryBytes ? benchmark::kMicrosecond : benchmark::kMillisecond);
 }
 
-// Instructions that do nothing: how many the processor takes in, whoever else uses its core.
+// Instructions that do nothing show how many the processor takes in beside whoever shares its core.
 void issue(benchmark::State& state) {
   time_calls(state, 1, 64 * kRounds, 0, [] {
     for (std::size_t k = 0; k < kRounds; ++k) {
@@ -145,7 +145,7 @@ void issue(benchmark::State& state) {
   });
 }
 
-// Three lines a sample in random order: what a scattered call reads when the patches are in memory.
+// A scattered call whose patches are in memory reads three lines a sample in random order.
 // Prefetching 16 samples at a time, 64 ahead, is the best of 8 to 192 ahead, singly or in batches.
 void random_lines(benchmark::State& state) {
   constexpr std::size_t kPatches = 1'000'000;

@@ -13,7 +13,7 @@
 namespace simdbezier_bench {
 namespace {
 
-/// x86 has "model name", aarch64 only numbers.
+/// On x86 there is a "model name", on aarch64 only numbers.
 std::string cpu_model() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

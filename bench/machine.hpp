@@ -1,4 +1,4 @@
-// Facts about the machine and the build, put into every report.
+// Facts about the machine and the build, which every report contains.
 #pragma once
 
 namespace simdbezier_bench {

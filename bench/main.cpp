@@ -1,4 +1,4 @@
-// simdbezier_bench: every row of design section "Benchmark names"; see README.md beside this file.
+// simdbezier_bench: all rows, as README.md beside this file lists them.
 #include <atomic>
 #include <string>
 #include <vector>
@@ -36,7 +36,7 @@ std::string RowName::text() const {
 
 int main(int argc, char** argv) {
   using namespace simdbezier_bench;
-  // Google Benchmark's half second a row would take an hour; a later flag has the last word.
+  // Google Benchmark's half second a row would take an hour. A later flag overrides this one.
   std::string min_time = "--benchmark_min_time=0.05";
   std::vector<char*> arguments(argv, argv + argc);
   arguments.insert(arguments.begin() + (argc > 0 ? 1 : 0), min_time.data());

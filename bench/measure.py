@@ -36,7 +36,8 @@ from results import limit_of, natural_order, repetitions  # noqa: E402
 REPETITIONS = 3
 SECONDS_A_RUN = 12.0
 
-# f32 in full; f64 on the instruction sets that matter; to memory: whole and broken lines.
+# f32 is measured in full, f64 on the instruction sets that matter, and to memory whole and broken
+# lines.
 PUBLISHED = re.compile(
     r"^limit/"
     r"|^grid/.*/cache/"
@@ -83,7 +84,7 @@ def threads(name):
 
 
 def group(name):
-    """What one run holds together. Data of a memory row takes seconds to make."""
+    """Rows of one group share a run, because data of a memory row takes seconds to make."""
     parts = name.split("/")
     pinned = threads(name) == 1
     if parts[0] == "limit":
@@ -94,7 +95,7 @@ def group(name):
 
 
 def seconds(name):
-    """Rough: what one repetition of a row takes, its share of the preparation included."""
+    """Roughly what one repetition of a row takes, with its share of the preparation."""
     if "memory" in name or name.startswith("limit/fill"):
         return 0.6 if "de_casteljau" in name or "f64" in name else 0.3
     return 0.3 if name.startswith(("scattered", "tiles", "limit/random")) else 0.05
@@ -131,7 +132,7 @@ def locked(path):
 
 
 def measure(options, rows):
-    """The report of one run; None where the program did not live to write one."""
+    """The report of one run; None where the program ended before it wrote one."""
     environment = {**os.environ, "SIMDBEZIER_BENCH_SWEEP": "1" if options.sweep else "0"}
     pinned = all(threads(row) == 1 for row in rows)
     limits = {limit_of(row)[0] for row in rows if limit_of(row)}
@@ -162,7 +163,7 @@ def shares(rates):
 
 
 def write(path, context, values, of_limit):
-    """One row a line, in families that share the first three parts of their names."""
+    """Writes one row a line, in families that share the first three parts of their names."""
     families = {}
     for name in sorted(values, key=natural_order):
         parts = name.split("/")

@@ -27,7 +27,7 @@ constexpr std::size_t kPatches = 256; ///< nets and results of splitting: 245 KB
 constexpr int kBoxLevels = 2;
 constexpr int kHigher = 5; ///< the degree that nets are elevated to
 
-/// A surface point of one component of a net in double, by the Bernstein sum.
+/// One component of a surface point of a net in double, by the Bernstein sum.
 template <typename T>
 double point_of(const T* net, int degree, std::size_t c, double u, double v) {
   const auto weights = [degree](double t) {
@@ -61,8 +61,8 @@ struct NetJob {
     return MutableNets<T>::packed(results.data() + quarter * kValuesPerPatch * kPatches, kPatches,
                                   degree, degree);
   }
-  /// Largest difference between the results, on the part of the nets that they stand for, and the
-  /// nets themselves.
+  /// The largest difference between the surfaces of the results and the parts of the original
+  /// surfaces that they stand for.
   std::string compare(std::size_t quarter, int degree, double u0, double v0, double size) {
     const auto stride = static_cast<std::size_t>((degree + 1) * (degree + 1) * 3);
     const T* const first = results.data() + quarter * kValuesPerPatch * kPatches;
@@ -130,7 +130,7 @@ struct TightBoxes {
       }
       const double below = low - static_cast<double>(job.results[k]);
       const double above = static_cast<double>(job.results[k + 3 * kPatches]) - high;
-      // Contained, but for the samples' own rounding, and by little more than a level's excess.
+      // The samples are inside, but for their own rounding, and the box is little larger.
       if (!(std::min(below, above) >= -1e-12 &&
             std::max(below, above) <= 0.1 * (high - low) + 0.02)) {
         return "box " + std::to_string(k) + " is off";
@@ -202,7 +202,7 @@ void add_operation(Isa isa) {
   register_row(name, benchmark::kMicrosecond, 1, [isa] { return NetCall<T, Operation>(isa); });
 }
 
-/// find_adjacency of a square of patches, whose edges are known.
+/// find_adjacency on a square of patches, whose edges are known.
 template <typename T>
 class AdjacencyCall {
 public:

@@ -21,7 +21,7 @@ using simdbezier::Isa;
 constexpr std::size_t kCached = 256;     ///< nets and set: 160 KB in float, 320 KB in double
 constexpr std::size_t kMemory = 300'000; ///< 190 and 380 MB
 
-/// Rows name the instruction set that was asked for, where packing can be told one.
+/// Whether packing can be told an instruction set, which rows then name.
 template <typename Options>
 constexpr bool kTakesIsa = requires(Options options) {
   options.isa;
@@ -34,7 +34,7 @@ void ask_for(Options& options, Isa isa) {
   }
 }
 
-/// Keeps freed memory in the process: a set of 300 000 patches would otherwise come from the system
+/// Keeps freed memory in the process. Otherwise a set of 300 000 patches would come from the system
 /// and go back there every time, and the row would measure page faults.
 void keep_freed_memory() {
 #if defined(__GLIBC__)
@@ -59,7 +59,7 @@ public:
     nets_.count = patches;
     ask_for(options_, isa);
     keep_freed_memory();
-    // The first sets' pages come from the system; a few later, freed blocks are found again.
+    // Pages of the first sets come from the system. A few sets later, freed blocks are used again.
     for (int k = 0; k < 4; ++k) {
       (*this)();
     }
@@ -72,11 +72,11 @@ public:
   }
 
   void operator()() {
-    set_ = {}; // its memory is the next one's
+    set_ = {}; // frees memory for the next set
     (void)simdbezier::pack(nets_, set_, options_);
   }
 
-  /// A set is opaque: the positions of a small grid, which determine the patch, are compared.
+  /// A set is opaque, so the positions of a small grid are compared, which determine the patch.
   std::string check() {
     set_ = {};
     if (const simdbezier::PackReport report = simdbezier::pack(nets_, set_, options_); !report) {

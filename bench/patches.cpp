@@ -7,7 +7,7 @@
 namespace simdbezier_bench {
 namespace {
 
-/// SplitMix64: one multiplication chain a value, and any index can be a seed.
+/// SplitMix64: each value takes one chain of multiplications, and any index can be a seed.
 class Random {
 public:
   explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15U + 1) {}
@@ -49,7 +49,7 @@ Vector cross(Vector a, Vector b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Any unit vector across `a`: with the axis that a is furthest from.
+/// A unit vector across `a`, made with the axis that `a` is furthest from.
 Vector across(Vector a) {
   const bool x_is_small = std::abs(a.x) < 0.5;
   return unit(cross(a, x_is_small ? Vector{1, 0, 0} : Vector{0, 1, 0}));
@@ -80,7 +80,7 @@ void fill_net(std::size_t index, NetShape shape, T* net) {
   }
 }
 
-/// Bernstein to powers, one cubic in place.
+/// Converts one cubic from Bernstein to powers, in place.
 void to_powers(double* b, int stride) {
   const double b0 = b[0];
   const double b1 = b[stride];

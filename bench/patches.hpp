@@ -11,14 +11,14 @@ namespace simdbezier_bench {
 
 constexpr std::size_t kValuesPerPatch = values_per_patch(NetShape{}); ///< of a bicubic one
 
-/// Nets [patch][j][i][xyz], or [xyzw]: a unit parallelogram somewhere in a cube, its points
-/// displaced by up to 0.3 of the distance between them, so that normals are regular everywhere;
-/// weights from 1/2 to 2. A net depends on its index only, not on count.
+/// Nets [patch][j][i][xyz], or [xyzw]. A net is a unit parallelogram somewhere in a cube, whose
+/// points are displaced by up to 0.3 of the distance between them, so that normals are regular
+/// everywhere. Weights are from 1/2 to 2. A net depends on its index only, not on count.
 template <typename T>
 std::vector<T> random_nets(std::size_t count, NetShape shape = {});
 
-/// Of bicubic nets: power-basis coefficients [patch][power of v][xyz][power of u], formed in
-/// double, rounded once.
+/// Power-basis coefficients of bicubic nets, [patch][power of v][xyz][power of u], formed in double
+/// and rounded once.
 template <typename T>
 std::vector<T> power_basis(const std::vector<T>& nets);
 

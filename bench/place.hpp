@@ -10,14 +10,14 @@ namespace simdbezier_bench {
 
 enum class Layout { planes, triples, vertices };
 
-/// Patches of a cache row: at most 64, at least 1, no more output than kCacheBytes.
+/// The number of patches of a cache row: 1 to 64, with no more output than kCacheBytes.
 inline std::size_t cached_patches(std::size_t bytes_per_patch) {
   return std::clamp<std::size_t>(kCacheBytes / bytes_per_patch, 1, 64);
 }
 
-/// Planes, or planes of triples, follow each other, each at a line's start and five lines further
-/// than it need be: planes a power of two apart would compete for the same sets of a cache.
-/// Not aligned: the k-th of them begins k + 1 elements later still.
+/// Planes, or planes of triples, follow each other. Each begins at a line's start and five lines
+/// further than it need be, because planes a power of two apart would compete for the same sets of
+/// a cache. Where they are not aligned, the k-th of them begins another k + 1 elements later.
 template <typename T>
 Results<T> place_results(OutputGroups groups, std::size_t samples, Layout layout,
                          bool aligned = true) {

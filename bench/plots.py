@@ -34,9 +34,9 @@ MARKERS = {"position": "o", "position_derivatives": "s", "position_normal": "^",
 
 
 def multiply_adds(outputs, n):
-    """Of one sample on an n x n grid, products and sums that do not fuse counted as one each; the
-    polynomials in v that a column's samples share are spread over them. No square root, no
-    division."""
+    """Multiply-adds of one sample on an n x n grid. Products and sums that do not fuse count as one
+    each, and the polynomials in v that a column's samples share are spread over them. Square roots
+    and divisions do not count."""
     per_sample = {"position": 9, "position_derivatives": 24, "position_normal": 36,
                   "second_derivatives": 42}
     per_column = {"position": 36, "position_derivatives": 60, "position_normal": 60,

@@ -72,7 +72,7 @@ class Ratios:
         return self.median(row.text(call="grid", threads=1, keys=keys))
 
     def to_grid(self, row):
-        """256 positions take as long as this many patches a second."""
+        """The patches a second at which a patch takes as long as 256 positions."""
         grid = self.median(row.text(call="grid", size="16x16", place="cache", threads=1, keys={}))
         return grid and grid / 256
 

@@ -16,10 +16,10 @@ constexpr std::size_t kCheckedSamples = 4000;
 enum Quantity { kPosition, kNormal, kTangent, kSecond };
 
 /// What is allowed, in units of roundoff of scale_of().
-// Seen on 4000 patches: de Casteljau at most 8, 25, 6, 4, the library no more, the power basis
-// 19, 84, 20, 12.
+// On 4000 patches, de Casteljau needed at most 8, 25, 6, 4, the library no more, and the power
+// basis 19, 84, 20, 12.
 constexpr double kUnits[] = {100, 500, 100, 100};
-/// Of curvatures, relative to one plus the largest principal curvature there.
+/// For curvatures it is relative to one plus the largest principal curvature there.
 constexpr double kCurvatureUnits = 1000;
 
 /// How large a quantity may be where no coordinate exceeds `size`, and what its error is relative
@@ -85,8 +85,8 @@ double largest_coordinate(const T* net, NetShape shape) {
   return size;
 }
 
-/// Principal curvatures by their sum and product: by themselves they have half of the digits only
-/// where they nearly are equal.
+/// Compares principal curvatures by their sum and product, because they themselves have only half
+/// of the digits where they are nearly equal.
 template <typename T>
 std::string check_curvatures(const Results<T>& results, std::size_t index, const Sample& reference,
                              std::size_t patch, std::size_t sample) {

@@ -18,21 +18,21 @@ template <typename T>
 std::string check_sample(const Results<T>& results, std::size_t index, const T* net, double u,
                          double v, std::size_t patch, std::size_t sample, NetShape shape = {});
 
-/// Overwrites samples [first, last), so that what an earlier row left behind cannot pass for a
+/// Overwrites samples [first, last), so that what an earlier row left there cannot pass for a
 /// result.
 template <typename T>
 void poison(const Results<T>& results, std::size_t first, std::size_t last);
 
-/// The patches of a grid that are looked at: all of a few, else 64 that include both ends.
+/// How many patches of a grid are checked: all of a few, otherwise 64 that include both ends.
 bool is_checked(std::size_t patch, std::size_t patches);
 
-/// All samples of the checked patches of a grid; the job says which shape the nets have.
+/// Checks all samples of these patches of a grid; the job says which shape the nets have.
 template <typename T>
 void poison_grid(const GridJob<T>& job);
 template <typename T>
 std::string check_grid(const GridJob<T>& job, const T* nets);
 
-/// Some 4000 scattered samples, spread evenly; all are poisoned.
+/// Checks some 4000 scattered samples, spread evenly; all samples are poisoned before.
 template <typename T>
 void poison_scattered(const ScatteredJob<T>& job);
 template <typename T>

@@ -17,8 +17,8 @@ struct Sample {
   double mean = 0;
 };
 
-/// The patch `net` of this shape at (u, v): Bernstein sums of the points and their derivatives; of
-/// rational ones the same of (w P, w), then the quotient rule.
+/// The patch `net` of this shape at (u, v): Bernstein sums of the points and their derivatives. For
+/// rational patches these are sums of (w P, w), followed by the quotient rule.
 template <typename T>
 Sample reference_sample(const T* net, NetShape shape, double u, double v);
 

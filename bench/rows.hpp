@@ -29,7 +29,7 @@ enum class Place { cache, memory };
 struct RowName {
   std::string call;
   OutputGroups outputs = OutputGroups::position;
-  bool single = true;   ///< f32, else f64
+  bool single = true;   ///< f32, otherwise f64
   std::string who = {}; ///< instruction set, baseline or peer
   std::size_t nu = 1;
   std::size_t nv = 1;
@@ -46,8 +46,8 @@ int max_threads();
 void fail_row(benchmark::State& state, const std::string& message);
 bool any_row_failed();
 
-/// Runs `call` under the benchmark's clock and reports rates per second, `items` and `bytes` being
-/// those of one call. Rows of several threads report real time; the others, processor time.
+/// Runs `call` under the benchmark's clock and reports rates per second; `items` and `bytes` are
+/// those of one call. Rows of several threads report real time, and the others processor time.
 ///
 /// UseRealTime() would do that too, but it appends "/real_time" to the row's name.
 template <typename Call>
@@ -70,8 +70,8 @@ void time_calls(benchmark::State& state, int threads, double items, double bytes
 }
 
 /// Registers a row. make() gives what is timed: an object with operator()(), items() and bytes() of
-/// one call, and check(), which runs it once and returns an empty string or why it must not be
-/// timed.
+/// one call, and check(), which runs it once and returns an empty string or the reason why it must
+/// not be timed.
 template <typename Make>
 void register_row(const std::string& name, benchmark::TimeUnit unit, int threads, Make make) {
   const auto checked = std::make_shared<bool>(false); // once a process, not once a repetition

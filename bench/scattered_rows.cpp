@@ -29,12 +29,12 @@ struct ScatteredRow {
   Order order;
   OutputGroups outputs;
   bool library;
-  Isa isa; ///< of the library only
+  Isa isa; ///< for the library only
   std::size_t patches;
   int threads = 1;
 };
 
-/// Memory: every sample's patch comes from there. Sorted runs are cache rows, whatever the set.
+/// Whether every sample's patch comes from memory. Sorted runs are cache rows, whatever the set.
 Place place_of(const ScatteredRow& row) {
   const bool many = row.patches * kValuesPerPatch * sizeof(float) > (std::size_t{64} << 20);
   return row.order == Order::random && many ? Place::memory : Place::cache;
@@ -50,7 +50,8 @@ std::string name_of(const ScatteredRow& row) {
   return name.text() + "/patches:" + std::to_string(row.patches);
 }
 
-/// Sorted: ascending, again and again where there are more runs than patches, else spread over all.
+/// Sorted samples ascend, again and again where there are more runs than patches, and otherwise are
+/// spread over all patches.
 std::vector<std::uint32_t> patch_indices(Order order, std::size_t patches) {
   std::vector<std::uint32_t> indices(kSamples);
   const std::vector<double> random = random_units(kSamples, 1);

@@ -1,5 +1,5 @@
 // grid/<outputs>/<type>/<isa>/<nu>x<nv>/cache/threads:1[/degree:MxN][/weights:rational]: patches of
-// other degrees than 3 and of rational ones; and curvatures, of bicubic patches too.
+// other degrees than 3 and rational ones, and curvatures, of bicubic patches as well.
 #include <simdbezier/simdbezier.hpp>
 
 #include "bench/grid_call.hpp"

@@ -19,7 +19,7 @@ template <typename T>
 std::vector<T>& nets_at_least(std::size_t count) {
   static std::vector<T> nets;
   if (nets.size() < count * kValuesPerPatch) {
-    nets = {}; // before the larger one is made: these are hundreds of megabytes
+    nets = {}; // frees hundreds of megabytes before the larger one is made
     nets = random_nets<T>(count);
   }
   return nets;
@@ -58,8 +58,8 @@ const T* shared_power_basis(std::size_t count) {
 
 template <typename T>
 const simdbezier::PatchSet<T>& shared_patch_set(std::size_t count) {
-  // Small ones are as large as asked for: what is done for sets that leave the caches would
-  // otherwise be timed in rows that follow such a set, and only there.
+  // Small sets are exactly as large as was asked for. Otherwise rows that follow a large set would
+  // time what the library does for sets that leave the caches.
   constexpr std::size_t kSmall = 4096;
   static simdbezier::PatchSet<T> sets[2];
   simdbezier::PatchSet<T>& set = sets[count > kSmall ? 1 : 0];

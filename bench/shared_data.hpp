@@ -14,13 +14,13 @@ constexpr std::size_t kCacheBytes = std::size_t{256} << 10;
 constexpr std::size_t kMemoryBytes = std::size_t{256} << 20;
 constexpr std::size_t kLineBytes = 64;
 
-/// The output buffer: kMemoryBytes and some, huge pages where the system has them, touched.
-/// Null when the memory cannot be had.
+/// The output buffer: somewhat more than kMemoryBytes, in huge pages where the system has them, all
+/// of which have been touched. Null where the memory cannot be had.
 unsigned char* output_buffer();
 
 /// The first `count` or more patches, in each of the three forms. Grows on demand; a larger count
-/// keeps the earlier patches as they are. An empty result means that packing failed. Packed sets of
-/// few patches have no more than were asked for, until the next one is.
+/// keeps the earlier patches as they are. An empty result means that packing failed. Small packed
+/// sets have exactly as many patches as were asked for last.
 template <typename T>
 const T* shared_nets(std::size_t count);
 template <typename T>
@@ -28,7 +28,8 @@ const T* shared_power_basis(std::size_t count);
 template <typename T>
 const simdbezier::PatchSet<T>& shared_patch_set(std::size_t count);
 
-/// The first `count` or more patches of any shape, kept for each: for rows of a few patches.
+/// The first `count` or more patches of any shape, which are kept for each shape. They are meant
+/// for rows of few patches.
 template <typename T>
 struct ShapedPatches {
   std::vector<T> nets;

@@ -9,8 +9,8 @@ A page says where tables belong, and of which files below bench/results/ they ar
     …
     <!-- end of tables -->
 
-What stands between the two lines is replaced. With --check nothing is written, and the exit code is 1
-where a page is not what the results say. KIND is one of
+What stands between the two lines is replaced. With --check nothing is written, and the exit code is
+1 where a page is not what the results say. KIND is one of
 
   summary  16 x 16 grids, and how they compare with both baselines; of the second file, a sweep of
            sizes, how they all do
@@ -87,8 +87,8 @@ def summary(results, sweep):
         rows.append([title, f"{results.rate(own) / 1e9:.1f} · 10⁹ samples/s",
                      f"{results.ratio(own, scalar):.0f} ×", f"{results.ratio(own, loops):.1f} ×",
                      f"{statistics.median(ratios):.1f} × ({min(ratios):.1f} to {max(ratios):.1f})"])
-    return table(["", "16 × 16 samples a patch", "to scalar de Casteljau", "to auto-vectorised loops",
-                  "the same from 2 × 2 to 65 × 65: median (range)"], rows)
+    return table(["", "16 × 16 samples a patch", "to scalar de Casteljau",
+                  "to auto-vectorised loops", "the same from 2 × 2 to 65 × 65: median (range)"], rows)
 
 
 # What a row of the limits' table says: its unit, and the limits in it with the size of an item.
@@ -97,7 +97,8 @@ LIMITS = {
     "multiply-adds, widest instruction set / the next": (
         "· 10⁹ lanes/s", 1e-9, ".0f", ("fma/f32/{isa}", "fma/f32/{next_isa}")),
     "cubics from registers to a cache, likewise": (
-        "· 10⁹ positions/s", 1e-9, ".1f", ("horner_store/f32/{isa}", "horner_store/f32/{next_isa}")),
+        "· 10⁹ positions/s", 1e-9, ".1f",
+        ("horner_store/f32/{isa}", "horner_store/f32/{next_isa}")),
     "stores to memory, streaming, 1 / 2 threads": (
         "GB/s", GIGABYTES, ".1f", ("fill_stream/threads:1", "fill_stream/threads:2")),
     "stores to memory, plain, 1 / 2 threads": (
@@ -161,7 +162,8 @@ def memory(results):
 def calls(results):
     tail = f"f32/{results.isa}"
     lines = (("tiles, 16×16, 4 GiB of output, to the grid in cache",
-              f"tiles/{{}}/{tail}/16x16/cache/threads:1", f"grid/{{}}/{tail}/16x16/cache/threads:1"),
+              f"tiles/{{}}/{tail}/16x16/cache/threads:1",
+              f"grid/{{}}/{tail}/16x16/cache/threads:1"),
              ("scattered, 64 a patch in order, 2048 patches, to de Casteljau",
               f"scattered_sorted/{{}}/{tail}/1x1/cache/threads:1/patches:2048",
               "scattered_sorted/{}/f32/de_casteljau/1x1/cache/threads:1/patches:2048"),

@@ -21,7 +21,8 @@ using simdbezier::TileLayout;
 constexpr std::size_t kSizes[] = {16, 32};
 constexpr OutputGroups kOutputs[] = {OutputGroups::position, OutputGroups::position_normal,
                                      OutputGroups::position_derivatives};
-/// Of rows without `patches:`: a result that no cache, and no small machine's memory, would hold.
+/// The result of rows without `patches:`, which no cache, and no small machine's memory, would
+/// hold.
 constexpr std::size_t kWholeBytes = std::size_t{4} << 30;
 constexpr std::size_t kBatch = 65536;
 
@@ -29,10 +30,10 @@ struct TileRow {
   OutputGroups outputs;
   Isa isa;
   std::size_t n;
-  std::size_t patches; ///< 0: as many as kWholeBytes hold
+  std::size_t patches; ///< 0 means as many as kWholeBytes hold
   int threads;
   TileLayout layout = TileLayout::planes;
-  bool consumed = true; ///< false: the callback takes a tile and leaves it unread
+  bool consumed = true; ///< false where the callback leaves tiles unread
 };
 
 template <typename T>
@@ -47,8 +48,8 @@ std::string name_of(const TileRow& row) {
   return row.consumed ? text : text + "/consumer:none";
 }
 
-/// The least that a consumer does: reads every cache line of a tile, as integers, which can be
-/// added one a cycle.
+/// The least that a consumer does is to read every cache line of a tile. It reads integers, of
+/// which one can be added each cycle.
 template <typename T>
 std::uint64_t read_lines(const T* first, std::size_t count) {
   const auto* const bytes = reinterpret_cast<const unsigned char*>(first);
@@ -85,7 +86,7 @@ public:
   }
 
   void operator()() {
-    // One sum a thread, in lines of their own.
+    // Each thread has its sum in a line of its own.
     struct alignas(2 * kLineBytes) Sum {
       std::uint64_t value;
     };

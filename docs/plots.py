@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the plots of docs/accuracy.md. Python's standard library only.
+"""Draws the plots of docs/accuracy.md. It needs Python's standard library only.
 
     docs/plots.py build/accuracy.json     # written by ./run accuracy
 
@@ -41,8 +41,10 @@ def chart(path, title, x_label, y_label, x_names, series):
         svg.append(f'<path d="M{LEFT} {y:.1f}H{LEFT + plot_width}" stroke="#ddd"/>'
                    f'<text x="{LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">{10.0**k:g}</text>')
     for i, name in enumerate(x_names):
-        svg.append(f'<text x="{px(i):.1f}" y="{HEIGHT - BOTTOM + 18}" text-anchor="middle">{name}</text>')
-    svg.append(f'<text x="{LEFT + plot_width / 2}" y="{HEIGHT - 8}" text-anchor="middle">{x_label}</text>')
+        svg.append(f'<text x="{px(i):.1f}" y="{HEIGHT - BOTTOM + 18}" '
+                   f'text-anchor="middle">{name}</text>')
+    svg.append(f'<text x="{LEFT + plot_width / 2}" y="{HEIGHT - 8}" '
+               f'text-anchor="middle">{x_label}</text>')
     svg.append(f'<text x="14" y="{TOP + plot_height / 2}" text-anchor="middle" '
                f'transform="rotate(-90 14 {TOP + plot_height / 2})">{y_label}</text>')
     for k, (name, ys) in enumerate(series.items()):
@@ -51,18 +53,21 @@ def chart(path, title, x_label, y_label, x_names, series):
         line = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
         svg.append(f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-width="2"/>')
         svg += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="{colour}"/>' for x, y in points]
-        svg.append(f'<text x="{WIDTH - RIGHT + 12}" y="{TOP + 14 + 18 * k}" fill="{colour}">{name}</text>')
+        svg.append(f'<text x="{WIDTH - RIGHT + 12}" y="{TOP + 14 + 18 * k}" '
+                   f'fill="{colour}">{name}</text>')
     svg.append("</svg>")
     Path(path).write_text("\n".join(svg) + "\n")
 
 
 def bernstein_exact(points, u):
     n = len(points) - 1
-    return sum(math.comb(n, i) * u**i * (1 - u)**(n - i) * Fraction(p) for i, p in enumerate(points))
+    return sum(math.comb(n, i) * u**i * (1 - u)**(n - i) * Fraction(p)
+               for i, p in enumerate(points))
 
 
 def power_coefficients(points, at):
-    """Coefficients of powers of (u - at) / scale, exact, then rounded once; scale 1/2 in the centre."""
+    """Coefficients of powers of (u - at) / scale, formed exactly and rounded once. In the centre,
+    scale is 1/2."""
     n = len(points) - 1
     scale = Fraction(1, 2) if at else Fraction(1)
     exact = [Fraction(0)] * (n + 1)
@@ -115,7 +120,8 @@ def errors_by_degree(degrees, curves=40, samples=25):
 def offset_series(report):
     rows = {(r["family"], r["isa"]): r["rms_u"] for r in report["rows"]
             if r["type"] == "f32" and r["qty"] == "P"}
-    widest = [isa for isa in ("avx512", "avx2", "neon64", "sse2", "scalar") if ("wave", isa) in rows][0]
+    widest = next(isa for isa in ("avx512", "avx2", "neon64", "sse2", "scalar")
+                  if ("wave", isa) in rows)
     families = ("wave", "off1e3", "off1e6")
     peers = {"simdbezier": ("", widest), "with local origin": ("+origin", widest),
              "de Casteljau": ("", "de_casteljau"), "Horner in powers of u": ("", "horner_corner")}

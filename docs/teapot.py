@@ -3,8 +3,9 @@
 
     docs/teapot.py build/simdbezier      # Debian: python3-numpy python3-pil
 
-The program evaluates positions and normals on a grid of every patch. This script fills the triangles
-between the samples, interpolates the normals for the light, and draws each fourth line of the grid.
+The program evaluates positions and normals on a grid of every patch. This script fills the
+triangles between the samples, interpolates the normals for the light, and draws each fourth line of
+the grid.
 """
 import io
 import subprocess
@@ -52,7 +53,7 @@ def to_pixels(points):
 
 
 def triangles(values):
-    """Two for each square of the grid, [triangle][corner][…]."""
+    """Two triangles for each square of the grid, [triangle][corner][…]."""
     a, b = values[:, :-1, :-1], values[:, :-1, 1:]
     c, d = values[:, 1:, :-1], values[:, 1:, 1:]
     both = np.stack([np.stack([a, b, d], axis=3), np.stack([a, d, c], axis=3)], axis=3)
@@ -60,7 +61,7 @@ def triangles(values):
 
 
 def fill(corners, attributes):
-    """Depth buffer over all triangles; the attributes of what is seen, and where something is."""
+    """Draws all triangles into a depth buffer. Returns the attributes of what is seen, and where."""
     shape = (HEIGHT * SCALE, WIDTH * SCALE)
     nearest = np.full(shape, -np.inf)
     seen = np.zeros((*shape, attributes.shape[-1]))

@@ -17,11 +17,11 @@ struct Baselines {
 template <typename T>
 Baselines<T> widest_baselines();
 
-/// Largest nu (and nv, where nu is below 8) that autovectorised accepts: its scratch is on the
-/// stack.
+/// The largest nu (and nv, where nu is below 8) that autovectorised accepts, because its scratch is
+/// on the stack.
 constexpr std::size_t kMaxGridSize = 80;
 
-// Definitions live in namespaces named after the instruction set, so that no two objects ever
+// Definitions live in namespaces that are named after the instruction set, so that no two objects
 // offer the linker the same symbol.
 #define SIMDBEZIER_BENCH_DECLARE_BASELINES(isa)                                                    \
   namespace isa {                                                                                  \

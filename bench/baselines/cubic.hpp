@@ -1,8 +1,8 @@
-// One cubic by de Casteljau's algorithm, with what its last steps say about the derivatives.
-// In the including object's own namespace, which no two objects share.
+// One cubic by de Casteljau's algorithm, with what its last steps say about the derivatives. It is
+// in the including object's own namespace, which no two objects share.
 #pragma once
 
-// g++ 12 leaves a loop over samples alone; clang must be told.
+// g++ 12 does not vectorise a loop over samples; clang has to be told not to.
 #if defined(__clang__)
 #define BENCH_PER_SAMPLE _Pragma("clang loop vectorize(disable)")
 #else
@@ -30,7 +30,7 @@ template <typename T>
   return b012 + t * slope;
 }
 
-/// As cubic(); `curvature` receives a sixth of the second derivative.
+/// Like cubic(); `curvature` receives a sixth of the second derivative.
 template <typename T>
 [[gnu::always_inline]] inline T cubic2(T t, T b0, T b1, T b2, T b3, T& slope, T& curvature) {
   const T b01 = interpolate(t, b0, b1);

@@ -1,9 +1,8 @@
 // Scalar de Casteljau, sample by sample, AoS in and out: u on the four rows, then v.
 //
-// Nothing is held back: one branch-free expression a sample, restrict pointers, each linear
-// interpolation one subtraction and one fused multiply-add, so that all four floating-point pipes
-// of a modern core are busy (90 of each for a position). What makes it scalar is its shape, and
-// two flags that keep the compiler from turning it into something else (CMakeLists.txt).
+// Nothing is held back: a sample is one branch-free expression, pointers are restrict, and a linear
+// interpolation is one subtraction and one fused multiply-add, so that all four floating-point
+// pipes of a modern core are busy (90 of each for a position). Its shape makes it scalar.
 #include "bench/baselines/baselines.hpp"
 
 #include <cmath>
@@ -14,8 +13,8 @@ namespace simdbezier_bench {
 namespace SIMDBEZIER_BENCH_ISA {
 namespace {
 
-// The loops below hold the whole of a sample's arithmetic and take their pointers as parameters:
-// split into further functions, the same code is a quarter slower with g++ 12.
+// The loops below hold the whole of a sample's arithmetic and take their pointers as parameters,
+// because the same code in more functions is a quarter slower with g++ 12.
 template <typename T>
 void positions(const GridJob<T>& job, const T* __restrict nets, const T* __restrict us,
                const T* __restrict vs, T* __restrict position) {
@@ -94,8 +93,8 @@ void positions_and_tangents(const GridJob<T>& job, const T* __restrict nets, con
   }
 }
 
-// Second derivatives: the rows' values, last differences and second differences, each by a pass in
-// v that keeps as many differences as are wanted.
+// Second derivatives come from the rows' values, last differences and second differences, each by a
+// pass in v that keeps as many differences as are wanted.
 template <typename T>
 void second_derivatives(const GridJob<T>& job, const T* __restrict nets, const T* __restrict us,
                         const T* __restrict vs, T* __restrict position, T* __restrict out_du,

@@ -1,4 +1,4 @@
-// Filling memory with whole registers: past the caches, and through them.
+// Fills memory with whole registers, past the caches and through them.
 #include "bench/limits/limit_kernels.hpp"
 
 #if defined(__x86_64__)
@@ -11,8 +11,8 @@ namespace simdbezier_bench {
 namespace SIMDBEZIER_BENCH_ISA {
 namespace {
 
-// The pattern must not be one byte repeated: such a loop becomes a call of memset(), which takes
-// its own decisions about the caches.
+// The pattern must not be one byte repeated, because such a loop becomes a call of memset(), which
+// takes its own decisions about the caches.
 constexpr double kPattern = 1.5;
 
 void fill_plain(unsigned char* out, std::size_t bytes) {
@@ -39,7 +39,7 @@ void fill_plain(unsigned char* out, std::size_t bytes) {
 #endif
 }
 
-// A line is always completed at once: half lines are streamed at a third of the speed.
+// A line is always completed at once, because half lines are streamed at a third of the speed.
 void fill_stream(unsigned char* out, std::size_t bytes) {
   constexpr std::size_t kStep = sizeof(RegisterOf<double>);
   for (unsigned char* const end = out + bytes; out != end; out += 64) {
@@ -61,7 +61,7 @@ void fill_stream(unsigned char* out, std::size_t bytes) {
   }
 }
 #else
-constexpr auto fill_stream = fill_plain; // no such store here
+constexpr auto fill_stream = fill_plain; // there is no such store here
 #endif
 
 } // namespace

@@ -1,5 +1,5 @@
-// Arithmetic limits. Compiled twice per instruction set, with and without contraction; a*b + c
-// below is one instruction in the first and two in the second.
+// Arithmetic limits. This file is compiled twice per instruction set, with and without contraction:
+// a*b + c below is one instruction in the first object and two in the second.
 #include "bench/limits/limit_kernels.hpp"
 
 #include <utility>
@@ -11,7 +11,7 @@ namespace SIMDBEZIER_BENCH_ISA {
 namespace SIMDBEZIER_BENCH_CONTRACTION {
 namespace {
 
-// Enough to cover 5 cycles of latency on two pipes.
+// These are enough to cover 5 cycles of latency on two pipes.
 constexpr int kChains = 12;
 
 template <typename T>
@@ -35,7 +35,7 @@ std::size_t multiply_add(std::size_t rounds, T* sink) {
     a9 = a9 * factor + term;
     a10 = a10 * factor + term;
     a11 = a11 * factor + term;
-    // Otherwise equal chains are found out and one is kept.
+    // Otherwise the compiler sees that the chains are equal, and keeps one.
     hide(a0), hide(a1), hide(a2), hide(a3), hide(a4), hide(a5);
     hide(a6), hide(a7), hide(a8), hide(a9), hide(a10), hide(a11);
   }
@@ -49,7 +49,7 @@ template <typename V, typename T, std::size_t... lane>
   return V{(static_cast<void>(lane), value)...};
 }
 
-/// Not V{} + value, which is an addition to zero.
+/// V{} + value would be an addition to zero.
 template <typename V, typename T>
 [[gnu::always_inline]] inline V broadcast(T value) {
   return broadcast_lanes<V>(value, std::make_index_sequence<sizeof(V) / sizeof(T)>());
@@ -68,12 +68,13 @@ template <typename V>
 }
 
 // Rows of a grid in the library have the same shape: four coefficients stay, the parameter changes,
-// one store a result. Of about 150 orders and forms tried on Zen 5, the best, which use that
-// operands fresh from a load or from the instruction before are had for less than old registers:
-// 256-bit registers want a parameter from memory for every result (7.1 against 5.5 thousand million
-// positions/s, which is the rate of the multiply-adds), 512-bit ones addends from memory as well,
-// and four results in flight (9.6 against 8.9). Where instructions are scarcer than loads, as on
-// Cascade Lake, a parameter from memory for every step is better by a tenth to a fifth: no copies.
+// and each result takes one store. These are the best of about 150 orders and forms that were tried
+// on Zen 5. They make use of the fact that operands fresh from a load or from the instruction
+// before cost less than old registers: 256-bit registers want a parameter from memory for every
+// result (7.1 against 5.5 thousand million positions/s, which is the rate of the multiply-adds),
+// and 512-bit ones addends from memory as well, and four results in flight (9.6 against 8.9). Where
+// instructions are scarcer than loads, as on Cascade Lake, a parameter from memory for every step
+// is better by a tenth to a fifth, because it saves copies.
 enum class Operand { in_registers, result, addend, step };
 
 template <typename T, int kDegree, Operand kFromMemory>
@@ -87,7 +88,7 @@ void horner_store(T* out, std::size_t count, const T* inputs) {
   V addend[kDegree];
   for (int k = 0; k < kDegree; ++k) {
     addend[k] = broadcast<V>(inputs[1 + k]);
-    hide(addend[k]); // or one lane would be computed, and repeated
+    hide(addend[k]); // otherwise one lane would be computed and repeated
   }
   V highest = broadcast<V>(inputs[1 + kDegree]);
   hide(highest);
@@ -99,7 +100,7 @@ void horner_store(T* out, std::size_t count, const T* inputs) {
 #pragma GCC unroll 8
     for (int first = 0; first < kGroup; first += kFlight) {
 #pragma GCC unroll 4
-      for (int k = 0; k < kFlight; ++k) { // a new parameter, for all that the compiler knows
+      for (int k = 0; k < kFlight; ++k) { // the compiler has to take it for a new parameter
         if constexpr (kFromMemory != Operand::in_registers) {
           reload(parameter);
           x[k] = broadcast<V>(parameter);
@@ -122,7 +123,7 @@ void horner_store(T* out, std::size_t count, const T* inputs) {
           }
           r[k] = r[k] * x[k] + addend[step];
           if constexpr (kOrdered) {
-            hide(r[k]); // in this order
+            hide(r[k]); // keeps this order
           }
         }
       }

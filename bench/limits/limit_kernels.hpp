@@ -1,4 +1,4 @@
-// What the machine can do at best, one loop a question, compiled once per instruction set.
+// What the machine can do at best: one loop for each question, compiled once per instruction set.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,10 @@ struct LimitKernels {
   /// Runs `rounds` rounds of independent multiply-add chains in registers; returns how many
   /// multiply-adds a round holds, lanes counted.
   std::size_t (*multiply_add)(std::size_t rounds, T* sink) = nullptr;
-  /// Horner's rule from registers, a step a degree, one store a result: out[k] for k < count, a
-  /// multiple of kHornerBlockBytes in bytes. out is 64-byte aligned; inputs: x, then c0, c1, ….
-  /// [degree - kLeastHornerDegree][form]; which form is the fastest depends on the processor.
+  /// Horner's rule from registers, with one step a degree and one store a result: out[k] for k <
+  /// count, which makes a multiple of kHornerBlockBytes. out is 64-byte aligned; inputs are x, then
+  /// c0, c1, …. The index is [degree - kLeastHornerDegree][form], since the processor decides which
+  /// form is the fastest.
   void (*horner_store[3][kHornerForms])(T* out, std::size_t count, const T* inputs) = {};
 };
 

@@ -1,5 +1,5 @@
 // The register type of the instruction set that the including object is compiled for, in the
-// compilers' own vector extension: the limits must not depend on the library they are to judge.
+// compilers' own vector extension, because limits must not depend on the library that they judge.
 #pragma once
 
 #include <cstddef>

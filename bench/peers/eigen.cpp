@@ -1,8 +1,8 @@
 // Eigen: every component of a patch as a product of three matrices, B_u P B_v^T, over SoA planes.
 // Inner dimensions are known to be 4, so that products are unrolled and vectorised along u.
 //
-// Eigen's templates get a namespace of their own in every object: they are inline functions, of
-// which the linker would keep any one, compiled for any instruction set.
+// Eigen's templates get a namespace of their own in every object. They are inline functions, of
+// which the linker would otherwise keep one, compiled for any of the instruction sets.
 #define SIMDBEZIER_BENCH_JOIN2(a, b) a##b
 #define SIMDBEZIER_BENCH_JOIN(a, b) SIMDBEZIER_BENCH_JOIN2(a, b)
 #define Eigen SIMDBEZIER_BENCH_JOIN(Eigen_, SIMDBEZIER_BENCH_ISA)

@@ -19,7 +19,7 @@ namespace {
 namespace Far = OpenSubdiv::Far;
 namespace Osd = OpenSubdiv::Osd;
 
-/// One cubic from Bézier to B-spline points, in place.
+/// Converts one cubic from Bézier to B-spline points, in place.
 void to_bspline(double* b, int stride) {
   const double b0 = b[0];
   const double b1 = b[stride];

@@ -1,4 +1,5 @@
-// grid/<outputs>/<type>/<peer>/16x16/cache/threads:1, the peer in the place of an instruction set.
+// grid/<outputs>/<type>/<peer>/16x16/cache/threads:1: the peer stands in place of an instruction
+// set.
 #include <string>
 #include <string_view>
 #include <vector>

@@ -1,4 +1,4 @@
-# Other libraries to time beside ours, each where it is found: name | header | libraries.
+# Other libraries, which are timed beside ours where they are found: name | header | libraries.
 option(SIMDBEZIER_BENCH_PEERS "Time other libraries that are found, too" ON)
 if(NOT SIMDBEZIER_BENCH_PEERS)
   return()
@@ -44,7 +44,7 @@ simdbezier_bench_peer(opensubdiv opensubdiv/osd/cpuEvaluator.h osdCPU)
 simdbezier_bench_peer(opencascade Geom_BezierSurface.hxx TKG3d TKMath TKernel)
 simdbezier_bench_peer(sisl sisl.h sisl)
 
-# Header-only: compiled as the baselines are, once per instruction set.
+# Eigen is header-only, and compiled as the baselines are, once per instruction set.
 if(eigen_include_dir)
   foreach(row IN LISTS SIMDBEZIER_ISA_TABLE)
     string(REGEX REPLACE "[|].*" "" isa "${row}")
