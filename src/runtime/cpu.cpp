@@ -81,7 +81,7 @@ std::size_t second_level_cache() noexcept { return cache_sizes().second; }
 
 // Intel's cores stream through the few buffers that first-level misses need as well, staging's
 // among them: arithmetic, copy and memory add up, and plain stores to memory are 1.1 to 1.9 times
-// as fast (docs/performance_cascade_lake.md). They take memory's bandwidth twice, though, which a
+// as fast (docs/experiments.md). They take memory's bandwidth twice, though, which a
 // few threads do not use up.
 bool staged_streaming_pays([[maybe_unused]] int threads) noexcept {
 #if defined(__x86_64__)
