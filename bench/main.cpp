@@ -1,9 +1,11 @@
 // simdbezier_bench: all rows, as README.md beside this file lists them.
 #include <atomic>
+#include <cstdio>
 #include <string>
 #include <vector>
 
 #include <omp.h>
+#include <simdbezier/isa.hpp>
 
 #include "bench/machine.hpp"
 #include "bench/rows.hpp"
@@ -45,6 +47,11 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) {
     return 2;
+  }
+  if (simdbezier::available_isas().empty()) {
+    std::fputs("this machine has none of the instruction sets that the library was built for\n",
+               stderr);
+    return 1;
   }
   add_machine_context();
   register_grid_rows();

@@ -14,15 +14,27 @@ else()
   set(SIMDBEZIER_ISA_TABLE "scalar|void|")
 endif()
 
-# For builds that are made to be judged, not to be used (coverage, mutations, sanitizers): some of
-# the rows, and flags that come behind all others. Compiling the kernels is most of a build.
-set(SIMDBEZIER_KERNEL_ISAS "" CACHE STRING "Rows of the table that are compiled; empty: all")
-set(SIMDBEZIER_KERNEL_FLAGS "" CACHE STRING "Further compiler flags of the kernels")
-mark_as_advanced(SIMDBEZIER_KERNEL_ISAS SIMDBEZIER_KERNEL_FLAGS)
-if(SIMDBEZIER_KERNEL_ISAS)
-  list(JOIN SIMDBEZIER_KERNEL_ISAS "|" wanted)
+# A build that names instruction sets contains these and no others: calls on a machine that has none
+# of them return Status::unsupported_isa.
+set(SIMDBEZIER_ISAS "" CACHE STRING
+    "Instruction sets to build, for example avx2;avx512; empty: all of the processor's family")
+set(simdbezier_known_isas ${SIMDBEZIER_ISA_TABLE})
+list(TRANSFORM simdbezier_known_isas REPLACE "[|].*" "")
+foreach(isa IN LISTS SIMDBEZIER_ISAS)
+  if(NOT isa IN_LIST simdbezier_known_isas)
+    list(JOIN simdbezier_known_isas ", " known)
+    message(FATAL_ERROR "SIMDBEZIER_ISAS: expected some of ${known}, found '${isa}'")
+  endif()
+endforeach()
+if(SIMDBEZIER_ISAS)
+  list(JOIN SIMDBEZIER_ISAS "|" wanted)
   list(FILTER SIMDBEZIER_ISA_TABLE INCLUDE REGEX "^(${wanted})[|]")
 endif()
+
+# For builds that are made to be judged, not to be used (coverage, mutations, sanitizers): flags that
+# come behind all others.
+set(SIMDBEZIER_KERNEL_FLAGS "" CACHE STRING "Further compiler flags of the kernels")
+mark_as_advanced(SIMDBEZIER_KERNEL_FLAGS)
 
 # Cores from Skylake to Cascade Lake do not cache decoded instructions around a jump that touches
 # the end of 32 bytes (Intel's erratum on jump conditional code): whether a loop loses a third of

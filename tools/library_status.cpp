@@ -23,6 +23,9 @@ void check(Status status) {
     return;
   case Status::unknown_isa:
   case Status::unsupported_isa: {
+    if (available_isas().empty()) {
+      bad_input("this machine has none of the instruction sets that the library was built for");
+    }
     const char* const value = std::getenv("SIMDBEZIER_ISA");
     bad_usage("SIMDBEZIER_ISA: expected one of " + available_isa_names(", ") + ", found " +
               in_quotes(value == nullptr ? "" : value) +

@@ -27,8 +27,9 @@ enum class Isa : std::uint8_t {
 /// The instruction set of that name, or nothing. "automatic" is a name too.
 [[nodiscard]] SIMDBEZIER_API std::optional<Isa> isa_from_name(std::string_view name) noexcept;
 
-/// What this build contains and this machine can run, narrowest first; never empty.
-/// Probed once, thread-safe, static lifetime.
+/// What this build contains (SIMDBEZIER_ISAS when it was configured) and this machine can run,
+/// narrowest first. Empty only where the build leaves out what every machine has: all calls then
+/// return unsupported_isa. Probed once, thread-safe, static lifetime.
 [[nodiscard]] SIMDBEZIER_API std::span<const Isa> available_isas() noexcept;
 
 /// True for the instruction sets that round once per multiply-add (the FMA class of results).

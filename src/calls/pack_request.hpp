@@ -16,7 +16,7 @@ namespace simdbezier::detail {
 /// calls to report.
 inline Status packing_isa(const PackOptions& options, Isa& isa) noexcept {
   const Status status = resolve_isa(options.isa, isa);
-  if (status == Status::ok || options.isa != Isa::automatic) {
+  if (status == Status::ok || options.isa != Isa::automatic || available_isas().empty()) {
     return status;
   }
   isa = available_isas().back();

@@ -64,16 +64,15 @@ struct Resolution {
   Isa isa;
 };
 
+/// Of an empty SIMDBEZIER_ISA, too.
 Resolution resolve_automatic() noexcept {
   const char* const wish = std::getenv("SIMDBEZIER_ISA");
-  if (wish == nullptr || *wish == '\0') {
-    return {Status::ok, available_isas().back()};
-  }
-  const std::optional<Isa> isa = isa_from_name(wish);
+  const std::optional<Isa> isa =
+      wish == nullptr || *wish == '\0' ? Isa::automatic : isa_from_name(wish);
   if (!isa) {
     return {Status::unknown_isa, Isa::automatic};
   }
-  if (*isa == Isa::automatic) {
+  if (*isa == Isa::automatic && !available_isas().empty()) {
     return {Status::ok, available_isas().back()};
   }
   return {is_available(*isa) ? Status::ok : Status::unsupported_isa, *isa};

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/nets/net_operations_list.hpp"
+#include "tests/support/isas.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -226,11 +227,10 @@ TEST(NetArguments, FaultsAreNamed) {
 
 TEST(NetArguments, InstructionSets) {
   const Batch<float> batch = random_batch<float>(kPlain, kCount, 67);
-  const Isa absent = available_isas().back() == Isa::neon64 ? Isa::sse2 : Isa::neon64;
   for (const Operation<float>& operation : all_operations<float>()) {
     std::vector<std::vector<float>> values;
     if (operation.takes(kPlain)) {
-      EXPECT_EQ(operation.run(batch.nets(), kPlain, values, {.isa = absent}).status,
+      EXPECT_EQ(operation.run(batch.nets(), kPlain, values, {.isa = absent_isa()}).status,
                 Status::unsupported_isa)
           << operation.name;
     }

@@ -78,7 +78,7 @@ class Stage:
         data = os.environ.get('SIMDBEZIER_SHARED_DATA', '')
         log = run(['cmake', '-S', SOURCE, '-B', self.folder, '-G', 'Ninja',
                    '-DCMAKE_BUILD_TYPE=Release', '-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG',
-                   '-DSIMDBEZIER_KERNEL_FLAGS=-O1', f'-DSIMDBEZIER_KERNEL_ISAS={isas}',
+                   '-DSIMDBEZIER_KERNEL_FLAGS=-O1', f'-DSIMDBEZIER_ISAS={isas}',
                    '-DSIMDBEZIER_BUILD_TESTS=ON', '-DSIMDBEZIER_BUILD_BENCH=OFF',
                    f'-DSIMDBEZIER_SHARED_DATA={data}', *launcher])
         if log.returncode != 0:

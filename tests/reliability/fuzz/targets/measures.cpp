@@ -33,7 +33,7 @@ public:
     strided.fill(nets_.values);
     std::optional<Measures> expected;
     for (const Isa isa : available_isas()) {
-      Measures measures(*this, isa == Isa::scalar ? nets_.view() : strided.view(),
+      Measures measures(*this, isa == available_isas().front() ? nets_.view() : strided.view(),
                         with({}, isa, isa == Isa::sse2 ? 2 : 1));
       if (!expected) {
         expected.emplace(std::move(measures));

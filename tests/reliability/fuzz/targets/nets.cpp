@@ -149,7 +149,7 @@ private:
       out.push_back(MutableNets<T>::packed(one.values.data(), one.count, one.degree_u, one.degree_v,
                                            one.components, one.weights));
     }
-    return apply(nets, out, piece, with({}, Isa::scalar, 1));
+    return apply(nets, out, piece, with({}, available_isas().front(), 1));
   }
 
   void other_strides(const std::vector<Nets<T>>& expected, const NetReport& report,

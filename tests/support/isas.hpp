@@ -1,0 +1,24 @@
+// What builds and machines have of the instruction sets.
+#pragma once
+
+#include <algorithm>
+
+#include <simdbezier/isa.hpp>
+
+namespace simdbezier::tests {
+
+inline constexpr Isa kEveryIsa[] = {Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512, Isa::neon64};
+
+[[nodiscard]] inline bool is_available(Isa isa) {
+  return std::ranges::count(available_isas(), isa) > 0;
+}
+
+/// One that calls refuse; there is one, as no machine has both AVX-512 and NEON.
+[[nodiscard]] inline Isa absent_isa() { return *std::ranges::find_if_not(kEveryIsa, is_available); }
+
+/// Whether one that is available belongs to the class of results.
+[[nodiscard]] inline bool has_class(bool fused) {
+  return std::ranges::count(available_isas(), fused, fuses_multiply_add) > 0;
+}
+
+} // namespace simdbezier::tests
