@@ -4,48 +4,13 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/reliability/faults/counted_allocations.hpp"
 #include "tests/support/canvas.hpp"
 #include "tests/support/nets/generators.hpp"
-
-namespace {
-
-/// Allocations that still succeed; negative: all of them. The library's nothrow forms come here.
-std::atomic<int> g_allocations_left{-1};
-
-void* allocate(std::size_t bytes, std::size_t alignment) {
-  const int left = g_allocations_left;
-  if (left == 0) {
-    throw std::bad_alloc();
-  }
-  if (left > 0) {
-    --g_allocations_left;
-  }
-  const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
-  void* const memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
-  if (memory == nullptr) {
-    throw std::bad_alloc();
-  }
-  return memory;
-}
-
-} // namespace
-
-void* operator new(std::size_t bytes) { return allocate(bytes, alignof(std::max_align_t)); }
-void* operator new(std::size_t bytes, std::align_val_t alignment) {
-  return allocate(bytes, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*bytes*/) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*bytes*/, std::align_val_t /*alignment*/) noexcept {
-  std::free(memory);
-}
 
 #if defined(__linux__)
 namespace {
@@ -78,9 +43,9 @@ protected:
     int failed = 0;
     for (Status status = Status::out_of_memory; status == Status::out_of_memory; ++failed) {
       ASSERT_LT(failed, 100);
-      g_allocations_left = failed;
+      allow_allocations(failed);
       status = call(out);
-      g_allocations_left = -1;
+      allow_allocations(-1);
       ASSERT_EQ(canvas.untouched(), status == Status::out_of_memory);
       ASSERT_TRUE(status == Status::ok || status == Status::out_of_memory) << to_string(status);
     }
@@ -113,10 +78,10 @@ void records_without_staging(Isa isa, std::size_t lanes) {
       if (stride == 6) {
         out.normal = Vectors<T>::xyz(canvas.at(3), stride);
       }
-      g_allocations_left = 0;
+      allow_allocations(0);
       const Status status =
           evaluate_grid(set, Grid<T>::uniform(nu, 5), out, {.threads = 1, .isa = isa});
-      g_allocations_left = -1;
+      allow_allocations(-1);
       const bool direct = lanes > 0 && nu >= lanes && stride != 7;
       EXPECT_EQ(status, direct ? Status::ok : Status::out_of_memory)
           << to_string(isa) << ", " << nu << " samples a row, " << stride << " values a record";
@@ -157,9 +122,9 @@ TEST_F(Allocation, TilesComeAllOrNot) {
       ASSERT_LT(failed, 100);
       std::size_t samples = 0;
       const auto count = [&](const Tile<float>& tile) { samples += tile.samples; };
-      g_allocations_left = failed;
+      allow_allocations(failed);
       status = evaluate_tiles(set_, Grid<float>::uniform(n, n), {}, count, {.threads = 1});
-      g_allocations_left = -1;
+      allow_allocations(-1);
       ASSERT_EQ(samples, status == Status::ok ? kPatches * n * n : 0) << to_string(status);
     }
     EXPECT_GT(failed, 1);

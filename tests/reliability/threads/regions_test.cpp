@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
-#include "tests/support/nets/generators.hpp"
+#include "tests/reliability/threads/shared_set.hpp"
 #include "tests/support/tile_collector.hpp"
 
 namespace simdbezier::tests {
@@ -51,12 +51,9 @@ class Regions : public ::testing::Test {
 protected:
   Regions() {
     omp_set_max_active_levels(3); // by default inner regions get no threads, whatever they ask for
-    EXPECT_EQ(evaluate_grid(set_, grid_, reference_.outputs(), {.threads = 1}), Status::ok);
   }
 
-  PatchSet<float> set_ = packed<float>(mixed_nets(kPatches));
-  Grid<float> grid_ = Grid<float>::uniform(n, n);
-  Planes<float> reference_{kPatches * n * n, {.second = true}};
+  SharedSet shared_{kPatches, n};
 };
 
 TEST_F(Regions, TilesStayOnTheCallersThread) {
@@ -69,24 +66,16 @@ TEST_F(Regions, TilesStayOnTheCallersThread) {
       elsewhere += std::this_thread::get_id() == caller ? 0 : 1;
       collector(tile);
     };
-    const Status status = evaluate_tiles(set_, grid_, format, receive);
-    return Found{status, collector.different_from(reference_) + elsewhere, collector.workers()};
+    const Status status = evaluate_tiles(shared_.set, shared_.grid, format, receive);
+    return Found{status, collector.different_from(shared_.reference) + elsewhere,
+                 collector.workers()};
   }));
 }
 
 TEST_F(Regions, GridsAndPatchGridsAreRight) {
+  expect_right(in_region([&] { return Found{Status::ok, shared_.grid_errors({}), 0}; }));
   expect_right(in_region([&] {
-    Planes<float> planes(kPatches * n * n, {.second = true});
-    const Status status = evaluate_grid(set_, grid_, planes.outputs());
-    return Found{status, differing_values(planes, reference_), 0};
-  }));
-  const std::vector<std::uint32_t> sizes(kPatches, n);
-  expect_right(in_region([&] {
-    Planes<float> planes(kPatches * n * n, {.second = true});
-    const Status status =
-        evaluate_patch_grids(set_, {sizes.data(), sizes.data(), nullptr}, planes.outputs(),
-                             {.destination = Destination::memory});
-    return Found{status, differing_values(planes, reference_), 0};
+    return Found{Status::ok, shared_.patch_grid_errors({.destination = Destination::memory}), 0};
   }));
 }
 
@@ -94,8 +83,9 @@ TEST_F(Regions, GridsAndPatchGridsAreRight) {
 TEST_F(Regions, OutsideThereAreSeveralWorkers) {
   const TileFormat format = tile_format(kP, false, TileLayout::planes, n);
   TileCollector<float> collector(kP, format, 0, kPatches, n, n);
-  EXPECT_EQ(evaluate_tiles<float>(set_, grid_, format, collector, {.threads = 3}), Status::ok);
-  EXPECT_EQ(collector.different_from(reference_), 0U);
+  EXPECT_EQ(evaluate_tiles<float>(shared_.set, shared_.grid, format, collector, {.threads = 3}),
+            Status::ok);
+  EXPECT_EQ(collector.different_from(shared_.reference), 0U);
   EXPECT_EQ(collector.workers(), 3U);
 }
 

@@ -12,8 +12,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
-#include "tests/support/evaluation.hpp"
-#include "tests/support/nets/generators.hpp"
+#include "tests/reliability/threads/shared_set.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -22,41 +21,22 @@ constexpr std::size_t kPatches = 24;
 constexpr std::size_t n = 9;
 constexpr int kCallers = 16;
 
-/// What every caller shares: one constant set, and what it must give.
-struct Shared {
-  std::vector<Net> nets = mixed_nets(kPatches);
-  PatchSet<float> set = packed<float>(nets);
-  Grid<float> grid = Grid<float>::uniform(n, n);
-  Planes<float> reference{kPatches * n * n, {.second = true}};
-
-  Shared() { EXPECT_EQ(evaluate_grid(set, grid, reference.outputs(), {.threads = 1}), Status::ok); }
-};
-
-const Shared& shared() {
-  static const Shared all;
+const SharedSet& shared() {
+  static const SharedSet all(kPatches, n);
   return all;
 }
 
-/// Values that differ from the reference after one call of each kind with this many threads.
+/// Each: values that differ from the reference after one call with this many threads.
 std::size_t grid_errors(int threads) {
-  const Shared& all = shared();
-  Planes<float> planes(kPatches * n * n, {.second = true});
-  const Status status = evaluate_grid(all.set, all.grid, planes.outputs(),
-                                      {.threads = threads, .destination = Destination::memory});
-  return status == Status::ok ? differing_values(planes, all.reference) : 1;
+  return shared().grid_errors({.threads = threads, .destination = Destination::memory});
 }
 
 std::size_t patch_grid_errors(int threads) {
-  const Shared& all = shared();
-  const std::vector<std::uint32_t> sizes(kPatches, n);
-  Planes<float> planes(kPatches * n * n, {.second = true});
-  const Status status = evaluate_patch_grids(all.set, {sizes.data(), sizes.data(), nullptr},
-                                             planes.outputs(), {.threads = threads});
-  return status == Status::ok ? differing_values(planes, all.reference) : 1;
+  return shared().patch_grid_errors({.threads = threads});
 }
 
 std::size_t scattered_errors(int threads) {
-  const Shared& all = shared();
+  const SharedSet& all = shared();
   SampleArrays<float> samples;
   for (std::size_t p = 0; p < kPatches; ++p) {
     for (std::size_t k = 0; k < n * n; ++k) {
@@ -64,16 +44,16 @@ std::size_t scattered_errors(int threads) {
                   uniform_centred<float>(static_cast<int>(k / n), n - 1));
     }
   }
-  Planes<float> planes(kPatches * n * n, {.second = true});
-  const Status status = evaluate_scattered(all.set, samples.view(Parameters::centred),
-                                           planes.outputs(), {.threads = threads});
-  return status == Status::ok ? differing_values(planes, all.reference) : 1;
+  return all.errors([&](const auto& out) {
+    return evaluate_scattered(all.set, samples.view(Parameters::centred), out,
+                              {.threads = threads});
+  });
 }
 
 /// Tiles come from several threads at once, each with a worker's number of its own; what they write
 /// is apart, so nothing has to be locked.
 std::size_t tile_errors(int threads) {
-  const Shared& all = shared();
+  const SharedSet& all = shared();
   std::vector<float> x(kPatches * n * n, -777);
   const auto take = [&](const Tile<float>& tile) {
     float* const to = x.data() + (tile.first_patch * n + tile.first_row) * n;
@@ -92,24 +72,23 @@ std::size_t tile_errors(int threads) {
 
 /// Packing anew while others read; the set that is packed into has a reader as well, of its copy.
 std::size_t packing_errors(int threads) {
-  const Shared& all = shared();
+  const SharedSet& all = shared();
   PatchSet<float> own = all.set;
   const PatchSet<float> copy = own;
   const std::vector<float> points = packed_points<float>(std::span(all.nets));
   if (!pack(control_nets<float>(all.nets, points), own, {.threads = threads})) {
     return 1;
   }
-  Planes<float> planes(kPatches * n * n, {.second = true});
-  Planes<float> of_copy(kPatches * n * n, {.second = true});
-  if (evaluate_grid(own, all.grid, planes.outputs(), {.threads = threads}) != Status::ok ||
-      evaluate_grid(copy, all.grid, of_copy.outputs(), {.threads = 1}) != Status::ok) {
-    return 1;
-  }
-  return differing_values(planes, all.reference) + differing_values(of_copy, all.reference);
+  const auto errors_of = [&](const PatchSet<float>& set, int own_threads) {
+    return all.errors([&](const auto& out) {
+      return evaluate_grid(set, all.grid, out, {.threads = own_threads});
+    });
+  };
+  return errors_of(own, threads) + errors_of(copy, 1);
 }
 
 std::size_t net_errors(int threads) {
-  const Shared& all = shared();
+  const SharedSet& all = shared();
   const std::vector<float> points = packed_points<float>(std::span(all.nets));
   const ControlNets<float> nets = control_nets<float>(all.nets, points);
   std::vector<EdgeLink> links(4 * kPatches);
