@@ -15,7 +15,7 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/simdbezierConfig.cmake
 # A static library hands its OpenMP runtime on to whoever links it; a shared one does not.
 set(pc_libs_private "")
 set(pc_cflags "")
-if(NOT BUILD_SHARED_LIBS)
+if(simdbezier_type STREQUAL "STATIC_LIBRARY")
   set(pc_cflags "-DSIMDBEZIER_STATIC")
   foreach(name IN LISTS OpenMP_CXX_LIB_NAMES)
     string(APPEND pc_libs_private " -l${name}")
