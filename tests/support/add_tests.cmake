@@ -10,6 +10,11 @@ function(simdbezier_add_tests program prefix)
   add_executable(${program} ${arg_SOURCES})
   target_link_libraries(${program} PRIVATE simdbezier_test_support simdbezier_private_flags
                                            ${arg_LIBRARIES} GTest::gtest_main)
+  # Precompiled headers demand the same flags.
+  if(TARGET simdbezier_test_headers AND "simdbezier::simdbezier" IN_LIST arg_LIBRARIES
+     AND NOT "OpenMP::OpenMP_CXX" IN_LIST arg_LIBRARIES)
+    target_precompile_headers(${program} REUSE_FROM simdbezier_test_headers)
+  endif()
   set(list ${CMAKE_CURRENT_BINARY_DIR}/${program}_suites.cmake)
   file(GENERATE OUTPUT ${list}
        CONTENT "set(program \"$<TARGET_FILE:${program}>\")
