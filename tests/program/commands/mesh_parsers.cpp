@@ -146,15 +146,19 @@ ParsedMesh parse_ply(const std::string& bytes) {
       mesh.normals.push_back(vector());
     }
   }
+  std::size_t no_triangles = 0; // counted: a mesh has more corners than expectations are fast
+  std::size_t no_vertices = 0;
   for (std::size_t k = 0; k < header.faces && data.rest() > 0; ++k) {
-    EXPECT_EQ(data.take<unsigned char>(), 3);
+    no_triangles += data.take<unsigned char>() == 3 ? 0 : 1;
     std::array<std::size_t, 3> corners{};
     for (std::size_t& corner : corners) {
       corner = static_cast<std::size_t>(data.take<std::int32_t>());
-      EXPECT_LT(corner, header.vertices);
+      no_vertices += corner < header.vertices ? 0 : 1;
     }
     mesh.triangles.push_back(corners);
   }
+  EXPECT_EQ(no_triangles, 0U);
+  EXPECT_EQ(no_vertices, 0U);
   EXPECT_EQ(mesh.positions.size(), header.vertices);
   EXPECT_EQ(mesh.triangles.size(), header.faces);
   EXPECT_EQ(data.rest(), 0U);
