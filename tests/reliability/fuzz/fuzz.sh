@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Fuzzes every target for a number of seconds, or the ones that are named:
 #
-#     tests/reliability/fuzz/fuzz.sh SECONDS [TARGET…]
+#     tests/reliability/fuzz/fuzz.sh SECONDS [--isas LIST] [TARGET…]
 #
+# LIST is what SIMDBEZIER_ISAS takes, "scalar;avx2" for example: fewer instruction sets build faster.
 # Needs what the tests need and, on Debian and Ubuntu, clang and libclang-rt-14-dev; installs nothing.
 # Builds with address and undefined-behaviour sanitizers in build/fuzz, which takes some 20 minutes of
 # a core the first time. Ends with exit code 1 and the reproducer's path at the first finding.
@@ -13,17 +14,23 @@ build=build/fuzz
 here=tests/reliability/fuzz
 
 usage() {
-  echo "usage: $here/fuzz.sh SECONDS [TARGET…]" >&2
+  echo "usage: $here/fuzz.sh SECONDS [--isas LIST] [TARGET…]" >&2
   exit 2
 }
 [[ ${1:-} =~ ^[1-9][0-9]*$ ]] || usage
 seconds=$1
 shift
+isas=
+if [[ ${1:-} == --isas ]]; then
+  isas=${2:?--isas needs a list}
+  shift 2
+fi
 
 mkdir -p "$build"
 cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Release \
   -DBUILD_SHARED_LIBS=OFF -DSIMDBEZIER_BUILD_BENCH=OFF -DSIMDBEZIER_BUILD_EXAMPLES=OFF \
-  -DSIMDBEZIER_BUILD_TESTS=ON -DSIMDBEZIER_SANITIZE=fuzzer-no-link,address,undefined \
+  -DSIMDBEZIER_BUILD_TOOLS=ON -DSIMDBEZIER_BUILD_TESTS=ON -DSIMDBEZIER_ISAS="$isas" \
+  -DSIMDBEZIER_SANITIZE=fuzzer-no-link,address,undefined \
   >"$build/configure.log" 2>&1 || { cat "$build/configure.log" >&2; exit 1; }
 mapfile -t known <"$build/$here/targets.txt"
 targets=("$@")
