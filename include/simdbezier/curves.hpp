@@ -142,13 +142,12 @@ struct CurveSamples {
 /// as do calls for the last components of sets with more than three (Options::first_component).
 ///
 /// The tangent is d1 / |d1|. Where d1 is zero (a cusp, repeated control points) it is the direction
-/// of the first Taylor coefficient of d1 that is not, on the way to the curve's middle (upwards from
-/// t = 1/2): SampleStatus::limit. Where all of them are zero the curve is a point and the tangent
-/// zero: SampleStatus::degenerate. Which one it is, is decided exactly, for the control points as
-/// given. The curvature there is its limit on the same way: +infinity at a usual cusp, 0 on a
-/// straight line or a point. Neither is ever nan for t in [0,1]. Both exist for sets of two and
-/// three components.
-/// Source: G. Farin, Curves and Surfaces for CAGD, chapters 4, 5, 10 and 13.
+/// of the first Taylor coefficient of d1 that is not, on the way to the curve's middle (upwards
+/// from t = 1/2): SampleStatus::limit. Where all of them are zero the curve is a point and the
+/// tangent zero: SampleStatus::degenerate. Which one it is, is decided exactly, for the control
+/// points as given. The curvature there is its limit on the same way: +infinity at a usual cusp, 0
+/// on a straight line or a point. Neither is ever nan for t in [0,1]. Both exist for sets of two
+/// and three components. Source: G. Farin, Curves and Surfaces for CAGD, chapters 4, 5, 10 and 13.
 template <typename T>
 struct CurveOutputs {
   Vectors<T> position;            ///< C(t)

@@ -139,7 +139,8 @@ struct Outputs {
   Vectors<T> normal;   ///< dS/du x dS/dv, unit length or zero, never nan at finite parameters
   SampleStatus* status = nullptr; ///< one value a sample, unit stride
   /// Of sets with three components. From first and second derivatives in the same pass; nan where
-  /// the status is not `regular`. Source: M. P. do Carmo, Differential Geometry of Curves and Surfaces, 3.3.
+  /// the status is not `regular`. Source: M. P. do Carmo, Differential Geometry of Curves and
+  /// Surfaces, 3.3.
   Curvatures<T> curvature;
 };
 
