@@ -32,7 +32,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 WORK = ROOT / 'build' / 'mutate'
 SOURCE = WORK / 'source'
 SHIPPED = ('include', 'kernels', 'src', 'tools')
-COPIED = SHIPPED + ('tests', 'cmake', 'examples', 'docs')
+COPIED = SHIPPED + ('bench', 'tests', 'cmake', 'examples', 'docs')
 # Instruction sets of the two builds; what the first cannot see the second may.
 STAGES = (('scalar', 'scalar'), ('vectors', 'scalar;avx2;avx512'))
 MOST_MEMORY = 1 << 34
