@@ -82,7 +82,7 @@ public:
     options_.isa = row.isa;
     simdbezier::PackOptions packing;
     packing.threads = 0;
-    packed_ = static_cast<bool>(simdbezier::pack_curves(
+    packed_ = static_cast<bool>(simdbezier::pack(
         simdbezier::ControlCurves<T>::packed(points_, count_, row.degree, 3,
                                              row.rational ? simdbezier::Weights::cartesian
                                                           : simdbezier::Weights::none),
@@ -128,8 +128,7 @@ public:
 
 private:
   simdbezier::Status evaluate(const simdbezier::Options& options) const {
-    return simdbezier::evaluate_curves(set_, simdbezier::CurveGrid<T>::uniform(row_.n), outputs_,
-                                       options);
+    return simdbezier::evaluate(set_, simdbezier::CurveGrid<T>::uniform(row_.n), outputs_, options);
   }
 
   [[nodiscard]] std::size_t order() const { return static_cast<std::size_t>(row_.degree) + 1; }

@@ -76,7 +76,6 @@ public:
     set_ = &shared_patch_set<T>(patches_);
     options_.threads = 1;
     options_.isa = isa;
-    options_.patch_count = patches_;
   }
 
   void operator()() { (void)evaluate(options_); }
@@ -98,9 +97,8 @@ public:
 
 private:
   Status evaluate(const simdbezier::Options& options) const {
-    return simdbezier::evaluate_derivatives(*set_, simdbezier::Grid<T>::uniform(kSide, kSide),
-                                            std::span<const PartialDerivative<T>>(wanted_),
-                                            options);
+    return simdbezier::evaluate_derivatives(
+        *set_, simdbezier::Grid<T>::uniform(kSide, kSide, {0, patches_}), wanted_, options);
   }
 
   [[nodiscard]] std::string check_sample(std::size_t k) const {

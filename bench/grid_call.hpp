@@ -90,7 +90,6 @@ public:
       options_.threads = row.threads;
       options_.watertight = row.watertight;
       options_.isa = row.isa;
-      options_.patch_count = job_.patches;
       if (row.plain) {
         options_.destination = simdbezier::Destination::cache;
       }
@@ -137,8 +136,9 @@ public:
 
 private:
   simdbezier::Status evaluate(const simdbezier::Options& options) const {
-    return simdbezier::evaluate_grid(*set_, simdbezier::Grid<T>::uniform(job_.nu, job_.nv),
-                                     outputs_, options);
+    return simdbezier::evaluate(*set_,
+                                simdbezier::Grid<T>::uniform(job_.nu, job_.nv, {0, job_.patches}),
+                                outputs_, options);
   }
 
   [[nodiscard]] const T* nets() const {

@@ -10,16 +10,12 @@
 
 namespace simdbezier_bench {
 
-template <typename T>
-using GroupMember = simdbezier::Vectors<T> simdbezier::Outputs<T>::*;
-
-/// The groups of the library's Outputs, in the order of the name.
-template <typename T>
-std::span<const GroupMember<T>> members_of(OutputGroups groups) {
-  using Out = simdbezier::Outputs<T>;
-  static constexpr GroupMember<T> kDerivatives[] = {&Out::position, &Out::du,  &Out::dv,
-                                                    &Out::duu,      &Out::duv, &Out::dvv};
-  static constexpr GroupMember<T> kNormal[] = {&Out::position, &Out::normal};
+/// The library's outputs, in the order of the name.
+inline std::span<const simdbezier::Output> outputs_of(OutputGroups groups) {
+  using simdbezier::Output;
+  static constexpr Output kDerivatives[] = {Output::position, Output::du,  Output::dv,
+                                            Output::duu,      Output::duv, Output::dvv};
+  static constexpr Output kNormal[] = {Output::position, Output::normal};
   if (groups == OutputGroups::position_normal) {
     return kNormal;
   }
@@ -30,8 +26,8 @@ template <typename T>
 simdbezier::Outputs<T> library_outputs(const Results<T>& results) {
   simdbezier::Outputs<T> out;
   T* const* p = results.component;
-  for (const GroupMember<T> member : members_of<T>(results.groups)) {
-    out.*member = {p[0], p[1], p[2], static_cast<std::ptrdiff_t>(results.stride)};
+  for (const simdbezier::Output output : outputs_of(results.groups)) {
+    out[output] = {p[0], p[1], p[2], static_cast<std::ptrdiff_t>(results.stride)};
     p += 3;
   }
   if (results.groups == OutputGroups::curvature) {
@@ -45,8 +41,8 @@ Results<T> results_of(const simdbezier::Outputs<T>& out, OutputGroups groups) {
   Results<T> results;
   results.groups = groups;
   T** p = results.component;
-  for (const GroupMember<T> member : members_of<T>(groups)) {
-    const simdbezier::Vectors<T>& group = out.*member;
+  for (const simdbezier::Output output : outputs_of(groups)) {
+    const simdbezier::Vectors<T>& group = out[output];
     *p++ = group.x;
     *p++ = group.y;
     *p++ = group.z;

@@ -92,8 +92,8 @@ public:
     options.threads = 1;
     options.isa = isa_;
     const std::string failure = run_verified(options, [&](const auto& verified) {
-      return simdbezier::evaluate_grid(set_, simdbezier::Grid<T>::uniform(kSize, kSize),
-                                       library_outputs(job.out), verified);
+      return simdbezier::evaluate(set_, simdbezier::Grid<T>::uniform(kSize, kSize),
+                                  library_outputs(job.out), verified);
     });
     return failure.empty() ? check_grid(job, shared_nets<T>(patches_)) : failure;
   }

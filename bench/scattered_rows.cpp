@@ -118,12 +118,9 @@ public:
 
 private:
   simdbezier::Status evaluate(const simdbezier::Options& options) const {
-    simdbezier::Samples<T> samples;
-    samples.count = job_.count;
-    samples.patch = job_.patch;
-    samples.u = job_.u;
-    samples.v = job_.v;
-    return simdbezier::evaluate_scattered(*set_, samples, outputs_, options);
+    const simdbezier::Samples<T> samples{
+        {job_.patch, job_.count}, {job_.u, job_.count}, {job_.v, job_.count}};
+    return simdbezier::evaluate(*set_, samples, outputs_, options);
   }
 
   static std::vector<T> random_parameters(std::uint64_t seed) {

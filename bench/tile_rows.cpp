@@ -77,12 +77,13 @@ public:
     const std::size_t bytes = row.n * row.n * 3 * group_count(row.outputs) * sizeof(T);
     patches_ = row.patches == 0 ? (kWholeBytes + bytes - 1) / bytes : row.patches;
     set_ = &shared_patch_set<T>(patches_);
-    format_.normal = row.outputs == OutputGroups::position_normal;
-    format_.du = format_.dv = row.outputs == OutputGroups::position_derivatives;
+    format_.outputs = {};
+    for (const simdbezier::Output output : outputs_of(row.outputs)) {
+      format_.outputs.add(output);
+    }
     format_.layout = row.layout;
     options_.threads = row.threads;
     options_.isa = row.isa;
-    options_.patch_count = patches_;
   }
 
   void operator()() {
@@ -128,8 +129,8 @@ private:
       return read_lines(tile.out.position.x, tile.samples * 3 * group_count(row_.outputs));
     }
     std::uint64_t sum = 0;
-    for (const GroupMember<T> member : members_of<T>(row_.outputs)) {
-      const simdbezier::Vectors<T>& group = tile.out.*member;
+    for (const simdbezier::Output output : outputs_of(row_.outputs)) {
+      const simdbezier::Vectors<T>& group = tile.out[output];
       if (row_.layout == TileLayout::xyz) {
         sum += read_lines(group.x, 3 * tile.samples);
       } else {
@@ -142,8 +143,9 @@ private:
 
   template <typename Function>
   simdbezier::Status evaluate(const simdbezier::Options& options, Function&& function) const {
-    return simdbezier::evaluate_tiles(*set_, simdbezier::Grid<T>::uniform(row_.n, row_.n), format_,
-                                      simdbezier::TileFunction<T>(function), options);
+    return simdbezier::evaluate_tiles(*set_,
+                                      simdbezier::Grid<T>::uniform(row_.n, row_.n, {0, patches_}),
+                                      format_, simdbezier::TileFunction<T>(function), options);
   }
 
   std::string check_tile(const Tile<T>& tile, const T* nets) const {

@@ -3,7 +3,7 @@
 // triangles of a kept piece are within the tolerance (and their own fold) everywhere.
 //
 // Neighbours of different levels meet in T-junctions, which a closed mesh would still have to join.
-// Per-patch grids (evaluate_patch_grids) are the other way to spend samples where they count.
+// Grids of their own (PatchGrids) are the other way to spend samples where they count.
 #include <array>
 #include <cstdio>
 #include <vector>

@@ -17,7 +17,7 @@ int main() {
 
   CurveSet<double> curves;
   const auto polygon = ControlCurves<double>::packed(points.data(), 1, 3);
-  if (const PackReport report = pack_curves(polygon, curves); !report) {
+  if (const PackReport report = pack(polygon, curves); !report) {
     std::fprintf(stderr, "%s\n", to_string(report.status).data());
     return 1;
   }
@@ -30,7 +30,7 @@ int main() {
   out.position = Vectors<double>::xyz(position.data());
   out.tangent = Vectors<double>::xyz(tangent.data());
   out.curvature = curvature.data();
-  const Status status = evaluate_curves(curves, CurveGrid<double>::uniform(kSamples), out);
+  const Status status = evaluate(curves, CurveGrid<double>::uniform(kSamples), out);
   if (status != Status::ok) {
     std::fprintf(stderr, "%s\n", to_string(status).data());
     return 1;

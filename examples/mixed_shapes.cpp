@@ -59,7 +59,7 @@ int main() {
   Outputs<double> out;
   out.position = Vectors<double>::xyz(position.data());
   out.curvature.gaussian = gaussian.data();
-  const Status status = evaluate_grid(patches, Grid<double>::uniform(n, n), out);
+  const Status status = evaluate(patches, Grid<double>::uniform(n, n), out);
   if (status != Status::ok) {
     std::fprintf(stderr, "%s\n", to_string(status).data());
     return 1;

@@ -33,7 +33,7 @@ int main() {
   Outputs<float> out;
   out.position = Vectors<float>::xyz(vertices[0].position, kStride);
   out.normal = Vectors<float>::xyz(vertices[0].normal, kStride);
-  const Status status = evaluate_grid(patches, Grid<float>::uniform(n, n), out);
+  const Status status = evaluate(patches, Grid<float>::uniform(n, n), out);
   if (status != Status::ok) {
     std::fprintf(stderr, "%s\n", to_string(status).data());
     return 1;

@@ -1,6 +1,6 @@
 // Uniform subdivision against one grid call: cutting a patch four times in each direction gives the
-// vertices of a 17 x 17 mesh, which evaluate_grid() computes straight away. split() cuts all
-// patches of a batch once.
+// vertices of a 17 x 17 mesh, which evaluate() computes straight away. split() cuts all patches of
+// a batch once.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +23,7 @@ double difference_from_grid(const seed::Mesh& mesh, const std::vector<double>& p
   Outputs<double> out;
   out.position = Vectors<double>::xyz(position.data());
   if (!pack(ControlNets<double>{points.data(), 1}, patches) ||
-      evaluate_grid(patches, Grid<double>::uniform(mesh.side, mesh.side), out) != Status::ok) {
+      evaluate(patches, Grid<double>::uniform(mesh.side, mesh.side), out) != Status::ok) {
     return HUGE_VAL;
   }
   double worst = 0;
@@ -66,7 +66,7 @@ int main() {
 
   const bool grid = difference_from_grid(mesh, points) < 1e-14;
   const bool quarters = difference_from_split(net, points) < 1e-15;
-  std::printf("evaluate_grid() gives the same vertices within 1e-14: %s\n", grid ? "yes" : "no");
+  std::printf("evaluate() gives the same vertices within 1e-14: %s\n", grid ? "yes" : "no");
   std::printf("split() gives the same quarters within 1e-15: %s\n", quarters ? "yes" : "no");
   return grid && quarters ? 0 : 1;
 }

@@ -70,8 +70,8 @@ int main() {
     return 1;
   }
 
-  TileFormat format; // has positions by default
-  format.normal = true;
+  TileFormat format;
+  format.outputs = {Output::position, Output::normal};
   std::vector<Findings> findings(kThreads);
   Options options;
   options.threads = kThreads;

@@ -53,9 +53,7 @@ private:
   static constexpr std::size_t kCurvatures = 4;
 
   static Vectors<T>& group_of(Outputs<T>& out, OutputGroup group) {
-    Vectors<T>* const members[] = {&out.position, &out.du,  &out.dv,    &out.duu,
-                                   &out.duv,      &out.dvv, &out.normal};
-    return *members[static_cast<std::size_t>(group)];
+    return out[static_cast<Output>(group)];
   }
 
   std::vector<OutputGroup> groups_;
@@ -163,9 +161,8 @@ public:
         number = static_cast<std::uint32_t>(at - packed_.begin());
       }
     }
-    const Samples<T> samples{patch.size(), patch.data(), block.x.data(), block.y.data(),
-                             Parameters::centred};
-    check(evaluate_scattered(set_, samples, out, options_));
+    const Samples<T> samples{patch, block.x, block.y, Parameters::centred};
+    check(simdbezier::evaluate(set_, samples, out, options_));
   }
 
 private:

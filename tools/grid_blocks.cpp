@@ -1,5 +1,6 @@
 #include <tools/grid_blocks.hpp>
 
+#include <span>
 #include <string>
 
 #include <tools/counts.hpp>
@@ -61,9 +62,10 @@ void GridEvaluator<T>::evaluate(const GridBlock& block, const Outputs<T>& out) {
   options.threads = threads_;
   Grid<T> grid = Grid<T>::uniform(grid_.nu, grid_.nv);
   if (block.row_count != grid_.nv) {
-    grid = {grid_.nu, block.row_count, x_.data(), y_.data() + block.first_row, Parameters::centred};
+    grid = Grid<T>::at(x_, std::span(y_).subspan(block.first_row, block.row_count),
+                       Parameters::centred);
   }
-  check(evaluate_grid(set_, grid, out, options));
+  check(simdbezier::evaluate(set_, grid, out, options));
 }
 
 template class GridEvaluator<float>;

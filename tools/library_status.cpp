@@ -18,7 +18,7 @@ std::string available_isa_names(std::string_view separator) {
 }
 
 void check(Status status) {
-  switch (status) {
+  switch (status.code()) {
   case Status::ok:
     return;
   case Status::unknown_isa:

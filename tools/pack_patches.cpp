@@ -16,7 +16,7 @@ template <typename T>
   const auto found = [&] {
     return shortest(file.point(patch, point)[static_cast<std::size_t>(report.component)]);
   };
-  switch (report.status) {
+  switch (report.status.code()) {
   case Status::non_finite_input:
     bad_input(file.place(patch, point) + ": expected coordinates within the range of " + type +
               ", found " + found());

@@ -6,9 +6,10 @@
 #include <span>
 
 #include <simdbezier/control_nets.hpp>
-#include <simdbezier/evaluate.hpp>
+#include <simdbezier/options.hpp>
 #include <simdbezier/patch_edge.hpp>
 #include <simdbezier/status.hpp>
+#include <simdbezier/vectors.hpp>
 
 namespace simdbezier {
 
@@ -44,17 +45,17 @@ struct EdgeLink {
 ///              equal, whatever their weights; homogeneous ones are divided for that.
 /// Allocation:  about 30 bytes an edge. Threads: Options::threads, for hashing; other options have
 ///              no meaning. Determinism: the result is a function of the input.
-/// Returns:     ok | null_input | null_output | bad_degree | bad_components | bad_stride |
-///              overlapping_outputs | size_overflow | out_of_memory. On an error nothing has been
-///              written.
+/// Returns:     ok | null_input | input_too_small | null_output | output_too_small | bad_degree |
+///              bad_components | bad_stride | overlapping_outputs | size_overflow | out_of_memory.
+///              On an error nothing has been written.
 /// Cost:        O(edges) by hashing, some 100 ns an edge.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<S>> sets,
-                                                   EdgeLink* edges,
+                                                   Values<EdgeLink> edges,
                                                    const Options& options = {}) noexcept;
 
 template <typename S>
-[[nodiscard]] Status find_adjacency(const ControlNets<S>& nets, EdgeLink* edges,
+[[nodiscard]] Status find_adjacency(const ControlNets<S>& nets, Values<EdgeLink> edges,
                                     const Options& options = {}) noexcept {
   return find_adjacency(std::span<const ControlNets<S>>(&nets, 1), edges, options);
 }

@@ -1,8 +1,10 @@
 // A view of the caller's control points.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace simdbezier {
 
@@ -43,6 +45,8 @@ struct ControlNets {
   std::ptrdiff_t component_stride = 1;
   int components = 3; ///< 1 to kMostComponents, without the weight
   Weights weights = Weights::none;
+  /// Where it is known, the memory that all values must lie in (else input_too_small).
+  std::span<const S> memory = {};
 
   /// Points with all of their values side by side, row after row, patch after patch.
   [[nodiscard]] static constexpr ControlNets packed(const S* points, std::size_t count,
@@ -50,8 +54,24 @@ struct ControlNets {
                                                     Weights weights = Weights::none) noexcept {
     const std::ptrdiff_t point = components + (weights == Weights::none ? 0 : 1);
     const std::ptrdiff_t row = (degree_u + 1) * point;
-    return {points, count, degree_u, degree_v,   (degree_v + 1) * row,
-            row,    point, 1,        components, weights};
+    return {points, count,      degree_u, degree_v, (degree_v + 1) * row, row, point,
+            1,      components, weights,  {}};
+  }
+  /// As many nets as there are points for. An incomplete one counts, so that calls refuse it.
+  [[nodiscard]] static constexpr ControlNets packed(std::span<const S> points, int degree_u = 3,
+                                                    int degree_v = 3, int components = 3,
+                                                    Weights weights = Weights::none) noexcept {
+    ControlNets nets = packed(points.data(), 0, degree_u, degree_v, components, weights);
+    const auto net = static_cast<std::size_t>(nets.patch_stride < 1 ? 1 : nets.patch_stride);
+    nets.count = points.size() / net + (points.size() % net == 0 ? 0 : 1);
+    nets.memory = points;
+    return nets;
+  }
+  [[nodiscard]] static constexpr ControlNets packed(std::span<const std::array<S, 3>> points,
+                                                    int degree_u = 3, int degree_v = 3) noexcept {
+    return packed(points.empty() ? std::span<const S>()
+                                 : std::span<const S>(points.front().data(), 3 * points.size()),
+                  degree_u, degree_v);
   }
 };
 

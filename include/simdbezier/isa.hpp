@@ -1,25 +1,14 @@
 // Instruction sets: which exist, which this machine has, which one runs.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
 
+#include <simdbezier/instruction_set.hpp>
 #include <simdbezier/status.hpp>
 
 namespace simdbezier {
-
-/// The instruction sets that kernels are compiled for. Results are bit-equal inside a class:
-/// avx2, avx512 and neon64 fuse multiply and add; scalar and sse2 round after each.
-enum class Isa : std::uint8_t {
-  automatic, ///< SIMDBEZIER_ISA where it is set, otherwise the widest that the machine has
-  scalar,
-  sse2,
-  avx2,   ///< AVX2 and FMA
-  avx512, ///< AVX-512 F, CD, DQ, BW, VL
-  neon64  ///< the aarch64 baseline
-};
 
 /// The name used by SIMDBEZIER_ISA and in benchmark names: "scalar", "sse2", …
 [[nodiscard]] SIMDBEZIER_API std::string_view to_string(Isa isa) noexcept;

@@ -2,13 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
-#include <simdbezier/control_nets.hpp>
 #include <simdbezier/curves.hpp>
 #include <simdbezier/patch_edge.hpp>
-#include <simdbezier/patch_set.hpp>
-#include <simdbezier/status.hpp>
 
 namespace simdbezier {
 
@@ -31,7 +27,8 @@ template <typename S>
           along_u ? nets.point_stride : nets.row_stride,
           nets.component_stride,
           nets.components,
-          nets.weights};
+          nets.weights,
+          nets.memory};
 }
 
 /// The control points Q_j(u0) = sum_i P[j][i] B_i(u0) of the iso-parametric curve S(u0, .) of every
@@ -42,27 +39,30 @@ template <typename S>
 /// u0:         any finite value; 0 and 1 give the boundary's points exactly.
 /// points:     count * (degree_v + 1) * (components + 1 with weights) values, packed as in
 ///             ControlCurves::packed(); may not overlap the nets. No alignment needed.
-/// threads:    as Options::threads.
+/// options:    Options::threads is honoured, its other members have no meaning.
 /// Numerics:   de Casteljau's algorithm in double, (1-t) a + t b at every step: a reversed net
 ///             gives the same bits at 1 - u0 where that is exact. Error at most
 ///             2 (degree_u + 1) 2^-53 max|P| (with weights: of the homogeneous points) for u0 in
 ///             [0,1]. Bits do not depend on anything.
 /// Allocation: none.
-/// Returns:    ok | null_input | null_output | bad_degree | bad_components | bad_stride |
-///             bad_weight | non_finite_input (a value that is not finite, u0 included) |
-///             overlapping_outputs | size_overflow. On an error nothing has been written.
+/// Returns:    ok | null_input | input_too_small | null_output | output_too_small | bad_degree |
+///             bad_components | bad_stride | bad_weight | non_finite_input (a value that is not
+///             finite, u0 included) | overlapping_outputs | size_overflow, and which control point
+///             is at fault. On an error nothing has been written.
 /// Cost:       degree_u (degree_u + 1) (degree_v + 1) / 2 interpolations a component and patch.
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API Status iso_u(const ControlNets<S>& nets, double u0, double* points,
-                                          int threads = 0) noexcept;
+[[nodiscard]] SIMDBEZIER_API PackReport iso_u(const ControlNets<S>& nets, double u0,
+                                              Values<double> points,
+                                              const Options& options = {}) noexcept;
 
 /// The same of S(., v0): curves of degree degree_u.
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API Status iso_v(const ControlNets<S>& nets, double v0, double* points,
-                                          int threads = 0) noexcept;
+[[nodiscard]] SIMDBEZIER_API PackReport iso_v(const ControlNets<S>& nets, double v0,
+                                              Values<double> points,
+                                              const Options& options = {}) noexcept;
 
 /// The iso-parametric curve S(u0, .) (or S(., v0)) of every patch, packed: iso_u() (iso_v()) and
-/// pack_curves() by way of memory of its own. Evaluated at v (u), positions agree with the patch's
+/// pack() by way of memory of its own. Evaluated at v (u), positions agree with the patch's
 /// own within the sum of both bounds and of the error that iso_u() states.
 /// Returns the statuses of both; `patch` is set where a net is at fault.
 template <typename T, typename S>

@@ -23,7 +23,8 @@
 //   Zeros       -0 becomes +0.
 //   Threads     Options::threads, isa and executed are honoured; its other members have no meaning.
 //   Allocation  scratch per thread, none per patch. Nothing throws.
-//   Statuses    ok | null_input | null_output | bad_degree | bad_components | bad_weight |
+//   Statuses    ok | null_input | input_too_small | null_output | output_too_small | bad_degree |
+//   bad_components | bad_weight |
 //               bad_stride | bad_patch_range (counts differ) | overlapping_outputs |
 //               non_finite_input | size_overflow | unknown_isa | unsupported_isa | out_of_memory.
 //   Source      G. Farin, Curves and Surfaces for CAGD, 5th ed., chapters 4 to 6 and 14.
@@ -32,9 +33,7 @@
 #include <array>
 #include <type_traits>
 
-#include <simdbezier/control_nets.hpp>
-#include <simdbezier/evaluate.hpp>
-#include <simdbezier/isa.hpp>
+#include <simdbezier/options.hpp>
 #include <simdbezier/patch_set.hpp>
 
 namespace simdbezier {
@@ -58,8 +57,9 @@ struct MutableNets {
   std::ptrdiff_t component_stride = 1;
   int components = 3;
   Weights weights = Weights::none;
+  std::span<S> memory = {}; ///< as in ControlNets (else output_too_small)
 
-  /// As ControlNets::packed().
+  /// As ControlNets::packed(); of a span, the memory of `count` nets.
   [[nodiscard]] static constexpr MutableNets packed(S* points, std::size_t count, int degree_u,
                                                     int degree_v, int components = 3,
                                                     Weights weights = Weights::none) noexcept {
@@ -74,12 +74,21 @@ struct MutableNets {
             like.point_stride,
             like.component_stride,
             components,
-            weights};
+            weights,
+            {}};
+  }
+  [[nodiscard]] static constexpr MutableNets packed(std::span<S> points, std::size_t count,
+                                                    int degree_u, int degree_v, int components = 3,
+                                                    Weights weights = Weights::none) noexcept {
+    MutableNets nets = packed(points.data(), count, degree_u, degree_v, components, weights);
+    nets.memory = points;
+    return nets;
   }
 
   constexpr operator ControlNets<S>() const noexcept { // NOLINT: implicit on purpose
-    return {points,     count,        degree_u,         degree_v,   patch_stride,
-            row_stride, point_stride, component_stride, components, weights};
+    return {points,       count,      degree_u,     degree_v,
+            patch_stride, row_stride, point_stride, component_stride,
+            components,   weights,    memory};
   }
 };
 

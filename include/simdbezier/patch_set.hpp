@@ -24,7 +24,7 @@ struct PackReport {
   int point = 0;         ///< its control point j*(degree_u+1)+i (0 for coefficient_overflow)
   int component = 0;     ///< 0, 1, 2 for x, y, z; the number of components for a weight
 
-  [[nodiscard]] explicit operator bool() const noexcept { return status == Status::ok; }
+  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
 };
 
 /// What one patch of a set is.
@@ -101,10 +101,10 @@ struct PackOptions {
 ///             48 S a patch: control points are kept as given. Four times the control points and
 ///             more where directions are cut. About 150 KiB of stack per thread. Threads: see
 ///             PackOptions::threads.
-/// Returns:    ok | null_input | bad_degree | bad_components (also: not the same in all nets) |
-///             bad_weight (also: below the smallest normal T, or infinite as T) | bad_stride |
-///             non_finite_input | coefficient_overflow | size_overflow (also: strides that
-///             lead beyond what memory can address) | unsupported_isa | out_of_memory. A wrong
+/// Returns:    ok | null_input | input_too_small | bad_degree | bad_components (also: not the same
+///             in all nets) | bad_weight (also: below the smallest normal T, or infinite as T) |
+///             bad_stride | non_finite_input | coefficient_overflow | size_overflow (also: strides
+///             that lead beyond what memory can address) | unsupported_isa | out_of_memory. A wrong
 ///             SIMDBEZIER_ISA is ignored here. The report names the lowest patch at fault, for a
 ///             fault of whole nets their first one.
 /// Cost:       O(count); in cache on AVX-512 about 22 ns (float) or 100 ns (double) a bicubic patch

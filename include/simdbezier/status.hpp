@@ -8,26 +8,50 @@
 
 namespace simdbezier {
 
-enum class Status : std::uint8_t {
-  ok,
-  null_input,     ///< a required input pointer is null
-  null_output,    ///< no output group was asked for, or a group names only some of its planes
-  bad_degree,     ///< a degree is below 1 or above kMostDegree
-  bad_components, ///< components are not 1 to kMostComponents, differ, or an output needs three
-  bad_weight,     ///< a weight is not positive and finite, or there are some where none can be
-  bad_stride,     ///< the strides let two values share one place
-  overlapping_outputs,  ///< two outputs share memory, or an output lies in an input
-  bad_offsets,          ///< per-patch offsets do not ascend far enough for the patches' samples
-  non_finite_input,     ///< a control point or a parameter of the whole call is nan or infinite
-  coefficient_overflow, ///< the control points are finite, but their coefficients are not
-  bad_grid,             ///< a uniform grid needs 2 samples or more in each direction, a given one 1
-  bad_patch_range,      ///< patches outside of the set were asked for
-  bad_patch_index,      ///< a scattered sample names a patch outside of the set
-  size_overflow,        ///< the number of samples or bytes exceeds what memory can address
-  unknown_isa,          ///< SIMDBEZIER_ISA holds a word that names no instruction set
-  unsupported_isa,      ///< the instruction set is not in this build, or this machine lacks it
-  out_of_memory         ///< an allocation failed
+/// How a call ended. True where it is ok, as are the reports that carry one (PackReport):
+///
+///     if (const Status status = evaluate(set, grid, out); !status) {
+///       std::puts(to_string(status).data());
+///     }
+class Status {
+public:
+  enum Code : std::uint8_t {
+    ok,
+    null_input,     ///< a required input pointer is null
+    null_output,    ///< no output was asked for, or one names only some of its planes
+    bad_degree,     ///< a degree is below 1 or above kMostDegree
+    bad_components, ///< components are not 1 to kMostComponents, differ, or an output needs three
+    bad_weight,     ///< a weight is not positive and finite, or there are some where none can be
+    bad_stride,     ///< the strides let two values share one place
+    overlapping_outputs,  ///< two outputs share memory, or an output lies in an input
+    bad_offsets,          ///< offsets do not ascend far enough for the samples between them
+    non_finite_input,     ///< a control point or a parameter of the whole call is nan or infinite
+    coefficient_overflow, ///< the control points are finite, but their coefficients are not
+    bad_grid,         ///< a uniform grid needs 2 samples or more in each direction, a given one 1
+    bad_patch_range,  ///< patches or curves outside of the set were asked for
+    bad_patch_index,  ///< a scattered sample names a patch or curve outside of the set
+    size_overflow,    ///< the number of samples or bytes exceeds what memory can address
+    unknown_isa,      ///< SIMDBEZIER_ISA holds a word that names no instruction set
+    unsupported_isa,  ///< the instruction set is not in this build, or this machine lacks it
+    out_of_memory,    ///< an allocation failed
+    input_too_small,  ///< a span of control points ends before the last one
+    output_too_small, ///< the memory of an output, as far as its size is known, ends too early
+    unequal_lengths   ///< spans that belong together have different lengths
+  };
+
+  constexpr Status() noexcept = default;
+  constexpr Status(Code code) noexcept : code_(code) {} // NOLINT: Status::ok is a Status
+
+  [[nodiscard]] explicit constexpr operator bool() const noexcept { return code_ == ok; }
+  /// For switch.
+  [[nodiscard]] constexpr Code code() const noexcept { return code_; }
+  friend constexpr bool operator==(Status, Status) noexcept = default;
+
+private:
+  Code code_ = ok;
 };
+/// The negation of Status::ok itself would be true.
+constexpr bool operator!(Status::Code) = delete;
 
 /// One line of English for a status; never null, static lifetime, thread-safe.
 [[nodiscard]] SIMDBEZIER_API std::string_view to_string(Status status) noexcept;

@@ -1,6 +1,7 @@
 // Tiles: a grid's samples, handed to the caller while they are still in the cache.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,19 +20,12 @@ enum class TileLayout : std::uint8_t {
 
 /// Which outputs a tile holds, and how.
 struct TileFormat {
-  bool position = true;
-  bool du = false;
-  bool dv = false;
-  bool duu = false;
-  bool duv = false;
-  bool dvv = false;
-  bool normal = false;
-  bool status = false;    ///< of normals, see SampleStatus
-  bool curvature = false; ///< all four, as planes in every layout
+  OutputSelection outputs = {Output::position}; ///< curvatures are planes in every layout
   TileLayout layout = TileLayout::planes;
   /// The most samples in one tile; 0: what fits half of a first-level cache. A tile holds
   /// whole patches where one fits, else whole rows of one patch, at least one row.
   std::size_t samples = 0;
+  int first_component = 0; ///< as in Outputs
 };
 
 /// Finished samples: rows [first_row, first_row + row_count) of patches
@@ -52,8 +46,10 @@ struct Tile {
 template <typename T>
 class TileFunction;
 
+// A copy of a TileFunction borrows what that borrows, not the TileFunction.
 template <typename F, typename T>
-concept TileCallable = requires(F& function, const Tile<T>& tile) {
+concept TileCallable = !std::same_as<std::remove_cvref_t<F>, TileFunction<T>> &&
+                       requires(F & function, const Tile<T>& tile) {
   function(tile);
 };
 
@@ -75,10 +71,10 @@ private:
   void (*call_)(void*, const Tile<T>&);
 };
 
-/// Evaluates every patch of the set on one grid, tile by tile, and hands each tile to `function` on
+/// Evaluates every patch of a range on one grid, tile by tile, and hands each tile to `function` on
 /// the thread that made it, so that it is read from that thread's cache. Every sample arrives once;
 /// each worker's tiles ascend, the order between workers is not fixed. Values are those of
-/// evaluate_grid(), bit for bit. Options::destination has no meaning here.
+/// evaluate(), bit for bit. Options::destination has no meaning here.
 /// Allocation: one tile and its staging a thread.
 /// Returns ok | null_output (the format wants no vector and no curvature) | bad_components |
 /// bad_grid | bad_patch_range | size_overflow | unknown_isa | unsupported_isa | out_of_memory. On
@@ -88,5 +84,11 @@ template <typename T>
                                                    const TileFormat& format,
                                                    std::type_identity_t<TileFunction<T>> function,
                                                    const Options& options = {}) noexcept;
+
+/// The samples of the largest tile that evaluate_tiles() will hand out; 0 where it will refuse what
+/// it is given.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API std::size_t largest_tile(const PatchSet<T>& set, const Grid<T>& grid,
+                                                      const TileFormat& format) noexcept;
 
 } // namespace simdbezier

@@ -1,99 +1,114 @@
-// The scattered call for curves: checks, then pieces of samples for the kernels.
+// The call for single samples of curves: pieces of them for the kernels.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include <simdbezier/curves.hpp>
 
-#include "src/calls/curve_call.hpp"
-#include "src/calls/sample_request.hpp"
-#include "src/runtime/batch.hpp"
-#include "src/runtime/dispatch.hpp"
+#include "src/calls/curve_pieces.hpp"
+#include "src/calls/sample_pieces.hpp"
 
 namespace simdbezier {
 namespace detail {
 namespace {
 
+/// Units are pieces of samples.
 template <typename T>
-struct CurveSamplesCall {
-  const CurveStorage<T>& curves;
-  const CurveSamples<T>& samples;
-  const CurveOutputs<T>& out;
-  const OutputPlan<T>& outputs;
-  const KernelTable<T>& table;
-  std::size_t first_component;
-  std::size_t piece_samples;
+class CurveSamplesWork {
+public:
+  CurveSamplesWork(const CurveStorage<T>& curves, const Request<T>& request,
+                   const CurveSamples<T>& samples, const OutputList<T>& out,
+                   const Options& options) noexcept
+      : curves_(curves), table_(*request.table), first_component_(request.components.first),
+        samples_(samples),
+        outputs_(plan_outputs(out, samples.curve.size(), sample_destination(options.destination))),
+        pieces_(samples.curve.size(), outputs_.staged()) {}
 
-  Isa worker(std::size_t begin, std::size_t end, unsigned char* scratch) const noexcept {
+  [[nodiscard]] std::size_t units() const noexcept { return pieces_.count; }
+  [[nodiscard]] std::size_t scratch_bytes() const noexcept {
+    return Delivery<T>::scratch_bytes(outputs_.staged_planes(), outputs_.streaming(),
+                                      pieces_.length);
+  }
+
+  Isa run(int /*worker*/, std::size_t begin, std::size_t end,
+          unsigned char* scratch) const noexcept {
     Isa executed = Isa::automatic;
-    Delivery<T> delivery(outputs, table, piece_samples, scratch);
+    Delivery<T> delivery(outputs_, table_, pieces_.length, scratch);
     for (std::size_t piece = begin; piece < end; ++piece) {
-      const std::size_t first = piece * piece_samples;
-      executed = run_piece(first, std::min(piece_samples, samples.count - first), delivery);
+      const std::size_t first = piece * pieces_.length;
+      executed =
+          run_piece(first, std::min(pieces_.length, samples_.curve.size() - first), delivery);
     }
     delivery.finish();
     return executed;
   }
 
+private:
   Isa run_piece(std::size_t first, std::size_t count, Delivery<T>& delivery) const noexcept {
     ScatteredCurveTask<T> task{};
-    fill_arrays(task, curves, 0, out, first, delivery.begin(first), first_component);
-    task.curve = samples.curve + first;
-    task.t = samples.t + first;
-    set_half_centring(samples.parameters, task);
+    fill_arrays(task, curves_, 0, outputs_.out(), first, delivery.begin(first), first_component_);
+    task.curve = samples_.curve.data() + first;
+    task.t = samples_.t.data() + first;
+    set_half_centring(samples_.parameters, task);
     task.count = count;
     for (std::size_t k = 0; task.status != nullptr && k < count; ++k) {
       task.status[k] = std::isfinite(task.t[k]) ? SampleStatus::regular : SampleStatus::non_finite;
     }
-    table.curves->scattered(task);
+    table_.curves->scattered(task);
     delivery.end(count);
     return task.executed;
   }
+
+  const CurveStorage<T>& curves_;
+  const KernelTable<T>& table_;
+  std::size_t first_component_;
+  const CurveSamples<T>& samples_;
+  OutputPlan<T> outputs_;
+  SamplePieces pieces_;
+};
+
+template <typename T>
+class CurveSamplesCall {
+public:
+  CurveSamplesCall(const CurveSet<T>& set, const CurveSamples<T>& where, const CurveOutputs<T>& out,
+                   const Options& options) noexcept
+      : in_(set, where, out, options) {}
+
+  Status resolve() noexcept {
+    return request_.resolve(in_.set, {}, in_.first_component, in_.options);
+  }
+  Status check() noexcept {
+    if (in_.where.t.size() != in_.where.curve.size()) {
+      return Status::unequal_lengths;
+    }
+    const MemoryRange inputs[] = {in_.where.curve, in_.where.t};
+    const Status usable =
+        check_curve_outputs(in_.out, in_.where.curve.size(), request_.components, inputs);
+    return usable ? check_samples(in_.where.curve, in_.where.t.data() != nullptr, in_.set.size(),
+                                  *request_.table)
+                  : usable;
+  }
+  [[nodiscard]] bool empty() const noexcept { return in_.where.curve.empty(); }
+  [[nodiscard]] CurveSamplesWork<T> plan() const noexcept {
+    return {*in_.set.storage(), request_, in_.where, in_.out, in_.options};
+  }
+
+private:
+  Given<T, CurveSet<T>, CurveSamples<T>> in_;
+  Request<T> request_;
 };
 
 } // namespace
 } // namespace detail
 
 template <typename T>
-Status evaluate_curves(const CurveSet<T>& set, const CurveSamples<T>& samples,
-                       const CurveOutputs<T>& out, const Options& options) noexcept {
-  detail::SampleRequest request;
-  const Status resolved = detail::resolve_request(set, options, request);
-  if (resolved != Status::ok) {
-    return resolved;
-  }
-  const detail::InputRange inputs[] = {{samples.curve, samples.count * sizeof(std::uint32_t)},
-                                       {samples.t, samples.count * sizeof(T)}};
-  const Status writable = detail::check_curve_outputs(
-      out, samples.count, set.components(), request.components, inputs, std::size(inputs));
-  if (writable != Status::ok || samples.count == 0) {
-    return writable;
-  }
-  if (samples.curve == nullptr || samples.t == nullptr) {
-    return Status::null_input;
-  }
-  const detail::KernelTable<T>& table = detail::kernel_table<T>(request.isa);
-  if (table.highest_index(samples.curve, samples.count) >= set.size()) {
-    return Status::bad_patch_index;
-  }
-  const Outputs<T> groups = detail::as_outputs(out);
-  const detail::OutputPlan<T> outputs = detail::plan_outputs(
-      out, groups, samples.count, detail::sample_destination(options.destination));
-  const detail::SamplePieces pieces(samples.count, outputs.staged());
-  const detail::CurveSamplesCall<T> call{
-      *set.storage(), samples, out, outputs, table, request.components.first, pieces.length};
-  const std::size_t scratch = detail::Delivery<T>::scratch_bytes(
-      outputs.staged_planes(), outputs.streaming(), pieces.length);
-  return detail::run_blocks(pieces.count, options, scratch,
-                            [&](int, std::size_t begin, std::size_t end, unsigned char* own) {
-                              return call.worker(begin, end, own);
-                            });
+Status evaluate(const CurveSet<T>& set, const CurveSamples<T>& samples, const CurveOutputs<T>& out,
+                const Options& options) noexcept {
+  return detail::make_call(detail::CurveSamplesCall<T>(set, samples, out, options), options);
 }
 
-template SIMDBEZIER_API Status evaluate_curves(const CurveSet<float>&, const CurveSamples<float>&,
-                                               const CurveOutputs<float>&, const Options&) noexcept;
-template SIMDBEZIER_API Status evaluate_curves(const CurveSet<double>&, const CurveSamples<double>&,
-                                               const CurveOutputs<double>&,
-                                               const Options&) noexcept;
+template SIMDBEZIER_API Status evaluate(const CurveSet<float>&, const CurveSamples<float>&,
+                                        const CurveOutputs<float>&, const Options&) noexcept;
+template SIMDBEZIER_API Status evaluate(const CurveSet<double>&, const CurveSamples<double>&,
+                                        const CurveOutputs<double>&, const Options&) noexcept;
 
 } // namespace simdbezier

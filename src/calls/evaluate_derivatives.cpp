@@ -4,13 +4,9 @@
 
 #include <simdbezier/derivatives.hpp>
 
+#include "src/calls/call.hpp"
 #include "src/calls/grid_plan.hpp"
-#include "src/calls/grid_request.hpp"
-#include "src/calls/sample_request.hpp"
-#include "src/output/output_plan.hpp"
-#include "src/runtime/batch.hpp"
-#include "src/runtime/dispatch.hpp"
-#include "src/runtime/fp_environment.hpp"
+#include "src/calls/sample_pieces.hpp"
 #include "src/storage/patch_storage.hpp"
 #include "src/tables/derivative_task.hpp"
 
@@ -20,17 +16,18 @@ namespace {
 
 /// Samples that are handed to a kernel together: enough to fill registers with those that lie on
 /// the same edge.
-constexpr std::size_t kPiece = 512;
+constexpr std::size_t kDerivativePiece = 512;
 
 template <typename T>
 using Derivatives = std::span<const PartialDerivative<T>>;
 
 /// Every output by itself, then every pair of them: ok | bad_degree | null_output | bad_stride |
-/// overlapping_outputs | size_overflow. inputs[0] is room for the list of derivatives.
+/// output_too_small | overlapping_outputs | size_overflow. inputs[0] is room for the list of
+/// derivatives.
 template <typename T, std::size_t kInputs>
 Status check_derivatives(Derivatives<T> wanted, std::size_t samples, std::size_t dimension,
-                         InputRange (&inputs)[kInputs]) noexcept {
-  inputs[0] = {wanted.data(), wanted.size_bytes()};
+                         MemoryRange (&inputs)[kInputs]) noexcept {
+  inputs[0] = wanted;
   if (wanted.empty()) {
     return Status::null_output;
   }
@@ -41,14 +38,12 @@ Status check_derivatives(Derivatives<T> wanted, std::size_t samples, std::size_t
     }
   }
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    Outputs<T> out;
-    out.position = wanted[i].out;
-    Status status = check_outputs(out, samples, dimension, false, inputs, kInputs);
-    for (std::size_t k = 0; k < i && status == Status::ok; ++k) {
-      out.du = wanted[k].out;
-      status = check_outputs(out, samples, dimension, false, nullptr, 0);
+    const Vectors<T>* const out = &wanted[i].out;
+    Status status = check_outputs(OutputList<T>(out, nullptr), samples, dimension, inputs);
+    for (std::size_t k = 0; k < i && status; ++k) {
+      status = check_outputs(OutputList<T>(out, &wanted[k].out), samples, dimension, {});
     }
-    if (status != Status::ok) {
+    if (!status) {
       return status;
     }
   }
@@ -110,37 +105,30 @@ struct GridSource {
   }
 };
 
-/// Source: fills in patches (of the set) and half-centred parameters of consecutive samples.
+/// Source: fills in patches (of the set) and half-centred parameters of consecutive samples. Units
+/// are pieces of samples.
 template <typename T, typename Source>
-class DerivativeCall {
+class DerivativeWork {
 public:
-  DerivativeCall(const SetStorage<T>& set, const Source& source, std::size_t samples,
-                 Derivatives<T> wanted, const KernelTable<T>& table, std::size_t first_component,
-                 bool watertight) noexcept
-      : set_(set), source_(source), samples_(samples), wanted_(wanted), table_(table),
-        first_component_(first_component),
-        watertight_(watertight), orders_{orders_of(wanted, false), orders_of(wanted, true)} {}
+  DerivativeWork(const SetStorage<T>& set, const Source& source, std::size_t samples,
+                 Derivatives<T> wanted, const Request<T>& request, const Options& options) noexcept
+      : set_(set), source_(source), samples_(samples), wanted_(wanted), table_(*request.table),
+        first_component_(request.components.first),
+        watertight_(options.watertight), orders_{orders_of(wanted, false),
+                                                 orders_of(wanted, true)} {}
 
-  Status run(const Options& options) const noexcept {
-    const std::size_t pieces = samples_ / kPiece + (samples_ % kPiece != 0 ? 1 : 0);
-    return run_blocks(pieces, options, sizeof(Scratch),
-                      [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
-                        return worker(begin, end, *new (scratch) Scratch);
-                      });
+  [[nodiscard]] std::size_t units() const noexcept {
+    return samples_ / kDerivativePiece + (samples_ % kDerivativePiece != 0 ? 1 : 0);
   }
+  [[nodiscard]] std::size_t scratch_bytes() const noexcept { return sizeof(Scratch); }
 
-private:
-  struct Scratch {
-    std::size_t patch[kPiece]; ///< of the set, then of its bucket
-    T x[kPiece];
-    T y[kPiece];
-  };
-
-  Isa worker(std::size_t begin, std::size_t end, Scratch& scratch) const noexcept {
+  Isa run(int /*worker*/, std::size_t begin, std::size_t end,
+          unsigned char* memory) const noexcept {
     Isa executed = Isa::automatic;
+    Scratch& scratch = *new (memory) Scratch;
     for (std::size_t piece = begin; piece < end; ++piece) {
-      const std::size_t first = piece * kPiece;
-      const std::size_t count = std::min(kPiece, samples_ - first);
+      const std::size_t first = piece * kDerivativePiece;
+      const std::size_t count = std::min(kDerivativePiece, samples_ - first);
       source_.fill(first, count, scratch.patch, scratch.x, scratch.y);
       for (std::size_t k = 0; k < count;) {
         const std::uint32_t bucket = set_.place(scratch.patch[k]).bucket;
@@ -158,6 +146,13 @@ private:
     }
     return executed;
   }
+
+private:
+  struct Scratch {
+    std::size_t patch[kDerivativePiece]; ///< of the set, then of its bucket
+    T x[kDerivativePiece];
+    T y[kDerivativePiece];
+  };
 
   Isa run_bucket(const PatchStorage<T>& patches, const Scratch& scratch, std::size_t at,
                  std::size_t count, std::size_t first) const noexcept {
@@ -181,7 +176,7 @@ private:
   }
 
   const SetStorage<T>& set_;
-  const Source& source_;
+  Source source_;
   std::size_t samples_;
   Derivatives<T> wanted_;
   const KernelTable<T>& table_;
@@ -190,78 +185,97 @@ private:
   DerivativeOrders orders_[2]; ///< of polynomials, of quotients
 };
 
+template <typename T>
+class SampleDerivativesCall {
+public:
+  SampleDerivativesCall(const PatchSet<T>& set, const Samples<T>& samples,
+                        const DerivativeOutputs<T>& out, const Options& options) noexcept
+      : set_(set), samples_(samples), out_(out), options_(options) {}
+
+  Status resolve() noexcept { return request_.resolve(set_, {}, out_.first_component, options_); }
+  Status check() noexcept {
+    if (lengths_differ(samples_)) {
+      return Status::unequal_lengths;
+    }
+    MemoryRange inputs[] = {{}, samples_.patch, samples_.u, samples_.v};
+    const Status usable = check_derivatives(out_.derivatives, samples_.patch.size(),
+                                            request_.components.dimension, inputs);
+    return usable ? check_samples(set_, samples_, *request_.table) : usable;
+  }
+  [[nodiscard]] bool empty() const noexcept { return samples_.patch.empty(); }
+  [[nodiscard]] DerivativeWork<T, SampleSource<T>> plan() const noexcept {
+    return {*set_.storage(),  {samples_}, samples_.patch.size(),
+            out_.derivatives, request_,   options_};
+  }
+
+private:
+  const PatchSet<T>& set_;
+  const Samples<T>& samples_;
+  const DerivativeOutputs<T>& out_;
+  const Options& options_;
+  Request<T> request_;
+};
+
+template <typename T>
+class GridDerivativesCall {
+public:
+  GridDerivativesCall(const PatchSet<T>& set, const Grid<T>& grid, const DerivativeOutputs<T>& out,
+                      const Options& options) noexcept
+      : set_(set), grid_(grid), out_(out), options_(options) {}
+
+  Status resolve() noexcept {
+    return request_.resolve(set_, grid_.patches, out_.first_component, options_);
+  }
+  Status check() noexcept {
+    if (!multiply_samples(grid_.nu, grid_.nv, request_.count, samples_)) {
+      return Status::size_overflow;
+    }
+    MemoryRange inputs[] = {{}, {grid_.u, grid_.nu * sizeof(T)}, {grid_.v, grid_.nv * sizeof(T)}};
+    const Status usable =
+        check_derivatives(out_.derivatives, samples_, request_.components.dimension, inputs);
+    return usable ? plan_.build(grid_) : usable;
+  }
+  [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
+  [[nodiscard]] DerivativeWork<T, GridSource<T>> plan() const noexcept {
+    return {*set_.storage(), {plan_.x(), plan_.y(), grid_.nu, grid_.nv, request_.first},
+            samples_,        out_.derivatives,
+            request_,        options_};
+  }
+
+private:
+  const PatchSet<T>& set_;
+  const Grid<T>& grid_;
+  const DerivativeOutputs<T>& out_;
+  const Options& options_;
+  Request<T> request_;
+  GridPlan<T> plan_;
+  std::size_t samples_ = 0;
+};
+
 } // namespace
 } // namespace detail
 
 template <typename T>
 Status evaluate_derivatives(const PatchSet<T>& set, const Samples<T>& samples,
-                            std::span<const PartialDerivative<T>> derivatives,
+                            const std::type_identity_t<DerivativeOutputs<T>>& out,
                             const Options& options) noexcept {
-  detail::SampleRequest request;
-  const Status resolved = detail::resolve_request(set, options, request);
-  if (resolved != Status::ok) {
-    return resolved;
-  }
-  detail::InputRange inputs[] = {{},
-                                 {samples.patch, samples.count * sizeof(std::uint32_t)},
-                                 {samples.u, samples.count * sizeof(T)},
-                                 {samples.v, samples.count * sizeof(T)}};
-  const Status writable =
-      detail::check_derivatives(derivatives, samples.count, request.components.dimension, inputs);
-  if (writable != Status::ok) {
-    return writable;
-  }
-  const detail::KernelTable<T>& table = detail::kernel_table<T>(request.isa);
-  const Status readable = detail::check_samples(set, samples, table);
-  if (readable != Status::ok || samples.count == 0) {
-    return readable;
-  }
-  const detail::SampleSource<T> source{samples};
-  const detail::DerivativeCall<T, detail::SampleSource<T>> call(
-      *set.storage(), source, samples.count, derivatives, table, request.components.first,
-      options.watertight);
-  return call.run(options);
+  return detail::make_call(detail::SampleDerivativesCall<T>(set, samples, out, options), options);
 }
 
 template <typename T>
 Status evaluate_derivatives(const PatchSet<T>& set, const Grid<T>& grid,
-                            std::span<const PartialDerivative<T>> derivatives,
+                            const std::type_identity_t<DerivativeOutputs<T>>& out,
                             const Options& options) noexcept {
-  detail::GridRequest request;
-  const Status resolved = detail::resolve_request(set, options, request);
-  if (resolved != Status::ok) {
-    return resolved;
-  }
-  std::size_t samples = 0;
-  if (!request.count_samples(grid.nu, grid.nv, samples)) {
-    return Status::size_overflow;
-  }
-  detail::InputRange inputs[] = {{}, {grid.u, grid.nu * sizeof(T)}, {grid.v, grid.nv * sizeof(T)}};
-  const Status usable =
-      detail::check_derivatives(derivatives, samples, request.components.dimension, inputs);
-  if (usable != Status::ok) {
-    return usable;
-  }
-  const detail::DefaultFpEnvironment environment;
-  detail::GridPlan<T> plan;
-  const Status planned = plan.build(grid);
-  if (planned != Status::ok || request.patches == 0) {
-    return planned;
-  }
-  const detail::GridSource<T> source{plan.x(), plan.y(), grid.nu, grid.nv, request.first_patch};
-  const detail::DerivativeCall<T, detail::GridSource<T>> call(
-      *set.storage(), source, samples, derivatives, detail::kernel_table<T>(request.isa),
-      request.components.first, options.watertight);
-  return call.run(options);
+  return detail::make_call(detail::GridDerivativesCall<T>(set, grid, out, options), options);
 }
 
 #define SIMDBEZIER_INSTANTIATE(T)                                                                  \
-  template SIMDBEZIER_API Status evaluate_derivatives(const PatchSet<T>&, const Samples<T>&,       \
-                                                      std::span<const PartialDerivative<T>>,       \
-                                                      const Options&) noexcept;                    \
-  template SIMDBEZIER_API Status evaluate_derivatives(const PatchSet<T>&, const Grid<T>&,          \
-                                                      std::span<const PartialDerivative<T>>,       \
-                                                      const Options&) noexcept;
+  template SIMDBEZIER_API Status evaluate_derivatives(                                             \
+      const PatchSet<T>&, const Samples<T>&, const std::type_identity_t<DerivativeOutputs<T>>&,    \
+      const Options&) noexcept;                                                                    \
+  template SIMDBEZIER_API Status evaluate_derivatives(                                             \
+      const PatchSet<T>&, const Grid<T>&, const std::type_identity_t<DerivativeOutputs<T>>&,       \
+      const Options&) noexcept;
 SIMDBEZIER_INSTANTIATE(float)
 SIMDBEZIER_INSTANTIATE(double)
 #undef SIMDBEZIER_INSTANTIATE

@@ -3,20 +3,20 @@
 
 #include <simdbezier/tiles.hpp>
 
-#include "src/calls/grid_evaluator.hpp"
-#include "src/calls/grid_request.hpp"
-#include "src/output/delivery.hpp"
-#include "src/runtime/batch.hpp"
-#include "src/runtime/dispatch.hpp"
-#include "src/runtime/fp_environment.hpp"
+#include "src/calls/call.hpp"
+#include "src/calls/piece_evaluator.hpp"
 
 namespace simdbezier {
 namespace detail {
 namespace {
 
-WantedGroups groups_of(const TileFormat& format) noexcept {
-  return {
-      {format.position, format.du, format.dv, format.duu, format.duv, format.dvv, format.normal}};
+/// Values of all wanted vectors of one sample.
+std::size_t vector_values(const OutputSelection& wanted, std::size_t dimension) noexcept {
+  std::size_t values = 0;
+  for (std::size_t k = 0; k < kVectorOutputs; ++k) {
+    values += wanted.holds(static_cast<Output>(k)) ? dimension : 0;
+  }
+  return values;
 }
 
 /// Half of a common first-level cache: the caller reads what has just been written.
@@ -55,9 +55,10 @@ public:
       : format_(format), dimension_(dimension), samples_(samples) {}
 
   [[nodiscard]] std::size_t bytes() const noexcept {
-    const std::size_t values = vector_values(groups_of(format_), dimension_);
-    const std::size_t bytes = (format_.status ? whole_lines(samples_) : 0) +
-                              (format_.curvature ? kCurvatures * taken(samples_) : 0);
+    const std::size_t values = vector_values(format_.outputs, dimension_);
+    const std::size_t bytes =
+        (format_.outputs.holds(Output::status) ? whole_lines(samples_) : 0) +
+        (format_.outputs.holds(Output::curvature) ? kCurvatures * taken(samples_) : 0);
     switch (format_.layout) {
     case TileLayout::planes:
       return bytes + values * taken(samples_);
@@ -70,14 +71,12 @@ public:
 
   [[nodiscard]] Outputs<T> place(unsigned char* memory) const noexcept {
     Outputs<T> out;
-    const WantedGroups wanted = groups_of(format_);
-    Vectors<T>* const group[kGroups] = {&out.position, &out.du,  &out.dv,    &out.duu,
-                                        &out.duv,      &out.dvv, &out.normal};
-    const std::size_t members = vector_values(wanted, dimension_);
+    const std::size_t members = vector_values(format_.outputs, dimension_);
     std::size_t at = 0;
     std::size_t member = 0;
-    for (std::size_t g = 0; g < kGroups; ++g) {
-      if (!wanted.group[g]) {
+    for (std::size_t k = 0; k < kVectorOutputs; ++k) {
+      const auto output = static_cast<Output>(k);
+      if (!format_.outputs.holds(output)) {
         continue;
       }
       if (format_.layout == TileLayout::planes) {
@@ -85,24 +84,24 @@ public:
         for (std::size_t c = 0; c < dimension_; ++c) {
           plane[c] = take(memory, at, samples_);
         }
-        *group[g] = Vectors<T>::planes(plane[0], plane[1], plane[2]);
+        out[output] = Vectors<T>::planes(plane[0], plane[1], plane[2]);
       } else if (format_.layout == TileLayout::xyz) {
-        *group[g] = records(take(memory, at, dimension_ * samples_), dimension_);
+        out[output] = records(take(memory, at, dimension_ * samples_), dimension_);
       } else {
-        *group[g] = records(reinterpret_cast<T*>(memory) + member, members);
+        out[output] = records(reinterpret_cast<T*>(memory) + member, members);
         member += dimension_;
       }
     }
     if (member > 0) {
       take(memory, at, member * samples_);
     }
-    if (format_.curvature) {
-      for (T** const plane : {&out.curvature.gaussian, &out.curvature.mean, &out.curvature.minimum,
-                              &out.curvature.maximum}) {
-        *plane = take(memory, at, samples_);
+    if (format_.outputs.holds(Output::curvature)) {
+      for (Values<T>* const values : {&out.curvature.gaussian, &out.curvature.mean,
+                                      &out.curvature.minimum, &out.curvature.maximum}) {
+        *values = take(memory, at, samples_);
       }
     }
-    if (format_.status) {
+    if (format_.outputs.holds(Output::status)) {
       out.status = reinterpret_cast<SampleStatus*>(memory + at);
     }
     return out;
@@ -130,76 +129,120 @@ private:
   std::size_t samples_;
 };
 
-/// One tiles call after its checks; worker() runs on every thread.
+/// Units are patch-major (patch, strip) pairs.
 template <typename T>
-struct TilesCall {
-  const GridKernels<T>& kernels;
-  std::size_t first_patch;
-  const GridPlan<T>& plan;
-  const TileFormat& format;
-  std::size_t dimension;
-  TileShape shape;
-  TileFunction<T> function;
-  std::size_t tile_bytes;
-  std::size_t staging_bytes;
+class TilesWork {
+public:
+  TilesWork(const PatchKernels<T>& kernels, const Request<T>& request, const GridPlan<T>& plan,
+            const TileFormat& format, const TileShape& shape, TileFunction<T> function) noexcept
+      : kernels_(kernels), request_(request), plan_(plan), format_(format), shape_(shape),
+        function_(function) {
+    const std::size_t dimension = request.components.dimension;
+    tile_bytes_ = whole_lines(TileMemory<T>(format, dimension, shape.samples).bytes());
+    const std::size_t staged =
+        format.layout == TileLayout::planes ? 0 : vector_values(format.outputs, dimension);
+    staging_bytes_ = whole_lines(Delivery<T>::scratch_bytes(staged, false, shape.samples));
+  }
 
-  /// Units [begin, end) of patch-major (patch, strip) pairs.
-  Isa worker(int number, std::size_t begin, std::size_t end,
-             unsigned char* scratch) const noexcept {
+  [[nodiscard]] std::size_t units() const noexcept { return request_.count * shape_.strips; }
+  [[nodiscard]] std::size_t scratch_bytes() const noexcept {
+    return tile_bytes_ + staging_bytes_ + PieceEvaluator<T>::scratch_bytes(shape_.rows);
+  }
+
+  Isa run(int worker, std::size_t begin, std::size_t end, unsigned char* scratch) const noexcept {
     Tile<T> tile;
-    tile.nu = plan.nu();
-    tile.worker = number;
+    tile.nu = plan_.nu();
+    tile.worker = worker;
     // A copy: the caller may change what it is given.
-    const Outputs<T> places = TileMemory<T>(format, dimension, shape.samples).place(scratch);
-    OutputPlan<T> outputs(places, shape.samples, Destination::cache);
-    outputs.arrange(kernels.direct_rows(plan.nu(), false), 1);
-    Delivery<T> delivery(outputs, *kernels.table, shape.samples, scratch + tile_bytes);
-    GridEvaluator<T> evaluator(kernels, shape.rows, scratch + tile_bytes + staging_bytes);
+    const Outputs<T> places =
+        TileMemory<T>(format_, request_.components.dimension, shape_.samples).place(scratch);
+    const OutputList<T> out(places);
+    OutputPlan<T> outputs(out, shape_.samples, Destination::cache);
+    outputs.arrange(kernels_.direct_rows(plan_.nu(), false), 1);
+    Delivery<T> delivery(outputs, *kernels_.table, shape_.samples, scratch + tile_bytes_);
+    PieceEvaluator<T> evaluator(kernels_, shape_.rows, scratch + tile_bytes_ + staging_bytes_);
     for (std::size_t unit = begin; unit < end;) {
-      const std::size_t patches = std::min(shape.patches, end - unit);
-      const std::size_t first_row = unit % shape.strips * shape.rows;
-      const GridPiece piece{first_patch + unit / shape.strips, patches, first_row,
-                            std::min(plan.nv(), first_row + shape.rows)};
+      const std::size_t patches = std::min(shape_.patches, end - unit);
+      const std::size_t first_row = unit % shape_.strips * shape_.rows;
+      const GridPiece piece{request_.first + unit / shape_.strips, patches, first_row,
+                            std::min(plan_.nv(), first_row + shape_.rows)};
       tile.first_patch = piece.patch;
       tile.patch_count = patches;
       tile.first_row = first_row;
       tile.row_count = piece.last_row - first_row;
       tile.samples = patches * tile.row_count * tile.nu;
       tile.out = places;
-      const Planes<T>* const planes = delivery.begin(0);
-      typename GridEvaluator<T>::Target to{.planes = planes, .status = places.status};
-      to.set_curvature(places.curvature, 0);
-      to.record = outputs.record();
-      evaluator.run(plan, piece, to);
+      evaluator.run(plan_, piece, {outputs, delivery, 0});
       delivery.end(tile.samples);
       delivery.finish();
-      function(tile);
+      function_(tile);
       unit += patches;
     }
     return evaluator.executed();
   }
+
+private:
+  PatchKernels<T> kernels_;
+  const Request<T>& request_;
+  const GridPlan<T>& plan_;
+  const TileFormat& format_;
+  const TileShape& shape_;
+  TileFunction<T> function_;
+  std::size_t tile_bytes_ = 0;
+  std::size_t staging_bytes_ = 0;
 };
 
 template <typename T>
-Status run_tiles(const GridKernels<T>& kernels, const GridRequest& request, const GridPlan<T>& plan,
-                 const TileFormat& format, const TileShape& shape, TileFunction<T> function,
-                 const Options& options) noexcept {
-  const std::size_t dimension = request.components.dimension;
-  const std::size_t tile_bytes =
-      whole_lines(TileMemory<T>(format, dimension, shape.samples).bytes());
-  const std::size_t staged =
-      format.layout == TileLayout::planes ? 0 : vector_values(groups_of(format), dimension);
-  const std::size_t staging_bytes =
-      whole_lines(Delivery<T>::scratch_bytes(staged, false, shape.samples));
-  const TilesCall<T> call{kernels,  request.first_patch, plan,         format, dimension, shape,
-                          function, tile_bytes,          staging_bytes};
-  const std::size_t scratch =
-      tile_bytes + staging_bytes + GridEvaluator<T>::scratch_bytes(shape.rows);
-  return run_blocks(request.patches * shape.strips, options, scratch,
-                    [&](int worker, std::size_t begin, std::size_t end, unsigned char* own) {
-                      return call.worker(worker, begin, end, own);
-                    });
-}
+class TilesCall {
+public:
+  TilesCall(const PatchSet<T>& set, const Grid<T>& grid, const TileFormat& format,
+            TileFunction<T> function, const Options& options) noexcept
+      : set_(set), grid_(grid), format_(format), function_(function), options_(options) {}
+
+  Status resolve() noexcept {
+    return request_.resolve(set_, grid_.patches, format_.first_component, options_);
+  }
+  Status check() noexcept {
+    const std::size_t dimension = request_.components.dimension;
+    const bool curvature = format_.outputs.holds(Output::curvature);
+    const std::size_t values =
+        vector_values(format_.outputs, dimension) + (curvature ? kCurvatures : 0);
+    if (values == 0) {
+      return Status::null_output;
+    }
+    if (!request_.components.space() && (curvature || format_.outputs.holds(Output::normal))) {
+      return Status::bad_components;
+    }
+    const Status planned = plan_.build(grid_);
+    if (!planned || empty()) {
+      return planned;
+    }
+    return choose_shape<T>(grid_.nu, grid_.nv, request_.count, values, format_, shape_)
+               ? Status::ok
+               : Status::size_overflow;
+  }
+  [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
+  [[nodiscard]] TilesWork<T> plan() const noexcept {
+    return {{*set_.storage(), request_, format_.outputs, options_},
+            request_,
+            plan_,
+            format_,
+            shape_,
+            function_};
+  }
+  /// After check().
+  [[nodiscard]] std::size_t samples() const noexcept { return shape_.samples; }
+
+private:
+  const PatchSet<T>& set_;
+  const Grid<T>& grid_;
+  const TileFormat& format_;
+  TileFunction<T> function_;
+  const Options& options_;
+  Request<T> request_;
+  GridPlan<T> plan_;
+  TileShape shape_;
+};
 
 } // namespace
 } // namespace detail
@@ -208,44 +251,26 @@ template <typename T>
 Status evaluate_tiles(const PatchSet<T>& set, const Grid<T>& grid, const TileFormat& format,
                       std::type_identity_t<TileFunction<T>> function,
                       const Options& options) noexcept {
-  detail::GridRequest request;
-  const Status resolved = detail::resolve_request(set, options, request);
-  if (resolved != Status::ok) {
-    return resolved;
-  }
-  const detail::Components& components = request.components;
-  const std::size_t values =
-      detail::vector_values(detail::groups_of(format), components.dimension) +
-      (format.curvature ? detail::kCurvatures : 0);
-  if (values == 0) {
-    return Status::null_output;
-  }
-  if (!components.space && (format.normal || format.curvature)) {
-    return Status::bad_components;
-  }
-  const detail::DefaultFpEnvironment environment;
-  detail::GridPlan<T> plan;
-  const Status planned = plan.build(grid);
-  if (planned != Status::ok || request.patches == 0) {
-    return planned;
-  }
-  detail::TileShape shape;
-  if (!detail::choose_shape<T>(grid.nu, grid.nv, request.patches, values, format, shape)) {
-    return Status::size_overflow;
-  }
-  const detail::GridKernels<T> kernels(*set.storage(), detail::kernel_table<T>(request.isa),
-                                       detail::groups_of(format), format.curvature, components,
-                                       options.watertight);
-  return detail::run_tiles<T>(kernels, request, plan, format, shape, function, options);
+  return detail::make_call(detail::TilesCall<T>(set, grid, format, function, options), options);
 }
 
-template SIMDBEZIER_API Status evaluate_tiles(const PatchSet<float>&, const Grid<float>&,
-                                              const TileFormat&,
-                                              std::type_identity_t<TileFunction<float>>,
-                                              const Options&) noexcept;
-template SIMDBEZIER_API Status evaluate_tiles(const PatchSet<double>&, const Grid<double>&,
-                                              const TileFormat&,
-                                              std::type_identity_t<TileFunction<double>>,
-                                              const Options&) noexcept;
+template <typename T>
+std::size_t largest_tile(const PatchSet<T>& set, const Grid<T>& grid,
+                         const TileFormat& format) noexcept {
+  const auto nothing = [](const Tile<T>&) {};
+  const Options options;
+  detail::TilesCall<T> call(set, grid, format, nothing, options);
+  return call.resolve() && call.check() ? call.samples() : 0;
+}
+
+#define SIMDBEZIER_INSTANTIATE(T)                                                                  \
+  template SIMDBEZIER_API Status evaluate_tiles(                                                   \
+      const PatchSet<T>&, const Grid<T>&, const TileFormat&,                                       \
+      std::type_identity_t<TileFunction<T>>, const Options&) noexcept;                             \
+  template SIMDBEZIER_API std::size_t largest_tile(const PatchSet<T>&, const Grid<T>&,             \
+                                                   const TileFormat&) noexcept;
+SIMDBEZIER_INSTANTIATE(float)
+SIMDBEZIER_INSTANTIATE(double)
+#undef SIMDBEZIER_INSTANTIATE
 
 } // namespace simdbezier

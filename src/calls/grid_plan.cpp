@@ -5,6 +5,8 @@
 #include <limits>
 #include <new>
 
+#include "src/runtime/fp_environment.hpp"
+
 namespace simdbezier::detail {
 namespace {
 
@@ -69,6 +71,7 @@ Status GridPlan<T>::build(const Grid<T>& grid, T* memory) noexcept {
     x_ = memory;
     y_ = x_ + nu_ + kMaxLanes;
   }
+  const DefaultFpEnvironment environment;
   fill_parameters(grid.u, nu_, grid.parameters, x_);
   fill_parameters(grid.v, nv_, grid.parameters, y_);
   // Lanes behind the last column or row repeat it, so that they trigger nothing that it does not.

@@ -6,7 +6,8 @@
 #include <limits>
 #include <memory>
 
-#include <simdbezier/evaluate.hpp>
+#include <simdbezier/curves.hpp>
+#include <simdbezier/samples.hpp>
 
 #include "src/tables/kernel_table.hpp"
 
@@ -53,6 +54,13 @@ private:
   alignas(64) T inline_x_[kInline + kMaxLanes];
   alignas(64) T inline_y_[kInline + kMaxLanes];
 };
+
+/// Curves as surfaces of one row: what a plan needs of their parameters.
+template <typename T>
+Grid<T> one_row(const CurveGrid<T>& grid) noexcept {
+  static constexpr T kRow = 0;
+  return {grid.n, 1, grid.t, &kRow, grid.parameters, {}};
+}
 
 /// Half-centred X = u - 1/2 (exactly half of 2u - 1 rounded once); nan where u is not finite.
 template <typename T>

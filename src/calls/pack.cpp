@@ -27,21 +27,13 @@ public:
             const KernelTable<T>& table, const PatchStorage<T>& storage)
       : nets_(nets), run_(run), options_(options), table_(table), storage_(storage) {}
 
-  /// Patches [begin, end) of the run up to the first fault. What the kernel finds doubtful is
-  /// inspected here: kernels only know a bound on the squares.
+  /// Patches [begin, end) of the run up to the first fault.
   [[nodiscard]] PackReport pack(std::size_t begin, std::size_t end) const {
-    while (begin < end) {
-      const PackDoubt doubt = call_kernel(begin, end);
-      for (std::size_t patch = doubt.begin; patch < doubt.end; ++patch) {
-        const PackReport report =
-            inspect(nets_, patch, storage_, run_.place + patch, run_.number + patch);
-        if (!report) {
-          return report;
-        }
-      }
-      begin = doubt.end;
-    }
-    return {};
+    return pack_and_inspect(
+        begin, end, [&](std::size_t first, std::size_t last) { return call_kernel(first, last); },
+        [&](std::size_t patch) {
+          return inspect(nets_, patch, storage_, run_.place + patch, run_.number + patch);
+        });
   }
 
 private:
@@ -170,14 +162,10 @@ PackReport pack(std::span<const ControlNets<S>> nets, PatchSet<T>& set,
   if (!report) {
     return report;
   }
-  report = detail::check_relative_to(options, nets.empty() ? 3 : nets.front().components);
+  Isa isa = Isa::automatic;
+  report = detail::resolve_packing(options, nets.empty() ? 3 : nets.front().components, isa);
   if (!report) {
     return report;
-  }
-  Isa isa = Isa::automatic;
-  const Status runs_on = detail::packing_isa(options, isa);
-  if (runs_on != Status::ok) {
-    return {runs_on};
   }
   auto storage = std::make_shared<detail::SetStorage<T>>();
   std::vector<detail::PackRun> runs;

@@ -36,11 +36,22 @@ Status check(const ControlCurves<S>& curves) {
     return Status::bad_stride;
   }
   Lattice lattice; // of nets with one row
-  const bool addressable = lattice_of<S>(
-      {curves.points, curves.count, curves.degree, 0, curves.curve_stride, 0, curves.point_stride,
-       curves.component_stride, curves.components, curves.weights},
-      lattice);
-  return addressable ? Status::ok : Status::size_overflow;
+  const bool addressable = lattice_of<S>({curves.points,
+                                          curves.count,
+                                          curves.degree,
+                                          0,
+                                          curves.curve_stride,
+                                          0,
+                                          curves.point_stride,
+                                          curves.component_stride,
+                                          curves.components,
+                                          curves.weights,
+                                          {}},
+                                         lattice);
+  if (!addressable) {
+    return Status::size_overflow;
+  }
+  return lies_in(lattice, curves.count, curves.memory) ? Status::ok : Status::input_too_small;
 }
 
 /// One block for all arrays.
@@ -95,23 +106,6 @@ PackReport inspect(const ControlCurves<S>& curves, const CurveStorage<T>& storag
   return {};
 }
 
-/// What the kernel finds doubtful is inspected here: kernels only know a bound on the squares.
-template <typename T, typename S>
-PackReport pack_share(CurvePackKernel<T, S> kernel, const CurvePackTask<T, S>& task,
-                      const CurveStorage<T>& storage, std::size_t begin, std::size_t end) {
-  while (begin < end) {
-    const PackDoubt doubt = kernel(task, begin, end);
-    for (std::size_t curve = doubt.begin; curve < doubt.end; ++curve) {
-      const PackReport report = inspect(task.curves, storage, curve);
-      if (!report) {
-        return report;
-      }
-    }
-    begin = doubt.end;
-  }
-  return {};
-}
-
 /// Packs all curves; reports the fault of the lowest one, whichever thread finds it.
 template <typename T, typename S>
 PackReport pack_all(const ControlCurves<S>& curves, const PackOptions& options, Isa isa,
@@ -127,8 +121,10 @@ PackReport pack_all(const ControlCurves<S>& curves, const PackOptions& options, 
   const std::size_t groups = lane_groups(curves.count);
   LowestFault fault;
   auto body = [&](int, std::size_t begin, std::size_t end) {
-    fault.add(pack_share(kernel, task, storage, begin * kMaxLanes,
-                         std::min(end * kMaxLanes, curves.count)));
+    fault.add(pack_and_inspect(
+        begin * kMaxLanes, std::min(end * kMaxLanes, curves.count),
+        [&](std::size_t first, std::size_t last) { return kernel(task, first, last); },
+        [&](std::size_t curve) { return inspect(curves, storage, curve); }));
   };
   for_blocks(groups, thread_count(options.threads, groups), BlockBody(body));
   return fault.report();
@@ -163,20 +159,16 @@ bool CurveSet<T>::has_local_origins() const noexcept {
 }
 
 template <typename T, typename S>
-PackReport pack_curves(const ControlCurves<S>& curves, CurveSet<T>& set,
-                       const PackOptions& options) noexcept try {
+PackReport pack(const ControlCurves<S>& curves, CurveSet<T>& set,
+                const PackOptions& options) noexcept try {
   const Status usable = detail::check(curves);
   if (usable != Status::ok) {
     return {usable};
   }
-  const PackReport moved = detail::check_relative_to(options, curves.components);
-  if (!moved) {
-    return moved;
-  }
   Isa isa = Isa::automatic;
-  const Status runs = detail::packing_isa(options, isa);
-  if (runs != Status::ok) {
-    return {runs};
+  if (const PackReport resolved = detail::resolve_packing(options, curves.components, isa);
+      !resolved) {
+    return resolved;
   }
   auto storage = std::make_shared<detail::CurveStorage<T>>();
   storage->shape = {curves.degree, curves.components, curves.weights != Weights::none,
@@ -198,13 +190,13 @@ PackReport pack_curves(const ControlCurves<S>& curves, CurveSet<T>& set,
 
 template class CurveSet<float>;
 template class CurveSet<double>;
-template SIMDBEZIER_API PackReport pack_curves(const ControlCurves<float>&, CurveSet<float>&,
-                                               const PackOptions&) noexcept;
-template SIMDBEZIER_API PackReport pack_curves(const ControlCurves<double>&, CurveSet<float>&,
-                                               const PackOptions&) noexcept;
-template SIMDBEZIER_API PackReport pack_curves(const ControlCurves<float>&, CurveSet<double>&,
-                                               const PackOptions&) noexcept;
-template SIMDBEZIER_API PackReport pack_curves(const ControlCurves<double>&, CurveSet<double>&,
-                                               const PackOptions&) noexcept;
+template SIMDBEZIER_API PackReport pack(const ControlCurves<float>&, CurveSet<float>&,
+                                        const PackOptions&) noexcept;
+template SIMDBEZIER_API PackReport pack(const ControlCurves<double>&, CurveSet<float>&,
+                                        const PackOptions&) noexcept;
+template SIMDBEZIER_API PackReport pack(const ControlCurves<float>&, CurveSet<double>&,
+                                        const PackOptions&) noexcept;
+template SIMDBEZIER_API PackReport pack(const ControlCurves<double>&, CurveSet<double>&,
+                                        const PackOptions&) noexcept;
 
 } // namespace simdbezier

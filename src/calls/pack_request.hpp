@@ -9,6 +9,7 @@
 #include <simdbezier/patch_set.hpp>
 
 #include "src/storage/given_points.hpp"
+#include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::detail {
 
@@ -29,6 +30,31 @@ inline PackReport check_relative_to(const PackOptions& options, int components) 
     if (!std::isfinite(options.relative_to[c])) {
       return {Status::non_finite_input, 0, -1, c};
     }
+  }
+  return {};
+}
+
+/// With what packing begins: whether the options are sound for points of so many components, and
+/// which instruction set packs.
+inline PackReport resolve_packing(const PackOptions& options, int components, Isa& isa) noexcept {
+  const PackReport moved = check_relative_to(options, components);
+  return moved ? PackReport{packing_isa(options, isa)} : moved;
+}
+
+/// Packs [begin, end) up to the first fault. pack(begin, end) calls a kernel, which only knows a
+/// bound on the squares; what it finds doubtful, inspect(k) looks at.
+template <typename Pack, typename Inspect>
+PackReport pack_and_inspect(std::size_t begin, std::size_t end, const Pack& pack,
+                            const Inspect& inspect) {
+  while (begin < end) {
+    const PackDoubt doubt = pack(begin, end);
+    for (std::size_t k = doubt.begin; k < doubt.end; ++k) {
+      const PackReport report = inspect(k);
+      if (!report) {
+        return report;
+      }
+    }
+    begin = doubt.end;
   }
   return {};
 }

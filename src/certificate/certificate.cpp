@@ -1,5 +1,5 @@
-// See certificate.hpp. Computed from the packed values on demand: they are all it depends on.
-#include <simdbezier/certificate.hpp>
+// See error_bounds.hpp. Computed from the packed values on demand: they are all it depends on.
+#include <simdbezier/error_bounds.hpp>
 
 #include <algorithm>
 #include <cmath>

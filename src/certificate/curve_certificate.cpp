@@ -1,9 +1,9 @@
-// See curve_bounds(). Computed from the packed values on demand: they are all it depends on.
+// See error_bounds.hpp. Computed from the packed values on demand: they are all it depends on.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <simdbezier/curves.hpp>
+#include <simdbezier/error_bounds.hpp>
 
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/curve_storage.hpp"
@@ -136,8 +136,8 @@ private:
 } // namespace detail
 
 template <typename T>
-CurveBounds curve_bounds(const CurveSet<T>& set, std::size_t curve, Isa isa) noexcept {
-  CurveBounds bounds;
+CurveErrorBounds error_bounds(const CurveSet<T>& set, std::size_t curve, Isa isa) noexcept {
+  CurveErrorBounds bounds;
   Isa chosen = Isa::automatic;
   if (resolve_isa(isa, chosen) != Status::ok) {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
@@ -160,8 +160,9 @@ CurveBounds curve_bounds(const CurveSet<T>& set, std::size_t curve, Isa isa) noe
   return bounds;
 }
 
-template SIMDBEZIER_API CurveBounds curve_bounds(const CurveSet<float>&, std::size_t, Isa) noexcept;
-template SIMDBEZIER_API CurveBounds curve_bounds(const CurveSet<double>&, std::size_t,
-                                                 Isa) noexcept;
+template SIMDBEZIER_API CurveErrorBounds error_bounds(const CurveSet<float>&, std::size_t,
+                                                      Isa) noexcept;
+template SIMDBEZIER_API CurveErrorBounds error_bounds(const CurveSet<double>&, std::size_t,
+                                                      Isa) noexcept;
 
 } // namespace simdbezier

@@ -218,7 +218,7 @@ EdgeLink link_of(const EdgeSoup<S>& soup, const EdgeRings& rings, std::size_t nu
 }
 
 template <typename S>
-Status check_sets(std::span<const ControlNets<S>> sets, const EdgeLink* edges) noexcept {
+Status check_sets(std::span<const ControlNets<S>> sets, const Values<EdgeLink>& edges) noexcept {
   if (sets.data() == nullptr && !sets.empty()) {
     return Status::null_input;
   }
@@ -234,13 +234,15 @@ Status check_sets(std::span<const ControlNets<S>> sets, const EdgeLink* edges) n
     }
     patches += nets.count;
   }
-  if (patches > 0 && edges == nullptr) {
+  if (patches * kPatchEdges > edges.capacity) {
+    return Status::output_too_small;
+  }
+  if (patches > 0 && edges.first == nullptr) {
     return Status::null_output;
   }
-  const MemoryRange written{edges, patches * kPatchEdges * sizeof(EdgeLink)};
+  const MemoryRange written(edges.first, patches * kPatchEdges * sizeof(EdgeLink));
   for (const ControlNets<S>& nets : sets) {
-    const Status status = check_apart(nets, written);
-    if (status != Status::ok) {
+    if (const Status status = check_apart(nets, written); !status) {
       return status;
     }
   }
@@ -251,7 +253,7 @@ Status check_sets(std::span<const ControlNets<S>> sets, const EdgeLink* edges) n
 } // namespace detail
 
 template <typename S>
-Status find_adjacency(std::span<const ControlNets<S>> sets, EdgeLink* edges,
+Status find_adjacency(std::span<const ControlNets<S>> sets, Values<EdgeLink> edges,
                       const Options& options) noexcept try {
   const Status status = detail::check_sets(sets, edges);
   if (status != Status::ok) {
@@ -269,7 +271,7 @@ Status find_adjacency(std::span<const ControlNets<S>> sets, EdgeLink* edges,
   detail::close_rings(soup, rings);
   auto body = [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t number = begin; number < end; ++number) {
-      edges[number] = detail::link_of(soup, rings, number);
+      edges.first[number] = detail::link_of(soup, rings, number);
     }
   };
   detail::for_blocks(soup.size(), detail::thread_count(options.threads, soup.size()),
@@ -279,9 +281,9 @@ Status find_adjacency(std::span<const ControlNets<S>> sets, EdgeLink* edges,
   return Status::out_of_memory;
 }
 
-template SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<float>>, EdgeLink*,
+template SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<float>>, Values<EdgeLink>,
                                               const Options&) noexcept;
-template SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<double>>, EdgeLink*,
-                                              const Options&) noexcept;
+template SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<double>>,
+                                              Values<EdgeLink>, const Options&) noexcept;
 
 } // namespace simdbezier

@@ -126,7 +126,10 @@ Status check_input(const ControlNets<S>& nets) noexcept {
     return Status::bad_stride;
   }
   Lattice lattice;
-  return lattice_of(nets, lattice) ? Status::ok : Status::size_overflow;
+  if (!lattice_of(nets, lattice)) {
+    return Status::size_overflow;
+  }
+  return lies_in(lattice, nets.count, nets.memory) ? Status::ok : Status::input_too_small;
 }
 
 template <typename S>
@@ -148,7 +151,11 @@ Status check_output(const MutableNets<S>& out, const ControlNets<S>& nets, int d
   if (!lattice_of(static_cast<ControlNets<S>>(out), lattice)) {
     return Status::size_overflow;
   }
-  return nests(lattice, sizeof(S)) ? Status::ok : Status::bad_stride;
+  if (!nests(lattice, sizeof(S))) {
+    return Status::bad_stride;
+  }
+  return lies_in(lattice, out.count, std::span<const S>(out.memory)) ? Status::ok
+                                                                     : Status::output_too_small;
 }
 
 template <typename S>

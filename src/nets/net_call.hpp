@@ -4,6 +4,10 @@
 
 #include <initializer_list>
 
+#include <simdbezier/nets.hpp>
+#include <simdbezier/vectors.hpp>
+
+#include "src/output/memory_range.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/dispatch.hpp"
 #include "src/tables/net_table.hpp"
@@ -20,11 +24,13 @@ NetView<S> view_of(const MutableNets<S>& nets) noexcept;
 constexpr NetReport argument_fault(Status status) noexcept { return {status, 0, -1, 0}; }
 
 /// Whether a view can be read: ok | bad_degree | bad_components | null_input | bad_stride |
-/// size_overflow. Overlapping nets are allowed, a point that repeats itself is not.
+/// size_overflow | input_too_small. Overlapping nets are allowed, a point that repeats itself is
+/// not.
 template <typename S>
 Status check_input(const ControlNets<S>& nets) noexcept;
 
-/// Whether a view can be written: ok | null_output | bad_stride | size_overflow, as well as
+/// Whether a view can be written: ok | null_output | bad_stride | size_overflow |
+/// output_too_small, as well as
 /// bad_patch_range, bad_degree and bad_components where it is not what the operation writes.
 template <typename S>
 Status check_output(const MutableNets<S>& out, const ControlNets<S>& nets, int degree_u,
@@ -34,11 +40,6 @@ Status check_output(const MutableNets<S>& out, const ControlNets<S>& nets, int d
 template <typename S>
 Status check_apart(const ControlNets<S>& a, const ControlNets<S>& b) noexcept;
 
-/// Bytes that a call reads or writes besides nets.
-struct MemoryRange {
-  const void* begin;
-  std::size_t bytes;
-};
 /// ok | overlapping_outputs, where the range meets the memory of the view, gaps included: so are
 /// inputs of grids compared with outputs.
 template <typename S>
@@ -48,6 +49,19 @@ Status check_apart(const ControlNets<S>& nets, const MemoryRange& range) noexcep
 /// control points, then components. With signed_weights weights may be anything finite.
 template <typename S>
 NetReport find_fault(const ControlNets<S>& nets, int threads, bool signed_weights = false) noexcept;
+
+/// ok | null_output | output_too_small | overlapping_outputs, of an array that `count` results of
+/// nets go to.
+template <typename S, typename T>
+Status check_array(const ControlNets<S>& nets, const Values<T>& array, std::size_t count) noexcept {
+  if (count > array.capacity) {
+    return Status::output_too_small;
+  }
+  if (array.first == nullptr && nets.count > 0) {
+    return Status::null_output;
+  }
+  return check_apart(nets, MemoryRange(array.first, count * sizeof(T)));
+}
 
 /// check_input, check_output and check_apart of all.
 template <typename S>

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <simdbezier/control_nets.hpp>
 
@@ -24,6 +25,18 @@ struct Lattice {
 /// overflows.
 template <typename S>
 bool lattice_of(const ControlNets<S>& nets, Lattice& lattice) noexcept;
+
+/// Whether all places are within memory that is known; a null span is not.
+template <typename S>
+bool lies_in(const Lattice& lattice, std::size_t count, std::span<const S> memory) noexcept {
+  if (count == 0 || (memory.data() == nullptr && memory.empty())) {
+    return true;
+  }
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory.data());
+  return lattice.begin + static_cast<std::uintptr_t>(lattice.lowest) >= begin &&
+         lattice.begin + static_cast<std::uintptr_t>(lattice.highest) <=
+             begin + memory.size_bytes();
+}
 
 /// Whether every stride exceeds what the smaller ones span, so that no two values share a place.
 bool nests(Lattice lattice, std::ptrdiff_t value_bytes) noexcept;

@@ -46,11 +46,10 @@ Delivery<T>::Delivery(const OutputPlan<T>& plan, const KernelTable<T>& table, st
     : plan_(plan), table_(table), plane_step_(plane_step<T>(samples)), expected_(~std::size_t(0)) {
   staging_[0] = static_cast<T*>(scratch);
   staging_[1] = plan.streaming() ? staging_[0] + plan.staged_planes() * plane_step_ : staging_[0];
-  const OutputGroups<T> groups(plan.out());
   for (buffer_ = 2; buffer_-- > 0;) {
     for (std::size_t g = 0; g < kGroups; ++g) {
       for (std::size_t c = 0; c < plan.dimension() && plan.is_staged(g); ++c) {
-        planes_[buffer_][g].component[c] = plane(plan.dimension() * plan.staged_group(g) + c);
+        planes_[buffer_][g].component[c] = plane(plan.dimension() * plan.staged_vector(g) + c);
       }
     }
   }
@@ -70,10 +69,10 @@ const Planes<T>* Delivery<T>::begin(std::size_t sample) noexcept {
   }
   expected_ = sample;
   Planes<T>* const planes = planes_[buffer_];
-  const OutputGroups<T> groups(plan_.out());
-  for (std::size_t g = 0; g < kGroups; ++g) {
-    const Vectors<T>& group = *groups.group[g];
-    if (group.wanted() && !plan_.is_staged(g)) {
+  const OutputList<T>& out = plan_.out();
+  for (std::size_t g = 0; g < out.vector_count; ++g) {
+    if (out.wants(g) && !plan_.is_staged(g)) {
+      const Vectors<T>& group = *out.vectors[g];
       T* const first[3] = {group.x, group.y, group.z};
       for (std::size_t c = 0; c < plan_.dimension(); ++c) {
         planes[g].component[c] = first[c] + static_cast<std::ptrdiff_t>(sample) * group.stride;

@@ -5,7 +5,8 @@
 #include <memory>
 #include <new>
 
-#include <simdbezier/evaluate.hpp>
+#include <simdbezier/options.hpp>
+#include <simdbezier/status.hpp>
 
 #include "src/storage/patch_storage.hpp"
 

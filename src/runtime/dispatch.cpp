@@ -4,6 +4,11 @@
 
 #include <array>
 #include <cstdlib>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include <simdbezier/isa.hpp>
 
 namespace simdbezier {
 

@@ -4,13 +4,19 @@
 namespace simdbezier {
 
 std::string_view to_string(Status status) noexcept {
-  switch (status) {
+  switch (status.code()) {
   case Status::ok:
     return "ok";
   case Status::null_input:
     return "a required input pointer is null";
   case Status::null_output:
     return "no output was asked for, or one of its planes is null";
+  case Status::input_too_small:
+    return "the memory of the control points ends before the last one";
+  case Status::output_too_small:
+    return "the memory of an output is too small for the samples";
+  case Status::unequal_lengths:
+    return "arrays that belong together have different lengths";
   case Status::bad_degree:
     return "a degree is below 1 or above 15";
   case Status::bad_components:
@@ -22,7 +28,7 @@ std::string_view to_string(Status status) noexcept {
   case Status::overlapping_outputs:
     return "two outputs share memory, or an output lies in an input";
   case Status::bad_offsets:
-    return "the offsets do not leave every patch room for its samples";
+    return "the offsets do not leave every patch or curve room for its samples";
   case Status::non_finite_input:
     return "a control point or a parameter of the whole call is nan or infinite";
   case Status::coefficient_overflow:
@@ -30,9 +36,9 @@ std::string_view to_string(Status status) noexcept {
   case Status::bad_grid:
     return "a uniform grid needs at least 2 x 2 samples, a given one 1 x 1";
   case Status::bad_patch_range:
-    return "patches outside of the set were asked for";
+    return "patches or curves outside of the set were asked for";
   case Status::bad_patch_index:
-    return "a sample names a patch outside of the set";
+    return "a sample names a patch or curve outside of the set";
   case Status::size_overflow:
     return "the number of samples exceeds what memory can address";
   case Status::unknown_isa:

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <memory>
 
-#include <simdbezier/curves.hpp>
+#include <simdbezier/control_curves.hpp>
 
 #include "src/storage/net_shape.hpp"
 #include "src/storage/patch_storage.hpp"

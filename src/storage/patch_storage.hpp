@@ -13,8 +13,6 @@
 
 #include <vector>
 
-#include <simdbezier/status.hpp>
-
 #include "src/storage/given_points.hpp"
 #include "src/storage/net_shape.hpp"
 
@@ -65,7 +63,6 @@ struct PatchStorage {
   T* normal_floor = nullptr;
   /// No bicubic patch has a higher one; infinity where they differ much.
   T common_floor = std::numeric_limits<T>::infinity();
-  std::unique_ptr<std::size_t[]> number; ///< of each patch in the set, ascending; null: its index
 };
 
 /// Where a patch of a set of several shapes is.

@@ -79,17 +79,13 @@ std::size_t bucket_of(const ControlNets<S>& nets, const PackOptions& options,
   return buckets.size() - 1;
 }
 
-/// Both ways between a patch's number and its place; a set of one shape needs neither.
+/// From a patch's number to its place; a set of one shape does not need it.
 template <typename T>
-void number_patches(std::span<const PackRun> runs, SetStorage<T>& storage) {
+void place_patches(std::span<const PackRun> runs, SetStorage<T>& storage) {
   storage.places = std::make_unique<PatchPlace[]>(storage.count);
-  for (PatchStorage<T>& bucket : storage.buckets) {
-    bucket.number = std::make_unique<std::size_t[]>(bucket.count);
-  }
   for (const PackRun& run : runs) {
     for (std::size_t i = 0; i < run.count; ++i) {
       storage.places[run.number + i] = {static_cast<std::uint32_t>(run.bucket), run.place + i};
-      storage.buckets[run.bucket].number[run.place + i] = run.number + i;
     }
   }
 }
@@ -138,7 +134,7 @@ Status lay_out(std::span<const ControlNets<S>> nets, const PackOptions& options,
     }
   }
   if (storage.buckets.size() > 1) {
-    number_patches<T>(runs, storage);
+    place_patches<T>(runs, storage);
   }
   return Status::ok;
 }

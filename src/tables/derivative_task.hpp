@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include <simdbezier/derivatives.hpp>
+#include <simdbezier/partial_derivative.hpp>
 
 #include "src/storage/net_shape.hpp"
 

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <type_traits>
 
-#include <simdbezier/evaluate.hpp>
+#include <simdbezier/control_nets.hpp>
+#include <simdbezier/instruction_set.hpp>
+#include <simdbezier/sample_status.hpp>
 
 #include "src/storage/given_points.hpp"
 #include "src/storage/net_shape.hpp"

@@ -6,8 +6,6 @@
 // memory that the base code provides.
 #pragma once
 
-#include <simdbezier/nets.hpp>
-
 #include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::detail {

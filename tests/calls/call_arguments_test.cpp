@@ -9,6 +9,7 @@
 
 #include <simdbezier/simdbezier.hpp>
 
+#include "tests/support/call_options.hpp"
 #include "tests/support/isas.hpp"
 
 namespace simdbezier {
@@ -43,12 +44,12 @@ protected:
     }
   }
   void refuse_grid(Status expected, const Grid<float>& grid, const Outputs<float>& out,
-                   const Options& options = {}) {
-    EXPECT_EQ(to_string(evaluate_grid(set_, grid, out, options)), to_string(expected));
+                   const tests::CallOptions& options = {}) {
+    EXPECT_EQ(to_string(evaluate(set_, grid, out, options)), to_string(expected));
     expect_untouched();
   }
   void refuse_samples(Status expected, const Samples<float>& samples, const Outputs<float>& out) {
-    EXPECT_EQ(to_string(evaluate_scattered(set_, samples, out)), to_string(expected));
+    EXPECT_EQ(to_string(evaluate(set_, samples, out)), to_string(expected));
     expect_untouched();
   }
 
@@ -105,7 +106,7 @@ TEST_F(Arguments, strides) {
 
 TEST_F(Arguments, patch_ranges) {
   const auto grid = Grid<float>::uniform(4, 4);
-  Options options;
+  tests::CallOptions options;
   options.first_patch = kPatches + 1;
   refuse_grid(Status::bad_patch_range, grid, outputs(), options);
   options.first_patch = 2;
@@ -119,14 +120,14 @@ TEST_F(Arguments, patch_ranges) {
 
 TEST_F(Arguments, a_range_is_the_same_patches_of_the_whole) {
   const auto grid = Grid<float>::uniform(4, 4);
-  ASSERT_EQ(evaluate_grid(set_, grid, outputs()), Status::ok);
+  ASSERT_EQ(evaluate(set_, grid, outputs()), Status::ok);
   std::vector<float> part(3 * 16);
   Outputs<float> out;
   out.position = Vectors<float>::planes(part.data(), part.data() + 16, part.data() + 32);
-  Options options;
+  tests::CallOptions options;
   options.first_patch = 1;
   options.patch_count = 1;
-  ASSERT_EQ(evaluate_grid(set_, grid, out, options), Status::ok);
+  ASSERT_EQ(evaluate(set_, grid, out, options), Status::ok);
   for (std::size_t k = 0; k < 16; ++k) {
     EXPECT_EQ(part[k], values_[16 + k]);
     EXPECT_EQ(part[32 + k], values_[2 * kSamples + 16 + k]);
@@ -137,13 +138,14 @@ TEST_F(Arguments, scattered) {
   const std::uint32_t good[] = {0, 1, 2};
   const std::uint32_t bad[] = {0, 1, kPatches};
   const float u[] = {0, 0.5F, 1};
-  refuse_samples(Status::bad_patch_index, {3, bad, u, u}, outputs());
-  refuse_samples(Status::null_input, {3, nullptr, u, u}, outputs());
-  refuse_samples(Status::null_input, {3, good, nullptr, u}, outputs());
-  refuse_samples(Status::null_input, {3, good, u, nullptr}, outputs());
-  refuse_samples(Status::null_output, {3, good, u, u}, Outputs<float>{});
-  refuse_samples(Status::ok, {0, nullptr, nullptr, nullptr}, outputs());
-  EXPECT_EQ(evaluate_scattered(PatchSet<float>{}, {3, good, u, u}, outputs()),
+  const std::span<const float> null(static_cast<float*>(nullptr), 3);
+  refuse_samples(Status::bad_patch_index, {bad, u, u}, outputs());
+  refuse_samples(Status::null_input, {{static_cast<std::uint32_t*>(nullptr), 3}, u, u}, outputs());
+  refuse_samples(Status::null_input, {good, null, u}, outputs());
+  refuse_samples(Status::null_input, {good, u, null}, outputs());
+  refuse_samples(Status::null_output, {good, u, u}, Outputs<float>{});
+  refuse_samples(Status::ok, {}, outputs());
+  EXPECT_EQ(evaluate(PatchSet<float>{}, Samples<float>{good, u, u}, outputs()),
             Status::bad_patch_index);
   expect_untouched();
 }
@@ -154,7 +156,7 @@ TEST_F(Arguments, instruction_sets_of_other_builds_and_machines) {
 }
 
 TEST_F(Arguments, empty_sets_evaluate_to_nothing) {
-  EXPECT_EQ(evaluate_grid(PatchSet<float>{}, Grid<float>::uniform(4, 4), outputs()), Status::ok);
+  EXPECT_EQ(evaluate(PatchSet<float>{}, Grid<float>::uniform(4, 4), outputs()), Status::ok);
   expect_untouched();
 }
 
@@ -244,7 +246,7 @@ TEST(Pack, strides_describe_other_layouts) {
   for (int i = 0; i < 2; ++i) {
     Outputs<double> out;
     out.position = Vectors<double>::xyz(xyz[i]);
-    ASSERT_EQ(evaluate_grid(i == 0 ? a : b, Grid<double>::uniform(5, 5), out), Status::ok);
+    ASSERT_EQ(evaluate(i == 0 ? a : b, Grid<double>::uniform(5, 5), out), Status::ok);
   }
   for (int k = 0; k < 75; ++k) {
     EXPECT_EQ(xyz[0][k], xyz[1][k]);

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/output/layouts.hpp"
+#include "tests/support/call_options.hpp"
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/workload.hpp"
 
@@ -39,7 +40,7 @@ struct Sizes {
     return end;
   }
   [[nodiscard]] PatchGrids view(bool with_offsets) const {
-    return {nu.data(), nv.data(), with_offsets ? offset.data() : nullptr};
+    return {nu, nv, with_offsets ? std::span(offset) : std::span<const std::size_t>()};
   }
 };
 
@@ -73,7 +74,7 @@ protected:
   }
 
   template <typename T>
-  void check(const PatchSet<T>& set, Sizes sizes, Offsets offsets, const Options& options,
+  void check(const PatchSet<T>& set, Sizes sizes, Offsets offsets, const CallOptions& options,
              Wanted wanted = kEverything) {
     const std::size_t places =
         sizes.place([&](std::size_t k) { return offsets == Offsets::gaps ? k * 7 % 5 : 0; });
@@ -190,10 +191,10 @@ class PatchGridErrors : public ::testing::Test {
 protected:
   static constexpr std::size_t kPlaces = 23;
 
-  void refuse(Status expected, const PatchGrids& grids, const Options& options = {}) {
+  void refuse(Status expected, const PatchGrids& grids, const CallOptions& options = {}) {
     Outputs<float> out;
     out.position = Vectors<float>::planes(canvas_.at(0), canvas_.at(64), canvas_.at(128));
-    EXPECT_EQ(to_string(evaluate_patch_grids(set_, grids, out, options)), to_string(expected));
+    EXPECT_EQ(to_string(evaluate(set_, grids, out, options)), to_string(expected));
     EXPECT_TRUE(canvas_.untouched());
   }
 
@@ -209,7 +210,7 @@ TEST_F(PatchGridErrors, SizesThatAreNoGrid) {
     for (std::size_t k = 0; k < 3; ++k) {
       for (const std::uint32_t bad : {0U, 1U}) {
         const std::uint32_t good = std::exchange(sizes[k], bad);
-        refuse(Status::bad_grid, {nu_, nv_, nullptr});
+        refuse(Status::bad_grid, {nu_, nv_});
         sizes[k] = good;
       }
     }
@@ -224,26 +225,37 @@ TEST_F(PatchGridErrors, OffsetsThatDoNotAscendFarEnough) {
   }
 }
 
+TEST_F(PatchGridErrors, LengthsThatDiffer) {
+  const std::span<const std::uint32_t> nu(nu_);
+  const std::span<const std::uint32_t> nv(nv_);
+  const std::span<const std::size_t> offset(offset_);
+  refuse(Status::unequal_lengths, {nu, nv.first(2)});
+  refuse(Status::unequal_lengths, {nu.first(2), nv});
+  refuse(Status::unequal_lengths, {nu, nv, offset.first(2)});
+  refuse(Status::unequal_lengths, {nu.first(2), nv.first(2), offset});
+}
+
 TEST_F(PatchGridErrors, MissingInputs) {
-  refuse(Status::null_input, {nullptr, nv_, offset_});
-  refuse(Status::null_input, {nu_, nullptr, nullptr});
-  refuse(Status::ok, {nullptr, nullptr, nullptr}, {.patch_count = 0});
-  refuse(Status::ok, {nullptr, nullptr, nullptr}, {.first_patch = 3});
+  constexpr const std::uint32_t* kNull = nullptr;
+  refuse(Status::null_input, {{kNull, 3}, nv_, offset_});
+  refuse(Status::null_input, {nu_, {kNull, 3}});
+  refuse(Status::ok, {}, {.patch_count = 0});
+  refuse(Status::ok, {}, {.first_patch = 3});
 }
 
 TEST_F(PatchGridErrors, PatchRanges) {
-  refuse(Status::bad_patch_range, {nu_, nv_, nullptr}, {.first_patch = 4});
-  refuse(Status::bad_patch_range, {nu_, nv_, nullptr}, {.first_patch = 1, .patch_count = 3});
+  refuse(Status::bad_patch_range, {nu_, nv_}, {.first_patch = 4});
+  refuse(Status::bad_patch_range, {nu_, nv_}, {.first_patch = 1});
 }
 
 TEST_F(PatchGridErrors, SizesThatOverflow) {
   constexpr auto kMost = std::numeric_limits<std::uint32_t>::max();
   for (const std::size_t dense : {0U, 2U}) {
     nu_[dense] = nv_[dense] = kMost;
-    refuse(Status::size_overflow, {nu_, nv_, nullptr});
+    refuse(Status::size_overflow, {nu_, nv_});
   }
   nu_[1] = nv_[1] = kMost;
-  refuse(Status::size_overflow, {nu_, nv_, nullptr});
+  refuse(Status::size_overflow, {nu_, nv_});
   const std::uint32_t small[3] = {2, 2, 2};
   const std::size_t far[3] = {0, 4, std::numeric_limits<std::size_t>::max() - 3};
   refuse(Status::size_overflow, {small, small, far});
@@ -252,17 +264,17 @@ TEST_F(PatchGridErrors, SizesThatOverflow) {
 }
 
 TEST_F(PatchGridErrors, Outputs) {
-  const PatchGrids grids{nu_, nv_, nullptr};
+  const PatchGrids grids{nu_, nv_};
   Outputs<float> out;
-  EXPECT_EQ(evaluate_patch_grids(set_, grids, out), Status::null_output);
+  EXPECT_EQ(evaluate(set_, grids, out), Status::null_output);
   out.position = {canvas_.at(0), canvas_.at(kPlaces), nullptr, 1};
-  EXPECT_EQ(evaluate_patch_grids(set_, grids, out), Status::null_output);
+  EXPECT_EQ(evaluate(set_, grids, out), Status::null_output);
   out.position = Vectors<float>::xyz(canvas_.at(0), 0);
-  EXPECT_EQ(evaluate_patch_grids(set_, grids, out), Status::bad_stride);
+  EXPECT_EQ(evaluate(set_, grids, out), Status::bad_stride);
   out.position = Vectors<float>::xyz(canvas_.at(0), 2);
-  EXPECT_EQ(evaluate_patch_grids(set_, grids, out), Status::bad_stride);
+  EXPECT_EQ(evaluate(set_, grids, out), Status::bad_stride);
   out.position = Vectors<float>::planes(canvas_.at(0), canvas_.at(22), canvas_.at(64));
-  EXPECT_EQ(evaluate_patch_grids(set_, grids, out), Status::overlapping_outputs);
+  EXPECT_EQ(evaluate(set_, grids, out), Status::overlapping_outputs);
   EXPECT_TRUE(canvas_.untouched());
 }
 
@@ -270,7 +282,7 @@ TEST(PatchGridsOfNothing, IsOk) {
   float values[3] = {-7, -7, -7};
   Outputs<float> out;
   out.position = Vectors<float>::xyz(values);
-  EXPECT_EQ(evaluate_patch_grids(PatchSet<float>{}, {}, out), Status::ok);
+  EXPECT_EQ(evaluate(PatchSet<float>{}, PatchGrids{}, out), Status::ok);
   EXPECT_EQ(values[0], -7);
 }
 

@@ -169,7 +169,8 @@ protected:
     scattered(set, all, together.outputs(groups), options);
     Results<T> alone(count);
     for (std::size_t k = 0; k < count; ++k) {
-      const Samples<T> one{1, all.patch + k, all.u + k, all.v + k, all.parameters};
+      const Samples<T> one{all.patch.subspan(k, 1), all.u.subspan(k, 1), all.v.subspan(k, 1),
+                           all.parameters};
       scattered(set, one, alone.outputs(groups, k), options);
     }
     EXPECT_EQ(together.first_difference(alone), count + Results<T>::kGuard)
@@ -219,15 +220,15 @@ protected:
       samples.v[k] = std::ldexp(samples.v[k], -static_cast<int>(k % 24));
     }
     const Samples<T> all = samples.view(Parameters::unit);
-    Results<T> together(all.count);
+    Results<T> together(all.patch.size());
     scattered(packed<T>(nets), all, together.outputs(kGroupSets[1]));
-    Results<T> alone(all.count);
+    Results<T> alone(all.patch.size());
     constexpr std::uint32_t kFirst = 0;
-    for (std::size_t k = 0; k < all.count; ++k) {
-      const Samples<T> one{1, &kFirst, all.u + k, all.v + k, all.parameters};
+    for (std::size_t k = 0; k < all.patch.size(); ++k) {
+      const Samples<T> one{{&kFirst, 1}, all.u.subspan(k, 1), all.v.subspan(k, 1), all.parameters};
       scattered(single[all.patch[k]], one, alone.outputs(kGroupSets[1], k));
     }
-    EXPECT_EQ(together.first_difference(alone), all.count + Results<T>::kGuard)
+    EXPECT_EQ(together.first_difference(alone), all.patch.size() + Results<T>::kGuard)
         << "patch " << large << " is " << scale << " times larger";
   }
 
@@ -263,9 +264,9 @@ TEST(ScatteredIndices, one_bad_index_is_found_anywhere) {
       SampleArrays<float> samples = make_samples<float>(kCount, kPatterns[6], kInside);
       samples.patch[at] = bad;
       Results<float> results(kCount);
-      EXPECT_EQ(to_string(evaluate_scattered(set, samples.view(Parameters::unit),
-                                             results.outputs(kGroupSets[0]))),
-                to_string(Status::bad_patch_index));
+      EXPECT_EQ(
+          to_string(evaluate(set, samples.view(Parameters::unit), results.outputs(kGroupSets[0]))),
+          to_string(Status::bad_patch_index));
       EXPECT_EQ(results.values[0], Results<float>::kUntouched);
     }
   }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/call_options.hpp"
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/nets/generators.hpp"
 #include "tests/support/tile_collector.hpp"
@@ -31,7 +32,7 @@ protected:
   template <typename T>
   std::size_t check(const PatchSet<T>& set, const Grid<T>& samples, GroupSet groups, bool status,
                     TileLayout layout, std::size_t most, const Planes<T>& reference,
-                    const Options& options = {}) {
+                    const CallOptions& options = {}) {
     const std::size_t patches = std::min(set.size() - options.first_patch, options.patch_count);
     const TileFormat format = tile_format(groups, status, layout, most);
     TileCollector<T> collector(groups, format, options.first_patch, patches, samples.nu,
@@ -216,14 +217,14 @@ TEST(TileErrors, HandOutNoTile) {
     Status status;
     Grid<float> grid;
     TileFormat format;
-    Options options;
+    CallOptions options;
   };
   const Case cases[] = {
       {"no vector", Status::null_output, good, tile_format(0, false, TileLayout::xyz), {}},
       {"status alone", Status::null_output, good, tile_format(0, true, TileLayout::planes), {}},
       {"nu 1", Status::bad_grid, Grid<float>::uniform(1, 4), positions, {}},
       {"nv 0", Status::bad_grid, Grid<float>::uniform(4, 0), positions, {}},
-      {"given 0", Status::bad_grid, {0, 1, u, u, Parameters::unit}, positions, {}},
+      {"given 0", Status::bad_grid, {0, 1, u, u}, positions, {}},
       {"first patch", Status::bad_patch_range, good, positions, {.first_patch = 4}},
       {"patch count",
        Status::bad_patch_range,
@@ -249,9 +250,10 @@ TEST(TileErrors, NoPatchesHaveNoTiles) {
   const auto samples = Grid<double>::uniform(4, 4);
   EXPECT_EQ(evaluate_tiles(PatchSet<double>{}, samples, {}, count), Status::ok);
   const PatchSet<double> set = packed<double>(mixed_nets(3));
-  EXPECT_EQ(evaluate_tiles(set, samples, {}, count, {.first_patch = 3}), Status::ok);
-  EXPECT_EQ(evaluate_tiles(set, samples, {}, count, {.first_patch = 1, .patch_count = 0}),
-            Status::ok);
+  EXPECT_EQ(evaluate_tiles(set, samples, {}, count, CallOptions{.first_patch = 3}), Status::ok);
+  EXPECT_EQ(
+      evaluate_tiles(set, samples, {}, count, CallOptions{.first_patch = 1, .patch_count = 0}),
+      Status::ok);
   EXPECT_EQ(calls, 0U);
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "tests/curves/curve_results.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -43,14 +44,14 @@ protected:
     std::fill_n(options.relative_to, 3, kind.relative_to);
     const CurveSet<T> set = packed<T>(batch, options);
     for (int first = 0; first < kind.components; first += 3) {
-      Options where;
+      CallOptions where;
       where.first_component = first;
       const int planes = std::min(kind.components - first, 3);
       CurveResults<T> results(kCurves * kSamples, kind.components > 3 ? 1 : planes);
       results.planes = planes;
       evaluate(set, CurveGrid<T>::uniform(kSamples), results.outputs(), where);
       for (std::size_t curve = 0; curve < kCurves; ++curve) {
-        const CurveBounds bounds = curve_bounds(set, curve, isa());
+        const CurveErrorBounds bounds = error_bounds(set, curve, isa());
         for (std::size_t i = 0; i < kSamples; ++i) {
           const double x = uniform_x<T>(i, kSamples);
           for (int c = 0; c < planes; ++c) {

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "tests/curves/curve_results.hpp"
+#include "tests/support/call_options.hpp"
 #include "tests/support/isas.hpp"
 
 namespace simdbezier::tests {
@@ -12,14 +13,12 @@ constexpr auto kHuge = std::numeric_limits<std::size_t>::max();
 
 class CurveArguments : public ::testing::Test {
 protected:
-  CurveArguments() {
-    EXPECT_TRUE(pack_curves(random_curves<float>(kCurves, 3, 3, 0, 1).view(), set_));
-  }
+  CurveArguments() { EXPECT_TRUE(pack(random_curves<float>(kCurves, 3, 3, 0, 1).view(), set_)); }
 
   template <typename Samples>
   void refuse(Status expected, const Samples& samples, const CurveOutputs<float>& out,
-              const Options& options = {}) {
-    EXPECT_EQ(to_string(evaluate_curves(set_, samples, out, options)), to_string(expected));
+              const CallOptions& options = {}) {
+    EXPECT_EQ(to_string(evaluate(set_, samples, out, options)), to_string(expected));
     for (const float value : results_.values) {
       ASSERT_EQ(value, CurveResults<float>::kUntouched);
     }
@@ -37,7 +36,7 @@ TEST_F(CurveArguments, GridSizes) {
   refuse(Status::size_overflow, CurveGrid<float>::uniform(kHuge), results_.outputs());
   refuse(Status::size_overflow, CurveGrid<float>::uniform(kHuge / 8), results_.outputs());
   const float t = 0.5F;
-  EXPECT_EQ(evaluate_curves(set_, CurveGrid<float>{1, &t}, results_.outputs()), Status::ok);
+  EXPECT_EQ(evaluate(set_, CurveGrid<float>{1, &t}, results_.outputs()), Status::ok);
 }
 
 TEST_F(CurveArguments, Outputs) {
@@ -63,11 +62,11 @@ TEST_F(CurveArguments, Overlaps) {
   out.curvature = out.tangent.z + 5;
   refuse(Status::overlapping_outputs, grid_, out);
   out = results_.outputs();
-  out.status = reinterpret_cast<SampleStatus*>(out.curvature + 1);
+  out.status = reinterpret_cast<SampleStatus*>(out.curvature.first + 1);
   refuse(Status::overlapping_outputs, grid_, out);
   out = CurveOutputs<float>{};
   out.curvature = results_.plane(12);
-  out.status = reinterpret_cast<SampleStatus*>(out.curvature + 1);
+  out.status = reinterpret_cast<SampleStatus*>(out.curvature.first + 1);
   refuse(Status::overlapping_outputs, grid_, out);
   refuse(Status::overlapping_outputs, CurveGrid<float>{4, results_.plane(12)}, results_.outputs());
   out.status = nullptr;
@@ -75,7 +74,7 @@ TEST_F(CurveArguments, Overlaps) {
 }
 
 TEST_F(CurveArguments, RangesAndIndices) {
-  Options options;
+  CallOptions options;
   options.first_patch = 4;
   refuse(Status::bad_patch_range, grid_, results_.outputs(), options);
   options.first_patch = 1;
@@ -84,26 +83,29 @@ TEST_F(CurveArguments, RangesAndIndices) {
 
   const std::uint32_t curve[] = {0, 3};
   const float t[] = {0, 1};
-  refuse(Status::bad_patch_index, CurveSamples<float>{2, curve, t}, results_.outputs());
-  refuse(Status::null_input, CurveSamples<float>{2, nullptr, t}, results_.outputs());
-  refuse(Status::null_input, CurveSamples<float>{2, curve, nullptr}, results_.outputs());
-  EXPECT_EQ(evaluate_curves(CurveSet<float>{}, CurveSamples<float>{}, results_.outputs()),
-            Status::ok);
+  refuse(Status::bad_patch_index, CurveSamples<float>{curve, t}, results_.outputs());
+  refuse(Status::null_input, CurveSamples<float>{{static_cast<std::uint32_t*>(nullptr), 2}, t},
+         results_.outputs());
+  refuse(Status::null_input, CurveSamples<float>{curve, {static_cast<float*>(nullptr), 2}},
+         results_.outputs());
+  EXPECT_EQ(evaluate(CurveSet<float>{}, CurveSamples<float>{}, results_.outputs()), Status::ok);
 }
 
 TEST_F(CurveArguments, Counts) {
-  refuse(Status::null_input, CurveCounts{}, results_.outputs());
+  refuse(Status::ok, CurveGrids{}, results_.outputs()); // of no curves
+  refuse(Status::null_input, CurveGrids{{static_cast<std::uint32_t*>(nullptr), 3}},
+         results_.outputs());
   const std::uint32_t n[] = {4, 1, 4};
-  refuse(Status::bad_grid, CurveCounts{n}, results_.outputs());
+  refuse(Status::bad_grid, CurveGrids{n}, results_.outputs());
   const std::uint32_t good[] = {4, 4, 4};
   const std::size_t close[] = {0, 3, 8};
-  refuse(Status::bad_offsets, CurveCounts{good, close}, results_.outputs());
+  refuse(Status::bad_offsets, CurveGrids{good, close}, results_.outputs());
   const std::size_t far[] = {0, 4, kHuge - 2};
-  refuse(Status::size_overflow, CurveCounts{good, far}, results_.outputs());
+  refuse(Status::size_overflow, CurveGrids{good, far}, results_.outputs());
 }
 
 TEST_F(CurveArguments, Components) {
-  Options options;
+  CallOptions options;
   for (const int first : {-1, 3}) {
     options.first_component = first;
     refuse(Status::bad_components, grid_, results_.outputs(), options);
@@ -111,13 +113,13 @@ TEST_F(CurveArguments, Components) {
   options.first_component = 1; // tangents are of all components
   refuse(Status::bad_components, grid_, results_.outputs(), options);
   for (const int components : {1, 4}) {
-    ASSERT_TRUE(pack_curves(random_curves<float>(kCurves, 3, components, 0, 1).view(), set_));
+    ASSERT_TRUE(pack(random_curves<float>(kCurves, 3, components, 0, 1).view(), set_));
     auto out = CurveOutputs<float>{};
     out.curvature = results_.plane(12);
     refuse(Status::bad_components, grid_, out);
   }
   // A plane that has no component.
-  ASSERT_TRUE(pack_curves(random_curves<float>(kCurves, 3, 2, 0, 1).view(), set_));
+  ASSERT_TRUE(pack(random_curves<float>(kCurves, 3, 2, 0, 1).view(), set_));
   refuse(Status::null_output, grid_, results_.outputs());
 }
 
@@ -126,12 +128,12 @@ TEST_F(CurveArguments, CurvatureAlone) {
   out.curvature = results_.plane(12);
   for (const Destination destination :
        {Destination::automatic, Destination::cache, Destination::memory}) {
-    Options options;
+    CallOptions options;
     options.destination = destination;
-    EXPECT_EQ(evaluate_curves(set_, grid_, out, options), Status::ok);
+    EXPECT_EQ(evaluate(set_, grid_, out, options), Status::ok);
   }
   CurveResults<float> all(kSamples, 3);
-  ASSERT_EQ(evaluate_curves(set_, grid_, all.outputs()), Status::ok);
+  ASSERT_EQ(evaluate(set_, grid_, all.outputs()), Status::ok);
   for (std::size_t k = 0; k < kSamples; ++k) {
     EXPECT_EQ(results_.curvature(k), all.curvature(k));
   }
@@ -142,11 +144,11 @@ TEST(CurvePacking, RefusesWhatItCannotPack) {
   const auto good = random_curves<float>(40, 3, 3, 5, 1);
   const auto other = random_curves<float>(1, 2, 2, 0, 1);
   CurveSet<float> set;
-  ASSERT_TRUE(pack_curves(other.view(), set));
+  ASSERT_TRUE(pack(other.view(), set));
   const auto refused = [&](const CurveBatch<float>& batch, PackReport expected, auto change) {
     auto view = batch.view();
     change(view);
-    const PackReport report = pack_curves(view, set);
+    const PackReport report = pack(view, set);
     EXPECT_EQ(to_string(report.status), to_string(expected.status));
     EXPECT_EQ(report.patch, expected.patch);
     EXPECT_EQ(report.point, expected.point);
@@ -183,12 +185,12 @@ TEST(CurvePacking, RefusesWhatItCannotPack) {
   // A weight that is positive in double and nothing in float.
   auto tiny = random_curves<double>(2, 3, 3, 5, 1);
   tiny.at(1, 2, 3) = 1e-60;
-  const PackReport report = pack_curves(tiny.view(), set);
+  const PackReport report = pack(tiny.view(), set);
   EXPECT_EQ(to_string(report.status), to_string(Status::bad_weight));
   EXPECT_EQ(report.patch, 1U);
   PackOptions moved;
   moved.relative_to[1] = INFINITY;
-  EXPECT_EQ(pack_curves(good.view(), set, moved).component, 1);
+  EXPECT_EQ(pack(good.view(), set, moved).component, 1);
 }
 
 TEST(CurvePacking, LargeAndSmallValuesThatFitAreTaken) {
@@ -198,9 +200,9 @@ TEST(CurvePacking, LargeAndSmallValuesThatFitAreTaken) {
       value = static_cast<float>(static_cast<double>(value) * scale);
     }
     CurveSet<float> set;
-    ASSERT_TRUE(pack_curves(batch.view(), set));
+    ASSERT_TRUE(pack(batch.view(), set));
     CurveResults<float> results(3 * 5, 3);
-    ASSERT_EQ(evaluate_curves(set, CurveGrid<float>::uniform(5), results.outputs()), Status::ok);
+    ASSERT_EQ(evaluate(set, CurveGrid<float>::uniform(5), results.outputs()), Status::ok);
     for (std::size_t k = 0; k < 15; ++k) {
       double length = 0;
       for (std::size_t c = 0; c < 3; ++c) {
@@ -226,23 +228,23 @@ TEST(CurvePacking, StridesOfAnyKind) {
   }
   CurveSet<float> one;
   CurveSet<float> other;
-  ASSERT_TRUE(pack_curves(batch.view(), one));
-  ASSERT_TRUE(pack_curves(
+  ASSERT_TRUE(pack(batch.view(), one));
+  ASSERT_TRUE(pack(
       ControlCurves<float>{memory.data() + 4, 20, 4, 7, -1, kPlane, 3, Weights::cartesian}, other));
   CurveResults<float> a(20 * 6, 3);
   CurveResults<float> b(20 * 6, 3);
-  ASSERT_EQ(evaluate_curves(one, CurveGrid<float>::uniform(6), a.outputs()), Status::ok);
-  ASSERT_EQ(evaluate_curves(other, CurveGrid<float>::uniform(6), b.outputs()), Status::ok);
+  ASSERT_EQ(evaluate(one, CurveGrid<float>::uniform(6), a.outputs()), Status::ok);
+  ASSERT_EQ(evaluate(other, CurveGrid<float>::uniform(6), b.outputs()), Status::ok);
   EXPECT_EQ(a.hash(), b.hash());
 }
 
 TEST(CurveBoundsOf, UnknownCurvesAndInstructionSets) {
   CurveSet<float> set;
-  EXPECT_EQ(curve_bounds(set, 0).position[0], 0);
-  ASSERT_TRUE(pack_curves(random_curves<float>(2, 3, 3, 0, 1).view(), set));
-  EXPECT_EQ(curve_bounds(set, 2).d1[0], 0);
-  EXPECT_GT(curve_bounds(set, 1).d1[0], 0);
-  EXPECT_TRUE(std::isinf(curve_bounds(set, 0, absent_isa()).position[2]));
+  EXPECT_EQ(error_bounds(set, 0).position[0], 0);
+  ASSERT_TRUE(pack(random_curves<float>(2, 3, 3, 0, 1).view(), set));
+  EXPECT_EQ(error_bounds(set, 2).d1[0], 0);
+  EXPECT_GT(error_bounds(set, 1).d1[0], 0);
+  EXPECT_TRUE(std::isinf(error_bounds(set, 0, absent_isa()).position[2]));
 }
 
 } // namespace

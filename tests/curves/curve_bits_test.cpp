@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "tests/curves/curve_results.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -68,7 +69,7 @@ protected:
 
       const std::vector<std::uint32_t> counts(kCurves, static_cast<std::uint32_t>(n));
       CurveResults<T> counted(kCurves * n, kind.components);
-      evaluate(set, CurveCounts{counts.data()}, counted.outputs());
+      evaluate(set, CurveGrids{counts}, counted.outputs());
       ASSERT_EQ(grid.hash(), counted.hash()) << name_of(kind) << " n " << n;
 
       std::vector<std::uint32_t> curve;
@@ -78,7 +79,7 @@ protected:
         x.push_back(static_cast<T>(2 * uniform_x<T>(k % n, n)));
       }
       CurveResults<T> scattered(kCurves * n, kind.components);
-      const CurveSamples<T> samples{curve.size(), curve.data(), x.data(), Parameters::centred};
+      const CurveSamples<T> samples{curve, x, Parameters::centred};
       evaluate(set, samples, scattered.outputs());
       ASSERT_EQ(grid.hash(), scattered.hash()) << name_of(kind) << " n " << n;
 
@@ -96,7 +97,7 @@ protected:
     evaluate(set, CurveGrid<T>::uniform(samples), together.outputs());
     for (const int threads : {2, 5}) {
       CurveResults<T> shared(kCurves * samples, kind.components);
-      Options options;
+      CallOptions options;
       options.threads = threads;
       evaluate(set, CurveGrid<T>::uniform(samples), shared.outputs(), options);
       ASSERT_EQ(together.hash(), shared.hash()) << name_of(kind);
@@ -111,7 +112,7 @@ protected:
                 : out.d2) = d == 0   ? all.position
                             : d == 1 ? all.d1
                                      : all.d2;
-      Options options;
+      CallOptions options;
       options.first_patch = 3;
       options.patch_count = kCurves - 5;
       evaluate(set, CurveGrid<T>::uniform(samples), out, options);
@@ -179,16 +180,14 @@ TEST(CurveClasses, InstructionSetsOfAClassAgree) {
     PackOptions options;
     options.local_origin = kind.origins;
     CurveSet<float> set;
-    ASSERT_TRUE(
-        pack_curves(random_curves<float>(33, kind.degree, kind.components, kind.ratio, 8).view(),
-                    set, options));
+    ASSERT_TRUE(pack(random_curves<float>(33, kind.degree, kind.components, kind.ratio, 8).view(),
+                     set, options));
     std::map<bool, std::uint64_t> hashes;
     for (const Isa isa : available_isas()) {
       CurveResults<float> results(33 * 12, kind.components);
-      Options how;
+      CallOptions how;
       how.isa = isa;
-      ASSERT_EQ(evaluate_curves(set, CurveGrid<float>::uniform(12), results.outputs(), how),
-                Status::ok);
+      ASSERT_EQ(evaluate(set, CurveGrid<float>::uniform(12), results.outputs(), how), Status::ok);
       const auto [known, first] = hashes.emplace(fuses_multiply_add(isa), results.hash());
       EXPECT_EQ(known->second, results.hash()) << name_of(kind) << " " << to_string(isa);
     }
@@ -198,7 +197,7 @@ TEST(CurveClasses, InstructionSetsOfAClassAgree) {
 /// More samples than a chunk holds, in one curve and in many.
 TEST(CurveStrips, LongCurvesAreCutWithoutATrace) {
   CurveSet<float> set;
-  ASSERT_TRUE(pack_curves(random_curves<float>(3, 3, 3, 0, 4).view(), set));
+  ASSERT_TRUE(pack(random_curves<float>(3, 3, 3, 0, 4).view(), set));
   constexpr std::size_t kSamples = 150001;
   std::vector<float> t(kSamples);
   std::vector<std::uint32_t> curve(3 * kSamples);
@@ -208,23 +207,21 @@ TEST(CurveStrips, LongCurvesAreCutWithoutATrace) {
     all[k] = static_cast<float>(2 * uniform_x<float>(k % kSamples, kSamples));
   }
   CurveResults<float> scattered(3 * kSamples, 3);
-  ASSERT_EQ(evaluate_curves(
-                set, CurveSamples<float>{all.size(), curve.data(), all.data(), Parameters::centred},
-                scattered.outputs()),
-            Status::ok);
+  ASSERT_EQ(
+      evaluate(set, CurveSamples<float>{curve, all, Parameters::centred}, scattered.outputs()),
+      Status::ok);
   const std::vector<std::uint32_t> counts(3, static_cast<std::uint32_t>(kSamples));
   for (const Destination destination : {Destination::cache, Destination::memory}) {
     for (const int threads : {1, 2, 7}) {
-      Options options;
+      CallOptions options;
       options.destination = destination;
       options.threads = threads;
       CurveResults<float> grid(3 * kSamples, 3);
-      ASSERT_EQ(evaluate_curves(set, CurveGrid<float>::uniform(kSamples), grid.outputs(), options),
+      ASSERT_EQ(evaluate(set, CurveGrid<float>::uniform(kSamples), grid.outputs(), options),
                 Status::ok);
       EXPECT_EQ(grid.hash(), scattered.hash()) << threads;
       CurveResults<float> counted(3 * kSamples, 3);
-      ASSERT_EQ(evaluate_curves(set, CurveCounts{counts.data()}, counted.outputs(), options),
-                Status::ok);
+      ASSERT_EQ(evaluate(set, CurveGrids{counts}, counted.outputs(), options), Status::ok);
       EXPECT_EQ(counted.hash(), scattered.hash()) << threads;
     }
   }

@@ -2,6 +2,7 @@
 #include <numeric>
 
 #include "tests/curves/curve_results.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -33,7 +34,7 @@ protected:
     }
     std::vector<T> curvature(samples + 1, T(-1));
     out.curvature = expected.bent ? curvature.data() : nullptr;
-    Options options;
+    CallOptions options;
     options.destination = destination;
     options.threads = 2;
     evaluate(set, CurveGrid<T>::uniform(n), out, options);
@@ -90,7 +91,7 @@ protected:
       CurveOutputs<T> out;
       out.position = {first, expected.planes > 1 ? first + step : nullptr,
                       expected.planes > 2 ? first + 2 * step : nullptr, 1};
-      Options options;
+      CallOptions options;
       options.destination = destination;
       evaluate(set, CurveGrid<T>::uniform(n), out, options);
       for (int c = 0; c < expected.planes; ++c) {
@@ -121,7 +122,7 @@ TEST_P(CurveLayouts, FirstComponentChoosesThree) {
     const int planes = std::min(3, 7 - first);
     CurveResults<float> results(5 * 8, 1);
     results.planes = planes;
-    Options options;
+    CallOptions options;
     options.first_component = first;
     evaluate(set, CurveGrid<float>::uniform(8), results.outputs(), options);
     for (std::size_t k = 0; k < 5; ++k) {
@@ -146,10 +147,10 @@ TEST_P(CurveLayouts, CountsLeaveGapsUntouched) {
   for (const Destination destination : {Destination::cache, Destination::memory}) {
     for (const int threads : {1, 2, 3}) {
       CurveResults<double> results(extent, 3);
-      Options options;
+      CallOptions options;
       options.threads = threads;
       options.destination = destination;
-      evaluate(set, CurveCounts{counts.data(), offsets.data()}, results.outputs(), options);
+      evaluate(set, CurveGrids{counts, offsets}, results.outputs(), options);
       results.expect_guards();
       std::size_t written = 0;
       for (std::size_t k = 0; k < kCurves; ++k) {
@@ -157,7 +158,7 @@ TEST_P(CurveLayouts, CountsLeaveGapsUntouched) {
           ASSERT_EQ(results.at(0, 0, written), CurveResults<double>::kUntouched);
         }
         CurveResults<double> alone(counts[k], 3);
-        Options one;
+        CallOptions one;
         one.first_patch = k;
         one.patch_count = 1;
         evaluate(set, CurveGrid<double>::uniform(counts[k]), alone.outputs(), one);
@@ -187,14 +188,13 @@ TEST_P(CurveLayouts, ScatteredSamplesInAnyCompany) {
   }
   for (const Destination destination : {Destination::cache, Destination::memory}) {
     CurveResults<float> together(curve.size(), 3);
-    Options options;
+    CallOptions options;
     options.destination = destination;
-    evaluate(set, CurveSamples<float>{curve.size(), curve.data(), t.data()}, together.outputs(),
-             options);
+    evaluate(set, CurveSamples<float>{curve, t}, together.outputs(), options);
     together.expect_guards();
     for (std::size_t k = 0; k < curve.size(); ++k) {
       CurveResults<float> alone(1, 3);
-      evaluate(set, CurveSamples<float>{1, &curve[k], &t[k]}, alone.outputs());
+      evaluate(set, CurveSamples<float>{{&curve[k], 1}, {&t[k], 1}}, alone.outputs());
       for (std::size_t d = 0; d < 4; ++d) {
         ASSERT_TRUE(same_bits(alone.at(d, 1, 0), together.at(d, 1, k))) << "sample " << k;
       }

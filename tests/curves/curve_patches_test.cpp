@@ -23,7 +23,7 @@ protected:
     grid(patches, Grid<T>::uniform(kSamples, kSamples), out);
     for (const PatchEdge boundary : kBoundaries) {
       CurveSet<T> curves;
-      ASSERT_TRUE(pack_curves(boundary_curves(nets.view(), boundary), curves, options));
+      ASSERT_TRUE(pack(boundary_curves(nets.view(), boundary), curves, options));
       CurveResults<T> results(nets.count * kSamples, 3);
       evaluate(curves, CurveGrid<T>::uniform(kSamples), results.outputs());
       for (std::size_t patch = 0; patch < nets.count; ++patch) {
@@ -68,8 +68,8 @@ protected:
       evaluate(v_curves, CurveGrid<T>{kSamples, t}, along_u.outputs());
       for (std::size_t patch = 0; patch < nets.count; ++patch) {
         const ErrorBounds patch_bounds = error_bounds(patches, patch, isa());
-        const CurveBounds u_bounds = curve_bounds(u_curves, patch, isa());
-        const CurveBounds v_bounds = curve_bounds(v_curves, patch, isa());
+        const CurveErrorBounds u_bounds = error_bounds(u_curves, patch, isa());
+        const CurveErrorBounds v_bounds = error_bounds(v_curves, patch, isa());
         for (std::size_t i = 0; i < kSamples; ++i) {
           for (std::size_t c = 0; c < 3; ++c) {
             const double own_u =

@@ -73,16 +73,17 @@ struct CurveResults {
 
 class CurveTest : public IsaTest {
 protected:
-  template <typename T, typename Samples>
-  void evaluate(const CurveSet<T>& set, const Samples& samples, const CurveOutputs<T>& out,
-                const Options& options = {}) {
-    run(options, [&](const Options& forced) { return evaluate_curves(set, samples, out, forced); });
+  template <typename T, typename Where, typename How = CallOptions>
+  void evaluate(const CurveSet<T>& set, const Where& where, const CurveOutputs<T>& out,
+                const How& options = {}) {
+    using simdbezier::evaluate;
+    run(options, [&](const How& forced) { return evaluate(set, where, out, forced); });
   }
 
   template <typename T, typename S>
   static CurveSet<T> packed(const CurveBatch<S>& batch, const PackOptions& options = {}) {
     CurveSet<T> set;
-    const PackReport report = pack_curves(batch.view(), set, options);
+    const PackReport report = pack(batch.view(), set, options);
     EXPECT_TRUE(report) << to_string(report.status) << " curve " << report.patch << " point "
                         << report.point << " component " << report.component;
     return set;

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "tests/curves/curve_results.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -23,7 +24,7 @@ protected:
   /// Triples and planes `shift` values behind the start of a line.
   template <typename T>
   void rows(const CurveSet<T>& set, std::size_t n, std::size_t shift, bool triples,
-            const Options& options, const CurveResults<T>& expected) {
+            const CallOptions& options, const CurveResults<T>& expected) {
     const std::size_t samples = (set.size() - options.first_patch) * n;
     const std::size_t step = (samples + 63) / 16 * 16;
     std::vector<T> memory(3 * step + 48, T(-1));
@@ -61,7 +62,7 @@ protected:
       evaluate(set, CurveGrid<T>::uniform(n), expected.outputs());
       for (const Destination destination : {Destination::cache, Destination::memory}) {
         for (const std::size_t shift : {0, 1, 6}) {
-          Options options;
+          CallOptions options;
           options.destination = destination;
           options.threads = shift == 1 ? 3 : 1;
           options.first_patch = shift == 6 ? row.curves / 3 : 0;
@@ -91,7 +92,7 @@ TEST_P(CurveRows, TakeParametersInAnyOrder) {
     std::vector<float> points(3 * kFew * kSamples);
     CurveOutputs<float> out;
     out.position = Vectors<float>::xyz(points.data());
-    Options options;
+    CallOptions options;
     options.destination = destination;
     evaluate(set, CurveGrid<float>{kSamples, t}, out, options);
     for (std::size_t k = 0; k < kFew * kSamples; ++k) {

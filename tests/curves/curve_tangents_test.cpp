@@ -214,7 +214,7 @@ TEST_P(CurveTangents, ParametersThatAreNotFiniteGiveNan) {
   evaluate(set, CurveGrid<float>{4, t}, grid.outputs());
   const std::uint32_t curve[] = {1, 1, 2, 2};
   CurveResults<float> scattered(4, 3);
-  evaluate(set, CurveSamples<float>{4, curve, t}, scattered.outputs());
+  evaluate(set, CurveSamples<float>{curve, t}, scattered.outputs());
   for (std::size_t d = 0; d < 4; ++d) {
     for (std::size_t k = 0; k < 4; ++k) {
       const bool bad = k == 1 || k == 2;

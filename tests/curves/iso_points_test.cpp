@@ -16,8 +16,8 @@ TEST(IsoPoints, AreThePointsOfRowsAndColumns) {
     for (const double t : {0.0, 0.3, 0.5, 1.0, 1.25}) {
       std::vector<double> u_points(4 * 3 * channels);
       std::vector<double> v_points(4 * 6 * channels);
-      ASSERT_EQ(iso_u(nets.view(), t, u_points.data(), 2), Status::ok);
-      ASSERT_EQ(iso_v(nets.view(), t, v_points.data(), 1), Status::ok);
+      ASSERT_EQ(iso_u(nets.view(), t, u_points, {.threads = 2}).status, Status::ok);
+      ASSERT_EQ(iso_v(nets.view(), t, v_points, {.threads = 1}).status, Status::ok);
       CurveBatch<float> rows{4 * 3, 5, 3, nets.weights, nets.points};
       for (std::size_t k = 0; k < 4 * 3; ++k) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -46,7 +46,7 @@ TEST(IsoPoints, EndsAreBoundariesAndReversalIsExact) {
   const NetBatch<double> nets(3, 4, 3, 7, 6);
   std::vector<double> points(3 * 4 * 4);
   for (const double t : {0.0, 1.0}) {
-    ASSERT_EQ(iso_u(nets.view(), t, points.data()), Status::ok);
+    ASSERT_EQ(iso_u(nets.view(), t, points.data()).status, Status::ok);
     const auto boundary = boundary_curves(nets.view(), t == 0 ? PatchEdge::u0 : PatchEdge::u1);
     for (std::ptrdiff_t k = 0; k < 3 * 4; ++k) {
       for (std::ptrdiff_t c = 0; c < 4; ++c) {
@@ -60,8 +60,8 @@ TEST(IsoPoints, EndsAreBoundariesAndReversalIsExact) {
   reversed.points += 4 * reversed.point_stride;
   reversed.point_stride = -reversed.point_stride;
   std::vector<double> mirrored(points.size());
-  ASSERT_EQ(iso_u(nets.view(), 0.3125, points.data()), Status::ok);
-  ASSERT_EQ(iso_u(reversed, 1 - 0.3125, mirrored.data()), Status::ok);
+  ASSERT_EQ(iso_u(nets.view(), 0.3125, points.data()).status, Status::ok);
+  ASSERT_EQ(iso_u(reversed, 1 - 0.3125, mirrored.data()).status, Status::ok);
   EXPECT_EQ(points, mirrored);
 }
 
@@ -69,8 +69,8 @@ TEST(IsoPoints, RefuseBadInput) {
   NetBatch<float> nets(3, 4, 3, 7, 6);
   std::vector<double> points(3 * 5 * 4, -777);
   const auto refused = [&](Status expected, const ControlNets<float>& view, double t, double* to) {
-    EXPECT_EQ(to_string(iso_u(view, t, to)), to_string(expected));
-    EXPECT_EQ(to_string(iso_v(view, t, to)), to_string(expected));
+    EXPECT_EQ(to_string(iso_u(view, t, to).status), to_string(expected));
+    EXPECT_EQ(to_string(iso_v(view, t, to).status), to_string(expected));
     for (const double value : points) {
       ASSERT_EQ(value, -777);
     }
@@ -121,8 +121,8 @@ void expect_iso_of_set(const NetBatch<T>& nets, bool along_v, double t) {
   ASSERT_EQ(of_set.rational(), nets.weights != Weights::none);
   CurveResults<T> expected(nets.count * 9, 3);
   CurveResults<T> results(nets.count * 9, 3);
-  ASSERT_EQ(evaluate_curves(of_nets, CurveGrid<T>::uniform(9), expected.outputs()), Status::ok);
-  ASSERT_EQ(evaluate_curves(of_set, CurveGrid<T>::uniform(9), results.outputs()), Status::ok);
+  ASSERT_EQ(evaluate(of_nets, CurveGrid<T>::uniform(9), expected.outputs()), Status::ok);
+  ASSERT_EQ(evaluate(of_set, CurveGrid<T>::uniform(9), results.outputs()), Status::ok);
   EXPECT_EQ(results.hash(), expected.hash()) << "t " << t << " along v " << along_v;
 }
 
@@ -148,7 +148,7 @@ TEST(IsoOfSets, AreRelativeToWhatTheSetIs) {
   CurveSet<double> curves;
   ASSERT_TRUE(static_cast<bool>(iso_v(patches, 0, curves, moved)));
   CurveResults<double> results(2 * 5, 3);
-  ASSERT_EQ(evaluate_curves(curves, CurveGrid<double>::uniform(5), results.outputs()), Status::ok);
+  ASSERT_EQ(evaluate(curves, CurveGrid<double>::uniform(5), results.outputs()), Status::ok);
   EXPECT_EQ(results.at(0, 0, 0), nets.points[0]);
   EXPECT_EQ(results.at(0, 1, 0), nets.points[1] - 64);
 }

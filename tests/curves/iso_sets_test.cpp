@@ -22,7 +22,7 @@ std::vector<T> positions(const CurveSet<T>& curves) {
   out.position = {values.data(), components > 1 ? values.data() + 1 : nullptr,
                   components > 2 ? values.data() + 2 : nullptr,
                   static_cast<std::ptrdiff_t>(components)};
-  EXPECT_EQ(evaluate_curves(curves, CurveGrid<T>::uniform(kN), out), Status::ok);
+  EXPECT_EQ(evaluate(curves, CurveGrid<T>::uniform(kN), out), Status::ok);
   return values;
 }
 

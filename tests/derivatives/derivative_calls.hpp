@@ -58,19 +58,17 @@ struct SampleList {
     u.push_back(static_cast<T>(x));
     v.push_back(static_cast<T>(y));
   }
-  [[nodiscard]] Samples<T> view() const {
-    return {patch.size(), patch.data(), u.data(), v.data(), parameters};
-  }
+  [[nodiscard]] Samples<T> view() const { return {patch, u, v, parameters}; }
 };
 
 class DerivativeTest : public IsaTest {
 protected:
   /// Samples<T> or Grid<T>.
-  template <typename T, typename Where>
+  template <typename T, typename Where, typename How = CallOptions>
   void derivatives(const PatchSet<T>& set, const Where& where,
-                   std::span<const PartialDerivative<T>> wanted, const Options& options = {}) {
+                   std::span<const PartialDerivative<T>> wanted, const How& options = {}) {
     run(options,
-        [&](const Options& forced) { return evaluate_derivatives(set, where, wanted, forced); });
+        [&](const How& forced) { return evaluate_derivatives(set, where, wanted, forced); });
   }
 };
 

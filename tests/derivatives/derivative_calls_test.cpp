@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/derivatives/derivative_calls.hpp"
+#include "tests/support/call_options.hpp"
 #include "tests/support/isas.hpp"
 
 namespace simdbezier::tests {
@@ -57,7 +58,7 @@ protected:
     const PatchSet<T> set = mixed_set<T>();
     const std::vector<T> u = {0, T(0.3), T(0.5), 1, T(0.7), T(0.99), T(1.5)};
     const std::vector<T> v = {1, T(0.1), T(0.5), T(0.25), 0};
-    Options options;
+    CallOptions options;
     options.first_patch = 2;
     options.patch_count = 9;
     const SampleList<T> samples = samples_of_grid(u, v, 2, 9);
@@ -78,7 +79,7 @@ TEST_P(DerivativeCalls, a_grid_is_its_samples) {
 }
 
 /// Positions and first derivatives of a uniform grid, whose parameters are divisions of their own.
-TEST_P(DerivativeCalls, uniform_grids_are_those_of_evaluate_grid) {
+TEST_P(DerivativeCalls, uniform_grids_are_those_of_evaluate) {
   const PatchSet<float> set = mixed_set<float>();
   const auto uniform = Grid<float>::uniform(11, 7);
   const std::size_t count = set.size() * 77;
@@ -104,7 +105,7 @@ TEST_P(DerivativeCalls, bits_hang_on_the_sample_only) {
   DerivativeBuffers<double> expected(kOrders, count, 3);
   derivatives(set, uniform, expected.list());
   for (const int threads : {1, 2, 3, 7}) {
-    Options options;
+    CallOptions options;
     options.threads = threads;
     DerivativeBuffers<double> found(kOrders, count, 3);
     derivatives(set, uniform, found.list(), options);
@@ -197,18 +198,18 @@ protected:
   Vectors<float> output(std::size_t k) { return Vectors<float>::xyz(&values_[k * 3 * kCount]); }
 
   void refuse(Status expected, const List& list, const Samples<float>& samples,
-              const Options& options = {}) {
+              const CallOptions& options = {}) {
     const std::span<const PartialDerivative<float>> wanted(list);
     EXPECT_EQ(to_string(evaluate_derivatives(set_, samples, wanted, options)), to_string(expected));
     expect_untouched();
   }
   /// For both calls.
-  void refuse(Status expected, const List& list, const Options& options = {}) {
+  void refuse(Status expected, const List& list, const CallOptions& options = {}) {
     refuse(expected, list, samples_.view(), options);
     refuse_grid(expected, list, Grid<float>::uniform(2, 2), options);
   }
   void refuse_grid(Status expected, const List& list, const Grid<float>& grid,
-                   Options options = {}) {
+                   CallOptions options = {}) {
     const std::span<const PartialDerivative<float>> wanted(list);
     options.patch_count = options.patch_count == ~std::size_t(0) ? 1 : options.patch_count;
     EXPECT_EQ(to_string(evaluate_derivatives(set_, grid, wanted, options)), to_string(expected));
@@ -256,13 +257,14 @@ TEST_F(DerivativeArguments, overlaps) {
 TEST_F(DerivativeArguments, samples) {
   const List list = {{2, 1, output(0)}};
   Samples<float> samples = samples_.view();
-  samples.u = nullptr;
+  constexpr const float* kNull = nullptr;
+  samples.u = {kNull, kCount};
   refuse(Status::null_input, list, samples);
   samples = samples_.view();
-  samples.v = nullptr;
+  samples.v = {kNull, kCount};
   refuse(Status::null_input, list, samples);
   samples = samples_.view();
-  samples.patch = nullptr;
+  samples.patch = {static_cast<std::uint32_t*>(nullptr), kCount};
   refuse(Status::null_input, list, samples);
   samples_.patch[2] = static_cast<std::uint32_t>(set_.size());
   refuse(Status::bad_patch_index, list, samples_.view());

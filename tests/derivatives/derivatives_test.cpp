@@ -7,6 +7,7 @@
 
 #include "tests/derivatives/derivative_calls.hpp"
 #include "tests/derivatives/derivative_oracle.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -80,7 +81,7 @@ protected:
         exact.patch, {exact.u.begin(), exact.u.end()}, {exact.v.begin(), exact.v.end()}};
     const std::vector<OrderPair> orders = orders_up_to(most_u, most_v);
     DerivativeBuffers<T> out(orders, exact.patch.size(), oracle.front().size());
-    Options options;
+    CallOptions options;
     options.first_component = c.first_component;
     derivatives(set, samples.view(), out.list(), options);
 
@@ -185,7 +186,7 @@ protected:
     for (std::size_t g = 0; g < std::size(groups); ++g) {
       *groups[g] = expected.requests[g].out;
     }
-    Options options;
+    CallOptions options;
     options.watertight = c.watertight;
     options.threads = 1; // many small calls
     scattered(set, samples.view(), out, options);

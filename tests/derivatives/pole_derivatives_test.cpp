@@ -172,7 +172,8 @@ protected:
   template <typename T>
   void check_other_grids(const PatchSet<T>& set, const Planes<T>& expected) {
     std::size_t received = 0;
-    const TileFormat format{.position = true, .du = true, .dv = true, .duu = true, .duv = true};
+    const TileFormat format{
+        .outputs = {Output::position, Output::du, Output::dv, Output::duu, Output::duv}};
     tiles(set, parameters<T>(), format, TileFunction<T>([&](const Tile<T>& tile) {
             for (std::size_t k = 0; k < tile.samples; ++k) {
               const std::size_t at = tile.first_row * kN + k;
@@ -188,7 +189,7 @@ protected:
     constexpr std::uint32_t kSize = 3;
     Planes<T> small(kSize * kSize, {.second = true});
     Planes<T> alone(kSize * kSize, {.second = true});
-    patch_grids(set, {&kSize, &kSize}, small.outputs());
+    patch_grids(set, {{&kSize, 1}, {&kSize, 1}}, small.outputs());
     grid(set, Grid<T>::uniform(kSize, kSize), alone.outputs());
     EXPECT_EQ(differing_values(small, alone), 0U);
   }

@@ -185,12 +185,12 @@ TEST(PoleCurves, are_points_exactly_or_not_at_all) {
     for (const bool origins : {false, true}) {
       CurveSet<double> set;
       PackOptions options{.local_origin = origins, .relative_to = {0.1, 0.1}};
-      ASSERT_TRUE(pack_curves(curve, set, options));
+      ASSERT_TRUE(pack(curve, set, options));
       double slope[2] = {-777, -777};
       CurveOutputs<double> out;
       out.d1 = {&slope[0], &slope[1], nullptr, 1};
       const double middle = 0.375;
-      ASSERT_EQ(evaluate_curves(set, CurveGrid<double>{1, &middle}, out), Status::ok);
+      ASSERT_EQ(evaluate(set, CurveGrid<double>{1, &middle}, out), Status::ok);
       const ShapeCase as_patch{3, 1, 2, Weights::homogeneous};
       std::vector<double> twice = values;
       twice.insert(twice.end(), values.begin(), values.end());
@@ -199,7 +199,7 @@ TEST(PoleCurves, are_points_exactly_or_not_at_all) {
                                .to_double();
       EXPECT_EQ(exact == 0, exactly);
       EXPECT_EQ(slope[0] == 0, exactly) << "for " << exact;
-      EXPECT_LE(std::abs(slope[0] - exact), curve_bounds(set, 0).d1[0]);
+      EXPECT_LE(std::abs(slope[0] - exact), error_bounds(set, 0).d1[0]);
     }
   }
 }

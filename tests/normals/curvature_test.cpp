@@ -141,10 +141,12 @@ TEST_P(CurvatureTest, EveryPlaneIsOptional) {
   for (unsigned subset = 1; subset < 16; ++subset) {
     CurvaturePlanes<float> some(kNu * kNv);
     Outputs<float> out = some.outputs();
-    float** const planes[] = {&out.curvature.gaussian, &out.curvature.mean, &out.curvature.minimum,
-                              &out.curvature.maximum};
+    Values<float>* const planes[] = {&out.curvature.gaussian, &out.curvature.mean,
+                                     &out.curvature.minimum, &out.curvature.maximum};
     for (std::size_t which = 0; which < 4; ++which) {
-      *planes[which] = ((subset >> which) & 1U) != 0 ? *planes[which] : nullptr;
+      if (((subset >> which) & 1U) == 0) {
+        *planes[which] = {};
+      }
     }
     grid(set, Grid<float>::uniform(kNu, kNv), out);
     for (std::size_t k = 0; k < some.values.size(); ++k) {

@@ -23,8 +23,8 @@ struct Arena {
   static constexpr std::size_t kValues = 4096;
   alignas(64) float values[kValues];
   std::uint32_t patch[2 * kSamples];
-  Grid<float> grid{kSide, kSide, at(3000), at(3100), Parameters::unit};
-  Samples<float> samples{kSamples, patch, at(3200), at(3300), Parameters::unit};
+  Grid<float> grid{kSide, kSide, at(3000), at(3100)};
+  Samples<float> samples{{patch, kSamples}, {at(3200), kSamples}, {at(3300), kSamples}};
 
   Arena() {
     for (std::size_t k = 0; k < kValues; ++k) {
@@ -64,14 +64,14 @@ void expect_status(Status expected, const Set& set, const Call& call) {
 }
 
 [[nodiscard]] inline Status run_grid(Arena& arena, const Outputs<float>& out) {
-  return evaluate_grid(patches(), arena.grid, out, {.threads = 1});
+  return evaluate(patches(), arena.grid, out, {.threads = 1});
 }
 [[nodiscard]] inline Status run_samples(Arena& arena, const Outputs<float>& out) {
-  return evaluate_scattered(patches(), arena.samples, out, {.threads = 1});
+  return evaluate(patches(), arena.samples, out, {.threads = 1});
 }
 [[nodiscard]] inline Status run_patch_grids(Arena& /*arena*/, const Outputs<float>& out) {
   static constexpr std::uint32_t kSides[kPatches] = {kSide, kSide, kSide};
-  return evaluate_patch_grids(patches(), {kSides, kSides, nullptr}, out, {.threads = 1});
+  return evaluate(patches(), PatchGrids{kSides, kSides}, out, {.threads = 1});
 }
 
 } // namespace simdbezier::tests

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/output/layouts.hpp"
+#include "tests/support/call_options.hpp"
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/nets/generators.hpp"
 
@@ -52,7 +53,7 @@ class DestinationTest : public IsaTest {
 protected:
   template <typename T>
   void check(const PatchSet<T>& set, const Grid<T>& samples, const Planes<T>& reference,
-             Canvas<T>& canvas, const Outputs<T>& out, const Options& options,
+             Canvas<T>& canvas, const Outputs<T>& out, const CallOptions& options,
              const std::string& what) {
     const std::size_t count = options.patch_count * samples.nu * samples.nv;
     grid(set, samples, out, options);
@@ -147,7 +148,7 @@ protected:
         check(set, samples, reference, canvas, out,
               {.threads = turns.threads, .destination = destination, .patch_count = turns.patches},
               "mixture");
-        expect_status(status, static_cast<std::size_t>(out.status - status.data()), reference,
+        expect_status(status, static_cast<std::size_t>(out.status.first - status.data()), reference,
                       count);
       }
     }
@@ -172,7 +173,7 @@ protected:
       const Planes<T> reference = reference_of(set, samples);
       const std::size_t count = reference.count();
       for (const int threads : {1, 2, 3}) {
-        const Options options{
+        const CallOptions options{
             .threads = threads, .destination = Destination::memory, .patch_count = 100};
         for (const PlaneCase& layout : kPlaneCases) {
           canvas.reset(plane_elements(layout, count));
@@ -207,7 +208,7 @@ protected:
       const Grid<T> samples{nu, nv, x.data(), y.data(), Parameters::centred};
       const Planes<T> reference = reference_of(set, samples);
       const std::size_t count = reference.count();
-      const Options options{.threads = 1, .destination = Destination::memory, .patch_count = 4};
+      const CallOptions options{.threads = 1, .destination = Destination::memory, .patch_count = 4};
       for (const PlaneCase& layout : kPlaneCases) {
         canvas.reset(plane_elements(layout, count));
         check(set, samples, reference, canvas, plane_outputs(layout, count, nu % 16, canvas.at(0)),

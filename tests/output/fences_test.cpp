@@ -210,8 +210,10 @@ protected:
       const Fenced<std::uint32_t> patch(count, Fence::behind);
       const Fenced<T> u(count, Fence::behind);
       const Fenced<T> v(count, Fence::behind);
-      const Samples<T> given{count, patch.copy(part(all.patch)), u.copy(part(all.u)),
-                             v.copy(part(all.v)), Parameters::centred};
+      const Samples<T> given{{patch.copy(part(all.patch)), count},
+                             {u.copy(part(all.u)), count},
+                             {v.copy(part(all.v)), count},
+                             Parameters::centred};
       for (const Destination destination : {Destination::memory, Destination::cache}) {
         const auto call = [&](const Outputs<T>& out) {
           scattered(set, given, out, {.threads = 1, .destination = destination});

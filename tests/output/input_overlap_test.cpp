@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/output/arena.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -27,7 +28,7 @@ TEST(OverlapWithInputs, GridParameters) {
   }
   const Set vertices = [](Arena& a, Outputs<float>& out) { out.du = V::xyz(a.at(2900), 40); };
   expect_status(kRefused, vertices, [](Arena& arena, const Outputs<float>& out) {
-    return evaluate_grid(patches(), arena.grid, out, {.threads = 1, .patch_count = 1});
+    return evaluate(patches(), arena.grid, out, CallOptions{.threads = 1, .patch_count = 1});
   });
 }
 
@@ -64,11 +65,11 @@ TEST(OverlapWithInputs, SizesAndOffsetsOfPatchGrids) {
     const Arena before = arena;
     Outputs<float> out;
     out.duv = V::planes(arena.at(0), arena.at(N), arena.at(2 * N));
-    EXPECT_EQ(evaluate_patch_grids(patches(),
-                                   {reinterpret_cast<const std::uint32_t*>(nu),
-                                    reinterpret_cast<const std::uint32_t*>(nv),
-                                    reinterpret_cast<const std::size_t*>(offset)},
-                                   out),
+    EXPECT_EQ(evaluate(patches(),
+                       PatchGrids{{reinterpret_cast<const std::uint32_t*>(nu), kPatches},
+                                  {reinterpret_cast<const std::uint32_t*>(nv), kPatches},
+                                  {reinterpret_cast<const std::size_t*>(offset), kPatches}},
+                       out),
               kRefused)
         << input;
     EXPECT_EQ(std::memcmp(arena.values, before.values, sizeof arena.values), 0);

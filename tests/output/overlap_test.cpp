@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/output/arena.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -172,13 +173,13 @@ INSTANTIATE_TEST_SUITE_P(All, OverlapTest, ::testing::ValuesIn(overlap_cases()),
 // With one sample strides mean nothing, and only equal places are shared.
 TEST(Overlap, OneSample) {
   const auto one = [](Arena& arena, const Outputs<float>& out) {
-    return evaluate_grid(patches(), {1, 1, arena.at(3000), arena.at(3100), Parameters::unit}, out,
-                         {.patch_count = 1});
+    const Grid<float> grid{1, 1, arena.at(3000), arena.at(3100), Parameters::unit, {0, 1}};
+    return evaluate(patches(), grid, out);
   };
   const auto one_scattered = [](Arena& arena, const Outputs<float>& out) {
     Samples<float> samples = arena.samples;
-    samples.count = 1;
-    return evaluate_scattered(patches(), samples, out);
+    samples = {samples.patch.first(1), samples.u.first(1), samples.v.first(1)};
+    return evaluate(patches(), samples, out);
   };
   const Set apart = [](Arena& a, Outputs<float>& out) {
     out.position = V::xyz(a.at(0), 1);

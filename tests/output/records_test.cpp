@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/call_options.hpp"
 #include "tests/support/canvas.hpp"
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/nets/generators.hpp"
@@ -64,12 +65,12 @@ protected:
 
   template <typename T>
   void check(const PatchSet<T>& set, const Grid<T>& samples, const std::string& layout,
-             std::size_t shift, const Options& options) {
+             std::size_t shift, const CallOptions& options) {
     constexpr auto kUnused = static_cast<SampleStatus>(77);
     const std::size_t patches = std::min(options.patch_count, set.size() - options.first_patch);
     const std::size_t count = patches * samples.nu * samples.nv;
     Planes<T> reference(count, wanted_by(layout));
-    Options plain = options;
+    CallOptions plain = options;
     plain.threads = 1;
     plain.destination = Destination::cache;
     grid(set, samples, reference.outputs(), plain);
@@ -106,11 +107,11 @@ protected:
       }
       for (const std::string& layout : kLayouts) {
         for (std::size_t scheme = 0; scheme < 4; ++scheme, ++turn) {
-          Options options{.threads = turn % 5 == 3 ? 3 : 1,
-                          .watertight = scheme < 2,
-                          .destination = Destination::memory,
-                          .first_patch = turn % 3,
-                          .patch_count = turn * 5 % 13 + 2};
+          CallOptions options{.threads = turn % 5 == 3 ? 3 : 1,
+                              .watertight = scheme < 2,
+                              .destination = Destination::memory,
+                              .first_patch = turn % 3,
+                              .patch_count = turn * 5 % 13 + 2};
           const Grid<T> samples = Grid<T>::uniform(size.nu, size.nv);
           check(sets[scheme % 2], samples, layout, turn % 6 == 5 ? turn % 16 : 0, options);
           options.destination = Destination::cache;
@@ -157,7 +158,7 @@ protected:
     const PatchSet<T> set = packed<T>(mixed_nets(70));
     for (const std::string& layout : kLayouts) {
       for (const Destination destination : {Destination::memory, Destination::cache}) {
-        const Options options{.threads = 2, .destination = destination};
+        const CallOptions options{.threads = 2, .destination = destination};
         check(set, Grid<T>::uniform(32, 32), layout, 0, options);
         check(set, Grid<T>::uniform(33, 32), layout, 1, options);
         check(set, Grid<T>::uniform(16, 4500), layout, 0,

@@ -134,12 +134,12 @@ void expect_curve_strides() {
   const std::vector<S> values(3 * 4 * 3, S(1));
   const auto good = ControlCurves<S>::packed(values.data(), 3, 3, 3);
   CurveSet<T> set;
-  ASSERT_TRUE(pack_curves(good, set));
+  ASSERT_TRUE(pack(good, set));
   for (const std::ptrdiff_t bad : kBad) {
     for (const CurveStride<S>& stride : kCurveStrides<S>) {
       ControlCurves<S> view = good;
       view.*stride.member = bad;
-      EXPECT_EQ(to_string(pack_curves(view, set).status), to_string(Status::size_overflow))
+      EXPECT_EQ(to_string(pack(view, set).status), to_string(Status::size_overflow))
           << stride.name << " stride " << bad;
       EXPECT_EQ(set.size(), 3U) << "the set was changed";
     }
@@ -147,7 +147,7 @@ void expect_curve_strides() {
     one.count = 1;
     one.curve_stride = bad;
     CurveSet<T> alone;
-    EXPECT_TRUE(pack_curves(one, alone)) << bad;
+    EXPECT_TRUE(pack(one, alone)) << bad;
   }
 }
 

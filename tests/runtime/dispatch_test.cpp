@@ -61,10 +61,20 @@ TEST(Dispatch, classes) {
   EXPECT_TRUE(fuses_multiply_add(Isa::neon64));
 }
 
+TEST(Dispatch, a_status_is_true_where_it_is_ok) {
+  EXPECT_TRUE(Status());
+  for (int i = 0; i <= Status::unequal_lengths; ++i) {
+    const Status status = static_cast<Status::Code>(i);
+    EXPECT_EQ(static_cast<bool>(status), status == Status::ok);
+    EXPECT_EQ(static_cast<bool>(simdbezier::PackReport{status}), static_cast<bool>(status));
+    EXPECT_EQ(status.code(), i);
+  }
+}
+
 TEST(Dispatch, every_status_has_a_text_of_its_own) {
   std::vector<std::string_view> texts;
-  for (int i = 0; i <= static_cast<int>(Status::out_of_memory); ++i) {
-    const std::string_view text = to_string(static_cast<Status>(i));
+  for (int i = 0; i <= Status::unequal_lengths; ++i) {
+    const std::string_view text = simdbezier::to_string(static_cast<Status::Code>(i));
     EXPECT_EQ(std::count(texts.begin(), texts.end(), text), 0) << text;
     texts.push_back(text);
   }

@@ -9,7 +9,7 @@
 namespace {
 
 const char* name_of(simdbezier::Status status) {
-  switch (status) {
+  switch (status.code()) {
   case simdbezier::Status::ok:
     return "ok";
   case simdbezier::Status::unknown_isa:
@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
   Isa executed = Isa::automatic;
   Options options;
   options.executed = &executed;
-  const Status evaluated = evaluate_grid(set, Grid<float>::uniform(2, 2), out, options);
+  const Status evaluated = evaluate(set, Grid<float>::uniform(2, 2), out, options);
   std::printf("%s %s %s %s %s\n", name_of(resolved), name_of(evaluated), to_string(chosen).data(),
               to_string(executed).data(), xyz[0] == 1 ? "untouched" : "written");
   return 0;

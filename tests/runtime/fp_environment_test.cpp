@@ -59,7 +59,7 @@ protected:
         }
         EXPECT_TRUE(untouched) << test.name << ": the caller's environment was not restored";
         EXPECT_EQ(differing_values(planes, reference), 0u)
-            << test.name << ", evaluate_grid, " << threads << " threads";
+            << test.name << ", evaluate (grid), " << threads << " threads";
         EXPECT_EQ(differing_values(repacked, reference), 0u) << test.name << ", pack";
       }
     }
@@ -84,7 +84,7 @@ protected:
           }
           EXPECT_TRUE(untouched) << test.name << ": the caller's environment was not restored";
           EXPECT_EQ(differing_values(planes, reference), 0u)
-              << test.name << ", evaluate_scattered, " << threads << " threads";
+              << test.name << ", evaluate (scattered), " << threads << " threads";
         }
       }
     }

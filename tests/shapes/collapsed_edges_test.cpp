@@ -110,15 +110,14 @@ protected:
     const std::vector<T> points = packed_points<T>(std::span(&net, 1));
     CurveSet<T> curves;
     constexpr PatchEdge kEdgesOf[] = {PatchEdge::v0, PatchEdge::v1, PatchEdge::u0, PatchEdge::u1};
-    ASSERT_TRUE(
-        pack_curves(boundary_curves(control_nets<T>(std::span(&net, 1), points), kEdgesOf[side]),
-                    curves, options));
+    ASSERT_TRUE(pack(boundary_curves(control_nets<T>(std::span(&net, 1), points), kEdgesOf[side]),
+                     curves, options));
     std::vector<T> positions(3 * kN);
     CurveOutputs<T> out;
     out.position = Vectors<T>::xyz(positions.data());
     Options call;
     call.isa = isa();
-    ASSERT_EQ(evaluate_curves(curves, CurveGrid<T>::uniform(kN), out, call), Status::ok);
+    ASSERT_EQ(evaluate(curves, CurveGrid<T>::uniform(kN), out, call), Status::ok);
     for (std::size_t i = 0; i < kN; ++i) {
       for (std::size_t c = 0; c < 3; ++c) {
         EXPECT_EQ(buffers.values[0][3 * sample_on(side, i) + c], 0) << "sample " << i;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/call_options.hpp"
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/nets/component_nets.hpp"
 #include "tests/support/nets/generators.hpp"
@@ -34,7 +35,7 @@ protected:
     const PatchSet<T> space = packed<T>(nets.triple(first), packing);
     EXPECT_EQ(set.components(), nets.components());
     const int present = std::min(3, nets.components() - first);
-    const Options options{.threads = 1, .first_component = first};
+    const CallOptions options{.threads = 1, .first_component = first};
     const auto expect = [&](const char* call, const Planes<T>& here, const Planes<T>& reference) {
       EXPECT_EQ(differing(here, reference, static_cast<std::size_t>(present)), 0U)
           << call << ", components " << first << " of " << nets.components();
@@ -48,8 +49,7 @@ protected:
     const std::vector<std::uint32_t> nu(kPatches, kNu);
     const std::vector<std::uint32_t> nv(kPatches, kNv);
     Planes<T> by_patch(kSamples, kVectors);
-    patch_grids(set, {nu.data(), nv.data(), nullptr}, without_missing(by_patch.outputs(), present),
-                options);
+    patch_grids(set, {nu, nv}, without_missing(by_patch.outputs(), present), options);
     expect("patch grids", by_patch, reference);
 
     SampleArrays<T> samples;
@@ -123,7 +123,7 @@ protected:
     const ComponentNets nets({2, 3}, components, false, kPatches, random);
     const PatchSet<float> set = nets.packed<float>();
     Planes<float> planes(kSamples, {.second = true, .curvature = true});
-    Options options{.threads = 1};
+    CallOptions options{.threads = 1};
     Outputs<float> out = without_missing(planes.outputs(), components);
     out.normal = {};
     out.curvature = {};
@@ -135,10 +135,9 @@ protected:
     const auto expect = [&](const char* call, Status status) {
       EXPECT_EQ(to_string(status), to_string(expected)) << call << ", " << components;
     };
-    expect("grid", evaluate_grid(set, Grid<float>::uniform(kNu, kNv), out, options));
-    expect("patch grids", evaluate_patch_grids(set, {nu.data(), nv.data(), nullptr}, out, options));
-    expect("scattered",
-           evaluate_scattered(set, {2, patch.data(), u.data(), u.data()}, out, options));
+    expect("grid", evaluate(set, Grid<float>::uniform(kNu, kNv), out, options));
+    expect("patch grids", evaluate(set, PatchGrids{nu, nv}, out, options));
+    expect("scattered", evaluate(set, Samples<float>{patch, u, u}, out, options));
     for (const float value : planes.values()) {
       ASSERT_EQ(value, -777) << "something was written";
     }
@@ -150,9 +149,9 @@ protected:
     const ComponentNets nets({2, 3}, components, false, kPatches, random);
     int calls = 0;
     const auto count = [&](const Tile<float>&) { ++calls; };
-    const Status status = evaluate_tiles(nets.packed<float>(), Grid<float>::uniform(kNu, kNv),
-                                         format, TileFunction<float>(count),
-                                         {.threads = 1, .first_component = first_component});
+    const Status status = evaluate_tiles(
+        nets.packed<float>(), Grid<float>::uniform(kNu, kNv), format, TileFunction<float>(count),
+        CallOptions{.threads = 1, .first_component = first_component});
     EXPECT_EQ(to_string(status), to_string(expected)) << components;
     EXPECT_EQ(calls, 0);
   }
@@ -163,7 +162,7 @@ TEST_F(RefusalTest, ComponentsThatDoNotExist) {
     for (const int first : {-1, components, components + 1, std::numeric_limits<int>::max()}) {
       expect_refused(
           components, Status::bad_components,
-          [&](Planes<float>&, Outputs<float>&, Options& o) { o.first_component = first; });
+          [&](Planes<float>&, Outputs<float>&, CallOptions& o) { o.first_component = first; });
       expect_tiles_refused(components, Status::bad_components, {}, first);
     }
   }
@@ -172,19 +171,19 @@ TEST_F(RefusalTest, ComponentsThatDoNotExist) {
 TEST_F(RefusalTest, NormalsAndCurvaturesOutsideOfSpace) {
   for (const int components : {1, 2, 4, 7}) {
     expect_refused(components, Status::bad_components,
-                   [&](Planes<float>& p, Outputs<float>& out, Options&) {
+                   [&](Planes<float>& p, Outputs<float>& out, CallOptions&) {
                      out.normal = without_missing(p.outputs(), components).normal;
                    });
     expect_refused(components, Status::bad_components,
-                   [&](Planes<float>& p, Outputs<float>& out, Options&) {
+                   [&](Planes<float>& p, Outputs<float>& out, CallOptions&) {
                      out.curvature.mean = p.outputs().curvature.mean;
                    });
-    expect_tiles_refused(components, Status::bad_components, {.normal = true});
-    expect_tiles_refused(components, Status::bad_components, {.curvature = true});
+    expect_tiles_refused(components, Status::bad_components, {.outputs = {Output::normal}});
+    expect_tiles_refused(components, Status::bad_components, {.outputs = {Output::curvature}});
   }
   // Part of a point in space is none.
   expect_refused(3, Status::bad_components,
-                 [](Planes<float>& p, Outputs<float>& out, Options& options) {
+                 [](Planes<float>& p, Outputs<float>& out, CallOptions& options) {
                    options.first_component = 1;
                    out = without_missing(out, 2);
                    out.curvature.gaussian = p.outputs().curvature.gaussian;
@@ -195,28 +194,30 @@ TEST_F(RefusalTest, NormalsAndCurvaturesOutsideOfSpace) {
 TEST_F(RefusalTest, PlanesThatDoNotMatchTheComponents) {
   for (const int components : {1, 2}) {
     expect_refused(components, Status::null_output,
-                   [](Planes<float>& p, Outputs<float>& out, Options&) {
+                   [](Planes<float>& p, Outputs<float>& out, CallOptions&) {
                      out.du = p.outputs().du; // three planes
                    });
   }
-  expect_refused(7, Status::null_output,
-                 [](Planes<float>&, Outputs<float>& out, Options&) { out.position.z = nullptr; });
-  expect_refused(7, Status::null_output, [](Planes<float>&, Outputs<float>&, Options& options) {
+  expect_refused(7, Status::null_output, [](Planes<float>&, Outputs<float>& out, CallOptions&) {
+    out.position.z = nullptr;
+  });
+  expect_refused(7, Status::null_output, [](Planes<float>&, Outputs<float>&, CallOptions& options) {
     options.first_component = 5; // two are left
   });
   expect_refused(2, Status::null_output,
-                 [](Planes<float>&, Outputs<float>& out, Options&) { out.dv.x = nullptr; });
+                 [](Planes<float>&, Outputs<float>& out, CallOptions&) { out.dv.x = nullptr; });
 }
 
 TEST_F(RefusalTest, CurvaturesThatOverlap) {
   expect_refused(3, Status::overlapping_outputs,
-                 [](Planes<float>& p, Outputs<float>& out, Options&) {
+                 [](Planes<float>& p, Outputs<float>& out, CallOptions&) {
                    out.curvature = p.outputs().curvature;
                    out.curvature.mean = out.curvature.gaussian;
                  });
-  expect_refused(3, Status::overlapping_outputs, [](Planes<float>&, Outputs<float>& out, Options&) {
-    out.curvature.maximum = out.position.y + 1;
-  });
+  expect_refused(3, Status::overlapping_outputs,
+                 [](Planes<float>&, Outputs<float>& out, CallOptions&) {
+                   out.curvature.maximum = out.position.y + 1;
+                 });
 }
 
 TEST_F(RefusalTest, PatchesOutsideOfAMixedSet) {
@@ -226,11 +227,12 @@ TEST_F(RefusalTest, PatchesOutsideOfAMixedSet) {
   const PatchSet<double> set = packed_mixed<double>(nets);
   Planes<double> planes(3 * kNu * kNv);
   const Grid<double> samples = Grid<double>::uniform(kNu, kNv);
-  EXPECT_EQ(evaluate_grid(set, samples, planes.outputs(), {.first_patch = 2, .patch_count = 2}),
-            Status::bad_patch_range);
+  EXPECT_EQ(
+      evaluate(set, samples, planes.outputs(), CallOptions{.first_patch = 2, .patch_count = 2}),
+      Status::bad_patch_range);
   const std::uint32_t patch[] = {0, 2, 3};
   const double u[] = {0, 0.5, 1};
-  EXPECT_EQ(evaluate_scattered(set, {3, patch, u, u}, planes.outputs()), Status::bad_patch_index);
+  EXPECT_EQ(evaluate(set, Samples<double>{patch, u, u}, planes.outputs()), Status::bad_patch_index);
   for (const double value : planes.values()) {
     ASSERT_EQ(value, -777);
   }

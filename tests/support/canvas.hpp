@@ -14,11 +14,15 @@
 namespace simdbezier::tests {
 
 /// The vector groups of Outputs, in their order there.
-inline constexpr std::size_t kVectorGroups = 7;
+inline constexpr std::size_t kVectorGroups = kVectorOutputs;
 
 template <typename T>
 [[nodiscard]] std::array<Vectors<T>*, kVectorGroups> groups_of(Outputs<T>& out) {
-  return {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv, &out.normal};
+  std::array<Vectors<T>*, kVectorGroups> groups{};
+  for (std::size_t g = 0; g < kVectorGroups; ++g) {
+    groups[g] = &out[static_cast<Output>(g)];
+  }
+  return groups;
 }
 
 /// Where Planes keeps that group.
@@ -40,6 +44,15 @@ inline constexpr GroupSet kAllVectors = 127;
 
 [[nodiscard]] constexpr bool holds(GroupSet groups, std::size_t group) {
   return (groups >> group & 1U) != 0;
+}
+[[nodiscard]] constexpr OutputSelection selection_of(GroupSet groups) {
+  OutputSelection selection;
+  for (std::size_t g = 0; g < kVectorGroups; ++g) {
+    if (holds(groups, g)) {
+      selection.add(static_cast<Output>(g));
+    }
+  }
+  return selection;
 }
 
 /// One array of T between guards of at least 128 bytes; element 0 lies on a cache line.

@@ -113,7 +113,9 @@ public:
       T* const first = values_.data() + 21 * count_;
       out.curvature = {first, first + count_, first + 2 * count_, first + 3 * count_};
     }
-    out.status = wanted_.status ? status_.data() : nullptr;
+    if (wanted_.status) {
+      out.status = status_;
+    }
     return out;
   }
 
@@ -186,9 +188,7 @@ struct SampleArrays {
     u.push_back(first);
     v.push_back(second);
   }
-  [[nodiscard]] Samples<T> view(Parameters parameters) const {
-    return {patch.size(), patch.data(), u.data(), v.data(), parameters};
-  }
+  [[nodiscard]] Samples<T> view(Parameters parameters) const { return {patch, u, v, parameters}; }
 };
 
 } // namespace simdbezier::tests

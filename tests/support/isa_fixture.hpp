@@ -12,6 +12,8 @@
 
 #include <simdbezier/simdbezier.hpp>
 
+#include "tests/support/call_options.hpp"
+
 namespace simdbezier::tests {
 
 /// Evaluate calls go through grid(), scattered() and so on, which force the instruction set under
@@ -21,37 +23,34 @@ class IsaTest : public ::testing::TestWithParam<Isa> {
 protected:
   [[nodiscard]] static Isa isa() { return GetParam(); }
 
-  template <typename T>
+  template <typename T, typename How = CallOptions>
   void grid(const PatchSet<T>& set, const Grid<T>& samples, const Outputs<T>& out,
-            const Options& options = {}) {
-    run(options, [&](const Options& forced) { return evaluate_grid(set, samples, out, forced); });
+            const How& options = {}) {
+    run(options, [&](const How& forced) { return evaluate(set, samples, out, forced); });
   }
 
-  template <typename T>
+  template <typename T, typename How = CallOptions>
   void scattered(const PatchSet<T>& set, const Samples<T>& samples, const Outputs<T>& out,
-                 const Options& options = {}) {
-    run(options,
-        [&](const Options& forced) { return evaluate_scattered(set, samples, out, forced); });
+                 const How& options = {}) {
+    run(options, [&](const How& forced) { return evaluate(set, samples, out, forced); });
   }
 
-  template <typename T>
+  template <typename T, typename How = CallOptions>
   void tiles(const PatchSet<T>& set, const Grid<T>& samples, const TileFormat& format,
-             TileFunction<T> function, const Options& options = {}) {
-    run(options, [&](const Options& forced) {
-      return evaluate_tiles(set, samples, format, function, forced);
-    });
+             TileFunction<T> function, const How& options = {}) {
+    run(options,
+        [&](const How& forced) { return evaluate_tiles(set, samples, format, function, forced); });
   }
 
-  template <typename T>
+  template <typename T, typename How = CallOptions>
   void patch_grids(const PatchSet<T>& set, const PatchGrids& grids, const Outputs<T>& out,
-                   const Options& options = {}) {
-    run(options,
-        [&](const Options& forced) { return evaluate_patch_grids(set, grids, out, forced); });
+                   const How& options = {}) {
+    run(options, [&](const How& forced) { return evaluate(set, grids, out, forced); });
   }
 
   /// call(options): an evaluate call with these options, but for the instruction set.
-  template <typename Call>
-  void run(Options options, const Call& call) {
+  template <typename How = CallOptions, typename Call>
+  void run(How options, const Call& call) {
     Isa executed = Isa::automatic;
     options.isa = isa();
     options.executed = &executed;

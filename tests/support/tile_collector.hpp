@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/call_options.hpp"
 #include "tests/support/canvas.hpp"
 
 namespace simdbezier::tests {
@@ -19,12 +20,10 @@ namespace simdbezier::tests {
 [[nodiscard]] inline TileFormat tile_format(GroupSet groups, bool status, TileLayout layout,
                                             std::size_t samples = 0) {
   TileFormat format;
-  bool* const members[kVectorGroups] = {&format.position, &format.du,  &format.dv,    &format.duu,
-                                        &format.duv,      &format.dvv, &format.normal};
-  for (std::size_t g = 0; g < kVectorGroups; ++g) {
-    *members[g] = holds(groups, g);
+  format.outputs = selection_of(groups);
+  if (status) {
+    format.outputs.add(Output::status);
   }
-  format.status = status;
   format.layout = layout;
   format.samples = samples;
   return format;
@@ -74,7 +73,7 @@ public:
         }
       }
     }
-    for (std::size_t k = 0; format_.status && k < arrivals_.size(); ++k) {
+    for (std::size_t k = 0; format_.outputs.holds(Output::status) && k < arrivals_.size(); ++k) {
       const bool same = found_.status()[k] == reference.status()[first_ * nu_ * nv_ + k];
       different += same ? 0 : 1;
     }
@@ -153,7 +152,8 @@ private:
         break;
       }
     }
-    expect((out.status != nullptr) == format_.status, "a status not asked for, or none");
+    expect(out.status.wanted() == format_.outputs.holds(Output::status),
+           "a status not asked for, or none");
   }
 
   [[nodiscard]] static bool aligned(const T* pointer) {
@@ -178,7 +178,7 @@ private:
         target.z[first + k] = std::exchange(source.z[at], T(-7));
       }
     }
-    for (std::size_t k = 0; from.status != nullptr && k < tile.samples; ++k) {
+    for (std::size_t k = 0; from.status.wanted() && k < tile.samples; ++k) {
       to.status[first + k] = std::exchange(from.status[k], static_cast<SampleStatus>(99));
     }
   }

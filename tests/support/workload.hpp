@@ -34,43 +34,45 @@ template <typename T>
 /// Samples [first, first + count).
 template <typename T>
 [[nodiscard]] Samples<T> part_of(const SampleArrays<T>& all, std::size_t first, std::size_t count) {
-  return {count, all.patch.data() + first, all.u.data() + first, all.v.data() + first,
+  return {{all.patch.data() + first, count},
+          {all.u.data() + first, count},
+          {all.v.data() + first, count},
           Parameters::centred};
 }
 
 template <typename T>
-inline constexpr Vectors<T> Outputs<T>::*kVectorMembers[] = {
-    &Outputs<T>::position, &Outputs<T>::du,  &Outputs<T>::dv,    &Outputs<T>::duu,
-    &Outputs<T>::duv,      &Outputs<T>::dvv, &Outputs<T>::normal};
-template <typename T>
-inline constexpr T* Curvatures<T>::*kCurvatureMembers[] = {
+inline constexpr Values<T> Curvatures<T>::*kCurvatureMembers[] = {
     &Curvatures<T>::gaussian, &Curvatures<T>::mean, &Curvatures<T>::minimum,
     &Curvatures<T>::maximum};
+
+template <typename T>
+void advance(Values<T>& values, std::size_t count) {
+  values = values.wanted() ? Values<T>(values.first + count) : Values<T>();
+}
 
 /// Outputs moved on by `count` samples.
 template <typename T>
 [[nodiscard]] Outputs<T> advanced(Outputs<T> out, std::size_t count) {
-  for (const auto member : kVectorMembers<T>) {
-    Vectors<T>& group = out.*member;
+  for (std::size_t g = 0; g < kVectorOutputs; ++g) {
+    Vectors<T>& group = out[static_cast<Output>(g)];
     if (group.wanted()) {
       const auto elements = static_cast<std::ptrdiff_t>(count) * group.stride;
       group = {group.x + elements, group.y + elements, group.z + elements, group.stride};
     }
   }
   for (const auto member : kCurvatureMembers<T>) {
-    T*& plane = out.curvature.*member;
-    plane = plane != nullptr ? plane + count : nullptr;
+    advance(out.curvature.*member, count);
   }
-  out.status = out.status != nullptr ? out.status + count : nullptr;
+  advance(out.status, count);
   return out;
 }
 
 /// Copies the first `count` samples of all that both outputs have to planes.
 template <typename T>
 void copy_samples(const Outputs<T>& from, const Outputs<T>& to, std::size_t count) {
-  for (const auto member : kVectorMembers<T>) {
-    const Vectors<T>& source = from.*member;
-    const Vectors<T>& target = to.*member;
+  for (std::size_t g = 0; g < kVectorOutputs; ++g) {
+    const Vectors<T>& source = from[static_cast<Output>(g)];
+    const Vectors<T>& target = to[static_cast<Output>(g)];
     for (std::size_t k = 0; source.wanted() && target.wanted() && k < count; ++k) {
       const auto at = static_cast<std::ptrdiff_t>(k) * source.stride;
       target.x[k] = source.x[at];
@@ -79,11 +81,13 @@ void copy_samples(const Outputs<T>& from, const Outputs<T>& to, std::size_t coun
     }
   }
   for (const auto member : kCurvatureMembers<T>) {
-    if (from.curvature.*member != nullptr && to.curvature.*member != nullptr) {
-      std::copy_n(from.curvature.*member, count, to.curvature.*member);
+    const Values<T>& source = from.curvature.*member;
+    const Values<T>& target = to.curvature.*member;
+    if (source.wanted() && target.wanted()) {
+      std::copy_n(source.first, count, target.first);
     }
   }
-  std::copy_n(from.status, count, to.status);
+  std::copy_n(from.status.first, count, to.status.first);
 }
 
 /// The grids that exercise every strategy of the kernels.

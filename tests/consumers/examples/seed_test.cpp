@@ -69,7 +69,7 @@ struct Samples17 {
     out.du = Vectors<T>::xyz(du.data());
     out.dv = Vectors<T>::xyz(dv.data());
     out.normal = Vectors<T>::xyz(normal.data());
-    EXPECT_EQ(evaluate_grid(set, Grid<T>::uniform(kSide, kSide), out), Status::ok);
+    EXPECT_EQ(evaluate(set, Grid<T>::uniform(kSide, kSide), out), Status::ok);
     bounds = error_bounds(set, 0);
   }
 
@@ -205,15 +205,14 @@ TYPED_TEST(SeedTest, CurvePointsAndDerivatives) {
     SCOPED_TRACE("degree " + std::to_string(degree));
     const std::vector<T> points = seed::coordinates<T>(polygon);
     CurveSet<T> set;
-    ASSERT_TRUE(
-        static_cast<bool>(pack_curves(ControlCurves<T>::packed(points.data(), 1, degree), set)));
+    ASSERT_TRUE(static_cast<bool>(pack(ControlCurves<T>::packed(points.data(), 1, degree), set)));
     std::vector<T> position(3 * kSide);
     std::vector<T> d1(3 * kSide);
     CurveOutputs<T> out;
     out.position = Vectors<T>::xyz(position.data());
     out.d1 = Vectors<T>::xyz(d1.data());
-    ASSERT_EQ(evaluate_curves(set, CurveGrid<T>::uniform(kSide), out), Status::ok);
-    const CurveBounds bounds = curve_bounds(set, 0);
+    ASSERT_EQ(evaluate(set, CurveGrid<T>::uniform(kSide), out), Status::ok);
+    const CurveErrorBounds bounds = error_bounds(set, 0);
     const double own = kSeedRounding * size_of(polygon);
     for (std::size_t k = 0; k < kSide; ++k) {
       const seed::CurvePoint slow = seed::de_casteljau(polygon, parameter(k));

@@ -29,7 +29,7 @@ std::vector<T> direct_positions(Isa isa) {
   Options options;
   options.isa = isa;
   options.executed = &executed;
-  EXPECT_EQ(evaluate_grid(set, Grid<T>::uniform(kSide, kSide), out, options), Status::ok);
+  EXPECT_EQ(evaluate(set, Grid<T>::uniform(kSide, kSide), out, options), Status::ok);
   EXPECT_EQ(executed, isa);
   return values;
 }

@@ -46,37 +46,36 @@ struct Models {
 void pack_all(Models& m, const PackOptions& options) {
   at("pack");
   expect(pack(m.nets, m.patches, options));
-  at("pack_curves");
-  expect(pack_curves(ControlCurves<double>::packed(m.points.data(), 4 * kPatches, 3), m.curves,
-                     options));
+  at("pack (curves)");
+  expect(pack(ControlCurves<double>::packed(m.points.data(), 4 * kPatches, 3), m.curves, options));
   at("iso_u");
   CurveSet<float> iso;
   expect(iso_u(m.nets, 0.25, iso, options));
   expect(iso_v(m.patches, 0.25, iso, options));
   std::vector<double> line(kPatches * 12);
-  expect(iso_u(m.nets, 0.25, line.data(), options.threads));
+  expect(iso_u(m.nets, 0.25, line, {.threads = options.threads}));
 }
 
 void evaluate_patches(Models& m, const Options& options) {
   Outputs<float> out;
   out.position = Vectors<float>::xyz(m.values.data());
   const auto grid = Grid<float>::uniform(kGrid, kGrid);
-  at("evaluate_grid");
-  expect(evaluate_grid(m.patches, grid, out, options));
+  at("evaluate, grid");
+  expect(evaluate(m.patches, grid, out, options));
   at("evaluate_tiles");
   const auto ignore = [](const Tile<float>&) {};
   expect(evaluate_tiles(m.patches, grid, TileFormat{}, ignore, options));
-  at("evaluate_patch_grids");
+  at("evaluate, patch grids");
   const std::vector<std::uint32_t> sides(kPatches, kGrid);
-  expect(evaluate_patch_grids(m.patches, PatchGrids{sides.data(), sides.data()}, out, options));
-  at("evaluate_scattered");
+  expect(evaluate(m.patches, PatchGrids{sides, sides}, out, options));
+  at("evaluate, samples");
   std::vector<std::uint32_t> patch(kSamples);
   for (std::size_t k = 0; k < kSamples; ++k) {
     patch[k] = static_cast<std::uint32_t>(k % kPatches);
   }
   const std::vector<float> u(kSamples, 0.25F);
-  const Samples<float> samples{kSamples, patch.data(), u.data(), u.data()};
-  expect(evaluate_scattered(m.patches, samples, out, options));
+  const Samples<float> samples{patch, u, u};
+  expect(evaluate(m.patches, samples, out, options));
   at("evaluate_derivatives");
   const PartialDerivative<float> third{2, 1, out.position};
   expect(evaluate_derivatives(m.patches, samples, std::span(&third, 1), options));
@@ -87,18 +86,17 @@ void evaluate_all_curves(Models& m, const Options& options) {
   CurveOutputs<float> out;
   out.position = Vectors<float>::xyz(m.values.data());
   const std::size_t curves = 4 * kPatches;
-  at("evaluate_curves");
-  expect(evaluate_curves(m.curves, CurveGrid<float>::uniform(kGrid), out, options));
+  at("evaluate, curves");
+  expect(evaluate(m.curves, CurveGrid<float>::uniform(kGrid), out, options));
   const std::vector<std::uint32_t> sides(curves, kGrid);
-  expect(evaluate_curves(m.curves, CurveCounts{sides.data()}, out, options));
+  expect(evaluate(m.curves, CurveGrids{sides}, out, options));
   std::vector<std::uint32_t> curve(curves * kGrid);
   std::iota(curve.begin(), curve.end(), 0U);
   for (std::uint32_t& k : curve) {
     k %= static_cast<std::uint32_t>(curves);
   }
   const std::vector<float> t(curve.size(), 0.25F);
-  expect(evaluate_curves(m.curves, CurveSamples<float>{curve.size(), curve.data(), t.data()}, out,
-                         options));
+  expect(evaluate(m.curves, CurveSamples<float>{curve, t}, out, options));
 }
 
 void operate_on_nets(const Models& m, const Options& options) {

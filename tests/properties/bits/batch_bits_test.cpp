@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/call_options.hpp"
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/workload.hpp"
 

@@ -27,11 +27,11 @@ protected:
       for (const int threads : kThreadCounts) {
         for (const Destination destination :
              {Destination::automatic, Destination::cache, Destination::memory}) {
-          const Options options{.threads = threads, .destination = destination};
+          const CallOptions options{.threads = threads, .destination = destination};
           expect("grid", threads, by_grid(set, samples, options));
           expect("patch grids", threads, by_patch_grids(set, samples, kPatches, options));
         }
-        TileFormat format{true, true, true, true, true, true, true, true};
+        TileFormat format{everything()};
         for (const TileLayout layout :
              {TileLayout::planes, TileLayout::xyz, TileLayout::interleaved}) {
           for (const std::size_t most : {0U, 1U, 300U, 5000U}) {

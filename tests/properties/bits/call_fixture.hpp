@@ -5,10 +5,20 @@
 #include <mutex>
 #include <vector>
 
+#include "tests/support/call_options.hpp"
+#include "tests/support/canvas.hpp"
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/workload.hpp"
 
 namespace simdbezier::tests {
+
+/// All that a tile can hold.
+[[nodiscard]] inline OutputSelection everything() {
+  OutputSelection all = selection_of(kAllVectors);
+  all.add(Output::status);
+  all.add(Output::curvature);
+  return all;
+}
 
 class CallTest : public IsaTest {
 protected:
@@ -22,7 +32,7 @@ protected:
 
   template <typename T>
   [[nodiscard]] Planes<T> by_grid(const PatchSet<T>& set, const Grid<T>& samples,
-                                  const Options& options) {
+                                  const CallOptions& options) {
     Planes<T> planes = planes_of(set, samples);
     grid(set, samples, planes.outputs(), options);
     return planes;
@@ -31,22 +41,22 @@ protected:
   /// Calls of `piece` patches each; the samples of patch k at k * nu * nv.
   template <typename T>
   [[nodiscard]] Planes<T> by_patch_grids(const PatchSet<T>& set, const Grid<T>& samples,
-                                         std::size_t piece, Options options) {
+                                         std::size_t piece, CallOptions options) {
     Planes<T> planes = planes_of(set, samples);
     const std::vector<std::uint32_t> nu(set.size(), static_cast<std::uint32_t>(samples.nu));
     const std::vector<std::uint32_t> nv(set.size(), static_cast<std::uint32_t>(samples.nv));
     for (std::size_t first = 0; first < set.size(); first += piece) {
       options.first_patch = first;
       options.patch_count = std::min(piece, set.size() - first);
-      patch_grids(set, {nu.data(), nv.data(), nullptr},
-                  advanced(planes.outputs(), first * samples.nu * samples.nv), options);
+      patch_grids(set, {nu, nv}, advanced(planes.outputs(), first * samples.nu * samples.nv),
+                  options);
     }
     return planes;
   }
 
   template <typename T>
   [[nodiscard]] Planes<T> by_tiles(const PatchSet<T>& set, const Grid<T>& samples,
-                                   const TileFormat& format, const Options& options) {
+                                   const TileFormat& format, const CallOptions& options) {
     Planes<T> planes = planes_of(set, samples);
     std::mutex mutex;
     const auto take = [&](const Tile<T>& tile) {
@@ -61,7 +71,7 @@ protected:
   /// The grid of every patch as scattered samples.
   template <typename T>
   [[nodiscard]] Planes<T> by_scattered(const PatchSet<T>& set, const Grid<T>& samples,
-                                       const Options& options) {
+                                       const CallOptions& options) {
     Planes<T> planes = planes_of(set, samples);
     const auto list =
         grid_parameters<T>(static_cast<int>(samples.nu), static_cast<int>(samples.nv));

@@ -24,8 +24,8 @@ template <typename T>
   for (const auto& [nu, nv] : kWorkGrids) {
     Planes<T> planes(kPatches * nu * nv, {.second = second});
     const Status status =
-        evaluate_grid(set, Grid<T>::uniform(nu, nv), planes.outputs(), {.threads = 2, .isa = isa});
-    hash.add(static_cast<int>(status));
+        evaluate(set, Grid<T>::uniform(nu, nv), planes.outputs(), {.threads = 2, .isa = isa});
+    hash.add(static_cast<int>(status.code()));
     hash.add(planes.hash());
   }
   return hash.value();
@@ -35,8 +35,8 @@ template <typename T>
 [[nodiscard]] std::uint64_t scattered_hash(const PatchSet<T>& set, Isa isa, bool second = false) {
   const SampleArrays<T> samples = random_samples<T>(kPatches, 20'000);
   Planes<T> planes(samples.patch.size(), {.second = second});
-  const Status status = evaluate_scattered(set, samples.view(Parameters::centred), planes.outputs(),
-                                           {.threads = 2, .isa = isa});
+  const Status status = evaluate(set, samples.view(Parameters::centred), planes.outputs(),
+                                 {.threads = 2, .isa = isa});
   return status == Status::ok ? planes.hash() : 0;
 }
 
@@ -45,7 +45,7 @@ template <typename T>
 [[nodiscard]] std::uint64_t curvature_hash(const PatchSet<T>& set, Isa isa) {
   Planes<T> planes(kPatches * 17 * 9, kAllOutputs);
   const Status status =
-      evaluate_grid(set, Grid<T>::uniform(17, 9), planes.outputs(), {.threads = 2, .isa = isa});
+      evaluate(set, Grid<T>::uniform(17, 9), planes.outputs(), {.threads = 2, .isa = isa});
   return status == Status::ok ? planes.hash() : 0;
 }
 
@@ -55,15 +55,12 @@ template <typename T>
   constexpr std::size_t n = 17;
   std::vector<T> vertices(21 * kPatches * n * n);
   Outputs<T> out;
-  Vectors<T>* const members[] = {&out.position, &out.du,  &out.dv,    &out.duu,
-                                 &out.duv,      &out.dvv, &out.normal};
-  for (std::size_t g = 0; g < std::size(members); ++g) {
-    *members[g] = Vectors<T>::xyz(vertices.data() + 3 * g, 21);
+  for (std::size_t g = 0; g < kVectorOutputs; ++g) {
+    out[static_cast<Output>(g)] = Vectors<T>::xyz(vertices.data() + 3 * g, 21);
   }
   Fnv1a hash;
-  hash.add(static_cast<int>(
-      evaluate_grid(set, Grid<T>::uniform(n, n), out,
-                    {.threads = 2, .isa = isa, .destination = Destination::memory})));
+  const Options options{.threads = 2, .isa = isa, .destination = Destination::memory};
+  hash.add(static_cast<int>(evaluate(set, Grid<T>::uniform(n, n), out, options).code()));
   hash.add_all(std::span<const T>(vertices));
   return hash.value();
 }
@@ -79,8 +76,8 @@ template <typename T>
     samples += std::size_t{nu.back()} * nv.back();
   }
   Planes<T> planes(samples, {.second = true});
-  const Status status = evaluate_patch_grids(set, {nu.data(), nv.data(), nullptr}, planes.outputs(),
-                                             {.threads = 2, .isa = isa});
+  const Status status =
+      evaluate(set, PatchGrids{nu, nv}, planes.outputs(), {.threads = 2, .isa = isa});
   return status == Status::ok ? planes.hash() : 0;
 }
 
@@ -97,11 +94,12 @@ template <typename T>
     }
   };
   TileFormat format;
-  format.duv = format.normal = true;
+  format.outputs = {Output::position, Output::duv, Output::normal};
   format.layout = TileLayout::interleaved;
   format.samples = 1000;
   hash.add(static_cast<int>(
-      evaluate_tiles(set, Grid<T>::uniform(17, 9), format, add, {.threads = 1, .isa = isa})));
+      evaluate_tiles(set, Grid<T>::uniform(17, 9), format, add, {.threads = 1, .isa = isa})
+          .code()));
   return hash.value();
 }
 

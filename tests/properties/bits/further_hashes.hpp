@@ -28,7 +28,8 @@ template <typename T>
       requests.push_back({order_u, order_v, Vectors<T>::xyz(first, kStride)});
     }
     const std::span<const PartialDerivative<T>> all(requests);
-    hash.add(static_cast<int>(evaluate_derivatives(set, where, all, {.threads = 2, .isa = isa})));
+    hash.add(
+        static_cast<int>(evaluate_derivatives(set, where, all, {.threads = 2, .isa = isa}).code()));
     hash.add_all(std::span<const T>(values));
   };
   add(set.size() * nu * nv, Grid<T>::uniform(nu, nv));
@@ -43,13 +44,12 @@ void add_curves(Fnv1a& hash, const CurveSet<T>& set, const Where& where, std::si
   std::vector<T> values(13 * count);
   std::vector<SampleStatus> status(count);
   CurveOutputs<T> out;
-  Vectors<T>* const groups[] = {&out.position, &out.d1, &out.d2, &out.tangent};
-  for (std::size_t g = 0; g < std::size(groups); ++g) {
-    *groups[g] = Vectors<T>::xyz(values.data() + 3 * g * count);
+  for (std::size_t g = 0; g < kCurveVectorOutputs; ++g) {
+    out[static_cast<CurveOutput>(g)] = Vectors<T>::xyz(values.data() + 3 * g * count);
   }
   out.curvature = values.data() + 12 * count;
   out.status = status.data();
-  hash.add(static_cast<int>(evaluate_curves(set, where, out, {.threads = 2, .isa = isa})));
+  hash.add(static_cast<int>(evaluate(set, where, out, {.threads = 2, .isa = isa}).code()));
   hash.add_all(std::span<const T>(values));
   hash.add_bytes(status.data(), status.size());
 }
@@ -73,10 +73,8 @@ void add_calls(Fnv1a& hash, const CurveSet<T>& set, Isa isa) {
   for (const std::size_t n : {4U, 17U}) {
     add_curves(hash, set, CurveGrid<T>::uniform(n), n * set.size(), isa);
   }
-  add_curves(hash, set, CurveCounts{counts.data()}, counted, isa);
-  add_curves(hash, set,
-             CurveSamples<T>{curve.size(), curve.data(), parameters.data(), Parameters::centred},
-             curve.size(), isa);
+  add_curves(hash, set, CurveGrids{counts}, counted, isa);
+  add_curves(hash, set, CurveSamples<T>{curve, parameters, Parameters::centred}, curve.size(), isa);
 }
 
 /// The rows of nets as curves, and the iso-parametric curves across them.
@@ -91,9 +89,9 @@ template <typename T>
     for (const bool local_origin : {false, true}) {
       const PackOptions packing{.local_origin = local_origin};
       CurveSet<T> set;
-      expect_packed(pack_curves(
-          ControlCurves<T>::packed(points.data(), rows, shape.degrees.u, 3, control.weights), set,
-          packing));
+      expect_packed(
+          pack(ControlCurves<T>::packed(points.data(), rows, shape.degrees.u, 3, control.weights),
+               set, packing));
       add_calls(hash, set, isa);
       expect_packed(iso_u(control, 0.3, set, packing));
       add_calls(hash, set, isa);
@@ -115,7 +113,7 @@ public:
 
   [[nodiscard]] const MutableNets<T>& nets() const { return nets_; }
   void add_to(Fnv1a& hash, const NetReport& report) const {
-    hash.add(static_cast<int>(report.status));
+    hash.add(static_cast<int>(report.status.code()));
     hash.add_all(std::span<const T>(values_));
   }
 
@@ -169,14 +167,14 @@ template <typename T>
     std::vector<T> low(3 * nets.size());
     std::vector<T> high(3 * nets.size());
     const auto add_boxes = [&](const NetReport& report) {
-      hash.add(static_cast<int>(report.status));
+      hash.add(static_cast<int>(report.status.code()));
       hash.add_all(std::span<const T>(low));
       hash.add_all(std::span<const T>(high));
     };
     add_boxes(control_boxes(control, {low.data(), high.data()}, options));
     add_boxes(tight_boxes(control, 2, {low.data(), high.data()}, options));
     std::vector<T> distance(nets.size());
-    hash.add(static_cast<int>(flatness(control, distance.data(), options).status));
+    hash.add(static_cast<int>(flatness(control, distance.data(), options).status.code()));
     hash.add_all(std::span<const T>(distance));
   }
   return hash.value();

@@ -6,6 +6,7 @@
 
 #include "tests/properties/bits/call_fixture.hpp"
 #include "tests/properties/bits/shape_workload.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -91,13 +92,12 @@ void ShapesTest::expect_equal_calls(const PackOptions& packing) {
     };
     for (const int threads : kThreadCounts) {
       for (const Destination destination : {Destination::cache, Destination::memory}) {
-        const Options options{.threads = threads, .destination = destination};
+        const CallOptions options{.threads = threads, .destination = destination};
         expect("grid", threads, by_grid(set, samples, options));
         expect("patch grids", threads, by_patch_grids(set, samples, kPatches, options));
       }
       expect("scattered", threads, by_scattered(set, samples, {.threads = threads}));
-      TileFormat format{true, true, true, true, true, true, true, true};
-      format.curvature = true;
+      TileFormat format{everything()};
       for (const TileLayout layout :
            {TileLayout::planes, TileLayout::xyz, TileLayout::interleaved}) {
         for (const std::size_t most : {0U, 1U, 300U}) {
@@ -186,8 +186,8 @@ void expect_equal_class(Isa isa, Isa reference) {
       Planes<T> here(kPatches * nu * nv, kAllOutputs);
       Planes<T> there(kPatches * nu * nv, kAllOutputs);
       const Grid<T> samples = Grid<T>::uniform(nu, nv);
-      ASSERT_EQ(evaluate_grid(set, samples, here.outputs(), {.isa = isa}), Status::ok);
-      ASSERT_EQ(evaluate_grid(set, samples, there.outputs(), {.isa = reference}), Status::ok);
+      ASSERT_EQ(evaluate(set, samples, here.outputs(), {.isa = isa}), Status::ok);
+      ASSERT_EQ(evaluate(set, samples, there.outputs(), {.isa = reference}), Status::ok);
       EXPECT_EQ(differing_values(here, there), 0U)
           << to_string(isa) << " against " << to_string(reference) << ", grid " << nu << " x "
           << nv;

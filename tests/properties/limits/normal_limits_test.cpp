@@ -136,7 +136,7 @@ protected:
     add_grid(whole, "grid");
     Planes<T> own(set.size() * kGridOfNet);
     const std::vector<std::uint32_t> n(set.size(), kLimitGrid);
-    patch_grids(set, {n.data(), n.data(), nullptr}, own.outputs());
+    patch_grids(set, {n, n}, own.outputs());
     add_grid(own, "patch grids");
   }
 
@@ -146,8 +146,7 @@ protected:
     const Outputs<T> out = planes.outputs();
     std::mutex mutex;
     TileFormat format;
-    format.position = false;
-    format.normal = format.status = true;
+    format.outputs = {Output::normal, Output::status};
     tiles<T>(set, Grid<T>::uniform(kLimitGrid, kLimitGrid), format, [&](const Tile<T>& tile) {
       const std::lock_guard<std::mutex> lock(mutex);
       const std::size_t first = (tile.first_patch * kLimitGrid + tile.first_row) * kLimitGrid;

@@ -32,10 +32,9 @@ template <typename T, typename S>
     }
   }
   CurveSet<T> set;
-  expect_packed(
-      pack_curves(ControlCurves<S>::packed(points.data(), curves.size(), curves[0].net.degree_u,
-                                           curves[0].components, weights_of(curves[0].net)),
-                  set, options));
+  expect_packed(pack(ControlCurves<S>::packed(points.data(), curves.size(), curves[0].net.degree_u,
+                                              curves[0].components, weights_of(curves[0].net)),
+                     set, options));
   return set;
 }
 
@@ -100,7 +99,7 @@ protected:
       }
     }
     Tangents<T> found(x.size(), curves[0].components);
-    const CurveSamples<T> samples{x.size(), curve.data(), x.data(), Parameters::centred};
+    const CurveSamples<T> samples{curve, x, Parameters::centred};
     run_call(set, samples, found.outputs());
     std::size_t at = 0;
     for (const LimitNet& entry : curves) {
@@ -117,7 +116,7 @@ private:
     run_call(set, CurveGrid<T>::uniform(kLimitGrid), grid.outputs());
     Tangents<T> counted(curves.size() * kLimitGrid, curves[0].components);
     const std::vector<std::uint32_t> n(curves.size(), kLimitGrid);
-    run_call(set, CurveCounts{n.data(), nullptr}, counted.outputs());
+    run_call(set, CurveGrids{n}, counted.outputs());
     for (std::size_t k = 0; k < curves.size(); ++k) {
       for (std::size_t i = 0; i < kLimitGrid; ++i) {
         tally.add(curves[k], curves[k].samples[i], grid.at(k * kLimitGrid + i), "grid");
@@ -128,7 +127,7 @@ private:
 
   template <typename T, typename Samples>
   void run_call(const CurveSet<T>& set, const Samples& samples, const CurveOutputs<T>& out) {
-    run({}, [&](const Options& forced) { return evaluate_curves(set, samples, out, forced); });
+    run({}, [&](const Options& forced) { return evaluate(set, samples, out, forced); });
   }
 };
 

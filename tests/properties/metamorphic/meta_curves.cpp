@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "tests/properties/metamorphic/meta_memory.hpp"
+#include "tests/support/call_options.hpp"
 #include "tests/support/evaluation.hpp"
 
 namespace simdbezier::tests {
@@ -16,22 +17,22 @@ public:
     for (const MetaNet& net : nets) {
       points.insert(points.end(), net.values.begin(), net.values.end());
     }
-    expect_packed(pack_curves(ControlCurves<T>::packed(points.data(), nets.size(), nets[0].degree_u,
-                                                       components_, nets[0].weights),
-                              curves_, options));
+    expect_packed(pack(ControlCurves<T>::packed(points.data(), nets.size(), nets[0].degree_u,
+                                                components_, nets[0].weights),
+                       curves_, options));
   }
 
-  [[nodiscard]] Status evaluate(Call call, std::size_t nu, std::size_t nv, const Options& given,
+  [[nodiscard]] Status evaluate(Call call, std::size_t nu, std::size_t nv, const CallOptions& given,
                                 Sheet& sheet) const override {
     sheet = {nu, nv, components_, {}, {}, {}, {}};
-    return in_triples(components_, given, sheet, [&](const Options& options, Sheet& to) {
+    return in_triples(components_, given, sheet, [&](const CallOptions& options, Sheet& to) {
       return by_curves(call, options, to);
     });
   }
 
   [[nodiscard]] MetaBounds bounds(std::size_t net, Isa isa) const override {
     MetaBounds result;
-    const CurveBounds curve = curve_bounds(curves_, net, isa);
+    const CurveErrorBounds curve = error_bounds(curves_, net, isa);
     for (std::size_t c = 0; c < kMostComponents; ++c) {
       result.order[0][0][c] = curve.position[c];
       result.order[1][0][c] = curve.d1[c];
@@ -42,7 +43,7 @@ public:
 private:
   [[nodiscard]] int planes_from(int first) const { return std::min(components_ - first, 3); }
 
-  [[nodiscard]] Status by_curves(Call call, const Options& options, Sheet& sheet) const {
+  [[nodiscard]] Status by_curves(Call call, const CallOptions& options, Sheet& sheet) const {
     const std::size_t samples = curves_.size() * sheet.nu;
     const int planes = planes_from(options.first_component);
     Memory<T> memory(samples);
@@ -60,7 +61,7 @@ private:
     take(out.position, samples, components_, options.first_component, sheet.derivatives[0][0]);
     take(out.d1, samples, components_, options.first_component, sheet.derivatives[1][0]);
     take(out.d2, samples, components_, options.first_component, sheet.derivatives[2][0]);
-    if (out.status != nullptr) {
+    if (out.status.wanted()) {
       take(out.tangent, samples, 3, 0, sheet.direction);
       for (std::size_t k = 0; k < 4 * samples; ++k) {
         sheet.curvature.push_back(k % 4 == 0 ? static_cast<double>(out.curvature[k / 4]) : 0);
@@ -70,13 +71,14 @@ private:
   }
 
   [[nodiscard]] Status run_curves(Call call, std::size_t n, const CurveOutputs<T>& out,
-                                  const Options& options) const {
+                                  const CallOptions& options) const {
+    using simdbezier::evaluate; // not the member
     if (call == Call::curve_rows) {
-      return evaluate_curves(curves_, CurveGrid<T>::uniform(n), out, options);
+      return evaluate(curves_, CurveGrid<T>::uniform(n), out, options);
     }
     if (call == Call::counted_curves) {
       const std::vector<std::uint32_t> counts(curves_.size(), static_cast<std::uint32_t>(n));
-      return evaluate_curves(curves_, CurveCounts{counts.data(), nullptr}, out, options);
+      return evaluate(curves_, CurveGrids{counts}, out, options);
     }
     const std::vector<T> list = parameters<T>(n);
     std::vector<std::uint32_t> curve;
@@ -85,9 +87,7 @@ private:
       curve.push_back(static_cast<std::uint32_t>(k / n));
       t.push_back(list[k % n]);
     }
-    return evaluate_curves(curves_,
-                           CurveSamples<T>{t.size(), curve.data(), t.data(), Parameters::centred},
-                           out, options);
+    return evaluate(curves_, CurveSamples<T>{curve, t, Parameters::centred}, out, options);
   }
 
   int components_;
@@ -114,7 +114,8 @@ void place(const std::vector<double>& values, std::size_t k, bool in_u, int firs
 } // namespace
 
 template <typename T>
-Status evaluate_iso(const PatchSet<T>& patches, Call call, const Options& options, Sheet& sheet) {
+Status evaluate_iso(const PatchSet<T>& patches, Call call, const CallOptions& options,
+                    Sheet& sheet) {
   const bool in_u = call == Call::iso_u;
   const std::size_t curves = in_u ? sheet.nu : sheet.nv;
   const std::size_t along = in_u ? sheet.nv : sheet.nu;
@@ -134,7 +135,7 @@ Status evaluate_iso(const PatchSet<T>& patches, Call call, const Options& option
     for (Vectors<T>* const group : groups) {
       *group = memory.vectors(planes);
     }
-    status = evaluate_curves(set, CurveGrid<T>::uniform(along), out, options);
+    status = evaluate(set, CurveGrid<T>::uniform(along), out, options);
     for (std::size_t order = 0; order < 3; ++order) {
       std::vector<double> values;
       take(*groups[order], samples, sheet.components, first, values);
@@ -144,8 +145,8 @@ Status evaluate_iso(const PatchSet<T>& patches, Call call, const Options& option
   return status;
 }
 
-template Status evaluate_iso(const PatchSet<float>&, Call, const Options&, Sheet&);
-template Status evaluate_iso(const PatchSet<double>&, Call, const Options&, Sheet&);
+template Status evaluate_iso(const PatchSet<float>&, Call, const CallOptions&, Sheet&);
+template Status evaluate_iso(const PatchSet<double>&, Call, const CallOptions&, Sheet&);
 
 std::unique_ptr<MetaSet> packed_curves(const std::vector<MetaNet>& nets, const PackOptions& options,
                                        bool is_double) {

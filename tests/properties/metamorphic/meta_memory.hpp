@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/properties/metamorphic/meta_set.hpp"
+#include "tests/support/call_options.hpp"
 #include "tests/support/nets/generators.hpp"
 
 namespace simdbezier::tests {
@@ -57,7 +58,7 @@ template <typename T>
 
 /// The iso-curves of a set: every column (row) of the grid is that of all patches at its parameter.
 template <typename T>
-[[nodiscard]] Status evaluate_iso(const PatchSet<T>& set, Call call, const Options& options,
+[[nodiscard]] Status evaluate_iso(const PatchSet<T>& set, Call call, const CallOptions& options,
                                   Sheet& sheet);
 
 [[nodiscard]] inline PackOptions pack_options(const Placement& placement, Isa isa) {
@@ -70,7 +71,7 @@ template <typename T>
 
 /// evaluate(options, sheet) for three components after three.
 template <typename Evaluate>
-[[nodiscard]] Status in_triples(int components, Options options, Sheet& sheet,
+[[nodiscard]] Status in_triples(int components, CallOptions options, Sheet& sheet,
                                 const Evaluate& evaluate) {
   options.threads = 1;
   Status status = Status::ok;

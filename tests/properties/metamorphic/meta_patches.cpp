@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "tests/properties/metamorphic/meta_memory.hpp"
+#include "tests/support/call_options.hpp"
 #include "tests/support/evaluation.hpp"
 
 namespace simdbezier::tests {
@@ -22,10 +23,10 @@ public:
     expect_packed(pack(std::span<const ControlNets<T>>(entries), set_, options));
   }
 
-  [[nodiscard]] Status evaluate(Call call, std::size_t nu, std::size_t nv, const Options& given,
+  [[nodiscard]] Status evaluate(Call call, std::size_t nu, std::size_t nv, const CallOptions& given,
                                 Sheet& sheet) const override {
     sheet = {nu, nv, components_, {}, {}, {}, {}};
-    return in_triples(components_, given, sheet, [&](const Options& options, Sheet& to) {
+    return in_triples(components_, given, sheet, [&](const CallOptions& options, Sheet& to) {
       return is_iso_call(call)          ? evaluate_iso(set_, call, options, to)
              : is_derivative_call(call) ? by_derivatives(call, options, to)
                                         : by_outputs(call, options, to);
@@ -58,7 +59,7 @@ private:
     return arrays;
   }
 
-  [[nodiscard]] Status by_outputs(Call call, const Options& options, Sheet& sheet) const {
+  [[nodiscard]] Status by_outputs(Call call, const CallOptions& options, Sheet& sheet) const {
     const std::size_t samples = set_.size() * sheet.nu * sheet.nv;
     const int first = options.first_component;
     Memory<T> memory(samples);
@@ -86,8 +87,8 @@ private:
     }
     if (components_ == 3) {
       take(out.normal, samples, 3, 0, sheet.direction);
-      const T* const planes[] = {out.curvature.gaussian, out.curvature.mean, out.curvature.minimum,
-                                 out.curvature.maximum};
+      const Values<T> planes[] = {out.curvature.gaussian, out.curvature.mean, out.curvature.minimum,
+                                  out.curvature.maximum};
       for (std::size_t k = 0; k < 4 * samples; ++k) {
         sheet.curvature.push_back(static_cast<double>(planes[k % 4][k / 4]));
       }
@@ -96,23 +97,23 @@ private:
   }
 
   [[nodiscard]] Status run(Call call, const Sheet& sheet, const Outputs<T>& out,
-                           const Options& options) const {
+                           const CallOptions& options) const {
+    using simdbezier::evaluate; // not the member
     switch (call) {
     case Call::grid:
-      return evaluate_grid(set_, Grid<T>::uniform(sheet.nu, sheet.nv), out, options);
+      return evaluate(set_, Grid<T>::uniform(sheet.nu, sheet.nv), out, options);
     case Call::given_grid: {
       const std::vector<T> u = parameters<T>(sheet.nu);
       const std::vector<T> v = parameters<T>(sheet.nv);
-      return evaluate_grid(set_, {sheet.nu, sheet.nv, u.data(), v.data(), Parameters::centred}, out,
-                           options);
+      return evaluate(set_, Grid<T>::at(u, v, Parameters::centred), out, options);
     }
     case Call::patch_grids: {
       const std::vector<std::uint32_t> nu(set_.size(), static_cast<std::uint32_t>(sheet.nu));
       const std::vector<std::uint32_t> nv(set_.size(), static_cast<std::uint32_t>(sheet.nv));
-      return evaluate_patch_grids(set_, {nu.data(), nv.data(), nullptr}, out, options);
+      return evaluate(set_, PatchGrids{nu, nv}, out, options);
     }
     case Call::scattered:
-      return evaluate_scattered(set_, scattered(sheet).view(Parameters::centred), out, options);
+      return evaluate(set_, scattered(sheet).view(Parameters::centred), out, options);
     default:
       return by_tiles(sheet, out, options);
     }
@@ -120,10 +121,18 @@ private:
 
   /// Tiles copied into `out`.
   [[nodiscard]] Status by_tiles(const Sheet& sheet, const Outputs<T>& out,
-                                const Options& options) const {
+                                const CallOptions& options) const {
     TileFormat format;
-    format.du = format.dv = format.duu = format.duv = format.dvv = true;
-    format.normal = format.status = format.curvature = components_ == 3;
+    format.outputs = {simdbezier::Output::position, simdbezier::Output::du,
+                      simdbezier::Output::dv,       simdbezier::Output::duu,
+                      simdbezier::Output::duv,      simdbezier::Output::dvv};
+    if (components_ == 3) {
+      for (const simdbezier::Output output :
+           {simdbezier::Output::normal, simdbezier::Output::status,
+            simdbezier::Output::curvature}) {
+        format.outputs.add(output);
+      }
+    }
     const auto copy = [&](const Tile<T>& tile) {
       const std::size_t first = (tile.first_patch * tile.nu * sheet.nv) + tile.first_row * tile.nu;
       const auto vectors = [&](const Vectors<T>& from, const Vectors<T>& to) {
@@ -131,18 +140,17 @@ private:
         plane(from.y, to.y, first, tile.samples);
         plane(from.z, to.z, first, tile.samples);
       };
-      vectors(tile.out.position, out.position);
-      vectors(tile.out.du, out.du);
-      vectors(tile.out.dv, out.dv);
-      vectors(tile.out.duu, out.duu);
-      vectors(tile.out.duv, out.duv);
-      vectors(tile.out.dvv, out.dvv);
-      vectors(tile.out.normal, out.normal);
-      plane(tile.out.status, out.status, first, tile.samples);
-      plane(tile.out.curvature.gaussian, out.curvature.gaussian, first, tile.samples);
-      plane(tile.out.curvature.mean, out.curvature.mean, first, tile.samples);
-      plane(tile.out.curvature.minimum, out.curvature.minimum, first, tile.samples);
-      plane(tile.out.curvature.maximum, out.curvature.maximum, first, tile.samples);
+      for (std::size_t k = 0; k < kVectorOutputs; ++k) {
+        const auto output = static_cast<simdbezier::Output>(k);
+        vectors(tile.out[output], out[output]);
+      }
+      plane(tile.out.status.first, out.status.first, first, tile.samples);
+      const Curvatures<T>& from = tile.out.curvature;
+      const Curvatures<T>& to = out.curvature;
+      plane(from.gaussian.first, to.gaussian.first, first, tile.samples);
+      plane(from.mean.first, to.mean.first, first, tile.samples);
+      plane(from.minimum.first, to.minimum.first, first, tile.samples);
+      plane(from.maximum.first, to.maximum.first, first, tile.samples);
     };
     return evaluate_tiles(set_, Grid<T>::uniform(sheet.nu, sheet.nv), format, copy, options);
   }
@@ -153,7 +161,7 @@ private:
     }
   }
 
-  [[nodiscard]] Status by_derivatives(Call call, const Options& options, Sheet& sheet) const {
+  [[nodiscard]] Status by_derivatives(Call call, const CallOptions& options, Sheet& sheet) const {
     const std::size_t samples = set_.size() * sheet.nu * sheet.nv;
     Memory<T> memory(samples);
     std::vector<PartialDerivative<T>> wanted;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/properties/metamorphic/meta_net.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::tests {
 
@@ -33,7 +34,7 @@ public:
   virtual ~MetaSet() = default;
   /// `sheet` is written; `options` is passed on but for its first component and threads.
   [[nodiscard]] virtual Status evaluate(Call call, std::size_t nu, std::size_t nv,
-                                        const Options& options, Sheet& sheet) const = 0;
+                                        const CallOptions& options, Sheet& sheet) const = 0;
   [[nodiscard]] virtual MetaBounds bounds(std::size_t net, Isa isa) const = 0;
 };
 

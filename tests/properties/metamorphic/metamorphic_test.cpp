@@ -79,8 +79,9 @@ protected:
 
   [[nodiscard]] Sheet evaluate(const MetaBatch& batch, Call call, std::size_t nu, std::size_t nv) {
     Sheet sheet;
-    run({},
-        [&](const Options& forced) { return batch.set->evaluate(call, nu, nv, forced, sheet); });
+    run({}, [&](const CallOptions& forced) {
+      return batch.set->evaluate(call, nu, nv, forced, sheet);
+    });
     return sheet;
   }
 

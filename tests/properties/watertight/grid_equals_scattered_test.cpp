@@ -87,8 +87,7 @@ protected:
       Planes<T> here(count);
       Planes<T> reference(count);
       grid(set, samples, here.outputs());
-      ASSERT_EQ(evaluate_grid(set, samples, reference.outputs(), {.isa = first_of_class()}),
-                Status::ok);
+      ASSERT_EQ(evaluate(set, samples, reference.outputs(), {.isa = first_of_class()}), Status::ok);
       EXPECT_EQ(differing_values(here, reference), 0u)
           << "of " << 12 * count << " values, grid " << shape.nu << " x " << shape.nv << ", "
           << to_string(isa()) << " against " << to_string(first_of_class());
@@ -114,8 +113,8 @@ TEST(ClassCounterproof, ClassesDiffer) {
   Planes<float> fused(nets.size() * 256);
   Planes<float> rounded(nets.size() * 256);
   const Grid<float> samples = Grid<float>::uniform(16, 16);
-  ASSERT_EQ(evaluate_grid(set, samples, fused.outputs(), {.isa = last}), Status::ok);
-  ASSERT_EQ(evaluate_grid(set, samples, rounded.outputs(), {.isa = first}), Status::ok);
+  ASSERT_EQ(evaluate(set, samples, fused.outputs(), {.isa = last}), Status::ok);
+  ASSERT_EQ(evaluate(set, samples, rounded.outputs(), {.isa = first}), Status::ok);
   EXPECT_GT(differing_values(fused, rounded), 0u);
 }
 

@@ -118,8 +118,7 @@ class ShapedEdgesTest : public IsaTest {
 protected:
   template <typename T>
   void evaluate(const PatchSet<T>& set, EvaluatedEdges<T>& result, const Options& options) {
-    patch_grids(set, {result.nu.data(), result.nv.data(), result.offset.data()},
-                result.planes.outputs(), options);
+    patch_grids(set, {result.nu, result.nv, result.offset}, result.planes.outputs(), options);
   }
 
   template <typename T>

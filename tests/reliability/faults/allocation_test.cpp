@@ -59,8 +59,8 @@ TEST_F(Allocation, Grids) {
   for (const Destination destination : {Destination::cache, Destination::memory}) {
     for (const std::size_t n : {9U, 300U}) {
       run(kPatches * n * n, [&](const Outputs<float>& out) {
-        return evaluate_grid(set_, Grid<float>::uniform(n, n), out,
-                             {.threads = 2, .destination = destination});
+        return evaluate(set_, Grid<float>::uniform(n, n), out,
+                        {.threads = 2, .destination = destination});
       });
     }
   }
@@ -79,8 +79,7 @@ void records_without_staging(Isa isa, std::size_t lanes) {
         out.normal = Vectors<T>::xyz(canvas.at(3), stride);
       }
       allow_allocations(0);
-      const Status status =
-          evaluate_grid(set, Grid<T>::uniform(nu, 5), out, {.threads = 1, .isa = isa});
+      const Status status = evaluate(set, Grid<T>::uniform(nu, 5), out, {.threads = 1, .isa = isa});
       allow_allocations(-1);
       const bool direct = lanes > 0 && nu >= lanes && stride != 7;
       EXPECT_EQ(status, direct ? Status::ok : Status::out_of_memory)
@@ -102,7 +101,7 @@ TEST_F(Allocation, PatchGrids) {
   const std::uint32_t nv[kPatches] = {400, 4, 500};
   for (const int threads : {1, 2}) {
     run(400 * 3 + 700 * 4 + 500 * 500, [&](const Outputs<float>& out) {
-      return evaluate_patch_grids(set_, {nu, nv, nullptr}, out, {.threads = threads});
+      return evaluate(set_, PatchGrids{nu, nv}, out, {.threads = threads});
     });
   }
 }
@@ -111,7 +110,7 @@ TEST_F(Allocation, Samples) {
   std::vector<std::uint32_t> patch(5000);
   const std::vector<float> u(5000, 0.25F);
   run(5000, [&](const Outputs<float>& out) {
-    return evaluate_scattered(set_, {5000, patch.data(), u.data(), u.data()}, out, {.threads = 2});
+    return evaluate(set_, Samples<float>{patch, u, u}, out, {.threads = 2});
   });
 }
 

@@ -43,9 +43,10 @@ struct Inputs {
   std::vector<std::uint32_t> sizes = {3, 200, 5, 40, 7};
   std::vector<std::uint32_t> numbers = std::vector<std::uint32_t>(3000, 2);
   Grid<float> given{300, 200, values.data(), values.data(), Parameters::unit};
-  Samples<float> samples{3000, numbers.data(), values.data(), values.data(), Parameters::unit};
+  Samples<float> samples{std::span(numbers).first(3000), std::span(values).first(3000),
+                         std::span(values).first(3000), Parameters::unit};
 
-  Inputs() { EXPECT_TRUE(pack_curves(polygons, curves)); }
+  Inputs() { EXPECT_TRUE(pack(polygons, curves)); }
 };
 
 const Inputs& inputs() {
@@ -68,9 +69,9 @@ std::vector<Call> packing() {
        [&](Results& r, const Options& o) {
          return pack(std::span(in.mixed), r.set, pack_options(o)).status;
        }},
-      {"pack_curves", true,
+      {"pack (curves)", true,
        [&](Results& r, const Options& o) {
-         return pack_curves(in.polygons, r.curves, pack_options(o)).status;
+         return pack(in.polygons, r.curves, pack_options(o)).status;
        }},
       {"iso_u, of nets", true,
        [&](Results& r, const Options& o) {
@@ -81,41 +82,36 @@ std::vector<Call> packing() {
          return iso_v(in.set, 0.25, r.curves, pack_options(o)).status;
        }},
       {"iso_u, points", false,
-       [&](Results& r, const Options& o) {
-         return iso_u(in.cubic, 0.25, r.doubles.data(), o.threads);
-       }},
+       [&](Results& r, const Options& o) { return iso_u(in.cubic, 0.25, r.doubles, o).status; }},
   };
 }
 
 std::vector<Call> grids() {
   const Inputs& in = inputs();
   return {
-      {"evaluate_grid, given parameters", true,
+      {"evaluate, grid, given parameters", true,
        [&](Results& r, const Options& o) {
-         return evaluate_grid(in.set, {130, 140, in.values.data(), in.values.data()}, r.vertices(),
-                              o);
+         return evaluate(in.set, Grid<float>{130, 140, in.values.data(), in.values.data()},
+                         r.vertices(), o);
        }},
-      {"evaluate_grid, planes past the cache", true,
+      {"evaluate, grid, planes past the cache", true,
        [&](Results& r, Options o) {
          o.destination = Destination::memory;
-         return evaluate_grid(in.set, Grid<float>::uniform(130, 200), r.planes(), o);
+         return evaluate(in.set, Grid<float>::uniform(130, 200), r.planes(), o);
        }},
-      {"evaluate_grid, several shapes", true,
+      {"evaluate, grid, several shapes", true,
        [&](Results& r, const Options& o) {
-         return evaluate_grid(in.mixed_set, Grid<float>::uniform(19, 19), r.vertices(), o);
+         return evaluate(in.mixed_set, Grid<float>::uniform(19, 19), r.vertices(), o);
        }},
-      {"evaluate_patch_grids", true,
+      {"evaluate, patch grids", true,
        [&](Results& r, const Options& o) {
-         return evaluate_patch_grids(in.set, {in.sizes.data(), in.sizes.data(), nullptr},
-                                     r.vertices(), o);
+         return evaluate(in.set, PatchGrids{in.sizes, in.sizes}, r.vertices(), o);
        }},
-      {"evaluate_scattered", true,
+      {"evaluate, samples", true,
+       [&](Results& r, const Options& o) { return evaluate(in.set, in.samples, r.vertices(), o); }},
+      {"evaluate, samples, several shapes", true,
        [&](Results& r, const Options& o) {
-         return evaluate_scattered(in.set, in.samples, r.vertices(), o);
-       }},
-      {"evaluate_scattered, several shapes", true,
-       [&](Results& r, const Options& o) {
-         return evaluate_scattered(in.mixed_set, in.samples, r.vertices(), o);
+         return evaluate(in.mixed_set, in.samples, r.vertices(), o);
        }},
       {"evaluate_tiles", true,
        [&](Results& r, const Options& o) {
@@ -140,19 +136,19 @@ std::vector<Call> derivatives_and_curves() {
          const PartialDerivative<float> wanted[] = {{2, 1, Vectors<float>::xyz(r.at(0), 4)}};
          return evaluate_derivatives<float>(in.mixed_set, in.samples, wanted, o);
        }},
-      {"evaluate_curves, common parameters", true,
+      {"evaluate, curves, common parameters", true,
        [&](Results& r, const Options& o) {
-         return evaluate_curves(in.curves, CurveGrid<float>::uniform(700), r.curve_vertices(), o);
+         return evaluate(in.curves, CurveGrid<float>::uniform(700), r.curve_vertices(), o);
        }},
-      {"evaluate_curves, counts", true,
+      {"evaluate, curves, counts", true,
        [&](Results& r, const Options& o) {
-         return evaluate_curves(in.curves, CurveCounts{in.sizes.data(), nullptr},
-                                r.curve_vertices(), o);
+         return evaluate(in.curves, CurveGrids{in.sizes}, r.curve_vertices(), o);
        }},
-      {"evaluate_curves, scattered", true,
+      {"evaluate, curves, scattered", true,
        [&](Results& r, const Options& o) {
-         const CurveSamples<float> samples{3000, in.numbers.data(), in.values.data()};
-         return evaluate_curves(in.curves, samples, r.curve_vertices(), o);
+         const CurveSamples<float> samples{std::span(in.numbers).first(3000),
+                                           std::span(in.values).first(3000)};
+         return evaluate(in.curves, samples, r.curve_vertices(), o);
        }},
   };
 }

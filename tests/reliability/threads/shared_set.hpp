@@ -17,7 +17,7 @@ struct SharedSet {
   SharedSet(std::size_t patch_count, std::size_t samples)
       : n(samples), nets(mixed_nets(patch_count)), set(packed<float>(nets)),
         grid(Grid<float>::uniform(n, n)), reference(new_planes()) {
-    EXPECT_EQ(evaluate_grid(set, grid, reference.outputs(), {.threads = 1}), Status::ok);
+    EXPECT_EQ(evaluate(set, grid, reference.outputs(), {.threads = 1}), Status::ok);
   }
 
   [[nodiscard]] Planes<float> new_planes() const {
@@ -31,12 +31,12 @@ struct SharedSet {
     return status == Status::ok ? differing_values(planes, reference) : 1;
   }
   [[nodiscard]] std::size_t grid_errors(const Options& options) const {
-    return errors([&](const auto& out) { return evaluate_grid(set, grid, out, options); });
+    return errors([&](const auto& out) { return evaluate(set, grid, out, options); });
   }
   [[nodiscard]] std::size_t patch_grid_errors(const Options& options) const {
     const std::vector<std::uint32_t> sizes(nets.size(), static_cast<std::uint32_t>(n));
     return errors([&](const auto& out) {
-      return evaluate_patch_grids(set, {sizes.data(), sizes.data(), nullptr}, out, options);
+      return evaluate(set, PatchGrids{sizes, sizes}, out, options);
     });
   }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -114,7 +115,7 @@ struct Memory {
 
   Memory() {
     const std::vector<float> points(4 * 12, 1.5F);
-    EXPECT_TRUE(pack_curves(ControlCurves<float>::packed(points.data(), 4, 3), curves));
+    EXPECT_TRUE(pack(ControlCurves<float>::packed(points.data(), 4, 3), curves));
   }
   [[nodiscard]] Vectors<float> planes() {
     return Vectors<float>::planes(canvas.at(0), canvas.at(kSamples), canvas.at(2 * kSamples));
@@ -128,7 +129,7 @@ std::vector<Call> calls() {
     return [to](const Options& options) {
       Outputs<float> out;
       out.position = to;
-      return evaluate_grid(m.set, Grid<float>::uniform(n, n), out, options);
+      return evaluate(m.set, Grid<float>::uniform(n, n), out, options);
     };
   };
   const auto curve_out = [] {
@@ -142,30 +143,27 @@ std::vector<Call> calls() {
            [](const Options& options) {
              Outputs<float> out;
              out.position = m.planes();
-             return evaluate_patch_grids(m.set, {m.sizes.data(), m.sizes.data(), nullptr}, out,
-                                         options);
+             const auto size = std::span<const std::uint32_t>(m.sizes).first(m.set.size());
+             return evaluate(m.set, PatchGrids{size, size}, out, options);
            }},
           {"scattered",
            [](const Options& options) {
              Outputs<float> out;
              out.position = m.planes();
-             const Samples<float> samples{kSamples, m.numbers.data(), m.parameters.data(),
-                                          m.parameters.data(), Parameters::unit};
-             return evaluate_scattered(m.set, samples, out, options);
+             const Samples<float> samples{m.numbers, m.parameters, m.parameters, Parameters::unit};
+             return evaluate(m.set, samples, out, options);
            }},
           {"curves",
            [curve_out](const Options& options) {
-             return evaluate_curves(m.curves, CurveGrid<float>::uniform(n), curve_out(), options);
+             return evaluate(m.curves, CurveGrid<float>::uniform(n), curve_out(), options);
            }},
           {"curve_counts",
            [curve_out](const Options& options) {
-             return evaluate_curves(m.curves, CurveCounts{m.sizes.data(), nullptr}, curve_out(),
-                                    options);
+             return evaluate(m.curves, CurveGrids{m.sizes}, curve_out(), options);
            }},
           {"curve_samples", [curve_out](const Options& options) {
-             const CurveSamples<float> samples{kSamples, m.numbers.data(), m.parameters.data(),
-                                               Parameters::unit};
-             return evaluate_curves(m.curves, samples, curve_out(), options);
+             const CurveSamples<float> samples{m.numbers, m.parameters, Parameters::unit};
+             return evaluate(m.curves, samples, curve_out(), options);
            }}};
 }
 

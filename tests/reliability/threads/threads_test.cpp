@@ -45,8 +45,7 @@ std::size_t scattered_errors(int threads) {
     }
   }
   return all.errors([&](const auto& out) {
-    return evaluate_scattered(all.set, samples.view(Parameters::centred), out,
-                              {.threads = threads});
+    return evaluate(all.set, samples.view(Parameters::centred), out, {.threads = threads});
   });
 }
 
@@ -80,9 +79,8 @@ std::size_t packing_errors(int threads) {
     return 1;
   }
   const auto errors_of = [&](const PatchSet<float>& set, int own_threads) {
-    return all.errors([&](const auto& out) {
-      return evaluate_grid(set, all.grid, out, {.threads = own_threads});
-    });
+    return all.errors(
+        [&](const auto& out) { return evaluate(set, all.grid, out, {.threads = own_threads}); });
   };
   return errors_of(own, threads) + errors_of(copy, 1);
 }

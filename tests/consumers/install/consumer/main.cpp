@@ -15,8 +15,8 @@ int main() {
   simdbezier::Outputs<float> out;
   out.position = simdbezier::Vectors<float>::xyz(xyz);
   const auto grid = simdbezier::Grid<float>::uniform(9, 9);
-  if (const auto s = simdbezier::evaluate_grid(set, grid, out); s != simdbezier::Status::ok) {
-    std::printf("%s\n", simdbezier::to_string(s).data());
+  if (const auto status = simdbezier::evaluate(set, grid, out); !status) {
+    std::printf("%s\n", simdbezier::to_string(status).data());
     return 1;
   }
   std::printf("corner %g %g %g\n", static_cast<double>(xyz[0]), static_cast<double>(xyz[1]),

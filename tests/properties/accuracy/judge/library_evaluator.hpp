@@ -71,7 +71,7 @@ private:
   [[nodiscard]] static Status run_grid(const PatchSet<T>& set, int grid, Planes<T>& planes,
                                        const Options& options) {
     const auto n = static_cast<std::size_t>(grid);
-    return evaluate_grid(set, Grid<T>::uniform(n, n), planes.outputs(), options);
+    return simdbezier::evaluate(set, Grid<T>::uniform(n, n), planes.outputs(), options);
   }
 
   [[nodiscard]] static Status run_scattered(const PatchSet<T>& set,
@@ -81,7 +81,7 @@ private:
     for (const Parameters2<T>& parameters : at) {
       samples.add(0, parameters.x, parameters.y);
     }
-    return evaluate_scattered(set, samples.view(Parameters::centred), planes.outputs(), options);
+    return simdbezier::evaluate(set, samples.view(Parameters::centred), planes.outputs(), options);
   }
 
   Isa isa_;

@@ -13,7 +13,7 @@
 
 namespace simdbezier::fuzz {
 
-inline constexpr std::size_t kVectorGroups = 7;
+inline constexpr std::size_t kVectorGroups = kVectorOutputs;
 inline constexpr std::size_t kNormalGroup = 6;
 inline constexpr std::size_t kCurvatures = 4;
 
@@ -41,10 +41,14 @@ struct Wanted {
 
 template <typename T>
 [[nodiscard]] std::array<Vectors<T>*, kVectorGroups> groups_of(Outputs<T>& out) {
-  return {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv, &out.normal};
+  std::array<Vectors<T>*, kVectorGroups> groups{};
+  for (std::size_t g = 0; g < kVectorGroups; ++g) {
+    groups[g] = &out[static_cast<Output>(g)];
+  }
+  return groups;
 }
 template <typename T>
-[[nodiscard]] std::array<T**, kCurvatures> curvatures_of(Outputs<T>& out) {
+[[nodiscard]] std::array<Values<T>*, kCurvatures> curvatures_of(Outputs<T>& out) {
   return {&out.curvature.gaussian, &out.curvature.mean, &out.curvature.minimum,
           &out.curvature.maximum};
 }
@@ -67,10 +71,10 @@ struct Results {
       }
     }
     for (std::size_t c = 0; c < kCurvatures; ++c) {
-      const T* const plane = *curvatures_of(out)[c];
+      const T* const plane = curvatures_of(out)[c]->first;
       put(curvature[c], to, plane == nullptr ? nullptr : plane + at);
     }
-    put(status, to, out.status == nullptr ? nullptr : out.status + at);
+    put(status, to, out.status.wanted() ? out.status.first + at : nullptr);
   }
 
   void reserve(std::size_t samples) {
@@ -241,13 +245,13 @@ private:
         }
       }
     }
-    for (T** const plane : curvatures_of(out_)) {
-      if (*plane != nullptr) {
-        (*plane)[sample] = kUntouched;
+    for (const Values<T>* const plane : curvatures_of(out_)) {
+      if (plane->wanted()) {
+        plane->first[sample] = kUntouched;
       }
     }
-    if (out_.status != nullptr) {
-      out_.status[sample] = kNoStatus;
+    if (out_.status.wanted()) {
+      out_.status.first[sample] = kNoStatus;
     }
   }
 

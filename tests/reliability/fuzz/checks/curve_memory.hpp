@@ -21,15 +21,14 @@ public:
               Placement place, bool packed)
       : dimension_(dimension), samples_(samples), packed_(packed),
         curvature_(curvature ? samples : 0, place, kUntouched), status_(samples, place) {
-    Vectors<T>* const vectors[] = {&out_.position, &out_.d1, &out_.d2, &out_.tangent};
     for (std::size_t g = 0; g < 4; ++g) {
       blocks_.emplace_back((groups >> g & 1) != 0 ? samples * dimension : 0, place, kUntouched);
       if ((groups >> g & 1) != 0) {
         T* const first = blocks_.back().data();
         const std::size_t step = packed ? 1 : samples;
-        *vectors[g] = {first, dimension > 1 ? first + step : nullptr,
-                       dimension > 2 ? first + 2 * step : nullptr,
-                       static_cast<std::ptrdiff_t>(packed ? dimension : 1)};
+        out_[static_cast<CurveOutput>(g)] = {first, dimension > 1 ? first + step : nullptr,
+                                             dimension > 2 ? first + 2 * step : nullptr,
+                                             static_cast<std::ptrdiff_t>(packed ? dimension : 1)};
       }
     }
     out_.curvature = curvature ? curvature_.data() : nullptr;
@@ -51,7 +50,7 @@ public:
         same = same && same_bits(value(g, c, k), other.value(g, c, to));
       }
     }
-    if (out_.curvature != nullptr) {
+    if (out_.curvature.wanted()) {
       same = same && same_bits(curvature_.data()[k], other.curvature_.data()[to]);
     }
     require(same, [&] { return what + ": other bits at sample " + std::to_string(k); });

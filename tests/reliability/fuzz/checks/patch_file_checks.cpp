@@ -1,4 +1,5 @@
 #include "tests/reliability/fuzz/checks/patch_file_checks.hpp"
+#include "tests/support/call_options.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -213,10 +214,10 @@ void evaluate(const PatchFile& file, const MemoryFile& from) {
   out.position = Vectors<T>::xyz(position.data());
   out.normal = Vectors<T>::xyz(normal.data());
   out.status = status.data();
-  Options options;
+  tests::CallOptions options;
   options.threads = 1;
-  require_status(evaluate_grid(set, Grid<T>::uniform(kGrid, kGrid), out, options), {Status::ok},
-                 "evaluate_grid");
+  require_status(evaluate(set, Grid<T>::uniform(kGrid, kGrid), out, options), {Status::ok},
+                 "evaluate, grid");
   for (std::size_t k = 0; k < samples; ++k) {
     const std::size_t patch = k / (kGrid * kGrid);
     const std::size_t iu = k % kGrid;

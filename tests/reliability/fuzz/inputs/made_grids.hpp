@@ -12,6 +12,7 @@
 
 #include "tests/reliability/fuzz/checks/blocks.hpp"
 #include "tests/reliability/fuzz/checks/surface_reference.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::fuzz {
 
@@ -108,7 +109,7 @@ public:
         v_(bytes, most, form_) {}
 
   [[nodiscard]] Grid<T> view() const {
-    return {u_.count(), v_.count(), u_.data(), v_.data(), form_};
+    return {u_.count(), v_.count(), u_.data(), v_.data(), form_, {}};
   }
   [[nodiscard]] bool uniform() const { return u_.uniform() && v_.uniform(); }
   [[nodiscard]] std::size_t samples() const { return u_.count() * v_.count(); }
@@ -123,9 +124,10 @@ private:
   Direction<T> v_;
 };
 
-/// Options but for the instruction set and threads, which targets go through themselves.
-[[nodiscard]] inline Options any_options(ByteSource& bytes, std::size_t patches, int components) {
-  Options options;
+/// tests::CallOptions but for the instruction set and threads, which targets go through themselves.
+[[nodiscard]] inline tests::CallOptions any_options(ByteSource& bytes, std::size_t patches,
+                                                    int components) {
+  tests::CallOptions options;
   const std::uint8_t choice = bytes.byte();
   options.threads = 1 + (choice & 1);
   options.watertight = (choice & 6) != 6;
@@ -137,10 +139,11 @@ private:
   }
   return options;
 }
-[[nodiscard]] inline std::size_t patches_of(const Options& options, std::size_t patches) {
+[[nodiscard]] inline std::size_t patches_of(const tests::CallOptions& options,
+                                            std::size_t patches) {
   return std::min(options.patch_count, patches - options.first_patch);
 }
-[[nodiscard]] inline Options with(Options options, Isa isa, int threads) {
+[[nodiscard]] inline tests::CallOptions with(tests::CallOptions options, Isa isa, int threads) {
   options.isa = isa;
   options.threads = threads;
   return options;

@@ -11,6 +11,7 @@
 #include "tests/reliability/fuzz/checks/run_case.hpp"
 #include "tests/reliability/fuzz/inputs/made_grids.hpp"
 #include "tests/reliability/fuzz/inputs/scene.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::fuzz {
 namespace {
@@ -34,7 +35,7 @@ public:
       judge(expected, isas.front());
       for (const Isa isa : isas) {
         on_grid(with(options_, isa, 1 + (isa == isas.back() ? 1 : 0)))
-            .require_same(expected, named("evaluate_grid", isa));
+            .require_same(expected, named("evaluate, grid", isa));
         other_call(expected, with(options_, isa, options_.threads));
       }
     }
@@ -53,18 +54,18 @@ private:
     return options_.first_patch + sample / grid_.samples();
   }
 
-  Results<T> on_grid(const Options& options) {
+  Results<T> on_grid(const tests::CallOptions& options) {
     OutputMemory<T> memory(wanted_, samples_, bytes_);
     Isa executed = Isa::automatic;
-    Options own = options;
+    tests::CallOptions own = options;
     own.executed = &executed;
-    require_status(evaluate_grid(scene_.set(), grid_.view(), memory.out(), own), {Status::ok},
-                   "evaluate_grid");
+    require_status(evaluate(scene_.set(), grid_.view(), memory.out(), own), {Status::ok},
+                   "evaluate, grid");
     require(samples_ == 0 || executed == options.isa, "another instruction set ran");
     return memory.collect();
   }
 
-  void other_call(const Results<T>& expected, const Options& options) {
+  void other_call(const Results<T>& expected, const tests::CallOptions& options) {
     switch (call_) {
     case 0:
       return scattered(expected, options);
@@ -77,7 +78,7 @@ private:
     }
   }
 
-  void scattered(const Results<T>& expected, const Options& options) {
+  void scattered(const Results<T>& expected, const tests::CallOptions& options) {
     std::vector<std::size_t> order(samples_);
     std::iota(order.begin(), order.end(), std::size_t{0});
     const std::uint8_t seed = bytes_.byte();
@@ -95,30 +96,36 @@ private:
       y.data()[k] = grid_.y(order[k]);
     }
     OutputMemory<T> memory(wanted_, samples_, bytes_);
-    const Samples<T> list{samples_, patch.data(), x.data(), y.data(), Parameters::centred};
-    require_status(evaluate_scattered(scene_.set(), list, memory.out(), options), {Status::ok},
-                   "evaluate_scattered");
+    const Samples<T> list{
+        {patch.data(), samples_}, {x.data(), samples_}, {y.data(), samples_}, Parameters::centred};
+    require_status(evaluate(scene_.set(), list, memory.out(), options), {Status::ok},
+                   "evaluate, samples");
     const Results<T> results = memory.collect();
     for (std::size_t k = 0; k < samples_; ++k) {
-      results.require_same(k, expected, order[k], named("evaluate_scattered", options.isa));
+      results.require_same(k, expected, order[k], named("evaluate, samples", options.isa));
     }
   }
 
   [[nodiscard]] TileFormat tile_format() {
     TileFormat format;
-    bool* const groups[] = {&format.position, &format.du,  &format.dv,    &format.duu,
-                            &format.duv,      &format.dvv, &format.normal};
+    format.outputs = {};
     for (std::size_t g = 0; g < kVectorGroups; ++g) {
-      *groups[g] = wanted_.group(g);
+      if (wanted_.group(g)) {
+        format.outputs.add(static_cast<Output>(g));
+      }
     }
-    format.status = wanted_.status;
-    format.curvature = wanted_.curvatures != 0;
+    if (wanted_.status) {
+      format.outputs.add(Output::status);
+    }
+    if (wanted_.curvatures != 0) {
+      format.outputs.add(Output::curvature);
+    }
     format.layout = static_cast<TileLayout>(bytes_.below(3));
     format.samples = bytes_.rarely(128) ? 1 + bytes_.below(4000) : 0;
     return format;
   }
 
-  void tiles(const Results<T>& expected, const Options& options) {
+  void tiles(const Results<T>& expected, const tests::CallOptions& options) {
     Results<T> results;
     results.reserve(samples_);
     std::vector<std::uint8_t> times(samples_); // threads write places of their own
@@ -145,7 +152,7 @@ private:
   }
 
   /// Grids of their own, with gaps in between or without, against the same call on each patch.
-  void patch_grids(const Options& options) {
+  void patch_grids(const tests::CallOptions& options) {
     const std::size_t count = options.patch_count;
     const Placement place = placement(bytes_);
     const Block<std::uint32_t> nu(count, place);
@@ -161,22 +168,23 @@ private:
       written.resize(written.size() + (k + 1 < count ? gap : 0), false);
     }
     OutputMemory<T> memory(wanted_, written.size(), bytes_);
-    const PatchGrids grids{nu.data(), nv.data(), gap == 0 ? nullptr : offset.data()};
-    require_status(evaluate_patch_grids(scene_.set(), grids, memory.out(), options), {Status::ok},
-                   "evaluate_patch_grids");
+    const PatchGrids grids{
+        {nu.data(), count}, {nv.data(), count}, {offset.data(), gap == 0 ? 0 : count}};
+    require_status(evaluate(scene_.set(), grids, memory.out(), options), {Status::ok},
+                   "evaluate, patch grids");
     const Results<T> results = memory.collect(written);
     for (std::size_t k = 0; k < count; ++k) {
-      Options alone = with(options, options.isa, 1);
+      tests::CallOptions alone = with(options, options.isa, 1);
       alone.first_patch = options.first_patch + k;
       alone.patch_count = 1;
       const Grid<T> grid = Grid<T>::uniform(nu.data()[k], nv.data()[k]);
       OutputMemory<T> of_patch(wanted_, grid.nu * grid.nv, bytes_);
-      require_status(evaluate_grid(scene_.set(), grid, of_patch.out(), alone), {Status::ok},
-                     "evaluate_grid");
+      require_status(evaluate(scene_.set(), grid, of_patch.out(), alone), {Status::ok},
+                     "evaluate, grid");
       const Results<T> expected = of_patch.collect();
       for (std::size_t s = 0; s < grid.nu * grid.nv; ++s) {
         results.require_same(offset.data()[k] + s, expected, s,
-                             named("evaluate_patch_grids", options.isa));
+                             named("evaluate, patch grids", options.isa));
       }
     }
   }
@@ -266,7 +274,7 @@ private:
   ByteSource& bytes_;
   Scene<T> scene_;
   AnyGrid<T> grid_;
-  Options options_;
+  tests::CallOptions options_;
   Wanted wanted_;
   std::size_t call_;
   std::size_t samples_ = 0;

@@ -14,6 +14,7 @@
 #include "tests/reliability/fuzz/inputs/hostile.hpp"
 #include "tests/reliability/fuzz/inputs/made_grids.hpp"
 #include "tests/reliability/fuzz/inputs/scene.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::fuzz {
 namespace {
@@ -53,7 +54,7 @@ public:
   void run() {
     CurveSet<T> set;
     hostile(set);
-    const PackReport report = pack_curves(view(), set, pack_options_);
+    const PackReport report = pack(view(), set, pack_options_);
     require_packed(report, curves_.moderate);
     if (!report) {
       return;
@@ -63,10 +64,10 @@ public:
       const CurveMemory<T> expected = on_grid(set, with(options_, isas.front(), 1));
       judge(set, expected, isas.front());
       for (const Isa isa : isas) {
-        const Options options = with(options_, isa, options_.threads);
+        const tests::CallOptions options = with(options_, isa, options_.threads);
         const CurveMemory<T> again = on_grid(set, options);
         for (std::size_t k = 0; k < samples_; ++k) {
-          again.require_same(k, expected, k, named("evaluate_curves", isa));
+          again.require_same(k, expected, k, named("evaluate, curves", isa));
         }
         scattered(set, expected, options);
         counted(set, expected, options);
@@ -92,15 +93,16 @@ private:
     return {groups_, curvature_, dimension_, samples, place, bytes_.flag()};
   }
 
-  CurveMemory<T> on_grid(const CurveSet<T>& set, const Options& options) {
+  CurveMemory<T> on_grid(const CurveSet<T>& set, const tests::CallOptions& options) {
     CurveMemory<T> to = memory(samples_);
     const CurveGrid<T> grid{grid_.count(), grid_.data(), form_};
-    require_status(evaluate_curves(set, grid, to.out(), options), {Status::ok}, "evaluate_curves");
+    require_status(evaluate(set, grid, to.out(), options), {Status::ok}, "evaluate, curves");
     to.check_surroundings();
     return to;
   }
 
-  void scattered(const CurveSet<T>& set, const CurveMemory<T>& expected, const Options& options) {
+  void scattered(const CurveSet<T>& set, const CurveMemory<T>& expected,
+                 const tests::CallOptions& options) {
     const Placement place = placement(bytes_);
     const Block<std::uint32_t> curve(samples_, place);
     const Block<T> t(samples_, place);
@@ -111,28 +113,29 @@ private:
       t.data()[k] = grid_.centred(of(k) % grid_.count());
     }
     CurveMemory<T> to = memory(samples_);
-    const CurveSamples<T> list{samples_, curve.data(), t.data(), Parameters::centred};
-    require_status(evaluate_curves(set, list, to.out(), options), {Status::ok},
-                   "evaluate_curves (samples)");
+    const CurveSamples<T> list{{curve.data(), samples_}, {t.data(), samples_}, Parameters::centred};
+    require_status(evaluate(set, list, to.out(), options), {Status::ok},
+                   "evaluate (curve samples)");
     to.check_surroundings();
     for (std::size_t k = 0; k < samples_; ++k) {
-      to.require_same(k, expected, of(k), named("evaluate_curves (samples)", options.isa));
+      to.require_same(k, expected, of(k), named("evaluate (curve samples)", options.isa));
     }
   }
 
   /// All curves with the grid's number of samples, where that is uniform.
-  void counted(const CurveSet<T>& set, const CurveMemory<T>& expected, const Options& options) {
+  void counted(const CurveSet<T>& set, const CurveMemory<T>& expected,
+               const tests::CallOptions& options) {
     if (!grid_.uniform()) {
       return;
     }
     const Block<std::uint32_t> n(options.patch_count, placement(bytes_),
                                  static_cast<std::uint32_t>(grid_.count()));
     CurveMemory<T> to = memory(samples_);
-    require_status(evaluate_curves(set, CurveCounts{n.data(), nullptr}, to.out(), options),
-                   {Status::ok}, "evaluate_curves (counts)");
+    require_status(evaluate(set, CurveGrids{{n.data(), options.patch_count}}, to.out(), options),
+                   {Status::ok}, "evaluate (curve counts)");
     to.check_surroundings();
     for (std::size_t k = 0; k < samples_; ++k) {
-      to.require_same(k, expected, k, named("evaluate_curves (counts)", options.isa));
+      to.require_same(k, expected, k, named("evaluate (curve counts)", options.isa));
     }
   }
 
@@ -148,12 +151,12 @@ private:
       options.isa = isa;
       options.threads = 1 + (threads & 1);
       CurveSet<T> again;
-      require(pack_curves(view, again, options).status == Status::ok,
-              "pack_curves refuses other strides");
+      require(pack(view, again, options).status == Status::ok,
+              "pack (curves) refuses other strides");
       const CurveMemory<T> a = on_grid(set, with(options_, isa, 1));
       const CurveMemory<T> b = on_grid(again, with(options_, isa, 1));
       for (std::size_t k = 0; k < samples_; ++k) {
-        b.require_same(k, a, k, named("pack_curves", isa));
+        b.require_same(k, a, k, named("pack (curves)", isa));
       }
     }
   }
@@ -167,13 +170,13 @@ private:
               "a status does not tell whether the parameter is finite");
       if (std::isfinite(x) && std::fabs(x) <= 1) {
         judge_sample(results, k, ReferencePatch(nets, curve, pack_options_.relative_to),
-                     curve_bounds(set, curve, isa), static_cast<Real>(x));
+                     error_bounds(set, curve, isa), static_cast<Real>(x));
       }
     }
   }
 
   void judge_sample(const CurveMemory<T>& results, std::size_t k, const ReferencePatch& reference,
-                    const CurveBounds& bounds, Real x) {
+                    const CurveErrorBounds& bounds, Real x) {
     const RealSample exact = reference.evaluate(RealParameter::centred(x), RealParameter::unit(0));
     for (std::size_t c = 0; c < dimension_; ++c) {
       const int component = options_.first_component + static_cast<int>(c);
@@ -224,10 +227,10 @@ private:
       return;
     }
     CurveSet<T> set = before;
-    const PackReport report = pack_curves(curves, set, pack_options_);
-    require(verdict != Verdict::refused || !report, "pack_curves takes what makes no sense");
+    const PackReport report = pack(curves, set, pack_options_);
+    require(verdict != Verdict::refused || !report, "pack (curves) takes what makes no sense");
     require(verdict != Verdict::overflow || report.status == Status::size_overflow,
-            "pack_curves takes strides that overflow");
+            "pack (curves) takes strides that overflow");
     require(report || set.storage() == before.storage(), "a failed pack has changed the set");
   }
 
@@ -236,7 +239,7 @@ private:
   Nets<S> curves_;
   Parameters form_;
   Direction<T> grid_;
-  Options options_;
+  tests::CallOptions options_;
   std::size_t dimension_ = 3;
   std::uint8_t groups_ = 1;
   bool curvature_ = false;

@@ -12,6 +12,7 @@
 #include "tests/reliability/fuzz/checks/run_case.hpp"
 #include "tests/reliability/fuzz/inputs/made_grids.hpp"
 #include "tests/reliability/fuzz/inputs/scene.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::fuzz {
 namespace {
@@ -49,7 +50,7 @@ public:
       const std::vector<T> expected = on_grid(with(options_, isas.front(), 1));
       compare_with_evaluation(expected, isas.front());
       for (const Isa isa : isas) {
-        const Options options = with(options_, isa, options_.threads);
+        const tests::CallOptions options = with(options_, isa, options_.threads);
         require_equal(on_grid(options), expected, named("evaluate_derivatives", isa));
         require_equal(scattered(options), expected, named("scattered derivatives", isa));
       }
@@ -88,22 +89,25 @@ private:
     return values;
   }
 
-  std::vector<T> on_grid(const Options& options) {
+  std::vector<T> on_grid(const tests::CallOptions& options) {
     return collect([&](auto derivatives) {
       return evaluate_derivatives(scene_.set(), grid_.view(), derivatives, options);
     });
   }
 
-  std::vector<T> scattered(const Options& options) {
+  std::vector<T> scattered(const tests::CallOptions& options) {
     const Placement place = placement(bytes_);
     const Block<std::uint32_t> patch(samples_, place);
     const Block<T> x(samples_, place);
     const Block<T> y(samples_, place);
     fill(patch, x, y);
     return collect([&](auto derivatives) {
-      return evaluate_derivatives(
-          scene_.set(), Samples<T>{samples_, patch.data(), x.data(), y.data(), Parameters::centred},
-          derivatives, options);
+      return evaluate_derivatives(scene_.set(),
+                                  Samples<T>{{patch.data(), samples_},
+                                             {x.data(), samples_},
+                                             {y.data(), samples_},
+                                             Parameters::centred},
+                                  derivatives, options);
     });
   }
 
@@ -137,15 +141,15 @@ private:
     Vectors<T>* const groups[] = {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv};
     *groups[group] = {plane[0].data(), dimension_ > 1 ? plane[1].data() : nullptr,
                       dimension_ > 2 ? plane[2].data() : nullptr, 1};
-    require_status(evaluate_grid(scene_.set(), grid_.view(), out, with(options_, isa, 1)),
-                   {Status::ok}, "evaluate_grid");
+    require_status(evaluate(scene_.set(), grid_.view(), out, with(options_, isa, 1)), {Status::ok},
+                   "evaluate, grid");
     for (std::size_t k = 0; k < samples_; ++k) {
       const std::size_t patch = options_.first_patch + k / grid_.samples();
       const bool excepted = (group == 3 || group == 5) && scene_.patch(patch).rational();
       for (std::size_t c = 0; c < static_cast<std::size_t>(dimension_); ++c) {
         const T mine = values[c * samples_ + k];
         require(excepted || !std::isnormal(mine) || same_bits(mine, plane[c][k]),
-                "a derivative has other bits than evaluate_grid");
+                "a derivative has other bits than evaluate()");
       }
     }
   }
@@ -153,7 +157,7 @@ private:
   ByteSource& bytes_;
   Scene<T> scene_;
   AnyGrid<T> grid_;
-  Options options_;
+  tests::CallOptions options_;
   int dimension_;
   std::vector<Orders> orders_;
   std::size_t samples_ = 0;

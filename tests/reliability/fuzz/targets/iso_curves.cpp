@@ -12,6 +12,7 @@
 #include "tests/reliability/fuzz/inputs/hostile.hpp"
 #include "tests/reliability/fuzz/inputs/made_grids.hpp"
 #include "tests/reliability/fuzz/inputs/scene.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::fuzz {
 namespace {
@@ -27,11 +28,10 @@ std::vector<T> positions(const CurveSet<T>& curves, int first_component, Isa isa
   const int left = curves.components() - first_component;
   out.position.y = left > 1 ? rest.data() : nullptr;
   out.position.z = left > 2 ? rest.data() + values.size() : nullptr;
-  Options options;
+  tests::CallOptions options;
   options.first_component = first_component;
-  require_status(
-      evaluate_curves(curves, CurveGrid<T>::uniform(kSamples), out, with(options, isa, 1)),
-      {Status::ok}, "evaluate_curves");
+  require_status(evaluate(curves, CurveGrid<T>::uniform(kSamples), out, with(options, isa, 1)),
+                 {Status::ok}, "evaluate, curves");
   return values;
 }
 
@@ -49,10 +49,9 @@ std::vector<T> edge_positions(const PatchSet<T>& set, PatchEdge edge, int first_
   Outputs<T> out;
   out.position = {values.data(), left > 1 ? rest.data() : nullptr,
                   left > 2 ? rest.data() + values.size() : nullptr, 1};
-  Options options;
+  tests::CallOptions options;
   options.first_component = first_component;
-  require_status(evaluate_grid(set, grid, out, with(options, isa, 1)), {Status::ok},
-                 "evaluate_grid");
+  require_status(evaluate(set, grid, out, with(options, isa, 1)), {Status::ok}, "evaluate, grid");
   return values;
 }
 
@@ -80,8 +79,7 @@ private:
   void boundaries(const PatchSet<T>& set) {
     for (const PatchEdge edge : {PatchEdge::v0, PatchEdge::v1, PatchEdge::u0, PatchEdge::u1}) {
       CurveSet<T> curves;
-      require(pack_curves(boundary_curves(nets_.view(), edge), curves, options_).status ==
-                  Status::ok,
+      require(pack(boundary_curves(nets_.view(), edge), curves, options_).status == Status::ok,
               "a boundary curve of a sound patch is refused");
       for (const Isa isa : available_isas()) {
         require_equal(positions(curves, component_, isa),
@@ -105,7 +103,9 @@ private:
       const Block<double> a(size, place);
       const Block<double> b(size, place);
       const auto call = [&](const ControlNets<S>& from, double* to, int threads) {
-        return of_u ? iso_u(from, parameter, to, threads) : iso_v(from, parameter, to, threads);
+        const Options options{.threads = threads};
+        return (of_u ? iso_u(from, parameter, to, options) : iso_v(from, parameter, to, options))
+            .status;
       };
       const Status first = call(nets_.view(), a.data(), 1);
       const Status second = call(view, b.data(), 2);
@@ -146,7 +146,7 @@ private:
     const RealSample exact =
         of_u ? reference.evaluate(across, along) : reference.evaluate(along, across);
     const auto c = static_cast<std::size_t>(component_);
-    const double bound = curve_bounds(curves, k / kSamples, available_isas().back()).position[c];
+    const double bound = error_bounds(curves, k / kSamples, available_isas().back()).position[c];
     // iso_u() errs by 2 (n + 1) 2^-53 of the control points as given, weights included.
     const Real shift = c < 3 ? std::fabs(static_cast<Real>(options_.relative_to[c])) : 0;
     const Real of_points = 2 * (kMostDegree + 1) * 0x1p-53L * 4 *

@@ -11,6 +11,7 @@
 #include "tests/reliability/fuzz/inputs/hostile.hpp"
 #include "tests/reliability/fuzz/inputs/made_grids.hpp"
 #include "tests/reliability/fuzz/inputs/scene.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::fuzz {
 namespace {
@@ -26,9 +27,7 @@ struct SampleList {
       y.push_back(kParameters[k / 5 % 5]);
     }
   }
-  [[nodiscard]] Samples<T> view() const {
-    return {patch.size(), patch.data(), x.data(), y.data(), Parameters::centred};
-  }
+  [[nodiscard]] Samples<T> view() const { return {patch, x, y, Parameters::centred}; }
   std::vector<std::uint32_t> patch;
   std::vector<T> x;
   std::vector<T> y;
@@ -40,7 +39,7 @@ std::vector<T> appearance(const PatchSet<T>& set) {
   const SampleList<T> samples(set.size());
   const std::size_t count = samples.patch.size();
   std::vector<T> seen;
-  Options options;
+  tests::CallOptions options;
   options.threads = 1;
   for (int c = 0; c < set.components(); c += 3) {
     options.first_component = c;
@@ -53,8 +52,7 @@ std::vector<T> appearance(const PatchSet<T>& set) {
                 dimension > 2 ? next + 2 * count : nullptr, 1};
       next += 3 * count;
     }
-    require_status(evaluate_scattered(set, samples.view(), out, options), {Status::ok},
-                   "evaluate_scattered");
+    require_status(evaluate(set, samples.view(), out, options), {Status::ok}, "evaluate, samples");
     seen.insert(seen.end(), values.begin(), values.end());
   }
   return seen;

@@ -13,6 +13,7 @@
 #include "tests/reliability/fuzz/inputs/layout_model.hpp"
 #include "tests/reliability/fuzz/inputs/made_grids.hpp"
 #include "tests/reliability/fuzz/inputs/scene.hpp"
+#include "tests/support/call_options.hpp"
 
 namespace simdbezier::fuzz {
 namespace {
@@ -94,7 +95,7 @@ private:
                                            : static_cast<std::uint32_t>(2 + bytes_.below(5)));
         offset_.push_back((k == 0 ? 0 : offset_.back()) + (bytes_.rarely(8) ? 3 : 36));
       }
-      null_input_ = null;
+      null_input_ = null && !patch_.empty();
     }
   }
 
@@ -113,6 +114,9 @@ private:
     return a > kLastOffset || b > kLastOffset ? std::max(a, b) : a * b;
   }
   [[nodiscard]] Wide patch_count() const {
+    if (call_ == Call::patch_grids) {
+      return static_cast<Wide>(patch_.size());
+    }
     const std::size_t rest = options_.first_patch > patches_ ? 0 : patches_ - options_.first_patch;
     return static_cast<Wide>(
         options_.patch_count == static_cast<std::size_t>(-1) ? rest : options_.patch_count);
@@ -160,8 +164,8 @@ private:
         }
       }
     }
-    if (out_.curvature.mean != nullptr) {
-      all.push_back({out_.curvature.mean - block_.data(), 1});
+    if (out_.curvature.mean.wanted()) {
+      all.push_back({out_.curvature.mean.first - block_.data(), 1});
     }
     return all;
   }
@@ -178,6 +182,9 @@ private:
   }
 
   [[nodiscard]] bool sound_patches() const {
+    if (call_ == Call::patch_grids) {
+      return options_.first_patch <= patches_ && patch_.size() <= patches_ - options_.first_patch;
+    }
     return options_.first_patch <= patches_ &&
            (options_.patch_count == static_cast<std::size_t>(-1) ||
             options_.patch_count <= patches_ - options_.first_patch);
@@ -192,7 +199,6 @@ private:
                    bad_index_ || (call_ != Call::scattered && !sound_patches()) ||
                    (call_ == Call::grid && (nu_ < 2 || nv_ < 2));
     if (call_ == Call::patch_grids) {
-      failure = failure || patch_.size() < static_cast<std::size_t>(patch_count());
       return failure ? Expectation::failure : of_patch_grids();
     }
     return failure ? Expectation::failure : of_layout();
@@ -218,7 +224,7 @@ private:
   Expectation of_layout() {
     const Wide count = samples();
     const Expectation expectation =
-        expect_of(members(), count, out_.status != nullptr, kElements, taken_);
+        expect_of(members(), count, out_.status.wanted(), kElements, taken_);
     return expectation == Expectation::success && planes_apart() ? Expectation::anything
                                                                  : expectation;
   }
@@ -237,15 +243,17 @@ private:
   Status call() {
     switch (call_) {
     case Call::grid:
-      return evaluate_grid(scene_.set(), Grid<T>::uniform(nu_, nv_), out_, options_);
+      return evaluate(scene_.set(), Grid<T>::uniform(nu_, nv_), out_, options_);
     case Call::scattered: {
-      const Samples<T> list{listed_, null_input_ ? nullptr : patch_.data(), parameter_.data(),
-                            parameter_.data(), Parameters::unit};
-      return evaluate_scattered(scene_.set(), list, out_, options_);
+      const Samples<T> list{{null_input_ ? nullptr : patch_.data(), listed_},
+                            {parameter_.data(), listed_},
+                            {parameter_.data(), listed_}};
+      return evaluate(scene_.set(), list, out_, options_);
     }
     default: {
-      const PatchGrids grids{null_input_ ? nullptr : patch_.data(), patch_.data(), offset_.data()};
-      return evaluate_patch_grids(scene_.set(), grids, out_, options_);
+      const PatchGrids grids{
+          {null_input_ ? nullptr : patch_.data(), patch_.size()}, patch_, offset_};
+      return evaluate(scene_.set(), grids, out_, options_);
     }
     }
   }
@@ -274,7 +282,7 @@ private:
   Block<T> block_;
   Block<SampleStatus> statuses_;
   Call call_ = Call::grid;
-  Options options_;
+  tests::CallOptions options_;
   std::size_t patches_ = 0;
   std::size_t nu_ = 2;
   std::size_t nv_ = 2;

@@ -1,9 +1,9 @@
-// Certified error bounds of single patches, tighter than the ones that hold for all of them.
+// Certified error bounds of single patches and curves, tighter than those that hold for all.
 #pragma once
 
 #include <cstddef>
 
-#include <simdbezier/isa.hpp>
+#include <simdbezier/curves.hpp>
 #include <simdbezier/patch_set.hpp>
 
 namespace simdbezier {
@@ -19,27 +19,32 @@ struct ErrorBounds {
 /// The certificate of one patch, for every sample with u, v in [0,1].
 ///
 /// Formula:     1.01 u sum_kl (e_k + e_l + 1) |C_kl| over the coefficients in centred parameters,
-///              where e_k counts the roundings that term k passes through: min(k+1, n) in Horner's
-///              rule and in its synthetic division (k = 1, 2, …; times k); twice as many without
-///              FMA; one more for the coefficient itself; with local origins u (|O| + the sum above
-///              without its constant) for the last addition. In a direction of degree 6 or more the
-///              largest of both halves, with k more roundings (k - 1 of the derivative) because the
-///              half's own parameter is rounded, and derivatives times 2. Rational patches: with
-///              such sums E_h and E_w of numerator and weight, |S - O| <= R in the hull of the
-///              control points, and w >= w0, E = (E_h + R E_w) / w0 + 2 u R; derivatives likewise
-///              through w S_u = h_u - S w_u; infinite where E_w leaves nothing of w0. What packing
-///              itself has rounded in double (or double-double) is added where it is not exact, and
-///              64 of the smallest denormal. (First-order running error analysis; 1.01 covers the
-///              higher orders.)
+///              where e_k counts the roundings that term k passes through. Local origins, halves,
+///              weights and packing add terms of their own: docs/accuracy.md.
 /// Relative to: the control points less PackOptions::relative_to, as that difference was rounded
 ///              (to double where T and S are float, else to about 2^-104). Where u
 ///              is given instead of x = 2u-1, its rounding moves the sample by at most u_T/2 in x.
 /// isa:         decides between the FMA and the other class; automatic as in resolve_isa().
-/// Returns all zero for a patch outside of the set, and infinities where `isa` cannot be resolved.
+/// Returns all zero for a patch outside of the set, and infinities where `isa` cannot be resolved,
+/// or where the weights leave nothing to divide by.
 /// No allocation, any thread. Cost: about 100 ns for a bicubic patch.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API ErrorBounds error_bounds(const PatchSet<T>& set, std::size_t patch,
                                                       Isa isa = Isa::automatic) noexcept;
+
+/// Absolute bounds of curves, likewise.
+struct CurveErrorBounds {
+  double position[kMostComponents] = {};
+  double d1[kMostComponents] = {};
+  double d2[kMostComponents] = {};
+};
+
+/// The certificate of one curve, for every sample with t in [0,1]: the same formula in one
+/// direction, 1.01 u sum_k (e_k + 1) |a_k| 2^-k. Returns as above.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API CurveErrorBounds error_bounds(const CurveSet<T>& set,
+                                                           std::size_t curve,
+                                                           Isa isa = Isa::automatic) noexcept;
 
 /// The largest position bound of any component of any patch; 0 for an empty set.
 template <typename T>

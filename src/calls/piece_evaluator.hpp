@@ -4,10 +4,8 @@
 #include <cstddef>
 
 #include "src/calls/grid_plan.hpp"
-#include "src/calls/grid_request.hpp"
-#include "src/output/output_plan.hpp"
-#include "src/storage/patch_storage.hpp"
-#include "src/tables/kernel_table.hpp"
+#include "src/calls/kernel_choice.hpp"
+#include "src/output/delivery.hpp"
 
 namespace simdbezier::detail {
 
@@ -21,44 +19,16 @@ struct GridPiece {
   friend bool operator==(const GridPiece&, const GridPiece&) = default;
 };
 
-/// The kernels of one call.
-template <typename T>
-struct GridKernels {
-  const SetStorage<T>* set;
-  const KernelTable<T>* table;
-  KernelChoice choice;
-  bool watertight;
-  std::size_t first_component;
-  bool any_shape; ///< bicubic patches take the kernels of any shape, too
-
-  GridKernels(const SetStorage<T>& storage, const KernelTable<T>& kernels,
-              const WantedGroups& wanted, bool curvature, const Components& components,
-              bool watertight_edges) noexcept
-      : set(&storage), table(&kernels), choice(choose_kernels(wanted)),
-        watertight(watertight_edges), first_component(components.first),
-        any_shape(curvature || !components.space) {}
-
-  /// What they put where it belongs by themselves, on grids of `nu` columns or more: all of it
-  /// where all patches are bicubic, and evaluated as such. streamed: past the caches, too.
-  [[nodiscard]] DirectRows direct_rows(std::size_t nu, bool streamed) const noexcept {
-    const bool bicubic = !any_shape && set->places == nullptr && set->buckets[0].shape.is_bicubic();
-    return {.row = bicubic ? nu : 0,
-            .lanes = table->lanes,
-            .streamed = streamed,
-            .records = table->puts_records};
-  }
-};
-
 /// One thread's evaluator. Remembers the rows of the last piece, which most often are those of the
 /// next one.
 template <typename T>
-class GridEvaluator {
+class PieceEvaluator {
 public:
   /// Bytes of scratch for pieces of up to `rows` rows.
   [[nodiscard]] static std::size_t scratch_bytes(std::size_t rows) noexcept;
 
   /// rows: the most in one piece. scratch: aligned to 64 bytes; null where none is needed.
-  GridEvaluator(const GridKernels<T>& kernels, std::size_t rows, void* scratch) noexcept;
+  PieceEvaluator(const PatchKernels<T>& kernels, std::size_t rows, void* scratch) noexcept;
 
   /// Where a piece goes: planes that begin with its first sample.
   struct Target {
@@ -70,17 +40,39 @@ public:
     const Planes<T>* next = nullptr;   ///< with a drain: the planes of the piece after this one
     std::size_t record = 1;            ///< see GridTask
 
-    /// The caller's curvatures from a sample on.
-    void set_curvature(const Curvatures<T>& out, std::size_t sample) noexcept {
-      const CurvaturePlanes<T> from(out);
+    /// The piece whose first sample has the caller's index `sample`.
+    Target(const OutputPlan<T>& outputs, Delivery<T>& delivery, std::size_t sample) noexcept
+        : planes(delivery.begin(sample)), status(outputs.out().status_at(sample)),
+          drain(delivery.queue()), streaming(outputs.streaming() && !outputs.staged()),
+          next(delivery.next()), record(outputs.record()) {
       for (std::size_t k = 0; k < kCurvatures; ++k) {
-        curvature[k] = from.plane[k] == nullptr ? nullptr : from.plane[k] + sample;
+        curvature[k] = outputs.out().curvature_at(k, sample);
       }
+    }
+    /// The same piece from a sample of it on, by patches that are staged together no longer; its
+    /// planes are formed in `memory`.
+    [[nodiscard]] Target from(std::size_t sample, Planes<T> (&memory)[kGroups]) const noexcept {
+      Target rest = *this;
+      for (std::size_t g = 0; g < kGroups; ++g) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          T* const plane = planes[g].component[c];
+          memory[g].component[c] = plane == nullptr ? nullptr : plane + sample;
+        }
+      }
+      for (T*& values : rest.curvature) {
+        values = values == nullptr ? nullptr : values + sample;
+      }
+      rest.planes = memory;
+      rest.status = status == nullptr ? nullptr : status + sample;
+      rest.streaming = false;
+      rest.next = nullptr;
+      rest.record = 1;
+      return rest;
     }
   };
   void run(const GridPlan<T>& plan, const GridPiece& piece, const Target& to) noexcept;
 
-  /// Of the kernels that ran.
+  /// The instruction set of the kernels that ran.
   [[nodiscard]] Isa executed() const noexcept { return executed_; }
 
 private:
@@ -93,7 +85,7 @@ private:
                   const Target& to) noexcept;
   void run_mixed(const GridPlan<T>& plan, const GridPiece& piece, const Target& to) noexcept;
 
-  const GridKernels<T>& kernels_;
+  const PatchKernels<T>& kernels_;
   RowRun<T>* runs_;
   std::size_t run_count_ = 0;
   const GridPlan<T>* plan_ = nullptr; ///< of runs_, with the three below

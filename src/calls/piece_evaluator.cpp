@@ -1,5 +1,5 @@
-// See src/calls/grid_evaluator.hpp.
-#include "src/calls/grid_evaluator.hpp"
+// See src/calls/piece_evaluator.hpp.
+#include "src/calls/piece_evaluator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,19 +26,19 @@ void prefill_status(const GridTask<T>& task, SampleStatus* status) noexcept {
 } // namespace
 
 template <typename T>
-std::size_t GridEvaluator<T>::scratch_bytes(std::size_t rows) noexcept {
+std::size_t PieceEvaluator<T>::scratch_bytes(std::size_t rows) noexcept {
   return rows > kInlineRows ? rows * sizeof(RowRun<T>) : 0;
 }
 
 template <typename T>
-GridEvaluator<T>::GridEvaluator(const GridKernels<T>& kernels, std::size_t rows,
-                                void* scratch) noexcept
+PieceEvaluator<T>::PieceEvaluator(const PatchKernels<T>& kernels, std::size_t rows,
+                                  void* scratch) noexcept
     : kernels_(kernels),
       runs_(rows > kInlineRows ? static_cast<RowRun<T>*>(scratch) : inline_runs_) {}
 
 template <typename T>
-void GridEvaluator<T>::fill(GridTask<T>& task, const PatchStorage<T>& set, const GridPlan<T>& plan,
-                            const GridPiece& piece, const Target& to) const noexcept {
+void PieceEvaluator<T>::fill(GridTask<T>& task, const PatchStorage<T>& set, const GridPlan<T>& plan,
+                             const GridPiece& piece, const Target& to) const noexcept {
   task.shape = &set.shape;
   task.coefficients = set.coefficients + piece.patch * set.shape.coefficients();
   task.edges = set.edges + piece.patch * set.shape.edges();
@@ -67,8 +67,8 @@ void GridEvaluator<T>::fill(GridTask<T>& task, const PatchStorage<T>& set, const
 }
 
 template <typename T>
-void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
-                           const Target& to) noexcept {
+void PieceEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
+                            const Target& to) noexcept {
   if (plan_ != &plan || generation_ != plan.generation() || first_row_ != piece.first_row ||
       last_row_ != piece.last_row) {
     plan_ = &plan;
@@ -87,8 +87,8 @@ void GridEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
 
 /// Patches of one shape that are stored one after the other go to a kernel together.
 template <typename T>
-void GridEvaluator<T>::run_mixed(const GridPlan<T>& plan, const GridPiece& piece,
-                                 const Target& to) noexcept {
+void PieceEvaluator<T>::run_mixed(const GridPlan<T>& plan, const GridPiece& piece,
+                                  const Target& to) noexcept {
   const PatchPlace* const places = kernels_.set->places.get() + piece.patch;
   const std::size_t patch_samples = (piece.last_row - piece.first_row) * plan.nu();
   for (std::size_t k = 0; k < piece.patches;) {
@@ -98,20 +98,7 @@ void GridEvaluator<T>::run_mixed(const GridPlan<T>& plan, const GridPiece& piece
       ++last;
     }
     Planes<T> planes[kGroups];
-    for (std::size_t g = 0; g < kGroups; ++g) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        T* const plane = to.planes[g].component[c];
-        planes[g].component[c] = plane == nullptr ? nullptr : plane + k * patch_samples;
-      }
-    }
-    Target part{planes, nullptr, {}, to.drain, false, nullptr};
-    if (to.status != nullptr) {
-      part.status = to.status + k * patch_samples;
-    }
-    for (std::size_t c = 0; c < kCurvatures; ++c) {
-      part.curvature[c] =
-          to.curvature[c] == nullptr ? nullptr : to.curvature[c] + k * patch_samples;
-    }
+    const Target part = to.from(k * patch_samples, planes);
     run_bucket(kernels_.set->buckets[places[k].bucket], plan,
                {places[k].index, last - k, piece.first_row, piece.last_row}, part);
     k = last;
@@ -119,10 +106,10 @@ void GridEvaluator<T>::run_mixed(const GridPlan<T>& plan, const GridPiece& piece
 }
 
 template <typename T>
-void GridEvaluator<T>::run_bucket(const PatchStorage<T>& bucket, const GridPlan<T>& plan,
-                                  const GridPiece& piece, const Target& to) noexcept {
+void PieceEvaluator<T>::run_bucket(const PatchStorage<T>& bucket, const GridPlan<T>& plan,
+                                   const GridPiece& piece, const Target& to) noexcept {
   GridTask<T>& task = task_[turn_];
-  if (!guessed_ || !(guess_ == piece) || to.status != nullptr || kernels_.any_shape) {
+  if (!guessed_ || !(guess_ == piece) || to.status != nullptr || kernels_.choice.any_shape) {
     fill(task, bucket, plan, piece, to);
   }
   guessed_ = to.drain != nullptr && to.next != nullptr;
@@ -139,22 +126,11 @@ void GridEvaluator<T>::run_bucket(const PatchStorage<T>& bucket, const GridPlan<
       prefill_status(task, to.status + p * task.patch_step);
     }
   }
-  if (kernels_.any_shape || !bucket.shape.is_bicubic()) {
-    kernels_.table->shapes->grid(task);
-    executed_ = task.executed;
-    return;
-  }
-  const Scheme used = scheme(task.watertight, task.origins != nullptr);
-  if (kernels_.choice.first) {
-    kernels_.table->grid[kernels_.choice.outputs][used](task);
-  }
-  if (kernels_.choice.second) {
-    kernels_.table->grid[kSecondDerivatives][used](task);
-  }
+  kernels_.run(task);
   executed_ = task.executed;
 }
 
-template class GridEvaluator<float>;
-template class GridEvaluator<double>;
+template class PieceEvaluator<float>;
+template class PieceEvaluator<double>;
 
 } // namespace simdbezier::detail

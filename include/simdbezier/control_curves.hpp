@@ -1,0 +1,49 @@
+// A view of the caller's control polygons.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <simdbezier/control_nets.hpp>
+
+namespace simdbezier {
+
+/// Non-owning description of `count` control polygons of equal degree and components.
+///
+/// Component c of point P[i] of curve k is
+///     points[k * curve_stride + i * point_stride + c * component_stride]
+/// with all strides in elements of S; the weight stands where component `components` would. The
+/// default describes cubics of x y z triples, packed, curve after curve. The memory is read during
+/// calls only.
+template <typename S>
+struct ControlCurves {
+  const S* points = nullptr; ///< may be null only when count is 0
+  std::size_t count = 0;     ///< number of curves
+  int degree = 3;            ///< 1 to kMostDegree
+  std::ptrdiff_t curve_stride = 12;
+  std::ptrdiff_t point_stride = 3;
+  std::ptrdiff_t component_stride = 1;
+  int components = 3; ///< 1 to kMostComponents, without the weight
+  Weights weights = Weights::none;
+  std::span<const S> memory = {}; ///< as in ControlNets
+
+  /// Points with all of their values side by side, curve after curve.
+  [[nodiscard]] static constexpr ControlCurves packed(const S* points, std::size_t count,
+                                                      int degree, int components = 3,
+                                                      Weights weights = Weights::none) noexcept {
+    const std::ptrdiff_t point = components + (weights == Weights::none ? 0 : 1);
+    return {points, count, degree, (degree + 1) * point, point, 1, components, weights, {}};
+  }
+  /// As many curves as there are points for. An incomplete one counts, so that calls refuse it.
+  [[nodiscard]] static constexpr ControlCurves packed(std::span<const S> points, int degree = 3,
+                                                      int components = 3,
+                                                      Weights weights = Weights::none) noexcept {
+    ControlCurves curves = packed(points.data(), 0, degree, components, weights);
+    const auto values = static_cast<std::size_t>(curves.curve_stride < 1 ? 1 : curves.curve_stride);
+    curves.count = points.size() / values + (points.size() % values == 0 ? 0 : 1);
+    curves.memory = points;
+    return curves;
+  }
+};
+
+} // namespace simdbezier

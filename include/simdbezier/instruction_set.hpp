@@ -1,0 +1,19 @@
+// The names of the instruction sets; isa.hpp has what can be asked about them.
+#pragma once
+
+#include <cstdint>
+
+namespace simdbezier {
+
+/// The instruction sets that kernels are compiled for. Results are bit-equal inside a class:
+/// avx2, avx512 and neon64 fuse multiply and add; scalar and sse2 round after each.
+enum class Isa : std::uint8_t {
+  automatic, ///< SIMDBEZIER_ISA where it is set, otherwise the widest that the machine has
+  scalar,
+  sse2,
+  avx2,   ///< AVX2 and FMA
+  avx512, ///< AVX-512 F, CD, DQ, BW, VL
+  neon64  ///< the aarch64 baseline
+};
+
+} // namespace simdbezier

@@ -1,0 +1,39 @@
+// How a call runs, whatever it computes.
+#pragma once
+
+#include <cstdint>
+
+#include <simdbezier/isa.hpp>
+
+namespace simdbezier {
+
+/// Where the outputs should end up. Streaming stores bypass the caches: a third faster to memory,
+/// much slower for whoever reads the result at once. They take effect where the output consists of
+/// packed planes, packed triples or vertices without gaps; any alignment of T will do.
+enum class Destination : std::uint8_t {
+  automatic, ///< memory where a grid call writes more than half of the last-level cache and gains
+             ///< by it (docs/performance.md), else cache; scattered samples always the latter
+  cache,     ///< plain stores
+  memory     ///< streaming stores, completed before the call returns
+};
+
+/// How a call runs. The defaults are what most callers want.
+struct Options {
+  /// 0: OpenMP's default; 1: the calling thread alone; most: 16 or two a core.
+  ///
+  /// 1 enters no OpenMP region and never starts a thread: such a call always returns, with a
+  /// status. Otherwise OpenMP's runtime starts the threads that its pool lacks. Where the system
+  /// refuses one (ulimit -u, a container's limit of processes, no memory for a stack), GNU's
+  /// runtime prints a line on stderr and calls exit(1); nothing above it can prevent that. Nor does
+  /// its pool survive fork(): in a child of a process that has used several threads, only calls
+  /// with 1 return.
+  int threads = 0;
+  /// false: edges and corners come from the interior's formula; derivatives along an edge that is a
+  /// point are then of the size of rounding errors instead of zero.
+  bool watertight = true;
+  Isa isa = Isa::automatic; ///< see resolve_isa()
+  Isa* executed = nullptr;  ///< where given, the kernel that ran writes its own name here
+  Destination destination = Destination::automatic;
+};
+
+} // namespace simdbezier

@@ -1,0 +1,99 @@
+// evaluate(set, where, {Output::position, …}): results in std::vectors, made to measure.
+//
+//     const auto samples = evaluate(set, Grid<float>::uniform(17, 17), {Output::position});
+//     if (samples) { use(samples.position[k][0]); }
+//
+// For who wants results and nothing more. The calls of evaluate.hpp write to memory that is there
+// already, in any layout; these allocate anew every time, which costs more than most evaluations.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <new>
+#include <stdexcept>
+#include <vector>
+
+#include <simdbezier/evaluate.hpp>
+
+namespace simdbezier {
+
+/// One value a sample of what was asked for; the other vectors are empty, as all are on an error.
+template <typename T>
+struct SurfaceSamples {
+  Status status;
+  std::vector<std::array<T, 3>> position;
+  std::vector<std::array<T, 3>> du;
+  std::vector<std::array<T, 3>> dv;
+  std::vector<std::array<T, 3>> duu;
+  std::vector<std::array<T, 3>> duv;
+  std::vector<std::array<T, 3>> dvv;
+  std::vector<std::array<T, 3>> normal;
+  std::vector<SampleStatus> sample_status;
+  std::vector<T> gaussian;
+  std::vector<T> mean;
+  std::vector<T> minimum;
+  std::vector<T> maximum;
+
+  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
+
+  /// A vector output: one before Output::curvature.
+  [[nodiscard]] std::vector<std::array<T, 3>>& operator[](Output output) noexcept {
+    std::vector<std::array<T, 3>>* const members[kVectorOutputs] = {&position, &du,  &dv,    &duu,
+                                                                    &duv,      &dvv, &normal};
+    return *members[static_cast<std::size_t>(output)];
+  }
+};
+
+namespace detail {
+
+/// Room for `count` samples, and where it is. May throw what std::vector throws.
+template <typename T>
+Outputs<T> make_room(SurfaceSamples<T>& samples, const OutputSelection& wanted, std::size_t count) {
+  Outputs<T> out;
+  for (std::size_t k = 0; k < kVectorOutputs; ++k) {
+    const auto output = static_cast<Output>(k);
+    if (wanted.holds(output)) {
+      samples[output].resize(count);
+      out[output] = Vectors<T>::xyz(samples[output]);
+    }
+  }
+  if (wanted.holds(Output::curvature)) {
+    for (auto* const values :
+         {&samples.gaussian, &samples.mean, &samples.minimum, &samples.maximum}) {
+      values->resize(count);
+    }
+    out.curvature = {samples.gaussian, samples.mean, samples.minimum, samples.maximum};
+  }
+  if (wanted.holds(Output::status)) {
+    samples.sample_status.resize(count);
+    out.status = samples.sample_status;
+  }
+  return out;
+}
+
+} // namespace detail
+
+/// evaluate(set, where, out, options) of patches with three components. where: a Grid<T>,
+/// PatchGrids or Samples<T>. Returns the statuses of that call.
+template <typename T, typename Where>
+[[nodiscard]] SurfaceSamples<T> evaluate(const PatchSet<T>& set, const Where& where,
+                                         const OutputSelection& wanted,
+                                         const Options& options = {}) noexcept {
+  SurfaceSamples<T> samples;
+  try {
+    const Outputs<T> out = detail::make_room(samples, wanted, sample_count(set, where));
+    samples.status = evaluate(set, where, out, options);
+  } catch (const std::bad_alloc&) {
+    samples.status = Status::out_of_memory;
+  } catch (const std::length_error&) {
+    samples.status = Status::size_overflow;
+  }
+  if (samples) {
+    return samples;
+  }
+  SurfaceSamples<T> none;
+  none.status = samples.status;
+  return none;
+}
+
+} // namespace simdbezier

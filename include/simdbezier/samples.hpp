@@ -1,0 +1,86 @@
+// Where surfaces are evaluated: on one grid, on a grid for each patch, or at single samples.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <simdbezier/patch_set.hpp>
+
+namespace simdbezier {
+
+/// How parameters are given: u in [0,1], or centred x = 2u-1 in [-1,1] (no rounding inside).
+enum class Parameters : std::uint8_t { unit, centred };
+
+/// The centred parameter 2u-1 of a double u, computed in double and rounded once to T.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API T to_centred(double u) noexcept;
+
+/// Consecutive patches or curves of a set.
+struct SetRange {
+  static constexpr std::size_t kToTheEnd = static_cast<std::size_t>(-1);
+  std::size_t first = 0;
+  std::size_t count = kToTheEnd;
+};
+
+/// A tensor grid of nu x nv parameters common to all patches of a range. Sample
+/// (patch, iu, iv) has the index (patch - patches.first) * nu * nv + iv * nu + iu.
+/// Null u (v): uniform, ends included, x_i = (2i-N)/N with N = nu-1, by one division.
+/// Otherwise u holds nu values, v holds nv, in any order.
+template <typename T>
+struct Grid {
+  std::size_t nu = 0;
+  std::size_t nv = 0;
+  const T* u = nullptr;
+  const T* v = nullptr;
+  Parameters parameters = Parameters::unit;
+  SetRange patches = {};
+
+  [[nodiscard]] static constexpr Grid uniform(std::size_t nu, std::size_t nv,
+                                              SetRange patches = {}) noexcept {
+    return {nu, nv, nullptr, nullptr, Parameters::unit, patches};
+  }
+  /// Every pair of the parameters given.
+  [[nodiscard]] static constexpr Grid at(std::span<const T> u, std::span<const T> v,
+                                         Parameters parameters = Parameters::unit,
+                                         SetRange patches = {}) noexcept {
+    return {u.size(), v.size(), u.data(), v.data(), parameters, patches};
+  }
+};
+
+/// Uniform grids, ends included: one for each of the patches from `first_patch` on, as many as nu
+/// and nv have values. Their samples have compressed-row form: sample (iu, iv) of the k-th of these
+/// patches has the index offset[k] + iv * nu[k] + iu.
+struct PatchGrids {
+  std::span<const std::uint32_t> nu; ///< 2 or more
+  std::span<const std::uint32_t> nv; ///< 2 or more; as many as nu
+  /// Where each patch's samples begin, ascending by nu*nv or more (samples in between are not
+  /// touched). Empty: packed without gaps.
+  std::span<const std::size_t> offset = {};
+  std::size_t first_patch = 0;
+};
+
+/// Single samples in any order: sample k lies on patch[k] at (u[k], v[k]).
+template <typename T>
+struct Samples {
+  std::span<const std::uint32_t> patch; ///< indices into the set
+  std::span<const T> u;                 ///< as many
+  std::span<const T> v;                 ///< as many
+  Parameters parameters = Parameters::unit;
+};
+
+/// The samples that a call has: every output needs room for as many. 0 where the call will refuse
+/// what it is given; the largest std::size_t where they exceed what memory can address.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API std::size_t sample_count(const PatchSet<T>& set,
+                                                      const Grid<T>& grid) noexcept;
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API std::size_t sample_count(const PatchSet<T>& set,
+                                                      const PatchGrids& grids) noexcept;
+template <typename T>
+[[nodiscard]] std::size_t sample_count(const PatchSet<T>& /*set*/,
+                                       const Samples<T>& samples) noexcept {
+  return samples.patch.size();
+}
+
+} // namespace simdbezier

@@ -1,0 +1,101 @@
+// Grids of which every patch or curve has its own: sizes, places, parameters and shares of work.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <simdbezier/curves.hpp>
+
+#include "src/calls/grid_plan.hpp"
+
+namespace simdbezier::detail {
+
+/// The sizes of a call, and where the samples of each patch or curve begin.
+class CountedGrids {
+public:
+  explicit CountedGrids(const PatchGrids& grids) noexcept
+      : nu_(grids.nu), nv_(grids.nv), given_offset_(grids.offset),
+        equal_lengths_(grids.nu.size() == grids.nv.size() && matches(grids.offset)) {}
+  /// Curves are grids of one row.
+  explicit CountedGrids(const CurveGrids& grids) noexcept
+      : nu_(grids.n), given_offset_(grids.offset), rows_of_one_(true),
+        equal_lengths_(matches(grids.offset)) {}
+
+  /// Before anything else is asked for.
+  /// ok | null_input | unequal_lengths | bad_grid | bad_offsets | size_overflow | out_of_memory
+  [[nodiscard]] Status count() noexcept;
+
+  [[nodiscard]] std::size_t size() const noexcept { return nu_.size(); }
+  [[nodiscard]] std::size_t nu(std::size_t k) const noexcept { return nu_[k]; }
+  [[nodiscard]] std::size_t nv(std::size_t k) const noexcept { return rows_of_one_ ? 1 : nv_[k]; }
+  /// Samples in the grids before this one, counted without gaps; total() for k = size().
+  [[nodiscard]] std::size_t before(std::size_t k) const noexcept { return before_[k]; }
+  [[nodiscard]] std::size_t total() const noexcept { return before_[size()]; }
+  /// The index of its first sample in the caller's memory.
+  [[nodiscard]] std::size_t offset(std::size_t k) const noexcept {
+    return given_offset_.empty() ? before_[k] : given_offset_[k];
+  }
+  /// One more than the highest index.
+  [[nodiscard]] std::size_t extent() const noexcept {
+    return given_offset_.empty() ? total() : extent_;
+  }
+  [[nodiscard]] std::size_t least_nu() const noexcept { return least_nu_; }
+  [[nodiscard]] std::size_t most_nu() const noexcept { return most_nu_; }
+  [[nodiscard]] std::size_t most_nv() const noexcept { return most_nv_; }
+
+  /// The grid that sample `sample`, counted without gaps, is part of.
+  [[nodiscard]] std::size_t grid_of(std::size_t sample) const noexcept {
+    const std::size_t* const first = before_.get();
+    return static_cast<std::size_t>(std::upper_bound(first, first + size(), sample) - first - 1);
+  }
+
+private:
+  [[nodiscard]] bool matches(std::span<const std::size_t> offset) const noexcept {
+    return offset.empty() || offset.size() == nu_.size();
+  }
+
+  std::span<const std::uint32_t> nu_;
+  std::span<const std::uint32_t> nv_;
+  std::span<const std::size_t> given_offset_;
+  bool rows_of_one_ = false;
+  bool equal_lengths_;
+  std::unique_ptr<std::size_t[]> before_;
+  std::size_t extent_ = 0;
+  std::size_t least_nu_ = ~std::size_t(0);
+  std::size_t most_nu_ = 0;
+  std::size_t most_nv_ = 0;
+};
+
+/// Plans by size: neighbours often share theirs. Grids too large for a plan's own room share one
+/// piece of memory, so that nothing can fail once samples are being written.
+template <typename T>
+class PlanCache {
+public:
+  /// Bytes of the memory, for grids of up to these sizes.
+  [[nodiscard]] static std::size_t memory_bytes(const CountedGrids& grids) noexcept {
+    return GridPlan<T>::memory_values(grids.most_nu(), grids.most_nv()) * sizeof(T);
+  }
+  explicit PlanCache(void* memory) noexcept : memory_(static_cast<T*>(memory)) {}
+
+  /// The uniform grid; of one row where nv is 1.
+  const GridPlan<T>& find(std::size_t nu, std::size_t nv) noexcept {
+    GridPlan<T>& plan =
+        GridPlan<T>::fits_inline(nu, nv) ? plan_[(nu * 5 + nv) % kPlans] : large_plan_;
+    if (plan.nu() != nu || plan.nv() != nv) {
+      const Grid<T> grid = nv == 1 ? one_row(CurveGrid<T>::uniform(nu)) : Grid<T>::uniform(nu, nv);
+      [[maybe_unused]] const Status built = plan.build(grid, memory_);
+    }
+    return plan;
+  }
+
+private:
+  static constexpr std::size_t kPlans = 16;
+  T* memory_;
+  GridPlan<T> large_plan_;
+  GridPlan<T> plan_[kPlans];
+};
+
+} // namespace simdbezier::detail

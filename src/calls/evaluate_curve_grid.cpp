@@ -1,0 +1,133 @@
+// The call for curves on common parameters: work cut into curves, and strips of long ones.
+#include <algorithm>
+
+#include <simdbezier/curves.hpp>
+
+#include "src/calls/curve_pieces.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// Samples from which on planes amortise staging.
+constexpr std::size_t kLongRow = 32;
+
+/// Whether kernels are to write rows straight to where they belong, as they can positions of three
+/// components and nothing else. Planes that need no staging and hold whole registers are swept
+/// faster one by one.
+template <typename T>
+bool goes_in_rows(const CurveShape& shape, const OutputPlan<T>& outputs,
+                  const KernelTable<T>& table, std::size_t n) noexcept {
+  const OutputList<T>& out = outputs.out();
+  const Vectors<T>& position = *out.vectors[kCurvePosition];
+  const bool alone = !out.wants(kCurveD1) && !out.wants(kCurveD2) && !out.wants(kCurveTangent) &&
+                     !out.wants_curvature() && position.z != nullptr;
+  if (n < kLeastRow || n > kMostRow || !alone || shape.rational || shape.cells() != 1 ||
+      table.lanes == 1) {
+    return false;
+  }
+  const bool planes = position.stride == 1 && (outputs.staged() ? n < kLongRow : n < table.lanes);
+  return planes || are_triples(position);
+}
+
+/// Units are curve-major (curve, strip) pairs.
+template <typename T>
+class CurveGridWork {
+public:
+  CurveGridWork(const CurveStorage<T>& curves, const Request<T>& request, const GridPlan<T>& plan,
+                const OutputList<T>& out, const Options& options) noexcept
+      : first_curve_(request.first), curves_(request.count), plan_(plan),
+        outputs_(plan_outputs(out, plan.nu() * curves_, options.destination)),
+        kernels_{curves, *request.table, request.components.first, 0} {
+    const std::size_t n = plan.nu();
+    const bool one_pass = out.wants(kCurvePosition) && !out.wants(kCurveD1) &&
+                          !out.wants(kCurveD2) && !out.wants_curvature();
+    outputs_.arrange({.row = one_pass ? n : 0, .lanes = kernels_.table.lanes, .streamed = true},
+                     thread_count(options.threads, curves_));
+    kernels_.rows = goes_in_rows(curves.shape, outputs_, kernels_.table, n);
+    if (kernels_.rows) {
+      outputs_.write_directly();
+    }
+    kernels_.chunk_samples = kernels_.rows ? n * curves_ : Delivery<T>::chunk_samples(outputs_);
+    strips_ = n > kernels_.chunk_samples ? (n - 1) / kernels_.chunk_samples + 1 : 1;
+  }
+
+  [[nodiscard]] std::size_t units() const noexcept { return curves_ * strips_; }
+  [[nodiscard]] std::size_t scratch_bytes() const noexcept {
+    return kernels_.delivery_bytes(outputs_);
+  }
+
+  Isa run(int /*worker*/, std::size_t begin, std::size_t end,
+          unsigned char* scratch) const noexcept {
+    Isa executed = Isa::automatic;
+    const std::size_t n = plan_.nu();
+    const std::size_t chunk = kernels_.chunk_samples;
+    Delivery<T> delivery(outputs_, kernels_.table, chunk, scratch);
+    for (std::size_t unit = begin; unit < end;) {
+      const std::size_t curve = unit / strips_;
+      const std::size_t first = unit % strips_ * chunk;
+      const std::size_t together =
+          strips_ > 1 ? 1 : std::min(std::max<std::size_t>(chunk / n, 1), end - unit);
+      const CurvePiece piece{first_curve_ + curve, together, first,
+                             std::min(n, first + (strips_ > 1 ? chunk : n))};
+      executed = kernels_.run(plan_, piece, curve * n + first, outputs_, delivery);
+      unit += together;
+    }
+    delivery.finish();
+    return executed;
+  }
+
+private:
+  std::size_t first_curve_;
+  std::size_t curves_;
+  const GridPlan<T>& plan_;
+  OutputPlan<T> outputs_;
+  CurveKernels<T> kernels_;
+  std::size_t strips_ = 1;
+};
+
+template <typename T>
+class CurveGridCall {
+public:
+  CurveGridCall(const CurveSet<T>& set, const CurveGrid<T>& where, const CurveOutputs<T>& out,
+                const Options& options) noexcept
+      : in_(set, where, out, options) {}
+
+  Status resolve() noexcept {
+    return request_.resolve(in_.set, in_.where.curves, in_.first_component, in_.options);
+  }
+  Status check() noexcept {
+    std::size_t samples = 0;
+    if (!multiply_samples(in_.where.n, 1, request_.count, samples)) {
+      return Status::size_overflow;
+    }
+    const MemoryRange inputs[] = {{in_.where.t, in_.where.n * sizeof(T)}};
+    const Status usable = check_curve_outputs(in_.out, samples, request_.components, inputs);
+    return usable ? plan_.build(one_row(in_.where)) : usable;
+  }
+  [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
+  [[nodiscard]] CurveGridWork<T> plan() const noexcept {
+    return {*in_.set.storage(), request_, plan_, in_.out, in_.options};
+  }
+
+private:
+  Given<T, CurveSet<T>, CurveGrid<T>> in_;
+  Request<T> request_;
+  GridPlan<T> plan_;
+};
+
+} // namespace
+} // namespace detail
+
+template <typename T>
+Status evaluate(const CurveSet<T>& set, const CurveGrid<T>& grid, const CurveOutputs<T>& out,
+                const Options& options) noexcept {
+  return detail::make_call(detail::CurveGridCall<T>(set, grid, out, options), options);
+}
+
+template SIMDBEZIER_API Status evaluate(const CurveSet<float>&, const CurveGrid<float>&,
+                                        const CurveOutputs<float>&, const Options&) noexcept;
+template SIMDBEZIER_API Status evaluate(const CurveSet<double>&, const CurveGrid<double>&,
+                                        const CurveOutputs<double>&, const Options&) noexcept;
+
+} // namespace simdbezier

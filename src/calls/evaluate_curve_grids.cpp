@@ -1,0 +1,118 @@
+// The call for curves that each have a number of samples of their own: work divided by samples.
+#include <algorithm>
+
+#include <simdbezier/curves.hpp>
+
+#include "src/calls/counted_grids.hpp"
+#include "src/calls/curve_pieces.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// Units are samples, counted without gaps.
+template <typename T>
+class CurveGridsWork {
+public:
+  CurveGridsWork(const CurveStorage<T>& curves, const Request<T>& request,
+                 const CountedGrids& grids, const OutputList<T>& out,
+                 const Options& options) noexcept
+      : first_curve_(request.first), grids_(grids),
+        outputs_(plan_outputs(out, grids.total(), options.destination)),
+        kernels_{curves, *request.table, request.components.first, 0} {
+    outputs_.arrange({}, thread_count(options.threads, grids.total()));
+    kernels_.chunk_samples = Delivery<T>::chunk_samples(outputs_);
+  }
+
+  [[nodiscard]] std::size_t units() const noexcept { return grids_.total(); }
+  [[nodiscard]] std::size_t scratch_bytes() const noexcept {
+    return kernels_.delivery_bytes(outputs_) + PlanCache<T>::memory_bytes(grids_);
+  }
+
+  Isa run(int /*worker*/, std::size_t begin, std::size_t end,
+          unsigned char* scratch) const noexcept {
+    Isa executed = Isa::automatic;
+    PlanCache<T> plans(scratch + kernels_.delivery_bytes(outputs_));
+    Delivery<T> delivery(outputs_, kernels_.table, kernels_.chunk_samples, scratch);
+    std::size_t k = grids_.grid_of(begin);
+    while (k < grids_.size() && grids_.before(k) < end) {
+      const std::size_t before = grids_.before(k);
+      const std::size_t last = std::min(end, grids_.before(k + 1)) - before;
+      std::size_t first = std::max(begin, before) - before;
+      const std::size_t together = first == 0 ? alike(k, end) : 1;
+      const GridPlan<T>& plan = plans.find(grids_.nu(k), 1);
+      while (first < last) {
+        const std::size_t stop = std::min(last, first + kernels_.chunk_samples);
+        executed = kernels_.run(plan, {first_curve_ + k, together, first, stop},
+                                grids_.offset(k) + first, outputs_, delivery);
+        first = stop;
+      }
+      k += together;
+    }
+    delivery.finish();
+    return executed;
+  }
+
+private:
+  /// How many curves from k on end by sample `end`, are of equal size and leave no gap between
+  /// them, so that they go to a kernel together.
+  [[nodiscard]] std::size_t alike(std::size_t k, std::size_t end) const noexcept {
+    const std::size_t n = grids_.nu(k);
+    std::size_t count = 1;
+    while (k + count < grids_.size() && grids_.nu(k + count) == n &&
+           grids_.before(k + count + 1) <= end && (count + 1) * n <= kernels_.chunk_samples &&
+           grids_.offset(k + count) == grids_.offset(k) + count * n) {
+      ++count;
+    }
+    return count;
+  }
+
+  std::size_t first_curve_;
+  const CountedGrids& grids_;
+  OutputPlan<T> outputs_;
+  CurveKernels<T> kernels_;
+};
+
+template <typename T>
+class CurveGridsCall {
+public:
+  CurveGridsCall(const CurveSet<T>& set, const CurveGrids& where, const CurveOutputs<T>& out,
+                 const Options& options) noexcept
+      : in_(set, where, out, options), counted_(where) {}
+
+  Status resolve() noexcept {
+    return request_.resolve(in_.set, {in_.where.first_curve, in_.where.n.size()},
+                            in_.first_component, in_.options);
+  }
+  Status check() noexcept {
+    const Status counted = counted_.count();
+    const MemoryRange inputs[] = {in_.where.n, in_.where.offset};
+    return counted ? check_curve_outputs(in_.out, counted_.extent(), request_.components, inputs)
+                   : counted;
+  }
+  [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
+  [[nodiscard]] CurveGridsWork<T> plan() const noexcept {
+    return {*in_.set.storage(), request_, counted_, in_.out, in_.options};
+  }
+
+private:
+  Given<T, CurveSet<T>, CurveGrids> in_;
+  Request<T> request_;
+  CountedGrids counted_;
+};
+
+} // namespace
+} // namespace detail
+
+template <typename T>
+Status evaluate(const CurveSet<T>& set, const CurveGrids& grids, const CurveOutputs<T>& out,
+                const Options& options) noexcept {
+  return detail::make_call(detail::CurveGridsCall<T>(set, grids, out, options), options);
+}
+
+template SIMDBEZIER_API Status evaluate(const CurveSet<float>&, const CurveGrids&,
+                                        const CurveOutputs<float>&, const Options&) noexcept;
+template SIMDBEZIER_API Status evaluate(const CurveSet<double>&, const CurveGrids&,
+                                        const CurveOutputs<double>&, const Options&) noexcept;
+
+} // namespace simdbezier

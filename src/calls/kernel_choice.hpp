@@ -1,0 +1,89 @@
+// Which kernels a call on patches runs: decided here and nowhere else.
+#pragma once
+
+#include <cstddef>
+
+#include "src/calls/call.hpp"
+#include "src/output/output_plan.hpp"
+#include "src/storage/patch_storage.hpp"
+#include "src/tables/kernel_table.hpp"
+
+namespace simdbezier::detail {
+
+/// The narrowest kernels that compute what is asked for.
+struct KernelChoice {
+  bool any_shape = false; ///< bicubic patches take the kernels of any shape, too
+  bool first = false;     ///< position, du, dv, normal
+  OutputSet outputs = kPosition;
+  bool second = false; ///< duu, duv, dvv
+
+  /// Wishes: an OutputList of patches or an OutputSelection.
+  template <typename Wishes>
+  KernelChoice(const Wishes& out, const Components& components) noexcept
+      : any_shape(out.holds(Output::curvature) || !components.space()) {
+    const bool p = out.holds(Output::position);
+    const bool du = out.holds(Output::du);
+    const bool dv = out.holds(Output::dv);
+    const bool n = out.holds(Output::normal);
+    first = p || du || dv || n;
+    second = out.holds(Output::duu) || out.holds(Output::duv) || out.holds(Output::dvv);
+    if (p && !du && !dv) {
+      outputs = n ? kPositionNormal : kPosition;
+    } else {
+      outputs = p && du && dv && !n ? kPositionDerivatives : kAnyOutputs;
+    }
+  }
+};
+
+/// The kernels of one call.
+template <typename T>
+struct PatchKernels {
+  const SetStorage<T>* set;
+  const KernelTable<T>* table;
+  KernelChoice choice;
+  bool watertight;
+  std::size_t first_component;
+
+  template <typename Wishes>
+  PatchKernels(const SetStorage<T>& storage, const Request<T>& request, const Wishes& out,
+               const Options& options) noexcept
+      : set(&storage), table(request.table), choice(out, request.components),
+        watertight(options.watertight), first_component(request.components.first) {}
+
+  /// What they put where it belongs by themselves, on grids of `nu` columns or more: all of it
+  /// where one kernel knows all of its outputs, and all patches are bicubic. streamed: past the
+  /// caches, too.
+  [[nodiscard]] DirectRows direct_rows(std::size_t nu, bool streamed) const noexcept {
+    const bool bicubic =
+        !choice.any_shape && set->places == nullptr && set->buckets[0].shape.is_bicubic();
+    const bool one_pass = !choice.second && choice.outputs != kAnyOutputs;
+    return {.row = bicubic && one_pass ? nu : 0,
+            .lanes = table->lanes,
+            .streamed = streamed,
+            .records = table->puts_records};
+  }
+
+  void run(GridTask<T>& task) const noexcept {
+    if (choice.any_shape || !task.shape->is_bicubic()) {
+      table->shapes->grid(task);
+      return;
+    }
+    const Scheme used = scheme(task.watertight, task.origins != nullptr);
+    if (choice.first) {
+      table->grid[choice.outputs][used](task);
+    }
+    if (choice.second) {
+      table->grid[kSecondDerivatives][used](task);
+    }
+  }
+
+  void run(ScatteredTask<T>& task) const noexcept {
+    if (choice.any_shape || !task.shape->is_bicubic()) {
+      table->shapes->scattered(task);
+    } else {
+      table->scattered[task.origins != nullptr](task);
+    }
+  }
+};
+
+} // namespace simdbezier::detail

@@ -1,0 +1,87 @@
+// See src/nets/iso_points.hpp.
+#include "src/nets/iso_points.hpp"
+
+namespace simdbezier::detail {
+namespace {
+
+/// One patch's control points as rows of `row` values, one row for each point across.
+template <typename S>
+void read_rows(const IsoTask<S>& task, const S* net, double* rows) {
+  const bool homogenise = task.nets.weights == Weights::cartesian;
+  const auto weight_at = static_cast<std::ptrdiff_t>(task.nets.components);
+  for (int i = 0; i <= task.degree; ++i) {
+    for (int j = 0; j <= task.curve_degree; ++j) {
+      const S* const point = net + i * task.across + j * task.along;
+      for (std::size_t c = 0; c < task.channels; ++c) {
+        const auto at = static_cast<std::ptrdiff_t>(c);
+        *rows = static_cast<double>(point[at * task.nets.component_stride]);
+        if (homogenise && at < weight_at) {
+          *rows *= static_cast<double>(point[weight_at * task.nets.component_stride]);
+        }
+        ++rows;
+      }
+    }
+  }
+}
+
+template <typename S>
+void interpolate(const IsoTask<S>& task, std::size_t patch, double* points) {
+  const std::size_t row = task.curve_values();
+  double rows[kMostOrder * kMostOrder * kMostChannels];
+  read_rows(task, task.net(patch), rows);
+  const double s = 1 - task.t;
+  for (int last = task.degree; last > 0; --last) {
+    // All rows of a level lie side by side: one long loop.
+    const std::size_t count = static_cast<std::size_t>(last) * row;
+    for (std::size_t k = 0; k < count; ++k) {
+      rows[k] = s * rows[k] + task.t * rows[k + row];
+    }
+  }
+  const bool divides = task.nets.weights == Weights::cartesian;
+  for (std::size_t k = 0; k < row; ++k) {
+    const std::size_t c = k % task.channels;
+    const bool weight = c + 1 == task.channels;
+    points[k] = (divides && !weight ? rows[k] / rows[k - c + task.channels - 1] : rows[k]) + 0.0;
+  }
+}
+
+/// At 0 and 1 a boundary, whose points are copied: products with weights would round.
+template <typename S>
+void copy_boundary(const IsoTask<S>& task, std::size_t patch, double* points) {
+  const S* const first = task.net(patch) + (task.t == 1 ? task.degree * task.across : 0);
+  for (int j = 0; j <= task.curve_degree; ++j) {
+    for (std::size_t c = 0; c < task.channels; ++c) {
+      const auto at = j * task.along + static_cast<std::ptrdiff_t>(c) * task.nets.component_stride;
+      *points++ = static_cast<double>(first[at]) + 0.0;
+    }
+  }
+}
+
+/// Homogeneous points become Cartesian ones.
+template <typename S>
+void divide_by_weights(const IsoTask<S>& task, double* points) {
+  for (std::size_t k = 0; k < task.curve_values(); k += task.channels) {
+    for (std::size_t c = 0; c + 1 < task.channels; ++c) {
+      points[k + c] = points[k + c] / points[k + task.channels - 1] + 0.0;
+    }
+  }
+}
+
+} // namespace
+
+template <typename S>
+void form_curve(const IsoTask<S>& task, std::size_t patch, double* points) noexcept {
+  if (task.t == 0 || task.t == 1) {
+    copy_boundary(task, patch, points);
+  } else {
+    interpolate(task, patch, points);
+  }
+  if (task.form != task.nets.weights) {
+    divide_by_weights(task, points);
+  }
+}
+
+template void form_curve(const IsoTask<float>&, std::size_t, double*) noexcept;
+template void form_curve(const IsoTask<double>&, std::size_t, double*) noexcept;
+
+} // namespace simdbezier::detail

@@ -1,0 +1,103 @@
+// The outputs of a call on patches or on curves, as far as checks and plans tell them apart.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <simdbezier/curves.hpp>
+#include <simdbezier/outputs.hpp>
+
+#include "src/output/memory_range.hpp"
+#include "src/tables/curve_table.hpp"
+#include "src/tables/kernel_table.hpp"
+
+namespace simdbezier::detail {
+
+// The public enumerations number the planes of tasks.
+static_assert(kGroups == kVectorOutputs && kNormalGroup == static_cast<int>(Output::normal) &&
+              kDuuGroup == static_cast<int>(Output::duu));
+static_assert(kCurveGroups == kCurveVectorOutputs &&
+              kCurveTangent == static_cast<int>(CurveOutput::tangent));
+
+/// References to the caller's Outputs or CurveOutputs, which must live as long.
+template <typename T>
+struct OutputList {
+  const Vectors<T>* vectors[kGroups]; ///< by Output or by CurveOutput
+  std::size_t vector_count;
+  const Values<T>* curvature[kCurvatures]; ///< in the order of the tasks
+  std::size_t curvature_count;
+  const Values<SampleStatus>* status; ///< may be null
+
+  explicit OutputList(const Outputs<T>& out) noexcept
+      : vector_count(kVectorOutputs), curvature{&out.curvature.gaussian, &out.curvature.mean,
+                                                &out.curvature.minimum, &out.curvature.maximum},
+        curvature_count(kCurvatures), status(&out.status) {
+    for (std::size_t k = 0; k < kVectorOutputs; ++k) {
+      vectors[k] = &out[static_cast<Output>(k)];
+    }
+    note_wishes();
+  }
+  explicit OutputList(const CurveOutputs<T>& out) noexcept
+      : vector_count(kCurveVectorOutputs), curvature{&out.curvature}, curvature_count(1),
+        status(&out.status) {
+    for (std::size_t k = 0; k < kCurveVectorOutputs; ++k) {
+      vectors[k] = &out[static_cast<CurveOutput>(k)];
+    }
+    note_wishes();
+  }
+  /// Vectors alone, of which null ones are none.
+  OutputList(const Vectors<T>* first, const Vectors<T>* second) noexcept
+      : vectors{first, second}, vector_count(second == nullptr ? 1 : 2), curvature{},
+        curvature_count(0), status(nullptr) {
+    note_wishes();
+  }
+
+  [[nodiscard]] bool wants(std::size_t vector) const noexcept {
+    return (wanted_ >> vector & 1U) != 0;
+  }
+  /// Of patches; as OutputSelection has it.
+  [[nodiscard]] bool holds(Output output) const noexcept {
+    return output == Output::curvature ? wants_curvature_ : wants(static_cast<std::size_t>(output));
+  }
+  [[nodiscard]] bool wants_vectors() const noexcept { return wanted_ != 0; }
+  [[nodiscard]] bool wants_curvature() const noexcept { return wants_curvature_; }
+  /// The caller's statuses from a sample on; null where they are not wanted.
+  [[nodiscard]] SampleStatus* status_at(std::size_t sample) const noexcept {
+    return status->first == nullptr ? nullptr : status->first + sample;
+  }
+  [[nodiscard]] T* curvature_at(std::size_t which, std::size_t sample) const noexcept {
+    T* const first = curvature[which]->first;
+    return first == nullptr ? nullptr : first + sample;
+  }
+
+private:
+  /// wanted(), without branches: small calls feel them.
+  void note_wishes() noexcept {
+    static_assert(kTrusted == ~std::size_t(0));
+    const auto bits = [](const auto* pointer) { return reinterpret_cast<std::uintptr_t>(pointer); };
+    for (std::size_t k = 0; k < vector_count; ++k) {
+      const Vectors<T>& v = *vectors[k];
+      const bool wanted = (bits(v.x) | bits(v.y) | bits(v.z) | ~v.capacity) != 0;
+      wanted_ |= static_cast<unsigned>(wanted) << k;
+    }
+    std::uintptr_t any = 0;
+    for (std::size_t k = 0; k < curvature_count; ++k) {
+      any |= bits(curvature[k]->first) | ~curvature[k]->capacity;
+    }
+    wants_curvature_ = any != 0;
+  }
+
+  unsigned wanted_ = 0; ///< a bit a vector
+  bool wants_curvature_ = false;
+};
+
+/// ok | null_output | bad_stride | output_too_small | overlapping_outputs | size_overflow, for
+/// `samples` samples of vectors of `dimension` (1 to 3) components. Groups of different strides
+/// must not share a range of memory at all.
+template <typename T>
+[[nodiscard]] Status check_outputs(const OutputList<T>& out, std::size_t samples,
+                                   std::size_t dimension,
+                                   std::span<const MemoryRange> inputs) noexcept;
+
+} // namespace simdbezier::detail
