@@ -36,7 +36,10 @@ public:
     out_of_memory,    ///< an allocation failed
     input_too_small,  ///< a span of control points ends before the last one
     output_too_small, ///< the memory of an output, as far as its size is known, ends too early
-    unequal_lengths   ///< spans that belong together have different lengths
+    unequal_lengths,  ///< spans that belong together have different lengths
+    bad_tolerance,    ///< a tolerance is not above zero, or smaller than rounding allows
+    bad_rates,        ///< segments of a patch are not 1 to kMostSegments, or not one value a patch
+    not_orientable    ///< no way of turning patches makes all normals agree
   };
 
   constexpr Status() noexcept = default;

@@ -35,6 +35,12 @@ std::string_view to_string(Status status) noexcept {
     return "the coefficients of a patch exceed the range of the number type";
   case Status::bad_grid:
     return "a uniform grid needs at least 2 x 2 samples, a given one 1 x 1";
+  case Status::bad_tolerance:
+    return "a tolerance is not above zero, or smaller than rounding allows";
+  case Status::bad_rates:
+    return "a patch has fewer than 1 or more than 4096 segments, or rates are not one a patch";
+  case Status::not_orientable:
+    return "patches cannot be turned so that all normals agree";
   case Status::bad_patch_range:
     return "patches or curves outside of the set were asked for";
   case Status::bad_patch_index:

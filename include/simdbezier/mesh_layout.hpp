@@ -1,0 +1,100 @@
+// The vertices and triangles of a mesh: how many there are, and which vertices are whose.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include <simdbezier/status.hpp>
+#include <simdbezier/topology.hpp>
+
+namespace simdbezier {
+
+namespace detail {
+struct MeshData;
+}
+
+/// The largest number of segments of a patch in one direction.
+inline constexpr std::uint32_t kMostSegments = 4096;
+
+/// Segments of every patch in u and in v, 1 to kMostSegments, and how its cells are cut: see
+/// CellDiagonals. Both spans of rates have one value a patch.
+struct PatchRates {
+  std::span<const std::uint32_t> nu;
+  std::span<const std::uint32_t> nv;
+  /// One value a patch, or empty: every cell has the diagonal from (0,0) to (1,1).
+  std::span<const std::uint16_t> diagonals;
+};
+
+/// The diagonals of a patch's cells by zones: low, high and middle cells in u and in v, the middle
+/// ones being those across the patch's middle where a rate is odd. Bit 3 * zone_v + zone_u is set
+/// where the diagonal runs from (1,0) to (0,1).
+enum class Zone : std::uint8_t { low, high, middle };
+
+/// What a mesh consists of.
+struct MeshSize {
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+};
+
+/// The numbering of a mesh's vertices. Immutable; copies share it.
+class MeshLayout {
+public:
+  MeshLayout() noexcept = default;
+
+  [[nodiscard]] SIMDBEZIER_API MeshSize size() const noexcept;
+  /// Where the triangles of a patch begin; size().triangles for the patch behind the last one.
+  [[nodiscard]] SIMDBEZIER_API std::size_t first_triangle(std::size_t patch) const noexcept;
+
+  /// For the library's own use.
+  [[nodiscard]] const detail::MeshData* data() const noexcept { return data_.get(); }
+  explicit MeshLayout(std::shared_ptr<const detail::MeshData> data) noexcept
+      : data_(std::move(data)) {}
+
+private:
+  std::shared_ptr<const detail::MeshData> data_;
+};
+
+/// Raises rates of 1 where a mesh would be degenerate: two triangles on the same three vertices, an
+/// edge of the mesh with more than two triangles, a cell that two corners want to be cut
+/// differently. Rates stay as they are everywhere else.
+///
+/// nu, nv:   one value a patch.
+/// raised:   the number of patches that changed.
+/// Returns:  ok | bad_rates | out_of_memory.
+[[nodiscard]] SIMDBEZIER_API Status separate_vertices(const Topology& topology,
+                                                      std::span<std::uint32_t> nu,
+                                                      std::span<std::uint32_t> nv,
+                                                      std::size_t& raised) noexcept;
+
+/// Numbers the vertices of the mesh in which patch p has nu[p] x nv[p] cells.
+///
+/// An edge carries the union of the parameters i/n of all of its sides, so that no neighbour's rate
+/// can leave a gap. Vertices are numbered patch by patch: the corners that it owns, inner points of
+/// edges that it owns (v0, v1, u0, u1, in the direction of the owner's parameter), then its inner
+/// points row by row. The owner is the lowest patch of those that share; within it, the first edge.
+///
+/// layout:     replaced on ok, left as it was otherwise.
+/// Allocation: about 40 bytes a patch and 8 an edge. Determinism: a function of its input alone.
+/// Returns:    ok | bad_rates (not one value a patch, or outside of 1 to kMostSegments) |
+///             size_overflow (2^32 - 1 vertices and more) | out_of_memory.
+[[nodiscard]] SIMDBEZIER_API Status lay_out_mesh(const Topology& topology, const PatchRates& rates,
+                                                 MeshLayout& layout) noexcept;
+
+/// Writes the triangles of the mesh, patch after patch, counter-clockwise about du x dv (clockwise
+/// on patches that the topology turned). Triangles that a collapsed side leaves without area are
+/// not among them.
+///
+/// triangles: three vertex numbers each, Index = std::uint32_t or std::uint16_t.
+/// Returns:   ok | null_output | output_too_small (fewer values than 3 * size().triangles) |
+///            size_overflow (more vertices than Index can number, its largest value left free) |
+///            out_of_memory.
+/// Threads:   as in Options. Allocation: scratch per thread.
+template <typename Index>
+[[nodiscard]] SIMDBEZIER_API Status write_triangles(const MeshLayout& layout,
+                                                    std::span<Index> triangles,
+                                                    int threads = 0) noexcept;
+
+} // namespace simdbezier

@@ -1,0 +1,92 @@
+// How the patches of a model hang together: which edges and corners are one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include <simdbezier/control_nets.hpp>
+#include <simdbezier/patch_edge.hpp>
+#include <simdbezier/status.hpp>
+
+namespace simdbezier {
+
+namespace detail {
+struct TopologyData;
+}
+
+/// What a model is made of. A side is an edge of one patch; sides with equal control points are one
+/// edge of the model.
+struct TopologyCounts {
+  std::size_t patches = 0;
+  std::size_t edges = 0;              ///< without collapsed ones
+  std::size_t open_edges = 0;         ///< of one side
+  std::size_t non_manifold_edges = 0; ///< of more than two sides
+  std::size_t collapsed_sides = 0;    ///< sides that are a point
+  std::size_t corners = 0;            ///< corners that are different
+  /// Patches with all control points of an earlier one, whichever way round.
+  std::size_t repeated_patches = 0;
+  /// Edges of two sides along which the patches' normals disagree, as the patches are given.
+  std::size_t turned_edges = 0;
+  /// Whether patches can be turned so that no such edge remains.
+  bool orientable = true;
+};
+
+/// How edges are joined.
+struct TopologyOptions {
+  /// A side whose control points all lie within this distance of its first one counts as a point.
+  /// 0: where they are equal.
+  double point_size = 0;
+  /// Turns patches, so that the normals of neighbours agree: those that disagree with the lowest
+  /// patch that they hang together with. Without it, all stay as they are given.
+  bool orient = false;
+  int threads = 0; ///< as in Options
+};
+
+/// Which edges and corners of a set of patches are one. Immutable; copies share it.
+class Topology {
+public:
+  Topology() noexcept = default;
+
+  [[nodiscard]] SIMDBEZIER_API TopologyCounts counts() const noexcept;
+  /// Whether a patch was turned (TopologyOptions::orient).
+  [[nodiscard]] SIMDBEZIER_API bool is_turned(std::size_t patch) const noexcept;
+  /// Whether a patch has all control points of an earlier one.
+  [[nodiscard]] SIMDBEZIER_API bool is_repeated(std::size_t patch) const noexcept;
+
+  /// For the library's own use.
+  [[nodiscard]] const detail::TopologyData* data() const noexcept { return data_.get(); }
+  explicit Topology(std::shared_ptr<const detail::TopologyData> data) noexcept
+      : data_(std::move(data)) {}
+
+private:
+  std::shared_ptr<const detail::TopologyData> data_;
+};
+
+/// Joins the edges of all patches with equal control points (find_adjacency()), and their corners.
+///
+/// Corners are joined through edges, not by their positions: corners that touch only in a point
+/// stay apart. An edge may have any number of sides.
+///
+/// sets:       any number of views, with any degrees and three components; patches are numbered
+///             through, view after view.
+/// topology:   replaced on ok, left as it was otherwise.
+/// Allocation: about 60 bytes a side. Determinism: a function of the control points and of
+///             point_size alone.
+/// Returns:    ok | null_input | bad_degree | bad_components (not three) | bad_stride |
+///             bad_tolerance (a point_size below 0, or nan) | not_orientable (where `orient` is
+///             asked for) | size_overflow (2^29 patches and more) | out_of_memory.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API Status find_topology(std::span<const ControlNets<S>> sets,
+                                                  Topology& topology,
+                                                  const TopologyOptions& options = {}) noexcept;
+
+template <typename S>
+[[nodiscard]] Status find_topology(const ControlNets<S>& nets, Topology& topology,
+                                   const TopologyOptions& options = {}) noexcept {
+  return find_topology(std::span<const ControlNets<S>>(&nets, 1), topology, options);
+}
+
+} // namespace simdbezier

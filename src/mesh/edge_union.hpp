@@ -1,0 +1,81 @@
+// The parameters of all sides of an edge, each once.
+//
+// A side of rate n has the parameters i/n, 0 <= i <= n. They are compared as fractions of integers,
+// so that all sides agree whatever their direction; equal fractions have equal centred parameters,
+// because (2i - n)/n is one correctly rounded division, and so equal positions.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace simdbezier::detail {
+
+/// Different rates of an edge's sides, ascending.
+using EdgeRates = std::vector<std::uint32_t>;
+
+/// Puts a rate among the others, once.
+inline void include_rate(EdgeRates& rates, std::uint32_t rate) {
+  const auto at = std::lower_bound(rates.begin(), rates.end(), rate);
+  if (at == rates.end() || *at != rate) {
+    rates.insert(at, rate);
+  }
+}
+
+/// Passes all fractions in ascending order, equal ones at once: visit(place, index), index being an
+/// array that says which fraction of each rate comes next, and how many segments have been passed.
+/// Returns the number of segments.
+template <typename Visit>
+std::uint32_t walk_union(std::span<const std::uint32_t> rates, std::vector<std::uint32_t>& next,
+                         const Visit& visit) {
+  next.assign(rates.size(), 0);
+  for (std::uint32_t place = 0;; ++place) {
+    std::size_t lowest = 0;
+    for (std::size_t k = 1; k < rates.size(); ++k) {
+      const std::uint64_t other = std::uint64_t{next[k]} * rates[lowest];
+      lowest = other < std::uint64_t{next[lowest]} * rates[k] ? k : lowest;
+    }
+    visit(place, std::span<const std::uint32_t>(next), lowest);
+    const std::uint64_t numerator = next[lowest];
+    const std::uint64_t denominator = rates[lowest];
+    if (numerator == denominator) {
+      return place;
+    }
+    for (std::size_t k = 0; k < rates.size(); ++k) {
+      next[k] += next[k] * denominator == numerator * rates[k] ? 1 : 0;
+    }
+  }
+}
+
+/// The segments of an edge.
+inline std::uint32_t union_segments(std::span<const std::uint32_t> rates,
+                                    std::vector<std::uint32_t>& scratch) {
+  if (rates.size() == 1) {
+    return rates[0];
+  }
+  if (rates.size() == 2) {
+    return rates[0] + rates[1] - std::gcd(rates[0], rates[1]);
+  }
+  return walk_union(rates, scratch, [](auto...) {});
+}
+
+/// places[i]: how many segments lie before the fraction i/rate; rate is one of the edge's.
+inline void union_places(std::span<const std::uint32_t> rates, std::uint32_t rate,
+                         std::vector<std::uint32_t>& scratch, std::span<std::uint32_t> places) {
+  if (rates.size() == 1) {
+    std::iota(places.begin(), places.end(), 0U);
+    return;
+  }
+  const auto own =
+      static_cast<std::size_t>(std::lower_bound(rates.begin(), rates.end(), rate) - rates.begin());
+  walk_union(rates, scratch, [&](std::uint32_t place, auto next, std::size_t lowest) {
+    if (std::uint64_t{next[own]} * rates[lowest] == std::uint64_t{next[lowest]} * rate) {
+      places[next[own]] = place;
+    }
+  });
+}
+
+} // namespace simdbezier::detail

@@ -1,0 +1,200 @@
+// See net_corners.hpp.
+#include "src/mesh/net_corners.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace simdbezier::detail {
+namespace {
+
+Point3 operator-(const Point3& a, const Point3& b) {
+  return {a.x[0] - b.x[0], a.x[1] - b.x[1], a.x[2] - b.x[2]};
+}
+double dot(const Point3& a, const Point3& b) {
+  return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2];
+}
+Point3 cross(const Point3& a, const Point3& b) {
+  return {a.x[1] * b.x[2] - a.x[2] * b.x[1], a.x[2] * b.x[0] - a.x[0] * b.x[2],
+          a.x[0] * b.x[1] - a.x[1] * b.x[0]};
+}
+
+template <typename S>
+const S* values_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t i,
+                   std::ptrdiff_t j) {
+  return nets.points + static_cast<std::ptrdiff_t>(patch) * nets.patch_stride +
+         j * nets.row_stride + i * nets.point_stride;
+}
+
+/// Control point i, j in space.
+template <typename S>
+Point3 point_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t i, std::ptrdiff_t j) {
+  const S* const values = values_at(nets, patch, i, j);
+  const double divisor = nets.weights == Weights::homogeneous
+                             ? static_cast<double>(values[3 * nets.component_stride])
+                             : 1;
+  Point3 point;
+  for (std::ptrdiff_t c = 0; c < 3; ++c) {
+    point.x[c] = static_cast<double>(values[c * nets.component_stride]) / divisor;
+  }
+  return point;
+}
+
+/// The first control point along a side, from a corner on, that is not the corner's: as a
+/// difference.
+template <typename S>
+Point3 leaves(const ControlNets<S>& nets, std::size_t patch, std::size_t corner, bool in_u) {
+  const bool at_u1 = corner % 2 != 0;
+  const bool at_v1 = corner >= 2;
+  const std::ptrdiff_t i = at_u1 ? nets.degree_u : 0;
+  const std::ptrdiff_t j = at_v1 ? nets.degree_v : 0;
+  const Point3 from = point_at(nets, patch, i, j);
+  const std::ptrdiff_t degree = in_u ? nets.degree_u : nets.degree_v;
+  Point3 difference{};
+  for (std::ptrdiff_t k = 1; k <= degree && !(dot(difference, difference) > 0); ++k) {
+    difference = (in_u ? point_at(nets, patch, at_u1 ? i - k : k, j)
+                       : point_at(nets, patch, i, at_v1 ? j - k : k)) -
+                 from;
+  }
+  return difference;
+}
+
+/// Whether patch b read in one of eight ways has the values of patch a.
+template <typename S>
+bool same_in(const ControlNets<S>& a, std::size_t patch_a, const ControlNets<S>& b,
+             std::size_t patch_b, int way) {
+  const bool transposed = (way & 1) != 0;
+  if (a.degree_u != (transposed ? b.degree_v : b.degree_u) ||
+      a.degree_v != (transposed ? b.degree_u : b.degree_v) || a.weights != b.weights) {
+    return false;
+  }
+  const std::ptrdiff_t channels = a.components + (a.weights == Weights::none ? 0 : 1);
+  for (std::ptrdiff_t j = 0; j <= a.degree_v; ++j) {
+    for (std::ptrdiff_t i = 0; i <= a.degree_u; ++i) {
+      std::ptrdiff_t k = transposed ? j : i;
+      std::ptrdiff_t l = transposed ? i : j;
+      k = (way & 2) != 0 ? b.degree_u - k : k;
+      l = (way & 4) != 0 ? b.degree_v - l : l;
+      const S* const p = values_at(a, patch_a, i, j);
+      const S* const q = values_at(b, patch_b, k, l);
+      for (std::ptrdiff_t c = 0; c < channels; ++c) {
+        if (p[c * a.component_stride] != q[c * b.component_stride]) {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+template <typename S>
+NetCorners<S>::NetCorners(std::span<const ControlNets<S>> sets) : sets_(sets) {
+  std::size_t patches = 0;
+  for (const ControlNets<S>& nets : sets) {
+    starts_.push_back(patches);
+    patches += nets.count;
+  }
+}
+
+template <typename S>
+typename NetCorners<S>::Place NetCorners<S>::place(std::size_t patch) const noexcept {
+  const auto behind = std::upper_bound(starts_.begin(), starts_.end(), patch);
+  const auto view = static_cast<std::size_t>(behind - starts_.begin()) - 1;
+  return {&sets_[view], patch - starts_[view]};
+}
+
+template <typename S>
+bool NetCorners<S>::side_within(std::size_t side, double distance) const noexcept {
+  const Place at = place(side / kPatchEdges);
+  const bool in_u = runs_in_u(side);
+  const std::ptrdiff_t degree = in_u ? at.nets->degree_u : at.nets->degree_v;
+  const bool far = side % 2 != 0;
+  const auto point = [&](std::ptrdiff_t k) {
+    return in_u ? point_at(*at.nets, at.patch, k, far ? at.nets->degree_v : 0)
+                : point_at(*at.nets, at.patch, far ? at.nets->degree_u : 0, k);
+  };
+  // Of both ends, so that the sides of an edge agree whichever way they run.
+  const Point3 ends[2] = {point(0), point(degree)};
+  for (std::ptrdiff_t k = 0; k <= degree; ++k) {
+    for (const Point3& end : ends) {
+      const Point3 d = point(k) - end;
+      if (!(dot(d, d) <= distance * distance)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+template <typename S>
+bool NetCorners<S>::sides_leave_together(std::size_t patch, std::size_t corner) const noexcept {
+  const Place at = place(patch);
+  const Point3 a = leaves(*at.nets, at.patch, corner, true);
+  const Point3 b = leaves(*at.nets, at.patch, corner, false);
+  const Point3 n = cross(a, b);
+  constexpr double kSine = 1e-9;
+  return dot(a, b) > 0 && dot(n, n) <= kSine * kSine * dot(a, a) * dot(b, b);
+}
+
+template <typename S>
+bool NetCorners<S>::same(std::size_t a, std::size_t b) const noexcept {
+  const Place p = place(a);
+  const Place q = place(b);
+  for (int way = 0; way < 8; ++way) {
+    if (same_in(*p.nets, p.patch, *q.nets, q.patch, way)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+template <typename S>
+void mark_repeated(const NetCorners<S>& nets, TopologyData& topology) {
+  // Only patches with the same four edges can be the same.
+  struct Candidate {
+    std::array<std::uint32_t, kPatchEdges> edges;
+    std::uint32_t patch;
+  };
+  std::vector<Candidate> candidates;
+  for (std::uint32_t patch = 0; patch < topology.patches(); ++patch) {
+    Candidate candidate{{}, patch};
+    bool alone = true;
+    for (std::size_t k = 0; k < kPatchEdges; ++k) {
+      const Side& side = topology.sides[kPatchEdges * patch + k];
+      candidate.edges[k] = side.collapsed() ? ~0U : side.edge();
+      alone = alone && (side.collapsed() || topology.sides_of(side.edge()).size() == 1);
+    }
+    const bool point = std::all_of(candidate.edges.begin(), candidate.edges.end(),
+                                   [](std::uint32_t edge) { return edge == ~0U; });
+    if (!alone || point) {
+      std::sort(candidate.edges.begin(), candidate.edges.end());
+      candidates.push_back(candidate);
+    }
+  }
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.edges != b.edges ? a.edges < b.edges : a.patch < b.patch;
+  });
+  std::vector<std::uint32_t> different; // those of one group
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    if (k == 0 || candidates[k].edges != candidates[k - 1].edges) {
+      different.clear();
+    }
+    const std::uint32_t patch = candidates[k].patch;
+    if (std::any_of(different.begin(), different.end(),
+                    [&](std::uint32_t earlier) { return nets.same(earlier, patch); })) {
+      topology.flags[patch] |= kRepeated;
+      ++topology.counts.repeated_patches;
+    } else {
+      different.push_back(patch);
+    }
+  }
+}
+
+template class NetCorners<float>;
+template class NetCorners<double>;
+template void mark_repeated(const NetCorners<float>&, TopologyData&);
+template void mark_repeated(const NetCorners<double>&, TopologyData&);
+
+} // namespace simdbezier::detail

@@ -1,0 +1,48 @@
+// What a topology asks of control points besides which edges are equal.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <simdbezier/control_nets.hpp>
+
+#include "src/mesh/topology_data.hpp"
+
+namespace simdbezier::detail {
+
+struct Point3 {
+  double x[3];
+};
+
+/// The control points of all views in space, patches numbered through.
+template <typename S>
+class NetCorners {
+public:
+  explicit NetCorners(std::span<const ControlNets<S>> sets);
+
+  /// Whether all control points of a side lie within a distance of its first one.
+  [[nodiscard]] bool side_within(std::size_t side, double distance) const noexcept;
+
+  /// Whether both sides at a corner leave it in one direction, so that the triangle of its cell has
+  /// almost no area however small cells are.
+  [[nodiscard]] bool sides_leave_together(std::size_t patch, std::size_t corner) const noexcept;
+
+  /// Whether two patches have the same control points, whichever way round.
+  [[nodiscard]] bool same(std::size_t a, std::size_t b) const noexcept;
+
+private:
+  struct Place {
+    const ControlNets<S>* nets;
+    std::size_t patch;
+  };
+  [[nodiscard]] Place place(std::size_t patch) const noexcept;
+
+  std::span<const ControlNets<S>> sets_;
+  std::vector<std::size_t> starts_;
+};
+
+/// Marks patches that repeat an earlier one.
+template <typename S>
+void mark_repeated(const NetCorners<S>& nets, TopologyData& topology);
+
+} // namespace simdbezier::detail

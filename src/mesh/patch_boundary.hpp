@@ -1,0 +1,85 @@
+// The vertices on the four sides of a patch.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "src/mesh/mesh_data.hpp"
+
+namespace simdbezier::detail {
+
+/// Vertices between two own points of a side, both among them, in the side's direction.
+struct Chain {
+  const std::uint32_t* first;
+  std::uint32_t segments; ///< 0 on a side that is a point
+};
+
+/// The vertices of one patch after the other, in memory of its own.
+class PatchBoundary {
+public:
+  explicit PatchBoundary(const MeshData& mesh) : mesh_(mesh), topology_(*mesh.topology.data()) {
+    for (Line& line : lines_) {
+      line.chain.reserve(mesh.most_segments + 1);
+      line.places.reserve(kMostSegments + 1);
+    }
+  }
+
+  void move_to(std::size_t patch) {
+    for (std::size_t k = 0; k < kPatchEdges; ++k) {
+      fill(kPatchEdges * patch + k, lines_[k]);
+    }
+  }
+
+  /// The vertex of own point i of a side.
+  [[nodiscard]] std::uint32_t vertex(std::size_t side, std::uint32_t i) const {
+    const Line& line = lines_[side];
+    return line.chain[line.places[i]];
+  }
+  /// From own point i to the next one.
+  [[nodiscard]] Chain between(std::size_t side, std::uint32_t i) const {
+    const Line& line = lines_[side];
+    return {&line.chain[line.places[i]], line.places[i + 1] - line.places[i]};
+  }
+  /// Whether a side has no vertices but its own.
+  [[nodiscard]] bool own_only(std::size_t side) const {
+    return lines_[side].chain.size() == lines_[side].places.size();
+  }
+
+private:
+  struct Line {
+    std::vector<std::uint32_t> chain;  ///< all vertices
+    std::vector<std::uint32_t> places; ///< of the own points in it
+  };
+
+  void fill(std::size_t side, Line& line) {
+    const std::uint32_t rate = mesh_.rate(side);
+    const std::size_t corners = side / kPatchEdges * kPatchCorners;
+    const auto& ends = kSideCorners[side % kPatchEdges];
+    const std::uint32_t begin = mesh_.corners[corners + ends[0]];
+    line.places.assign(rate + 1, 0);
+    if (topology_.sides[side].collapsed()) {
+      line.chain.assign(1, begin);
+      return;
+    }
+    const Side own = topology_.sides[side];
+    const std::uint32_t segments = mesh_.segments[own.edge()];
+    line.chain.resize(segments + 1);
+    line.chain.front() = begin;
+    line.chain.back() = mesh_.corners[corners + ends[1]];
+    const std::uint32_t first = mesh_.edge_first[own.edge()];
+    for (std::uint32_t k = 1; k < segments; ++k) {
+      line.chain[k] = first + (own.reversed() ? segments - 1 - k : k - 1);
+    }
+    mesh_.rates_of(own.edge(), rates_);
+    union_places(rates_, rate, scratch_, line.places);
+  }
+
+  const MeshData& mesh_;
+  const TopologyData& topology_;
+  std::array<Line, kPatchEdges> lines_;
+  EdgeRates rates_;
+  std::vector<std::uint32_t> scratch_;
+};
+
+} // namespace simdbezier::detail

@@ -1,0 +1,235 @@
+// See topology.hpp.
+#include <simdbezier/topology.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <numeric>
+
+#include <simdbezier/adjacency.hpp>
+
+#include "src/mesh/net_corners.hpp"
+#include "src/mesh/orientation.hpp"
+#include "src/mesh/topology_data.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+constexpr std::size_t kMostPatches = std::size_t{1} << 29;
+
+/// Numbers edges in the order of their first sides, and tells every side which way it runs.
+void number_edges(std::span<const EdgeLink> links, TopologyData& topology) {
+  topology.sides.assign(links.size(), Side());
+  std::vector<bool> known(links.size());
+  for (std::size_t first = 0; first < links.size(); ++first) {
+    if (known[first] || links[first].kind == EdgeKind::collapsed) {
+      topology.counts.collapsed_sides += links[first].kind == EdgeKind::collapsed ? 1 : 0;
+      continue;
+    }
+    const auto edge = static_cast<std::uint32_t>(topology.first.size());
+    topology.first.push_back(static_cast<std::uint32_t>(topology.members.size()));
+    bool reversed = false;
+    std::size_t side = first;
+    do { // links lead in ascending order, from the last back to the first
+      known[side] = true;
+      topology.sides[side] = Side(edge, reversed);
+      topology.members.push_back(static_cast<std::uint32_t>(side));
+      const EdgeLink& link = links[side];
+      if (link.kind == EdgeKind::boundary) {
+        break;
+      }
+      reversed = reversed != link.reversed;
+      side = kPatchEdges * link.patch + static_cast<std::size_t>(link.edge);
+    } while (side != first);
+  }
+  topology.first.push_back(static_cast<std::uint32_t>(topology.members.size()));
+}
+
+/// Sets of corners that are one, each named by its lowest member.
+class JoinedCorners {
+public:
+  explicit JoinedCorners(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  void join(std::uint32_t a, std::uint32_t b) noexcept {
+    a = find(a);
+    b = find(b);
+    (a < b ? parent_[b] : parent_[a]) = std::min(a, b);
+  }
+  [[nodiscard]] std::vector<std::uint32_t> finish() && {
+    for (std::uint32_t corner = 0; corner < parent_.size(); ++corner) {
+      parent_[corner] = find(corner);
+    }
+    return std::move(parent_);
+  }
+
+private:
+  [[nodiscard]] std::uint32_t find(std::uint32_t corner) noexcept {
+    while (parent_[corner] != corner) {
+      corner = parent_[corner] = parent_[parent_[corner]];
+    }
+    return corner;
+  }
+  std::vector<std::uint32_t> parent_;
+};
+
+void join_corners(TopologyData& topology) {
+  JoinedCorners corners(topology.sides.size());
+  const auto corner = [](std::size_t side, std::size_t end) {
+    return static_cast<std::uint32_t>(side / kPatchEdges * kPatchCorners +
+                                      kSideCorners[side % kPatchEdges][end]);
+  };
+  for (std::size_t side = 0; side < topology.sides.size(); ++side) {
+    const Side& own = topology.sides[side];
+    if (own.collapsed()) {
+      corners.join(corner(side, 0), corner(side, 1));
+      continue;
+    }
+    const std::size_t first = topology.members[topology.first[own.edge()]];
+    corners.join(corner(side, 0), corner(first, own.reversed() ? 1 : 0));
+    corners.join(corner(side, 1), corner(first, own.reversed() ? 0 : 1));
+  }
+  topology.corners = std::move(corners).finish();
+  for (std::uint32_t k = 0; k < topology.corners.size(); ++k) {
+    topology.counts.corners += topology.corners[k] == k ? 1 : 0;
+  }
+}
+
+void count_edges(TopologyData& topology) {
+  topology.counts.patches = topology.patches();
+  topology.counts.edges = topology.edges();
+  for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
+    const std::size_t sides = topology.sides_of(edge).size();
+    topology.counts.open_edges += sides == 1 ? 1 : 0;
+    topology.counts.non_manifold_edges += sides > 2 ? 1 : 0;
+  }
+}
+
+/// Collapsed sides beyond those that are points exactly.
+template <typename S>
+void collapse_short_sides(const NetCorners<S>& nets, double point_size, std::span<EdgeLink> links) {
+  if (point_size == 0) {
+    return;
+  }
+  for (std::size_t side = 0; side < links.size(); ++side) {
+    if (nets.side_within(side, point_size)) {
+      links[side] = EdgeLink{EdgeKind::collapsed};
+    }
+  }
+}
+
+/// Where a mesh would be wrong near a corner if a diagonal cut it off: at corners of two patches,
+/// which would have the same triangle; between a side that is a point and one that is not, where a
+/// polygon would be left between a curve and its chord; where both sides leave in one direction,
+/// and the triangle would have no area.
+template <typename S>
+void mark_corners(const NetCorners<S>& nets, TopologyData& topology) {
+  std::vector<std::uint8_t> patches(topology.corners.size());
+  std::vector<bool> open(topology.corners.size());
+  for (const std::uint32_t corner : topology.corners) {
+    patches[corner] = static_cast<std::uint8_t>(std::min(patches[corner] + 1, 3));
+  }
+  for (std::size_t side = 0; side < topology.sides.size(); ++side) {
+    const Side& own = topology.sides[side];
+    if (own.collapsed() || topology.sides_of(own.edge()).size() != 2) {
+      open[topology.corner_of(side, 0)] = open[topology.corner_of(side, 1)] = true;
+    }
+  }
+  for (std::size_t k = 0; k < topology.corners.size(); ++k) {
+    const std::size_t patch = k / kPatchCorners;
+    const std::size_t corner = k % kPatchCorners;
+    const std::size_t in_u = kPatchEdges * patch + (corner < 2 ? 0 : 1);
+    const std::size_t in_v = kPatchEdges * patch + (corner % 2 == 0 ? 2 : 3);
+    const std::uint32_t joined = topology.corners[k];
+    const bool pillow = patches[joined] == 2 && !open[joined];
+    const bool tip = topology.sides[in_u].collapsed() != topology.sides[in_v].collapsed();
+    if (pillow || tip || nets.sides_leave_together(patch, corner)) {
+      topology.flags[patch] |= static_cast<std::uint8_t>(kThroughCorner << corner);
+    }
+  }
+}
+
+template <typename S>
+Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& options,
+             TopologyData& topology) {
+  std::size_t patches = 0;
+  for (const ControlNets<S>& nets : sets) {
+    patches += nets.count;
+  }
+  std::vector<EdgeLink> links(kPatchEdges * patches);
+  Options run;
+  run.threads = options.threads;
+  const Status status = find_adjacency(sets, links.data(), run);
+  if (status != Status::ok) {
+    return status;
+  }
+  topology.flags.assign(patches, 0);
+  const NetCorners<S> nets(sets);
+  collapse_short_sides(nets, options.point_size, std::span(links));
+  number_edges(links, topology);
+  join_corners(topology);
+  count_edges(topology);
+  mark_corners(nets, topology);
+  mark_repeated(nets, topology);
+  return orient(options.orient, topology);
+}
+
+template <typename S>
+Status check(std::span<const ControlNets<S>> sets, const TopologyOptions& options) noexcept {
+  if (!(options.point_size >= 0)) {
+    return Status::bad_tolerance;
+  }
+  std::size_t patches = 0;
+  for (const ControlNets<S>& nets : sets) {
+    if (nets.components != 3) {
+      return Status::bad_components;
+    }
+    if (nets.count >= kMostPatches - patches) {
+      return Status::size_overflow;
+    }
+    patches += nets.count;
+  }
+  return Status::ok;
+}
+
+} // namespace
+} // namespace detail
+
+template <typename S>
+Status find_topology(std::span<const ControlNets<S>> sets, Topology& topology,
+                     const TopologyOptions& options) noexcept try {
+  const Status status = detail::check(sets, options);
+  if (status != Status::ok) {
+    return status;
+  }
+  auto data = std::make_shared<detail::TopologyData>();
+  const Status built = detail::build(sets, options, *data);
+  if (built == Status::ok) {
+    topology = Topology(std::move(data));
+  }
+  return built;
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+template SIMDBEZIER_API Status find_topology(std::span<const ControlNets<float>>, Topology&,
+                                             const TopologyOptions&) noexcept;
+template SIMDBEZIER_API Status find_topology(std::span<const ControlNets<double>>, Topology&,
+                                             const TopologyOptions&) noexcept;
+
+TopologyCounts Topology::counts() const noexcept {
+  return data_ == nullptr ? TopologyCounts{} : data_->counts;
+}
+
+bool Topology::is_turned(std::size_t patch) const noexcept {
+  return data_ != nullptr && patch < data_->patches() &&
+         (data_->flags[patch] & detail::kTurned) != 0;
+}
+
+bool Topology::is_repeated(std::size_t patch) const noexcept {
+  return data_ != nullptr && patch < data_->patches() &&
+         (data_->flags[patch] & detail::kRepeated) != 0;
+}
+
+} // namespace simdbezier

@@ -1,0 +1,72 @@
+// What a topology consists of.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <simdbezier/topology.hpp>
+
+namespace simdbezier::detail {
+
+/// A side of a patch: its edge, and whether the edge's own direction, that of its first side, runs
+/// against the side's.
+class Side {
+public:
+  constexpr Side() noexcept = default;
+  constexpr Side(std::uint32_t edge, bool reversed) noexcept
+      : bits_(2 * edge + (reversed ? 1 : 0)) {}
+
+  [[nodiscard]] constexpr bool collapsed() const noexcept { return bits_ == kCollapsed; }
+  [[nodiscard]] constexpr std::uint32_t edge() const noexcept { return bits_ / 2; }
+  [[nodiscard]] constexpr bool reversed() const noexcept { return bits_ % 2 != 0; }
+
+private:
+  static constexpr std::uint32_t kCollapsed = 0xffffffff;
+  std::uint32_t bits_ = kCollapsed;
+};
+
+/// The corners of a patch are numbered 2 v + u; sides run from the first to the second.
+inline constexpr std::uint32_t kSideCorners[kPatchEdges][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}};
+inline constexpr std::size_t kPatchCorners = 4;
+
+/// Sides v0 and v1 run in u.
+constexpr bool runs_in_u(std::size_t side) noexcept { return side % kPatchEdges < 2; }
+
+/// Whether a patch's boundary, passed counter-clockwise, runs along the side or against it.
+constexpr bool counter_clockwise_along(std::size_t side) noexcept {
+  const auto edge = static_cast<PatchEdge>(side % kPatchEdges);
+  return edge == PatchEdge::v0 || edge == PatchEdge::u1;
+}
+
+/// The diagonal of a corner's cell that passes through the corner.
+constexpr bool falls(std::size_t corner) noexcept { return corner == 1 || corner == 2; }
+
+enum PatchFlag : std::uint8_t {
+  kThroughCorner = 1, ///< 1 << corner: the diagonal of the corner's cell has to pass through it
+  kTurned = 16,
+  kRepeated = 32
+};
+
+struct TopologyData {
+  std::vector<Side> sides;          ///< [4 * patch + PatchEdge]
+  std::vector<std::uint32_t> first; ///< of each edge in edge_sides, and the end of the last one
+  std::vector<std::uint32_t>
+      members; ///< 4 * patch + PatchEdge of the sides of all edges, ascending
+  std::vector<std::uint32_t> corners; ///< [4 * patch + corner]: the lowest number of those joined
+  std::vector<std::uint8_t> flags;    ///< PatchFlag, of each patch
+  TopologyCounts counts;
+
+  [[nodiscard]] std::size_t patches() const noexcept { return flags.size(); }
+  [[nodiscard]] std::size_t edges() const noexcept { return first.size() - 1; }
+  /// The sides of an edge, ascending.
+  [[nodiscard]] std::span<const std::uint32_t> sides_of(std::size_t edge) const noexcept {
+    return {members.data() + first[edge], first[edge + 1] - first[edge]};
+  }
+  /// The corner where a side begins (end 0) or ends (1).
+  [[nodiscard]] std::uint32_t corner_of(std::size_t side, std::size_t end) const noexcept {
+    return corners[side / kPatchEdges * kPatchCorners + kSideCorners[side % kPatchEdges][end]];
+  }
+};
+
+} // namespace simdbezier::detail
