@@ -1,0 +1,89 @@
+// How many cells a patch needs, so that triangles stay within a distance of its surface.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include <simdbezier/control_nets.hpp>
+#include <simdbezier/mesh_layout.hpp>
+#include <simdbezier/patch_set.hpp>
+#include <simdbezier/topology.hpp>
+
+namespace simdbezier {
+
+/// How close a mesh is to be.
+struct RateOptions {
+  /// The largest distance of any point of the surface from the mesh, and back.
+  double tolerance = 0;
+  /// One value a patch, instead of `tolerance`; or empty.
+  std::span<const double> tolerances;
+  /// How far evaluated vertices may be from the exact ones, one value a patch: position_errors() of
+  /// the set that will be evaluated. Part of the tolerance. Empty: 0.
+  std::span<const double> errors;
+  /// No row or column of cells has a longer edge than about this: the length of control polygons
+  /// over the number of segments.
+  double longest_edge = std::numeric_limits<double>::infinity();
+  std::uint32_t most_segments = kMostSegments;
+  int threads = 0; ///< as in Options
+};
+
+/// Where choosing rates stopped.
+struct RateReport {
+  Status status = Status::ok;
+  std::size_t patch = 0; ///< the first one at fault
+  [[nodiscard]] explicit operator bool() const noexcept { return status == Status::ok; }
+};
+
+/// Rates with their certificate: one value a patch each.
+struct CertifiedRates {
+  std::span<std::uint32_t> nu;
+  std::span<std::uint32_t> nv;
+  std::span<std::uint16_t> diagonals; ///< as in PatchRates
+  std::span<double> deviation;        ///< the bound on the distance, errors included; may be empty
+};
+
+/// Upper bounds on the distance of evaluated positions of each patch from the exact ones: the norm
+/// of error_bounds(). out: one value a patch. Returns: ok | output_too_small.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API Status position_errors(const PatchSet<T>& set,
+                                                    std::span<double> out) noexcept;
+
+/// The least cells of every patch, and their diagonals, so that its triangles are within its
+/// tolerance of it. Each patch's rates depend on its own control points and tolerance, and on where
+/// its topology forces a diagonal; rates of 1 are raised where the mesh would be degenerate
+/// (separate_vertices()).
+///
+/// Bound:    of a triangle with edges p_i - p_j in parameters, max |S - T| <= the largest value of
+///           1/2 sum l_i l_j Q_ij over barycentric coordinates l, Q_ij being the largest second
+///           derivative of S along the edge: the proof is in docs/accuracy.md. Taken over control
+///           vectors of the patch's four quarters; no vertex that a neighbour adds to an edge can
+///           raise it.
+/// Rational: |v| of a derivative vector becomes |v_X - c v_w| + R |v_w|, c and R being the middle
+/// and
+///           half-diagonal of the box of the control points, and the bound is divided by the
+///           smallest weight.
+/// Source:   D. Filip, R. Magedson, R. Markot, "Surface Algorithms Using Bounds on Derivatives",
+///           CAGD 3 (1986), whose bound has the triangle inequality instead of the diagonal's own
+///           derivative.
+/// Returns:  ok | null_input | bad_degree | bad_components | bad_stride | non_finite_input |
+///           bad_weight | bad_rates (spans that are not one value a patch) | bad_tolerance (not
+///           above zero, or not above the patch's error, or more than most_segments would be
+///           needed; the report names the patch) | out_of_memory. Outputs are undefined then.
+/// Cost:     about 8 us a bicubic patch.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<S>> sets,
+                                                     const Topology& topology,
+                                                     const RateOptions& options,
+                                                     const CertifiedRates& out) noexcept;
+
+/// The certificate of rates that are given: the best diagonals, and what the bound is.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<S>> sets,
+                                                      const Topology& topology,
+                                                      std::span<const double> errors,
+                                                      const CertifiedRates& rates,
+                                                      int threads = 0) noexcept;
+
+} // namespace simdbezier

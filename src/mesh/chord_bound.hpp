@@ -1,0 +1,35 @@
+// The bound on the distance between a patch and the triangles of its cells; proofs are in
+// docs/accuracy.md.
+#pragma once
+
+#include <algorithm>
+
+namespace simdbezier::detail {
+
+/// Largest value of (l0 l1 a + l0 l2 b + l1 l2 c) / 2 over the triangle, a, b, c >= 0: s/8 with s
+/// the largest of them where that one is at least half of the sum, else half of the square of a
+/// circumradius.
+inline double triangle_bound(double a, double b, double c) {
+  const double largest = std::max({a, b, c});
+  if (2 * largest >= a + b + c) {
+    return largest / 8;
+  }
+  return a * b * c / (4 * (a * b + b * c + c * a) - 2 * (a * a + b * b + c * c));
+}
+
+/// Bounds on second derivatives over a part of a patch, by parameters of the whole patch.
+struct SecondBounds {
+  double uu;
+  double uv;
+  double vv;
+};
+
+/// Segments in u and v.
+struct CellCounts {
+  std::uint32_t nu;
+  std::uint32_t nv;
+
+  [[nodiscard]] double product() const { return static_cast<double>(nu) * nv; }
+};
+
+} // namespace simdbezier::detail

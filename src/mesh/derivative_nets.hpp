@@ -1,0 +1,83 @@
+// Control nets of a patch's second derivatives, over its quarters.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <simdbezier/control_nets.hpp>
+
+#include "src/mesh/chord_bound.hpp"
+
+namespace simdbezier::detail {
+
+/// A control vector: of a polynomial patch, or of w (P - c) and w of a rational one.
+struct ControlVector {
+  double x[4];
+
+  friend ControlVector operator+(const ControlVector& a, const ControlVector& b) {
+    return {a.x[0] + b.x[0], a.x[1] + b.x[1], a.x[2] + b.x[2], a.x[3] + b.x[3]};
+  }
+  friend ControlVector operator-(const ControlVector& a, const ControlVector& b) {
+    return {a.x[0] - b.x[0], a.x[1] - b.x[1], a.x[2] - b.x[2], a.x[3] - b.x[3]};
+  }
+  friend ControlVector operator*(double s, const ControlVector& a) {
+    return {s * a.x[0], s * a.x[1], s * a.x[2], s * a.x[3]};
+  }
+};
+
+/// A net of control vectors, [j][i] as in ControlNets.
+struct VectorNet {
+  std::size_t columns = 0; ///< degree in u, plus 1
+  std::size_t rows = 0;
+  std::vector<ControlVector> at;
+
+  void resize(std::size_t new_columns, std::size_t new_rows) {
+    columns = new_columns;
+    rows = new_rows;
+    at.resize(columns * rows);
+  }
+  [[nodiscard]] ControlVector& operator()(std::size_t i, std::size_t j) {
+    return at[j * columns + i];
+  }
+  [[nodiscard]] const ControlVector& operator()(std::size_t i, std::size_t j) const {
+    return at[j * columns + i];
+  }
+};
+
+/// One patch, as far as bounds on its triangles are concerned: the control vectors, how large a
+/// vector counts, and what the result is divided by.
+struct VectorPatch {
+  VectorNet net;
+  double radius = 0;          ///< R of rational patches; their fourth component counts R times
+  double smallest_weight = 1; ///< the bound is divided by it
+  double largest = 0;         ///< of all values, for rounding
+
+  /// Reads a patch: false where a value is not finite, or a weight not positive.
+  template <typename S>
+  [[nodiscard]] bool read(const ControlNets<S>& nets, std::size_t patch);
+
+  [[nodiscard]] double size(const ControlVector& v) const {
+    return std::sqrt(v.x[0] * v.x[0] + v.x[1] * v.x[1] + v.x[2] * v.x[2]) +
+           radius * std::fabs(v.x[3]);
+  }
+};
+
+/// The three second derivatives.
+struct SecondNets {
+  VectorNet uu;
+  VectorNet uv;
+  VectorNet vv;
+};
+
+/// Of a net of any degrees: empty nets where a derivative vanishes.
+void form_second_nets(const VectorNet& net, SecondNets& to);
+
+/// The part of a net over [begin, 1] or over [0, end] in one direction, by de Casteljau's
+/// algorithm.
+void cut_net(VectorNet& net, bool in_u, double t, bool keep_high);
+
+/// Raises both degrees.
+void raise_net(VectorNet& net, std::size_t columns, std::size_t rows);
+
+} // namespace simdbezier::detail
