@@ -4,7 +4,7 @@
 #include <limits>
 #include <new>
 
-#include "src/mesh/mesh_data.hpp"
+#include "src/mesh/layout_builder.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -12,12 +12,6 @@ namespace {
 
 /// Vertices are counted in 64 bits and have to fit 32, without the largest number.
 constexpr std::uint64_t kMostVertices = std::numeric_limits<std::uint32_t>::max();
-
-bool are_rates(const TopologyData& topology, std::span<const std::uint32_t> rates) noexcept {
-  return rates.size() == topology.patches() &&
-         std::all_of(rates.begin(), rates.end(),
-                     [](std::uint32_t n) { return n >= 1 && n <= kMostSegments; });
-}
 
 void count_segments(const TopologyData& topology, MeshData& mesh) {
   EdgeRates rates;
@@ -72,30 +66,39 @@ Status number_vertices(const TopologyData& topology, MeshData& mesh) {
 }
 
 } // namespace
+
+bool are_rates(const Topology& topology, std::span<const std::uint32_t> rates) noexcept {
+  return rates.size() == topology.counts().patches &&
+         std::all_of(rates.begin(), rates.end(),
+                     [](std::uint32_t n) { return n >= 1 && n <= kMostSegments; });
+}
+
+Status build_layout(const Topology& topology, const PatchRates& rates, MeshData& mesh) {
+  const TopologyData& data = *topology.data();
+  mesh.topology = topology;
+  mesh.nu.assign(rates.nu.begin(), rates.nu.end());
+  mesh.nv.assign(rates.nv.begin(), rates.nv.end());
+  mesh.diagonals.assign(rates.diagonals.begin(), rates.diagonals.end());
+  mesh.diagonals.resize(data.patches());
+  count_segments(data, mesh);
+  return number_vertices(data, mesh);
+}
+
 } // namespace detail
 
 Status lay_out_mesh(const Topology& topology, const PatchRates& rates, MeshLayout& layout) noexcept
     try {
-  const detail::TopologyData* const data = topology.data();
-  if (data == nullptr) {
-    if (!rates.nu.empty() || !rates.nv.empty()) {
-      return Status::bad_rates;
-    }
+  const std::size_t patches = topology.counts().patches;
+  if (!detail::are_rates(topology, rates.nu) || !detail::are_rates(topology, rates.nv) ||
+      !(rates.diagonals.empty() || rates.diagonals.size() == patches)) {
+    return Status::bad_rates;
+  }
+  if (patches == 0) {
     layout = MeshLayout();
     return Status::ok;
   }
-  if (!detail::are_rates(*data, rates.nu) || !detail::are_rates(*data, rates.nv) ||
-      (!rates.diagonals.empty() && rates.diagonals.size() != data->patches())) {
-    return Status::bad_rates;
-  }
   auto mesh = std::make_shared<detail::MeshData>();
-  mesh->topology = topology;
-  mesh->nu.assign(rates.nu.begin(), rates.nu.end());
-  mesh->nv.assign(rates.nv.begin(), rates.nv.end());
-  mesh->diagonals.assign(rates.diagonals.begin(), rates.diagonals.end());
-  mesh->diagonals.resize(data->patches());
-  detail::count_segments(*data, *mesh);
-  const Status status = detail::number_vertices(*data, *mesh);
+  const Status status = detail::build_layout(topology, rates, *mesh);
   if (status == Status::ok) {
     layout = MeshLayout(std::move(mesh));
   }

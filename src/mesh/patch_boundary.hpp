@@ -1,6 +1,7 @@
 // The vertices on the four sides of a patch.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -41,9 +42,48 @@ public:
     const Line& line = lines_[side];
     return {&line.chain[line.places[i]], line.places[i + 1] - line.places[i]};
   }
-  /// Whether a side has no vertices but its own.
-  [[nodiscard]] bool own_only(std::size_t side) const {
-    return lines_[side].chain.size() == lines_[side].places.size();
+  /// All vertices of a side.
+  [[nodiscard]] std::span<const std::uint32_t> chain(std::size_t side) const {
+    return lines_[side].chain;
+  }
+
+  /// Replaces vertices by numbers of the patch's own, from 0 on: points of one number are one point
+  /// of the patch, whatever other points the model joins it with. vertices: of these points.
+  void number_locally(std::vector<std::uint32_t>& vertices) {
+    vertices.clear();
+    std::uint32_t corners[kPatchCorners];
+    for (std::uint32_t k = 0; k < kPatchCorners; ++k) {
+      corners[k] = k;
+      vertices.push_back(0);
+    }
+    for (std::size_t k = 0; k < kPatchEdges; ++k) { // sides that are points have one corner
+      if (lines_[k].chain.size() == 1) {
+        const std::uint32_t other = corners[kSideCorners[k][1]];
+        std::replace(corners, corners + kPatchCorners, other, corners[kSideCorners[k][0]]);
+      }
+    }
+    for (std::size_t k = 0; k < kPatchEdges; ++k) {
+      auto& chain = lines_[k].chain;
+      const std::uint32_t ends[2] = {corners[kSideCorners[k][0]], corners[kSideCorners[k][1]]};
+      vertices[ends[0]] = chain.front();
+      vertices[ends[1]] = chain.back();
+      for (std::size_t i = 0; i < chain.size(); ++i) {
+        if (i == 0 || i + 1 == chain.size()) {
+          chain[i] = ends[i == 0 ? 0 : 1];
+        } else {
+          vertices.push_back(chain[i]);
+          chain[i] = static_cast<std::uint32_t>(vertices.size() - 1);
+        }
+      }
+    }
+  }
+  /// Whether two numbers follow each other on a side.
+  [[nodiscard]] bool is_segment(std::uint32_t a, std::uint32_t b) const {
+    return std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {
+      const auto at = std::find(line.chain.begin(), line.chain.end(), a);
+      return at != line.chain.end() && ((at != line.chain.begin() && *(at - 1) == b) ||
+                                        (at + 1 != line.chain.end() && *(at + 1) == b));
+    });
   }
 
 private:

@@ -1,78 +1,136 @@
-// Rates of 1 that would make triangles, or edges of triangles, coincide; see mesh_layout.hpp.
+// Rates so small that edges of the mesh would coincide; see mesh_layout.hpp.
 #include <algorithm>
 #include <new>
 #include <vector>
 
 #include <simdbezier/mesh_layout.hpp>
 
+#include "src/mesh/cells.hpp"
+#include "src/mesh/layout_builder.hpp"
 #include "src/mesh/topology_data.hpp"
 
 namespace simdbezier {
 namespace detail {
 namespace {
 
-/// Something of rate 1, named by what it joins: two things of one name coincide.
-struct Item {
-  std::uint64_t name;
-  std::uint32_t number; ///< of an edge, or of a patch
-  enum Kind : std::uint8_t { edge, patch_in_u, patch_in_v, whole_patch } kind;
+/// An edge that a mesh may have: where it is, and the two vertices that it joins. Two edges in
+/// different places must not join the same two.
+struct MeshEdge {
+  std::uint64_t vertices;
+  std::uint64_t place; ///< a segment of an edge, or two points of one patch
+  std::uint32_t patch;
+
+  friend auto operator<=>(const MeshEdge&, const MeshEdge&) = default;
 };
 
 std::uint64_t pair_of(std::uint32_t a, std::uint32_t b) {
   return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
 }
 
+/// The edges of one patch after the other.
+class PatchEdges {
+public:
+  PatchEdges(MeshData& mesh, PatchBoundary& boundary) : mesh_(mesh), boundary_(boundary) {}
+
+  void append(std::uint32_t patch, std::vector<MeshEdge>& edges) {
+    boundary_.move_to(patch);
+    add_segments(patch, edges);
+    points_.clear();
+    boundary_.number_locally(vertices_);
+    const auto boundary_points = static_cast<std::uint32_t>(vertices_.size());
+    const std::uint32_t inner = mesh_.inner[patch];
+    mesh_.inner[patch] = boundary_points;
+    for (std::uint32_t k = 0; k < (mesh_.nu[patch] - 1) * (mesh_.nv[patch] - 1); ++k) {
+      vertices_.push_back(inner + k);
+    }
+    for (const std::uint16_t diagonals : {std::uint16_t{0}, kAllFalling}) {
+      mesh_.diagonals[patch] = diagonals;
+      add_points(patch);
+    }
+    mesh_.inner[patch] = inner;
+    std::sort(points_.begin(), points_.end());
+    points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
+    for (const std::uint64_t ends : points_) {
+      const auto a = static_cast<std::uint32_t>(ends >> 32);
+      const auto b = static_cast<std::uint32_t>(ends);
+      if (!boundary_.is_segment(a, b)) {
+        edges.push_back({pair_of(vertices_[a], vertices_[b]), place_of(patch, ends), patch});
+      }
+    }
+  }
+
+private:
+  static constexpr std::uint16_t kAllFalling = 0x1ff;
+  static constexpr std::uint64_t kInside = std::uint64_t{1} << 63;
+
+  /// Points of patches in doubt are few: some thousands a patch at the most.
+  static std::uint64_t place_of(std::uint32_t patch, std::uint64_t ends) {
+    return kInside | std::uint64_t{patch} << 34 | (ends >> 32 & 0x1ffff) << 17 | (ends & 0x1ffff);
+  }
+
+  void add_segments(std::uint32_t patch, std::vector<MeshEdge>& edges) const {
+    for (std::size_t k = 0; k < kPatchEdges; ++k) {
+      const Side& side = mesh_.topology.data()->sides[kPatchEdges * patch + k];
+      if (side.collapsed()) {
+        continue;
+      }
+      const auto chain = boundary_.chain(k);
+      for (std::size_t s = 0; s + 1 < chain.size(); ++s) {
+        const std::size_t segment = side.reversed() ? chain.size() - 2 - s : s;
+        edges.push_back(
+            {pair_of(chain[s], chain[s + 1]), std::uint64_t{side.edge()} << 20 | segment, patch});
+      }
+    }
+  }
+
+  /// The edges of all triangles, by points of the patch.
+  void add_points(std::uint32_t patch) {
+    triangles_.resize(3 * (mesh_.triangles[patch + 1] - mesh_.triangles[patch]) + 64);
+    TriangleWriter<std::uint32_t> writer(triangles_.data(), false);
+    CellCutter<std::uint32_t>(mesh_, boundary_, patch).write(writer);
+    for (const std::uint32_t* t = triangles_.data(); t != writer.end(); t += 3) {
+      points_.push_back(pair_of(t[0], t[1]));
+      points_.push_back(pair_of(t[1], t[2]));
+      points_.push_back(pair_of(t[2], t[0]));
+    }
+  }
+
+  MeshData& mesh_;
+  PatchBoundary& boundary_;
+  std::vector<std::uint32_t> vertices_; ///< of the patch's points
+  std::vector<std::uint32_t> triangles_;
+  std::vector<std::uint64_t> points_; ///< two of a patch, joined
+};
+
 class Separation {
 public:
-  Separation(const TopologyData& topology, std::span<std::uint32_t> nu, std::span<std::uint32_t> nv)
-      : topology_(topology), nu_(nu), nv_(nv), raised_(topology.patches()) {}
+  Separation(const Topology& topology, std::span<std::uint32_t> nu, std::span<std::uint32_t> nv)
+      : topology_(topology), data_(*topology.data()), nu_(nu), nv_(nv), raised_(nu.size()) {}
 
-  /// Repeated until nothing changes: a raised rate leaves fewer items, so that it ends.
   std::size_t run() {
-    do {
-      changed_ = false;
-      raise_closed_edges();
-      raise_torn_cells();
-      raise_coinciding(rails());
-      raise_coinciding(chords());
-    } while (changed_);
+    raise_torn_cells();
+    raise_between_points();
+    // More cells take vertices apart; what is not apart then never will be, such as a patch whose
+    // neighbouring sides are one edge.
+    constexpr int kRounds = 6;
+    for (int round = 0; round < kRounds && raise_coinciding(); ++round) {
+    }
     return static_cast<std::size_t>(std::count(raised_.begin(), raised_.end(), true));
   }
 
 private:
-  [[nodiscard]] std::uint32_t rate(std::size_t side) const {
-    return (runs_in_u(side) ? nu_ : nv_)[side / kPatchEdges];
-  }
   void raise(std::size_t patch, bool in_u, std::uint32_t least) {
     std::uint32_t& n = (in_u ? nu_ : nv_)[patch];
-    if (n < least) {
+    if (n < least && least <= kMostSegments) {
       n = least;
-      raised_[patch] = changed_ = true;
-    }
-  }
-  [[nodiscard]] std::uint32_t largest_rate(std::span<const std::uint32_t> sides) const {
-    std::uint32_t largest = 0;
-    for (const std::uint32_t side : sides) {
-      largest = std::max(largest, rate(side));
-    }
-    return largest;
-  }
-
-  /// An edge that ends where it begins is a triangle at least.
-  void raise_closed_edges() {
-    for (std::size_t edge = 0; edge < topology_.edges(); ++edge) {
-      const auto sides = topology_.sides_of(edge);
-      if (topology_.corner_of(sides[0], 0) == topology_.corner_of(sides[0], 1) &&
-          largest_rate(sides) < 3) {
-        raise_edge(edge, 3);
-      }
+      raised_[patch] = true;
     }
   }
 
   /// Two corners in one cell that want its diagonal in both ways.
   void raise_torn_cells() {
-    for (std::size_t patch = 0; patch < topology_.patches(); ++patch) {
-      const std::uint8_t flags = topology_.flags[patch];
+    for (std::size_t patch = 0; patch < nu_.size(); ++patch) {
+      const std::uint8_t flags = data_.flags[patch];
       for (std::size_t a = 0; a < kPatchCorners; ++a) {
         for (std::size_t b = a + 1; b < kPatchCorners; ++b) {
           const bool both = (flags >> a & 1) != 0 && (flags >> b & 1) != 0;
@@ -87,81 +145,74 @@ private:
     }
   }
 
-  /// Patches of rate 1 in one direction between the same two edges.
-  std::vector<Item> rails() const {
-    std::vector<Item> items;
-    for (std::uint32_t patch = 0; patch < topology_.patches(); ++patch) {
-      for (const bool in_u : {true, false}) {
-        if ((in_u ? nu_ : nv_)[patch] != 1 || (in_u ? nv_ : nu_)[patch] == 1) {
-          continue;
-        }
-        const Side& a = topology_.sides[kPatchEdges * patch + (in_u ? 2 : 0)];
-        const Side& b = topology_.sides[kPatchEdges * patch + (in_u ? 3 : 1)];
-        if (!a.collapsed() && !b.collapsed()) {
-          items.push_back(
-              {pair_of(a.edge(), b.edge()), patch, in_u ? Item::patch_in_u : Item::patch_in_v});
-        }
+  /// Opposite sides that are points have a row of vertices between them.
+  void raise_between_points() {
+    for (std::size_t patch = 0; patch < nu_.size(); ++patch) {
+      const Side* const sides = &data_.sides[kPatchEdges * patch];
+      if (sides[0].collapsed() && sides[1].collapsed()) {
+        raise(patch, false, 2);
       }
-    }
-    return items;
-  }
-
-  /// Straight edges of the mesh between corners: edges of rate 1, both diagonals of patches of one
-  /// cell.
-  std::vector<Item> chords() const {
-    std::vector<Item> items;
-    for (std::uint32_t edge = 0; edge < topology_.edges(); ++edge) {
-      const auto sides = topology_.sides_of(edge);
-      if (largest_rate(sides) == 1) {
-        items.push_back(
-            {pair_of(topology_.corner_of(sides[0], 0), topology_.corner_of(sides[0], 1)), edge,
-             Item::edge});
+      if (sides[2].collapsed() && sides[3].collapsed()) {
+        raise(patch, true, 2);
       }
-    }
-    for (std::uint32_t patch = 0; patch < topology_.patches(); ++patch) {
-      if (nu_[patch] == 1 && nv_[patch] == 1) {
-        const std::uint32_t* const corner = &topology_.corners[kPatchCorners * patch];
-        items.push_back({pair_of(corner[0], corner[3]), patch, Item::whole_patch});
-        items.push_back({pair_of(corner[1], corner[2]), patch, Item::whole_patch});
-      }
-    }
-    return items;
-  }
-
-  /// Raises all items of a name that occurs twice or more.
-  void raise_coinciding(std::vector<Item> items) {
-    std::sort(items.begin(), items.end(),
-              [](const Item& a, const Item& b) { return a.name < b.name; });
-    for (std::size_t k = 0; k < items.size(); ++k) {
-      if ((k > 0 && items[k - 1].name == items[k].name) ||
-          (k + 1 < items.size() && items[k + 1].name == items[k].name)) {
-        raise(items[k]);
-      }
-    }
-  }
-  void raise(const Item& item) {
-    if (item.kind == Item::edge) {
-      raise_edge(item.number, 2);
-      return;
-    }
-    if (item.kind != Item::patch_in_v) {
-      raise(item.number, true, 2);
-    }
-    if (item.kind != Item::patch_in_u) {
-      raise(item.number, false, 2);
-    }
-  }
-  void raise_edge(std::size_t edge, std::uint32_t least) {
-    for (const std::uint32_t side : topology_.sides_of(edge)) {
-      raise(side / kPatchEdges, runs_in_u(side), least);
     }
   }
 
-  const TopologyData& topology_;
+  /// Whether edges of its mesh may coincide with others.
+  [[nodiscard]] bool in_doubt(std::size_t patch) const {
+    constexpr std::uint32_t kFewCells = 8;
+    return (data_.flags[patch] & kEntangled) != 0 && std::min(nu_[patch], nv_[patch]) <= kFewCells;
+  }
+
+  /// All edges of patches in doubt, with either diagonal: which ones there will be is not known
+  /// yet.
+  [[nodiscard]] std::vector<MeshEdge> edges_in_doubt() const {
+    std::vector<MeshEdge> edges;
+    MeshData mesh;
+    if (build_layout(topology_, {nu_, nv_, {}}, mesh) != Status::ok) {
+      return edges; // too many vertices, which is for the layout to say
+    }
+    PatchBoundary boundary(mesh);
+    PatchEdges own(mesh, boundary);
+    for (std::uint32_t patch = 0; patch < nu_.size(); ++patch) {
+      if (in_doubt(patch)) {
+        own.append(patch, edges);
+      }
+    }
+    return edges;
+  }
+
+  /// Raises both rates of all patches with edges that coincide; whether there were any.
+  bool raise_coinciding() {
+    std::vector<MeshEdge> edges = edges_in_doubt();
+    std::sort(edges.begin(), edges.end());
+    bool any = false;
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+      bool coincide = edges[begin].vertices >> 32 == (edges[begin].vertices & 0xffffffff);
+      for (end = begin; end < edges.size() && edges[end].vertices == edges[begin].vertices; ++end) {
+        coincide = coincide || edges[end].place != edges[begin].place;
+      }
+      for (std::size_t k = begin; k < end && coincide; ++k) {
+        doubtful_.push_back(edges[k].patch);
+        any = true;
+      }
+    }
+    std::sort(doubtful_.begin(), doubtful_.end());
+    doubtful_.erase(std::unique(doubtful_.begin(), doubtful_.end()), doubtful_.end());
+    for (const std::uint32_t patch : doubtful_) {
+      raise(patch, true, nu_[patch] + 1);
+      raise(patch, false, nv_[patch] + 1);
+    }
+    doubtful_.clear();
+    return any;
+  }
+
+  const Topology& topology_;
+  const TopologyData& data_;
   std::span<std::uint32_t> nu_;
   std::span<std::uint32_t> nv_;
   std::vector<bool> raised_;
-  bool changed_ = false;
+  std::vector<std::uint32_t> doubtful_;
 };
 
 } // namespace
@@ -169,14 +220,10 @@ private:
 
 Status separate_vertices(const Topology& topology, std::span<std::uint32_t> nu,
                          std::span<std::uint32_t> nv, std::size_t& raised) noexcept try {
-  const detail::TopologyData* const data = topology.data();
-  const std::size_t patches = data == nullptr ? 0 : data->patches();
-  const auto is_rate = [](std::uint32_t n) { return n >= 1 && n <= kMostSegments; };
-  if (nu.size() != patches || nv.size() != patches || !std::all_of(nu.begin(), nu.end(), is_rate) ||
-      !std::all_of(nv.begin(), nv.end(), is_rate)) {
+  if (!detail::are_rates(topology, nu) || !detail::are_rates(topology, nv)) {
     return Status::bad_rates;
   }
-  raised = data == nullptr ? 0 : detail::Separation(*data, nu, nv).run();
+  raised = topology.data() == nullptr ? 0 : detail::Separation(topology, nu, nv).run();
   return Status::ok;
 } catch (const std::bad_alloc&) {
   return Status::out_of_memory;

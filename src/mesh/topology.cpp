@@ -8,6 +8,7 @@
 
 #include <simdbezier/adjacency.hpp>
 
+#include "src/mesh/entanglement.hpp"
 #include "src/mesh/net_corners.hpp"
 #include "src/mesh/orientation.hpp"
 #include "src/mesh/topology_data.hpp"
@@ -142,7 +143,7 @@ void mark_corners(const NetCorners<S>& nets, TopologyData& topology) {
     const std::size_t in_u = kPatchEdges * patch + (corner < 2 ? 0 : 1);
     const std::size_t in_v = kPatchEdges * patch + (corner % 2 == 0 ? 2 : 3);
     const std::uint32_t joined = topology.corners[k];
-    const bool pillow = patches[joined] == 2 && !open[joined];
+    const bool pillow = patches[joined] <= 2 && !open[joined];
     const bool tip = topology.sides[in_u].collapsed() != topology.sides[in_v].collapsed();
     if (pillow || tip || nets.sides_leave_together(patch, corner)) {
       topology.flags[patch] |= static_cast<std::uint8_t>(kThroughCorner << corner);
@@ -172,6 +173,7 @@ Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& option
   count_edges(topology);
   mark_corners(nets, topology);
   mark_repeated(nets, topology);
+  mark_entangled(topology);
   return orient(options.orient, topology);
 }
 

@@ -45,7 +45,10 @@ constexpr bool falls(std::size_t corner) noexcept { return corner == 1 || corner
 enum PatchFlag : std::uint8_t {
   kThroughCorner = 1, ///< 1 << corner: the diagonal of the corner's cell has to pass through it
   kTurned = 16,
-  kRepeated = 32
+  kRepeated = 32,
+  /// Shares corners with another patch, or with itself, that no common edge explains: meshes of few
+  /// cells may have edges there that coincide.
+  kEntangled = 64
 };
 
 struct TopologyData {

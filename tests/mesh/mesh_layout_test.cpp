@@ -1,0 +1,166 @@
+// Meshes of models whose topology is known: closed where they are, with no vertex between two
+// others on an edge, whatever the rates.
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <simdbezier/mesh_layout.hpp>
+#include <simdbezier/topology.hpp>
+
+#include "tests/mesh/mesh_models.hpp"
+#include "tests/mesh/triangle_census.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+struct Rates {
+  std::vector<std::uint32_t> nu;
+  std::vector<std::uint32_t> nv;
+  std::vector<std::uint16_t> diagonals;
+};
+
+Rates random_rates(std::size_t patches, std::uint32_t most, unsigned seed) {
+  std::mt19937 random(seed);
+  Rates rates;
+  for (std::size_t p = 0; p < patches; ++p) {
+    rates.nu.push_back(1 + static_cast<std::uint32_t>(random() % most));
+    rates.nv.push_back(1 + static_cast<std::uint32_t>(random() % most));
+    rates.diagonals.push_back(static_cast<std::uint16_t>(random() % 512));
+  }
+  return rates;
+}
+
+Topology topology_of(const std::vector<double>& values, bool orient) {
+  const auto nets = ControlNets<double>::packed(values.data(), values.size() / 48, 3, 3);
+  Topology topology;
+  TopologyOptions options;
+  options.orient = orient;
+  EXPECT_EQ(find_topology(nets, topology, options), Status::ok);
+  return topology;
+}
+
+void expect_closed(const MeshModel& model, bool orient, std::uint32_t most, unsigned seed) {
+  SCOPED_TRACE(model.name + ", rates to " + std::to_string(most) + ", seed " +
+               std::to_string(seed));
+  const std::vector<double> values = model.values();
+  const Topology topology = topology_of(values, orient);
+  Rates rates = random_rates(model.patches.size(), most, seed);
+  std::size_t raised = 0;
+  ASSERT_EQ(separate_vertices(topology, rates.nu, rates.nv, raised), Status::ok);
+  MeshLayout layout;
+  ASSERT_EQ(lay_out_mesh(topology, {rates.nu, rates.nv, rates.diagonals}, layout), Status::ok);
+  const MeshSize size = layout.size();
+  std::vector<std::uint32_t> triangles(3 * size.triangles + 1, 0xabababab);
+  ASSERT_EQ(write_triangles(layout, std::span(triangles).first(3 * size.triangles), 1), Status::ok);
+  ASSERT_EQ(triangles.back(), 0xabababab);
+  triangles.pop_back();
+  const TriangleCensus census = count_triangles<std::uint32_t>(triangles, size.vertices);
+  EXPECT_EQ(census.out_of_range, 0);
+  EXPECT_EQ(census.degenerate, 0);
+  EXPECT_EQ(census.unused, 0);
+  EXPECT_EQ(census.repeated, 0);
+  EXPECT_EQ(census.euler, model.euler);
+  EXPECT_EQ(census.crowded > 0, !model.manifold);
+  if (model.manifold) {
+    EXPECT_EQ(census.loops, model.loops);
+    EXPECT_EQ(census.disagreeing == 0, model.agree || orient);
+  }
+}
+
+TEST(MeshLayout, is_closed_where_the_model_is) {
+  for (const MeshModel& model : mesh_models()) {
+    for (const std::uint32_t most : {1U, 2U, 3U, 7U, 20U}) {
+      for (unsigned seed = 0; seed < 6; ++seed) {
+        expect_closed(model, false, most, seed);
+      }
+    }
+  }
+}
+
+TEST(MeshLayout, is_oriented_where_that_is_asked_for) {
+  for (const MeshModel& model : mesh_models()) {
+    if (!model.orientable) {
+      continue;
+    }
+    for (const std::uint32_t most : {1U, 2U, 5U}) {
+      for (unsigned seed = 0; seed < 8; ++seed) {
+        expect_closed(shuffled(model, seed), true, most, seed);
+      }
+    }
+  }
+}
+
+TEST(MeshLayout, rates_and_their_neighbours_are_counted_exactly) {
+  // A sheet of two patches: rates 4 and 6 on the common edge are 8 segments.
+  const std::vector<MeshModel> models = mesh_models();
+  const MeshModel& torus = models[5];
+  ASSERT_EQ(torus.name, "torus 1 x 2");
+  const Topology topology = topology_of(torus.values(), false);
+  const std::vector<std::uint32_t> nu = {4, 6};
+  const std::vector<std::uint32_t> nv = {2, 2};
+  MeshLayout layout;
+  ASSERT_EQ(lay_out_mesh(topology, {nu, nv, {}}, layout), Status::ok);
+  // 2 cells a triangle pair, and 4 + 2 further vertices on each of two edges, for two sides.
+  EXPECT_EQ(layout.size().triangles, 2U * (4 * 2 + 6 * 2) + 2 * (8 - 4) + 2 * (8 - 6));
+  EXPECT_EQ(layout.first_triangle(1), 2U * 8 + 2 * (8 - 4));
+  EXPECT_EQ(layout.first_triangle(2), layout.size().triangles);
+}
+
+TEST(MeshLayout, numbers_of_sixteen_bits_are_the_same_numbers) {
+  const MeshModel model = mesh_models()[7];
+  const Topology topology = topology_of(model.values(), false);
+  const Rates rates = random_rates(model.patches.size(), 9, 3);
+  MeshLayout layout;
+  ASSERT_EQ(lay_out_mesh(topology, {rates.nu, rates.nv, rates.diagonals}, layout), Status::ok);
+  std::vector<std::uint32_t> wide(3 * layout.size().triangles);
+  std::vector<std::uint16_t> narrow(wide.size());
+  for (const int threads : {1, 2, 5}) {
+    ASSERT_EQ(write_triangles(layout, std::span(wide), threads), Status::ok);
+    ASSERT_EQ(write_triangles(layout, std::span(narrow), threads), Status::ok);
+    EXPECT_TRUE(std::equal(wide.begin(), wide.end(), narrow.begin(), narrow.end()));
+  }
+}
+
+TEST(MeshLayout, bad_input_is_a_status) {
+  const MeshModel model = mesh_models()[1];
+  const Topology topology = topology_of(model.values(), false);
+  const std::vector<std::uint32_t> good(model.patches.size(), 3);
+  std::vector<std::uint32_t> bad = good;
+  MeshLayout layout;
+  for (const std::uint32_t wrong : {0U, kMostSegments + 1, ~0U}) {
+    bad[2] = wrong;
+    EXPECT_EQ(lay_out_mesh(topology, {bad, good, {}}, layout), Status::bad_rates);
+    EXPECT_EQ(lay_out_mesh(topology, {good, bad, {}}, layout), Status::bad_rates);
+    std::size_t raised = 7;
+    std::vector<std::uint32_t> copy = good;
+    EXPECT_EQ(separate_vertices(topology, bad, copy, raised), Status::bad_rates);
+    EXPECT_EQ(raised, 7U);
+  }
+  const std::span<const std::uint32_t> fewer = std::span(good).first(good.size() - 1);
+  EXPECT_EQ(lay_out_mesh(topology, {fewer, good, {}}, layout), Status::bad_rates);
+  const std::vector<std::uint16_t> one(1);
+  EXPECT_EQ(lay_out_mesh(topology, {good, good, one}, layout), Status::bad_rates);
+  EXPECT_EQ(layout.size().vertices, 0U);
+
+  ASSERT_EQ(lay_out_mesh(topology, {good, good, {}}, layout), Status::ok);
+  std::vector<std::uint32_t> triangles(3 * layout.size().triangles - 1, 99);
+  EXPECT_EQ(write_triangles(layout, std::span(triangles)), Status::output_too_small);
+  EXPECT_EQ(std::count(triangles.begin(), triangles.end(), 99U),
+            static_cast<std::ptrdiff_t>(triangles.size()));
+  EXPECT_EQ(write_triangles(layout, std::span<std::uint32_t>()), Status::null_output);
+  const std::vector<std::uint32_t> many(model.patches.size(), 300);
+  ASSERT_EQ(lay_out_mesh(topology, {many, many, {}}, layout), Status::ok);
+  std::vector<std::uint16_t> narrow(3 * layout.size().triangles);
+  EXPECT_EQ(write_triangles(layout, std::span(narrow)), Status::size_overflow);
+}
+
+TEST(MeshLayout, empty_models_have_empty_meshes) {
+  MeshLayout layout;
+  EXPECT_EQ(lay_out_mesh(Topology(), {}, layout), Status::ok);
+  EXPECT_EQ(layout.size().triangles, 0U);
+  EXPECT_EQ(write_triangles(layout, std::span<std::uint32_t>()), Status::ok);
+  EXPECT_EQ(layout.first_triangle(3), 0U);
+}
+
+} // namespace
+} // namespace simdbezier::tests

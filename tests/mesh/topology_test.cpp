@@ -1,0 +1,133 @@
+// Which edges and corners of known models are one.
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <simdbezier/topology.hpp>
+
+#include "tests/mesh/mesh_models.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+struct Expected {
+  const char* model;
+  std::size_t edges;
+  std::size_t open;
+  std::size_t non_manifold;
+  std::size_t collapsed;
+  std::size_t corners;
+  std::size_t repeated;
+};
+
+constexpr Expected kExpected[] = {
+    {"patch", 4, 4, 0, 0, 4, 0},          {"sheet", 17, 10, 0, 0, 12, 0},
+    {"cube", 12, 0, 0, 0, 8, 0},          {"torus 1 x 1", 2, 0, 0, 0, 1, 0},
+    {"torus 2 x 1", 4, 0, 0, 0, 2, 0},    {"torus 4 x 3", 24, 0, 0, 0, 12, 0},
+    {"ball 1 x 1", 1, 0, 0, 2, 2, 0},     {"ball 4 x 2", 12, 0, 0, 8, 6, 0},
+    {"pillow", 4, 0, 0, 0, 4, 0},         {"ring turned by half", 9, 6, 0, 0, 6, 0},
+    {"book of 3", 10, 9, 1, 0, 8, 0},     {"touching in a corner", 8, 8, 0, 0, 8, 0},
+    {"one patch twice", 4, 0, 0, 0, 4, 1}};
+
+MeshModel named(const std::string& name) {
+  for (MeshModel& model : mesh_models()) {
+    if (model.name == name) {
+      return model;
+    }
+  }
+  ADD_FAILURE() << "no model " << name;
+  return {};
+}
+
+Status topology_of(const MeshModel& model, Topology& topology,
+                   const TopologyOptions& options = {}) {
+  const std::vector<double> values = model.values();
+  return find_topology(ControlNets<double>::packed(values.data(), model.patches.size(), 3, 3),
+                       topology, options);
+}
+
+TEST(TopologyTest, counts_are_the_models) {
+  for (const Expected& expected : kExpected) {
+    const MeshModel original = named(expected.model);
+    for (unsigned seed = 0; seed < 5; ++seed) {
+      const MeshModel model = seed == 0 ? original : shuffled(original, seed);
+      SCOPED_TRACE(model.name + ", seed " + std::to_string(seed));
+      Topology topology;
+      ASSERT_EQ(topology_of(model, topology), Status::ok);
+      const TopologyCounts counts = topology.counts();
+      EXPECT_EQ(counts.patches, model.patches.size());
+      EXPECT_EQ(counts.edges, expected.edges);
+      EXPECT_EQ(counts.open_edges, expected.open);
+      EXPECT_EQ(counts.non_manifold_edges, expected.non_manifold);
+      EXPECT_EQ(counts.collapsed_sides, expected.collapsed);
+      EXPECT_EQ(counts.corners, expected.corners);
+      EXPECT_EQ(counts.repeated_patches, expected.repeated);
+      EXPECT_EQ(counts.orientable, model.orientable);
+      if (model.agree) {
+        EXPECT_EQ(counts.turned_edges, 0U);
+      }
+    }
+  }
+}
+
+TEST(TopologyTest, a_model_of_one_side_cannot_be_oriented) {
+  TopologyOptions options;
+  options.orient = true;
+  Topology topology;
+  EXPECT_EQ(topology_of(named("ring turned by half"), topology, options), Status::not_orientable);
+  EXPECT_EQ(topology.counts().patches, 0U);
+}
+
+TEST(TopologyTest, only_patches_that_disagree_are_turned) {
+  MeshModel model = named("cube");
+  for (auto& row : model.patches[3]) {
+    std::reverse(row.begin(), row.end());
+  }
+  TopologyOptions options;
+  options.orient = true;
+  Topology topology;
+  ASSERT_EQ(topology_of(model, topology, options), Status::ok);
+  EXPECT_EQ(topology.counts().turned_edges, 4U);
+  for (std::size_t patch = 0; patch < 6; ++patch) {
+    EXPECT_EQ(topology.is_turned(patch), patch == 3);
+  }
+  EXPECT_FALSE(topology.is_turned(6));
+}
+
+TEST(TopologyTest, short_sides_are_points_where_that_is_asked_for) {
+  MeshModel model = named("patch");
+  for (std::size_t i = 0; i < 4; ++i) { // the side v = 0 within 1e-6 of a point
+    model.patches[0][0][i] = {1 + 1e-6 * static_cast<double>(i) / 4, 0, 0};
+  }
+  TopologyOptions options;
+  Topology topology;
+  ASSERT_EQ(topology_of(model, topology, options), Status::ok);
+  EXPECT_EQ(topology.counts().collapsed_sides, 0U);
+  options.point_size = 1e-6;
+  ASSERT_EQ(topology_of(model, topology, options), Status::ok);
+  EXPECT_EQ(topology.counts().collapsed_sides, 1U);
+  EXPECT_EQ(topology.counts().corners, 3U);
+}
+
+TEST(TopologyTest, bad_input_is_a_status) {
+  Topology topology;
+  TopologyOptions options;
+  for (const double wrong : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    options.point_size = wrong;
+    EXPECT_EQ(topology_of(named("patch"), topology, options), Status::bad_tolerance);
+  }
+  const std::vector<double> values(64);
+  auto nets = ControlNets<double>::packed(values.data(), 1, 3, 3, 2);
+  EXPECT_EQ(find_topology(nets, topology), Status::bad_components);
+  nets = ControlNets<double>::packed(nullptr, 1, 3, 3);
+  EXPECT_EQ(find_topology(nets, topology), Status::null_input);
+  nets = ControlNets<double>::packed(values.data(), 1, 3, 3);
+  nets.degree_u = 16;
+  EXPECT_EQ(find_topology(nets, topology), Status::bad_degree);
+  nets = ControlNets<double>::packed(values.data(), std::size_t{1} << 29, 3, 3);
+  nets.patch_stride = 0;
+  EXPECT_EQ(find_topology(nets, topology), Status::size_overflow);
+}
+
+} // namespace
+} // namespace simdbezier::tests
