@@ -8,6 +8,7 @@
 #include <simdbezier/topology.hpp>
 
 #include "tests/mesh/mesh_models.hpp"
+#include "tests/mesh/random_gluing.hpp"
 #include "tests/mesh/triangle_census.hpp"
 
 namespace simdbezier::tests {
@@ -39,6 +40,18 @@ Topology topology_of(const std::vector<double>& values, bool orient) {
   return topology;
 }
 
+TriangleCensus census_of(const Topology& topology, const Rates& rates) {
+  MeshLayout layout;
+  EXPECT_EQ(lay_out_mesh(topology, {rates.nu, rates.nv, rates.diagonals}, layout), Status::ok);
+  const MeshSize size = layout.size();
+  constexpr std::uint32_t kUntouched = 0xabababab;
+  std::vector<std::uint32_t> triangles(3 * size.triangles + 1, kUntouched);
+  const auto written = std::span(triangles).first(3 * size.triangles);
+  EXPECT_EQ(write_triangles(layout, written, 1), Status::ok);
+  EXPECT_EQ(triangles.back(), kUntouched);
+  return count_triangles<std::uint32_t>(written, size.vertices);
+}
+
 void expect_closed(const MeshModel& model, bool orient, std::uint32_t most, unsigned seed) {
   SCOPED_TRACE(model.name + ", rates to " + std::to_string(most) + ", seed " +
                std::to_string(seed));
@@ -47,14 +60,7 @@ void expect_closed(const MeshModel& model, bool orient, std::uint32_t most, unsi
   Rates rates = random_rates(model.patches.size(), most, seed);
   std::size_t raised = 0;
   ASSERT_EQ(separate_vertices(topology, rates.nu, rates.nv, raised), Status::ok);
-  MeshLayout layout;
-  ASSERT_EQ(lay_out_mesh(topology, {rates.nu, rates.nv, rates.diagonals}, layout), Status::ok);
-  const MeshSize size = layout.size();
-  std::vector<std::uint32_t> triangles(3 * size.triangles + 1, 0xabababab);
-  ASSERT_EQ(write_triangles(layout, std::span(triangles).first(3 * size.triangles), 1), Status::ok);
-  ASSERT_EQ(triangles.back(), 0xabababab);
-  triangles.pop_back();
-  const TriangleCensus census = count_triangles<std::uint32_t>(triangles, size.vertices);
+  const TriangleCensus census = census_of(topology, rates);
   EXPECT_EQ(census.out_of_range, 0);
   EXPECT_EQ(census.degenerate, 0);
   EXPECT_EQ(census.unused, 0);
@@ -88,6 +94,38 @@ TEST(MeshLayout, is_oriented_where_that_is_asked_for) {
       }
     }
   }
+}
+
+TEST(MeshLayout, is_a_surface_however_sides_are_joined) {
+  std::size_t judged = 0;
+  for (unsigned seed = 0; seed < 1500; ++seed) {
+    const RandomGluing gluing(seed);
+    if (gluing.folded) {
+      continue;
+    }
+    const Topology topology = topology_of(gluing.values, false);
+    ASSERT_EQ(topology.counts().open_edges, gluing.open_edges);
+    for (const std::uint32_t most : {1U, 2U, 3U, 6U}) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", rates to " + std::to_string(most));
+      Rates rates = random_rates(gluing.patches, most, seed);
+      std::size_t raised = 0;
+      ASSERT_EQ(separate_vertices(topology, rates.nu, rates.nv, raised), Status::ok);
+      const TriangleCensus census = census_of(topology, rates);
+      EXPECT_EQ(census.crowded, 0U);
+      EXPECT_EQ(census.degenerate, 0U);
+      EXPECT_EQ(census.repeated, 0U);
+      EXPECT_EQ(census.unused, 0U);
+      EXPECT_EQ(census.open > 0, gluing.open_edges > 0);
+      if (!gluing.has_points) {
+        const TopologyCounts counts = topology.counts();
+        EXPECT_EQ(census.euler, static_cast<long>(counts.corners) -
+                                    static_cast<long>(counts.edges) +
+                                    static_cast<long>(counts.patches));
+      }
+      ++judged;
+    }
+  }
+  EXPECT_GT(judged, 1000U);
 }
 
 TEST(MeshLayout, rates_and_their_neighbours_are_counted_exactly) {
