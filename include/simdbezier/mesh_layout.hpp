@@ -83,18 +83,4 @@ private:
 [[nodiscard]] SIMDBEZIER_API Status lay_out_mesh(const Topology& topology, const PatchRates& rates,
                                                  MeshLayout& layout) noexcept;
 
-/// Writes the triangles of the mesh, patch after patch, counter-clockwise about du x dv (clockwise
-/// on patches that the topology turned). Triangles that a collapsed side leaves without area are
-/// not among them.
-///
-/// triangles: three vertex numbers each, Index = std::uint32_t or std::uint16_t.
-/// Returns:   ok | null_output | output_too_small (fewer values than 3 * size().triangles) |
-///            size_overflow (more vertices than Index can number, its largest value left free) |
-///            out_of_memory.
-/// Threads:   as in Options. Allocation: scratch per thread.
-template <typename Index>
-[[nodiscard]] SIMDBEZIER_API Status write_triangles(const MeshLayout& layout,
-                                                    std::span<Index> triangles,
-                                                    int threads = 0) noexcept;
-
 } // namespace simdbezier

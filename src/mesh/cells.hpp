@@ -1,34 +1,11 @@
-// From the cells of a patch to triangles.
+// From the cells of a patch to what a sink makes of them:
+//     sink.cell(corners, falling)   a cell with four different vertices, two triangles
+//     sink.triangle(a, b, c)        of any other cell, three different vertices, counter-clockwise
 #pragma once
 
 #include "src/mesh/patch_boundary.hpp"
 
 namespace simdbezier::detail {
-
-/// Writes triangles, the other way round where the patch is turned; those with two equal vertices
-/// are left out.
-template <typename Index>
-class TriangleWriter {
-public:
-  TriangleWriter(Index* to, bool turned) : to_(to), turned_(turned) {}
-
-  void put(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    if (a != b && b != c && a != c) {
-      put_proper(a, b, c);
-    }
-  }
-  void put_proper(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    to_[0] = static_cast<Index>(a);
-    to_[1] = static_cast<Index>(turned_ ? c : b);
-    to_[2] = static_cast<Index>(turned_ ? b : c);
-    to_ += 3;
-  }
-  [[nodiscard]] Index* end() const { return to_; }
-
-private:
-  Index* to_;
-  bool turned_;
-};
 
 /// A leg of a triangle from its right-angled corner on: along a chain, or against it.
 class Leg {
@@ -54,43 +31,56 @@ private:
 /// larger bound on its distance from the surface than the whole half (docs/accuracy.md).
 ///
 /// x, y: counter-clockwise around the corner.
-template <typename Index>
-void cut_half(const Leg& x, const Leg& y, TriangleWriter<Index>& triangles) {
-  triangles.put(x.vertex(0), x.vertex(1), y.vertex(1));
+template <typename Sink>
+void cut_half(const Leg& x, const Leg& y, Sink& sink) {
+  const auto put = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (a != b && b != c && a != c) {
+      sink.triangle(a, b, c);
+    }
+  };
+  put(x.vertex(0), x.vertex(1), y.vertex(1));
   const std::uint64_t last_x = x.segments();
   const std::uint64_t last_y = y.segments();
   std::uint32_t i = 1;
   std::uint32_t j = 1;
   while (i < last_x || j < last_y) {
     if (j == last_y || (i < last_x && (i + 1) * last_y <= (j + 1) * last_x)) {
-      triangles.put(x.vertex(i), x.vertex(i + 1), y.vertex(j));
+      put(x.vertex(i), x.vertex(i + 1), y.vertex(j));
       ++i;
     } else {
-      triangles.put(x.vertex(i), y.vertex(j + 1), y.vertex(j));
+      put(x.vertex(i), y.vertex(j + 1), y.vertex(j));
       ++j;
     }
   }
 }
 
+/// The vertices of a cell: at (0,0), (1,0), (0,1), (1,1).
+struct CellCorners {
+  std::uint32_t at[4];
+};
+
 /// The cells of one patch.
-template <typename Index>
 class CellCutter {
 public:
   CellCutter(const MeshData& mesh, const PatchBoundary& boundary, std::size_t patch)
       : boundary_(boundary), nu_(mesh.nu[patch]), nv_(mesh.nv[patch]), inner_(mesh.inner[patch]),
         flags_(mesh.topology.data()->flags[patch]), diagonals_(mesh.diagonals[patch]) {}
 
-  void write(TriangleWriter<Index>& triangles) const {
-    write_border_row(0, triangles);
-    for (std::uint32_t j = 1; j + 1 < nv_; ++j) {
-      write_border_cell(0, j, triangles);
-      write_inner_row(j, triangles);
-      if (nu_ > 1) {
-        write_border_cell(nu_ - 1, j, triangles);
-      }
+  /// Row by row.
+  template <typename Sink>
+  void cut(Sink& sink) const {
+    for (std::uint32_t j = 0; j < nv_; ++j) {
+      cut_row(j, 0, nu_, sink);
     }
-    if (nv_ > 1) {
-      write_border_row(nv_ - 1, triangles);
+  }
+
+  /// Columns [0, width) of all rows, then the next ones, so that neighbours follow each other soon.
+  template <typename Sink>
+  void cut_in_bands(std::uint32_t width, Sink& sink) const {
+    for (std::uint32_t begin = 0; begin < nu_; begin += width) {
+      for (std::uint32_t j = 0; j < nv_; ++j) {
+        cut_row(j, begin, std::min(nu_, begin + width), sink);
+      }
     }
   }
 
@@ -124,47 +114,56 @@ private:
                       : inner_ + (j - 1) * (nu_ - 1) + (i - 1);
   }
 
-  void write_border_row(std::uint32_t j, TriangleWriter<Index>& triangles) const {
-    for (std::uint32_t i = 0; i < nu_; ++i) {
-      write_border_cell(i, j, triangles);
+  template <typename Sink>
+  void cut_row(std::uint32_t j, std::uint32_t begin, std::uint32_t end, Sink& sink) const {
+    const bool border = j == 0 || j + 1 == nv_;
+    for (std::uint32_t i = begin; i < end;) {
+      if (border || i == 0 || i + 1 == nu_) {
+        cut_border_cell(i, j, sink);
+        ++i;
+      } else {
+        const std::uint32_t last = std::min(end, zone_end(i));
+        cut_inner_cells(j, i, last, sink);
+        i = last;
+      }
     }
   }
 
-  void write_border_cell(std::uint32_t i, std::uint32_t j, TriangleWriter<Index>& triangles) const {
-    const std::uint32_t low[2] = {vertex(i, j), vertex(i + 1, j)};
-    const std::uint32_t high[2] = {vertex(i, j + 1), vertex(i + 1, j + 1)};
-    const std::uint32_t left[2] = {low[0], high[0]};
-    const std::uint32_t right[2] = {low[1], high[1]};
-    const Chain bottom = j == 0 ? boundary_.between(kV0, i) : Chain{low, 1};
-    const Chain top = j + 1 == nv_ ? boundary_.between(kV1, i) : Chain{high, 1};
+  template <typename Sink>
+  void cut_border_cell(std::uint32_t i, std::uint32_t j, Sink& sink) const {
+    const CellCorners c{{vertex(i, j), vertex(i + 1, j), vertex(i, j + 1), vertex(i + 1, j + 1)}};
+    const std::uint32_t left[2] = {c.at[0], c.at[2]};
+    const std::uint32_t right[2] = {c.at[1], c.at[3]};
+    const Chain bottom = j == 0 ? boundary_.between(kV0, i) : Chain{c.at, 1};
+    const Chain top = j + 1 == nv_ ? boundary_.between(kV1, i) : Chain{c.at + 2, 1};
     const Chain west = i == 0 ? boundary_.between(kU0, j) : Chain{left, 1};
     const Chain east = i + 1 == nu_ ? boundary_.between(kU1, j) : Chain{right, 1};
-    if (falling(i, j)) { // right angles at (i, j) and (i + 1, j + 1)
-      cut_half(Leg(bottom, false), Leg(west, false), triangles);
-      cut_half(Leg(top, true), Leg(east, true), triangles);
+    const bool falls_here = falling(i, j);
+    const bool plain =
+        bottom.segments == 1 && top.segments == 1 && west.segments == 1 && east.segments == 1;
+    if (plain && are_different(c)) {
+      sink.cell(c, falls_here);
+    } else if (falls_here) { // right angles at (i, j) and (i + 1, j + 1)
+      cut_half(Leg(bottom, false), Leg(west, false), sink);
+      cut_half(Leg(top, true), Leg(east, true), sink);
     } else { // at (i + 1, j) and (i, j + 1)
-      cut_half(Leg(east, false), Leg(bottom, true), triangles);
-      cut_half(Leg(west, true), Leg(top, false), triangles);
+      cut_half(Leg(east, false), Leg(bottom, true), sink);
+      cut_half(Leg(west, true), Leg(top, false), sink);
     }
   }
+  static bool are_different(const CellCorners& c) {
+    return c.at[0] != c.at[1] && c.at[0] != c.at[2] && c.at[0] != c.at[3] && c.at[1] != c.at[2] &&
+           c.at[1] != c.at[3] && c.at[2] != c.at[3];
+  }
 
-  /// Cells between the first and the last one of a row that is neither the first nor the last.
-  void write_inner_row(std::uint32_t j, TriangleWriter<Index>& triangles) const {
+  /// Cells of one zone that touch no side.
+  template <typename Sink>
+  void cut_inner_cells(std::uint32_t j, std::uint32_t begin, std::uint32_t end, Sink& sink) const {
     const std::uint32_t below = inner_ + (j - 1) * (nu_ - 1) - 1; // of (i, j) less i
     const std::uint32_t above = below + (nu_ - 1);
-    for (std::uint32_t i = 1; i + 1 < nu_;) {
-      const std::uint32_t end = zone_end(i);
-      if (falling(i, j)) {
-        for (; i < end; ++i) {
-          triangles.put_proper(below + i, below + i + 1, above + i);
-          triangles.put_proper(above + i + 1, above + i, below + i + 1);
-        }
-      } else {
-        for (; i < end; ++i) {
-          triangles.put_proper(below + i + 1, above + i + 1, below + i);
-          triangles.put_proper(above + i, below + i, above + i + 1);
-        }
-      }
+    const bool falls_here = falling(begin, j);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      sink.cell({{below + i, below + i + 1, above + i, above + i + 1}}, falls_here);
     }
   }
   /// Where the zone of an inner cell ends, or the inner cells do.

@@ -5,8 +5,8 @@
 
 #include <simdbezier/mesh_layout.hpp>
 
-#include "src/mesh/cells.hpp"
 #include "src/mesh/layout_builder.hpp"
+#include "src/mesh/primitive_sinks.hpp"
 #include "src/mesh/topology_data.hpp"
 
 namespace simdbezier {
@@ -86,9 +86,9 @@ private:
   /// The edges of all triangles, by points of the patch.
   void add_points(std::uint32_t patch) {
     triangles_.resize(3 * (mesh_.triangles[patch + 1] - mesh_.triangles[patch]) + 64);
-    TriangleWriter<std::uint32_t> writer(triangles_.data(), false);
-    CellCutter<std::uint32_t>(mesh_, boundary_, patch).write(writer);
-    for (const std::uint32_t* t = triangles_.data(); t != writer.end(); t += 3) {
+    TriangleSink<std::uint32_t> sink(triangles_.data(), false);
+    CellCutter(mesh_, boundary_, patch).cut(sink);
+    for (const std::uint32_t* t = triangles_.data(); t != sink.end(); t += 3) {
       points_.push_back(pair_of(t[0], t[1]));
       points_.push_back(pair_of(t[1], t[2]));
       points_.push_back(pair_of(t[2], t[0]));

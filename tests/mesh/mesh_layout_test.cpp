@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <simdbezier/mesh_layout.hpp>
+#include <simdbezier/mesh_primitives.hpp>
 #include <simdbezier/topology.hpp>
 
 #include "tests/mesh/mesh_models.hpp"

@@ -1,0 +1,89 @@
+// The cells of a mesh as triangles, polygons, strips or clusters.
+//
+// For every call
+//   Index        std::uint32_t or std::uint16_t; its largest value is no vertex.
+//   Order        patch after patch, as their numbers; within a patch row by row.
+//   Orientation  counter-clockwise about du x dv; the other way round on patches that the topology
+//                turned. What a side that is a point leaves without area is not among them.
+//   Returns      ok | null_output | output_too_small (a span is shorter than the size that the mesh
+//                needs) | size_overflow (more vertices than Index has numbers) | out_of_memory.
+//   Threads      as in Options. Allocation: scratch per thread, and 16 bytes a patch where sizes
+//   are
+//                not known from the layout.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <simdbezier/mesh_layout.hpp>
+
+namespace simdbezier {
+
+/// Writes three numbers a triangle; MeshLayout::size() says how many triangles there are.
+template <typename Index>
+[[nodiscard]] SIMDBEZIER_API Status write_triangles(const MeshLayout& layout,
+                                                    std::span<Index> triangles,
+                                                    int threads = 0) noexcept;
+
+/// What a mesh of quads and triangles needs.
+struct PolygonSize {
+  std::size_t polygons = 0;
+  std::size_t indices = 0;
+};
+[[nodiscard]] SIMDBEZIER_API Status polygon_size(const MeshLayout& layout, PolygonSize& size,
+                                                 int threads = 0) noexcept;
+
+/// Writes a quad for every cell of four vertices, triangles for all others. The certificate holds
+/// for those who cut quads between their first and third vertex.
+///
+/// indices: the vertices of all polygons. sizes: 3 or 4, one value a polygon.
+template <typename Index>
+[[nodiscard]] SIMDBEZIER_API Status write_polygons(const MeshLayout& layout,
+                                                   std::span<Index> indices,
+                                                   std::span<std::uint8_t> sizes,
+                                                   int threads = 0) noexcept;
+
+/// How many numbers write_strips() writes.
+[[nodiscard]] SIMDBEZIER_API Status strip_size(const MeshLayout& layout, std::size_t& indices,
+                                               int threads = 0) noexcept;
+
+/// Writes triangle strips; the largest value of Index ends each of them (primitive restart).
+template <typename Index>
+[[nodiscard]] SIMDBEZIER_API Status write_strips(const MeshLayout& layout, std::span<Index> indices,
+                                                 int threads = 0) noexcept;
+
+/// A group of neighbouring triangles with vertices of its own, as mesh shaders take them.
+struct MeshCluster {
+  std::uint32_t first_vertex = 0;   ///< in ClusterOutputs::vertices
+  std::uint32_t first_triangle = 0; ///< in ClusterOutputs::corners, three values each
+  std::uint32_t vertices = 0;
+  std::uint32_t triangles = 0;
+  std::uint32_t patch = 0; ///< of all of its triangles
+};
+inline constexpr std::uint32_t kMostClusterTriangles = 128;
+inline constexpr std::uint32_t kMostClusterVertices = 128;
+
+/// What clusters need.
+struct ClusterSize {
+  std::size_t clusters = 0;
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+};
+[[nodiscard]] SIMDBEZIER_API Status cluster_size(const MeshLayout& layout, ClusterSize& size,
+                                                 int threads = 0) noexcept;
+
+/// Where clusters go: as many values as ClusterSize says, three corners a triangle.
+struct ClusterOutputs {
+  std::span<MeshCluster> clusters;
+  std::span<std::uint32_t> vertices; ///< numbers of the mesh
+  std::span<std::uint8_t> corners;   ///< numbers of the cluster's vertices
+};
+
+/// Writes the mesh in clusters of at most kMostClusterTriangles triangles of one patch, in blocks
+/// of about 8 x 8 cells.
+[[nodiscard]] SIMDBEZIER_API Status write_clusters(const MeshLayout& layout,
+                                                   const ClusterOutputs& out,
+                                                   int threads = 0) noexcept;
+
+} // namespace simdbezier

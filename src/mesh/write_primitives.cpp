@@ -1,0 +1,249 @@
+// See mesh_primitives.hpp.
+#include <simdbezier/mesh_primitives.hpp>
+
+#include <atomic>
+#include <limits>
+#include <new>
+#include <vector>
+
+#include "src/mesh/cluster_sink.hpp"
+#include "src/mesh/primitive_sinks.hpp"
+#include "src/runtime/batch.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// Calls visit(patch, cutter, turned) for every patch, in parallel.
+template <typename Visit>
+Status for_cells(const MeshLayout& layout, int threads, const Visit& visit) noexcept {
+  const MeshData& mesh = *layout.data();
+  std::atomic<bool> failed = false;
+  auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
+    try {
+      PatchBoundary boundary(mesh);
+      for (std::size_t patch = begin; patch < end; ++patch) {
+        boundary.move_to(patch);
+        visit(patch, CellCutter(mesh, boundary, patch), mesh.topology.is_turned(patch));
+      }
+    } catch (const std::bad_alloc&) {
+      failed = true;
+    }
+  };
+  const std::size_t patches = mesh.nu.size();
+  for_blocks(patches, thread_count(threads, patches), BlockBody(body));
+  return failed ? Status::out_of_memory : Status::ok;
+}
+
+template <typename Index>
+Status check(const MeshLayout& layout, std::span<const Index> indices,
+             std::size_t needed) noexcept {
+  if (layout.size().vertices > std::numeric_limits<Index>::max()) {
+    return Status::size_overflow;
+  }
+  if (needed > 0 && indices.data() == nullptr) {
+    return Status::null_output;
+  }
+  return indices.size() < needed ? Status::output_too_small : Status::ok;
+}
+
+/// Sizes of all patches, summed up: sizes[p] is what stands before patch p, the last one all.
+template <typename Size, typename Count, typename Add>
+Status sum_sizes(const MeshLayout& layout, int threads, std::vector<Size>& sizes,
+                 const Count& count, const Add& add) {
+  sizes.assign(layout.data() == nullptr ? 1 : layout.data()->nu.size() + 1, Size{});
+  if (layout.data() == nullptr) {
+    return Status::ok;
+  }
+  const Status status =
+      for_cells(layout, threads, [&](std::size_t patch, const CellCutter& cells, bool turned) {
+        sizes[patch + 1] = count(patch, cells, turned);
+      });
+  for (std::size_t k = 1; k < sizes.size(); ++k) {
+    add(sizes[k - 1], sizes[k]);
+  }
+  return status;
+}
+
+Status polygon_sizes(const MeshLayout& layout, int threads, std::vector<PolygonSize>& sizes) {
+  return sum_sizes(
+      layout, threads, sizes,
+      [](std::size_t, const CellCutter& cells, bool turned) {
+        PolygonSink<std::uint32_t> sink(nullptr, nullptr, turned);
+        cells.cut(sink);
+        return PolygonSize{sink.polygons(), sink.indices()};
+      },
+      [](const PolygonSize& before, PolygonSize& sum) {
+        sum.polygons += before.polygons;
+        sum.indices += before.indices;
+      });
+}
+
+Status strip_sizes(const MeshLayout& layout, int threads, std::vector<std::size_t>& sizes) {
+  return sum_sizes(
+      layout, threads, sizes,
+      [](std::size_t, const CellCutter& cells, bool turned) {
+        StripSink<std::uint32_t> sink(nullptr, turned);
+        cells.cut(sink);
+        sink.end_strip();
+        return sink.indices();
+      },
+      [](std::size_t before, std::size_t& sum) { sum += before; });
+}
+
+constexpr std::uint32_t kClusterWidth = 8;
+
+Status cluster_sizes(const MeshLayout& layout, int threads, std::vector<ClusterSize>& sizes) {
+  return sum_sizes(
+      layout, threads, sizes,
+      [](std::size_t patch, const CellCutter& cells, bool turned) {
+        ClusterSink sink(nullptr, {}, static_cast<std::uint32_t>(patch), turned);
+        cells.cut_in_bands(kClusterWidth, sink);
+        sink.end_cluster();
+        return sink.size();
+      },
+      [](const ClusterSize& before, ClusterSize& sum) {
+        sum.clusters += before.clusters;
+        sum.vertices += before.vertices;
+        sum.triangles += before.triangles;
+      });
+}
+
+} // namespace
+} // namespace detail
+
+template <typename Index>
+Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, int threads) noexcept {
+  const std::size_t needed = 3 * layout.size().triangles;
+  const Status status = detail::check<Index>(layout, triangles, needed);
+  if (status != Status::ok || needed == 0) {
+    return status;
+  }
+  const detail::MeshData& mesh = *layout.data();
+  return detail::for_cells(
+      layout, threads, [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
+        detail::TriangleSink<Index> sink(&triangles[3 * mesh.triangles[patch]], turned);
+        cells.cut(sink);
+        // Where neighbouring sides of a patch are one edge, cells between them have fewer triangles
+        // than were counted: the last vertex in place of what is missing.
+        Index* const end = triangles.data() + 3 * mesh.triangles[patch + 1];
+        std::fill(triangles.data() + (sink.end() - triangles.data()), end,
+                  static_cast<Index>(mesh.vertices - 1));
+      });
+}
+
+Status polygon_size(const MeshLayout& layout, PolygonSize& size, int threads) noexcept try {
+  std::vector<PolygonSize> sizes;
+  const Status status = detail::polygon_sizes(layout, threads, sizes);
+  size = status == Status::ok ? sizes.back() : size;
+  return status;
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+template <typename Index>
+Status write_polygons(const MeshLayout& layout, std::span<Index> indices,
+                      std::span<std::uint8_t> sizes, int threads) noexcept try {
+  std::vector<PolygonSize> before;
+  Status status = detail::polygon_sizes(layout, threads, before);
+  if (status == Status::ok) {
+    status = detail::check<Index>(layout, indices, before.back().indices);
+  }
+  if (status == Status::ok && sizes.size() < before.back().polygons) {
+    status = sizes.data() == nullptr ? Status::null_output : Status::output_too_small;
+  }
+  if (status != Status::ok || before.back().polygons == 0) {
+    return status;
+  }
+  return detail::for_cells(
+      layout, threads, [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
+        detail::PolygonSink<Index> sink(indices.data() + before[patch].indices,
+                                        sizes.data() + before[patch].polygons, turned);
+        cells.cut(sink);
+      });
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+Status strip_size(const MeshLayout& layout, std::size_t& indices, int threads) noexcept try {
+  std::vector<std::size_t> sizes;
+  const Status status = detail::strip_sizes(layout, threads, sizes);
+  indices = status == Status::ok ? sizes.back() : indices;
+  return status;
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+template <typename Index>
+Status write_strips(const MeshLayout& layout, std::span<Index> indices, int threads) noexcept try {
+  std::vector<std::size_t> before;
+  Status status = detail::strip_sizes(layout, threads, before);
+  if (status == Status::ok) {
+    status = detail::check<Index>(layout, indices, before.back());
+  }
+  if (status != Status::ok || before.back() == 0) {
+    return status;
+  }
+  return detail::for_cells(layout, threads,
+                           [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
+                             detail::StripSink<Index> sink(indices.data() + before[patch], turned);
+                             cells.cut(sink);
+                             sink.end_strip();
+                           });
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+Status cluster_size(const MeshLayout& layout, ClusterSize& size, int threads) noexcept try {
+  std::vector<ClusterSize> sizes;
+  const Status status = detail::cluster_sizes(layout, threads, sizes);
+  size = status == Status::ok ? sizes.back() : size;
+  return status;
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+Status write_clusters(const MeshLayout& layout, const ClusterOutputs& out, int threads) noexcept
+    try {
+  std::vector<ClusterSize> before;
+  const Status status = detail::cluster_sizes(layout, threads, before);
+  const ClusterSize& all = before.back();
+  if (status != Status::ok || all.clusters == 0) {
+    return status;
+  }
+  if (out.clusters.data() == nullptr || out.vertices.data() == nullptr ||
+      out.corners.data() == nullptr) {
+    return Status::null_output;
+  }
+  if (out.clusters.size() < all.clusters || out.vertices.size() < all.vertices ||
+      out.corners.size() / 3 < all.triangles) {
+    return Status::output_too_small;
+  }
+  if (all.vertices > std::numeric_limits<std::uint32_t>::max() ||
+      all.triangles > std::numeric_limits<std::uint32_t>::max()) {
+    return Status::size_overflow;
+  }
+  return detail::for_cells(
+      layout, threads, [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
+        detail::ClusterSink sink(&out, before[patch], static_cast<std::uint32_t>(patch), turned);
+        cells.cut_in_bands(detail::kClusterWidth, sink);
+        sink.end_cluster();
+      });
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint32_t>,
+                                               int) noexcept;
+template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint16_t>,
+                                               int) noexcept;
+template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint32_t>,
+                                              std::span<std::uint8_t>, int) noexcept;
+template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint16_t>,
+                                              std::span<std::uint8_t>, int) noexcept;
+template SIMDBEZIER_API Status write_strips(const MeshLayout&, std::span<std::uint32_t>,
+                                            int) noexcept;
+template SIMDBEZIER_API Status write_strips(const MeshLayout&, std::span<std::uint16_t>,
+                                            int) noexcept;
+
+} // namespace simdbezier
