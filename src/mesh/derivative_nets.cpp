@@ -66,61 +66,89 @@ void raise_direction(VectorNet& net, bool in_u, std::size_t count) {
 
 } // namespace
 
+void HullBox::include(const VectorNet& net) {
+  for (const ControlVector& v : net.at) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      low_[c] = std::min(low_[c], v.x[c] / v.x[3]);
+      high_[c] = std::max(high_[c], v.x[c] / v.x[3]);
+    }
+    smallest_weight_ = std::min(smallest_weight_, v.x[3]);
+  }
+}
+
+void HullBox::include(const HullBox& other) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    low_[c] = std::min(low_[c], other.low_[c]);
+    high_[c] = std::max(high_[c], other.high_[c]);
+  }
+  smallest_weight_ = std::min(smallest_weight_, other.smallest_weight_);
+}
+
+Hull HullBox::hull() const {
+  constexpr double kRounding = 1 + 0x1p-40;
+  Hull hull;
+  double square = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    hull.middle[c] = low_[c] + (high_[c] - low_[c]) / 2;
+    const double half = std::max(high_[c] - hull.middle[c], hull.middle[c] - low_[c]);
+    square += half * half;
+  }
+  hull.radius = std::sqrt(square) * kRounding;
+  hull.smallest_weight = smallest_weight_ / kRounding;
+  return hull;
+}
+
+/// Control point k of a patch in space, and its weight; false where one of them is no number.
+template <typename S>
+bool read_point(const ControlNets<S>& nets, const S* values, ControlVector& to) {
+  const std::ptrdiff_t step = nets.component_stride;
+  to.x[3] = nets.weights == Weights::none ? 1 : static_cast<double>(values[3 * step]);
+  const double divisor = nets.weights == Weights::homogeneous ? to.x[3] : 1;
+  bool finite = to.x[3] > 0 && std::isfinite(to.x[3]);
+  for (std::ptrdiff_t c = 0; c < 3; ++c) {
+    to.x[c] = static_cast<double>(values[c * step]) / divisor;
+    finite = finite && std::isfinite(to.x[c]);
+  }
+  return finite;
+}
+
 template <typename S>
 bool VectorPatch::read(const ControlNets<S>& nets, std::size_t patch) {
-  const auto columns = static_cast<std::size_t>(nets.degree_u) + 1;
-  const auto rows = static_cast<std::size_t>(nets.degree_v) + 1;
-  const bool rational = nets.weights != Weights::none;
-  net.resize(columns, rows);
+  rational = nets.weights != Weights::none;
+  net.resize(static_cast<std::size_t>(nets.degree_u) + 1,
+             static_cast<std::size_t>(nets.degree_v) + 1);
+  const S* const first = nets.points + static_cast<std::ptrdiff_t>(patch) * nets.patch_stride;
   double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  smallest_weight = rational ? HUGE_VAL : 1;
-  double largest_weight = rational ? 0 : 1;
-  for (std::size_t j = 0; j < rows; ++j) {
-    for (std::size_t i = 0; i < columns; ++i) {
-      const S* const values = nets.points + static_cast<std::ptrdiff_t>(patch) * nets.patch_stride +
-                              static_cast<std::ptrdiff_t>(j) * nets.row_stride +
-                              static_cast<std::ptrdiff_t>(i) * nets.point_stride;
+  double largest_weight = 1;
+  for (std::size_t j = 0; j < net.rows; ++j) {
+    for (std::size_t i = 0; i < net.columns; ++i) {
       ControlVector& to = net(i, j);
-      to.x[3] = rational ? static_cast<double>(values[3 * nets.component_stride]) : 0;
-      if (rational && !(to.x[3] > 0 && std::isfinite(to.x[3]))) {
+      if (!read_point(nets,
+                      first + static_cast<std::ptrdiff_t>(j) * nets.row_stride +
+                          static_cast<std::ptrdiff_t>(i) * nets.point_stride,
+                      to)) {
         return false;
       }
-      const double divisor = nets.weights == Weights::homogeneous ? to.x[3] : 1;
       for (std::size_t c = 0; c < 3; ++c) {
-        to.x[c] =
-            static_cast<double>(values[static_cast<std::ptrdiff_t>(c) * nets.component_stride]) /
-            divisor;
-        if (!std::isfinite(to.x[c])) {
-          return false;
-        }
         low[c] = std::min(low[c], to.x[c]);
         high[c] = std::max(high[c], to.x[c]);
       }
-      if (rational) {
-        smallest_weight = std::min(smallest_weight, to.x[3]);
-        largest_weight = std::max(largest_weight, to.x[3]);
-      }
+      largest_weight = std::max(largest_weight, to.x[3]);
     }
   }
-  // Second derivatives do not change where the patch is moved; its middle is where values are
+  // Second derivatives do not change where the patch is moved: around its middle, values are
   // smallest.
-  double middle[3];
-  radius = 0;
   largest = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    middle[c] = low[c] + (high[c] - low[c]) / 2;
-    radius += (high[c] - middle[c]) * (high[c] - middle[c]);
+    const double middle = low[c] + (high[c] - low[c]) / 2;
     largest = std::max({largest, std::fabs(low[c]), std::fabs(high[c])});
-  }
-  radius = rational ? std::sqrt(radius) * (1 + 0x1p-40) : 0;
-  largest *= largest_weight;
-  for (ControlVector& v : net.at) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      v.x[c] = (v.x[c] - middle[c]) * (rational ? v.x[3] : 1);
+    for (ControlVector& v : net.at) {
+      v.x[c] = (v.x[c] - middle) * v.x[3];
     }
   }
-  return std::isfinite(largest) && std::isfinite(radius);
+  largest *= largest_weight;
+  return std::isfinite(largest);
 }
 
 template bool VectorPatch::read(const ControlNets<float>&, std::size_t);

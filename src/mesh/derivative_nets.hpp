@@ -45,22 +45,46 @@ struct VectorNet {
   }
 };
 
-/// One patch, as far as bounds on its triangles are concerned: the control vectors, how large a
-/// vector counts, and what the result is divided by.
+/// A box that holds a part of the surface, and the smallest of its weights. Distances from points
+/// of a rational surface S = X / w are bounded by the vectors v of X - q w, with q in the box: with
+/// its middle c and its half-diagonal R, |v_X - q v_w| <= |v_X - c v_w| + R |v_w|.
+struct Hull {
+  double middle[3] = {0, 0, 0};
+  double radius = 0;
+  double smallest_weight = 1;
+
+  [[nodiscard]] double size(const ControlVector& v) const {
+    const double x = v.x[0] - middle[0] * v.x[3];
+    const double y = v.x[1] - middle[1] * v.x[3];
+    const double z = v.x[2] - middle[2] * v.x[3];
+    return std::sqrt(x * x + y * y + z * z) + radius * std::fabs(v.x[3]);
+  }
+};
+
+/// Grows around points, and then is a Hull.
+class HullBox {
+public:
+  /// The projected points and the weights of a net.
+  void include(const VectorNet& net);
+  void include(const HullBox& other);
+  [[nodiscard]] Hull hull() const;
+
+private:
+  double low_[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  double high_[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  double smallest_weight_ = HUGE_VAL;
+};
+
+/// One patch, as far as bounds on its triangles are concerned: control points around the middle of
+/// their box, weighted where it is rational.
 struct VectorPatch {
   VectorNet net;
-  double radius = 0;          ///< R of rational patches; their fourth component counts R times
-  double smallest_weight = 1; ///< the bound is divided by it
-  double largest = 0;         ///< of all values, for rounding
+  bool rational = false;
+  double largest = 0; ///< of all values, for rounding
 
   /// Reads a patch: false where a value is not finite, or a weight not positive.
   template <typename S>
   [[nodiscard]] bool read(const ControlNets<S>& nets, std::size_t patch);
-
-  [[nodiscard]] double size(const ControlVector& v) const {
-    return std::sqrt(v.x[0] * v.x[0] + v.x[1] * v.x[1] + v.x[2] * v.x[2]) +
-           radius * std::fabs(v.x[3]);
-  }
 };
 
 /// The three second derivatives.

@@ -28,6 +28,53 @@ void raise_all(SecondNets& nets, const VectorNet& like) {
   raise_net(nets.vv, like.columns, like.rows);
 }
 
+SecondBounds measure(const SecondNets& nets, const Hull& hull) {
+  const auto most = [&](const VectorNet& net) {
+    double size = 0;
+    for (const ControlVector& v : net.at) {
+      size = std::max(size, hull.size(v));
+    }
+    return size;
+  };
+  return {most(nets.uu), most(nets.uv), most(nets.vv)};
+}
+
+/// Factors of S_uu, S_uv and S_vv in the second derivative along a cell's diagonal, and of the
+/// first and the last along its sides.
+struct CellSteps {
+  double uu;
+  double uv;
+  double vv;
+
+  explicit CellSteps(const CellCounts& cells) {
+    const double hu = slack(cells.nu) / cells.nu;
+    const double hv = slack(cells.nv) / cells.nv;
+    uu = hu * hu;
+    uv = 2 * hu * hv;
+    vv = hv * hv;
+  }
+};
+
+/// The largest second derivative along a diagonal.
+double measure_diagonal(const SecondNets& raised, const CellSteps& steps, bool falling,
+                        const Hull& hull) {
+  const double uv = falling ? -steps.uv : steps.uv;
+  double size = 0;
+  for (std::size_t k = 0; k < raised.uu.at.size(); ++k) {
+    size = std::max(size, hull.size(steps.uu * raised.uu.at[k] + uv * raised.uv.at[k] +
+                                    steps.vv * raised.vv.at[k]));
+  }
+  return size;
+}
+
+double bound_of(const CellSteps& steps, const SecondBounds& largest, double diagonal,
+                const SecondBounds& doubt, const Hull& hull) {
+  return triangle_bound(steps.uu * (largest.uu + doubt.uu), steps.vv * (largest.vv + doubt.vv),
+                        diagonal + steps.uu * doubt.uu + steps.uv * doubt.uv +
+                            steps.vv * doubt.vv) /
+         hull.smallest_weight;
+}
+
 } // namespace
 
 template <typename S>
@@ -37,85 +84,80 @@ bool PatchBound::read(const ControlNets<S>& nets, std::size_t patch, std::uint8_
     return false;
   }
   form_second_nets(patch_.net, nets_);
-  measure(nets_, whole_);
+  find_hulls();
+  largest_.fill({});
+  for (std::size_t k = 0; k < raised_.size(); ++k) {
+    SecondNets& quarter = raised_[k];
+    quarter = nets_;
+    cut_all(quarter, true, 0.5, k % 2 != 0);
+    cut_all(quarter, false, 0.5, k >= 2);
+    for (const QuarterSet set : kZones) {
+      if ((set >> k & 1) != 0) {
+        const SecondBounds part = measure(quarter, hull_of(set));
+        largest_[set].uu = std::max(largest_[set].uu, part.uu);
+        largest_[set].vv = std::max(largest_[set].vv, part.vv);
+      }
+    }
+    raise_all(quarter, patch_.net);
+  }
+  whole_ = measure(nets_, hulls_[kAll]);
   const double m = nets.degree_u;
   const double n = nets.degree_v;
   const double unit = kDifferenceError * patch_.largest;
   doubt_ = {m * (m - 1) * unit, m * n * unit, n * (n - 1) * unit};
-  for (std::size_t k = 0; k < quarters_.size(); ++k) {
-    Quarter& quarter = quarters_[k];
-    quarter.raised = nets_;
-    cut_all(quarter.raised, true, 0.5, k % 2 != 0);
-    cut_all(quarter.raised, false, 0.5, k >= 2);
-    measure(quarter.raised, quarter.largest);
-    raise_all(quarter.raised, patch_.net);
-  }
   return true;
 }
 
 template bool PatchBound::read(const ControlNets<float>&, std::size_t, std::uint8_t);
 template bool PatchBound::read(const ControlNets<double>&, std::size_t, std::uint8_t);
 
-void PatchBound::measure(const SecondNets& nets, SecondBounds& largest) const {
-  const auto most = [&](const VectorNet& net) {
-    double size = 0;
-    for (const ControlVector& v : net.at) {
-      size = std::max(size, patch_.size(v));
-    }
-    return size;
-  };
-  largest = {most(nets.uu), most(nets.uv), most(nets.vv)};
-}
-
-double PatchBound::largest_form(const SecondNets& raised, double uu, double uv, double vv) const {
-  double size = 0;
-  for (std::size_t k = 0; k < raised.uu.at.size(); ++k) {
-    size = std::max(
-        size, patch_.size(uu * raised.uu.at[k] + uv * raised.uv.at[k] + vv * raised.vv.at[k]));
+/// Polynomial patches have no weights to be bounded, and no vector depends on their hull.
+void PatchBound::find_hulls() {
+  if (!patch_.rational) {
+    hulls_[kAll] = Hull{};
+    return;
   }
-  return size;
+  HullBox boxes[4];
+  for (std::size_t k = 0; k < 4; ++k) {
+    VectorNet part = patch_.net;
+    cut_net(part, true, 0.5, k % 2 != 0);
+    cut_net(part, false, 0.5, k >= 2);
+    boxes[k].include(part);
+  }
+  for (const QuarterSet set : kZones) {
+    HullBox box;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if ((set >> k & 1) != 0) {
+        box.include(boxes[k]);
+      }
+    }
+    hulls_[set] = box.hull();
+  }
 }
 
-double PatchBound::diagonal_bound(QuarterSet quarters, const CellCounts& cells,
-                                  bool falling) const {
-  const double hu = slack(cells.nu) / cells.nu;
-  const double hv = slack(cells.nv) / cells.nv;
-  const double uu = hu * hu;
-  const double uv = 2 * hu * hv;
-  const double vv = hv * hv;
-  double a = 0;
-  double c = 0;
-  double d = 0;
-  for (std::size_t k = 0; k < quarters_.size(); ++k) {
+double PatchBound::zone_bound(QuarterSet quarters, const CellCounts& cells, bool falling) const {
+  const CellSteps steps(cells);
+  const Hull& hull = hull_of(quarters);
+  double diagonal = 0;
+  for (std::size_t k = 0; k < raised_.size(); ++k) {
     if ((quarters >> k & 1) != 0) {
-      a = std::max(a, quarters_[k].largest.uu);
-      c = std::max(c, quarters_[k].largest.vv);
-      d = std::max(d, largest_form(quarters_[k].raised, uu, falling ? -uv : uv, vv));
+      diagonal = std::max(diagonal, measure_diagonal(raised_[k], steps, falling, hull));
     }
   }
-  return triangle_bound(uu * (a + doubt_.uu), vv * (c + doubt_.vv),
-                        d + uu * doubt_.uu + uv * doubt_.uv + vv * doubt_.vv);
+  return bound_of(steps, largest_[quarters], diagonal, doubt_, hull);
 }
 
 double PatchBound::corner_bound(std::size_t corner, const CellCounts& cells) const {
-  const double hu = slack(cells.nu) / cells.nu;
-  const double hv = slack(cells.nv) / cells.nv;
+  const CellSteps steps(cells);
   SecondNets nets = nets_;
-  if (cells.nu > 1) {
-    cut_all(nets, true, corner % 2 != 0 ? 1 - hu : hu, corner % 2 != 0);
-  }
-  if (cells.nv > 1) {
-    cut_all(nets, false, corner >= 2 ? 1 - hv : hv, corner >= 2);
-  }
-  SecondBounds largest;
-  measure(nets, largest);
+  const double hu = std::min(1.0, slack(cells.nu) / cells.nu);
+  const double hv = std::min(1.0, slack(cells.nv) / cells.nv);
+  cut_all(nets, true, corner % 2 != 0 ? 1 - hu : hu, corner % 2 != 0);
+  cut_all(nets, false, corner >= 2 ? 1 - hv : hv, corner >= 2);
+  const Hull& hull = hull_of(kAll);
+  const SecondBounds largest = measure(nets, hull);
   raise_all(nets, patch_.net);
-  const double uu = hu * hu;
-  const double uv = 2 * hu * hv;
-  const double vv = hv * hv;
-  const double d = largest_form(nets, uu, falls(corner) ? -uv : uv, vv);
-  return triangle_bound(uu * (largest.uu + doubt_.uu), vv * (largest.vv + doubt_.vv),
-                        d + uu * doubt_.uu + uv * doubt_.uv + vv * doubt_.vv);
+  return bound_of(steps, largest, measure_diagonal(nets, steps, falls(corner), hull), doubt_, hull);
 }
 
 double PatchBound::bound(const CellCounts& cells, std::uint16_t* diagonals) const {
@@ -132,8 +174,8 @@ double PatchBound::bound(const CellCounts& cells, std::uint16_t* diagonals) cons
         continue;
       }
       const QuarterSet quarters = kHalves[zone_u] & kRows[zone_v];
-      const double rising_bound = diagonal_bound(quarters, cells, false);
-      const double falling_bound = diagonal_bound(quarters, cells, true);
+      const double rising_bound = zone_bound(quarters, cells, false);
+      const double falling_bound = zone_bound(quarters, cells, true);
       if (!(rising_bound < falling_bound)) {
         falling = static_cast<std::uint16_t>(falling | 1U << (3 * zone_v + zone_u));
       }
@@ -148,11 +190,12 @@ double PatchBound::bound(const CellCounts& cells, std::uint16_t* diagonals) cons
   if (diagonals != nullptr) {
     *diagonals = falling;
   }
-  return worst * kRounding / patch_.smallest_weight;
+  return worst * kRounding;
 }
 
 CellCounts PatchBound::filip(double t, std::uint32_t most) const {
-  const double limit = 8 * t * patch_.smallest_weight / (kRounding * slack(most) * slack(most));
+  const double limit =
+      8 * t * hulls_[kAll].smallest_weight / (kRounding * slack(most) * slack(most));
   const double a = whole_.uu + doubt_.uu;
   const double b = whole_.uv + doubt_.uv;
   const double c = whole_.vv + doubt_.vv;
@@ -224,20 +267,21 @@ CellCounts PatchBound::choose(double t, std::uint32_t most) const {
 }
 
 std::array<double, 2> PatchBound::lengths() const {
+  const Hull& hull = hulls_[kAll];
   std::array<double, 2> longest{};
   for (std::size_t j = 0; j < patch_.net.rows; ++j) {
     for (std::size_t i = 0; i < patch_.net.columns; ++i) {
       const ControlVector& at = patch_.net(i, j);
       if (i > 0) {
-        longest[0] = std::max(longest[0], patch_.size(at - patch_.net(i - 1, j)));
+        longest[0] = std::max(longest[0], hull.size(at - patch_.net(i - 1, j)));
       }
       if (j > 0) {
-        longest[1] = std::max(longest[1], patch_.size(at - patch_.net(i, j - 1)));
+        longest[1] = std::max(longest[1], hull.size(at - patch_.net(i, j - 1)));
       }
     }
   }
-  longest[0] *= static_cast<double>(patch_.net.columns - 1) / patch_.smallest_weight;
-  longest[1] *= static_cast<double>(patch_.net.rows - 1) / patch_.smallest_weight;
+  longest[0] *= static_cast<double>(patch_.net.columns - 1) / hull.smallest_weight;
+  longest[1] *= static_cast<double>(patch_.net.rows - 1) / hull.smallest_weight;
   return longest;
 }
 

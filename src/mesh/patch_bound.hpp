@@ -28,29 +28,28 @@ public:
   [[nodiscard]] std::array<double, 2> lengths() const;
 
 private:
-  /// One of the four quarters, number 2 * (half of v) + (half of u).
-  struct Quarter {
-    SecondNets raised; ///< all three to the patch's degrees
-    SecondBounds largest;
-  };
-  using QuarterSet = unsigned; ///< a bit each
+  /// Of the four quarters, number 2 * (half of v) + (half of u): a bit each.
+  using QuarterSet = unsigned;
   static constexpr QuarterSet kAll = 15;
+  /// Quarters, halves, all: what a zone of cells lies in.
+  static constexpr QuarterSet kZones[] = {1, 2, 4, 8, 3, 12, 5, 10, kAll};
 
-  void measure(const SecondNets& nets, SecondBounds& largest) const;
-  /// The largest of uu S_uu + uv S_uv + vv S_vv.
-  [[nodiscard]] double largest_form(const SecondNets& raised, double uu, double uv,
-                                    double vv) const;
-  [[nodiscard]] double diagonal_bound(QuarterSet quarters, const CellCounts& cells,
-                                      bool falling) const;
+  void find_hulls();
+  [[nodiscard]] const Hull& hull_of(QuarterSet quarters) const {
+    return hulls_[patch_.rational ? quarters : kAll];
+  }
+  [[nodiscard]] double zone_bound(QuarterSet quarters, const CellCounts& cells, bool falling) const;
   [[nodiscard]] double corner_bound(std::size_t corner, const CellCounts& cells) const;
   [[nodiscard]] CellCounts filip(double t, std::uint32_t most) const;
 
   VectorPatch patch_;
   std::uint8_t flags_ = 0;
-  SecondNets nets_;      ///< of the whole patch
-  SecondBounds whole_{}; ///< their largest vectors
-  SecondBounds doubt_{}; ///< what rounding may have taken from the largest vectors
-  std::array<Quarter, 4> quarters_;
+  SecondNets nets_;                  ///< of the whole patch
+  SecondBounds whole_{};             ///< their largest vectors
+  SecondBounds doubt_{};             ///< what rounding may have taken from the largest vectors
+  std::array<SecondNets, 4> raised_; ///< of the quarters, all to the patch's degrees
+  std::array<SecondBounds, kAll + 1> largest_; ///< of the sets in kZones
+  std::array<Hull, kAll + 1> hulls_;           ///< of sets of quarters
 };
 
 } // namespace simdbezier::detail

@@ -1,0 +1,327 @@
+// The certificate of rates against dense samples of patches of every kind, by an evaluation and a
+// distance of the test's own.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/rates.hpp>
+
+namespace simdbezier::tests {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// One patch: values x y z (w) of its control points, u fastest.
+struct TestPatch {
+  std::string name;
+  int degree_u = 3;
+  int degree_v = 3;
+  Weights weights = Weights::none;
+  std::vector<double> values;
+
+  [[nodiscard]] std::size_t channels() const { return weights == Weights::none ? 3 : 4; }
+  [[nodiscard]] ControlNets<double> nets() const {
+    return ControlNets<double>::packed(values.data(), 1, degree_u, degree_v, 3, weights);
+  }
+  [[nodiscard]] Point at(double u, double v) const;
+};
+
+/// Bernstein polynomials by their recurrence.
+std::vector<double> bernstein(int degree, double t) {
+  std::vector<double> b(static_cast<std::size_t>(degree) + 1);
+  b[0] = 1;
+  for (std::size_t n = 1; n < b.size(); ++n) {
+    for (std::size_t i = n + 1; i-- > 0;) {
+      b[i] = (i < n ? (1 - t) * b[i] : 0) + (i > 0 ? t * b[i - 1] : 0);
+    }
+  }
+  return b;
+}
+
+Point TestPatch::at(double u, double v) const {
+  const std::vector<double> bu = bernstein(degree_u, u);
+  const std::vector<double> bv = bernstein(degree_v, v);
+  Point sum{};
+  double weight = 0;
+  for (std::size_t j = 0; j < bv.size(); ++j) {
+    for (std::size_t i = 0; i < bu.size(); ++i) {
+      const double* const p = &values[channels() * (j * bu.size() + i)];
+      const double b = bu[i] * bv[j];
+      const double w = weights == Weights::none ? 1 : p[3];
+      const double factor = weights == Weights::homogeneous ? b : b * w;
+      sum = sum + factor * Point{p[0], p[1], p[2]};
+      weight += b * w;
+    }
+  }
+  return (1 / weight) * sum;
+}
+
+/// Squared distance of a point from a triangle: to the plane where the foot lies inside, else to
+/// the nearest side.
+double distance_squared(const Point& p, const std::array<Point, 3>& t) {
+  const Point e = t[1] - t[0];
+  const Point f = t[2] - t[0];
+  const Point d = p - t[0];
+  const double ee = dot(e, e);
+  const double ef = dot(e, f);
+  const double ff = dot(f, f);
+  const double determinant = ee * ff - ef * ef;
+  const double s = (dot(d, e) * ff - dot(d, f) * ef) / determinant;
+  const double r = (dot(d, f) * ee - dot(d, e) * ef) / determinant;
+  if (determinant > 0 && s >= 0 && r >= 0 && s + r <= 1) {
+    const Point foot = d - (s * e + r * f);
+    return dot(foot, foot);
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point side = t[(k + 1) % 3] - t[k];
+    const Point from = p - t[k];
+    const double length = dot(side, side);
+    const double along = length > 0 ? std::clamp(dot(from, side) / length, 0.0, 1.0) : 0;
+    const Point rest = from - along * side;
+    least = std::min(least, dot(rest, rest));
+  }
+  return least;
+}
+
+TestPatch random_patch(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  TestPatch patch;
+  const bool usual = seed % 2 == 0;
+  patch.degree_u = usual ? 3 : 1 + static_cast<int>(random() % 8);
+  patch.degree_v = usual ? 3 : 1 + static_cast<int>(random() % 8);
+  constexpr Weights kForms[] = {Weights::none, Weights::cartesian, Weights::homogeneous};
+  patch.weights = kForms[seed / 2 % 3];
+  const double roughness = std::pow(10, uniform(random));
+  const double spread = 1 + 4 * std::fabs(uniform(random));
+  for (int j = 0; j <= patch.degree_v; ++j) {
+    for (int i = 0; i <= patch.degree_u; ++i) {
+      const double w = patch.weights == Weights::none ? 1 : std::exp(uniform(random)) * spread;
+      const Point p = {3.0 * i + roughness * uniform(random), 2.0 * j + roughness * uniform(random),
+                       roughness * uniform(random)};
+      const double factor = patch.weights == Weights::homogeneous ? w : 1;
+      patch.values.insert(patch.values.end(), {factor * p[0], factor * p[1], factor * p[2]});
+      if (patch.weights != Weights::none) {
+        patch.values.push_back(w);
+      }
+    }
+  }
+  patch.name = "patch " + std::to_string(seed) + ", degrees " + std::to_string(patch.degree_u) +
+               " " + std::to_string(patch.degree_v) + ", weights " +
+               std::to_string(static_cast<int>(patch.weights));
+  return patch;
+}
+
+struct Choice {
+  std::array<std::uint32_t, 1> nu{1};
+  std::array<std::uint32_t, 1> nv{1};
+  std::array<std::uint16_t, 1> diagonals{};
+  std::array<double, 1> deviation{};
+
+  [[nodiscard]] CertifiedRates out() { return {nu, nv, diagonals, deviation}; }
+};
+
+Topology topology_of(const TestPatch& patch) {
+  Topology topology;
+  EXPECT_EQ(find_topology(patch.nets(), topology), Status::ok);
+  return topology;
+}
+
+/// Vertices of a mesh of one patch whose sides are all different, in the documented order.
+std::vector<Point> vertices_of(const TestPatch& patch, std::uint32_t nu, std::uint32_t nv) {
+  std::vector<Point> points = {patch.at(0, 0), patch.at(1, 0), patch.at(0, 1), patch.at(1, 1)};
+  const auto add = [&](std::uint32_t i, std::uint32_t j) {
+    points.push_back(patch.at(static_cast<double>(i) / nu, static_cast<double>(j) / nv));
+  };
+  for (const std::uint32_t j : {0U, nv}) {
+    for (std::uint32_t i = 1; i < nu; ++i) {
+      add(i, j);
+    }
+  }
+  for (const std::uint32_t i : {0U, nu}) {
+    for (std::uint32_t j = 1; j < nv; ++j) {
+      add(i, j);
+    }
+  }
+  for (std::uint32_t j = 1; j < nv; ++j) {
+    for (std::uint32_t i = 1; i < nu; ++i) {
+      add(i, j);
+    }
+  }
+  return points;
+}
+
+/// The largest distance of dense samples from the mesh.
+double found_deviation(const TestPatch& patch, const Topology& topology, const Choice& choice) {
+  MeshLayout layout;
+  EXPECT_EQ(lay_out_mesh(topology, {choice.nu, choice.nv, choice.diagonals}, layout), Status::ok);
+  std::vector<std::uint32_t> numbers(3 * layout.size().triangles);
+  EXPECT_EQ(write_triangles(layout, std::span(numbers), 1), Status::ok);
+  const std::vector<Point> vertices = vertices_of(patch, choice.nu[0], choice.nv[0]);
+  EXPECT_EQ(vertices.size(), layout.size().vertices);
+  std::vector<std::array<Point, 3>> triangles;
+  for (std::size_t k = 0; k < numbers.size(); k += 3) {
+    triangles.push_back({vertices[numbers[k]], vertices[numbers[k + 1]], vertices[numbers[k + 2]]});
+  }
+  constexpr std::uint32_t kInCell = 4;
+  double worst = 0;
+  for (std::uint32_t j = 0; j <= kInCell * choice.nv[0]; ++j) {
+    for (std::uint32_t i = 0; i <= kInCell * choice.nu[0]; ++i) {
+      const Point p = patch.at(static_cast<double>(i) / (kInCell * choice.nu[0]),
+                               static_cast<double>(j) / (kInCell * choice.nv[0]));
+      double least = std::numeric_limits<double>::infinity();
+      for (const auto& triangle : triangles) {
+        least = std::min(least, distance_squared(p, triangle));
+        if (least <= worst) {
+          break;
+        }
+      }
+      worst = std::max(worst, least);
+    }
+  }
+  return std::sqrt(worst);
+}
+
+TEST(Rates, chosen_meshes_are_within_their_bound_and_that_within_the_tolerance) {
+  std::vector<double> ratios;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const TestPatch patch = random_patch(seed);
+    SCOPED_TRACE(patch.name);
+    const Topology topology = topology_of(patch);
+    for (const double tolerance : {1.0, 0.1, 0.02}) {
+      Choice choice;
+      RateOptions options;
+      options.tolerance = tolerance;
+      const ControlNets<double> nets = patch.nets();
+      const RateReport report = choose_rates(std::span<const ControlNets<double>>(&nets, 1),
+                                             topology, options, choice.out());
+      ASSERT_EQ(report.status, Status::ok);
+      EXPECT_LE(choice.deviation[0], tolerance);
+      if (choice.nu[0] * choice.nv[0] > 150) {
+        continue; // the distance of every sample from every triangle takes too long
+      }
+      const double found = found_deviation(patch, topology, choice);
+      EXPECT_LE(found, choice.deviation[0]);
+      if (patch.weights == Weights::none) {
+        ratios.push_back(choice.deviation[0] / found);
+      }
+    }
+  }
+  std::sort(ratios.begin(), ratios.end());
+  EXPECT_LT(ratios[ratios.size() / 2], 2.5); // a bound of no use would pass everything above
+  EXPECT_GT(ratios.size(), 20U);
+}
+
+TEST(Rates, given_rates_are_certified) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const TestPatch patch = random_patch(seed);
+    SCOPED_TRACE(patch.name);
+    const Topology topology = topology_of(patch);
+    for (const std::array<std::uint32_t, 2> rates :
+         {std::array{1U, 1U}, {2U, 1U}, {1U, 3U}, {3U, 3U}, {4U, 7U}, {9U, 2U}}) {
+      Choice choice;
+      choice.nu[0] = rates[0];
+      choice.nv[0] = rates[1];
+      const ControlNets<double> nets = patch.nets();
+      ASSERT_EQ(
+          certify_rates(std::span<const ControlNets<double>>(&nets, 1), topology, {}, choice.out())
+              .status,
+          Status::ok);
+      EXPECT_LE(found_deviation(patch, topology, choice), choice.deviation[0]);
+    }
+  }
+}
+
+/// The patch with u and v exchanged, or one of them reversed.
+TestPatch turned(const TestPatch& patch, bool transpose, bool reverse) {
+  TestPatch result = patch;
+  const int m = patch.degree_u;
+  const int n = patch.degree_v;
+  if (transpose) {
+    std::swap(result.degree_u, result.degree_v);
+  }
+  const std::size_t channels = patch.channels();
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= m; ++i) {
+      const int k = reverse ? m - i : i;
+      const auto from = channels * static_cast<std::size_t>(j * (m + 1) + i);
+      const auto to =
+          channels * static_cast<std::size_t>(transpose ? k * (n + 1) + j : j * (m + 1) + k);
+      std::copy_n(&patch.values[from], channels, &result.values[to]);
+    }
+  }
+  return result;
+}
+
+TEST(Rates, turned_patches_have_turned_rates) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const TestPatch patch = random_patch(seed);
+    SCOPED_TRACE(patch.name);
+    const auto choose = [](const TestPatch& of) {
+      Choice choice;
+      RateOptions options;
+      options.tolerance = 0.05;
+      const ControlNets<double> nets = of.nets();
+      EXPECT_TRUE(choose_rates(std::span<const ControlNets<double>>(&nets, 1), topology_of(of),
+                               options, choice.out()));
+      return choice;
+    };
+    const Choice original = choose(patch);
+    const Choice reversed = choose(turned(patch, false, true));
+    const Choice transposed = choose(turned(patch, true, false));
+    const double cells = 1.0 * original.nu[0] * original.nv[0];
+    EXPECT_EQ(cells, 1.0 * reversed.nu[0] * reversed.nv[0]);
+    EXPECT_EQ(cells, 1.0 * transposed.nu[0] * transposed.nv[0]);
+  }
+}
+
+TEST(Rates, bad_input_is_a_status) {
+  const TestPatch patch = random_patch(0);
+  const Topology topology = topology_of(patch);
+  const ControlNets<double> nets = patch.nets();
+  const std::span<const ControlNets<double>> sets(&nets, 1);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Choice choice;
+  RateOptions options;
+  for (const double tolerance : {0.0, -1.0, nan, 1e-12}) { // the last one needs too many cells
+    options.tolerance = tolerance;
+    const RateReport report = choose_rates(sets, topology, options, choice.out());
+    EXPECT_EQ(report.status, Status::bad_tolerance) << tolerance;
+    EXPECT_EQ(report.patch, 0U);
+  }
+  options.tolerance = 0.1;
+  const std::array<double, 1> errors = {0.1};
+  options.errors = errors;
+  EXPECT_EQ(choose_rates(sets, topology, options, choice.out()).status, Status::bad_tolerance);
+  options.errors = {};
+  options.longest_edge = 0;
+  EXPECT_EQ(choose_rates(sets, topology, options, choice.out()).status, Status::bad_tolerance);
+  options.longest_edge = std::numeric_limits<double>::infinity();
+  CertifiedRates out = choice.out();
+  out.nu = {};
+  EXPECT_EQ(choose_rates(sets, topology, options, out).status, Status::bad_rates);
+  EXPECT_EQ(choose_rates(sets, Topology(), options, choice.out()).status, Status::bad_rates);
+  choice.nu[0] = 0;
+  EXPECT_EQ(certify_rates(sets, topology, {}, choice.out()).status, Status::bad_rates);
+  TestPatch broken = patch;
+  broken.values[7] = nan;
+  const ControlNets<double> bad = broken.nets();
+  EXPECT_EQ(
+      choose_rates(std::span<const ControlNets<double>>(&bad, 1), topology, options, choice.out())
+          .status,
+      Status::non_finite_input);
+}
+
+} // namespace
+} // namespace simdbezier::tests
