@@ -3,12 +3,14 @@
 #include "kernels/nets/net_boxes.hpp"
 #include "kernels/nets/net_flatness.hpp"
 #include "kernels/nets/net_maps.hpp"
+#include "kernels/nets/net_rates.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 template <typename T>
 constexpr detail::NetTable<T> make_net_table() {
-  return {split_kernel<T>, segment_kernel<T>, map_kernel<T>, box_kernel<T>, flatness_kernel<T>};
+  return {split_kernel<T>, segment_kernel<T>,  map_kernel<T>,
+          box_kernel<T>,   flatness_kernel<T>, rate_kernel<T>};
 }
 
 extern const detail::NetTable<float> net_table_f32;

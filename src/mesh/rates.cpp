@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <new>
+#include <vector>
 
 #include <simdbezier/bounds.hpp>
 #include <simdbezier/certificate.hpp>
@@ -12,51 +13,11 @@
 #include "src/mesh/patch_bound.hpp"
 #include "src/mesh/topology_data.hpp"
 #include "src/nets/net_call.hpp"
+#include "src/tables/rate_task.hpp"
 
 namespace simdbezier {
 namespace detail {
 namespace {
-
-/// Visits every patch of all views with a bound of its own, in parallel: visit(patch, bound)
-/// returns a status. The report names the lowest patch at fault.
-template <typename S, typename Visit>
-RateReport for_patches(std::span<const ControlNets<S>> sets, const TopologyData& topology,
-                       int threads, const Visit& visit) noexcept {
-  std::size_t first = 0;
-  for (const ControlNets<S>& nets : sets) {
-    std::atomic<std::size_t> fault = nets.count;
-    std::atomic<bool> memory = false;
-    std::atomic<Status> status = Status::ok;
-    auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
-      try {
-        PatchBound bound;
-        for (std::size_t patch = begin; patch < end && patch < fault; ++patch) {
-          const Status found = bound.read(nets, patch, topology.flags[first + patch])
-                                   ? visit(first + patch, bound)
-                                   : Status::non_finite_input;
-          if (found != Status::ok) {
-            std::size_t lowest = fault;
-            while (patch < lowest && !fault.compare_exchange_weak(lowest, patch)) {
-            }
-            status = found;
-            return;
-          }
-        }
-      } catch (const std::bad_alloc&) {
-        memory = true;
-      }
-    };
-    for_blocks(nets.count, thread_count(threads, nets.count), BlockBody(body));
-    if (memory) {
-      return {Status::out_of_memory};
-    }
-    if (fault < nets.count) {
-      return {status, first + fault};
-    }
-    first += nets.count;
-  }
-  return {};
-}
 
 template <typename S>
 RateReport check(std::span<const ControlNets<S>> sets, const Topology& topology,
@@ -82,10 +43,6 @@ RateReport check(std::span<const ControlNets<S>> sets, const Topology& topology,
   return {};
 }
 
-double error_of(std::span<const double> errors, std::size_t patch) {
-  return errors.empty() ? 0 : errors[patch];
-}
-
 /// Rates for the lengths of control polygons.
 CellCounts at_least(const CellCounts& cells, const std::array<double, 2>& lengths, double edge) {
   const auto segments = [&](std::uint32_t n, double length) {
@@ -95,29 +52,193 @@ CellCounts at_least(const CellCounts& cells, const std::array<double, 2>& length
   return {segments(cells.nu, lengths[0]), segments(cells.nv, lengths[1])};
 }
 
-std::uint32_t most_segments(const RateOptions& options) {
-  return std::clamp(options.most_segments, 1U, kMostSegments);
-}
-
-/// The bound does not fall with every step, so that rates that were raised are looked at again.
-Status raise_until(const PatchBound& bound, double t, const RateOptions& options,
-                   CellCounts& cells) {
-  const std::uint32_t most = most_segments(options);
-  while (cells.nu <= most && cells.nv <= most && !(bound.bound(cells) <= t)) {
-    ++cells.nu;
-    ++cells.nv;
+/// One call: bicubic polynomial patches go to a kernel, and what it leaves to PatchBound.
+template <typename S>
+class RateCall {
+public:
+  RateCall(std::span<const ControlNets<S>> sets, const Topology& topology,
+           const RateOptions& options, const CertifiedRates& out)
+      : sets_(sets), flags_(topology.data()->flags), options_(options), out_(out),
+        most_(std::clamp(options.most_segments, 1U, kMostSegments)) {
+    deviations_ = out.deviation;
+    if (deviations_.empty()) {
+      own_deviations_.resize(out.nu.size());
+      deviations_ = own_deviations_;
+    }
   }
-  return cells.nu <= most && cells.nv <= most ? Status::ok : Status::bad_tolerance;
-}
 
-Status choose(const PatchBound& bound, double t, const RateOptions& options, CellCounts& cells) {
-  if (!(t > 0) || !(options.longest_edge > 0)) {
-    return Status::bad_tolerance;
+  RateReport choose() {
+    const RateReport ran = run_kernels(true);
+    if (!ran) {
+      return ran;
+    }
+    const bool lengths = std::isfinite(options_.longest_edge);
+    const auto is_open = [&](std::size_t patch, bool kernel) {
+      return !kernel || lengths || has_corner(patch) || out_.nu[patch] == kUndecided;
+    };
+    const RateReport report = for_patches(is_open, [&](std::size_t patch, const PatchBound& bound) {
+      const double t = tolerance(patch);
+      if (!(t > 0)) {
+        return Status::bad_tolerance;
+      }
+      const CellCounts least = bound.choose(t, most_);
+      put(patch, at_least(least, bound.lengths(), options_.longest_edge));
+      return raise_until(patch, bound, t);
+    });
+    return report ? first_beyond() : report;
   }
-  const CellCounts least = bound.choose(t, most_segments(options));
-  cells = at_least(least, bound.lengths(), options.longest_edge);
-  return raise_until(bound, t, options, cells);
-}
+
+  /// Where rates have been raised, the bound is looked at again: it does not fall with every step.
+  RateReport settle(bool& changed) {
+    const RateReport certified = certify();
+    if (!certified) {
+      return certified;
+    }
+    std::atomic<bool> any = false;
+    const auto exceeds = [&](std::size_t patch, bool) {
+      return !(deviations_[patch] <= wanted(patch));
+    };
+    const RateReport report = for_patches(exceeds, [&](std::size_t patch, const PatchBound& bound) {
+      any = true;
+      return raise_until(patch, bound, tolerance(patch));
+    });
+    changed = any;
+    return report;
+  }
+
+  RateReport certify() {
+    for (std::size_t patch = 0; patch < out_.nu.size(); ++patch) {
+      const auto is_rate = [](std::uint32_t n) { return n >= 1 && n <= kMostSegments; };
+      if (!is_rate(out_.nu[patch]) || !is_rate(out_.nv[patch])) {
+        return {Status::bad_rates, patch};
+      }
+    }
+    const RateReport ran = run_kernels(false);
+    if (!ran) {
+      return ran;
+    }
+    const auto is_open = [&](std::size_t patch, bool kernel) {
+      return !kernel || has_corner(patch) || deviations_[patch] < 0;
+    };
+    return for_patches(is_open, [&](std::size_t patch, const PatchBound& bound) {
+      const CellCounts cells{out_.nu[patch], out_.nv[patch]};
+      deviations_[patch] = bound.bound(cells, &out_.diagonals[patch]) + error(patch);
+      return Status::ok;
+    });
+  }
+
+private:
+  static bool suits_kernel(const ControlNets<S>& nets) {
+    return nets.degree_u == 3 && nets.degree_v == 3 && nets.weights == Weights::none;
+  }
+  [[nodiscard]] bool has_corner(std::size_t patch) const { return (flags_[patch] & 15) != 0; }
+  [[nodiscard]] double error(std::size_t patch) const {
+    return options_.errors.empty() ? 0 : options_.errors[patch];
+  }
+  [[nodiscard]] double wanted(std::size_t patch) const {
+    return options_.tolerances.empty() ? options_.tolerance : options_.tolerances[patch];
+  }
+  [[nodiscard]] double tolerance(std::size_t patch) const { return wanted(patch) - error(patch); }
+
+  void put(std::size_t patch, const CellCounts& cells) {
+    out_.nu[patch] = cells.nu;
+    out_.nv[patch] = cells.nv;
+  }
+  Status raise_until(std::size_t patch, const PatchBound& bound, double t) {
+    CellCounts cells{out_.nu[patch], out_.nv[patch]};
+    while (cells.nu <= most_ && cells.nv <= most_ && !(bound.bound(cells) <= t)) {
+      ++cells.nu;
+      ++cells.nv;
+    }
+    put(patch, cells);
+    return cells.nu <= most_ && cells.nv <= most_ ? Status::ok : Status::bad_tolerance;
+  }
+  /// The first patch whose tolerance a kernel could not meet.
+  [[nodiscard]] RateReport first_beyond() const {
+    for (std::size_t patch = 0; patch < out_.nu.size(); ++patch) {
+      if (out_.nu[patch] - 1 >= most_ || out_.nv[patch] - 1 >= most_) {
+        return {Status::bad_tolerance, patch};
+      }
+    }
+    return {};
+  }
+
+  RateReport run_kernels(bool choose) {
+    std::size_t first = 0;
+    Options run;
+    run.threads = options_.threads;
+    for (const ControlNets<S>& nets : sets_) {
+      const NetReport fault = find_fault(nets, options_.threads);
+      if (!fault) {
+        return {fault.status, first + fault.patch};
+      }
+      if (suits_kernel(nets) && nets.count > 0) {
+        RateTask<S> task{};
+        task.in = view_of(nets);
+        task.choose = choose;
+        task.tolerance = options_.tolerance;
+        task.tolerances = options_.tolerances.empty() ? nullptr : &options_.tolerances[first];
+        task.errors = options_.errors.empty() ? nullptr : &options_.errors[first];
+        task.most = most_;
+        task.nu = &out_.nu[first];
+        task.nv = &out_.nv[first];
+        task.diagonals = &out_.diagonals[first];
+        task.deviations = &deviations_[first];
+        const Status status =
+            run_net_kernel<S, RateTask<S>>(&NetTable<S>::rates, task, nets.count, kRateValues, run);
+        if (status != Status::ok) {
+          return {status};
+        }
+      }
+      first += nets.count;
+    }
+    return {};
+  }
+
+  /// Calls visit(patch, bound) for all patches with is_open(patch, whether a kernel has seen it),
+  /// in parallel; the report names the lowest one at fault.
+  template <typename IsOpen, typename Visit>
+  RateReport for_patches(const IsOpen& is_open, const Visit& visit) {
+    std::size_t first = 0;
+    for (const ControlNets<S>& nets : sets_) {
+      std::vector<std::uint32_t> open;
+      for (std::size_t patch = 0; patch < nets.count; ++patch) {
+        if (is_open(first + patch, suits_kernel(nets))) {
+          open.push_back(static_cast<std::uint32_t>(patch));
+        }
+      }
+      std::vector<Status> found(open.size(), Status::ok);
+      auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
+        try {
+          PatchBound bound;
+          for (std::size_t k = begin; k < end; ++k) {
+            const std::size_t patch = first + open[k];
+            found[k] = bound.read(nets, open[k], flags_[patch]) ? visit(patch, bound)
+                                                                : Status::non_finite_input;
+          }
+        } catch (const std::bad_alloc&) {
+          found[begin] = Status::out_of_memory;
+        }
+      };
+      for_blocks(open.size(), thread_count(options_.threads, open.size()), BlockBody(body));
+      for (std::size_t k = 0; k < open.size(); ++k) {
+        if (found[k] != Status::ok) {
+          return {found[k], first + open[k]};
+        }
+      }
+      first += nets.count;
+    }
+    return {};
+  }
+
+  std::span<const ControlNets<S>> sets_;
+  const std::vector<std::uint8_t>& flags_;
+  const RateOptions& options_;
+  const CertifiedRates& out_;
+  std::uint32_t most_;
+  std::span<double> deviations_;
+  std::vector<double> own_deviations_;
+};
 
 } // namespace
 } // namespace detail
@@ -140,28 +261,22 @@ template SIMDBEZIER_API Status position_errors(const PatchSet<double>&, std::spa
 template <typename S>
 RateReport certify_rates(std::span<const ControlNets<S>> sets, const Topology& topology,
                          std::span<const double> errors, const CertifiedRates& rates,
-                         int threads) noexcept {
+                         int threads) noexcept try {
   const RateReport checked = detail::check(sets, topology, errors, rates);
   if (!checked || rates.nu.empty()) {
     return checked;
   }
-  return detail::for_patches(
-      sets, *topology.data(), threads, [&](std::size_t patch, const detail::PatchBound& bound) {
-        const detail::CellCounts cells{rates.nu[patch], rates.nv[patch]};
-        if (cells.nu < 1 || cells.nu > kMostSegments || cells.nv < 1 || cells.nv > kMostSegments) {
-          return Status::bad_rates;
-        }
-        const double deviation = bound.bound(cells, &rates.diagonals[patch]);
-        if (!rates.deviation.empty()) {
-          rates.deviation[patch] = deviation + detail::error_of(errors, patch);
-        }
-        return Status::ok;
-      });
+  RateOptions options;
+  options.errors = errors;
+  options.threads = threads;
+  return detail::RateCall<S>(sets, topology, options, rates).certify();
+} catch (const std::bad_alloc&) {
+  return {Status::out_of_memory};
 }
 
 template <typename S>
 RateReport choose_rates(std::span<const ControlNets<S>> sets, const Topology& topology,
-                        const RateOptions& options, const CertifiedRates& out) noexcept {
+                        const RateOptions& options, const CertifiedRates& out) noexcept try {
   const RateReport checked = detail::check(sets, topology, options.errors, out);
   if (!checked || out.nu.empty()) {
     return checked;
@@ -169,49 +284,23 @@ RateReport choose_rates(std::span<const ControlNets<S>> sets, const Topology& to
   if (!options.tolerances.empty() && options.tolerances.size() != out.nu.size()) {
     return {Status::bad_rates};
   }
-  const auto tolerance = [&](std::size_t patch) {
-    return (options.tolerances.empty() ? options.tolerance : options.tolerances[patch]) -
-           detail::error_of(options.errors, patch);
-  };
-  const auto one = [&](std::size_t patch, const detail::PatchBound& bound) {
-    detail::CellCounts cells{};
-    const Status status = detail::choose(bound, tolerance(patch), options, cells);
-    out.nu[patch] = cells.nu;
-    out.nv[patch] = cells.nv;
-    return status;
-  };
-  const RateReport chosen = detail::for_patches(sets, *topology.data(), options.threads, one);
-  if (!chosen) {
-    return chosen;
+  if (!(options.longest_edge > 0)) {
+    return {Status::bad_tolerance};
   }
+  detail::RateCall<S> call(sets, topology, options, out);
+  RateReport report = call.choose();
   // Raising rates of one patch can bring it next to another in the same way, or its bound up.
-  for (;;) {
+  for (bool changed = true; report && changed;) {
     std::size_t raised = 0;
-    const Status separated = separate_vertices(topology, out.nu, out.nv, raised);
-    if (separated != Status::ok) {
-      return {separated};
-    }
-    std::atomic<bool> changed = false;
-    const auto settle = [&](std::size_t patch, const detail::PatchBound& bound) {
-      detail::CellCounts cells{out.nu[patch], out.nv[patch]};
-      const Status status = detail::raise_until(bound, tolerance(patch), options, cells);
-      changed = changed || cells.nu != out.nu[patch] || cells.nv != out.nv[patch];
-      out.nu[patch] = cells.nu;
-      out.nv[patch] = cells.nv;
-      return status;
-    };
-    if (raised > 0) {
-      const RateReport settled =
-          detail::for_patches(sets, *topology.data(), options.threads, settle);
-      if (!settled) {
-        return settled;
-      }
-    }
-    if (!changed) {
-      break;
+    report.status = separate_vertices(topology, out.nu, out.nv, raised);
+    changed = false;
+    if (report && raised > 0) {
+      report = call.settle(changed);
     }
   }
-  return certify_rates(sets, topology, options.errors, out, options.threads);
+  return report ? call.certify() : report;
+} catch (const std::bad_alloc&) {
+  return {Status::out_of_memory};
 }
 
 template SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<float>>,

@@ -117,6 +117,10 @@ struct FlatnessTask {
   T root_components; ///< sqrt(components), rounded up
 };
 
+/// Rates of bicubic patches: tables/rate_task.hpp.
+template <typename T>
+struct RateTask;
+
 /// Works on patches [begin, end) and says what it was compiled for.
 template <typename Task>
 using NetKernel = Isa (*)(const Task& task, std::size_t begin, std::size_t end,
@@ -129,6 +133,7 @@ struct NetTable {
   NetKernel<MapTask<T>> map;
   NetKernel<BoxTask<T>> boxes;
   NetKernel<FlatnessTask<T>> flatness;
+  NetKernel<RateTask<T>> rates;
 };
 
 } // namespace simdbezier::detail

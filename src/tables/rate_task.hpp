@@ -1,0 +1,30 @@
+// Rates of bicubic patches: what the base code asks a kernel for. No xsimd in here.
+#pragma once
+
+#include "src/tables/net_table.hpp"
+
+namespace simdbezier::detail {
+
+/// Rates of a patch whose numbers are too large or too small for the kernel.
+inline constexpr std::uint32_t kUndecided = 0xffffffff;
+
+/// Chooses rates, or certifies those that are given, for bicubic polynomial nets of three
+/// components. Scratch: kRateValues values.
+template <typename T>
+struct RateTask {
+  NetView<const T> in;
+  bool choose;
+  double tolerance;         ///< of all patches …
+  const double* tolerances; ///< … or one value a patch; null: none
+  const double* errors; ///< to be taken from the tolerance, and added to deviations; may be null
+  std::uint32_t most;   ///< segments
+  std::uint32_t* nu; ///< chosen: 0 where no tolerance is left, more than `most` where it would take
+  std::uint32_t* nv; ///< that many
+  std::uint16_t* diagonals; ///< certified only, as is deviations
+  double* deviations;       ///< -1 where undecided
+};
+
+/// Of scratch, as NetTable's other kernels count them: points and the nets of four quarters.
+inline constexpr std::size_t kRateValues = 3 * 16 + 4 * (3 + 9 * 16);
+
+} // namespace simdbezier::detail
