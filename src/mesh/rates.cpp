@@ -138,7 +138,10 @@ private:
   [[nodiscard]] double wanted(std::size_t patch) const {
     return options_.tolerances.empty() ? options_.tolerance : options_.tolerances[patch];
   }
-  [[nodiscard]] double tolerance(std::size_t patch) const { return wanted(patch) - error(patch); }
+  /// Less one rounding, so that bound and error together stay below what was wanted.
+  [[nodiscard]] double tolerance(std::size_t patch) const {
+    return wanted(patch) * (1 - 0x1p-51) - error(patch);
+  }
 
   void put(std::size_t patch, const CellCounts& cells) {
     out_.nu[patch] = cells.nu;
