@@ -1,23 +1,27 @@
 // simdbezier: many Bézier patches at many parameters in one call.
 #pragma once
 
-#include <simdbezier/adjacency.hpp>      // IWYU pragma: export
-#include <simdbezier/bases.hpp>          // IWYU pragma: export
-#include <simdbezier/bounds.hpp>         // IWYU pragma: export
-#include <simdbezier/control_curves.hpp> // IWYU pragma: export
-#include <simdbezier/control_nets.hpp>   // IWYU pragma: export
-#include <simdbezier/curves.hpp>         // IWYU pragma: export
-#include <simdbezier/derivatives.hpp>    // IWYU pragma: export
-#include <simdbezier/error_bounds.hpp>   // IWYU pragma: export
-#include <simdbezier/evaluate.hpp>       // IWYU pragma: export
-#include <simdbezier/isa.hpp>            // IWYU pragma: export
-#include <simdbezier/iso_curves.hpp>     // IWYU pragma: export
-#include <simdbezier/nets.hpp>           // IWYU pragma: export
-#include <simdbezier/options.hpp>        // IWYU pragma: export
-#include <simdbezier/outputs.hpp>        // IWYU pragma: export
-#include <simdbezier/patch_set.hpp>      // IWYU pragma: export
-#include <simdbezier/results.hpp>        // IWYU pragma: export
-#include <simdbezier/samples.hpp>        // IWYU pragma: export
-#include <simdbezier/status.hpp>         // IWYU pragma: export
-#include <simdbezier/tiles.hpp>          // IWYU pragma: export
-#include <simdbezier/version.hpp>        // IWYU pragma: export
+#include <simdbezier/adjacency.hpp>       // IWYU pragma: export
+#include <simdbezier/bases.hpp>           // IWYU pragma: export
+#include <simdbezier/bounds.hpp>          // IWYU pragma: export
+#include <simdbezier/control_curves.hpp>  // IWYU pragma: export
+#include <simdbezier/control_nets.hpp>    // IWYU pragma: export
+#include <simdbezier/curves.hpp>          // IWYU pragma: export
+#include <simdbezier/derivatives.hpp>     // IWYU pragma: export
+#include <simdbezier/error_bounds.hpp>    // IWYU pragma: export
+#include <simdbezier/evaluate.hpp>        // IWYU pragma: export
+#include <simdbezier/isa.hpp>             // IWYU pragma: export
+#include <simdbezier/iso_curves.hpp>      // IWYU pragma: export
+#include <simdbezier/mesh_layout.hpp>     // IWYU pragma: export
+#include <simdbezier/mesh_primitives.hpp> // IWYU pragma: export
+#include <simdbezier/nets.hpp>            // IWYU pragma: export
+#include <simdbezier/options.hpp>         // IWYU pragma: export
+#include <simdbezier/outputs.hpp>         // IWYU pragma: export
+#include <simdbezier/patch_set.hpp>       // IWYU pragma: export
+#include <simdbezier/rates.hpp>           // IWYU pragma: export
+#include <simdbezier/results.hpp>         // IWYU pragma: export
+#include <simdbezier/samples.hpp>         // IWYU pragma: export
+#include <simdbezier/status.hpp>          // IWYU pragma: export
+#include <simdbezier/tiles.hpp>           // IWYU pragma: export
+#include <simdbezier/topology.hpp>        // IWYU pragma: export
+#include <simdbezier/version.hpp>         // IWYU pragma: export
