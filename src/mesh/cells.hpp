@@ -59,6 +59,18 @@ struct CellCorners {
   std::uint32_t at[4];
 };
 
+/// Gives the two triangles of a cell to put(a, b, c), counter-clockwise.
+template <typename Put>
+void put_halves(const CellCorners& c, bool falling, const Put& put) {
+  if (falling) {
+    put(c.at[0], c.at[1], c.at[2]);
+    put(c.at[3], c.at[2], c.at[1]);
+  } else {
+    put(c.at[1], c.at[3], c.at[0]);
+    put(c.at[2], c.at[0], c.at[3]);
+  }
+}
+
 /// The cells of one patch.
 class CellCutter {
 public:
@@ -97,7 +109,7 @@ private:
   /// Whether the cell's diagonal runs from (1,0) to (0,1).
   [[nodiscard]] bool falling(std::uint32_t i, std::uint32_t j) const {
     for (std::uint32_t corner = 0; corner < kPatchCorners; ++corner) {
-      if ((flags_ >> corner & 1) != 0 && i == (corner % 2 != 0 ? nu_ - 1 : 0) &&
+      if (is_forced_through(flags_, corner) && i == (corner % 2 != 0 ? nu_ - 1 : 0) &&
           j == (corner >= 2 ? nv_ - 1 : 0)) {
         return falls(corner);
       }

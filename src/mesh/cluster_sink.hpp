@@ -19,20 +19,11 @@ public:
 
   void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     make_room(1, 3);
-    put(a, turned_ ? c : b, turned_ ? b : c);
+    put(a, b, c);
   }
   void cell(const CellCorners& c, bool falling) {
     make_room(2, 4);
-    const auto put_turned = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r) {
-      put(p, turned_ ? r : q, turned_ ? q : r);
-    };
-    if (falling) {
-      put_turned(c.at[0], c.at[1], c.at[2]);
-      put_turned(c.at[3], c.at[2], c.at[1]);
-    } else {
-      put_turned(c.at[1], c.at[3], c.at[0]);
-      put_turned(c.at[2], c.at[0], c.at[3]);
-    }
+    put_halves(c, falling, [this](auto... vertices) { put(vertices...); });
   }
   void end_cluster() {
     if (cluster_.triangles == 0) {
@@ -59,7 +50,7 @@ private:
     }
   }
   void put(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const std::uint8_t corners[3] = {number(a), number(b), number(c)};
+    const std::uint8_t corners[3] = {number(a), number(turned_ ? c : b), number(turned_ ? b : c)};
     if (out_ != nullptr) {
       std::copy_n(corners, 3, &out_->corners[3 * size_.triangles]);
     }

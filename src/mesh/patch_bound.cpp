@@ -183,7 +183,7 @@ double PatchBound::bound(const CellCounts& cells, std::uint16_t* diagonals) cons
     }
   }
   for (std::size_t corner = 0; corner < kPatchCorners; ++corner) {
-    if ((flags_ >> corner & 1) != 0) {
+    if (is_forced_through(flags_, corner)) {
       worst = std::max(worst, corner_bound(corner, cells));
     }
   }

@@ -39,13 +39,7 @@ public:
     to_ += 3;
   }
   void cell(const CellCorners& c, bool falling) {
-    if (falling) {
-      triangle(c.at[0], c.at[1], c.at[2]);
-      triangle(c.at[3], c.at[2], c.at[1]);
-    } else {
-      triangle(c.at[1], c.at[3], c.at[0]);
-      triangle(c.at[2], c.at[0], c.at[3]);
-    }
+    put_halves(c, falling, [this](auto... vertices) { triangle(vertices...); });
   }
   [[nodiscard]] const Index* end() const { return to_; }
 

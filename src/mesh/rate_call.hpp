@@ -43,6 +43,9 @@ public:
   }
 
   RateReport choose() {
+    if (const RateReport fault = find_faults(); !fault) {
+      return fault;
+    }
     const RateReport ran = run_kernels(true);
     if (!ran) {
       return ran;
@@ -83,13 +86,19 @@ public:
     return report;
   }
 
-  RateReport certify() {
+  /// Of rates that the caller gave, for nets that nobody has looked at.
+  RateReport certify_given() {
     for (std::size_t patch = 0; patch < out_.nu.size(); ++patch) {
       const auto is_rate = [](std::uint32_t n) { return n >= 1 && n <= kMostSegments; };
       if (!is_rate(out_.nu[patch]) || !is_rate(out_.nv[patch])) {
         return {Status::bad_rates, patch};
       }
     }
+    const RateReport fault = find_faults();
+    return fault ? certify() : fault;
+  }
+
+  RateReport certify() {
     const RateReport ran = run_kernels(false);
     if (!ran) {
       return ran;
@@ -108,7 +117,9 @@ private:
   static bool suits_kernel(const ControlNets<S>& nets) {
     return nets.degree_u == 3 && nets.degree_v == 3 && nets.weights == Weights::none;
   }
-  [[nodiscard]] bool has_corner(std::size_t patch) const { return (flags_[patch] & 15) != 0; }
+  [[nodiscard]] bool has_corner(std::size_t patch) const {
+    return has_forced_diagonal(flags_[patch]);
+  }
   [[nodiscard]] double error(std::size_t patch) const {
     return options_.errors.empty() ? 0 : options_.errors[patch];
   }
@@ -143,15 +154,23 @@ private:
     return {};
   }
 
-  RateReport run_kernels(bool choose) {
+  RateReport find_faults() const {
     std::size_t first = 0;
-    Options run;
-    run.threads = options_.threads;
     for (const ControlNets<S>& nets : sets_) {
       const NetReport fault = find_fault(nets, options_.threads);
       if (!fault) {
         return {fault.status, first + fault.patch};
       }
+      first += nets.count;
+    }
+    return {};
+  }
+
+  RateReport run_kernels(bool choose) {
+    std::size_t first = 0;
+    Options run;
+    run.threads = options_.threads;
+    for (const ControlNets<S>& nets : sets_) {
       if (suits_kernel(nets) && nets.count > 0) {
         RateTask<S> task{};
         task.in = view_of(nets);

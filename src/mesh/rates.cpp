@@ -65,7 +65,7 @@ RateReport certify_rates(std::span<const ControlNets<S>> sets, const Topology& t
   RateOptions options;
   options.errors = errors;
   options.threads = threads;
-  return detail::RateCall<S>(sets, topology, options, rates).certify();
+  return detail::RateCall<S>(sets, topology, options, rates).certify_given();
 } catch (const std::bad_alloc&) {
   return {Status::out_of_memory};
 }

@@ -133,7 +133,7 @@ private:
       const std::uint8_t flags = data_.flags[patch];
       for (std::size_t a = 0; a < kPatchCorners; ++a) {
         for (std::size_t b = a + 1; b < kPatchCorners; ++b) {
-          const bool both = (flags >> a & 1) != 0 && (flags >> b & 1) != 0;
+          const bool both = is_forced_through(flags, a) && is_forced_through(flags, b);
           const bool apart_u = (a & 1) != (b & 1);
           const bool apart_v = (a & 2) != (b & 2);
           if (both && falls(a) != falls(b) && (!apart_u || nu_[patch] == 1) &&
@@ -168,9 +168,13 @@ private:
   /// yet.
   [[nodiscard]] std::vector<MeshEdge> edges_in_doubt() const {
     std::vector<MeshEdge> edges;
+    bool any = false;
+    for (std::size_t patch = 0; patch < nu_.size() && !any; ++patch) {
+      any = in_doubt(patch);
+    }
     MeshData mesh;
-    if (build_layout(topology_, {nu_, nv_, {}}, mesh) != Status::ok) {
-      return edges; // too many vertices, which is for the layout to say
+    if (!any || build_layout(topology_, {nu_, nv_, {}}, mesh) != Status::ok) {
+      return edges; // of nothing, or too many vertices, which is for the layout to say
     }
     PatchBoundary boundary(mesh);
     PatchEdges own(mesh, boundary);

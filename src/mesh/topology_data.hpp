@@ -51,6 +51,13 @@ enum PatchFlag : std::uint8_t {
   kEntangled = 64
 };
 
+constexpr bool is_forced_through(std::uint8_t flags, std::size_t corner) noexcept {
+  return (flags >> corner & kThroughCorner) != 0;
+}
+constexpr bool has_forced_diagonal(std::uint8_t flags) noexcept {
+  return flags % (kThroughCorner << kPatchCorners) != 0;
+}
+
 struct TopologyData {
   std::vector<Side> sides;          ///< [4 * patch + PatchEdge]
   std::vector<std::uint32_t> first; ///< of each edge in edge_sides, and the end of the last one
