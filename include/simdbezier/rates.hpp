@@ -57,13 +57,12 @@ template <typename T>
 ///
 /// Bound:    of a triangle with edges p_i - p_j in parameters, max |S - T| <= the largest value of
 ///           1/2 sum l_i l_j Q_ij over barycentric coordinates l, Q_ij being the largest second
-///           derivative of S along the edge: the proof is in docs/accuracy.md. Taken over control
-///           vectors of the patch's four quarters; no vertex that a neighbour adds to an edge can
-///           raise it.
-/// Rational: |v| of a derivative vector becomes |v_X - c v_w| + R |v_w|, c and R being the middle
-/// and
-///           half-diagonal of the box of the control points, and the bound is divided by the
-///           smallest weight.
+///           derivative of S along the edge: the proof is in docs/tessellation.md. Taken over
+///           control vectors of the patch's four quarters; no vertex that a neighbour adds to an
+///           edge can raise it.
+/// Rational: |v| of a derivative vector becomes |v_X - c v_w| + R |v_w|, c being the
+///           middle and R half of the diagonal of the box of the control points, and the bound is
+///           divided by the smallest weight.
 /// Source:   D. Filip, R. Magedson, R. Markot, "Surface Algorithms Using Bounds on Derivatives",
 ///           CAGD 3 (1986), whose bound has the triangle inequality instead of the diagonal's own
 ///           derivative.
@@ -71,7 +70,9 @@ template <typename T>
 ///           bad_weight | bad_rates (spans that are not one value a patch) | bad_tolerance (not
 ///           above zero, or not above the patch's error, or more than most_segments would be
 ///           needed; the report names the patch) | out_of_memory. Outputs are undefined then.
-/// Cost:     about 8 us a bicubic patch.
+/// Cost:     on AVX-512, 0.4 to 0.7 us a bicubic float patch and twice that in double, and 0.2
+///           to 0.4 us for the certificate; 30 us and more for rational patches, other degrees
+///           and patches with a forced diagonal.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<S>> sets,
                                                      const Topology& topology,

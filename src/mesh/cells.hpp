@@ -28,7 +28,7 @@ private:
 
 /// One half of a cell, whose legs may have further vertices: the triangle at the corner, then a
 /// strip between the legs that advances on the one that is behind. None of these triangles has a
-/// larger bound on its distance from the surface than the whole half (docs/accuracy.md).
+/// larger bound on its distance from the surface than the whole half (docs/tessellation.md).
 ///
 /// x, y: counter-clockwise around the corner.
 template <typename Sink>

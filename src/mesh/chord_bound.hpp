@@ -1,5 +1,5 @@
 // The bound on the distance between a patch and the triangles of its cells; proofs are in
-// docs/accuracy.md.
+// docs/tessellation.md.
 #pragma once
 
 #include <algorithm>
