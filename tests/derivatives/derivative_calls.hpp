@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -71,5 +72,20 @@ protected:
         [&](const How& forced) { return evaluate_derivatives(set, where, wanted, forced); });
   }
 };
+
+/// Twelve patches of four shapes.
+template <typename T>
+PatchSet<T> mixed_set() {
+  const ShapeCase shapes[] = {{3, 3}, {7, 2, 3, Weights::cartesian}, {5, 9}, {3, 3}};
+  std::vector<ControlNets<T>> entries;
+  std::vector<std::unique_ptr<RandomNets<T>>> nets;
+  for (const ShapeCase& shape : shapes) {
+    nets.push_back(std::make_unique<RandomNets<T>>(shape, 3, nets.size() + 1));
+    entries.push_back(nets.back()->view);
+  }
+  PatchSet<T> set;
+  EXPECT_TRUE(pack(std::span<const ControlNets<T>>(entries), set));
+  return set;
+}
 
 } // namespace simdbezier::tests

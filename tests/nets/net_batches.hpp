@@ -204,4 +204,13 @@ template <typename T>
   return count;
 }
 
+/// Boxes of a batch.
+template <typename T>
+struct BoxValues {
+  explicit BoxValues(const Batch<T>& batch)
+      : low(batch.count * static_cast<std::size_t>(batch.shape.components)), high(low) {}
+  Boxes<T> out() { return {low.data(), high.data()}; }
+  std::vector<T> low, high;
+};
+
 } // namespace simdbezier::tests
