@@ -4,9 +4,7 @@
 #include <simdbezier/evaluate.hpp>
 
 #include "src/calls/call.hpp"
-#include "src/calls/kernel_choice.hpp"
-#include "src/calls/sample_pieces.hpp"
-#include "src/exact/normal_fallback.hpp"
+#include "src/calls/sample_evaluator.hpp"
 #include "src/output/delivery.hpp"
 
 namespace simdbezier {
@@ -32,20 +30,23 @@ public:
   Isa run(int /*worker*/, std::size_t begin, std::size_t end,
           unsigned char* scratch) const noexcept {
     Isa executed = Isa::automatic;
-    auto* const index = reinterpret_cast<std::uint32_t*>(scratch);
+    const SampleEvaluator<T> evaluator(kernels_, scratch);
     Delivery<T> delivery(outputs_, *kernels_.table, pieces_.length,
                          scratch == nullptr ? nullptr : scratch + index_bytes());
-    const SetStorage<T>& set = *kernels_.set;
     for (std::size_t piece = begin; piece < end; ++piece) {
       const std::size_t first = piece * pieces_.length;
-      const std::size_t count = std::min(pieces_.length, samples_.patch.size() - first);
-      if (SampleStatus* const status = outputs_.out().status_at(first); status != nullptr) {
-        std::fill_n(status, count, SampleStatus::regular);
+      const std::size_t left = samples_.patch.size() - first;
+      const std::size_t count = std::min(pieces_.length, left);
+      SampleTarget<T> to{delivery.begin(first), outputs_.out().status_at(first)};
+      if (to.status != nullptr) {
+        std::fill_n(to.status, count, SampleStatus::regular);
       }
-      const Planes<T>* const planes = delivery.begin(first);
-      executed = set.places == nullptr ? run_bucket(set.buckets[0], samples_.patch.data() + first,
-                                                    first, count, planes, 0)
-                                       : run_mixed(first, count, planes, index);
+      for (std::size_t c = 0; c < kCurvatures; ++c) {
+        to.curvature[c] = outputs_.out().curvature_at(c, first);
+      }
+      executed = evaluator.run({samples_.patch.data() + first, samples_.u.data() + first,
+                                samples_.v.data() + first, count, left, samples_.parameters},
+                               to);
       delivery.end(count);
     }
     delivery.finish();
@@ -53,67 +54,8 @@ public:
   }
 
 private:
-  /// Room for the indices of a piece's patches in their buckets.
   [[nodiscard]] std::size_t index_bytes() const noexcept {
-    return kernels_.set->places == nullptr ? 0
-                                           : whole_lines(pieces_.length * sizeof(std::uint32_t));
-  }
-
-  /// Consecutive samples on patches of one shape go to a kernel together.
-  Isa run_mixed(std::size_t first, std::size_t count, const Planes<T>* planes,
-                std::uint32_t* index) const noexcept {
-    Isa executed = Isa::automatic;
-    const SetStorage<T>& set = *kernels_.set;
-    for (std::size_t k = 0; k < count;) {
-      const std::uint32_t bucket = set.places[samples_.patch[first + k]].bucket;
-      std::size_t last = k;
-      for (; last < count; ++last) {
-        const PatchPlace place = set.places[samples_.patch[first + last]];
-        if (place.bucket != bucket) {
-          break;
-        }
-        index[last] = static_cast<std::uint32_t>(place.index);
-      }
-      executed = run_bucket(set.buckets[bucket], index + k, first + k, last - k, planes, k);
-      k = last;
-    }
-    return executed;
-  }
-
-  /// Samples [first, first + count) of the call on the bucket's patches `patch`; their results go
-  /// to the planes from `at` on.
-  Isa run_bucket(const PatchStorage<T>& patches, const std::uint32_t* patch, std::size_t first,
-                 std::size_t count, const Planes<T>* planes, std::size_t at) const noexcept {
-    ScatteredTask<T> task{};
-    task.shape = &patches.shape;
-    task.coefficients = patches.coefficients;
-    task.edges = patches.edges;
-    task.given = patches.given;
-    task.origins = patches.origins;
-    task.normal_floor = patches.normal_floor;
-    task.common_floor = patches.common_floor;
-    task.patch = patch;
-    task.u = samples_.u.data() + first;
-    task.v = samples_.v.data() + first;
-    set_half_centring(samples_.parameters, task);
-    task.count = count;
-    task.patches_known = kernels_.set->places == nullptr ? samples_.patch.size() - first : count;
-    task.prefetch = patches.count > second_level_cache() / (kCoefficients * sizeof(T));
-    task.resolve_normal = resolve_normal<T>;
-    task.watertight = kernels_.watertight;
-    for (std::size_t g = 0; g < kGroups; ++g) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        T* const plane = planes[g].component[c];
-        task.out[g].component[c] = plane == nullptr ? nullptr : plane + at;
-      }
-    }
-    for (std::size_t c = 0; c < kCurvatures; ++c) {
-      task.curvature[c] = outputs_.out().curvature_at(c, first);
-    }
-    task.first_component = kernels_.first_component;
-    task.status = outputs_.out().status_at(first);
-    kernels_.run(task);
-    return task.executed;
+    return SampleEvaluator<T>::scratch_bytes(*kernels_.set, pieces_.length);
   }
 
   PatchKernels<T> kernels_;

@@ -1,6 +1,7 @@
 // See src/calls/grid_plan.hpp.
 #include "src/calls/grid_plan.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -10,20 +11,14 @@
 namespace simdbezier::detail {
 namespace {
 
-/// x_i = (2i - N) / N by one correctly rounded division, so that x_i = -x_{N-i} exactly; halved.
-template <typename T>
-T uniform_parameter(std::size_t i, std::size_t count) {
-  const std::size_t intervals = count - 1;
-  const T numerator =
-      static_cast<T>(static_cast<std::int64_t>(2 * i) - static_cast<std::int64_t>(intervals));
-  return numerator / static_cast<T>(intervals) * T(0.5);
-}
-
 template <typename T>
 void fill_parameters(const T* given, std::size_t count, Parameters parameters, T* out) {
   for (std::size_t i = 0; i < count; ++i) {
-    out[i] = given == nullptr ? uniform_parameter<T>(i, count) : half_centred(given[i], parameters);
+    out[i] =
+        given == nullptr ? uniform_parameter<T>(i, count - 1) : half_centred(given[i], parameters);
   }
+  // Lanes behind the last column or row repeat it, so that they trigger nothing that it does not.
+  std::fill_n(out + count, kMaxLanes, out[count - 1]);
 }
 
 template <typename T>
@@ -58,8 +53,8 @@ Status GridPlan<T>::build(const Grid<T>& grid, T* memory) noexcept {
   ++generation_;
   nu_ = grid.nu;
   nv_ = grid.nv;
-  x_ = inline_x_;
-  y_ = inline_y_;
+  T* x = inline_x_;
+  T* y = inline_y_;
   if (!fits_inline(nu_, nv_)) {
     if (memory == nullptr) {
       heap_.reset(new (std::nothrow) T[memory_values(nu_, nv_)]);
@@ -68,17 +63,14 @@ Status GridPlan<T>::build(const Grid<T>& grid, T* memory) noexcept {
     if (memory == nullptr) {
       return Status::out_of_memory;
     }
-    x_ = memory;
-    y_ = x_ + nu_ + kMaxLanes;
+    x = memory;
+    y = x + nu_ + kMaxLanes;
   }
   const DefaultFpEnvironment environment;
-  fill_parameters(grid.u, nu_, grid.parameters, x_);
-  fill_parameters(grid.v, nv_, grid.parameters, y_);
-  // Lanes behind the last column or row repeat it, so that they trigger nothing that it does not.
-  for (std::size_t i = 0; i < kMaxLanes; ++i) {
-    x_[nu_ + i] = x_[nu_ - 1];
-    y_[nv_ + i] = y_[nv_ - 1];
-  }
+  fill_parameters(grid.u, nu_, grid.parameters, x);
+  fill_parameters(grid.v, nv_, grid.parameters, y);
+  x_ = x;
+  y_ = y;
   return Status::ok;
 }
 

@@ -13,6 +13,15 @@
 
 namespace simdbezier::detail {
 
+/// x_i = (2i - N) / N of N intervals, halved, by one correctly rounded division, so that
+/// x_i = -x_{N-i} exactly.
+template <typename T>
+T uniform_parameter(std::size_t i, std::size_t intervals) noexcept {
+  const T numerator =
+      static_cast<T>(static_cast<std::int64_t>(2 * i) - static_cast<std::int64_t>(intervals));
+  return numerator / static_cast<T>(intervals) * T(0.5);
+}
+
 /// Half-centred parameters of a grid, in the form in which kernels read them. Small grids need no
 /// allocation: for a few patches it would cost as much as the evaluation.
 template <typename T>
@@ -30,6 +39,15 @@ public:
   /// last not where `memory` has room for memory_values() of the grid.
   [[nodiscard]] Status build(const Grid<T>& grid, T* memory = nullptr) noexcept;
   [[nodiscard]] static std::size_t memory_values(std::size_t nu, std::size_t nv) noexcept;
+  /// Takes half-centred parameters that are there already, with kMaxLanes more readable ones behind
+  /// each line, and that live as long as the plan.
+  void refer(const T* x, std::size_t nu, const T* y, std::size_t nv) noexcept {
+    ++generation_;
+    x_ = x;
+    nu_ = nu;
+    y_ = y;
+    nv_ = nv;
+  }
 
   [[nodiscard]] std::size_t nu() const noexcept { return nu_; }
   [[nodiscard]] std::size_t nv() const noexcept { return nv_; }
@@ -48,8 +66,8 @@ private:
   std::size_t nu_ = 0;
   std::size_t nv_ = 0;
   std::uint32_t generation_ = 0;
-  T* x_ = nullptr;
-  T* y_ = nullptr;
+  const T* x_ = nullptr;
+  const T* y_ = nullptr;
   std::unique_ptr<T[]> heap_;
   alignas(64) T inline_x_[kInline + kMaxLanes];
   alignas(64) T inline_y_[kInline + kMaxLanes];

@@ -46,6 +46,14 @@ struct OutputList {
     }
     note_wishes();
   }
+  /// Some vectors alone, at most kGroups.
+  OutputList(const Vectors<T>* first, std::size_t count) noexcept
+      : vectors{}, vector_count(count), curvature{}, curvature_count(0), status(nullptr) {
+    for (std::size_t k = 0; k < count; ++k) {
+      vectors[k] = first + k;
+    }
+    note_wishes();
+  }
   /// Vectors alone, of which null ones are none.
   OutputList(const Vectors<T>* first, const Vectors<T>* second) noexcept
       : vectors{first, second}, vector_count(second == nullptr ? 1 : 2), curvature{},

@@ -1,0 +1,116 @@
+// What the calls on single samples share: one thread's kernels on samples of any patches of a set.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "src/calls/kernel_choice.hpp"
+#include "src/calls/sample_pieces.hpp"
+#include "src/exact/normal_fallback.hpp"
+#include "src/runtime/batch.hpp"
+#include "src/runtime/dispatch.hpp"
+
+namespace simdbezier::detail {
+
+/// Samples that lie one after the other.
+template <typename T>
+struct SamplePiece {
+  const std::uint32_t* patch;
+  const T* u;
+  const T* v;
+  std::size_t count;
+  std::size_t known; ///< how many of `patch` may be read: those of later pieces as well
+  Parameters parameters;
+};
+
+/// Where they go: unit-stride planes that begin with the piece's first sample, kGroups of them.
+template <typename T>
+struct SampleTarget {
+  const Planes<T>* planes;
+  SampleStatus* status = nullptr; ///< may be null; `regular` beforehand
+  T* curvature[kCurvatures] = {}; ///< may be null
+};
+
+template <typename T>
+class SampleEvaluator {
+public:
+  /// Scratch for pieces of up to `samples`: the indices of their patches in the set's buckets.
+  [[nodiscard]] static std::size_t scratch_bytes(const SetStorage<T>& set,
+                                                 std::size_t samples) noexcept {
+    return set.places == nullptr ? 0 : whole_lines(samples * sizeof(std::uint32_t));
+  }
+
+  SampleEvaluator(const PatchKernels<T>& kernels, void* scratch) noexcept
+      : kernels_(kernels), index_(static_cast<std::uint32_t*>(scratch)) {}
+
+  /// Returns the instruction set of the kernels that ran.
+  Isa run(const SamplePiece<T>& piece, const SampleTarget<T>& to) const noexcept {
+    const SetStorage<T>& set = *kernels_.set;
+    return set.places == nullptr ? run_bucket(set.buckets[0], piece.patch, piece, 0, to)
+                                 : run_mixed(piece, to);
+  }
+
+private:
+  /// Consecutive samples on patches of one shape go to a kernel together.
+  Isa run_mixed(const SamplePiece<T>& piece, const SampleTarget<T>& to) const noexcept {
+    Isa executed = Isa::automatic;
+    const SetStorage<T>& set = *kernels_.set;
+    for (std::size_t k = 0; k < piece.count;) {
+      const std::uint32_t bucket = set.places[piece.patch[k]].bucket;
+      std::size_t last = k;
+      for (; last < piece.count; ++last) {
+        const PatchPlace place = set.places[piece.patch[last]];
+        if (place.bucket != bucket) {
+          break;
+        }
+        index_[last] = static_cast<std::uint32_t>(place.index);
+      }
+      SamplePiece<T> part = piece;
+      part.count = part.known = last - k;
+      executed = run_bucket(set.buckets[bucket], index_ + k, part, k, to);
+      k = last;
+    }
+    return executed;
+  }
+
+  /// Samples of one bucket, from sample `at` of the target on.
+  Isa run_bucket(const PatchStorage<T>& patches, const std::uint32_t* patch,
+                 const SamplePiece<T>& piece, std::size_t at,
+                 const SampleTarget<T>& to) const noexcept {
+    ScatteredTask<T> task{};
+    task.shape = &patches.shape;
+    task.coefficients = patches.coefficients;
+    task.edges = patches.edges;
+    task.given = patches.given;
+    task.origins = patches.origins;
+    task.normal_floor = patches.normal_floor;
+    task.common_floor = patches.common_floor;
+    task.patch = patch;
+    task.u = piece.u + at;
+    task.v = piece.v + at;
+    set_half_centring(piece.parameters, task);
+    task.count = piece.count;
+    task.patches_known = piece.known;
+    task.prefetch = patches.count > second_level_cache() / (kCoefficients * sizeof(T));
+    task.resolve_normal = resolve_normal<T>;
+    task.watertight = kernels_.watertight;
+    for (std::size_t g = 0; g < kGroups; ++g) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        T* const plane = to.planes[g].component[c];
+        task.out[g].component[c] = plane == nullptr ? nullptr : plane + at;
+      }
+    }
+    for (std::size_t c = 0; c < kCurvatures; ++c) {
+      task.curvature[c] = to.curvature[c] == nullptr ? nullptr : to.curvature[c] + at;
+    }
+    task.first_component = kernels_.first_component;
+    task.status = to.status == nullptr ? nullptr : to.status + at;
+    kernels_.run(task);
+    return task.executed;
+  }
+
+  const PatchKernels<T>& kernels_;
+  std::uint32_t* index_;
+};
+
+} // namespace simdbezier::detail
