@@ -47,6 +47,8 @@ public:
   [[nodiscard]] SIMDBEZIER_API MeshSize size() const noexcept;
   /// Where the triangles of a patch begin; size().triangles for the patch behind the last one.
   [[nodiscard]] SIMDBEZIER_API std::size_t first_triangle(std::size_t patch) const noexcept;
+  /// Where the vertices that are a patch's own begin, likewise.
+  [[nodiscard]] SIMDBEZIER_API std::size_t first_vertex(std::size_t patch) const noexcept;
 
   /// For the library's own use.
   [[nodiscard]] const detail::MeshData* data() const noexcept { return data_.get(); }

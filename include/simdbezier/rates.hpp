@@ -1,6 +1,7 @@
 // How many cells a patch needs, so that triangles stay within a distance of its surface.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -25,8 +26,22 @@ struct RateOptions {
   /// No row or column of cells has a longer edge than about this: the length of control polygons
   /// over the number of segments.
   double longest_edge = std::numeric_limits<double>::infinity();
+  /// No row or column of cells turns its normal by more than about this angle, in radians, from one
+  /// point to the next: what normals of the control net turn over the number of segments.
+  double normal_angle = std::numeric_limits<double>::infinity();
   std::uint32_t most_segments = kMostSegments;
   int threads = 0; ///< as in Options
+};
+
+/// What a picture is taken with: a point in the direction d, one unit away, is seen focal_length
+/// pixels across per unit off the axis.
+struct Camera {
+  std::array<double, 3> eye = {0, 0, 0};
+  std::array<double, 3> direction = {0, 0, -1}; ///< of any length but zero
+  double focal_length = 1000;                   ///< in pixels: height / (2 tan(angle of view / 2))
+  double width = 1920;                          ///< of the picture, in pixels
+  double height = 1080;
+  double nearest = 1e-3; ///< nothing closer than this is drawn, measured along the direction
 };
 
 /// Where choosing rates stopped.
@@ -49,6 +64,21 @@ struct CertifiedRates {
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status position_errors(const PatchSet<T>& set,
                                                     std::span<double> out) noexcept;
+
+/// Tolerances for choose_rates() with which no point of a surface is seen more than `pixels` away
+/// from its place on the mesh, from this camera.
+///
+/// Formula:  pixels * depth / (focal_length * f), depth being that of the nearest control point, at
+///           least Camera::nearest, and f the secant of the angle between the axis and the corners
+///           of the picture. Patches that lie in front of Camera::nearest altogether, and are not
+///           seen, get the diagonal of their control points' box.
+/// out:      one value a patch, patches numbered through all views.
+/// Returns:  ok | null_input | bad_degree | bad_components | bad_stride | bad_tolerance (pixels, or
+///           a member of the camera, that is not above zero and finite) | output_too_small.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API Status pixel_tolerances(std::span<const ControlNets<S>> sets,
+                                                     const Camera& camera, double pixels,
+                                                     std::span<double> out) noexcept;
 
 /// The least cells of every patch, and their diagonals, so that its triangles are within its
 /// tolerance of it. Each patch's rates depend on its own control points and tolerance, and on where

@@ -10,8 +10,10 @@
 #include <simdbezier/derivatives.hpp>     // IWYU pragma: export
 #include <simdbezier/error_bounds.hpp>    // IWYU pragma: export
 #include <simdbezier/evaluate.hpp>        // IWYU pragma: export
+#include <simdbezier/evaluate_mesh.hpp>   // IWYU pragma: export
 #include <simdbezier/isa.hpp>             // IWYU pragma: export
 #include <simdbezier/iso_curves.hpp>      // IWYU pragma: export
+#include <simdbezier/mesh.hpp>            // IWYU pragma: export
 #include <simdbezier/mesh_layout.hpp>     // IWYU pragma: export
 #include <simdbezier/mesh_primitives.hpp> // IWYU pragma: export
 #include <simdbezier/nets.hpp>            // IWYU pragma: export

@@ -30,7 +30,8 @@ struct TopologyCounts {
   std::size_t repeated_patches = 0;
   /// Edges of two sides along which the patches' normals disagree, as the patches are given.
   std::size_t turned_edges = 0;
-  /// Whether patches can be turned so that no such edge remains.
+  std::size_t snapped_sides = 0; ///< sides that became one with another by TopologyOptions::snap
+  /// Whether patches can be turned so that no turned edge remains.
   bool orientable = true;
 };
 
@@ -42,6 +43,13 @@ struct TopologyOptions {
   /// Turns patches, so that the normals of neighbours agree: those that disagree with the lowest
   /// patch that they hang together with. Without it, all stay as they are given.
   bool orient = false;
+  /// Turns all patches, after that: triangles run the other way round, and normals point to the
+  /// other side.
+  bool flip = false;
+  /// Open sides whose control points are within this distance of each other's, one by one in either
+  /// direction, become one edge (weights have to be equal): a mesh has the points of the lowest of
+  /// them there. 0: only sides with equal control points are one.
+  double snap = 0;
   int threads = 0; ///< as in Options
 };
 
@@ -51,7 +59,7 @@ public:
   Topology() noexcept = default;
 
   [[nodiscard]] SIMDBEZIER_API TopologyCounts counts() const noexcept;
-  /// Whether a patch was turned (TopologyOptions::orient).
+  /// Whether a patch is turned (TopologyOptions::orient, flip).
   [[nodiscard]] SIMDBEZIER_API bool is_turned(std::size_t patch) const noexcept;
   /// Whether a patch has all control points of an earlier one.
   [[nodiscard]] SIMDBEZIER_API bool is_repeated(std::size_t patch) const noexcept;
@@ -76,8 +84,8 @@ private:
 /// Allocation: about 60 bytes a side. Determinism: a function of the control points and of
 ///             point_size alone.
 /// Returns:    ok | null_input | bad_degree | bad_components (not three) | bad_stride |
-///             bad_tolerance (a point_size below 0, or nan) | not_orientable (where `orient` is
-///             asked for) | size_overflow (2^29 patches and more) | out_of_memory.
+///             bad_tolerance (a point_size or snap below 0, or nan) | not_orientable (where
+///             `orient` is asked for) | size_overflow (2^29 patches and more) | out_of_memory.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status find_topology(std::span<const ControlNets<S>> sets,
                                                   Topology& topology,

@@ -28,17 +28,19 @@ inline void include_rate(EdgeRates& rates, std::uint32_t rate) {
 /// Passes all fractions in ascending order, equal ones at once: visit(place, index), index being an
 /// array that says which fraction of each rate comes next, and how many segments have been passed.
 /// Returns the number of segments.
+///
+/// next: memory for as many values as rates.
 template <typename Visit>
-std::uint32_t walk_union(std::span<const std::uint32_t> rates, std::vector<std::uint32_t>& next,
+std::uint32_t walk_union(std::span<const std::uint32_t> rates, std::uint32_t* next,
                          const Visit& visit) {
-  next.assign(rates.size(), 0);
+  std::fill_n(next, rates.size(), 0U);
   for (std::uint32_t place = 0;; ++place) {
     std::size_t lowest = 0;
     for (std::size_t k = 1; k < rates.size(); ++k) {
       const std::uint64_t other = std::uint64_t{next[k]} * rates[lowest];
       lowest = other < std::uint64_t{next[lowest]} * rates[k] ? k : lowest;
     }
-    visit(place, std::span<const std::uint32_t>(next), lowest);
+    visit(place, static_cast<const std::uint32_t*>(next), lowest);
     const std::uint64_t numerator = next[lowest];
     const std::uint64_t denominator = rates[lowest];
     if (numerator == denominator) {
@@ -59,7 +61,8 @@ inline std::uint32_t union_segments(std::span<const std::uint32_t> rates,
   if (rates.size() == 2) {
     return rates[0] + rates[1] - std::gcd(rates[0], rates[1]);
   }
-  return walk_union(rates, scratch, [](auto...) {});
+  scratch.resize(rates.size());
+  return walk_union(rates, scratch.data(), [](auto...) {});
 }
 
 /// places[i]: how many segments lie before the fraction i/rate; rate is one of the edge's.
@@ -71,7 +74,8 @@ inline void union_places(std::span<const std::uint32_t> rates, std::uint32_t rat
   }
   const auto own =
       static_cast<std::size_t>(std::lower_bound(rates.begin(), rates.end(), rate) - rates.begin());
-  walk_union(rates, scratch, [&](std::uint32_t place, auto next, std::size_t lowest) {
+  scratch.resize(rates.size());
+  walk_union(rates, scratch.data(), [&](std::uint32_t place, auto next, std::size_t lowest) {
     if (std::uint64_t{next[own]} * rates[lowest] == std::uint64_t{next[lowest]} * rate) {
       places[next[own]] = place;
     }

@@ -11,4 +11,12 @@ bool are_rates(const Topology& topology, std::span<const std::uint32_t> rates) n
 /// Fills a layout for rates that are: ok | size_overflow.
 Status build_layout(const Topology& topology, const PatchRates& rates, MeshData& mesh);
 
+/// Numbers the vertices of a layout whose segments are known. corner_groups: of each corner of a
+/// patch the lowest one that it shares a vertex with. side_vertices, where edges are split, hold
+/// the number of a side's group at each point, and then its vertex. Returns ok | size_overflow.
+Status number_vertices(std::span<const std::uint32_t> corner_groups, MeshData& mesh);
+
+/// What evaluation has to know beforehand of a layout that is complete otherwise.
+void measure_boundaries(MeshData& mesh);
+
 } // namespace simdbezier::detail

@@ -36,7 +36,47 @@ std::uint64_t triangles_of(const TopologyData& topology, const MeshData& mesh, s
   return triangles;
 }
 
-Status number_vertices(const TopologyData& topology, MeshData& mesh) {
+std::size_t boundary_samples(const TopologyData& topology, const MeshData& mesh,
+                             std::size_t patch) {
+  std::size_t samples = 0;
+  for (std::size_t k = kPatchCorners * patch; k < kPatchCorners * (patch + 1); ++k) {
+    if (topology.corners[k] == k) {
+      topology.for_joined(k, [&](auto) { ++samples; });
+    }
+  }
+  for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
+    if (topology.owns_edge(side)) {
+      const std::uint32_t edge = topology.sides[side].edge();
+      samples += topology.sides_of(edge).size() * (mesh.segments[edge] - 1);
+    }
+  }
+  return samples;
+}
+
+/// The vertices of an edge's points, from `vertices` on; returns the next free one.
+std::uint64_t number_edge(std::uint32_t edge, std::uint64_t vertices, MeshData& mesh) {
+  const auto sides = mesh.topology.data()->sides_of(edge);
+  const std::uint32_t points = mesh.segments[edge] - 1;
+  mesh.edge_first[edge] = static_cast<std::uint32_t>(vertices);
+  if (!mesh.is_split(sides[0])) {
+    return vertices + points;
+  }
+  for (std::uint32_t k = 0; k < points; ++k) {
+    std::uint32_t groups = 0;
+    for (const std::uint32_t side : sides) {
+      std::uint32_t& vertex = mesh.side_vertices[mesh.side_first[side] + k];
+      groups = std::max(groups, vertex + 1);
+      vertex += static_cast<std::uint32_t>(vertices);
+    }
+    vertices += groups;
+  }
+  return vertices;
+}
+
+} // namespace
+
+Status number_vertices(std::span<const std::uint32_t> corner_groups, MeshData& mesh) {
+  const TopologyData& topology = *mesh.topology.data();
   mesh.corners.resize(topology.corners.size());
   mesh.edge_first.resize(topology.edges());
   mesh.inner.resize(topology.patches());
@@ -44,18 +84,21 @@ Status number_vertices(const TopologyData& topology, MeshData& mesh) {
   std::uint64_t vertices = 0;
   for (std::size_t patch = 0; patch < topology.patches(); ++patch) {
     for (std::size_t k = kPatchCorners * patch; k < kPatchCorners * (patch + 1); ++k) {
-      const std::uint32_t lowest = topology.corners[k];
-      mesh.corners[k] = lowest == k ? static_cast<std::uint32_t>(vertices++) : mesh.corners[lowest];
+      if (topology.corners[k] == k) {
+        topology.for_joined(k, [&](std::size_t corner) {
+          const std::uint32_t lowest = corner_groups[corner];
+          mesh.corners[corner] =
+              lowest == corner ? static_cast<std::uint32_t>(vertices++) : mesh.corners[lowest];
+        });
+      }
     }
     for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
-      const Side& own = topology.sides[side];
-      if (!own.collapsed() && topology.sides_of(own.edge())[0] == side) {
-        mesh.edge_first[own.edge()] = static_cast<std::uint32_t>(vertices);
-        vertices += mesh.segments[own.edge()] - 1;
+      if (topology.owns_edge(side)) {
+        vertices = number_edge(topology.sides[side].edge(), vertices, mesh);
       }
     }
     mesh.inner[patch] = static_cast<std::uint32_t>(vertices);
-    vertices += std::uint64_t{mesh.nu[patch] - 1} * (mesh.nv[patch] - 1);
+    vertices += mesh.inner_points(patch);
     mesh.triangles[patch + 1] = mesh.triangles[patch] + triangles_of(topology, mesh, patch);
     if (vertices > kMostVertices) {
       return Status::size_overflow;
@@ -65,7 +108,19 @@ Status number_vertices(const TopologyData& topology, MeshData& mesh) {
   return Status::ok;
 }
 
-} // namespace
+void measure_boundaries(MeshData& mesh) {
+  const TopologyData& topology = *mesh.topology.data();
+  mesh.most_boundary_vertices = 0;
+  for (std::size_t patch = 0; patch < mesh.patches(); ++patch) {
+    mesh.most_boundary_vertices = std::max<std::size_t>(
+        mesh.most_boundary_vertices, mesh.inner[patch] - mesh.first_vertex(patch));
+    mesh.most_boundary_samples =
+        std::max(mesh.most_boundary_samples, boundary_samples(topology, mesh, patch));
+  }
+  for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
+    mesh.most_sides = std::max(mesh.most_sides, topology.sides_of(edge).size());
+  }
+}
 
 bool are_rates(const Topology& topology, std::span<const std::uint32_t> rates) noexcept {
   return rates.size() == topology.counts().patches &&
@@ -81,7 +136,7 @@ Status build_layout(const Topology& topology, const PatchRates& rates, MeshData&
   mesh.diagonals.assign(rates.diagonals.begin(), rates.diagonals.end());
   mesh.diagonals.resize(data.patches());
   count_segments(data, mesh);
-  return number_vertices(data, mesh);
+  return number_vertices(data.corners, mesh);
 }
 
 } // namespace detail
@@ -100,6 +155,7 @@ Status lay_out_mesh(const Topology& topology, const PatchRates& rates, MeshLayou
   auto mesh = std::make_shared<detail::MeshData>();
   const Status status = detail::build_layout(topology, rates, *mesh);
   if (status == Status::ok) {
+    detail::measure_boundaries(*mesh);
     layout = MeshLayout(std::move(mesh));
   }
   return status;
@@ -116,6 +172,10 @@ std::size_t MeshLayout::first_triangle(std::size_t patch) const noexcept {
     return 0;
   }
   return data_->triangles[std::min(patch, data_->triangles.size() - 1)];
+}
+
+std::size_t MeshLayout::first_vertex(std::size_t patch) const noexcept {
+  return data_ == nullptr ? 0 : data_->first_vertex(std::min(patch, data_->patches()));
 }
 
 } // namespace simdbezier

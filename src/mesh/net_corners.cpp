@@ -8,36 +8,9 @@
 namespace simdbezier::detail {
 namespace {
 
-Point3 operator-(const Point3& a, const Point3& b) {
-  return {a.x[0] - b.x[0], a.x[1] - b.x[1], a.x[2] - b.x[2]};
-}
-double dot(const Point3& a, const Point3& b) {
-  return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2];
-}
 Point3 cross(const Point3& a, const Point3& b) {
   return {a.x[1] * b.x[2] - a.x[2] * b.x[1], a.x[2] * b.x[0] - a.x[0] * b.x[2],
           a.x[0] * b.x[1] - a.x[1] * b.x[0]};
-}
-
-template <typename S>
-const S* values_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t i,
-                   std::ptrdiff_t j) {
-  return nets.points + static_cast<std::ptrdiff_t>(patch) * nets.patch_stride +
-         j * nets.row_stride + i * nets.point_stride;
-}
-
-/// Control point i, j in space.
-template <typename S>
-Point3 point_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t i, std::ptrdiff_t j) {
-  const S* const values = values_at(nets, patch, i, j);
-  const double divisor = nets.weights == Weights::homogeneous
-                             ? static_cast<double>(values[3 * nets.component_stride])
-                             : 1;
-  Point3 point;
-  for (std::ptrdiff_t c = 0; c < 3; ++c) {
-    point.x[c] = static_cast<double>(values[c * nets.component_stride]) / divisor;
-  }
-  return point;
 }
 
 /// The first control point along a side, from a corner on, that is not the corner's: as a
@@ -106,26 +79,30 @@ typename NetCorners<S>::Place NetCorners<S>::place(std::size_t patch) const noex
 }
 
 template <typename S>
-bool NetCorners<S>::side_within(std::size_t side, double distance) const noexcept {
+void NetCorners<S>::read_side(std::size_t side, SideNet& to) const {
   const Place at = place(side / kPatchEdges);
+  const ControlNets<S>& nets = *at.nets;
   const bool in_u = runs_in_u(side);
-  const std::ptrdiff_t degree = in_u ? at.nets->degree_u : at.nets->degree_v;
   const bool far = side % 2 != 0;
-  const auto point = [&](std::ptrdiff_t k) {
-    return in_u ? point_at(*at.nets, at.patch, k, far ? at.nets->degree_v : 0)
-                : point_at(*at.nets, at.patch, far ? at.nets->degree_u : 0, k);
-  };
-  // Of both ends, so that the sides of an edge agree whichever way they run.
-  const Point3 ends[2] = {point(0), point(degree)};
+  const std::ptrdiff_t degree = in_u ? nets.degree_u : nets.degree_v;
+  to.points.clear();
+  to.weights.clear();
   for (std::ptrdiff_t k = 0; k <= degree; ++k) {
-    for (const Point3& end : ends) {
-      const Point3 d = point(k) - end;
-      if (!(dot(d, d) <= distance * distance)) {
-        return false;
-      }
-    }
+    const std::ptrdiff_t i = in_u ? k : far ? nets.degree_u : 0;
+    const std::ptrdiff_t j = in_u ? (far ? nets.degree_v : 0) : k;
+    to.points.push_back(point_at(nets, at.patch, i, j));
+    const S* const values = values_at(nets, at.patch, i, j);
+    to.weights.push_back(
+        nets.weights == Weights::none ? 1 : static_cast<double>(values[3 * nets.component_stride]));
   }
-  return true;
+}
+
+template <typename S>
+bool NetCorners<S>::side_within(std::size_t side, double distance) const {
+  SideNet net;
+  read_side(side, net);
+  // Of both ends, so that the sides of an edge agree whichever way they run.
+  return net.reach(net.points.front()) <= distance && net.reach(net.points.back()) <= distance;
 }
 
 template <typename S>

@@ -1,17 +1,33 @@
 // What a topology asks of control points besides which edges are equal.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include <simdbezier/control_nets.hpp>
 
+#include "src/mesh/net_points.hpp"
 #include "src/mesh/topology_data.hpp"
 
 namespace simdbezier::detail {
 
-struct Point3 {
-  double x[3];
+/// The control points of one side, in its direction; weights of 1 where there are none.
+struct SideNet {
+  std::vector<Point3> points;
+  std::vector<double> weights;
+
+  /// The largest distance of any control point from a point.
+  [[nodiscard]] double reach(const Point3& from) const noexcept {
+    double most = 0;
+    for (const Point3& point : points) {
+      const Point3 d = point - from;
+      const double square = dot(d, d);
+      most = square <= most ? most : square; // nan stays
+    }
+    return std::sqrt(most);
+  }
 };
 
 /// The control points of all views in space, patches numbered through.
@@ -20,8 +36,10 @@ class NetCorners {
 public:
   explicit NetCorners(std::span<const ControlNets<S>> sets);
 
-  /// Whether all control points of a side lie within a distance of its first one.
-  [[nodiscard]] bool side_within(std::size_t side, double distance) const noexcept;
+  void read_side(std::size_t side, SideNet& to) const;
+
+  /// Whether all control points of a side lie within a distance of both of its ends.
+  [[nodiscard]] bool side_within(std::size_t side, double distance) const;
 
   /// Whether both sides at a corner leave it in one direction, so that the triangle of its cell has
   /// almost no area however small cells are.

@@ -1,15 +1,10 @@
 // See orientation.hpp.
 #include "src/mesh/orientation.hpp"
 
+#include <algorithm>
+
 namespace simdbezier::detail {
 namespace {
-
-/// Whether the normals of the two sides' patches disagree along their edge: they agree where the
-/// boundaries, passed counter-clockwise, run against each other.
-bool disagree(const TopologyData& topology, std::uint32_t a, std::uint32_t b) {
-  const bool along = topology.sides[a].reversed() == topology.sides[b].reversed();
-  return along == (counter_clockwise_along(a) == counter_clockwise_along(b));
-}
 
 /// Every patch that hangs together with an earlier one agrees with it if both are turned as
 /// `turned` says; false where some edge then still disagrees.
@@ -34,7 +29,7 @@ bool turn_all(const TopologyData& topology, std::vector<bool>& turned) {
           continue;
         }
         const std::uint32_t other = sides[sides[0] == side ? 1 : 0];
-        const bool wanted = turned[patch] != disagree(topology, side, other);
+        const bool wanted = turned[patch] != topology.disagree(side, other);
         if (!known[other / 4]) {
           known[other / 4] = true;
           turned[other / 4] = wanted;
@@ -48,31 +43,69 @@ bool turn_all(const TopologyData& topology, std::vector<bool>& turned) {
   return orientable;
 }
 
-} // namespace
-
-Status orient(bool turn, TopologyData& topology) {
+/// Calls visit(a, b) for the edges of two sides, a < b, whose normals disagree.
+template <typename Visit>
+void for_disagreeing(const TopologyData& topology, const Visit& visit) {
   for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
     const auto sides = topology.sides_of(edge);
-    topology.counts.turned_edges +=
-        sides.size() == 2 && disagree(topology, sides[0], sides[1]) ? 1 : 0;
+    if (sides.size() == 2 && topology.disagree(sides[0], sides[1])) {
+      visit(sides[0], sides[1]);
+    }
   }
-  if (topology.counts.turned_edges == 0) {
-    return Status::ok;
+}
+
+/// Of the corners that are joined with one, those that no row of agreeing edges leads to.
+void mark_corners_apart(std::uint32_t lowest, TopologyData& topology) {
+  std::vector<std::uint32_t> reached = {lowest};
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    topology.for_neighbours(reached[k], [&](std::size_t side, std::size_t other, std::uint32_t to) {
+      const bool two = !topology.sides[side].collapsed() &&
+                       topology.sides_of(topology.sides[side].edge()).size() == 2;
+      if (!(two && topology.disagree(side, other)) &&
+          std::find(reached.begin(), reached.end(), to) == reached.end()) {
+        reached.push_back(to);
+      }
+    });
   }
+  topology.for_joined(lowest, [&](std::size_t k) {
+    if (std::find(reached.begin(), reached.end(), k) == reached.end()) {
+      topology.apart[k / kPatchCorners] |=
+          static_cast<std::uint8_t>(kApartCorner << k % kPatchCorners);
+    }
+  });
+}
+
+} // namespace
+
+Status orient(const TopologyOptions& options, TopologyData& topology) {
+  for_disagreeing(topology, [&](auto, auto) { ++topology.counts.turned_edges; });
   std::vector<bool> turned(topology.patches());
-  topology.counts.orientable = turn_all(topology, turned);
-  if (!turn) {
-    return Status::ok;
-  }
-  if (!topology.counts.orientable) {
-    return Status::not_orientable;
+  if (topology.counts.turned_edges > 0) {
+    topology.counts.orientable = turn_all(topology, turned);
+    if (options.orient && !topology.counts.orientable) {
+      return Status::not_orientable;
+    }
   }
   for (std::size_t patch = 0; patch < topology.patches(); ++patch) {
-    if (turned[patch]) {
+    if ((options.orient && turned[patch]) != options.flip) {
       topology.flags[patch] |= kTurned;
     }
   }
   return Status::ok;
+}
+
+void mark_apart(TopologyData& topology) {
+  std::vector<std::uint32_t> corners;
+  for_disagreeing(topology, [&](std::uint32_t a, std::uint32_t b) {
+    topology.apart.resize(topology.patches());
+    topology.apart[b / kPatchEdges] |= static_cast<std::uint8_t>(kApartSide << b % kPatchEdges);
+    corners.insert(corners.end(), {topology.corner_of(a, 0), topology.corner_of(a, 1)});
+  });
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  for (const std::uint32_t corner : corners) {
+    mark_corners_apart(corner, topology);
+  }
 }
 
 } // namespace simdbezier::detail

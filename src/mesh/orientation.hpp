@@ -1,14 +1,16 @@
-// Which way round patches are.
+// Which patches' normals agree.
 #pragma once
-
-#include <simdbezier/status.hpp>
 
 #include "src/mesh/topology_data.hpp"
 
 namespace simdbezier::detail {
 
-/// Counts edges along which normals disagree, finds whether turning patches can mend that, and
-/// marks those to be turned where that is asked for: ok | not_orientable.
-Status orient(bool turn, TopologyData& topology);
+/// Counts edges along which normals disagree, and turns patches where that is asked for:
+/// ok | not_orientable.
+Status orient(const TopologyOptions& options, TopologyData& topology);
+
+/// Marks corners and sides whose normals still disagree with those of the first patch there. Edges
+/// of more than two sides are taken as they are: no rule says which of their sides belong together.
+void mark_apart(TopologyData& topology);
 
 } // namespace simdbezier::detail

@@ -26,6 +26,8 @@ public:
 
   /// The most that rows and columns of control points measure in u and in v.
   [[nodiscard]] std::array<double, 2> lengths() const;
+  /// The most that normals of the control net turn along its rows and columns.
+  [[nodiscard]] std::array<double, 2> normal_turns() const;
 
 private:
   /// Of the four quarters, number 2 * (half of v) + (half of u): a bit each.

@@ -107,9 +107,8 @@ private:
     line.chain.resize(segments + 1);
     line.chain.front() = begin;
     line.chain.back() = mesh_.corners[corners + ends[1]];
-    const std::uint32_t first = mesh_.edge_first[own.edge()];
     for (std::uint32_t k = 1; k < segments; ++k) {
-      line.chain[k] = first + (own.reversed() ? segments - 1 - k : k - 1);
+      line.chain[k] = mesh_.edge_vertex(side, own.reversed() ? segments - k : k);
     }
     mesh_.rates_of(own.edge(), rates_);
     union_places(rates_, rate, scratch_, line.places);

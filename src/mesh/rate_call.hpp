@@ -17,14 +17,14 @@
 
 namespace simdbezier::detail {
 
-/// Rates for the lengths of control polygons.
-inline CellCounts at_least(const CellCounts& cells, const std::array<double, 2>& lengths,
-                           double edge) {
-  const auto segments = [&](std::uint32_t n, double length) {
-    const double wanted = std::ceil(length / edge);
+/// Rates so that no segment has more than `most` of what is measured in u and in v.
+inline CellCounts at_least(const CellCounts& cells, const std::array<double, 2>& measured,
+                           double most) {
+  const auto segments = [&](std::uint32_t n, double all) {
+    const double wanted = std::ceil(all / most);
     return wanted > n ? static_cast<std::uint32_t>(std::min(wanted, 1e9)) : n;
   };
-  return {segments(cells.nu, lengths[0]), segments(cells.nv, lengths[1])};
+  return {segments(cells.nu, measured[0]), segments(cells.nv, measured[1])};
 }
 
 /// One call: bicubic polynomial patches go to a kernel, and what it leaves to PatchBound.
@@ -33,8 +33,16 @@ class RateCall {
 public:
   RateCall(std::span<const ControlNets<S>> sets, const Topology& topology,
            const RateOptions& options, const CertifiedRates& out)
-      : sets_(sets), flags_(topology.data()->flags), options_(options), out_(out),
-        most_(std::clamp(options.most_segments, 1U, kMostSegments)) {
+      : sets_(sets), flags_(topology.data()->flags), options_(options), errors_(options.errors),
+        out_(out), most_(std::clamp(options.most_segments, 1U, kMostSegments)) {
+    const std::vector<double>& displacement = topology.data()->displacement;
+    if (!displacement.empty()) {
+      own_errors_ = displacement;
+      for (std::size_t patch = 0; patch < errors_.size(); ++patch) {
+        own_errors_[patch] += errors_[patch];
+      }
+      errors_ = own_errors_;
+    }
     deviations_ = out.deviation;
     if (deviations_.empty()) {
       own_deviations_.resize(out.nu.size());
@@ -50,9 +58,10 @@ public:
     if (!ran) {
       return ran;
     }
-    const bool lengths = std::isfinite(options_.longest_edge);
+    const bool measures =
+        std::isfinite(options_.longest_edge) || std::isfinite(options_.normal_angle);
     const auto is_open = [&](std::size_t patch, bool kernel) {
-      return !kernel || lengths || has_corner(patch) || out_.nu[patch] == kUndecided;
+      return !kernel || measures || has_corner(patch) || out_.nu[patch] == kUndecided;
     };
     const RateReport report =
         for_patches(is_open, [&](std::size_t patch, const PatchBound& bound) -> Status {
@@ -60,8 +69,12 @@ public:
           if (!(t > 0)) {
             return Status::bad_tolerance;
           }
-          const CellCounts least = bound.choose(t, most_);
-          put(patch, at_least(least, bound.lengths(), options_.longest_edge));
+          CellCounts cells = bound.choose(t, most_);
+          if (measures) {
+            cells = at_least(cells, bound.lengths(), options_.longest_edge);
+            cells = at_least(cells, bound.normal_turns(), options_.normal_angle);
+          }
+          put(patch, cells);
           return raise_until(patch, bound, t);
         });
     return report ? first_beyond() : report;
@@ -121,7 +134,7 @@ private:
     return has_forced_diagonal(flags_[patch]);
   }
   [[nodiscard]] double error(std::size_t patch) const {
-    return options_.errors.empty() ? 0 : options_.errors[patch];
+    return errors_.empty() ? 0 : errors_[patch];
   }
   [[nodiscard]] double wanted(std::size_t patch) const {
     return options_.tolerances.empty() ? options_.tolerance : options_.tolerances[patch];
@@ -177,7 +190,7 @@ private:
         task.choose = choose;
         task.tolerance = options_.tolerance;
         task.tolerances = options_.tolerances.empty() ? nullptr : &options_.tolerances[first];
-        task.errors = options_.errors.empty() ? nullptr : &options_.errors[first];
+        task.errors = errors_.empty() ? nullptr : &errors_[first];
         task.most = most_;
         task.nu = &out_.nu[first];
         task.nv = &out_.nv[first];
@@ -233,6 +246,8 @@ private:
   std::span<const ControlNets<S>> sets_;
   const std::vector<std::uint8_t>& flags_;
   const RateOptions& options_;
+  std::span<const double> errors_; ///< of vertices, by rounding and by snapping
+  std::vector<double> own_errors_;
   const CertifiedRates& out_;
   std::uint32_t most_;
   std::span<double> deviations_;

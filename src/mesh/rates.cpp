@@ -80,7 +80,7 @@ RateReport choose_rates(std::span<const ControlNets<S>> sets, const Topology& to
   if (!options.tolerances.empty() && options.tolerances.size() != out.nu.size()) {
     return {Status::bad_rates};
   }
-  if (!(options.longest_edge > 0)) {
+  if (!(options.longest_edge > 0) || !(options.normal_angle > 0)) {
     return {Status::bad_tolerance};
   }
   detail::RateCall<S> call(sets, topology, options, out);

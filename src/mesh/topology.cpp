@@ -11,6 +11,7 @@
 #include "src/mesh/entanglement.hpp"
 #include "src/mesh/net_corners.hpp"
 #include "src/mesh/orientation.hpp"
+#include "src/mesh/snapping.hpp"
 #include "src/mesh/topology_data.hpp"
 
 namespace simdbezier {
@@ -77,23 +78,25 @@ private:
 
 void join_corners(TopologyData& topology) {
   JoinedCorners corners(topology.sides.size());
-  const auto corner = [](std::size_t side, std::size_t end) {
-    return static_cast<std::uint32_t>(side / kPatchEdges * kPatchCorners +
-                                      kSideCorners[side % kPatchEdges][end]);
-  };
   for (std::size_t side = 0; side < topology.sides.size(); ++side) {
     const Side& own = topology.sides[side];
     if (own.collapsed()) {
-      corners.join(corner(side, 0), corner(side, 1));
+      corners.join(corner_at(side, 0), corner_at(side, 1));
       continue;
     }
     const std::size_t first = topology.members[topology.first[own.edge()]];
-    corners.join(corner(side, 0), corner(first, own.reversed() ? 1 : 0));
-    corners.join(corner(side, 1), corner(first, own.reversed() ? 0 : 1));
+    corners.join(corner_at(side, 0), corner_at(first, own.reversed() ? 1 : 0));
+    corners.join(corner_at(side, 1), corner_at(first, own.reversed() ? 0 : 1));
   }
   topology.corners = std::move(corners).finish();
+  topology.next_corner.resize(topology.corners.size());
+  std::vector<std::uint32_t> last(topology.corners.size());
   for (std::uint32_t k = 0; k < topology.corners.size(); ++k) {
-    topology.counts.corners += topology.corners[k] == k ? 1 : 0;
+    const std::uint32_t lowest = topology.corners[k];
+    topology.counts.corners += lowest == k ? 1 : 0;
+    topology.next_corner[lowest == k ? k : last[lowest]] = k;
+    topology.next_corner[k] = lowest;
+    last[lowest] = k;
   }
 }
 
@@ -168,18 +171,28 @@ Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& option
   topology.flags.assign(patches, 0);
   const NetCorners<S> nets(sets);
   collapse_short_sides(nets, options.point_size, std::span(links));
+  if (options.snap > 0) {
+    topology.counts.snapped_sides = snap_sides(nets, options.snap, std::span(links));
+  }
   number_edges(links, topology);
   join_corners(topology);
   count_edges(topology);
+  if (options.snap > 0 || options.point_size > 0) {
+    find_displacements(nets, topology);
+  }
   mark_corners(nets, topology);
   mark_repeated(nets, topology);
   mark_entangled(topology);
-  return orient(options.orient, topology);
+  const Status oriented = orient(options, topology);
+  if (oriented == Status::ok) {
+    mark_apart(topology);
+  }
+  return oriented;
 }
 
 template <typename S>
 Status check(std::span<const ControlNets<S>> sets, const TopologyOptions& options) noexcept {
-  if (!(options.point_size >= 0)) {
+  if (!(options.point_size >= 0) || !(options.snap >= 0)) {
     return Status::bad_tolerance;
   }
   std::size_t patches = 0;

@@ -30,6 +30,12 @@ private:
 inline constexpr std::uint32_t kSideCorners[kPatchEdges][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}};
 inline constexpr std::size_t kPatchCorners = 4;
 
+/// The corner of a patch, 4 * patch + corner, where a side begins (end 0) or ends (1).
+constexpr std::uint32_t corner_at(std::size_t side, std::size_t end) noexcept {
+  return static_cast<std::uint32_t>(side / kPatchEdges * kPatchCorners +
+                                    kSideCorners[side % kPatchEdges][end]);
+}
+
 /// Sides v0 and v1 run in u.
 constexpr bool runs_in_u(std::size_t side) noexcept { return side % kPatchEdges < 2; }
 
@@ -58,13 +64,23 @@ constexpr bool has_forced_diagonal(std::uint8_t flags) noexcept {
   return flags % (kThroughCorner << kPatchCorners) != 0;
 }
 
+/// Corners and sides whose normals disagree with those of the first patch there, so that one normal
+/// for all cannot be formed: 1 << corner, and 16 << PatchEdge.
+enum ApartFlag : std::uint8_t { kApartCorner = 1, kApartSide = 16 };
+
 struct TopologyData {
   std::vector<Side> sides;          ///< [4 * patch + PatchEdge]
   std::vector<std::uint32_t> first; ///< of each edge in edge_sides, and the end of the last one
   std::vector<std::uint32_t>
       members; ///< 4 * patch + PatchEdge of the sides of all edges, ascending
   std::vector<std::uint32_t> corners; ///< [4 * patch + corner]: the lowest number of those joined
-  std::vector<std::uint8_t> flags;    ///< PatchFlag, of each patch
+  std::vector<std::uint32_t> next_corner; ///< [4 * patch + corner]: the next one of those joined,
+                                          ///< ascending, and from the last back to the lowest
+  std::vector<std::uint8_t> flags;        ///< PatchFlag, of each patch
+  /// ApartFlag of each patch; empty where nothing is apart.
+  std::vector<std::uint8_t> apart;
+  /// How far a patch's vertices may lie from its own corners and edges, by snapping; or empty.
+  std::vector<double> displacement;
   TopologyCounts counts;
 
   [[nodiscard]] std::size_t patches() const noexcept { return flags.size(); }
@@ -75,7 +91,54 @@ struct TopologyData {
   }
   /// The corner where a side begins (end 0) or ends (1).
   [[nodiscard]] std::uint32_t corner_of(std::size_t side, std::size_t end) const noexcept {
-    return corners[side / kPatchEdges * kPatchCorners + kSideCorners[side % kPatchEdges][end]];
+    return corners[corner_at(side, end)];
+  }
+  /// Whether a side is the first one of its edge.
+  [[nodiscard]] bool owns_edge(std::size_t side) const noexcept {
+    return !sides[side].collapsed() && members[first[sides[side].edge()]] == side;
+  }
+  /// Calls visit(corner) for the lowest of some joined corners, and then the others, ascending.
+  template <typename Visit>
+  void for_joined(std::size_t lowest, const Visit& visit) const {
+    std::size_t corner = lowest;
+    do {
+      visit(corner);
+      corner = next_corner[corner];
+    } while (corner != lowest);
+  }
+  [[nodiscard]] bool is_turned(std::size_t patch) const noexcept {
+    return (flags[patch] & kTurned) != 0;
+  }
+  /// Whether the normals of two sides of one edge disagree, as far as patches are not turned: they
+  /// agree where the boundaries, passed counter-clockwise, run against each other.
+  [[nodiscard]] bool disagree(std::size_t a, std::size_t b) const noexcept {
+    const bool along = sides[a].reversed() == sides[b].reversed();
+    const bool given = along == (counter_clockwise_along(a) == counter_clockwise_along(b));
+    return given != (is_turned(a / kPatchEdges) != is_turned(b / kPatchEdges));
+  }
+
+  /// Calls visit(side, other side, other corner) for the corners that a corner of a patch is joined
+  /// with by an edge; a side that is a point counts as its own neighbour.
+  template <typename Visit>
+  void for_neighbours(std::size_t corner, const Visit& visit) const {
+    const std::size_t patch = corner / kPatchCorners;
+    for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
+      for (std::size_t end = 0; end < 2; ++end) {
+        if (corner_at(side, end) != corner) {
+          continue;
+        }
+        if (sides[side].collapsed()) {
+          visit(side, side, corner_at(side, 1 - end));
+          continue;
+        }
+        for (const std::uint32_t other : sides_of(sides[side].edge())) {
+          if (other != side) {
+            const bool against = sides[other].reversed() != sides[side].reversed();
+            visit(side, other, corner_at(other, against ? 1 - end : end));
+          }
+        }
+      }
+    }
   }
 };
 

@@ -1,0 +1,133 @@
+// tessellate(nets, options): from control nets to a closed mesh in std::vectors.
+//
+//     const auto mesh = tessellate<float>(nets, {.tolerance = 1e-3});
+//     if (mesh) { use(mesh.positions, mesh.triangles, mesh.deviation); }
+//
+// For who wants a mesh and nothing more. plan_mesh() stops before vertices are computed: its layout
+// goes to the calls of evaluate_mesh.hpp and mesh_primitives.hpp, piece by piece where a mesh is
+// larger than memory.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <simdbezier/control_nets.hpp>
+#include <simdbezier/evaluate_mesh.hpp>
+#include <simdbezier/isa.hpp>
+#include <simdbezier/patch_set.hpp>
+#include <simdbezier/rates.hpp>
+#include <simdbezier/topology.hpp>
+
+namespace simdbezier {
+
+/// What a mesh is to be like. How fine it is has to be said by a tolerance or by a grid.
+struct MeshOptions {
+  /// The largest distance of the surface from the mesh: absolute, or as a share of the diagonal of
+  /// the box of all control points. Where both are given, the smaller one counts.
+  double tolerance = std::numeric_limits<double>::infinity();
+  double relative_tolerance = std::numeric_limits<double>::infinity();
+  /// Absolute ones, one for each of the patches given, besides those above; or empty.
+  std::span<const double> tolerances;
+  /// The most pixels that the mesh may be off in a picture, besides what is above; needs a camera.
+  double pixels = std::numeric_limits<double>::infinity();
+  Camera camera;
+  double longest_edge = std::numeric_limits<double>::infinity(); ///< see RateOptions
+  double normal_angle = std::numeric_limits<double>::infinity(); ///< likewise
+  /// Every patch gets nu x nv samples, 2 or more each, instead of what tolerances ask for.
+  std::uint32_t nu = 0;
+  std::uint32_t nv = 0;
+
+  bool orient = false; ///< see TopologyOptions, as the four below
+  bool flip = false;
+  double point_size = 0;
+  double snap = 0;
+  /// Leaves out patches that repeat an earlier one (Topology::is_repeated()).
+  bool drop_repeated = false;
+  /// In radians: see split_creases(); infinity: all normals are merged. 0: patches share no
+  /// vertices.
+  double crease_angle = std::numeric_limits<double>::infinity();
+
+  bool normals = true;
+  bool parameters = false;    ///< u, v and the patch's number for every vertex
+  bool short_indices = false; ///< 16-bit ones, where vertices are few enough
+  bool local_origin = false;  ///< see PackOptions
+  int threads = 0;            ///< as in Options
+  Isa isa = Isa::automatic;
+};
+
+/// A mesh that is laid out, and not evaluated yet.
+template <typename T>
+struct MeshPlan {
+  Status status;
+  /// The patch at fault; where the fault is none of a single patch, 0.
+  std::size_t fault_patch = 0;
+  PatchSet<T> set;
+  TopologyCounts counts;
+  /// Of the patches of the set; as they were given, where repeated ones were left out.
+  Topology topology;
+  MeshLayout layout;
+  /// The number of each patch of the set among those given. Empty: the same numbers.
+  std::vector<std::uint32_t> patches;
+  std::vector<std::uint32_t> nu; ///< cells of each patch of the set
+  std::vector<std::uint32_t> nv;
+  std::vector<double> deviations; ///< certified, of each patch of the set
+  double deviation = 0;           ///< the largest of them
+  double diagonal = 0;            ///< of the box of all control points
+
+  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
+};
+
+/// Vertices and triangles; all vectors are empty on an error.
+template <typename T>
+struct Mesh {
+  Status status;
+  std::size_t fault_patch = 0; ///< as in MeshPlan
+  std::vector<std::array<T, 3>> positions;
+  std::vector<std::array<T, 3>> normals;
+  std::vector<std::array<T, 2>> parameters;
+  std::vector<std::uint32_t> patches; ///< of each vertex: its patch's number among those given
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  /// Instead of `triangles`, where they were asked for and numbers fit.
+  std::vector<std::array<std::uint16_t, 3>> short_triangles;
+  /// The distance between mesh and surface is certified to be at most this, rounding included.
+  double deviation = 0;
+  /// The same for single patches, in the order of those given; 0 for those left out.
+  std::vector<double> deviations;
+  TopologyCounts counts;
+
+  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
+};
+
+/// Packs, joins edges, chooses rates, and numbers vertices.
+///
+/// nets:     any views with three components, see find_topology(). They are read only here.
+/// Returns:  in MeshPlan::status, what pack(), find_topology(), choose_rates() (or
+/// certify_rates()),
+///           lay_out_mesh() and split_creases() return; bad_tolerance also where nothing says how
+///           fine the mesh is to be, bad_grid where a grid has fewer than 2 samples or where
+///           tolerances are given as well.
+template <typename T, typename S>
+[[nodiscard]] MeshPlan<T> plan_mesh(std::span<const ControlNets<S>> nets,
+                                    const MeshOptions& options) noexcept;
+
+/// Plans and evaluates.
+/// Returns: in Mesh::status, as plan_mesh(); size_overflow also where vertices exceed 2^32 - 2.
+template <typename T, typename S>
+[[nodiscard]] Mesh<T> tessellate(std::span<const ControlNets<S>> nets,
+                                 const MeshOptions& options) noexcept;
+
+template <typename T, typename S>
+[[nodiscard]] MeshPlan<T> plan_mesh(const ControlNets<S>& nets,
+                                    const MeshOptions& options) noexcept {
+  return plan_mesh<T>(std::span<const ControlNets<S>>(&nets, 1), options);
+}
+template <typename T, typename S>
+[[nodiscard]] Mesh<T> tessellate(const ControlNets<S>& nets, const MeshOptions& options) noexcept {
+  return tessellate<T>(std::span<const ControlNets<S>>(&nets, 1), options);
+}
+
+} // namespace simdbezier

@@ -1,0 +1,228 @@
+// From samples on boundaries to the vertices that they make.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "src/mesh/boundary_samples.hpp"
+#include "src/mesh/merged_normals.hpp"
+
+namespace simdbezier::detail {
+
+/// Attributes of vertices, in the caller's memory; null where not wanted.
+template <typename T>
+struct ParameterOutputs {
+  T* u = nullptr;
+  T* v = nullptr;
+  std::ptrdiff_t stride = 1;
+  std::uint32_t* patch = nullptr;
+
+  [[nodiscard]] bool wanted() const noexcept { return u != nullptr || patch != nullptr; }
+  void put(std::size_t vertex, std::uint32_t of_patch, T at_u, T at_v) const noexcept {
+    if (u != nullptr) {
+      u[static_cast<std::ptrdiff_t>(vertex) * stride] = at_u;
+      v[static_cast<std::ptrdiff_t>(vertex) * stride] = at_v;
+    }
+    if (patch != nullptr) {
+      patch[vertex] = of_patch;
+    }
+  }
+};
+
+/// Where vertices go: values of vertex k at [(k - first) * step] of a plane.
+template <typename T>
+struct VertexTarget {
+  Planes<T> position;
+  Planes<T> normal;
+  std::size_t step = 1;
+  std::size_t first = 0;
+  ParameterOutputs<T> parameters; ///< of vertex k at k - parameters_first
+  std::size_t parameters_first = 0;
+};
+
+/// Which of the patches that have a vertex its position is of: the lowest of all, or the lowest of
+/// those that have this very vertex, where it is split.
+enum class ValuesOf : std::uint8_t { owner, own_patch };
+
+/// One thread's.
+template <typename T>
+class BoundaryStore {
+public:
+  [[nodiscard]] static std::size_t bytes(const MeshData& mesh) noexcept {
+    return whole_lines(mesh.most_boundary_samples * sizeof(Member)) +
+           whole_lines(2 * mesh.most_sides * sizeof(std::uint32_t));
+  }
+  BoundaryStore(const MeshData& mesh, ValuesOf values, unsigned char* memory) noexcept
+      : mesh_(mesh), topology_(*mesh.topology.data()), values_(values),
+        members_(reinterpret_cast<Member*>(memory)),
+        scratch_(reinterpret_cast<std::uint32_t*>(
+            memory + whole_lines(mesh.most_boundary_samples * sizeof(Member)))) {}
+
+  /// What the vertices of an entry are, from planes of all samples.
+  void store(const BoundaryEntry& entry, const Planes<T>& positions, const Planes<T>& normals,
+             const VertexTarget<T>& to) noexcept {
+    list_members(entry);
+    if (is_split(entry)) {
+      store_split(entry, positions, normals, to);
+    } else {
+      store_whole(entry, positions, normals, to);
+    }
+    if (to.parameters.wanted()) {
+      store_parameters(entry, to);
+    }
+  }
+
+private:
+  /// One patch at an edge or in a corner.
+  struct Member {
+    std::uint32_t place; ///< a side, or 4 * patch + corner
+    bool turned;
+    bool apart;
+    std::uint32_t vertex; ///< of the point in question, where vertices are split
+  };
+
+  void list_members(const BoundaryEntry& entry) noexcept {
+    const auto describe = [&](std::uint32_t place, std::uint8_t flag) {
+      const std::uint32_t patch = place / 4;
+      const bool apart =
+          !topology_.apart.empty() && (topology_.apart[patch] >> place % 4 & unsigned{flag}) != 0;
+      return Member{place, topology_.is_turned(patch), apart, 0};
+    };
+    std::size_t m = 0;
+    if (entry.corner) {
+      std::uint32_t corner = entry.place;
+      for (; m < entry.members; ++m, corner = topology_.next_corner[corner]) {
+        members_[m] = describe(corner, kApartCorner);
+      }
+    } else {
+      const auto sides = topology_.sides_of(entry.place);
+      for (; m < entry.members; ++m) {
+        members_[m] = describe(sides[m], kApartSide);
+      }
+    }
+  }
+  [[nodiscard]] bool is_split(const BoundaryEntry& entry) const noexcept {
+    if (!entry.corner) {
+      return mesh_.is_split(topology_.sides_of(entry.place)[0]);
+    }
+    if (mesh_.side_first.empty()) {
+      return false;
+    }
+    std::uint32_t corner = entry.place;
+    do {
+      corner = topology_.next_corner[corner];
+    } while (mesh_.corners[corner] == mesh_.corners[entry.place] && corner != entry.place);
+    return corner != entry.place;
+  }
+  [[nodiscard]] std::uint32_t first_vertex(const BoundaryEntry& entry) const noexcept {
+    return entry.corner ? mesh_.corners[entry.place] : mesh_.edge_first[entry.place];
+  }
+
+  static void copy(const Planes<T>& from, std::size_t at, std::size_t points, const Planes<T>& to,
+                   std::size_t step, std::size_t place) noexcept {
+    for (std::size_t c = 0; c < 3 && to.component[c] != nullptr; ++c) {
+      const T* const values = from.component[c] + at;
+      T* const out = to.component[c] + place * step;
+      for (std::size_t k = 0; k < points; ++k) {
+        out[k * step] = values[k];
+      }
+    }
+  }
+  static void put(const NormalSums<T>& sums, std::size_t points, const Planes<T>& to,
+                  std::size_t step, std::size_t place) noexcept {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const T* const values = sums.component(c);
+      T* const out = to.component[c] + place * step;
+      for (std::size_t k = 0; k < points; ++k) {
+        out[k * step] = values[k];
+      }
+    }
+  }
+
+  void store_whole(const BoundaryEntry& entry, const Planes<T>& positions, const Planes<T>& normals,
+                   const VertexTarget<T>& to) const noexcept {
+    const std::size_t place = first_vertex(entry) - to.first;
+    copy(positions, entry.first, entry.points, to.position, to.step, place);
+    for (std::size_t k = 0; k < entry.points && to.normal.wanted(); k += NormalSums<T>::kMost) {
+      const std::size_t points = std::min(entry.points - k, NormalSums<T>::kMost);
+      NormalSums<T> sums(points);
+      for (std::size_t m = 0; m < entry.members; ++m) {
+        if (!members_[m].apart) {
+          sums.add(normals, entry.first + m * entry.points + k, members_[m].turned);
+        }
+      }
+      sums.finish();
+      put(sums, points, to.normal, to.step, place + k);
+    }
+  }
+
+  void store_split(const BoundaryEntry& entry, const Planes<T>& positions, const Planes<T>& normals,
+                   const VertexTarget<T>& to) noexcept {
+    for (std::uint32_t k = 0; k < entry.points; ++k) {
+      for_vertices(entry, k, [&](std::size_t m, std::uint32_t vertex) {
+        const std::size_t place = vertex - to.first;
+        const std::size_t from = values_ == ValuesOf::owner ? 0 : m;
+        copy(positions, entry.first + from * entry.points + k, 1, to.position, to.step, place);
+        if (to.normal.wanted()) {
+          NormalSums<T> sums(1);
+          for (std::size_t n = m; n < entry.members; ++n) {
+            if (members_[n].vertex == vertex) {
+              sums.add(normals, entry.first + n * entry.points + k, members_[n].turned);
+            }
+          }
+          sums.finish();
+          put(sums, 1, to.normal, to.step, place);
+        }
+      });
+    }
+  }
+
+  /// Calls visit(first member, vertex) for the different vertices of a point.
+  template <typename Visit>
+  void for_vertices(const BoundaryEntry& entry, std::uint32_t k, const Visit& visit) noexcept {
+    for (std::size_t m = 0; m < entry.members; ++m) {
+      Member& member = members_[m];
+      member.vertex =
+          entry.corner ? mesh_.corners[member.place] : mesh_.edge_vertex(member.place, k + 1);
+    }
+    for (std::size_t m = 0; m < entry.members; ++m) {
+      const std::uint32_t vertex = members_[m].vertex;
+      const auto has = [&](const Member& earlier) { return earlier.vertex == vertex; };
+      if (std::none_of(members_, members_ + m, has)) {
+        visit(m, vertex);
+      }
+    }
+  }
+
+  void store_parameters(const BoundaryEntry& entry, const VertexTarget<T>& to) noexcept {
+    const auto put_point = [&](std::uint32_t k, std::uint32_t numerator,
+                               std::uint32_t denominator) {
+      for_vertices(entry, k - 1, [&](std::size_t m, std::uint32_t vertex) {
+        const std::uint32_t place = members_[m].place;
+        const std::size_t at = vertex - to.parameters_first;
+        if (entry.corner) {
+          to.parameters.put(at, place / 4, T(place % 2), T(place % 4 / 2));
+          return;
+        }
+        const std::uint32_t along =
+            topology_.sides[place].reversed() ? denominator - numerator : numerator;
+        const T t = static_cast<T>(along) / static_cast<T>(denominator);
+        const T end = T(place % 2);
+        to.parameters.put(at, place / 4, runs_in_u(place) ? t : end, runs_in_u(place) ? end : t);
+      });
+    };
+    if (entry.corner) {
+      put_point(1, 0, 1);
+    } else {
+      for_edge_points(mesh_, entry.place, scratch_, put_point);
+    }
+  }
+
+  const MeshData& mesh_;
+  const TopologyData& topology_;
+  ValuesOf values_;
+  Member* members_;
+  std::uint32_t* scratch_;
+};
+
+} // namespace simdbezier::detail

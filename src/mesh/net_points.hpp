@@ -1,0 +1,81 @@
+// Control points as points in space, whatever their form.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <simdbezier/control_nets.hpp>
+
+namespace simdbezier::detail {
+
+struct Point3 {
+  double x[3];
+};
+
+inline Point3 operator-(const Point3& a, const Point3& b) noexcept {
+  return {a.x[0] - b.x[0], a.x[1] - b.x[1], a.x[2] - b.x[2]};
+}
+inline Point3 operator+(const Point3& a, const Point3& b) noexcept {
+  return {a.x[0] + b.x[0], a.x[1] + b.x[1], a.x[2] + b.x[2]};
+}
+inline double dot(const Point3& a, const Point3& b) noexcept {
+  return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2];
+}
+
+template <typename S>
+const S* values_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t i,
+                   std::ptrdiff_t j) noexcept {
+  return nets.points + static_cast<std::ptrdiff_t>(patch) * nets.patch_stride +
+         j * nets.row_stride + i * nets.point_stride;
+}
+
+/// Control point i, j in space.
+template <typename S>
+Point3 point_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t i,
+                std::ptrdiff_t j) noexcept {
+  const S* const values = values_at(nets, patch, i, j);
+  const double divisor = nets.weights == Weights::homogeneous
+                             ? static_cast<double>(values[3 * nets.component_stride])
+                             : 1;
+  Point3 point;
+  for (std::ptrdiff_t c = 0; c < 3; ++c) {
+    point.x[c] = static_cast<double>(values[c * nets.component_stride]) / divisor;
+  }
+  return point;
+}
+
+/// All of a patch.
+template <typename S, typename Visit>
+void for_points(const ControlNets<S>& nets, std::size_t patch, const Visit& visit) {
+  for (std::ptrdiff_t j = 0; j <= nets.degree_v; ++j) {
+    for (std::ptrdiff_t i = 0; i <= nets.degree_u; ++i) {
+      visit(point_at(nets, patch, i, j));
+    }
+  }
+}
+
+/// The smallest box of some points.
+class PointBox {
+public:
+  void include(const Point3& point) noexcept {
+    for (std::size_t c = 0; c < 3; ++c) {
+      low_[c] = std::min(low_[c], point.x[c]);
+      high_[c] = std::max(high_[c], point.x[c]);
+    }
+  }
+  [[nodiscard]] double diagonal() const noexcept {
+    double sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double extent = std::max(high_[c] - low_[c], 0.0);
+      sum += extent * extent;
+    }
+    return std::sqrt(sum);
+  }
+
+private:
+  double low_[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  double high_[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+};
+
+} // namespace simdbezier::detail

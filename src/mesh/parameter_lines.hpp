@@ -1,0 +1,63 @@
+// Uniform parameters between two ends, kept for the numbers of segments that occur often.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "src/calls/grid_plan.hpp"
+
+namespace simdbezier::detail {
+
+/// One thread's lines of half-centred parameters of the inner points i/n, 0 < i < n.
+template <typename T>
+class ParameterLines {
+public:
+  /// Values of scratch, for up to `most` segments.
+  [[nodiscard]] static std::size_t memory_values(std::size_t most) noexcept {
+    return kSmallValues + 2 * (most + kMaxLanes);
+  }
+  explicit ParameterLines(T* memory, std::size_t most) noexcept
+      : memory_(memory), large_{memory + kSmallValues, memory + kSmallValues + most + kMaxLanes} {}
+
+  /// n - 1 values, then kMaxLanes more readable ones. Valid until the second call after it.
+  const T* line(std::size_t n) noexcept {
+    if (n > kSmall) {
+      turn_ = large_n_[turn_] == n ? turn_ : 1 - turn_;
+      if (large_n_[turn_] != n) {
+        large_n_[turn_] = n;
+        fill(n, large_[turn_]);
+      }
+      return large_[turn_];
+    }
+    T* const small = memory_ + place(n);
+    if ((known_ >> n & 1U) == 0) {
+      known_ |= std::uint64_t{1} << n;
+      fill(n, small);
+    }
+    return small;
+  }
+
+private:
+  static constexpr std::size_t kSmall = 63;
+  /// Values of the lines before that of n segments.
+  static constexpr std::size_t place(std::size_t n) noexcept {
+    return n * (n - 1) / 2 + n * kMaxLanes;
+  }
+  static constexpr std::size_t kSmallValues = place(kSmall + 1);
+
+  static void fill(std::size_t n, T* to) noexcept {
+    for (std::size_t i = 1; i < n; ++i) {
+      to[i - 1] = uniform_parameter<T>(i, n);
+    }
+    std::fill_n(to + n - 1, kMaxLanes, n > 1 ? to[n - 2] : T(0));
+  }
+
+  T* memory_;
+  T* large_[2];
+  std::size_t large_n_[2] = {0, 0};
+  std::size_t turn_ = 0;
+  std::uint64_t known_ = 0; ///< a bit for each n
+};
+
+} // namespace simdbezier::detail

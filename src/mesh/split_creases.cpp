@@ -1,0 +1,148 @@
+// See evaluate_mesh.hpp: which vertices are several.
+#include <new>
+
+#include <simdbezier/evaluate_mesh.hpp>
+
+#include "src/calls/call.hpp"
+#include "src/calls/sample_evaluator.hpp"
+#include "src/mesh/crease_groups.hpp"
+#include "src/mesh/layout_builder.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// Units are patches: each thread looks at the corners and edges that its own ones own.
+template <typename T>
+class CreaseWork {
+public:
+  CreaseWork(const MeshData& mesh, const PatchKernels<T>& kernels, double angle,
+             CreaseGroups& groups, std::uint32_t* sample_of_corner) noexcept
+      : mesh_(mesh), kernels_(kernels), angle_(angle), groups_(groups),
+        sample_of_corner_(sample_of_corner), samples_(mesh.most_boundary_samples + kMostSamples) {
+    const auto most = [](const auto& rates) {
+      return *std::max_element(rates.begin(), rates.end());
+    };
+    most_rate_ = std::max(most(mesh.nu), most(mesh.nv));
+  }
+
+  [[nodiscard]] std::size_t units() const noexcept { return mesh_.patches(); }
+  [[nodiscard]] std::size_t scratch_bytes() const noexcept {
+    return lines_bytes() + BoundarySamples<T>::bytes(mesh_, samples_) + 3 * plane_bytes() +
+           SampleEvaluator<T>::scratch_bytes(*kernels_.set, samples_);
+  }
+
+  Isa run(int /*worker*/, std::size_t begin, std::size_t end,
+          unsigned char* scratch) const noexcept {
+    const auto take = [&](std::size_t bytes) {
+      unsigned char* const taken = scratch;
+      scratch += bytes;
+      return taken;
+    };
+    ParameterLines<T> lines(reinterpret_cast<T*>(take(lines_bytes())), most_rate_);
+    BoundarySamples<T> samples(mesh_, true, samples_, lines,
+                               take(BoundarySamples<T>::bytes(mesh_, samples_)));
+    Planes<T> planes[kGroups];
+    for (T*& plane : planes[kNormalGroup].component) {
+      plane = reinterpret_cast<T*>(take(plane_bytes()));
+    }
+    const SampleEvaluator<T> evaluator(kernels_, scratch);
+    const CreaseFinder<T> finder(mesh_, angle_, planes[kNormalGroup], groups_);
+    Isa executed = Isa::automatic;
+    for (std::size_t patch = begin; patch < end; ++patch) {
+      samples.add(patch);
+      if (samples.size() < kMostSamples && patch + 1 < end) {
+        continue;
+      }
+      executed = evaluator.run({samples.patch(), samples.u(), samples.v(), samples.size(),
+                                samples.size(), Parameters::centred},
+                               {planes});
+      for (const BoundaryEntry& entry : samples.entries()) {
+        finder.group(entry, sample_of_corner_);
+      }
+      samples.clear();
+    }
+    return executed;
+  }
+
+private:
+  static constexpr std::size_t kMostSamples = 1024;
+
+  [[nodiscard]] std::size_t lines_bytes() const noexcept {
+    return whole_lines(ParameterLines<T>::memory_values(most_rate_) * sizeof(T));
+  }
+  [[nodiscard]] std::size_t plane_bytes() const noexcept {
+    return whole_lines(samples_ * sizeof(T));
+  }
+
+  const MeshData& mesh_;
+  const PatchKernels<T>& kernels_;
+  double angle_;
+  CreaseGroups& groups_;
+  std::uint32_t* sample_of_corner_;
+  std::size_t samples_;
+  std::uint32_t most_rate_;
+};
+
+template <typename T>
+Status split_vertices(const PatchSet<T>& set, const MeshData& whole, double angle,
+                      const Request<T>& request, const Options& options, MeshLayout& split) {
+  CreaseGroups groups(whole);
+  std::vector<std::uint32_t> sample_of_corner(groups.corners.size());
+  const OutputSelection normals = {Output::normal};
+  const PatchKernels<T> kernels(*set.storage(), request, normals, options);
+  const CreaseWork<T> work(whole, kernels, angle, groups, sample_of_corner.data());
+  const Status ran =
+      run_blocks(work.units(), options, work.scratch_bytes(),
+                 [&](int worker, std::size_t begin, std::size_t end, unsigned char* scratch) {
+                   return work.run(worker, begin, end, scratch);
+                 });
+  if (!ran) {
+    return ran;
+  }
+  groups.close(*whole.topology.data(), whole);
+  auto mesh = std::make_shared<MeshData>(whole);
+  mesh->side_first = std::move(groups.side_first);
+  mesh->side_vertices = std::move(groups.side_groups);
+  const Status numbered = number_vertices(groups.corners, *mesh);
+  if (numbered) {
+    measure_boundaries(*mesh);
+    split = MeshLayout(std::move(mesh));
+  }
+  return numbered;
+}
+
+} // namespace
+} // namespace detail
+
+template <typename T>
+Status split_creases(const PatchSet<T>& set, const MeshLayout& layout, double angle,
+                     MeshLayout& split, const Options& options) noexcept try {
+  if (!(angle >= 0)) {
+    return Status::bad_tolerance;
+  }
+  if (set.size() != (layout.data() == nullptr ? 0 : layout.data()->patches())) {
+    return Status::unequal_lengths;
+  }
+  detail::Request<T> request;
+  if (const Status status = request.resolve(set, {}, 0, options); !status) {
+    return status;
+  }
+  if (set.empty()) {
+    split = layout;
+    return Status::ok;
+  }
+  if (!request.components.space()) {
+    return Status::bad_components;
+  }
+  return detail::split_vertices(set, *layout.data(), angle, request, options, split);
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+template SIMDBEZIER_API Status split_creases(const PatchSet<float>&, const MeshLayout&, double,
+                                             MeshLayout&, const Options&) noexcept;
+template SIMDBEZIER_API Status split_creases(const PatchSet<double>&, const MeshLayout&, double,
+                                             MeshLayout&, const Options&) noexcept;
+
+} // namespace simdbezier
