@@ -17,14 +17,18 @@
 #include <span>
 
 #include <simdbezier/mesh_layout.hpp>
+#include <simdbezier/samples.hpp>
 
 namespace simdbezier {
 
 /// Writes three numbers a triangle; MeshLayout::size() says how many triangles there are.
+///
+/// patches: all of them, or some: the first number is that of MeshLayout::first_triangle() of the
+///          first patch. Returns bad_patch_range where the layout has no such patches.
 template <typename Index>
 [[nodiscard]] SIMDBEZIER_API Status write_triangles(const MeshLayout& layout,
-                                                    std::span<Index> triangles,
-                                                    int threads = 0) noexcept;
+                                                    std::span<Index> triangles, int threads = 0,
+                                                    SetRange patches = {}) noexcept;
 
 /// What a mesh of quads and triangles needs.
 struct PolygonSize {

@@ -11,6 +11,7 @@
 #include <simdbezier/error_bounds.hpp>    // IWYU pragma: export
 #include <simdbezier/evaluate.hpp>        // IWYU pragma: export
 #include <simdbezier/evaluate_mesh.hpp>   // IWYU pragma: export
+#include <simdbezier/flatten.hpp>         // IWYU pragma: export
 #include <simdbezier/isa.hpp>             // IWYU pragma: export
 #include <simdbezier/iso_curves.hpp>      // IWYU pragma: export
 #include <simdbezier/mesh.hpp>            // IWYU pragma: export

@@ -8,8 +8,8 @@
 
 #include <simdbezier/curves.hpp>
 
+#include "src/calls/curve_input.hpp"
 #include "src/calls/pack_request.hpp"
-#include "src/nets/net_places.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/dispatch.hpp"
 #include "src/storage/net_faults.hpp"
@@ -18,41 +18,6 @@
 namespace simdbezier {
 namespace detail {
 namespace {
-
-template <typename S>
-Status check(const ControlCurves<S>& curves) {
-  if (curves.degree < 1 || curves.degree > kMostDegree) {
-    return Status::bad_degree;
-  }
-  if (curves.components < 1 || curves.components > kMostComponents ||
-      curves.weights > Weights::homogeneous) {
-    return Status::bad_components;
-  }
-  if (curves.points == nullptr && curves.count > 0) {
-    return Status::null_input;
-  }
-  const bool single = curves.components == 1 && curves.weights == Weights::none;
-  if (curves.point_stride == 0 || (curves.component_stride == 0 && !single)) {
-    return Status::bad_stride;
-  }
-  Lattice lattice; // of nets with one row
-  const bool addressable = lattice_of<S>({curves.points,
-                                          curves.count,
-                                          curves.degree,
-                                          0,
-                                          curves.curve_stride,
-                                          0,
-                                          curves.point_stride,
-                                          curves.component_stride,
-                                          curves.components,
-                                          curves.weights,
-                                          {}},
-                                         lattice);
-  if (!addressable) {
-    return Status::size_overflow;
-  }
-  return lies_in(lattice, curves.count, curves.memory) ? Status::ok : Status::input_too_small;
-}
 
 /// One block for all arrays.
 template <typename T>
@@ -161,7 +126,7 @@ bool CurveSet<T>::has_local_origins() const noexcept {
 template <typename T, typename S>
 PackReport pack(const ControlCurves<S>& curves, CurveSet<T>& set,
                 const PackOptions& options) noexcept try {
-  const Status usable = detail::check(curves);
+  const Status usable = detail::check_curves(curves);
   if (usable != Status::ok) {
     return {usable};
   }

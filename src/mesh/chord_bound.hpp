@@ -17,6 +17,9 @@ inline double triangle_bound(double a, double b, double c) {
   return a * b * c / (4 * (a * b + b * c + c * a) - 2 * (a * a + b * b + c * c));
 }
 
+/// Parameters of samples are rounded, so that one of n steps may be so many times as long as 1/n.
+inline double step_slack(double n) { return 1 + 4 * 0x1p-24 * n; }
+
 /// Bounds on second derivatives over a part of a patch, by parameters of the whole patch.
 struct SecondBounds {
   double uu;

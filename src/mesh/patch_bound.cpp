@@ -8,9 +8,7 @@
 namespace simdbezier::detail {
 namespace {
 
-/// Parameters of samples are rounded, so that a step may be (1 + 4 n u) times as long as 1/n; and
-/// everything else that rounds here.
-double slack(std::uint32_t n) { return 1 + 4 * 0x1p-24 * n; }
+/// Everything that rounds here but the second differences.
 constexpr double kRounding = 1 + 1e-12;
 
 /// Roundings of a second difference and of what it is formed from, in units of the largest value.
@@ -47,8 +45,8 @@ struct CellSteps {
   double vv;
 
   explicit CellSteps(const CellCounts& cells) {
-    const double hu = slack(cells.nu) / cells.nu;
-    const double hv = slack(cells.nv) / cells.nv;
+    const double hu = step_slack(cells.nu) / cells.nu;
+    const double hv = step_slack(cells.nv) / cells.nv;
     uu = hu * hu;
     uv = 2 * hu * hv;
     vv = hv * hv;
@@ -150,8 +148,8 @@ double PatchBound::zone_bound(QuarterSet quarters, const CellCounts& cells, bool
 double PatchBound::corner_bound(std::size_t corner, const CellCounts& cells) const {
   const CellSteps steps(cells);
   SecondNets nets = nets_;
-  const double hu = std::min(1.0, slack(cells.nu) / cells.nu);
-  const double hv = std::min(1.0, slack(cells.nv) / cells.nv);
+  const double hu = std::min(1.0, step_slack(cells.nu) / cells.nu);
+  const double hv = std::min(1.0, step_slack(cells.nv) / cells.nv);
   cut_all(nets, true, corner % 2 != 0 ? 1 - hu : hu, corner % 2 != 0);
   cut_all(nets, false, corner >= 2 ? 1 - hv : hv, corner >= 2);
   const Hull& hull = hull_of(kAll);
@@ -195,7 +193,7 @@ double PatchBound::bound(const CellCounts& cells, std::uint16_t* diagonals) cons
 
 CellCounts PatchBound::filip(double t, std::uint32_t most) const {
   const double limit =
-      8 * t * hulls_[kAll].smallest_weight / (kRounding * slack(most) * slack(most));
+      8 * t * hulls_[kAll].smallest_weight / (kRounding * step_slack(most) * step_slack(most));
   const double a = whole_.uu + doubt_.uu;
   const double b = whole_.uv + doubt_.uv;
   const double c = whole_.vv + doubt_.vv;

@@ -6,6 +6,7 @@
 #include <new>
 #include <vector>
 
+#include "src/calls/call.hpp"
 #include "src/mesh/cluster_sink.hpp"
 #include "src/mesh/primitive_sinks.hpp"
 #include "src/runtime/batch.hpp"
@@ -14,15 +15,16 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-/// Calls visit(patch, cutter, turned) for every patch, in parallel.
+/// Calls visit(patch, cutter, turned) for some patches, in parallel.
 template <typename Visit>
-Status for_cells(const MeshLayout& layout, int threads, const Visit& visit) noexcept {
+Status for_cells(const MeshLayout& layout, std::size_t first, std::size_t patches, int threads,
+                 const Visit& visit) noexcept {
   const MeshData& mesh = *layout.data();
   std::atomic<bool> failed = false;
   auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
     try {
       PatchBoundary boundary(mesh);
-      for (std::size_t patch = begin; patch < end; ++patch) {
+      for (std::size_t patch = first + begin; patch < first + end; ++patch) {
         boundary.move_to(patch);
         visit(patch, CellCutter(mesh, boundary, patch), mesh.topology.is_turned(patch));
       }
@@ -30,9 +32,12 @@ Status for_cells(const MeshLayout& layout, int threads, const Visit& visit) noex
       failed = true;
     }
   };
-  const std::size_t patches = mesh.nu.size();
   for_blocks(patches, thread_count(threads, patches), BlockBody(body));
   return failed ? Status::out_of_memory : Status::ok;
+}
+template <typename Visit>
+Status for_cells(const MeshLayout& layout, int threads, const Visit& visit) noexcept {
+  return for_cells(layout, 0, layout.data()->patches(), threads, visit);
 }
 
 template <typename Index>
@@ -113,22 +118,31 @@ Status cluster_sizes(const MeshLayout& layout, int threads, std::vector<ClusterS
 } // namespace detail
 
 template <typename Index>
-Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, int threads) noexcept {
-  const std::size_t needed = 3 * layout.size().triangles;
+Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, int threads,
+                       SetRange patches) noexcept {
+  std::size_t first = 0;
+  std::size_t count = 0;
+  const std::size_t all = layout.data() == nullptr ? 0 : layout.data()->patches();
+  if (!detail::resolve_range(patches, all, first, count)) {
+    return Status::bad_patch_range;
+  }
+  const std::size_t before = layout.first_triangle(first);
+  const std::size_t needed = 3 * (layout.first_triangle(first + count) - before);
   const Status status = detail::check<Index>(layout, triangles, needed);
   if (status != Status::ok || needed == 0) {
     return status;
   }
   const detail::MeshData& mesh = *layout.data();
   return detail::for_cells(
-      layout, threads, [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
-        detail::TriangleSink<Index> sink(&triangles[3 * mesh.triangles[patch]], turned);
+      layout, first, count, threads,
+      [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
+        Index* const begin = triangles.data() + 3 * (mesh.triangles[patch] - before);
+        Index* const end = triangles.data() + 3 * (mesh.triangles[patch + 1] - before);
+        detail::TriangleSink<Index> sink(begin, turned);
         cells.cut(sink);
         // Where neighbouring sides of a patch are one edge, cells between them have fewer triangles
         // than were counted: the last vertex in place of what is missing.
-        Index* const end = triangles.data() + 3 * mesh.triangles[patch + 1];
-        std::fill(triangles.data() + (sink.end() - triangles.data()), end,
-                  static_cast<Index>(mesh.vertices - 1));
+        std::fill(begin + (sink.end() - begin), end, static_cast<Index>(mesh.vertices - 1));
       });
 }
 
@@ -233,10 +247,10 @@ Status write_clusters(const MeshLayout& layout, const ClusterOutputs& out, int t
   return Status::out_of_memory;
 }
 
-template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint32_t>,
-                                               int) noexcept;
-template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint16_t>,
-                                               int) noexcept;
+template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint32_t>, int,
+                                               SetRange) noexcept;
+template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint16_t>, int,
+                                               SetRange) noexcept;
 template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint32_t>,
                                               std::span<std::uint8_t>, int) noexcept;
 template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint16_t>,

@@ -1,0 +1,86 @@
+// Curves as polylines that stay within a distance of them.
+//
+//     choose_polylines(curves, {.tolerance = 1e-3}, points, deviation);   sizes first
+//     evaluate(set, CurveGrids{.n = points}, out);                        then points
+//
+// flatten() does both in one call.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <simdbezier/curves.hpp>
+
+namespace simdbezier {
+
+/// The most points of one polyline.
+inline constexpr std::uint32_t kMostPolylinePoints = (1U << 16) + 1;
+
+struct FlattenOptions {
+  /// The largest distance between a curve and its polyline, over all components.
+  double tolerance = 0;
+  std::span<const double> tolerances; ///< one value a curve, instead of `tolerance`; or empty
+  /// How far evaluated points may be from the exact ones, one value a curve: position_errors() of
+  /// the set that will be evaluated. Part of the tolerance. Empty: 0.
+  std::span<const double> errors;
+  std::uint32_t most_points = kMostPolylinePoints;
+};
+
+/// Where choosing stopped.
+struct FlattenReport {
+  Status status;
+  std::size_t curve = 0; ///< the first one at fault
+  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
+};
+
+/// Upper bounds on the distance of evaluated points of each curve from the exact ones: the norm of
+/// error_bounds(). out: one value a curve. Returns: ok | output_too_small.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API Status position_errors(const CurveSet<T>& set,
+                                                    std::span<double> out) noexcept;
+
+/// The least points at uniform parameters with which every curve is within its tolerance of its
+/// polyline, both ways: 2 or more, as CurveGrids::n takes them.
+///
+/// Formula:    n segments deviate by at most max |C''| / (8 n^2), which is theorem 1 of
+///             docs/tessellation.md for one parameter; max |C''| is at most degree (degree - 1)
+///             times the largest second difference of control points. With weights, |v| of a second
+///             difference becomes |v_X - c v_w| + R |v_w|, c being the middle and R half of the
+///             diagonal of the box of the control points, and the bound is divided by the smallest
+///             weight.
+/// curves:     any components.
+/// points:     one value a curve. deviation: the certified distance, errors included; one value a
+///             curve, or empty.
+/// Determinism: the same on all machines. Allocation: none.
+/// Returns:    ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
+///             non_finite_input | bad_weight | unequal_lengths (spans that are not one value a
+///             curve) | bad_tolerance (not above zero, or not above the curve's error, or more than
+///             most_points would be needed; the report names the curve).
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API FlattenReport choose_polylines(const ControlCurves<S>& curves,
+                                                            const FlattenOptions& options,
+                                                            std::span<std::uint32_t> points,
+                                                            std::span<double> deviation) noexcept;
+
+/// Polylines, one after the other.
+template <typename T>
+struct Polylines {
+  Status status;
+  std::size_t fault_curve = 0;
+  std::vector<std::array<T, 3>> points; ///< z (and y) are 0 where curves have no such component
+  std::vector<std::size_t> first; ///< of every curve among the points, and the end of the last
+  double deviation = 0; ///< the distance between all of them and the curves is at most this
+
+  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
+};
+
+/// Packs, chooses, and evaluates curves of up to three components.
+/// Returns: in Polylines::status, what pack(), choose_polylines() and evaluate() return.
+template <typename T, typename S>
+[[nodiscard]] Polylines<T> flatten(const ControlCurves<S>& curves, double tolerance,
+                                   const Options& options = {}) noexcept;
+
+} // namespace simdbezier
