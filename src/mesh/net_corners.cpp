@@ -98,6 +98,13 @@ void NetCorners<S>::read_side(std::size_t side, SideNet& to) const {
 }
 
 template <typename S>
+Point3 NetCorners<S>::corner_point(std::size_t corner) const noexcept {
+  const Place at = place(corner / kPatchCorners);
+  return point_at(*at.nets, at.patch, corner % 2 == 0 ? 0 : at.nets->degree_u,
+                  corner % kPatchCorners < 2 ? 0 : at.nets->degree_v);
+}
+
+template <typename S>
 bool NetCorners<S>::side_within(std::size_t side, double distance) const {
   SideNet net;
   read_side(side, net);

@@ -37,6 +37,8 @@ public:
   explicit NetCorners(std::span<const ControlNets<S>> sets);
 
   void read_side(std::size_t side, SideNet& to) const;
+  /// Of corner 4 * patch + corner.
+  [[nodiscard]] Point3 corner_point(std::size_t corner) const noexcept;
 
   /// Whether all control points of a side lie within a distance of both of its ends.
   [[nodiscard]] bool side_within(std::size_t side, double distance) const;

@@ -110,6 +110,7 @@ public:
   std::size_t run() {
     raise_torn_cells();
     raise_between_points();
+    raise_loops();
     // More cells take vertices apart; what is not apart then never will be, such as a patch whose
     // neighbouring sides are one edge.
     constexpr int kRounds = 6;
@@ -155,6 +156,13 @@ private:
       if (sides[2].collapsed() && sides[3].collapsed()) {
         raise(patch, true, 2);
       }
+    }
+  }
+
+  /// Edges that end where they begin without being points: as one segment they would be no line.
+  void raise_loops() {
+    for (const std::uint32_t side : data_.loops) {
+      raise(side / kPatchEdges, runs_in_u(side), 2);
     }
   }
 

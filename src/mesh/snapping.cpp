@@ -140,16 +140,11 @@ void find_displacements(const NetCorners<S>& nets, TopologyData& topology) {
   topology.displacement.assign(topology.patches(), 0);
   SideNet own;
   SideNet first;
-  const auto corner_point = [&](std::uint32_t corner) {
-    // Side v0 or v1 of the corner's patch, whose ends are corners 0 and 1, or 2 and 3.
-    nets.read_side(corner / kPatchCorners * kPatchEdges + corner % kPatchCorners / 2, first);
-    return corner % 2 == 0 ? first.points.front() : first.points.back();
-  };
   for (std::size_t side = 0; side < topology.sides.size(); ++side) {
     double& displacement = topology.displacement[side / kPatchEdges];
     nets.read_side(side, own);
     for (std::size_t end = 0; end < 2; ++end) {
-      const Point3 vertex = corner_point(topology.corner_of(side, end));
+      const Point3 vertex = nets.corner_point(topology.corner_of(side, end));
       const Point3 d = (end == 0 ? own.points.front() : own.points.back()) - vertex;
       displacement = std::max(displacement, std::sqrt(dot(d, d)));
       if (topology.sides[side].collapsed()) {

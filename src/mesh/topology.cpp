@@ -155,6 +155,20 @@ void mark_corners(const NetCorners<S>& nets, TopologyData& topology) {
 }
 
 template <typename S>
+void mark_loops(const NetCorners<S>& nets, TopologyData& topology) {
+  for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
+    const std::uint32_t side = topology.sides_of(edge)[0];
+    if (topology.corner_of(side, 0) != topology.corner_of(side, 1)) {
+      const Point3 d =
+          nets.corner_point(corner_at(side, 1)) - nets.corner_point(corner_at(side, 0));
+      if (dot(d, d) == 0) {
+        topology.loops.push_back(side);
+      }
+    }
+  }
+}
+
+template <typename S>
 Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& options,
              TopologyData& topology) {
   std::size_t patches = 0;
@@ -181,6 +195,7 @@ Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& option
     find_displacements(nets, topology);
   }
   mark_corners(nets, topology);
+  mark_loops(nets, topology);
   mark_repeated(nets, topology);
   mark_entangled(topology);
   const Status oriented = orient(options, topology);

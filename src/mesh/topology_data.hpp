@@ -77,6 +77,8 @@ struct TopologyData {
   std::vector<std::uint32_t> next_corner; ///< [4 * patch + corner]: the next one of those joined,
                                           ///< ascending, and from the last back to the lowest
   std::vector<std::uint8_t> flags;        ///< PatchFlag, of each patch
+  /// First sides of edges that are no points, and whose ends are different corners in one place.
+  std::vector<std::uint32_t> loops;
   /// ApartFlag of each patch; empty where nothing is apart.
   std::vector<std::uint8_t> apart;
   /// How far a patch's vertices may lie from its own corners and edges, by snapping; or empty.

@@ -1,0 +1,218 @@
+// From control nets to a layout: the steps of plan_mesh().
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <simdbezier/mesh.hpp>
+
+#include "src/mesh/net_points.hpp"
+
+namespace simdbezier::detail {
+
+/// Views without the patches that a topology calls repeated.
+template <typename S>
+std::vector<ControlNets<S>> without_repeated(std::span<const ControlNets<S>> sets,
+                                             const Topology& topology,
+                                             std::vector<std::uint32_t>& kept) {
+  std::vector<ControlNets<S>> parts;
+  std::uint32_t number = 0;
+  for (const ControlNets<S>& nets : sets) {
+    bool open = false;
+    for (std::size_t patch = 0; patch < nets.count; ++patch, ++number) {
+      if (topology.is_repeated(number)) {
+        open = false;
+        continue;
+      }
+      if (!open) {
+        parts.push_back(nets);
+        parts.back().points += static_cast<std::ptrdiff_t>(patch) * nets.patch_stride;
+        parts.back().memory = {};
+        parts.back().count = 0;
+        open = true;
+      }
+      ++parts.back().count;
+      kept.push_back(number);
+    }
+  }
+  return parts;
+}
+
+/// One call of plan_mesh(): steps in their order, each of which may refuse.
+template <typename T, typename S>
+class MeshPlanner {
+public:
+  MeshPlanner(std::span<const ControlNets<S>> nets, const MeshOptions& options, MeshPlan<T>& plan)
+      : given_(nets), nets_(nets), options_(options), plan_(plan) {}
+
+  Status run() {
+    for (const auto step : {&MeshPlanner::check, &MeshPlanner::join, &MeshPlanner::pack_nets,
+                            &MeshPlanner::measure, &MeshPlanner::choose, &MeshPlanner::lay_out}) {
+      if (const Status status = (this->*step)(); !status) {
+        return status;
+      }
+    }
+    return Status::ok;
+  }
+
+private:
+  [[nodiscard]] bool is_uniform() const { return options_.nu != 0 || options_.nv != 0; }
+  /// By the number that the patch was given with.
+  Status fault_at(std::size_t patch, Status status) {
+    plan_.fault_patch = patch < plan_.patches.size() ? plan_.patches[patch] : patch;
+    return status;
+  }
+
+  Status check() {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    const auto is_given = [&](double value) { return value != kNone; };
+    const bool toleranced = is_given(options_.tolerance) || is_given(options_.relative_tolerance) ||
+                            is_given(options_.pixels) || is_given(options_.longest_edge) ||
+                            is_given(options_.normal_angle) || !options_.tolerances.empty();
+    if (is_uniform()) {
+      return toleranced || options_.nu < 2 || options_.nv < 2 ? Status::bad_grid : Status::ok;
+    }
+    const bool positive = options_.tolerance > 0 && options_.relative_tolerance > 0 &&
+                          options_.pixels > 0 && options_.longest_edge > 0 &&
+                          options_.normal_angle > 0;
+    return toleranced && positive ? Status::ok : Status::bad_tolerance;
+  }
+
+  Status join() {
+    TopologyOptions how;
+    how.orient = options_.orient && !options_.drop_repeated;
+    how.flip = options_.flip;
+    how.point_size = options_.point_size;
+    how.snap = options_.snap;
+    how.threads = options_.threads;
+    Status status = find_topology(given_, plan_.topology, how);
+    plan_.counts = plan_.topology.counts();
+    if (status && options_.drop_repeated) {
+      if (plan_.counts.repeated_patches > 0) {
+        parts_ = without_repeated(given_, plan_.topology, plan_.patches);
+        nets_ = parts_;
+      }
+      how.orient = options_.orient;
+      status = find_topology(nets_, plan_.topology, how);
+    }
+    return status;
+  }
+
+  Status pack_nets() {
+    PackOptions how;
+    how.local_origin = options_.local_origin;
+    how.threads = options_.threads;
+    how.isa = options_.isa;
+    const PackReport report = pack(nets_, plan_.set, how);
+    return report ? Status(Status::ok) : fault_at(report.patch, report.status);
+  }
+
+  Status measure() {
+    PointBox box;
+    for (const ControlNets<S>& nets : given_) {
+      for (std::size_t patch = 0; patch < nets.count; ++patch) {
+        for_points(nets, patch, [&](const Point3& point) { box.include(point); });
+      }
+    }
+    plan_.diagonal = box.diagonal();
+    const std::size_t patches = plan_.set.size();
+    plan_.nu.resize(patches);
+    plan_.nv.resize(patches);
+    plan_.deviations.resize(patches);
+    diagonals_.resize(patches);
+    errors_.resize(patches);
+    return position_errors(plan_.set, errors_);
+  }
+
+  Status choose() {
+    const CertifiedRates rates{plan_.nu, plan_.nv, diagonals_, plan_.deviations};
+    RateReport report;
+    if (is_uniform()) {
+      std::fill(plan_.nu.begin(), plan_.nu.end(), options_.nu - 1);
+      std::fill(plan_.nv.begin(), plan_.nv.end(), options_.nv - 1);
+      std::size_t raised = 0;
+      report.status = separate_vertices(plan_.topology, plan_.nu, plan_.nv, raised);
+      report = report ? certify_rates<S>(nets_, plan_.topology, errors_, rates, options_.threads)
+                      : report;
+    } else {
+      RateOptions how;
+      how.errors = errors_;
+      how.longest_edge = options_.longest_edge;
+      how.normal_angle = options_.normal_angle;
+      how.threads = options_.threads;
+      if (const Status status = find_tolerances(how); !status) {
+        return status;
+      }
+      report = choose_rates<S>(nets_, plan_.topology, how, rates);
+    }
+    if (!report) {
+      return fault_at(report.patch, report.status);
+    }
+    plan_.deviation = plan_.deviations.empty()
+                          ? 0
+                          : *std::max_element(plan_.deviations.begin(), plan_.deviations.end());
+    return Status::ok;
+  }
+
+  /// The smallest of what is asked of each patch; far more than its size where nothing is.
+  Status find_tolerances(RateOptions& how) {
+    const double all = plan_.diagonal > 0 ? 1e3 * plan_.diagonal : 1;
+    how.tolerance =
+        std::min({options_.tolerance, options_.relative_tolerance * plan_.diagonal, all});
+    const bool pixels = std::isfinite(options_.pixels);
+    if (options_.tolerances.empty() && !pixels) {
+      return Status::ok;
+    }
+    std::size_t given = 0;
+    for (const ControlNets<S>& nets : given_) {
+      given += nets.count;
+    }
+    if (!options_.tolerances.empty() && options_.tolerances.size() != given) {
+      return Status::bad_rates;
+    }
+    tolerances_.assign(plan_.set.size(), how.tolerance);
+    if (pixels) {
+      if (const Status status =
+              pixel_tolerances<S>(nets_, options_.camera, options_.pixels, tolerances_);
+          !status) {
+        return status;
+      }
+    }
+    for (std::size_t patch = 0; patch < tolerances_.size(); ++patch) {
+      double& tolerance = tolerances_[patch];
+      tolerance = std::min(tolerance, how.tolerance);
+      if (!options_.tolerances.empty()) {
+        const double own =
+            options_.tolerances[plan_.patches.empty() ? patch : plan_.patches[patch]];
+        tolerance = own >= tolerance ? tolerance : own; // nan is kept, and refused
+      }
+    }
+    how.tolerances = tolerances_;
+    return Status::ok;
+  }
+
+  Status lay_out() {
+    const Status status =
+        lay_out_mesh(plan_.topology, {plan_.nu, plan_.nv, diagonals_}, plan_.layout);
+    if (!status || !(options_.crease_angle < std::numeric_limits<double>::infinity())) {
+      return std::isnan(options_.crease_angle) ? Status(Status::bad_tolerance) : status;
+    }
+    Options how;
+    how.threads = options_.threads;
+    how.isa = options_.isa;
+    return split_creases(plan_.set, plan_.layout, options_.crease_angle, plan_.layout, how);
+  }
+
+  std::span<const ControlNets<S>> given_;
+  std::span<const ControlNets<S>> nets_; ///< without what is left out
+  std::vector<ControlNets<S>> parts_;
+  const MeshOptions& options_;
+  MeshPlan<T>& plan_;
+  std::vector<double> errors_;
+  std::vector<double> tolerances_;
+  std::vector<std::uint16_t> diagonals_;
+};
+
+} // namespace simdbezier::detail
