@@ -11,15 +11,10 @@
 #include <simdbezier/mesh_primitives.hpp>
 #include <simdbezier/rates.hpp>
 
+#include "tests/mesh/mesh_oracle.hpp"
+
 namespace simdbezier::tests {
 namespace {
-
-using Point = std::array<double, 3>;
-
-Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Point operator*(double s, const Point& a) { return {s * a[0], s * a[1], s * a[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// One patch: values x y z (w) of its control points, u fastest.
 struct TestPatch {
@@ -64,34 +59,6 @@ Point TestPatch::at(double u, double v) const {
     }
   }
   return (1 / weight) * sum;
-}
-
-/// Squared distance of a point from a triangle: to the plane where the foot lies inside, else to
-/// the nearest side.
-double distance_squared(const Point& p, const std::array<Point, 3>& t) {
-  const Point e = t[1] - t[0];
-  const Point f = t[2] - t[0];
-  const Point d = p - t[0];
-  const double ee = dot(e, e);
-  const double ef = dot(e, f);
-  const double ff = dot(f, f);
-  const double determinant = ee * ff - ef * ef;
-  const double s = (dot(d, e) * ff - dot(d, f) * ef) / determinant;
-  const double r = (dot(d, f) * ee - dot(d, e) * ef) / determinant;
-  if (determinant > 0 && s >= 0 && r >= 0 && s + r <= 1) {
-    const Point foot = d - (s * e + r * f);
-    return dot(foot, foot);
-  }
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Point side = t[(k + 1) % 3] - t[k];
-    const Point from = p - t[k];
-    const double length = dot(side, side);
-    const double along = length > 0 ? std::clamp(dot(from, side) / length, 0.0, 1.0) : 0;
-    const Point rest = from - along * side;
-    least = std::min(least, dot(rest, rest));
-  }
-  return least;
 }
 
 TestPatch random_patch(unsigned seed) {
@@ -182,7 +149,7 @@ double found_deviation(const TestPatch& patch, const Topology& topology, const C
                                static_cast<double>(j) / (kInCell * choice.nv[0]));
       double least = std::numeric_limits<double>::infinity();
       for (const auto& triangle : triangles) {
-        least = std::min(least, distance_squared(p, triangle));
+        least = std::min(least, squared_distance(p, triangle));
         if (least <= worst) {
           break;
         }

@@ -1,0 +1,226 @@
+// Vertices of meshes against surfaces and normals by the tests' own formulas, and against the grids
+// of the library for their bits.
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tests/mesh/evaluated_mesh.hpp"
+#include "tests/mesh/mesh_oracle.hpp"
+#include "tests/support/isa_fixture.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+template <typename T>
+Point to_point(const std::array<T, 3>& x) {
+  return {x[0], x[1], x[2]};
+}
+
+std::vector<MeshModel> models_and_shuffled() {
+  std::vector<MeshModel> models = mesh_models();
+  for (unsigned seed = 1; seed < 3; ++seed) {
+    for (const MeshModel& model : mesh_models()) {
+      models.push_back(shuffled(model, seed));
+    }
+  }
+  return models;
+}
+
+using EvaluateMesh = IsaTest;
+
+TEST_P(EvaluateMesh, positions_and_parameters_are_the_surface) {
+  for (const MeshModel& model : models_and_shuffled()) {
+    SCOPED_TRACE(model.name);
+    EvaluatedMesh<double> mesh(model, 7, 1);
+    run<Options>({}, [&](const Options& options) {
+      return evaluate_mesh(mesh.set, mesh.layout, mesh.outputs(), options);
+    });
+    std::set<std::array<double, 3>> places;
+    for (std::size_t k = 0; k < mesh.position.size(); ++k) {
+      const auto [u, v] = mesh.parameters[k];
+      ASSERT_LT(mesh.patch[k], model.patches.size());
+      EXPECT_LT(length(surface(model.patches[mesh.patch[k]], u, v) - mesh.position[k]), 1e-12);
+      places.insert({static_cast<double>(mesh.patch[k]), u, v});
+    }
+    EXPECT_EQ(places.size(), mesh.position.size()) << "no two vertices are one point of a patch";
+  }
+}
+INSTANTIATE_FOR_EVERY_ISA(EvaluateMesh);
+
+template <typename T>
+class VertexBits : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(VertexBits, Scalars);
+
+/// Every patch's triangles have its own grid's points, edges of neighbours included.
+TYPED_TEST(VertexBits, are_those_of_each_patchs_grid) {
+  using T = TypeParam;
+  for (const MeshModel& model : models_and_shuffled()) {
+    SCOPED_TRACE(model.name);
+    EvaluatedMesh<T> mesh(model, 9, 2);
+    mesh.evaluate_all();
+    for (std::size_t p = 0; p < model.patches.size(); ++p) {
+      const Grid<T> grid = Grid<T>::uniform(mesh.nu[p] + 1, mesh.nv[p] + 1, {p, 1});
+      const auto samples = evaluate(mesh.set, grid, {Output::position, Output::normal});
+      ASSERT_TRUE(samples);
+      std::set<std::array<T, 3>> positions;
+      std::set<std::array<std::array<T, 3>, 2>> both;
+      for (const std::uint32_t vertex : mesh.vertices_of(p)) {
+        positions.insert(mesh.position[vertex]);
+        both.insert({mesh.position[vertex], mesh.normal[vertex]});
+      }
+      for (std::size_t j = 0; j <= mesh.nv[p]; ++j) {
+        for (std::size_t i = 0; i <= mesh.nu[p]; ++i) {
+          const std::size_t k = j * (mesh.nu[p] + 1) + i;
+          EXPECT_TRUE(positions.contains(samples.position[k])) << i << ", " << j;
+          const bool inner = i > 0 && i < mesh.nu[p] && j > 0 && j < mesh.nv[p];
+          EXPECT_TRUE(!inner || both.contains({samples.position[k], samples.normal[k]}));
+        }
+      }
+    }
+  }
+}
+
+/// Sums over all patches that come to a vertex, found by their places.
+class NormalOracle {
+public:
+  explicit NormalOracle(const EvaluatedMesh<double>& mesh, const MeshModel& model)
+      : mesh_(mesh), model_(model) {
+    std::set<std::uint32_t> rates(mesh.nu.begin(), mesh.nu.end());
+    rates.insert(mesh.nv.begin(), mesh.nv.end());
+    std::set<double> fractions;
+    for (const std::uint32_t n : rates) {
+      for (std::uint32_t i = 0; i <= n; ++i) {
+        fractions.insert(static_cast<double>(i) / n);
+      }
+    }
+    for (std::size_t p = 0; p < model.patches.size(); ++p) {
+      for (const double t : fractions) {
+        for (const auto& [u, v] : {std::array{t, 0.0}, {t, 1.0}, {0.0, t}, {1.0, t}}) {
+          add(p, u, v);
+        }
+      }
+    }
+  }
+
+  /// The normal of a vertex; zero where one of its patches has none.
+  [[nodiscard]] Point at(std::size_t vertex) const {
+    const Point& x = mesh_.position[vertex];
+    std::set<std::array<double, 3>> seen;
+    Point sum{};
+    for (const Touching& touching : touching_) {
+      if (length(touching.position - x) < 1e-9 &&
+          seen.insert({static_cast<double>(touching.patch), touching.u, touching.v}).second) {
+        if (!(length(touching.normal) > 1e-6)) {
+          return {};
+        }
+        sum = sum + 1 / length(touching.normal) * touching.normal;
+      }
+    }
+    if (seen.empty()) {
+      const auto [u, v] = mesh_.parameters[vertex];
+      sum = sided_normal(mesh_.patch[vertex], u, v);
+    }
+    return length(sum) > 0.01 ? 1 / length(sum) * sum : Point{};
+  }
+
+private:
+  struct Touching {
+    std::size_t patch;
+    double u;
+    double v;
+    Point position;
+    Point normal;
+  };
+  [[nodiscard]] Point sided_normal(std::size_t p, double u, double v) const {
+    return (mesh_.topology.is_turned(p) ? -1.0 : 1.0) * surface_normal(model_.patches[p], u, v);
+  }
+  void add(std::size_t p, double u, double v) {
+    touching_.push_back({p, u, v, surface(model_.patches[p], u, v), sided_normal(p, u, v)});
+  }
+
+  const EvaluatedMesh<double>& mesh_;
+  const MeshModel& model_;
+  std::vector<Touching> touching_;
+};
+
+TEST(MeshNormals, are_merged_over_all_patches_at_a_vertex) {
+  std::size_t compared = 0;
+  for (const MeshModel& model : models_and_shuffled()) {
+    const bool apart = model.name.starts_with("touching") || model.name.starts_with("one patch");
+    if (!model.orientable || apart) { // patches that are not joined, and two normals in one place
+      continue;
+    }
+    for (const bool flip : {false, true}) {
+      SCOPED_TRACE(model.name + (flip ? ", flipped" : ""));
+      TopologyOptions how;
+      how.orient = true;
+      how.flip = flip;
+      EvaluatedMesh<double> mesh(model, 5, 3, how);
+      mesh.evaluate_all();
+      const NormalOracle oracle(mesh, model);
+      for (std::size_t k = 0; k < mesh.normal.size(); ++k) {
+        const Point expected = oracle.at(k);
+        EXPECT_NEAR(length(mesh.normal[k]), 1, 1e-12);
+        if (length(expected) > 0) {
+          EXPECT_LT(length(mesh.normal[k] - expected), 1e-8) << k;
+          ++compared;
+        }
+      }
+    }
+  }
+  EXPECT_GT(compared, 3000U);
+}
+
+TEST(MeshNormals, of_sides_that_disagree_are_the_first_ones) {
+  for (const MeshModel& model : mesh_models()) {
+    if (model.name != "one patch twice") {
+      continue;
+    }
+    // The second patch the other way round: its normals are opposite everywhere.
+    MeshModel turned = model;
+    for (auto& row : turned.patches[1]) {
+      std::reverse(row.begin(), row.end());
+    }
+    EvaluatedMesh<double> mesh(turned, 4, 5);
+    mesh.evaluate_all();
+    const std::size_t own = mesh.layout.first_vertex(1);
+    for (std::size_t k = 0; k < own; ++k) {
+      const auto [u, v] = mesh.parameters[k];
+      const Point n = surface_normal(turned.patches[0], u, v);
+      EXPECT_LT(length(mesh.normal[k] - 1 / length(n) * n), 1e-12);
+    }
+  }
+}
+
+TEST(MeshTriangles, are_counter_clockwise_about_the_normals) {
+  for (const MeshModel& model : models_and_shuffled()) {
+    if (model.name.find("cube") == std::string::npos && !model.name.starts_with("torus 4")) {
+      continue;
+    }
+    for (const bool flip : {false, true}) {
+      SCOPED_TRACE(model.name + (flip ? ", flipped" : ""));
+      TopologyOptions how;
+      how.orient = true;
+      how.flip = flip;
+      EvaluatedMesh<float> mesh(model, 1, 3, how);
+      std::fill(mesh.nu.begin(), mesh.nu.end(), 20U);
+      std::fill(mesh.nv.begin(), mesh.nv.end(), 20U);
+      ASSERT_EQ(lay_out_mesh(mesh.topology, {mesh.nu, mesh.nv, {}}, mesh.layout), Status::ok);
+      mesh.evaluate_all();
+      for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
+        std::array<Point, 3> t;
+        Point normal{};
+        for (std::size_t i = 0; i < 3; ++i) {
+          t[i] = to_point(mesh.position[mesh.triangles[k + i]]);
+          normal = normal + to_point(mesh.normal[mesh.triangles[k + i]]);
+        }
+        EXPECT_GT(dot(cross(t[1] - t[0], t[2] - t[0]), normal), 0);
+      }
+    }
+  }
+}
+
+} // namespace
+} // namespace simdbezier::tests

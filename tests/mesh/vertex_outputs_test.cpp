@@ -1,0 +1,227 @@
+// The same bits of vertices whatever the call: threads, instruction sets, layouts, destinations,
+// parts of a mesh; and what calls refuse.
+#include <cstring>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/mesh/evaluated_mesh.hpp"
+#include "tests/support/isas.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+MeshModel model_named(const std::string& name) {
+  for (MeshModel& model : mesh_models()) {
+    if (model.name == name) {
+      return model;
+    }
+  }
+  ADD_FAILURE() << "no model " << name;
+  return {};
+}
+
+/// Every value of a mesh, side by side.
+template <typename T>
+using Bits = std::vector<T>;
+
+template <typename T>
+Bits<T> bits_of(const EvaluatedMesh<T>& mesh) {
+  Bits<T> bits;
+  for (std::size_t k = 0; k < mesh.position.size(); ++k) {
+    bits.insert(bits.end(), mesh.position[k].begin(), mesh.position[k].end());
+    bits.insert(bits.end(), mesh.normal[k].begin(), mesh.normal[k].end());
+    bits.insert(bits.end(), mesh.parameters[k].begin(), mesh.parameters[k].end());
+    bits.push_back(static_cast<T>(mesh.patch[k]));
+  }
+  return bits;
+}
+
+template <typename T>
+bool same_bits(const Bits<T>& a, const Bits<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+template <typename T>
+class VertexCalls : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(VertexCalls, Scalars);
+
+struct Case {
+  const char* model;
+  std::uint32_t most; ///< rates
+};
+constexpr Case kCases[] = {{"torus 4 x 3", 7}, {"torus 4 x 3", 40}, {"ball 3 x 3", 12},
+                           {"cube", 70},       {"book of 4", 9},    {"torus 1 x 1", 5}};
+
+TYPED_TEST(VertexCalls, have_the_same_bits_for_any_threads_destination_and_instruction_set) {
+  using T = TypeParam;
+  for (const Case& c : kCases) {
+    SCOPED_TRACE(c.model);
+    EvaluatedMesh<T> mesh(shuffled(model_named(c.model), 4), c.most, 7);
+    Bits<T> expected[2]; // by class of instruction sets
+    for (const Isa isa : available_isas()) {
+      for (const int threads : {1, 2, 3, 7}) {
+        for (const Destination destination :
+             {Destination::automatic, Destination::cache, Destination::memory}) {
+          Options options;
+          options.isa = isa;
+          options.threads = threads;
+          options.destination = destination;
+          mesh.evaluate_all(options);
+          const Bits<T> bits = bits_of(mesh);
+          Bits<T>& same = expected[fuses_multiply_add(isa) ? 1 : 0];
+          same = same.empty() ? bits : same;
+          EXPECT_TRUE(same_bits(same, bits))
+              << to_string(isa) << ", " << threads << ", " << static_cast<int>(destination);
+        }
+      }
+    }
+  }
+}
+
+/// Vertices as one record each, as planes, or alone.
+TYPED_TEST(VertexCalls, have_the_same_bits_in_any_layout) {
+  using T = TypeParam;
+  for (const Case& c : kCases) {
+    SCOPED_TRACE(c.model);
+    EvaluatedMesh<T> mesh(model_named(c.model), c.most, 8);
+    mesh.evaluate_all();
+    const std::size_t n = mesh.position.size();
+    constexpr T kUntouched = T(77);
+    for (const std::size_t stride : {std::size_t(8), std::size_t(11)}) {
+      std::vector<T> records(stride * n, kUntouched);
+      const auto step = static_cast<std::ptrdiff_t>(stride);
+      MeshOutputs<T> out;
+      out.position = Vectors<T>::xyz(records.data(), step);
+      out.normal = Vectors<T>::xyz(records.data() + 3, step);
+      out.parameters = Vectors<T>::pairs(records.data() + 6, step);
+      ASSERT_EQ(evaluate_mesh(mesh.set, mesh.layout, out), Status::ok);
+      for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t i = 0; i < stride; ++i) {
+          const T expected = i < 3   ? mesh.position[k][i]
+                             : i < 6 ? mesh.normal[k][i - 3]
+                             : i < 8 ? mesh.parameters[k][i - 6]
+                                     : kUntouched;
+          ASSERT_EQ(records[stride * k + i], expected) << k << ", " << i;
+        }
+      }
+    }
+    std::vector<T> planes(3 * n);
+    MeshOutputs<T> out;
+    out.normal = Vectors<T>::planes(&planes[0], &planes[n], &planes[2 * n]);
+    ASSERT_EQ(evaluate_mesh(mesh.set, mesh.layout, out), Status::ok);
+    for (std::size_t k = 0; k < 3 * n; ++k) {
+      ASSERT_EQ(planes[k], mesh.normal[k % n][k / n]);
+    }
+    out = {};
+    out.position = Vectors<T>::planes(&planes[0], &planes[n], &planes[2 * n]);
+    ASSERT_EQ(evaluate_mesh(mesh.set, mesh.layout, out), Status::ok);
+    for (std::size_t k = 0; k < 3 * n; ++k) {
+      ASSERT_EQ(planes[k], mesh.position[k % n][k / n]);
+    }
+    std::vector<std::uint32_t> patch(n);
+    out = {};
+    out.patch = patch;
+    ASSERT_EQ(evaluate_mesh(mesh.set, mesh.layout, out), Status::ok);
+    EXPECT_EQ(patch, mesh.patch);
+  }
+}
+
+TYPED_TEST(VertexCalls, write_parts_of_a_mesh) {
+  using T = TypeParam;
+  EvaluatedMesh<T> mesh(model_named("torus 4 x 3"), 9, 3);
+  mesh.evaluate_all();
+  const std::size_t patches = mesh.nu.size();
+  for (std::size_t first = 0; first < patches; first += 5) {
+    const SetRange range{first, std::min<std::size_t>(5, patches - first)};
+    const std::size_t begin = mesh.layout.first_vertex(first);
+    const std::size_t end = mesh.layout.first_vertex(first + range.count);
+    std::vector<std::array<T, 3>> position(end - begin);
+    std::vector<std::array<T, 2>> parameters(end - begin);
+    MeshOutputs<T> out;
+    out.position = Vectors<T>::xyz(position);
+    out.parameters = Vectors<T>::pairs(std::span<T>(parameters.front().data(), 2 * (end - begin)));
+    ASSERT_EQ(evaluate_mesh(mesh.set, mesh.layout, out, {}, range), Status::ok);
+    for (std::size_t k = begin; k < end; ++k) {
+      EXPECT_EQ(position[k - begin], mesh.position[k]);
+      EXPECT_EQ(parameters[k - begin], mesh.parameters[k]);
+    }
+    const std::size_t before = 3 * mesh.layout.first_triangle(first);
+    const std::size_t behind = 3 * mesh.layout.first_triangle(first + range.count);
+    std::vector<std::uint32_t> triangles(behind - before);
+    ASSERT_EQ(write_triangles(mesh.layout, std::span(triangles), 1, range), Status::ok);
+    EXPECT_TRUE(std::equal(triangles.begin(), triangles.end(),
+                           mesh.triangles.begin() + static_cast<std::ptrdiff_t>(before)));
+  }
+  EXPECT_EQ(mesh.layout.first_vertex(patches), mesh.position.size());
+}
+
+/// Colours as two further components of a set of five, and of a set of their own.
+TYPED_TEST(VertexCalls, evaluate_further_components) {
+  using T = TypeParam;
+  const MeshModel model = model_named("sheet");
+  EvaluatedMesh<T> mesh(model, 6, 9);
+  mesh.evaluate_all();
+  std::vector<double> points;
+  for (std::size_t k = 0; k < mesh.values.size(); k += 3) {
+    const double* const p = &mesh.values[k];
+    points.insert(points.end(), {p[0], p[1], p[2], p[2], p[0]});
+  }
+  PatchSet<T> set;
+  ASSERT_TRUE(pack(ControlNets<double>::packed(std::span<const double>(points), 3, 3, 5), set));
+  std::vector<T> pairs(2 * mesh.position.size());
+  ASSERT_EQ(evaluate_mesh_attributes(set, mesh.layout, Vectors<T>::pairs(std::span<T>(pairs)), 3),
+            Status::ok);
+  for (std::size_t k = 0; k < mesh.position.size(); ++k) {
+    EXPECT_EQ(pairs[2 * k], mesh.position[k][2]);
+    EXPECT_EQ(pairs[2 * k + 1], mesh.position[k][0]);
+  }
+  EXPECT_EQ(evaluate_mesh_attributes(set, mesh.layout, Vectors<T>::pairs(std::span<T>(pairs)), 5),
+            Status::bad_components);
+  EXPECT_EQ(evaluate_mesh(set, mesh.layout, mesh.outputs()), Status::bad_components);
+}
+
+TYPED_TEST(VertexCalls, refuse_bad_input) {
+  using T = TypeParam;
+  EvaluatedMesh<T> mesh(model_named("cube"), 5, 2);
+  const auto status = [&](const auto& change, SetRange patches = {}) {
+    MeshOutputs<T> out = mesh.outputs();
+    change(out);
+    return evaluate_mesh(mesh.set, mesh.layout, out, {}, patches);
+  };
+  const auto none = [](auto&) {};
+  EXPECT_EQ(status(none), Status::ok);
+  EXPECT_EQ(status([](auto& out) { out = {}; }), Status::null_output);
+  EXPECT_EQ(status([](auto& out) { out.position.y = nullptr; }), Status::null_output);
+  EXPECT_EQ(status([](auto& out) { out.parameters.y = nullptr; }), Status::null_output);
+  EXPECT_EQ(status([](auto& out) { --out.position.capacity; }), Status::output_too_small);
+  EXPECT_EQ(status([](auto& out) { --out.normal.capacity; }), Status::output_too_small);
+  EXPECT_EQ(status([](auto& out) { --out.parameters.capacity; }), Status::output_too_small);
+  EXPECT_EQ(status([](auto& out) { --out.patch.capacity; }), Status::output_too_small);
+  EXPECT_EQ(status([](auto& out) { out.position.stride = 2; }), Status::bad_stride);
+  EXPECT_EQ(status([](auto& out) { out.parameters.stride = 1; }), Status::bad_stride);
+  EXPECT_EQ(status([](auto& out) { out.normal = out.position; }), Status::overlapping_outputs);
+  EXPECT_EQ(status([](auto& out) {
+              out.parameters.x = out.normal.x;
+              out.parameters.y = out.normal.y;
+            }),
+            Status::overlapping_outputs);
+  EXPECT_EQ(
+      status([](auto& out) { out.patch.first = reinterpret_cast<std::uint32_t*>(out.normal.x); }),
+      Status::overlapping_outputs);
+  EXPECT_EQ(status(none, {0, 7}), Status::bad_patch_range);
+  EXPECT_EQ(status(none, {7, 0}), Status::bad_patch_range);
+  EXPECT_EQ(evaluate_mesh(PatchSet<T>(), mesh.layout, mesh.outputs()), Status::unequal_lengths);
+  EXPECT_EQ(evaluate_mesh(mesh.set, MeshLayout(), mesh.outputs()), Status::unequal_lengths);
+  EXPECT_EQ(evaluate_mesh(PatchSet<T>(), MeshLayout(), mesh.outputs()), Status::ok);
+  Options options;
+  options.isa = absent_isa();
+  EXPECT_EQ(evaluate_mesh(mesh.set, mesh.layout, mesh.outputs(), options), Status::unsupported_isa);
+  std::vector<std::uint32_t> triangles(3 * mesh.layout.size().triangles - 1);
+  EXPECT_EQ(write_triangles(mesh.layout, std::span(triangles), 1), Status::output_too_small);
+  EXPECT_EQ(write_triangles(mesh.layout, std::span(triangles), 1, {3, 9}), Status::bad_patch_range);
+}
+
+} // namespace
+} // namespace simdbezier::tests
