@@ -22,10 +22,10 @@ inline constexpr std::uint32_t kMostPolylinePoints = (1U << 16) + 1;
 struct FlattenOptions {
   /// The largest distance between a curve and its polyline, over all components.
   double tolerance = 0;
-  std::span<const double> tolerances; ///< one value a curve, instead of `tolerance`; or empty
+  std::span<const double> tolerances = {}; ///< one value a curve, instead of `tolerance`; or empty
   /// How far evaluated points may be from the exact ones, one value a curve: position_errors() of
   /// the set that will be evaluated. Part of the tolerance. Empty: 0.
-  std::span<const double> errors;
+  std::span<const double> errors = {};
   std::uint32_t most_points = kMostPolylinePoints;
 };
 

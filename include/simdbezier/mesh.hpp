@@ -31,10 +31,10 @@ struct MeshOptions {
   double tolerance = std::numeric_limits<double>::infinity();
   double relative_tolerance = std::numeric_limits<double>::infinity();
   /// Absolute ones, one for each of the patches given, besides those above; or empty.
-  std::span<const double> tolerances;
+  std::span<const double> tolerances = {};
   /// The most pixels that the mesh may be off in a picture, besides what is above; needs a camera.
   double pixels = std::numeric_limits<double>::infinity();
-  Camera camera;
+  Camera camera = {};
   double longest_edge = std::numeric_limits<double>::infinity(); ///< see RateOptions
   double normal_angle = std::numeric_limits<double>::infinity(); ///< likewise
   /// Every patch gets nu x nv samples, 2 or more each, instead of what tolerances ask for.

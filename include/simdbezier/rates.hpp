@@ -19,10 +19,10 @@ struct RateOptions {
   /// The largest distance of any point of the surface from the mesh, and back.
   double tolerance = 0;
   /// One value a patch, instead of `tolerance`; or empty.
-  std::span<const double> tolerances;
+  std::span<const double> tolerances = {};
   /// How far evaluated vertices may be from the exact ones, one value a patch: position_errors() of
   /// the set that will be evaluated. Part of the tolerance. Empty: 0.
-  std::span<const double> errors;
+  std::span<const double> errors = {};
   /// No row or column of cells has a longer edge than about this: the length of control polygons
   /// over the number of segments.
   double longest_edge = std::numeric_limits<double>::infinity();

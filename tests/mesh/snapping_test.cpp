@@ -1,0 +1,149 @@
+// Sides that match only nearly: closed by a distance, and certified with what that moves.
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <simdbezier/mesh.hpp>
+
+#include "tests/mesh/mesh_models.hpp"
+#include "tests/mesh/mesh_oracle.hpp"
+#include "tests/mesh/triangle_census.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+/// Every control point moved by up to `most` in each direction, so that no side matches exactly.
+MeshModel shaken(MeshModel model, double most, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-most, most);
+  for (PatchPoints& patch : model.patches) {
+    for (auto& row : patch) {
+      for (Point& point : row) {
+        point = point + Point{uniform(random), uniform(random), uniform(random)};
+      }
+    }
+  }
+  return model;
+}
+
+Mesh<double> mesh_of(const MeshModel& model, double tolerance, double snap, double point_size) {
+  const std::vector<double> values = model.values();
+  MeshOptions options;
+  options.tolerance = tolerance;
+  options.snap = snap;
+  options.point_size = point_size;
+  return tessellate<double>(ControlNets<double>::packed(std::span<const double>(values)), options);
+}
+
+TriangleCensus census_of(const Mesh<double>& mesh) {
+  return count_triangles(
+      std::span<const std::uint32_t>(mesh.triangles.front().data(), 3 * mesh.triangles.size()),
+      mesh.positions.size());
+}
+
+struct Closed {
+  const char* model;
+  long euler;
+};
+constexpr Closed kClosed[] = {{"cube", 2},       {"torus 2 x 2", 0}, {"torus 4 x 3", 0},
+                              {"ball 3 x 3", 2}, {"ball 4 x 2", 2},  {"pillow", 2}};
+
+TEST(Snapping, closes_what_nearly_matches) {
+  constexpr double kShake = 1e-4;
+  constexpr double kSnap = 1e-3;
+  for (const Closed& closed : kClosed) {
+    for (const MeshModel& model : mesh_models()) {
+      if (model.name != closed.model) {
+        continue;
+      }
+      for (unsigned seed = 0; seed < 4; ++seed) {
+        SCOPED_TRACE(model.name + ", seed " + std::to_string(seed));
+        const MeshModel near = shaken(seed == 0 ? model : shuffled(model, seed), kShake, seed);
+        const Mesh<double> apart = mesh_of(near, 0.05, 0, kSnap);
+        ASSERT_EQ(apart.status, Status::ok);
+        EXPECT_GT(census_of(apart).open, 0U);
+        const Mesh<double> mesh = mesh_of(near, 0.05, kSnap, kSnap);
+        ASSERT_EQ(mesh.status, Status::ok);
+        EXPECT_EQ(mesh.counts.open_edges, 0U);
+        EXPECT_GT(mesh.counts.snapped_sides, 0U);
+        const TriangleCensus census = census_of(mesh);
+        EXPECT_EQ(census.open + census.crowded + census.degenerate, 0U);
+        EXPECT_EQ(census.euler, closed.euler);
+      }
+    }
+  }
+}
+
+/// Two planes side by side whose common side is off by up to a distance: what a vertex is moved by
+/// is part of the certificate.
+TEST(Snapping, is_part_of_the_certificate) {
+  for (const double gap : {0.0, 0.01, 0.03}) {
+    MeshModel model{"planes", {}, 1, 1};
+    for (int k = 0; k < 2; ++k) {
+      PatchPoints& patch = model.patches.emplace_back();
+      for (std::size_t j = 0; j < 4; ++j) {
+        for (std::size_t i = 0; i < 4; ++i) {
+          const bool moved = k == 1 && i == 0;
+          patch[j][i] = {3.0 * k + static_cast<double>(i), static_cast<double>(j),
+                         moved ? gap : 0.0};
+        }
+      }
+    }
+    const Mesh<double> mesh = mesh_of(model, 0.2, 0.05, 0);
+    ASSERT_EQ(mesh.status, Status::ok);
+    EXPECT_EQ(mesh.counts.snapped_sides, gap > 0 ? 2U : 0U);
+    EXPECT_EQ(mesh.counts.open_edges, 6U);
+    EXPECT_LT(mesh.deviations[0], 1e-12) << "the first patch's points are taken";
+    EXPECT_GE(mesh.deviations[1], gap);
+    EXPECT_LE(mesh.deviations[1], 0.2);
+    const Mesh<double> refused = mesh_of(model, 0.029, 0.05, 0);
+    EXPECT_EQ(refused.status, gap > 0.029 ? Status::bad_tolerance : Status::ok);
+    EXPECT_EQ(refused.fault_patch, gap > 0.029 ? 1U : 0U);
+  }
+}
+
+TEST(Snapping, leaves_what_is_farther_apart) {
+  for (const MeshModel& model : mesh_models()) {
+    if (model.name == "torus 4 x 3" || model.name == "cube") {
+      const Mesh<double> mesh = mesh_of(shaken(model, 0.01, 3), 0.05, 1e-4, 0);
+      ASSERT_EQ(mesh.status, Status::ok);
+      EXPECT_EQ(mesh.counts.snapped_sides, 0U);
+      EXPECT_EQ(mesh.counts.open_edges, 4 * model.patches.size());
+    }
+  }
+}
+
+TEST(Snapping, takes_the_closest_pairs) {
+  // Three planes with one side each near the same line: the two that are closest are joined.
+  MeshModel model{"three", {}, 0, 0};
+  for (int k = 0; k < 3; ++k) {
+    PatchPoints& patch = model.patches.emplace_back();
+    for (std::size_t j = 0; j < 4; ++j) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double r = static_cast<double>(i);
+        const double offset = k == 1 ? 0.01 : 0;
+        patch[j][i] = {r * std::cos(2.0 * k) + offset, r * std::sin(2.0 * k) + (k == 2 ? 0.001 : 0),
+                       static_cast<double>(j)};
+      }
+    }
+  }
+  const Mesh<double> mesh = mesh_of(model, 0.5, 0.02, 0);
+  ASSERT_EQ(mesh.status, Status::ok);
+  EXPECT_EQ(mesh.counts.snapped_sides, 2U);
+  EXPECT_LT(mesh.deviations[1], 1e-12);
+  EXPECT_NEAR(mesh.deviations[2], 0.001, 1e-9);
+}
+
+TEST(Snapping, bad_input_is_a_status) {
+  for (const double snap : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    Topology topology;
+    TopologyOptions options;
+    options.snap = snap;
+    EXPECT_EQ(find_topology(ControlNets<double>{}, topology, options), Status::bad_tolerance);
+  }
+}
+
+} // namespace
+} // namespace simdbezier::tests
