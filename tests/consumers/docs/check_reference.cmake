@@ -1,0 +1,11 @@
+# Makes the reference: it must exist afterwards, and Doxygen must have nothing to say.
+file(REMOVE_RECURSE ${REFERENCE})
+file(MAKE_DIRECTORY ${REFERENCE})
+execute_process(COMMAND ${DOXYGEN} ${DOXYFILE} RESULT_VARIABLE result ERROR_VARIABLE said)
+file(READ ${REFERENCE}/warnings.txt warnings)
+if(NOT result EQUAL 0 OR NOT warnings STREQUAL "" OR NOT said STREQUAL "")
+  message(FATAL_ERROR "exit ${result}\n${said}${warnings}")
+endif()
+if(NOT EXISTS ${REFERENCE}/html/structsimdbezier_1_1Grid.html)
+  message(FATAL_ERROR "no page about Grid")
+endif()
