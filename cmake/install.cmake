@@ -2,15 +2,21 @@
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/simdbezier)
-install(TARGETS simdbezier EXPORT simdbezierTargets)
-install(DIRECTORY include/simdbezier DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(EXPORT simdbezierTargets NAMESPACE simdbezier:: DESTINATION ${package_dir})
+install(
+  TARGETS simdbezier
+  EXPORT simdbezierTargets
+  LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev
+  ARCHIVE COMPONENT dev)
+install(DIRECTORY include/simdbezier DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
+install(EXPORT simdbezierTargets NAMESPACE simdbezier:: DESTINATION ${package_dir} COMPONENT dev)
 
 configure_package_config_file(cmake/simdbezierConfig.cmake.in simdbezierConfig.cmake
                               INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(simdbezierConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/simdbezierConfig.cmake
-              ${CMAKE_CURRENT_BINARY_DIR}/simdbezierConfigVersion.cmake DESTINATION ${package_dir})
+              ${CMAKE_CURRENT_BINARY_DIR}/simdbezierConfigVersion.cmake
+        DESTINATION ${package_dir}
+        COMPONENT dev)
 
 # A static library hands its OpenMP runtime on to whoever links it; a shared one does not.
 set(pc_libs_private "")
@@ -33,4 +39,9 @@ foreach(dir IN ITEMS LIBDIR INCLUDEDIR)
 endforeach()
 configure_file(cmake/simdbezier.pc.in simdbezier.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/simdbezier.pc
-        DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+        COMPONENT dev)
+
+if(PROJECT_IS_TOP_LEVEL)
+  include(cmake/package.cmake)
+endif()
