@@ -18,14 +18,18 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/simdbezierConfig.cmake
         DESTINATION ${package_dir}
         COMPONENT dev)
 
-# A static library hands its OpenMP runtime on to whoever links it; a shared one does not.
+# A static library hands its threads' runtime on to whoever links it; a shared one does not.
 set(pc_libs_private "")
 set(pc_cflags "")
 if(simdbezier_type STREQUAL "STATIC_LIBRARY")
   set(pc_cflags "-DSIMDBEZIER_STATIC")
-  foreach(name IN LISTS OpenMP_CXX_LIB_NAMES)
-    string(APPEND pc_libs_private " -l${name}")
-  endforeach()
+  if(SIMDBEZIER_THREADS STREQUAL "openmp")
+    foreach(name IN LISTS OpenMP_CXX_LIB_NAMES)
+      string(APPEND pc_libs_private " -l${name}")
+    endforeach()
+  elseif(SIMDBEZIER_THREADS STREQUAL "std")
+    set(pc_libs_private " -pthread")
+  endif()
 endif()
 # Relative to the file itself, so that `cmake --install --prefix` and moved trees work.
 file(RELATIVE_PATH pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})

@@ -1,12 +1,9 @@
-// The only file that knows OpenMP. Shares are static, so every thread writes the same pages in
-// every call of equal shape.
 #include "src/runtime/batch.hpp"
 
 #include <algorithm>
 
-#include <omp.h>
-
 #include "src/runtime/fp_environment.hpp"
+#include "src/runtime/threads.hpp"
 
 namespace simdbezier::detail {
 
@@ -14,13 +11,7 @@ int thread_count(int requested, std::size_t units) noexcept {
   if (requested == 1) {
     return 1;
   }
-  // The runtime ends the process when the system refuses it a thread, and more than these gain
-  // nothing. Asked once: the answer takes a system call.
-  static const int most = std::max({16, 2 * omp_get_num_procs(), omp_get_max_threads()});
-  int threads = std::min(requested, most);
-  if (requested <= 0) {
-    threads = omp_in_parallel() != 0 ? 1 : omp_get_max_threads();
-  }
+  int threads = std::min(requested <= 0 ? default_threads() : requested, most_threads());
   if (threads > 1 && units < static_cast<std::size_t>(threads)) {
     threads = static_cast<int>(units);
   }
@@ -29,6 +20,7 @@ int thread_count(int requested, std::size_t units) noexcept {
 
 namespace {
 
+// Shares are static, so that every thread writes the same pages in every call of equal shape.
 void run_share(std::size_t units, int worker, int workers, BlockBody body) {
   const auto share = [&](int k) {
     // units / workers each, the first units % workers one more; no product that could overflow.
@@ -47,11 +39,10 @@ void for_blocks(std::size_t units, int threads, BlockBody body) noexcept {
     run_share(units, 0, 1, body);
     return;
   }
-#pragma omp parallel num_threads(threads)
-  {
-    // The runtime may grant fewer threads than asked for.
-    run_share(units, omp_get_thread_num(), omp_get_num_threads(), body);
-  }
+  auto run = [&](int worker, int workers) { run_share(units, worker, workers, body); };
+  run_on_threads(threads, {&run, [](void* context, int worker, int workers) {
+                             (*static_cast<decltype(run)*>(context))(worker, workers);
+                           }});
 }
 
 } // namespace simdbezier::detail

@@ -73,5 +73,11 @@ if(NOT isas STREQUAL "SIMDBEZIER_ISA=scalar")
 endif()
 configure(bad_isa "expected some of scalar, [a-z0-9, ]+, found 'avx3'" ${bare}
           -DSIMDBEZIER_ISAS=avx3)
+
+# Other threads than OpenMP's.
+configure(std_threads "" ${bare} -DCMAKE_DISABLE_FIND_PACKAGE_OpenMP=ON)
+expect_cached(std_threads SIMDBEZIER_THREADS std)
+configure(no_threads "" ${bare} -DSIMDBEZIER_THREADS=none)
+configure(bad_threads "expected openmp, std or none, found 'tbb'" ${bare} -DSIMDBEZIER_THREADS=tbb)
 configure(no_install "" ${bare} -DSIMDBEZIER_INSTALL=OFF)
 expect_targets(no_install OFF install)

@@ -1,0 +1,25 @@
+// Who starts threads. One of threads_openmp.cpp, threads_std.cpp and threads_none.cpp is built, as
+// SIMDBEZIER_THREADS says; results never depend on which one.
+#pragma once
+
+namespace simdbezier::detail {
+
+/// What a call gets that names no number of threads: 1 where it is made by one of several threads
+/// that run together.
+int default_threads() noexcept;
+
+/// More than these gain nothing, and the system may refuse them.
+int most_threads() noexcept;
+
+/// A borrowed callable `void(int worker, int workers) noexcept`.
+struct ThreadBody {
+  void* context;
+  void (*call)(void*, int, int);
+  void operator()(int worker, int workers) const { call(context, worker, workers); }
+};
+
+/// Calls body(0, n) … body(n - 1, n), each once, on threads of their own as far as the system
+/// grants them. n is `threads`, or fewer: who runs OpenMP decides. threads: 2 or more.
+void run_on_threads(int threads, ThreadBody body) noexcept;
+
+} // namespace simdbezier::detail

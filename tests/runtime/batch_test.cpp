@@ -1,0 +1,64 @@
+// Work cut into blocks: every unit once, whoever starts the threads. Built with each of the back
+// ends.
+#include "src/runtime/batch.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "src/runtime/threads.hpp"
+
+namespace simdbezier::detail {
+namespace {
+
+TEST(SIMDBEZIER_BACK_END, every_unit_is_done_once) {
+  for (const std::size_t units : {0U, 1U, 2U, 7U, 64U, 1000U}) {
+    for (const int asked : {0, 1, 2, 3, 5, 16}) {
+      const int threads = thread_count(asked, units);
+      ASSERT_GE(threads, 1);
+      ASSERT_LE(static_cast<std::size_t>(threads), units < 1 ? 1 : units);
+      std::vector<std::atomic<int>> done(units);
+      std::vector<std::atomic<int>> worked(static_cast<std::size_t>(threads));
+      auto body = [&](int worker, std::size_t begin, std::size_t end) {
+        ++worked.at(static_cast<std::size_t>(worker));
+        for (std::size_t k = begin; k < end; ++k) {
+          ++done.at(k);
+        }
+      };
+      for_blocks(units, threads, BlockBody(body));
+      for (const std::atomic<int>& times : done) {
+        ASSERT_EQ(times, 1) << units << " units, " << threads << " threads";
+      }
+      for (const std::atomic<int>& times : worked) {
+        ASSERT_LE(times, 1) << units << " units, " << threads << " threads";
+      }
+    }
+  }
+}
+
+TEST(SIMDBEZIER_BACK_END, one_thread_is_the_callers) {
+  const std::thread::id caller = std::this_thread::get_id();
+  auto body = [&](int, std::size_t, std::size_t) { EXPECT_EQ(std::this_thread::get_id(), caller); };
+  for_blocks(10, 1, BlockBody(body));
+}
+
+/// In a region of several threads a call that names no number has one.
+TEST(SIMDBEZIER_BACK_END, calls_within_a_call_have_one_thread) {
+  const int threads = thread_count(2, 2);
+  auto body = [&](int, std::size_t, std::size_t) {
+    EXPECT_EQ(thread_count(0, 100), threads == 1 ? default_threads() : 1);
+  };
+  for_blocks(2, threads, BlockBody(body));
+  EXPECT_EQ(thread_count(0, 1000000), default_threads());
+}
+
+TEST(SIMDBEZIER_BACK_END, more_threads_than_are_of_use_are_not_started) {
+  EXPECT_LE(thread_count(1 << 20, 1 << 20), most_threads());
+}
+
+} // namespace
+} // namespace simdbezier::detail
