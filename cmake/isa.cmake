@@ -78,20 +78,26 @@ function(simdbezier_add_isa_kernels target)
     set(sources bicubic_kernels.cpp shape_kernels.cpp curve_kernels.cpp net_kernels.cpp)
     list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../kernels/)
     add_library(${object} OBJECT ${sources})
+    set(level -O3)
+    if(name MATCHES "^(scalar|sse2)$")
+      set(level -O2)
+    endif()
     target_compile_definitions(${object} PRIVATE SIMDBEZIER_ISA=${name} SIMDBEZIER_ARCH=${arch}
                                                  SIMDBEZIER_KERNELS_${upper})
     # Without optimisation xsimd's small functions leave weak symbols behind that the linker could
     # hand to objects of another instruction set (tests/runtime/check_symbols.cmake watches).
     # -O3 in every other build: below it g++ 12 keeps the registers' arrays in memory, which costs a
-    # factor of two. No errno: sqrt becomes one instruction. No exceptions: their personality routine would be one
-    # more symbol to merge. Without -fno-ivopts and -fno-tree-pre g++ 12 makes many addresses of a
-    # sweep's few, most of them on the stack: 10 % of the speed of 8 x 8 and 17 x 17 positions.
+    # factor of two; compact sets (kCompact in kernels/simd/vector.hpp) have -O2, which is half the
+    # work and half the code. No errno: sqrt becomes one instruction. No exceptions: their personality
+    # routine would be one more symbol to merge. Without -fno-ivopts and -fno-tree-pre g++ 12 makes
+    # many addresses of a sweep's few, most of them on the stack: 10 % of the speed of 8 x 8 and
+    # 17 x 17 positions.
     # Its SLP vectoriser joins loads of fields that were stored one by one, which then wait for
     # streaming stores (src/tables/drain_queue.hpp); and it drops the rounding to float where two
     # statements like double(float(x)) - y stand side by side, as they do in packing.
     # g++ 12 warns about its own _mm512_undefined_ps (GCC bug 105593).
     target_compile_options(
-      ${object} PRIVATE ${flags} $<IF:$<CONFIG:Debug>,-O1,-O3> -fno-math-errno -fno-exceptions
+      ${object} PRIVATE ${flags} $<IF:$<CONFIG:Debug>,-O1,${level}> -fno-math-errno -fno-exceptions
                         "$<$<CXX_COMPILER_ID:GNU>:-fno-ivopts;-fno-tree-pre;-fno-tree-slp-vectorize>"
                         "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>")
     if(SIMDBEZIER_SANITIZE)

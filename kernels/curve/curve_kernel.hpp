@@ -178,32 +178,35 @@ __attribute__((noinline)) void sweep_samples(const CurveTask<T>& shared_task) {
   });
 }
 
+/// First derivatives are rarely wanted without second ones where components meet, but for tangents
+/// of polynomial curves.
 template <std::size_t kOrder, bool kHalves, bool kRational, typename T>
-SIMDBEZIER_INLINE void sweep_depth(const CurveTask<T>& task) {
-  const std::size_t depth = depth_of(task);
-  if (depth == 2) {
+SIMDBEZIER_INLINE void sweep_depth(const CurveTask<T>& task, std::size_t depth) {
+  if (!kRational && !kCompact && depth == 1) {
+    sweep_samples<kOrder, kHalves, kRational, kRational || kCompact ? 2 : 1>(task);
+  } else if (depth > 0) {
     sweep_samples<kOrder, kHalves, kRational, 2>(task);
-  } else if (depth == 1) {
-    sweep_samples<kOrder, kHalves, kRational, 1>(task);
-  } else if constexpr (kRational) {
-    sweep_samples<kOrder, kHalves, kRational, 0>(task);
+  } else {
+    sweep_samples<kOrder, kHalves, kRational, kRational || kCompact ? 0 : 2>(task);
   }
 }
 
 /// Where components meet, fewer degrees are compiled on their own.
 template <bool kRational, typename T>
 SIMDBEZIER_INLINE void sweep_joint(const CurveTask<T>& task) {
-  switch (task.shape->degree) {
-  case 2:
-    return sweep_depth<3, false, kRational>(task);
-  case 3:
-    return sweep_depth<4, false, kRational>(task);
-  case 1:
-  case 4:
-  case 5:
-    return sweep_depth<0, false, kRational>(task);
-  default:
-    return sweep_depth<0, true, kRational>(task);
+  const std::size_t depth = depth_of(task);
+  if constexpr (!kCompact) {
+    if (task.shape->degree == 2 && kRational && depth == 0) {
+      return sweep_samples<3, false, true, 0>(task);
+    }
+    if (task.shape->degree == 3) {
+      return sweep_depth<4, false, kRational>(task, depth);
+    }
+  }
+  if (task.shape->cells() == 1) {
+    sweep_depth<0, false, kRational>(task, depth);
+  } else {
+    sweep_depth<0, true, kRational>(task, depth);
   }
 }
 
@@ -218,6 +221,7 @@ SIMDBEZIER_INLINE void sweep_degree(const CurveTask<T>& task) {
   }
 }
 
+/// Components that do not need each other.
 template <typename T>
 SIMDBEZIER_INLINE void sweep_apart(const CurveTask<T>& task) {
   switch (task.shape->degree) {
@@ -239,18 +243,18 @@ SIMDBEZIER_INLINE void sweep_apart(const CurveTask<T>& task) {
 template <typename T>
 void curve_grid_kernel(CurveTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
-  if constexpr (!kIsScalar<vec<T>>) {
+  if (task.shape->rational) {
+    return sweep_joint<true>(task);
+  }
+  if constexpr (!kCompact) {
     if (task.rows) {
       return evaluate_rows(task);
     }
+    if (task.curvature == nullptr && !task.out[detail::kCurveTangent].wanted()) {
+      return sweep_apart(task);
+    }
   }
-  if (task.shape->rational) {
-    sweep_joint<true>(task);
-  } else if (task.curvature != nullptr || task.out[detail::kCurveTangent].wanted()) {
-    sweep_joint<false>(task);
-  } else {
-    sweep_apart(task);
-  }
+  sweep_joint<false>(task);
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

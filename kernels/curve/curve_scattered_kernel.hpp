@@ -1,5 +1,5 @@
-// Scattered samples on curves: a run of samples of one curve fills registers, samples of different
-// curves are evaluated one by one, with the same operations.
+// Scattered samples on curves: a run of samples of one curve fills registers. A sample whose curve
+// no other one follows takes a register, too: code for single values would be as much again.
 #pragma once
 
 #include "kernels/curve/curve_outputs.hpp"
@@ -8,15 +8,11 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::ScatteredCurveTask;
 
-/// Samples of one curve from which on registers are worthwhile.
-template <typename V>
-inline constexpr std::size_t kWorthwhileRun = kLanes<V> / 4 + 1;
-
 /// Samples [first, first + own) of a task, all of one curve.
-template <typename V, std::size_t kOrder, bool kHalves, bool kRational, std::size_t kDepth,
-          typename T>
+template <std::size_t kOrder, bool kHalves, bool kRational, std::size_t kDepth, typename T>
 SIMDBEZIER_INLINE void evaluate_samples(const ScatteredCurveTask<T>& task, const CurveShape& shape,
                                         std::size_t first, std::size_t own) {
+  using V = vec<T>;
   V t;
   if (own < kLanes<V>) {
     alignas(64) T lanes[kLanes<V>];
@@ -49,7 +45,6 @@ SIMDBEZIER_INLINE void prefetch_curve(const ScatteredCurveTask<T>& task, const C
 
 template <std::size_t kOrder, bool kHalves, bool kRational, std::size_t kDepth, typename T>
 __attribute__((noinline)) void scatter_samples(const ScatteredCurveTask<T>& shared_task) {
-  using V = vec<T>;
   const ScatteredCurveTask<T> task = shared_task;
   CurveShape shape = *shared_task.shape;
   if constexpr (kOrder > 0) {
@@ -58,19 +53,15 @@ __attribute__((noinline)) void scatter_samples(const ScatteredCurveTask<T>& shar
   shape.rational = kRational;
   for (std::size_t k = 0; k < task.count;) {
     std::size_t run = 1;
-    while (run < kLanes<V> && k + run < task.count && task.curve[k + run] == task.curve[k]) {
+    while (run < kLanes<vec<T>> && k + run < task.count && task.curve[k + run] == task.curve[k]) {
       ++run;
     }
-    if (run < kWorthwhileRun<V>) {
+    if (task.prefetch) {
       for (std::size_t i = 0; i < run; ++i) {
-        if (task.prefetch) {
-          prefetch_curve(task, shape, k + i);
-        }
-        evaluate_samples<T, kOrder, kHalves, kRational, kDepth>(task, shape, k + i, 1);
+        prefetch_curve(task, shape, k + i);
       }
-    } else {
-      evaluate_samples<V, kOrder, kHalves, kRational, kDepth>(task, shape, k, run);
     }
+    evaluate_samples<kOrder, kHalves, kRational, kDepth>(task, shape, k, run);
     k += run;
   }
 }
@@ -95,18 +86,12 @@ SIMDBEZIER_INLINE void scatter_degree(const ScatteredCurveTask<T>& task) {
 
 template <typename T>
 void scattered_curve_kernel(ScatteredCurveTask<T>& task) {
-  switch (task.shape->degree) {
-  case 3:
-    scatter_degree<4, false>(task);
-    break;
-  case 1:
-  case 2:
-  case 4:
-  case 5:
-    scatter_degree<0, false>(task);
-    break;
-  default:
+  if (task.shape->cells() == 2) {
     scatter_degree<0, true>(task);
+  } else if (!kCompact && task.shape->degree == 3) {
+    scatter_degree<kCompact ? 0 : 4, false>(task);
+  } else {
+    scatter_degree<0, false>(task);
   }
   task.executed = Isa::SIMDBEZIER_ISA;
 }

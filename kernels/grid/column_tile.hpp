@@ -59,13 +59,14 @@ struct Tile {
 
   std::size_t first;  ///< column
   std::size_t active; ///< columns of kColumns that exist
+  bool watertight;
   Column<V> column;
   std::conditional_t<kShared, SharedCorners<V>, NoSharedCorners> corners;
 
   SIMDBEZIER_INLINE Tile(const T* x, std::size_t first_column, std::size_t active_columns,
-                         bool watertight)
-      : first(first_column), active(active_columns),
-        column(Groups::repeat(x + first_column), watertight), corners(column.x) {}
+                         bool own_edges)
+      : first(first_column), active(active_columns), watertight(own_edges),
+        column(Groups::repeat(x + first_column), own_edges), corners(column.x) {}
 
   /// The first `rows` rows of `value`, `step` samples from one to the next. extra: what follows
   /// them in kExtra tiles.
@@ -128,24 +129,22 @@ struct Tile {
   }
 
   /// Positions on the edge `edge`, or on both where they share a register; and du.
-  template <Scheme kScheme>
   SIMDBEZIER_INLINE V edge_rows(const Component<T>& c, std::size_t edge, V& du) const {
     if constexpr (!kShared) {
-      return edge_position<has_origins(kScheme)>(c, column, edge, du);
+      return edge_position(c, column, edge, du);
     } else {
       V k[kOrder];
       shared_edges(c, k);
-      return finish<kScheme>(c, horner(k, column.x, du));
+      return finish(c, horner(k, column.x, du));
     }
   }
-  template <Scheme kScheme>
   SIMDBEZIER_INLINE V edge_rows(const Component<T>& c, std::size_t edge) const {
     if constexpr (!kShared) {
-      return edge_position<has_origins(kScheme)>(c, column, edge);
+      return edge_position(c, column, edge);
     } else {
       V k[kOrder];
       shared_edges(c, k);
-      return finish<kScheme>(c, horner(k, column.x));
+      return finish(c, horner(k, column.x));
     }
   }
   SIMDBEZIER_INLINE V edge_rows_second(const Component<T>& c, std::size_t edge) const {
@@ -175,9 +174,8 @@ private:
       k[i] = RowGroups<2, V>::spread(c.edge + i * kEdges + detail::kEdgeV0);
     }
   }
-  template <Scheme kScheme>
   SIMDBEZIER_INLINE V finish(const Component<T>& c, V value) const {
-    if constexpr (has_origins(kScheme)) {
+    if (c.origins != nullptr) [[unlikely]] {
       constexpr std::size_t kAt = detail::kEdgeOriginsAt + detail::kEdgeV0;
       value = value + RowGroups<2, V>::spread(c.origin() + kAt);
     }

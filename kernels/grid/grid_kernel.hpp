@@ -55,79 +55,98 @@ constexpr std::size_t written_planes(detail::OutputSet outputs) {
                                               : 9;
 }
 
-/// All tiles of patches [patch, end).
-template <detail::OutputSet kOutputs, Scheme kScheme, typename T>
-SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
-                                   const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
+/// Calls a tile's function: one of patches [patch, end).
+template <detail::OutputSet kOutputs, Known kKnown, typename T>
+struct TileSweeper {
+  const GridTask<T>& task;
+  const RowPiece<T>& piece;
+  std::size_t patch;
+  std::size_t end;
+
+  template <typename SomeTile>
+  SIMDBEZIER_INLINE void sweep(std::size_t first, std::size_t columns) const {
+    sweep_tile<kOutputs, kKnown, SomeTile>(task, piece, first, columns, patch, end);
+  }
+};
+
+/// The columns behind whole registers, `rest` of them from `first` on: fewer than a register.
+/// kMany: with tiles for narrow grids, besides those that every grid can do with.
+template <bool kMany, typename T, typename Sweeper>
+SIMDBEZIER_INLINE void sweep_rest(const Sweeper& tiles, std::size_t first, std::size_t rest) {
   using V = vec<T>;
   constexpr std::size_t kL = kLanes<V>;
   constexpr std::size_t kHalf = kL >= 4 ? 2 : 1; // rows of a tile of lanes/2 columns
   constexpr std::size_t kQuarter = kL >= 8 ? 4 : kHalf;
-  const auto sweep = [&]<typename SomeTile>(std::type_identity<SomeTile>, std::size_t first,
-                                            std::size_t columns) SIMDBEZIER_INLINE_LAMBDA {
-    sweep_tile<kOutputs, kScheme, SomeTile>(task, piece, first, columns, patch, end);
-  };
-  // A single column goes along with the last whole register.
-  const std::size_t plain = split.column && split.full > 0 ? split.full - kL : split.full;
-  if constexpr (kPutsRecords<V> && kUsual<kOutputs>) {
-    if (task.record > 1) {
-      sweep_record_tiles<kOutputs, kScheme>(task, piece, patch, end);
-      return;
+  if (rest > kL / 2) {
+    return tiles.template sweep<Tile<1, false, false, V>>(first, rest);
+  }
+  if constexpr (kMany && kLineWide<V>) { // short registers gain nothing by this
+    if (tiles.task.nu == kL / 2) {
+      return tiles.template sweep<Tile<kHalf, true, false, V>>(0, kL / 2);
+    }
+    if (tiles.task.nu == kL / 4) {
+      return tiles.template sweep<Tile<kQuarter, true, false, V>>(0, kL / 4);
     }
   }
+  if (rest > kL / kQuarter) {
+    tiles.template sweep<Tile<kHalf, false, false, V>>(first, rest);
+  } else if (rest > 0) {
+    tiles.template sweep<Tile<kQuarter, false, false, V>>(first, rest);
+  }
+}
+
+/// All tiles of patches [patch, end). Tasks of which nothing is known make do with fewer kinds.
+template <detail::OutputSet kOutputs, Known kKnown, typename T>
+SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
+                                   const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
+  using V = vec<T>;
+  constexpr std::size_t kL = kLanes<V>;
+  const TileSweeper<kOutputs, kKnown, T> tiles{task, piece, patch, end};
+  // A single column goes along with the last whole register.
+  const std::size_t plain = split.column && split.full > 0 ? split.full - kL : split.full;
+  std::size_t first = 0;
   if constexpr (kLineWide<V> && kUsual<kOutputs>) {
     if (task.streaming) [[unlikely]] { // whole registers only
-      for (std::size_t first = 0; first < plain; first += kL) {
-        sweep(std::type_identity<Tile<1, true, false, V, true>>{}, first, kL);
+      constexpr Known kAsked = kKnown == Known::watertight ? kKnown : Known::nothing;
+      for (; first < plain; first += kL) {
+        sweep_tile<kOutputs, kAsked, Tile<1, true, false, V, true>>(task, piece, first, kL, patch,
+                                                                    end);
       }
       return;
     }
   }
-  std::size_t first = 0;
-  if constexpr (kSweepsTwice<kOutputs, T>) {
+  if constexpr (kKnown != Known::nothing && kSweepsTwice<kOutputs, T>) {
     using W = Twice<V>;
     for (; first + 2 * kL <= plain; first += 2 * kL) {
-      sweep(std::type_identity<Tile<1, true, false, W>>{}, first, 2 * kL);
+      tiles.template sweep<Tile<1, true, false, W>>(first, 2 * kL);
     }
     if (split.column && first + 2 * kL == split.full) {
-      sweep(std::type_identity<Tile<1, true, true, W>>{}, first, 2 * kL);
-      return;
+      return tiles.template sweep<Tile<1, true, true, W>>(first, 2 * kL);
     }
     if (split.rest > kL / 2 && first + kL == split.full) {
-      sweep(std::type_identity<Tile<1, false, false, W>>{}, first, kL + split.rest);
-      return;
+      return tiles.template sweep<Tile<1, false, false, W>>(first, kL + split.rest);
     }
   }
   for (; first < plain; first += kL) {
-    sweep(std::type_identity<Tile<1, true, false, V>>{}, first, kL);
+    tiles.template sweep<Tile<1, true, false, V>>(first, kL);
   }
-  if constexpr (kL > 1) {
-    if constexpr (!kUsual<kOutputs>) {
-      if (split.rest != 0) {
-        sweep(std::type_identity<Tile<1, false, false, V>>{}, split.full, split.rest);
-      }
-    } else if (split.column) {
-      if (split.full != 0) {
-        sweep(std::type_identity<Tile<1, true, true, V>>{}, plain, kL);
-      } else {
-        sweep(std::type_identity<Tile<kL, false, false, V>>{}, 0, 1);
-      }
-    } else if (split.rest > kL / 2) {
-      sweep(std::type_identity<Tile<1, false, false, V>>{}, split.full, split.rest);
-    } else if (kLineWide<V> && task.nu == kL / 2) { // short registers gain nothing by this
-      sweep(std::type_identity<Tile<kHalf, true, false, V>>{}, 0, kL / 2);
-    } else if (kLineWide<V> && task.nu == kL / 4) {
-      sweep(std::type_identity<Tile<kQuarter, true, false, V>>{}, 0, kL / 4);
-    } else if (split.rest > kL / kQuarter) {
-      sweep(std::type_identity<Tile<kHalf, false, false, V>>{}, split.full, split.rest);
-    } else if (split.rest > 0) {
-      sweep(std::type_identity<Tile<kQuarter, false, false, V>>{}, split.full, split.rest);
+  if constexpr (kL > 1 && !kUsual<kOutputs>) {
+    if (split.rest != 0) {
+      tiles.template sweep<Tile<1, false, false, V>>(split.full, split.rest);
+    }
+  } else if constexpr (kL > 1) {
+    if (!split.column) {
+      sweep_rest<kKnown != Known::nothing, T>(tiles, split.full, split.rest);
+    } else if (split.full != 0) {
+      tiles.template sweep<Tile<1, true, true, V>>(plain, kL);
+    } else {
+      tiles.template sweep<Tile<kL, false, false, V>>(0, 1);
     }
   }
 }
 
 /// The same for a grid of kSide x kSide.
-template <detail::OutputSet kOutputs, Scheme kScheme, std::size_t kSide, typename T>
+template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
 SIMDBEZIER_INLINE void sweep_square(const GridTask<T>& task, const SquarePiece<T, kSide>& piece,
                                     std::size_t patch, std::size_t end) {
   using V = vec<T>;
@@ -137,28 +156,32 @@ SIMDBEZIER_INLINE void sweep_square(const GridTask<T>& task, const SquarePiece<T
     using W = Twice<V>;
     constexpr std::size_t kLast = kSide - kRest - 2 * kL;
     for (std::size_t first = 0; first < kLast; first += 2 * kL) {
-      sweep_tile<kOutputs, kScheme, Tile<1, true, false, W>>(task, piece, first, 2 * kL, patch,
-                                                             end);
+      sweep_tile<kOutputs, Known::watertight, Tile<1, true, false, W>>(task, piece, first, 2 * kL,
+                                                                       patch, end);
     }
-    sweep_tile<kOutputs, kScheme, Tile<1, true, kRest == 1, W>>(task, piece, kLast, 2 * kL, patch,
-                                                                end);
+    sweep_tile<kOutputs, Known::watertight, Tile<1, true, kRest == 1, W>>(task, piece, kLast,
+                                                                          2 * kL, patch, end);
     return;
   }
-  constexpr std::size_t kPlain = kSide - kRest - (kRest == 1 ? kL : 0);
-  for (std::size_t first = 0; first < kPlain; first += kL) {
-    sweep_tile<kOutputs, kScheme, Tile<1, true, false, V>>(task, piece, first, kL, patch, end);
+  constexpr std::size_t kKnown = kSide - kRest - (kRest == 1 ? kL : 0);
+  for (std::size_t first = 0; first < kKnown; first += kL) {
+    sweep_tile<kOutputs, Known::watertight, Tile<1, true, false, V>>(task, piece, first, kL, patch,
+                                                                     end);
   }
   if constexpr (kRest == 1) {
-    sweep_tile<kOutputs, kScheme, Tile<1, true, true, V>>(task, piece, kPlain, kL, patch, end);
+    sweep_tile<kOutputs, Known::watertight, Tile<1, true, true, V>>(task, piece, kKnown, kL, patch,
+                                                                    end);
   } else if constexpr (kSide * 2 == kL) {
-    sweep_tile<kOutputs, kScheme, Tile<2, true, false, V>>(task, piece, 0, kSide, patch, end);
+    sweep_tile<kOutputs, Known::watertight, Tile<2, true, false, V>>(task, piece, 0, kSide, patch,
+                                                                     end);
   } else if constexpr (kRest != 0) {
-    sweep_tile<kOutputs, kScheme, Tile<1, false, false, V>>(task, piece, kPlain, kRest, patch, end);
+    sweep_tile<kOutputs, Known::watertight, Tile<1, false, false, V>>(task, piece, kKnown, kRest,
+                                                                      patch, end);
   }
 }
 
 /// Sweeps the patches if `piece` is a square with one of these sides.
-template <detail::OutputSet kOutputs, Scheme kScheme, std::size_t... kSides, typename T>
+template <detail::OutputSet kOutputs, std::size_t... kSides, typename T>
 SIMDBEZIER_INLINE bool sweep_square_of(std::index_sequence<kSides...>, const GridTask<T>& task,
                                        const RowPiece<T>& piece, std::size_t patch,
                                        std::size_t end) {
@@ -166,7 +189,7 @@ SIMDBEZIER_INLINE bool sweep_square_of(std::index_sequence<kSides...>, const Gri
       [&]<std::size_t kSide>(std::integral_constant<std::size_t, kSide>) SIMDBEZIER_INLINE_LAMBDA {
         const bool square = SquarePiece<T, kSide>::is(piece, task.nu);
         if (square) {
-          sweep_square<kOutputs, kScheme>(task, SquarePiece<T, kSide>(piece.middle.y), patch, end);
+          sweep_square<kOutputs>(task, SquarePiece<T, kSide>(piece.middle.y), patch, end);
         }
         return square;
       };
@@ -187,32 +210,51 @@ SIMDBEZIER_INLINE constexpr auto known_sides() {
 }
 
 /// Whether there is such code at all: for registers of 32 bytes and more, and edges as usual.
-template <detail::OutputSet kOutputs, Scheme kScheme, typename T>
-constexpr bool kKnowsSquares = kUsual<kOutputs> && (kScheme == detail::kWatertight) &&
-                               (kLanes<vec<T>> * sizeof(T) >= 32);
+template <detail::OutputSet kOutputs, typename T>
+constexpr bool kKnowsSquares = kUsual<kOutputs> && (kLanes<vec<T>> * sizeof(T) >= 32);
 
-template <typename T, detail::OutputSet kOutputs, Scheme kScheme>
+/// Patches [patch, end) on the rows of a piece.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_INLINE void sweep_patches(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
+                                     const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
+  if constexpr (kPutsRecords<vec<T>> && kUsual<kOutputs>) {
+    if (task.record > 1) {
+      return sweep_record_tiles<kOutputs>(task, piece, patch, end);
+    }
+  }
+  if (!kUsual<kOutputs> || task.origins != nullptr) {
+    return sweep_tiles<kOutputs, Known::nothing>(task, split, piece, patch, end);
+  }
+  if constexpr (kUsual<kOutputs>) {
+    if (!task.watertight) {
+      return sweep_tiles<kOutputs, Known::open>(task, split, piece, patch, end);
+    }
+    if constexpr (kKnowsSquares<kOutputs, T>) {
+      if (!task.streaming &&
+          sweep_square_of<kOutputs>(known_sides<kOutputs>(), task, piece, patch, end)) {
+        return;
+      }
+    }
+    sweep_tiles<kOutputs, Known::watertight>(task, split, piece, patch, end);
+  }
+}
+
+template <typename T, detail::OutputSet kOutputs>
 void grid_kernel(GridTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
-  if (sweep_small_grid<kOutputs, kScheme>(task)) {
+  if (sweep_small_grid<kOutputs>(task)) {
     return;
   }
   const ColumnSplit<vec<T>> split(task.nu, kUsual<kOutputs>);
   const std::size_t most = split.column ? kBufferRows : std::size_t{1} << 30;
-  for (RowPieces<kScheme, T> pieces(task, most); pieces.more();) {
+  for (RowPieces<T> pieces(task, most); pieces.more();) {
     const RowPiece<T> piece = pieces.next();
     const std::size_t bytes = piece.rows() * task.nu * written_planes(kOutputs) * sizeof(T);
     const std::size_t together = kCachedBytes / bytes + 1;
     for (std::size_t patch = 0; patch < task.patch_count; patch += together) {
       const std::size_t left = task.patch_count - patch;
       const std::size_t end = patch + (left < together ? left : together);
-      if constexpr (kKnowsSquares<kOutputs, kScheme, T>) {
-        if (task.record <= 1 && !task.streaming &&
-            sweep_square_of<kOutputs, kScheme>(known_sides<kOutputs>(), task, piece, patch, end)) {
-          continue;
-        }
-      }
-      sweep_tiles<kOutputs, kScheme>(task, split, piece, patch, end);
+      sweep_patches<kOutputs>(task, split, piece, patch, end);
     }
   }
 }

@@ -59,7 +59,7 @@ struct RecordPlaces {
 };
 
 /// What the rows of one tile have in common.
-template <detail::OutputSet kOutputs, Scheme kScheme, typename SomeTile>
+template <detail::OutputSet kOutputs, typename SomeTile>
 struct RecordSweep {
   using V = typename SomeTile::Vector;
   using T = ScalarOf<V>;
@@ -67,7 +67,7 @@ struct RecordSweep {
 
   const SomeTile& tile;
   Component<T> component[3];
-  JetColumns<kScheme, V> columns[3];
+  JetColumns<V> columns[3];
 
   SIMDBEZIER_INLINE RecordSweep(const GridTask<T>& task, const SomeTile& the_tile,
                                 std::size_t patch)

@@ -9,7 +9,6 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 using detail::GridTask;
 using detail::RowKind;
 using detail::RowRun;
-using detail::Scheme;
 
 SIMDBEZIER_INLINE bool is_edge(RowKind kind) {
   return kind == RowKind::edge_v0 || kind == RowKind::edge_v1;
@@ -71,13 +70,13 @@ struct SquarePiece {
 };
 
 /// Cuts the rows of a task into pieces.
-template <Scheme kScheme, typename T>
+template <typename T>
 class RowPieces {
 public:
   /// most: rows of a piece.
   SIMDBEZIER_INLINE RowPieces(const GridTask<T>& task, std::size_t most)
       : run_(task.runs), last_(task.runs + task.run_count), left_(run_->rows), most_(most - 2),
-        watertight_(is_watertight(kScheme) && task.watertight) {}
+        watertight_(task.watertight) {}
 
   [[nodiscard]] SIMDBEZIER_INLINE bool more() const { return run_ != last_; }
 
@@ -131,12 +130,12 @@ private:
 /// All rows of a piece, from sample `at` of the planes on: edge(kind, at, row) for edges,
 /// interior(y, at, row, rows) for as many rows as a register holds, kTogether times one behind the
 /// other where there are enough of them.
-template <Scheme kScheme, std::size_t kRows, std::size_t kTogether = 1, typename T, typename Edge,
+template <std::size_t kRows, std::size_t kTogether = 1, typename T, typename Edge,
           typename Interior>
 SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::size_t nu, Edge edge,
                                 Interior interior) {
   std::size_t row = 0;
-  if (is_watertight(kScheme) && piece.lead) {
+  if (piece.lead) {
     edge(piece.lead_kind, at, row++);
     at += nu;
   }
@@ -164,17 +163,16 @@ SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::s
     at += left * nu;
     row += left;
   }
-  if (is_watertight(kScheme) && piece.trail) {
+  if (piece.trail) {
     edge(piece.trail_kind, at, row);
   }
 }
 
 /// The same, one row behind the other throughout; kTogether = 1 keeps a loop.
-template <Scheme kScheme, std::size_t kRows, std::size_t kTogether = 1, typename T,
-          std::size_t kSide, typename Edge, typename Interior>
+template <std::size_t kRows, std::size_t kTogether = 1, typename T, std::size_t kSide,
+          typename Edge, typename Interior>
 SIMDBEZIER_INLINE void for_rows(const SquarePiece<T, kSide>& piece, std::size_t at, std::size_t nu,
                                 Edge edge, Interior interior) {
-  static_assert(is_watertight(kScheme));
   constexpr std::size_t kMiddle = SquarePiece<T, kSide>::kMiddle;
   constexpr std::size_t kFull = kMiddle / kRows * kRows;
   edge(RowKind::edge_v0, at, 0);

@@ -24,7 +24,7 @@ struct SmallEnds {
 };
 
 /// The registers of one component; see SmallGridSources.
-template <Scheme kScheme, typename V>
+template <typename V>
 struct SmallJets {
   using T = ScalarOf<V>;
 
@@ -42,7 +42,7 @@ struct SmallJets {
     V slopes;
     split_fours(horner(k, grid.x, slopes), q);
     split_fours(slopes, dq);
-    inner.p = with_inner_origin<kScheme>(c, horner(q, grid.y, inner.dv));
+    inner.p = with_inner_origin(c, horner(q, grid.y, inner.dv));
     inner.du = horner(dq, grid.y);
     const V across_v = horner_slope(q, ends.by_lane);
     split_fours(horner_slope(k, ends.by_group), dq); // of the columns that are edges
@@ -50,7 +50,7 @@ struct SmallJets {
 
     V e[kOrder];
     load_fours(c.edge, e);
-    border.p = with_edge_origins<kScheme>(c, horner(e, grid.along, border.du));
+    border.p = with_edge_origins(c, horner(e, grid.along, border.du));
     border.dv = select_where<V>(grid.edges_v, across_v, border.du);
     corner = repeat_four<V>(c.corner);
     third = select_where<V>(ends.first_half, across_u, horner_slope(e, ends.by_group));
@@ -97,18 +97,20 @@ struct SmallSamples {
   [[nodiscard]] SIMDBEZIER_INLINE std::size_t active(std::size_t r) const {
     return r + 1 < registers ? kLanes<V> : samples - r * kLanes<V>;
   }
-  template <Scheme kScheme>
-  SIMDBEZIER_INLINE Jet<V> jet(std::size_t r, const SmallJets<kScheme, V>& of) const {
+  SIMDBEZIER_INLINE Jet<V> jet(std::size_t r, const SmallJets<V>& of) const {
     return {position[r].with_quad(of.inner.p, of.border.p, of.corner),
             du[r](of.inner.du, of.border.du, of.third), dv[r](of.inner.dv, of.border.dv, of.third)};
   }
 };
 
 /// With positions go normals, or else du and dv.
-template <Scheme kScheme, bool kNormals, typename T>
+template <bool kPlain, bool kNormals, typename T>
 __attribute__((noinline)) void sweep_small_jets(const GridTask<T>& shared_task) {
   using V = vec<T>;
-  const GridTask<T> task = shared_task;
+  GridTask<T> task = shared_task;
+  if constexpr (kPlain) {
+    task.origins = nullptr; // a constant for the compiler
+  }
   const SmallGrid<V> grid(task);
   const SmallEnds<V> ends;
   const SmallSamples<V> samples(task.nu, grid.rows + 2);
@@ -118,8 +120,7 @@ __attribute__((noinline)) void sweep_small_jets(const GridTask<T>& shared_task) 
     }
     const Component<T> x(task, patch, 0);
     const Component<T> y = x.next();
-    const SmallJets<kScheme, V> jets[3] = {
-        {x, grid, ends}, {y, grid, ends}, {y.next(), grid, ends}};
+    const SmallJets<V> jets[3] = {{x, grid, ends}, {y, grid, ends}, {y.next(), grid, ends}};
     for (std::size_t r = 0; r < samples.registers; ++r) {
       const std::size_t first = r * kLanes<V>;
       const std::size_t active = samples.active(r);
@@ -153,21 +154,26 @@ __attribute__((noinline)) void sweep_small_jets(const GridTask<T>& shared_task) 
 
 #endif
 
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+template <detail::OutputSet kOutputs, bool kPlain, typename T>
+SIMDBEZIER_INLINE void small_grid(const GridTask<T>& task) {
+  if constexpr (kOutputs == detail::kPosition) {
+    small_grid_positions<kPlain>(task);
+  } else {
+    sweep_small_jets<kPlain, kOutputs == detail::kPositionNormal>(task);
+  }
+}
+#endif
+
 /// A task that is a small grid, if it is one and the instruction set has kernels for it: positions,
 /// and with them normals or derivatives.
-template <detail::OutputSet kOutputs, Scheme kScheme, typename T>
+template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_INLINE bool sweep_small_grid(const GridTask<T>& task) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-  if constexpr (is_watertight(kScheme) && kFourGroups<vec<T>>) {
-    if (!is_small_grid(task)) {
-      return false;
-    }
-    if constexpr (kOutputs == detail::kPosition) {
-      small_grid_positions<kScheme>(task);
-      return true;
-    } else if constexpr (kOutputs == detail::kPositionNormal ||
-                         kOutputs == detail::kPositionDerivatives) {
-      sweep_small_jets<kScheme, kOutputs == detail::kPositionNormal>(task);
+  if constexpr (kFourGroups<vec<T>> && kUsual<kOutputs>) {
+    if (is_small_grid(task)) {
+      task.origins == nullptr ? small_grid<kOutputs, true>(task)
+                              : small_grid<kOutputs, false>(task);
       return true;
     }
   }

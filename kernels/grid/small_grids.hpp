@@ -69,26 +69,29 @@ private:
   }
 };
 
-template <Scheme kScheme, typename V>
+template <typename V>
 SIMDBEZIER_INLINE V with_inner_origin(const Component<ScalarOf<V>>& c, V p) {
-  if constexpr (has_origins(kScheme)) {
+  if (c.origins != nullptr) [[unlikely]] {
     p = p + broadcast<V>(c.origin()[0]);
   }
   return p;
 }
-template <Scheme kScheme, typename V>
+template <typename V>
 SIMDBEZIER_INLINE V with_edge_origins(const Component<ScalarOf<V>>& c, V p) {
-  if constexpr (has_origins(kScheme)) {
+  if (c.origins != nullptr) [[unlikely]] {
     p = p + repeat_four<V>(c.origin() + detail::kEdgeOriginsAt);
   }
   return p;
 }
 
-/// kFull: whole registers of samples, before the last one.
-template <Scheme kScheme, std::size_t kFull, typename T>
+/// kPlain: the set has no origins. kFull: whole registers of samples, before the last one.
+template <bool kPlain, std::size_t kFull, typename T>
 __attribute__((noinline)) void sweep_small_positions(const GridTask<T>& shared_task) {
   using V = vec<T>;
-  const GridTask<T> task = shared_task;
+  GridTask<T> task = shared_task;
+  if constexpr (kPlain) {
+    task.origins = nullptr; // a constant for the compiler
+  }
   const SmallGrid<V> grid(task);
   const SmallGridSources& sources = kSmallGrids.of(task.nu, grid.rows + 2).position;
   Assembly sample[kFull + 1];
@@ -108,8 +111,8 @@ __attribute__((noinline)) void sweep_small_positions(const GridTask<T>& shared_t
       load_fours(component.matrix, k);
       load_fours(component.edge, e);
       split_fours(horner(k, grid.x), q);
-      const V inner = with_inner_origin<kScheme>(component, horner(q, grid.y));
-      const V border = with_edge_origins<kScheme>(component, horner(e, grid.along));
+      const V inner = with_inner_origin(component, horner(q, grid.y));
+      const V border = with_edge_origins(component, horner(e, grid.along));
       const V corner = repeat_four<V>(component.corner);
       T* const to = task.out[detail::kPositionGroup].component[c] + patch * task.patch_step;
       for (std::size_t r = 0; r < kFull; ++r) {
@@ -121,15 +124,15 @@ __attribute__((noinline)) void sweep_small_positions(const GridTask<T>& shared_t
   }
 }
 
-template <Scheme kScheme, typename T>
+template <bool kPlain, typename T>
 SIMDBEZIER_INLINE void small_grid_positions(const GridTask<T>& task) {
   const std::size_t samples = task.nu * (task.runs[1].rows + 2);
   if (samples <= 16) {
-    sweep_small_positions<kScheme, 0>(task);
+    sweep_small_positions<kPlain, 0>(task);
   } else if (samples <= 32) {
-    sweep_small_positions<kScheme, 1>(task);
+    sweep_small_positions<kPlain, 1>(task);
   } else {
-    sweep_small_positions<kScheme, 2>(task);
+    sweep_small_positions<kPlain, 2>(task);
   }
 }
 

@@ -39,8 +39,7 @@ struct ColumnBuffer {
 template <typename V>
 using ColumnTile = Tile<kLanes<V>, true, false, V>;
 
-template <Scheme kScheme, typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V,
-          bool kStreams>
+template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
 SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<ScalarOf<V>>& c,
                                       const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                       std::size_t nu, ScalarOf<V>* to,
@@ -52,16 +51,19 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
   } else {
     column_polynomial(c, tile.column, q);
   }
-  const V origin = column_origin<has_origins(kScheme)>(c, tile.column);
-  const V shared = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
-                       ? tile.template edge_rows<kScheme>(c, 0)
-                       : origin;
-  for_rows<kScheme, kRows, kRows == 1 ? 4 : 1>(
+  const LocalOrigin<V> origin = column_origin(c, tile.column);
+  V shared = tile.column.x; // not used
+  if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
+    if (tile.watertight) {
+      shared = tile.edge_rows(c, 0);
+    }
+  }
+  for_rows<kRows, kRows == 1 ? 4 : 1>(
       piece, 0, nu,
       [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
         const V p = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
                         ? shared
-                        : tile.template edge_rows<kScheme>(c, edge_of(kind));
+                        : tile.edge_rows(c, edge_of(kind));
         tile.store_edge(to + at, p, kind, extra.plane(0) + row);
       },
       [&](const T* y, std::size_t at, std::size_t row, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
@@ -71,8 +73,7 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
         } else {
           p = horner(q, RowGroups<kRows, V>::spread(y));
         }
-        tile.store(to + at, nu, with_origin<has_origins(kScheme)>(p, origin), rows,
-                   extra.plane(0) + row);
+        tile.store(to + at, nu, origin.add_to(p), rows, extra.plane(0) + row);
       });
 }
 
@@ -84,12 +85,13 @@ struct Jet {
   V dv;
 };
 
-/// A register of columns as cubics in Y: one component's positions and u derivatives.
-template <Scheme kScheme, typename V>
+/// A register of columns as cubics in Y: one component's positions and u derivatives. kAsks:
+/// whether there are origins is found out at run time; there are none otherwise.
+template <typename V, bool kAsks = true>
 struct JetColumns {
   V q[kOrder];
   V dq[kOrder];
-  V origin;
+  LocalOrigin<V> origin;
 
   template <typename Tile>
   SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const Tile& tile) {
@@ -98,22 +100,29 @@ struct JetColumns {
     } else {
       column_polynomial(c, tile.column, q, dq);
     }
-    origin = column_origin<has_origins(kScheme)>(c, tile.column);
+    if constexpr (kAsks) {
+      origin = column_origin(c, tile.column);
+    }
   }
   SIMDBEZIER_INLINE Jet<V> interior(V y) const {
     Jet<V> jet;
-    const V p = horner(q, y, jet.dv);
+    jet.p = horner(q, y, jet.dv);
     jet.du = horner(dq, y);
-    jet.p = with_origin<has_origins(kScheme)>(p, origin);
+    if constexpr (kAsks) {
+      jet.p = origin.add_to(jet.p);
+    }
     return jet;
   }
   /// On the edge v = const number `edge`, or on both where they share a register.
   template <typename Tile>
-  SIMDBEZIER_INLINE Jet<V> edge(const Component<ScalarOf<V>>& c, const Tile& tile,
+  SIMDBEZIER_INLINE Jet<V> edge(Component<ScalarOf<V>> c, const Tile& tile,
                                 std::size_t edge) const {
+    if constexpr (!kAsks) {
+      c.origins = nullptr;
+    }
     Jet<V> jet;
     jet.dv = horner_slope(q, tile.edge_y(edge));
-    jet.p = tile.template edge_rows<kScheme>(c, edge, jet.du);
+    jet.p = tile.edge_rows(c, edge, jet.du);
     return jet;
   }
 };
@@ -126,20 +135,21 @@ struct JetPlanes {
   T* dv;
 };
 
-template <Scheme kScheme, typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V,
-          bool kStreams>
+template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
 SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<ScalarOf<V>>& c,
                                          const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                          std::size_t nu, const JetPlanes<ScalarOf<V>>& to,
                                          ColumnPlanes<ScalarOf<V>> extra) {
   using T = ScalarOf<V>;
-  JetColumns<kScheme, V> columns;
+  JetColumns<V> columns;
   columns.build(c, tile);
   Jet<V> shared;
-  if constexpr (is_watertight(kScheme) && (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)) {
-    shared = columns.edge(c, tile, 0);
+  if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
+    if (tile.watertight) {
+      shared = columns.edge(c, tile, 0);
+    }
   }
-  for_rows<kScheme, kRows, Piece::kKnown ? 2 : 1>(
+  for_rows<kRows, Piece::kKnown ? 2 : 1>(
       piece, 0, nu,
       [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
         const Jet<V> jet = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
@@ -158,7 +168,7 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
 }
 
 /// Groups with null planes are computed and dropped.
-template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
+template <std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
 SIMDBEZIER_INLINE void
 sweep_second(const GridTask<ScalarOf<V>>& task, const RowPiece<ScalarOf<V>>& piece,
              const Component<ScalarOf<V>>& c, const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
@@ -170,7 +180,7 @@ sweep_second(const GridTask<ScalarOf<V>>& task, const RowPiece<ScalarOf<V>>& pie
   T* const duv = task.out[detail::kDuvGroup].component[component];
   T* const dvv = task.out[detail::kDvvGroup].component[component];
   const std::size_t nu = task.nu;
-  for_rows<kScheme, kRows>(
+  for_rows<kRows>(
       piece, first, nu,
       [&](RowKind kind, std::size_t at, std::size_t) SIMDBEZIER_INLINE_LAMBDA {
         const std::size_t edge = edge_of(kind);

@@ -23,7 +23,7 @@ struct NormalSamples {
 
 /// What the rows of one tile have in common; kAny: groups with null planes are computed and
 /// dropped.
-template <Scheme kScheme, std::size_t kRows, bool kWhole, bool kExtra, bool kAny, typename V,
+template <std::size_t kRows, bool kWhole, bool kExtra, bool kAny, bool kAsks, typename V,
           bool kStreams>
 struct NormalSweep {
   using T = ScalarOf<V>;
@@ -35,12 +35,12 @@ struct NormalSweep {
   std::size_t status_step; ///< statuses from one sample of the planes to the next
   ColumnPlanes<T> extra;   ///< positions, then normals
   Component<T> component[3];
-  JetColumns<kScheme, V> columns[3];
+  JetColumns<V, kAsks> columns[3];
 
-  SIMDBEZIER_INLINE NormalSweep(const GridTask<T>& the_task, const GridTask<T>& the_shared_task,
-                                const Tile<kRows, kWhole, kExtra, V, kStreams>& the_tile,
-                                std::size_t the_patch, std::size_t the_status_step,
-                                ColumnPlanes<T> the_extra)
+  SIMDBEZIER_INLINE
+  NormalSweep(const GridTask<T>& the_task, const GridTask<T>& the_shared_task,
+              const Tile<kRows, kWhole, kExtra, V, kStreams>& the_tile, std::size_t the_patch,
+              std::size_t the_status_step, ColumnPlanes<T> the_extra)
       : task(the_task), shared_task(the_shared_task), tile(the_tile), patch(the_patch),
         status_step(the_status_step),
         extra(the_extra), component{
@@ -127,7 +127,7 @@ private:
   }
 };
 
-template <Scheme kScheme, bool kAny, typename Piece, std::size_t kRows, bool kWhole, bool kExtra,
+template <bool kAny, bool kAsks, typename Piece, std::size_t kRows, bool kWhole, bool kExtra,
           typename V, bool kStreams>
 SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task,
                                      const GridTask<ScalarOf<V>>& shared_task, const Piece& piece,
@@ -135,15 +135,17 @@ SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task,
                                      std::size_t patch, std::size_t first, std::size_t status_step,
                                      ColumnPlanes<ScalarOf<V>> extra) {
   using T = ScalarOf<V>;
-  const NormalSweep<kScheme, kRows, kWhole, kExtra, kAny, V, kStreams> sweep(
+  const NormalSweep<kRows, kWhole, kExtra, kAny, kAsks, V, kStreams> sweep(
       task, shared_task, tile, patch, status_step, extra);
   const V floor = floor_inside(tile.column.x, broadcast<V>(task.normal_floor[patch]));
   const V middle_floor = piece.middle.kind == RowKind::outside ? no_floor<V>() : floor;
   NormalSamples<V> shared;
-  if constexpr (is_watertight(kScheme) && (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)) {
-    shared = sweep.edge(0);
+  if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
+    if (tile.watertight) {
+      shared = sweep.edge(0);
+    }
   }
-  for_rows<kScheme, kRows>(
+  for_rows<kRows>(
       piece, first, task.nu,
       [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
         if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared) {

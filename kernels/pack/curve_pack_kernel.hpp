@@ -92,7 +92,7 @@ class CurveGroup {
 
 public:
   explicit CurveGroup(const detail::CurvePackTask<T, S>& task)
-      : task_(task), shape_(task.shape), order_(shape_.order()),
+      : task_(task), shape_(task.shape), order_(shape_.order()), curve_values_(shape_.values()),
         components_(static_cast<std::size_t>(shape_.components)) {}
 
   /// Packs `count` curves from the first on, 1 <= count <= kWideLanes; lanes behind them repeat the
@@ -162,7 +162,7 @@ private:
   }
   SIMDBEZIER_INLINE void put_value(std::size_t cell, std::size_t channel, std::size_t k,
                                    Wide value) const {
-    put(task_.values, shape_.values(),
+    put(task_.values, curve_values_,
         cell * shape_.cell_values() + channel * shape_.channel_values() + k, value);
   }
 
@@ -263,13 +263,12 @@ private:
       const bool point =
           is_one_point(given, shape_.channels(), order_, shape_.channels(), task_.curves.weights);
       for (std::size_t cell = 0; point && cell < shape_.cells(); ++cell) {
-        pack_point(first_ + p, cell);
+        pack_point(task_.values + (first_ + p) * curve_values_, cell);
       }
     }
   }
-  __attribute__((noinline, cold)) void pack_point(std::size_t curve, std::size_t cell) const {
-    const T* const first = task_.values + curve * shape_.values();
-    T* values = task_.values + curve * shape_.values() + cell * shape_.cell_values();
+  __attribute__((noinline, cold)) void pack_point(T* const first, std::size_t cell) const {
+    T* values = first + cell * shape_.cell_values();
     for (std::size_t c = 0; c <= components_; ++c, values += shape_.channel_values()) {
       const T point = first[c * shape_.channel_values() + shape_.ends_at()];
       for (std::size_t k = 0; k < order_; ++k) {
@@ -300,6 +299,9 @@ private:
   const detail::CurvePackTask<T, S>& task_;
   const detail::CurveShape shape_;
   std::size_t order_;
+  /// Asked for once: where compilers expect few calls, they leave functions of CurveShape as
+  /// symbols.
+  std::size_t curve_values_;
   std::size_t components_;
   std::size_t first_ = 0;
   std::size_t count_ = 0;

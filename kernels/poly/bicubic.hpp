@@ -107,7 +107,7 @@ struct Component {
 template <typename V>
 SIMDBEZIER_INLINE void replace_edge_columns(const Component<ScalarOf<V>>& c,
                                             const Column<V>& column, V q[kOrder]) {
-  if (column.on_edge) {
+  if (column.on_edge) [[likely]] {
     for (std::size_t l = 0; l < kOrder; ++l) {
       q[l] = column.edges.replace(q[l], c.edge + l * kEdges + detail::kEdgeU0);
     }
@@ -191,24 +191,33 @@ struct SecondColumns {
   SIMDBEZIER_INLINE V dvv(V y) const { return horner_second(q, y); }
 };
 
-/// What a column's positions are relative to; a column on an edge u = const has that edge's origin.
-template <bool kOrigins, typename V>
-SIMDBEZIER_INLINE V column_origin(const Component<ScalarOf<V>>& c, const Column<V>& column) {
-  if constexpr (!kOrigins) {
-    return column.x; // not used
-  }
-  const V inside = broadcast<V>(c.origin()[0]);
-  constexpr std::size_t kAt = detail::kEdgeOriginsAt + detail::kEdgeU0;
-  return column.on_edge ? column.edges.replace(inside, c.origin() + kAt) : inside;
-}
+/// What positions are relative to, in sets with origins. It is added last, so that far away only
+/// this addition rounds at the size of the result. The set is asked at run time: a branch that
+/// always goes the same way costs nothing beside the arithmetic, kernels of their own cost code.
+template <typename V>
+struct LocalOrigin {
+  bool exists;
+  V value;
 
-/// Origins are added last, so that far away only this addition rounds at the size of the result.
-template <bool kOrigins, typename V>
-SIMDBEZIER_INLINE V with_origin(V p, V origin) {
-  if constexpr (kOrigins) {
-    return p + origin;
+  SIMDBEZIER_INLINE V add_to(V p) const {
+    if (exists) [[unlikely]] {
+      p = p + value;
+    }
+    return p;
   }
-  return p;
+};
+
+/// The origin of a column; one on an edge u = const has that edge's origin.
+template <typename V>
+SIMDBEZIER_INLINE LocalOrigin<V> column_origin(const Component<ScalarOf<V>>& c,
+                                               const Column<V>& column) {
+  LocalOrigin<V> origin{c.origins != nullptr, column.x};
+  if (origin.exists) [[unlikely]] {
+    constexpr std::size_t kAt = detail::kEdgeOriginsAt + detail::kEdgeU0;
+    const V inside = broadcast<V>(c.origin()[0]);
+    origin.value = column.on_edge ? column.edges.replace(inside, c.origin() + kAt) : inside;
+  }
+  return origin;
 }
 
 template <typename V>
@@ -220,30 +229,30 @@ SIMDBEZIER_INLINE void edge_cubic(const Component<ScalarOf<V>>& c, std::size_t e
 }
 
 /// From the value of the edge's cubic to the position: origin added, corners as stored.
-template <bool kOrigins, typename V>
+template <typename V>
 SIMDBEZIER_INLINE V finished_edge(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                   std::size_t edge, V value) {
-  if constexpr (kOrigins) {
+  if (c.origins != nullptr) [[unlikely]] {
     value = value + broadcast<V>(c.origin()[detail::kEdgeOriginsAt + edge]);
   }
   return column.edges.replace(value, c.corner + detail::corner_index(0, edge));
 }
 
 /// Position on the edge v = 0 or 1 (`edge` = kEdgeV0 or kEdgeV1).
-template <bool kOrigins, typename V>
+template <typename V>
 SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                   std::size_t edge) {
   V k[kOrder];
   edge_cubic(c, edge, k);
-  return finished_edge<kOrigins>(c, column, edge, horner(k, column.x));
+  return finished_edge(c, column, edge, horner(k, column.x));
 }
 
-template <bool kOrigins, typename V>
+template <typename V>
 SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                   std::size_t edge, V& du) {
   V k[kOrder];
   edge_cubic(c, edge, k);
-  return finished_edge<kOrigins>(c, column, edge, horner(k, column.x, du));
+  return finished_edge(c, column, edge, horner(k, column.x, du));
 }
 
 /// d2S/du2 on the edge v = 0 or 1.

@@ -70,7 +70,7 @@ SIMDBEZIER_INLINE void store_normal(const ScatteredTask<T>& task, std::size_t k,
 }
 
 /// Position and first derivatives.
-template <bool kOrigins, typename T>
+template <typename T>
 SIMDBEZIER_INLINE void evaluate_first(const ScatteredTask<T>& task, std::size_t k,
                                       const Place<T>& place) {
   T p[3];
@@ -81,10 +81,9 @@ SIMDBEZIER_INLINE void evaluate_first(const ScatteredTask<T>& task, std::size_t 
     T q[kOrder];
     T dq[kOrder];
     column_polynomial(component, place.column, q, dq);
-    p[c] = with_origin<kOrigins>(horner(q, place.y, dv[c]),
-                                 column_origin<kOrigins>(component, place.column));
+    p[c] = column_origin(component, place.column).add_to(horner(q, place.y, dv[c]));
     if (place.on_edge) {
-      p[c] = edge_position<kOrigins>(component, place.column, place.edge, du[c]);
+      p[c] = edge_position(component, place.column, place.edge, du[c]);
     } else {
       du[c] = horner(dq, place.y);
     }
@@ -118,7 +117,7 @@ SIMDBEZIER_INLINE void evaluate_second(const ScatteredTask<T>& task, std::size_t
 }
 
 /// Sample k from start to end: the outputs of order <= 1, or (kSecond) those of order 2.
-template <bool kOrigins, bool kSecond, typename T>
+template <bool kSecond, typename T>
 __attribute__((noinline)) void evaluate_sample(const ScatteredTask<T>& task, std::size_t k) {
   const Place<T> place(task, k);
   if (task.status != nullptr && (place.column.x != place.column.x || place.y != place.y)) {
@@ -127,7 +126,7 @@ __attribute__((noinline)) void evaluate_sample(const ScatteredTask<T>& task, std
   if constexpr (kSecond) {
     evaluate_second(task, k, place);
   } else {
-    evaluate_first<kOrigins>(task, k, place);
+    evaluate_first(task, k, place);
   }
 }
 

@@ -77,7 +77,7 @@ template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename T>
 __attribute__((noinline)) void evaluate_block(const ScatteredTask<T>& task) {
   if constexpr (kIsScalar<vec<T>>) {
     for (std::size_t k = 0; k < task.count; ++k) {
-      evaluate_sample<kOrigins, kOutcome == kSecondOrder>(task, k);
+      evaluate_sample<kOutcome == kSecondOrder>(task, k);
     }
   } else {
     evaluate_samples<kOrigins, kOutcome, kPrefetch, vec<T>>(task);
@@ -93,9 +93,8 @@ SIMDBEZIER_INLINE void evaluate_outcome(const ScatteredTask<T>& task) {
   }
 }
 
-template <typename T, bool kOrigins>
-void scattered_kernel(ScatteredTask<T>& task) {
-  task.executed = Isa::SIMDBEZIER_ISA;
+template <bool kOrigins, typename T>
+SIMDBEZIER_INLINE void evaluate_wanted(const ScatteredTask<T>& task) {
   const auto wanted = [&](detail::Group group) __attribute__((always_inline)) {
     return task.out[group].wanted();
   };
@@ -106,6 +105,15 @@ void scattered_kernel(ScatteredTask<T>& task) {
   } else if (wanted(detail::kPositionGroup)) {
     evaluate_outcome<kOrigins, kPositions>(task);
   }
+}
+
+template <typename T>
+void scattered_kernel(ScatteredTask<T>& task) {
+  task.executed = Isa::SIMDBEZIER_ISA;
+  const auto wanted = [&](detail::Group group) __attribute__((always_inline)) {
+    return task.out[group].wanted();
+  };
+  task.origins == nullptr ? evaluate_wanted<false>(task) : evaluate_wanted<true>(task);
   if (wanted(detail::kDuuGroup) || wanted(detail::kDuvGroup) || wanted(detail::kDvvGroup)) {
     evaluate_outcome<false, kSecondOrder>(task);
   }

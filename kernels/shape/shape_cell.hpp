@@ -70,6 +70,10 @@ struct Channels {
     return slot == kWeight ? weight_ : first_ + slot;
   }
 
+  /// Whether a slot belongs to a component of the patch, or to its weight.
+  SIMDBEZIER_INLINE bool exists(std::size_t slot) const {
+    return kComponents != 0 || slot < count_ || slot == kWeight;
+  }
   /// f(slot) for the components. Unrolled only where their number is known, because that keeps
   /// polynomials in registers: it is much code.
   template <typename F>
@@ -89,7 +93,7 @@ private:
       repeat<kCount>(f);
     } else {
       for (std::size_t slot = 0; slot < kCount; ++slot) {
-        if (slot < count_ || slot == kWeight) {
+        if (exists(slot)) {
           f(slot);
         }
       }

@@ -73,17 +73,17 @@ template <std::size_t kDepth, bool kRational, typename Task, typename Run>
 SIMDBEZIER_INLINE void with_grid_plan(const Task& task, const Run& run) {
   const NetShape& shape = *task.shape;
   const bool in_space = shape.components == 3 && task.first_component == 0;
-  if constexpr (kDepth == 0 && !kRational) {
+  if constexpr (!kCompact && kDepth == 0 && !kRational) {
     if (in_space && with_common_degrees(shape, run)) {
       return;
     }
   }
-  if constexpr (kDepth == 1 || (kDepth == 0 && kRational)) {
+  if constexpr (!kCompact && (kDepth == 1 || (kDepth == 0 && kRational))) {
     if (in_space && (kRational || task.out[detail::kNormalGroup].wanted())) {
       return with_order_v<kDepth, kRational, 3>(shape, run);
     }
   }
-  if constexpr (kDepth < 2 && !kRational) {
+  if constexpr (!kCompact && kDepth < 2 && !kRational) {
     return with_order_v<kDepth, kRational, 1>(shape, run);
   }
   run.template operator()<AnyPlan<kDepth, kRational>>();

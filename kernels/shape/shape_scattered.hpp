@@ -31,51 +31,70 @@ SIMDBEZIER_INLINE void keep_lanes(MaskOf<V> yes, const SampleJet<V>& other, Samp
   }
 }
 
-/// Samples of one patch in one row of cells, at the local y. Out of line: it is large, and there
-/// are several ways to it.
+/// Samples of one patch in one row of cells, at the local y. edge: the edge v = const of the cells
+/// that all of them are on; kEdges where it is none. Out of line: it is large, and there are
+/// several ways to it.
 template <typename P, typename V>
-__attribute__((noinline)) void
-evaluate_row(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape, std::size_t patch,
-             std::size_t cell, const CellColumns<V>& columns, V y, SampleJet<V>& jet) {
+__attribute__((noinline)) void evaluate_row(const ScatteredTask<ScalarOf<V>>& task,
+                                            const NetShape& shape, std::size_t patch,
+                                            std::size_t cell, const CellColumns<V>& columns, V y,
+                                            std::size_t edge, SampleJet<V>& jet) {
   using T = ScalarOf<V>;
   const CellRow<T> cells(task, shape, patch, cell);
   ShapeColumns<P, V> polynomials(shape, columns, task.first_component);
   polynomials.build(cells);
   polynomials.evaluate(y, jet);
-  if constexpr (kIsScalar<V>) {
-    if (task.watertight && (y == T(-0.5) || y == T(0.5))) {
-      polynomials.replace_row(y < T(0) ? detail::kEdgeV0 : detail::kEdgeV1, jet);
-    }
+  if (edge < kEdges) [[unlikely]] {
+    polynomials.replace_row(edge, jet);
   }
 }
 
-/// Samples of one patch at half-centred x, y. Where V is a register, lanes on edges v = const get
-/// what the patch says there and have to be evaluated on their own.
+/// Samples of one patch at half-centred x, y; edge: as above, for samples that are all the same
+/// one.
 template <typename P, typename V>
 SIMDBEZIER_INLINE void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
-                                      std::size_t patch, V x, V y, SampleJet<V>& jet) {
+                                      std::size_t patch, V x, V y, std::size_t edge,
+                                      SampleJet<V>& jet) {
   const CellColumns<V> columns(x, shape.cells_u(), task.watertight);
   const CellColumns<V> rows(y, shape.cells_v(), task.watertight);
   const bool both = rows.any_low && rows.any_high;
-  evaluate_row<P>(task, shape, patch, rows.any_low ? 0 : 1, columns, rows.local.x, jet);
+  evaluate_row<P>(task, shape, patch, rows.any_low ? 0 : 1, columns, rows.local.x, edge, jet);
   if (both) {
     SampleJet<V> high;
-    evaluate_row<P>(task, shape, patch, 1, columns, rows.local.x, high);
+    evaluate_row<P>(task, shape, patch, 1, columns, rows.local.x, edge, high);
     keep_lanes<P>(rows.low, high, jet);
   }
 }
 
-/// Sample k alone.
+/// What the normals of scattered samples are tested with.
+template <typename P, typename V>
+SIMDBEZIER_INLINE V sample_floor(const ScatteredTask<ScalarOf<V>>& task,
+                                 const SampleRange<V>& range) {
+  const V floor = patch_floor<P, V>(task, range.patch);
+  return floor_inside(range.y, floor_inside(range.x, floor));
+}
+
+/// Where a sample is among the edges v = const of its cells.
+template <typename T>
+SIMDBEZIER_INLINE std::size_t edge_at(const NetShape& shape, T y) {
+  const T local = shape.cells_v() == 1 ? y : cell_parameter(y);
+  return local == T(-0.5) ? detail::kEdgeV0 : local == T(0.5) ? detail::kEdgeV1 : kEdges;
+}
+
+/// Sample k alone, in all lanes of a register: with an edge v = const of its own where it is on
+/// one.
 template <typename P, typename T>
 __attribute__((noinline)) void evaluate_single(const ScatteredTask<T>& task, const NetShape& shape,
                                                std::size_t k) {
+  using V = vec<T>;
   const T x = finite_half_centred(task, task.u[k]);
   const T y = finite_half_centred(task, task.v[k]);
-  const T floor = patch_floor<P, T>(task, task.patch[k]);
-  const SampleRange<T> range{task.patch[k], k, 1, 0, x, y, floor_inside(y, floor_inside(x, floor))};
-  SampleJet<T> jet;
-  evaluate_lanes<P, T>(task, shape, range.patch, range.x, range.y, jet);
-  if (task.status != nullptr && (range.x != range.x || range.y != range.y)) {
+  SampleRange<V> range{task.patch[k], k, 1, 0, broadcast<V>(x), broadcast<V>(y), {}};
+  range.floor = sample_floor<P>(task, range);
+  SampleJet<V> jet;
+  evaluate_lanes<P, V>(task, shape, range.patch, range.x, range.y,
+                       task.watertight ? edge_at(shape, y) : kEdges, jet);
+  if (task.status != nullptr && (x != x || y != y)) {
     task.status[k] = SampleStatus::non_finite;
   }
   store_sample<P>(task, range, jet);
@@ -95,15 +114,13 @@ SIMDBEZIER_INLINE void evaluate_together(const ScatteredTask<ScalarOf<V>>& task,
     const std::size_t from = k + (i < count ? i : count - 1);
     x[i] = finite_half_centred(task, task.u[from]);
     y[i] = finite_half_centred(task, task.v[from]);
-    const T local = shape.cells_v() == 1 ? y[i] : cell_parameter(y[i]);
-    alone[i] = local == T(-0.5) || local == T(0.5) || x[i] != x[i] || y[i] != y[i];
+    alone[i] = edge_at(shape, y[i]) < kEdges || x[i] != x[i] || y[i] != y[i];
     any_alone = any_alone || alone[i];
   }
   SampleRange<V> range{task.patch[k], k, count, 0, load_vector<V>(x), load_vector<V>(y), {}};
-  range.floor = patch_floor<P, V>(task, range.patch);
-  range.floor = floor_inside(range.y, floor_inside(range.x, range.floor));
+  range.floor = sample_floor<P>(task, range);
   SampleJet<V> jet;
-  evaluate_lanes<P, V>(task, shape, range.patch, range.x, range.y, jet);
+  evaluate_lanes<P, V>(task, shape, range.patch, range.x, range.y, kEdges, jet);
   store_sample<P>(task, range, jet);
   for (std::size_t i = 0; any_alone && i < count; ++i) {
     if (alone[i]) {

@@ -37,6 +37,15 @@ inline constexpr bool kFused = true;
 inline constexpr bool kFused = false;
 #endif
 
+/// Whether this is one of the instruction sets that hardly any machine is left to. They are there
+/// to be right everywhere, and get one kernel for each purpose: no code of its own for a size, a
+/// degree or an arrangement that another kernel can do as well.
+#if defined(SIMDBEZIER_KERNELS_SCALAR) || defined(SIMDBEZIER_KERNELS_SSE2)
+inline constexpr bool kCompact = true;
+#else
+inline constexpr bool kCompact = false;
+#endif
+
 // Which V holds what -----------------------------------------------------------------------------
 
 template <typename V>

@@ -23,7 +23,7 @@ bool goes_in_rows(const CurveShape& shape, const OutputPlan<T>& outputs,
   const bool alone = !out.wants(kCurveD1) && !out.wants(kCurveD2) && !out.wants(kCurveTangent) &&
                      !out.wants_curvature() && position.z != nullptr;
   if (n < kLeastRow || n > kMostRow || !alone || shape.rational || shape.cells() != 1 ||
-      table.lanes == 1) {
+      table.compact) {
     return false;
   }
   const bool planes = position.stride == 1 && (outputs.staged() ? n < kLongRow : n < table.lanes);

@@ -17,10 +17,10 @@ struct KernelChoice {
   OutputSet outputs = kPosition;
   bool second = false; ///< duu, duv, dvv
 
-  /// Wishes: an OutputList of patches or an OutputSelection.
+  /// Wishes: an OutputList of patches or an OutputSelection. compact: KernelTable::compact.
   template <typename Wishes>
-  KernelChoice(const Wishes& out, const Components& components) noexcept
-      : any_shape(out.holds(Output::curvature) || !components.space()) {
+  KernelChoice(const Wishes& out, const Components& components, bool compact) noexcept
+      : any_shape(compact || out.holds(Output::curvature) || !components.space()) {
     const bool p = out.holds(Output::position);
     const bool du = out.holds(Output::du);
     const bool dv = out.holds(Output::dv);
@@ -47,7 +47,7 @@ struct PatchKernels {
   template <typename Wishes>
   PatchKernels(const SetStorage<T>& storage, const Request<T>& request, const Wishes& out,
                const Options& options) noexcept
-      : set(&storage), table(request.table), choice(out, request.components),
+      : set(&storage), table(request.table), choice(out, request.components, request.table->compact),
         watertight(options.watertight), first_component(request.components.first) {}
 
   /// What they put where it belongs by themselves, on grids of `nu` columns or more: all of it
@@ -68,12 +68,11 @@ struct PatchKernels {
       table->shapes->grid(task);
       return;
     }
-    const Scheme used = scheme(task.watertight, task.origins != nullptr);
     if (choice.first) {
-      table->grid[choice.outputs][used](task);
+      table->grid[choice.outputs](task);
     }
     if (choice.second) {
-      table->grid[kSecondDerivatives][used](task);
+      table->grid[kSecondDerivatives](task);
     }
   }
 
@@ -81,7 +80,7 @@ struct PatchKernels {
     if (choice.any_shape || !task.shape->is_bicubic()) {
       table->shapes->scattered(task);
     } else {
-      table->scattered[task.origins != nullptr](task);
+      table->scattered(task);
     }
   }
 };

@@ -46,7 +46,7 @@ private:
     T* const origins =
         storage_.origins == nullptr ? nullptr : storage_.origins + run_.place * shape.origins();
     T* const floor = storage_.normal_floor + run_.place * shape.floors();
-    if (shape.is_bicubic()) {
+    if (shape.is_bicubic() && !table_.compact) {
       const PackTask<T, S> task{nets_.points,
                                 nets_.patch_stride,
                                 nets_.row_stride,

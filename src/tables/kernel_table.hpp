@@ -151,16 +151,6 @@ enum OutputSet : std::size_t {
   kOutputSets
 };
 
-/// What positions are made of: the interior's formula everywhere, edges from their own control
-/// points, and these around local origins.
-enum Scheme : std::size_t { kOpen, kOpenOrigin, kWatertight, kWatertightOrigin, kSchemes };
-
-inline constexpr Scheme scheme(bool watertight, bool origins) {
-  return watertight ? (origins ? kWatertightOrigin : kWatertight) : (origins ? kOpenOrigin : kOpen);
-}
-inline constexpr bool is_watertight(Scheme s) { return s == kWatertight || s == kWatertightOrigin; }
-inline constexpr bool has_origins(Scheme s) { return s == kOpenOrigin || s == kWatertightOrigin; }
-
 /// Nets to pack, and where the arrays of patch 0 begin.
 template <typename T, typename S>
 struct PackTask {
@@ -244,11 +234,14 @@ template <typename T>
 struct KernelTable {
   Isa isa;
   std::size_t lanes;
+  /// Nothing but one kernel for each purpose: bicubic patches take the kernels of any shape, and
+  /// the table has none of their own (null); curves are not written as rows.
+  bool compact;
   bool puts_records; ///< whether usual outputs' grid kernels put records together
-  void (*grid[kOutputSets][kSchemes])(GridTask<T>& task);
-  void (*scattered[2])(ScatteredTask<T>& task); ///< [1]: sets with origins
-  void (*drain)(DrainQueue<T>& queue);          ///< passes on all that is left
-  void (*fence)();                              ///< completes streaming stores
+  void (*grid[kOutputSets])(GridTask<T>& task);
+  void (*scattered)(ScatteredTask<T>& task);
+  void (*drain)(DrainQueue<T>& queue); ///< passes on all that is left
+  void (*fence)();                     ///< completes streaming stores
   std::uint32_t (*highest_index)(const std::uint32_t* index, std::size_t count);
   PackKernel<T, float> pack_f32;
   PackKernel<T, double> pack_f64;
