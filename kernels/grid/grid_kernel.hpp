@@ -219,7 +219,10 @@ SIMDBEZIER_INLINE void sweep_patches(const GridTask<T>& task, const ColumnSplit<
                                      const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
   if constexpr (kPutsRecords<vec<T>> && kUsual<kOutputs>) {
     if (task.record > 1) {
-      return sweep_record_tiles<kOutputs>(task, piece, patch, end);
+      if (task.watertight && task.origins == nullptr) {
+        return sweep_record_tiles<kOutputs, Known::watertight>(task, piece, patch, end);
+      }
+      return sweep_record_tiles<kOutputs, Known::nothing>(task, piece, patch, end);
     }
   }
   if (!kUsual<kOutputs> || task.origins != nullptr) {
