@@ -1,5 +1,5 @@
 // Compiled once per instruction set (cmake/isa.cmake): fills this instruction set's tables.
-// Only the tables leave this object; they are constants, so nothing runs at load time. the other
+// Only the tables leave this object; they are constants, so nothing runs at load time. The other
 // sources of this folder are compiled the same way.
 #include "kernels/grid/grid_kernel.hpp"
 #include "kernels/pack/bicubic_pack_kernel.hpp"

@@ -47,8 +47,9 @@ struct PatchKernels {
   template <typename Wishes>
   PatchKernels(const SetStorage<T>& storage, const Request<T>& request, const Wishes& out,
                const Options& options) noexcept
-      : set(&storage), table(request.table), choice(out, request.components, request.table->compact),
-        watertight(options.watertight), first_component(request.components.first) {}
+      : set(&storage), table(request.table),
+        choice(out, request.components, request.table->compact), watertight(options.watertight),
+        first_component(request.components.first) {}
 
   /// What they put where it belongs by themselves, on grids of `nu` columns or more: all of it
   /// where one kernel knows all of its outputs, and all patches are bicubic. streamed: past the
