@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <tools/failure.hpp>
+#include <tools/mesh_file.hpp>
 
 namespace simdbezier::tools {
 
@@ -70,13 +71,10 @@ std::vector<OutputGroup> parse_outputs(const std::string& option) {
 }
 
 void check_output_name(Command command, const std::string& out) {
-  const std::string extension = extension_of(out);
-  const bool csv = command == Command::evaluate;
-  if (!csv && (extension == "stl" || extension == "glb")) {
-    bad_usage("-o: writing ." + extension + " files is not supported yet");
-  }
-  if (csv ? extension != "csv" && !is_written_directly(out)
-          : extension != "obj" && extension != "ply") {
+  const bool is_known = command == Command::evaluate
+                            ? extension_of(out) == "csv" || is_written_directly(out)
+                            : mesh_format_of(out).has_value();
+  if (!is_known) {
     bad_usage("-o: expected " + find_option("-o", command_name(command))->expected + ", found " +
               in_quotes(out));
   }

@@ -106,7 +106,8 @@ std::vector<OptionEntry> make_entries() {
   return {
       {"IN", "IN", "builtin:teapot, the name of a file or - for standard input",
        "Patches (" + patch_format_names(".") + ")", all},
-      {"-o", "OUT", "a name that ends in .obj or .ply", "Output, required", " tessellate "},
+      {"-o", "OUT", "a name that ends in .obj, .ply, .stl or .glb", "Output, required",
+       " tessellate "},
       {"-o", "OUT", "a name that ends in .csv, or - for standard output", "Output, required",
        " evaluate "},
       {"--format", "NAME", patch_format_names(""), "Format of IN, which otherwise its name tells",

@@ -1,5 +1,6 @@
 #include <tools/interruption.hpp>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -14,15 +15,20 @@ namespace simdbezier::tools {
 namespace {
 
 // This is all that a signal handler may look at.
-std::atomic<const char*> temporary_name{nullptr};
-std::atomic<int> temporary_folder{-1};
+struct Temporary {
+  std::atomic<const char*> name{nullptr}; // null: nothing is registered here
+  std::atomic<int> folder{-1};
+};
+std::array<Temporary, kMostTemporaries> temporaries;
 std::atomic<bool> bar_is_shown{false};
 static_assert(std::atomic<const char*>::is_always_lock_free &&
               std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 void clean_up() noexcept {
-  if (const char* const name = temporary_name.exchange(nullptr)) {
-    unlinkat(temporary_folder, name, 0);
+  for (Temporary& temporary : temporaries) {
+    if (const char* const name = temporary.name.exchange(nullptr)) {
+      unlinkat(temporary.folder, name, 0);
+    }
   }
   if (bar_is_shown.exchange(false)) {
     clear_bar();
@@ -76,12 +82,24 @@ void handle_interruptions() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void remember_temporary(int folder, const std::string& name) noexcept {
-  temporary_folder = folder;
-  temporary_name = name.c_str();
+bool remember_temporary(int folder, const std::string& name) noexcept {
+  for (Temporary& temporary : temporaries) {
+    if (temporary.name == nullptr) {
+      temporary.folder = folder;
+      temporary.name = name.c_str();
+      return true;
+    }
+  }
+  return false;
 }
 
-void forget_temporary() noexcept { temporary_name = nullptr; }
+void forget_temporary(const std::string& name) noexcept {
+  for (Temporary& temporary : temporaries) {
+    if (temporary.name == name.c_str()) {
+      temporary.name = nullptr;
+    }
+  }
+}
 
 void remember_bar(bool shown) noexcept { bar_is_shown = shown; }
 

@@ -2,6 +2,7 @@
 // as OpenMP does where the system refuses it a thread.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace simdbezier::tools {
@@ -11,11 +12,14 @@ namespace simdbezier::tools {
 /// file that outgrows its limit is a failed write. main() calls this once.
 void handle_interruptions();
 
+/// So many files can be registered at a time.
+inline constexpr std::size_t kMostTemporaries = 256;
+
 /// Registers a file by its name in an open folder. Both have to stay as they are until they are
 /// forgotten. Call it before the file is created, so that there is no moment at which it would be
-/// left behind.
-void remember_temporary(int folder, const std::string& name) noexcept;
-void forget_temporary() noexcept;
+/// left behind. Returns false where there are too many.
+[[nodiscard]] bool remember_temporary(int folder, const std::string& name) noexcept;
+void forget_temporary(const std::string& name) noexcept;
 
 /// Says whether the terminal shows a progress bar, whose line has to be cleared.
 void remember_bar(bool shown) noexcept;

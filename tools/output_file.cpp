@@ -136,6 +136,19 @@ void OutputFile::write_all(const char* data, std::size_t size) {
   }
 }
 
+void OutputFile::rewrite(std::uint64_t at, std::string_view text) {
+  flush();
+  while (!text.empty()) {
+    const ssize_t written = pwrite(descriptor_, text.data(), text.size(), static_cast<off_t>(at));
+    if (written > 0) {
+      at += static_cast<std::uint64_t>(written);
+      text.remove_prefix(static_cast<std::size_t>(written));
+    } else if (written == 0 || errno != EINTR) {
+      fail("room to write", error_text(written == 0 ? ENOSPC : errno));
+    }
+  }
+}
+
 void OutputFile::commit() {
   flush();
   if (temporary_) {

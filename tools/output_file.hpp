@@ -33,6 +33,10 @@ public:
   void text(std::string_view text) { bytes(text.data(), text.size()); }
   void character(char c) { *room(1) = c, ++used_; }
   void bytes(const void* data, std::size_t size);
+  /// Whether what has been written can be replaced: not in devices and pipes.
+  [[nodiscard]] bool can_rewrite() const noexcept { return temporary_.has_value(); }
+  /// Replaces bytes that have been written.
+  void rewrite(std::uint64_t at, std::string_view text);
 
   /// Shortest decimals that read back to the same bits (integers: all digits).
   template <typename T>

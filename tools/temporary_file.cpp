@@ -83,15 +83,18 @@ TemporaryFile::TemporaryFile(const std::string& target) {
 
 void TemporaryFile::create(mode_t mode) {
   do {
-    forget_temporary();
+    forget_temporary(name_);
     name_ = random_name();
-    remember_temporary(folder_.number(), name_);
+    if (!remember_temporary(folder_.number(), name_)) {
+      name_.clear();
+      fail(EMFILE);
+    }
     file_ = Descriptor(
         openat(folder_.number(), name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
   } while (!file_.is_open() && errno == EEXIST);
   if (!file_.is_open()) {
     const int error = errno;
-    forget_temporary();
+    forget_temporary(name_);
     name_.clear();
     fail(error);
   }
@@ -100,7 +103,7 @@ void TemporaryFile::create(mode_t mode) {
 TemporaryFile::~TemporaryFile() {
   if (!name_.empty()) {
     unlinkat(folder_.number(), name_.c_str(), 0);
-    forget_temporary();
+    forget_temporary(name_);
   }
 }
 
@@ -129,7 +132,7 @@ void TemporaryFile::replace_target() {
   if (renameat(folder_.number(), name_.c_str(), folder_.number(), target_.c_str()) != 0) {
     fail(errno);
   }
-  forget_temporary();
+  forget_temporary(name_);
   name_.clear();
   // The file is in its place already. Only the file system knows if its name survives a crash.
   static_cast<void>(!fsync(folder_.number()));

@@ -1,71 +1,104 @@
 // Wavefront OBJ. Lines may come in any order as long as a face's vertices precede it, so nothing
 // has to wait for the end of the mesh.
-#include <tools/mesh_writer.hpp>
+#include <tools/mesh_formats.hpp>
+
+#include <tools/output_file.hpp>
 
 namespace simdbezier::tools {
 
 namespace {
 
+// The fewest bytes there can be: "v 0 0 0", "vt 0 0", "vn 0 0 1", "f 1 2 3", and "/1" or "//1".
+Count fewest_bytes(const MeshContents& contents) {
+  const std::size_t vertex = 8 + (contents.uv ? 7U : 0U) + (contents.normals ? 9U : 0U);
+  const std::size_t corner = 2 + (contents.normals ? 3U : contents.uv ? 2U : 0U);
+  return Count(contents.vertices) * vertex +
+         Count(contents.faces) * (2 + corner * contents.corners);
+}
+
 template <typename T>
 class ObjWriter final : public MeshWriter<T> {
 public:
-  ObjWriter(OutputFile& file, const Mesh& mesh) : file_(file), mesh_(mesh) {
-    // These are the fewest bytes that there can be: "v 0 0 0", "vn 0 0 1", "f 1 2 3" or "f 1//1
-    // 2//2 3//3".
-    file.expect_room(mesh.normals ? mesh.vertices() * 17 + mesh.triangles() * 17
-                                  : mesh.vertices() * 8 + mesh.triangles() * 8);
-  }
-
-  void vertices(std::span<const T> values) override {
-    for (std::size_t k = 0; k < values.size(); k += mesh_.stride()) {
-      vector("v", values.subspan(k, 3));
+  ObjWriter(const std::string& path, const MeshContents& mesh)
+      : MeshWriter<T>(path, mesh), file_(path) {
+    file_.expect_room(checked_file_size(path, fewest_bytes(mesh)));
+    if (!mesh.generator.empty()) {
+      file_.text("# " + mesh.generator + "\n");
     }
-    for (std::size_t k = 3; mesh_.normals && k < values.size(); k += mesh_.stride()) {
-      vector("vn", values.subspan(k, 3));
+    if (mesh.deviation) {
+      file_.text("# deviation " + shortest(*mesh.deviation) + "\n");
     }
   }
 
-  void patches_done(std::size_t first, std::size_t count) override {
-    for (std::size_t p = first; p < first + count; ++p) {
-      mesh_.for_each_triangle(p, [this](const auto& corners) { face(corners); });
-    }
-  }
+  [[nodiscard]] bool takes_faces_early() const noexcept override { return true; }
+  [[nodiscard]] bool is_terminal() const override { return file_.is_terminal(); }
 
 private:
-  void vector(std::string_view keyword, std::span<const T> xyz) {
-    file_.text(keyword);
-    for (const T value : xyz) {
-      file_.character(' ');
-      file_.number(value);
+  using MeshWriter<T>::contents;
+
+  void take_vertices(const VertexBlock<T>& block) override {
+    lines("v", block.values, 0, 3);
+    if (contents().uv) {
+      lines("vt", block.values, contents().normals ? 6 : 3, 2);
     }
-    file_.character('\n');
+    if (contents().normals) {
+      lines("vn", block.values, 3, 3);
+    }
   }
 
-  void face(const std::array<std::uint64_t, 3>& corners) {
-    file_.character('f');
-    for (const std::uint64_t corner : corners) {
-      file_.character(' ');
-      file_.number(corner + 1);
-      if (mesh_.normals) {
-        file_.text("//");
-        file_.number(corner + 1);
+  // One line a vertex, with `count` of its values from `first` on.
+  void lines(std::string_view keyword, std::span<const T> values, std::size_t first,
+             std::size_t count) {
+    for (std::size_t k = first; k < values.size(); k += contents().stride()) {
+      file_.text(keyword);
+      for (const T value : values.subspan(k, count)) {
+        file_.character(' ');
+        file_.number(value);
       }
+      file_.character('\n');
     }
-    file_.character('\n');
   }
 
-  OutputFile& file_;
-  Mesh mesh_;
+  void take_faces(std::span<const std::uint32_t> corners) override {
+    for (std::size_t k = 0; k < corners.size(); k += contents().corners) {
+      file_.character('f');
+      for (const std::uint32_t corner : corners.subspan(k, contents().corners)) {
+        file_.character(' ');
+        name(std::uint64_t{corner} + 1);
+      }
+      file_.character('\n');
+    }
+  }
+
+  // "7", "7/7", "7//7" or "7/7/7".
+  void name(std::uint64_t number) {
+    file_.number(number);
+    if (contents().uv) {
+      file_.character('/');
+      file_.number(number);
+    }
+    if (contents().normals) {
+      file_.text(contents().uv ? "/" : "//");
+      file_.number(number);
+    }
+  }
+
+  void put_in_place() override { file_.commit(); }
+
+  OutputFile file_;
 };
 
 } // namespace
 
 template <typename T>
-std::unique_ptr<MeshWriter<T>> make_obj_writer(OutputFile& file, const Mesh& mesh) {
-  return std::make_unique<ObjWriter<T>>(file, mesh);
+std::unique_ptr<MeshWriter<T>> make_obj_writer(const std::string& path,
+                                               const MeshContents& contents) {
+  return std::make_unique<ObjWriter<T>>(path, contents);
 }
 
-template std::unique_ptr<MeshWriter<float>> make_obj_writer(OutputFile&, const Mesh&);
-template std::unique_ptr<MeshWriter<double>> make_obj_writer(OutputFile&, const Mesh&);
+template std::unique_ptr<MeshWriter<float>> make_obj_writer(const std::string&,
+                                                            const MeshContents&);
+template std::unique_ptr<MeshWriter<double>> make_obj_writer(const std::string&,
+                                                             const MeshContents&);
 
 } // namespace simdbezier::tools

@@ -1,76 +1,94 @@
-// Binary PLY: the vertices as they lie in memory, then the faces.
-#include <tools/mesh_writer.hpp>
+// Binary PLY: the vertices as records, then the faces.
+#include <tools/mesh_formats.hpp>
 
-#include <bit>
-#include <cstring>
+#include <tools/little_endian.hpp>
+#include <tools/output_file.hpp>
+#include <tools/vertex_records.hpp>
 
 namespace simdbezier::tools {
 
 namespace {
 
-template <typename T>
-std::string header(const Mesh& mesh) {
-  const std::string type = sizeof(T) == sizeof(float) ? "float" : "double";
-  const std::string order = std::endian::native == std::endian::little ? "little" : "big";
-  std::string text = "ply\nformat binary_" + order + "_endian 1.0\n";
-  text += "element vertex " + std::to_string(mesh.vertices()) + "\n";
-  for (const char* const name : {"x", "y", "z"}) {
+// Larger indices are unsigned, which not every reader expects.
+constexpr std::uint64_t kMostSignedVertices = std::uint64_t{1} << 31;
+
+std::string properties(const std::string& type, std::initializer_list<const char*> names) {
+  std::string text;
+  for (const char* const name : names) {
     text += "property " + type + " " + name + "\n";
   }
-  for (const char* const name : {"nx", "ny", "nz"}) {
-    text += mesh.normals ? "property " + type + " " + name + "\n" : "";
-  }
-  text += "element face " + std::to_string(mesh.triangles()) + "\n";
-  return text + "property list uchar int vertex_indices\nend_header\n";
+  return text;
+}
+
+template <typename T>
+std::string header(const MeshContents& mesh) {
+  const std::string type = sizeof(T) == sizeof(float) ? "float" : "double";
+  std::string text = "ply\nformat binary_little_endian 1.0\n";
+  text += mesh.generator.empty() ? "" : "comment " + mesh.generator + "\n";
+  text += mesh.deviation ? "comment deviation " + shortest(*mesh.deviation) + "\n" : "";
+  text += "element vertex " + std::to_string(mesh.vertices) + "\n";
+  text += properties(type, {"x", "y", "z"});
+  text += mesh.normals ? properties(type, {"nx", "ny", "nz"}) : "";
+  text += mesh.uv ? properties(type, {"u", "v"}) : "";
+  text += mesh.patches > 0 ? properties("uint", {"patch"}) : "";
+  text += "element face " + std::to_string(mesh.faces) + "\n";
+  text += mesh.vertices <= kMostSignedVertices ? "property list uchar int "
+                                               : "property list uchar uint ";
+  return text + "vertex_indices\nend_header\n";
 }
 
 template <typename T>
 class PlyWriter final : public MeshWriter<T> {
 public:
-  PlyWriter(OutputFile& file, const Mesh& mesh) : file_(file), mesh_(mesh) {
+  PlyWriter(const std::string& path, const MeshContents& mesh)
+      : MeshWriter<T>(path, mesh), packer_(path, mesh, exact_records<T>(mesh)),
+        size_(checked_file_size(path, Count(mesh.vertices) * exact_records<T>(mesh).size +
+                                          Count(mesh.faces) * (1 + mesh.corners * kIndexBytes))),
+        file_(path) {
     const std::string text = header<T>(mesh);
-    file_.expect_room(text.size() + mesh.vertices() * mesh.stride() * sizeof(T) +
-                      mesh.triangles() * kFaceBytes);
+    file_.expect_room(checked_file_size(path, Count(size_) + text.size()));
     file_.text(text);
   }
 
-  void vertices(std::span<const T> values) override {
-    file_.bytes(values.data(), values.size_bytes());
-  }
-
-  void patches_done(std::size_t first, std::size_t count) override {
-    if (first + count == mesh_.patches) {
-      for (std::size_t p = 0; p < mesh_.patches; ++p) {
-        mesh_.for_each_triangle(p, [this](const auto& corners) { face(corners); });
-      }
-    }
-  }
+  [[nodiscard]] bool is_terminal() const override { return file_.is_terminal(); }
 
 private:
-  static constexpr std::size_t kFaceBytes = 1 + 3 * sizeof(std::int32_t);
+  static constexpr std::size_t kIndexBytes = sizeof(std::uint32_t);
 
-  void face(const std::array<std::uint64_t, 3>& corners) {
-    std::array<unsigned char, kFaceBytes> bytes;
-    bytes[0] = 3;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto index = static_cast<std::int32_t>(corners[k]);
-      std::memcpy(&bytes[1 + k * sizeof index], &index, sizeof index);
-    }
-    file_.bytes(bytes.data(), bytes.size());
+  void take_vertices(const VertexBlock<T>& block) override {
+    const std::span<const std::byte> records = packer_.pack(block);
+    file_.bytes(records.data(), records.size());
   }
 
-  OutputFile& file_;
-  Mesh mesh_;
+  void take_faces(std::span<const std::uint32_t> corners) override {
+    const std::size_t count = this->contents().corners;
+    std::array<std::byte, 1 + 4 * kIndexBytes> face = {static_cast<std::byte>(count)};
+    for (std::size_t k = 0; k < corners.size(); k += count) {
+      for (std::size_t c = 0; c < count; ++c) {
+        store_little(&face[1 + c * kIndexBytes], corners[k + c]);
+      }
+      file_.bytes(face.data(), 1 + count * kIndexBytes);
+    }
+  }
+
+  void put_in_place() override { file_.commit(); }
+
+  RecordPacker<T> packer_;
+  std::uintmax_t size_;
+  OutputFile file_;
 };
 
 } // namespace
 
 template <typename T>
-std::unique_ptr<MeshWriter<T>> make_ply_writer(OutputFile& file, const Mesh& mesh) {
-  return std::make_unique<PlyWriter<T>>(file, mesh);
+std::unique_ptr<MeshWriter<T>> make_ply_writer(const std::string& path,
+                                               const MeshContents& contents) {
+  return std::make_unique<PlyWriter<T>>(path, contents);
 }
 
-template std::unique_ptr<MeshWriter<float>> make_ply_writer(OutputFile&, const Mesh&);
-template std::unique_ptr<MeshWriter<double>> make_ply_writer(OutputFile&, const Mesh&);
+template std::unique_ptr<MeshWriter<float>> make_ply_writer(const std::string&,
+                                                            const MeshContents&);
+template std::unique_ptr<MeshWriter<double>> make_ply_writer(const std::string&,
+                                                             const MeshContents&);
 
 } // namespace simdbezier::tools

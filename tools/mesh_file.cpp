@@ -1,0 +1,185 @@
+#include <tools/mesh_file.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <tools/failure.hpp>
+#include <tools/mesh_formats.hpp>
+#include <tools/output_file.hpp>
+#include <tools/vertex_records.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+struct FormatEntry {
+  const char* extension;
+  const char* name; // with its article
+  bool quads;
+  bool floats_only;
+  std::uint64_t most_faces;
+};
+constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
+constexpr FormatEntry kFormats[] = {
+    {"obj", "an OBJ file", true, false, kAny},
+    {"ply", "a PLY file", true, false, kAny},
+    {"stl", "an STL file", false, true, std::numeric_limits<std::uint32_t>::max()},
+    {"glb", "a GLB file", false, true, kAny}};
+
+const FormatEntry& entry_of(MeshFormat format) {
+  return kFormats[static_cast<std::size_t>(format)];
+}
+
+// Patch numbers are floats in GLB, whose attributes have no larger integers than 16 bits.
+constexpr std::uint64_t kMostGlbPatches = std::uint64_t{1} << 24;
+
+double largest_coordinate(const MeshBox& box) {
+  double largest = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    largest = std::max({largest, std::abs(box.low[c]), std::abs(box.high[c])});
+  }
+  return largest;
+}
+
+void expect_at_most(const std::string& path, const char* format, const char* what,
+                    std::uint64_t most, std::uint64_t found) {
+  if (found > most) {
+    bad_input(path + ": expected at most " + std::to_string(most) + " " + what + " in " + format +
+              ", found " + std::to_string(found));
+  }
+}
+
+template <typename T>
+void check_contents(const std::string& path, MeshFormat format, const MeshContents& contents) {
+  const FormatEntry& entry = entry_of(format);
+  expect_at_most(path, entry.name, "vertices", kMostMeshVertices, contents.vertices);
+  expect_at_most(path, entry.name, "faces", entry.most_faces, contents.faces);
+  if (format == MeshFormat::glb) {
+    expect_at_most(path, entry.name, "numbered patches", kMostGlbPatches, contents.patches);
+  } else if (contents.storage != VertexStorage::full) {
+    bad_input(path + ": expected a GLB file for quantised vertices, found " + entry.name);
+  }
+  if (contents.corners != 3 && !entry.quads) {
+    bad_input(path + ": expected triangles in " + entry.name + ", found quads");
+  }
+  if (entry.floats_only && contents.box) {
+    static_cast<void>(as_float(path, largest_coordinate(*contents.box)));
+  }
+  assert(contents.storage == VertexStorage::full || contents.box);
+}
+
+} // namespace
+
+std::optional<MeshFormat> mesh_format_of(const std::string& path) {
+  const std::string extension = extension_of(path);
+  const auto* const entry = std::ranges::find(kFormats, extension, &FormatEntry::extension);
+  return entry == std::end(kFormats)
+             ? std::nullopt
+             : std::optional(static_cast<MeshFormat>(entry - std::begin(kFormats)));
+}
+
+template <typename T>
+double storage_error(MeshFormat format, const MeshContents& contents) {
+  constexpr double kHalfFloat = 0x1p-24; // unit roundoff
+  const bool quantised = contents.storage != VertexStorage::full;
+  const bool rounded = sizeof(T) > sizeof(float) && entry_of(format).floats_only;
+  if (!quantised && !rounded) {
+    return 0;
+  }
+  assert(contents.box);
+  const double size = largest_coordinate(*contents.box);
+  // Whoever reads quantised positions scales and moves them in floats: three roundings.
+  const double component =
+      quantised ? quantised_space(*contents.box).extent / 65535 / 2 + 3 * kHalfFloat * size
+                : kHalfFloat * size + 0x1p-150;
+  return std::sqrt(3.0) * component * (1 + 0x1p-40);
+}
+
+std::uintmax_t checked_file_size(const std::string& path, Count bytes) {
+  if (!bytes.value()) {
+    bad_input(path + ": expected a file whose bytes can be counted, found " + to_string(bytes));
+  }
+  return *bytes.value();
+}
+
+template <typename T>
+float as_float(const std::string& path, T value) {
+  if (!(std::abs(value) <= static_cast<T>(std::numeric_limits<float>::max()))) {
+    bad_input(path + ": expected coordinates that a float can hold, found " +
+              shortest(static_cast<double>(value)));
+  }
+  return static_cast<float>(value);
+}
+
+template <typename T>
+void MeshWriter<T>::vertices(const VertexBlock<T>& block) {
+  const std::size_t stride = contents_.stride();
+  assert(block.values.size() % stride == 0);
+  assert(block.patch.size() == (contents_.patches > 0 ? block.values.size() / stride : 0));
+  // Without a branch, so that a register of values takes one step.
+  bool finite = true;
+  for (const T value : block.values) {
+    finite &= std::abs(value) <= std::numeric_limits<T>::max();
+  }
+  if (!finite) {
+    const auto bad =
+        std::ranges::find_if(block.values, [](T value) { return !std::isfinite(value); });
+    const auto place = static_cast<std::size_t>(bad - block.values.begin()) / stride;
+    bad_input(path_ + ": expected finite numbers, found " + shortest(static_cast<double>(*bad)) +
+              " at vertex " + std::to_string(vertices_done_ + place));
+  }
+  vertices_done_ += block.values.size() / stride;
+  assert(vertices_done_ <= contents_.vertices);
+  take_vertices(block);
+}
+
+template <typename T>
+void MeshWriter<T>::faces(std::span<const std::uint32_t> corners) {
+  assert(corners.size() % contents_.corners == 0);
+  assert(takes_faces_early() || vertices_done_ == contents_.vertices);
+  assert(
+      std::ranges::all_of(corners, [&](std::uint32_t corner) { return corner < vertices_done_; }));
+  faces_done_ += corners.size() / contents_.corners;
+  assert(faces_done_ <= contents_.faces);
+  take_faces(corners);
+}
+
+template <typename T>
+void MeshWriter<T>::finish() {
+  assert(vertices_done_ == contents_.vertices && faces_done_ == contents_.faces);
+  put_in_place();
+}
+
+template <typename T>
+std::unique_ptr<MeshWriter<T>> make_mesh_writer(const std::string& path, MeshFormat format,
+                                                const MeshContents& contents) {
+  check_contents<T>(path, format, contents);
+  MeshContents stated = contents;
+  if (const double error = contents.deviation ? storage_error<T>(format, contents) : 0; error > 0) {
+    stated.deviation = std::nextafter(*contents.deviation + error, HUGE_VAL);
+  }
+  switch (format) {
+  case MeshFormat::obj:
+    return make_obj_writer<T>(path, stated);
+  case MeshFormat::ply:
+    return make_ply_writer<T>(path, stated);
+  case MeshFormat::stl:
+    return make_stl_writer<T>(path, stated);
+  case MeshFormat::glb:
+    break;
+  }
+  return make_glb_writer<T>(path, stated);
+}
+
+template class MeshWriter<float>;
+template class MeshWriter<double>;
+template std::unique_ptr<MeshWriter<float>> make_mesh_writer(const std::string&, MeshFormat,
+                                                             const MeshContents&);
+template std::unique_ptr<MeshWriter<double>> make_mesh_writer(const std::string&, MeshFormat,
+                                                              const MeshContents&);
+template double storage_error<float>(MeshFormat, const MeshContents&);
+template double storage_error<double>(MeshFormat, const MeshContents&);
+template float as_float(const std::string&, float);
+template float as_float(const std::string&, double);
+
+} // namespace simdbezier::tools

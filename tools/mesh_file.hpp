@@ -1,0 +1,115 @@
+// Files of meshes: what a mesh consists of, and a writer for every format.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace simdbezier::tools {
+
+enum class MeshFormat : std::uint8_t { obj, ply, stl, glb };
+
+/// The format that a file's name asks for by its extension.
+[[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::string& path);
+
+struct MeshBox {
+  std::array<double, 3> low = {};
+  std::array<double, 3> high = {};
+};
+
+/// How GLB stores vertices. Quantised: positions and uv in 16 bits, normals in 16 or 8 bits a
+/// component, which takes the extension KHR_mesh_quantization.
+enum class VertexStorage : std::uint8_t { full, quantised_16, quantised_8 };
+
+/// An index needs 32 bits, and the largest one stays free.
+inline constexpr std::uint64_t kMostMeshVertices = std::numeric_limits<std::uint32_t>::max();
+
+/// All that has to be known of a mesh before its first vertex is written.
+struct MeshContents {
+  std::uint64_t vertices = 0;
+  std::uint64_t faces = 0;
+  unsigned corners = 3; ///< of a face: 3, or 4 in OBJ and PLY
+  bool normals = false;
+  bool uv = false;           ///< within 0 and 1
+  std::uint64_t patches = 0; ///< every vertex has a patch number below this; 0: none has
+  VertexStorage storage = VertexStorage::full;
+  /// A box around all positions, which may be larger than the smallest one. Needed where a format
+  /// rounds positions: quantised ones, and doubles with a stated deviation in STL and GLB.
+  std::optional<MeshBox> box;
+  /// A bound on the mesh's distance from the surface. Files state it plus whatever the format's
+  /// rounding adds.
+  std::optional<double> deviation;
+  std::string generator; ///< what wrote the file; empty: not stated
+
+  /// x y z, nx ny nz, u v of one vertex, as far as there are such.
+  [[nodiscard]] std::size_t stride() const noexcept {
+    return 3 + (normals ? 3U : 0U) + (uv ? 2U : 0U);
+  }
+};
+
+/// The next vertices.
+template <typename T>
+struct VertexBlock {
+  std::span<const T> values;                 ///< MeshContents::stride() of every vertex
+  std::span<const std::uint32_t> patch = {}; ///< one of every vertex, if they have any
+};
+
+/// Takes a mesh block by block: vertices in order, and faces when the vertices that they name have
+/// been handed over, in blocks of any size. The memory that it takes does not grow with the mesh.
+template <typename T>
+class MeshWriter {
+public:
+  virtual ~MeshWriter() = default;
+  MeshWriter(const MeshWriter&) = delete;
+  MeshWriter& operator=(const MeshWriter&) = delete;
+
+  /// Throws Failure where a number is not finite or the file cannot hold it.
+  void vertices(const VertexBlock<T>& block);
+  /// Corners of faces, MeshContents::corners each, numbered from 0.
+  void faces(std::span<const std::uint32_t> corners);
+  /// Puts the complete file in its place; without it, there is none.
+  void finish();
+
+  /// Whether faces may come before the last vertex.
+  [[nodiscard]] virtual bool takes_faces_early() const noexcept { return false; }
+  /// Whether people see what is written while it is.
+  [[nodiscard]] virtual bool is_terminal() const { return false; }
+
+protected:
+  MeshWriter(std::string path, const MeshContents& contents)
+      : path_(std::move(path)), contents_(contents) {}
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  [[nodiscard]] const MeshContents& contents() const noexcept { return contents_; }
+
+private:
+  virtual void take_vertices(const VertexBlock<T>& block) = 0;
+  virtual void take_faces(std::span<const std::uint32_t> corners) = 0;
+  virtual void put_in_place() = 0;
+
+  std::string path_;
+  MeshContents contents_;
+  std::uint64_t vertices_done_ = 0;
+  std::uint64_t faces_done_ = 0;
+};
+
+/// A writer for the format. Throws Failure, before anything is written, where the format cannot
+/// hold such a mesh or the disk has no room for it.
+///
+/// A GLB file is below 4 GiB. A larger mesh becomes several files, NAME-0.glb, NAME-1.glb …, each a
+/// mesh of its own that any viewer can load; vertices where they meet are in both, with equal bits.
+template <typename T>
+[[nodiscard]] std::unique_ptr<MeshWriter<T>>
+make_mesh_writer(const std::string& path, MeshFormat format, const MeshContents& contents);
+
+/// The largest distance by which the format moves a vertex.
+template <typename T>
+[[nodiscard]] double storage_error(MeshFormat format, const MeshContents& contents);
+
+} // namespace simdbezier::tools
