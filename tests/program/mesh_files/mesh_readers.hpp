@@ -1,0 +1,35 @@
+// Readers of mesh files for tests: written from the formats' descriptions, without the writers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace simdbezier::tests {
+
+struct ReadMesh {
+  std::vector<std::array<double, 3>> positions;
+  std::vector<std::array<double, 3>> normals;
+  std::vector<std::array<double, 2>> uv;
+  std::vector<double> patches;
+  std::vector<std::vector<std::uint32_t>> faces;
+  std::optional<double> deviation;
+  std::string generator;
+  std::string position_type; ///< as the format calls it
+  std::string index_type;
+  /// GLB: what the node says, and 1 and 0 where it says nothing.
+  double scale = 1;
+  std::array<double, 3> translation = {};
+  bool quantised = false; ///< GLB: positions are whole numbers, 65535 stands for 1
+};
+
+/// Test failures, and whatever was read before, where the file is not what the format demands.
+[[nodiscard]] ReadMesh read_obj_mesh(const std::string& bytes);
+[[nodiscard]] ReadMesh read_ply_mesh(const std::string& bytes);
+/// Positions are the corners of the facets, three each, and normals one a facet.
+[[nodiscard]] ReadMesh read_stl_mesh(const std::string& bytes);
+[[nodiscard]] ReadMesh read_glb_mesh(const std::string& bytes);
+
+} // namespace simdbezier::tests

@@ -1,0 +1,291 @@
+// Meshes that a format cannot hold, and disks and pipes that do not take them.
+#include <gtest/gtest.h>
+
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <ostream>
+#include <thread>
+
+#include <fcntl.h>
+#include <tools/failure.hpp>
+
+#include "tests/program/process/program.hpp"
+#include "tests/program/mesh_files/mesh_readers.hpp"
+#include "tests/program/mesh_files/sample_mesh.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+using tools::MeshContents;
+using tools::MeshFormat;
+using tools::VertexStorage;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Runs it, expects a failure of one line, and returns its text.
+std::string failure_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const tools::Failure& failure) {
+    EXPECT_EQ(failure.exit_code(), 1);
+    EXPECT_EQ(std::string(failure.what()).find('\n'), std::string::npos);
+    return failure.what();
+  }
+  ADD_FAILURE() << "nothing failed";
+  return "";
+}
+
+struct Refused {
+  const char* name;
+  MeshFormat format;
+  std::function<void(MeshContents&)> change;
+  std::string expected;
+};
+void PrintTo(const Refused& item, std::ostream* out) { *out << item.name; }
+
+std::vector<Refused> refused_contents() {
+  const auto vertices = [](MeshContents& mesh) { mesh.vertices = 4294967296; };
+  const auto faces = [](std::uint64_t count) {
+    return [count](MeshContents& mesh) { mesh.faces = count; };
+  };
+  const auto quads = [](MeshContents& mesh) { mesh.corners = 4; };
+  const auto quantised = [](MeshContents& mesh) { mesh.storage = VertexStorage::quantised_8; };
+  const auto huge = [](MeshContents& mesh) { mesh.box->high[1] = 1e39; };
+  const std::string most = ": expected at most 4294967295 vertices in ";
+  const std::string counted = ": expected a file whose bytes can be counted, found more than";
+  return {
+      {"ObjVertices", MeshFormat::obj, vertices, most + "an OBJ file, found 4294967296"},
+      {"PlyVertices", MeshFormat::ply, vertices, most + "a PLY file, found 4294967296"},
+      {"StlVertices", MeshFormat::stl, vertices, most + "an STL file, found 4294967296"},
+      {"GlbVertices", MeshFormat::glb, vertices, most + "a GLB file, found 4294967296"},
+      {"ObjFaces", MeshFormat::obj, faces(std::uint64_t{1} << 63), counted},
+      {"PlyFaces", MeshFormat::ply, faces(std::uint64_t{1} << 63), counted},
+      {"PlyRoom", MeshFormat::ply, faces(std::uint64_t{1} << 56), ": expected room for"},
+      {"ObjRoom", MeshFormat::obj, faces(std::uint64_t{1} << 56), ": expected room for"},
+      {"StlFaces", MeshFormat::stl, faces(4294967296),
+       ": expected at most 4294967295 faces in an STL file, found 4294967296"},
+      {"StlQuads", MeshFormat::stl, quads, ": expected triangles in an STL file, found quads"},
+      {"GlbQuads", MeshFormat::glb, quads, ": expected triangles in a GLB file, found quads"},
+      {"GlbPatches", MeshFormat::glb, [](MeshContents& mesh) { mesh.patches = 16777217; },
+       ": expected at most 16777216 numbered patches in a GLB file, found 16777217"},
+      {"PlyQuantised", MeshFormat::ply, quantised,
+       ": expected a GLB file for quantised vertices, found a PLY file"},
+      {"StlHuge", MeshFormat::stl, huge, "expected coordinates that a float can hold, found 1e+39"},
+      {"GlbHuge", MeshFormat::glb, huge, "expected coordinates that a float can hold, found 1e+39"},
+  };
+}
+
+class RefusedMesh : public ::testing::TestWithParam<Refused> {};
+
+TEST_P(RefusedMesh, IsRefusedBeforeAnythingIsWritten) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("mesh.out", "before");
+  SampleMesh mesh = make_sample({}, false);
+  GetParam().change(mesh.contents);
+  const std::string found = failure_of([&] {
+    static_cast<void>(tools::make_mesh_writer<double>(path, GetParam().format, mesh.contents));
+  });
+  EXPECT_TRUE(found.starts_with(path) && found.find(GetParam().expected) != std::string::npos)
+      << found;
+  EXPECT_EQ(read_file(path), "before");
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"mesh.out"});
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RefusedMesh, ::testing::ValuesIn(refused_contents()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+const MeshFormat kFormats[] = {MeshFormat::obj, MeshFormat::ply, MeshFormat::stl, MeshFormat::glb};
+
+TEST(RefusedNumbers, AreNotFinite) {
+  for (const MeshFormat format : kFormats) {
+    for (const double bad : {kInfinity, -kInfinity, std::nan("")}) {
+      for (const std::size_t place : {17U, 20U, 23U}) { // position, normal, uv of vertex 2
+        const TemporaryFolder folder;
+        SampleMesh mesh = make_sample({.uv = true}, true);
+        mesh.values[place] = bad;
+        const std::string path = folder.path("mesh.out");
+        const std::string found = failure_of([&] {
+          write_sample<float>(mesh, *tools::make_mesh_writer<float>(path, format, mesh.contents),
+                              2);
+        });
+        EXPECT_TRUE(found.starts_with(path + ": expected finite numbers, found ")) << found;
+        EXPECT_TRUE(found.ends_with(" at vertex 2")) << found;
+        EXPECT_TRUE(folder.names().empty());
+      }
+    }
+  }
+}
+
+TEST(RefusedNumbers, DoNotFitIntoFloats) {
+  for (const MeshFormat format : {MeshFormat::stl, MeshFormat::glb}) {
+    const TemporaryFolder folder;
+    SampleMesh mesh = make_sample({}, false);
+    mesh.contents.box.reset();
+    mesh.values[6] = -1e39;
+    const std::string found = failure_of([&] {
+      write_sample<double>(
+          mesh, *tools::make_mesh_writer<double>(folder.path("m"), format, mesh.contents), 5);
+    });
+    EXPECT_NE(found.find("expected coordinates that a float can hold, found -1e+39"),
+              std::string::npos)
+        << found;
+    EXPECT_TRUE(folder.names().empty());
+  }
+}
+
+TEST(RefusedNumbers, AreOutsideOfTheBox) {
+  const TemporaryFolder folder;
+  SampleMesh mesh = make_sample({.storage = VertexStorage::quantised_16}, false);
+  mesh.values[7] = -3.500001;
+  const std::string found = failure_of([&] {
+    write_sample<double>(
+        mesh,
+        *tools::make_mesh_writer<double>(folder.path("m.glb"), MeshFormat::glb, mesh.contents), 5);
+  });
+  EXPECT_NE(found.find("expected positions within their box"), std::string::npos) << found;
+  EXPECT_TRUE(folder.names().empty());
+}
+
+// A writer that is given up leaves what there was.
+TEST(RefusedMeshes, LeaveNothingWithoutFinish) {
+  for (const MeshFormat format : kFormats) {
+    const TemporaryFolder folder;
+    const std::string path = folder.write("mesh.out", "before");
+    const SampleMesh mesh = make_sample({}, true);
+    const std::vector<float> values(mesh.values.begin(), mesh.values.end());
+    {
+      const auto writer = tools::make_mesh_writer<float>(path, format, mesh.contents);
+      writer->vertices({values});
+      writer->faces(mesh.corners);
+      EXPECT_EQ(folder.names().size(), 2U) << "where does it write to?";
+    }
+    EXPECT_EQ(read_file(path), "before");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"mesh.out"});
+  }
+}
+
+TEST(MeshOutput, MayBeAPipe) {
+  const SampleMesh mesh = make_sample({.vertices = 3000, .faces = 5000, .normals = false}, true);
+  for (const MeshFormat format : kFormats) {
+    const TemporaryFolder folder;
+    const std::string pipe = folder.path("pipe");
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    std::string received;
+    std::thread reader([&] { received = read_file(pipe); });
+    write_sample<float>(mesh, *tools::make_mesh_writer<float>(pipe, format, mesh.contents), 999);
+    reader.join();
+    EXPECT_TRUE(received == written<float>(mesh, format)) << received.size();
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"pipe"});
+  }
+}
+
+const char* const kExtensions[] = {"obj", "ply", "stl", "glb"};
+
+TEST(MeshOutput, FailsOnAFullDevice) {
+  for (const std::string extension : kExtensions) {
+    const TemporaryFolder folder;
+    const std::string out = folder.path("full." + extension);
+    std::filesystem::create_symlink("/dev/full", out);
+    expect_failure(run({"tessellate", "builtin:teapot", "-o", out}), 1,
+                   "expected room to write, found 'No space left on device'");
+  }
+}
+
+TEST(MeshOutput, FailsAtTheLargestFile) {
+  for (const std::string extension : kExtensions) {
+    for (const long limit : {1000L, 100000L, 200000L}) {
+      const TemporaryFolder folder;
+      const std::string out = folder.write("mesh." + extension, "before");
+      expect_failure(run({"tessellate", "builtin:teapot", "-o", out}, {.file_size_limit = limit}),
+                     1, out + ": expected room to write, found 'File too large'");
+      EXPECT_EQ(read_file(out), "before");
+      EXPECT_EQ(folder.names(), std::vector<std::string>{"mesh." + extension});
+    }
+  }
+}
+
+TEST(MeshOutput, FailsWhenThePipeIsClosed) {
+  for (const std::string extension : kExtensions) {
+    const TemporaryFolder folder;
+    const std::string pipe = folder.path("pipe." + extension);
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    std::thread reader([&] {
+      const int file = open(pipe.c_str(), O_RDONLY | O_CLOEXEC);
+      char byte = 0;
+      EXPECT_EQ(read(file, &byte, 1), 1);
+      close(file);
+    });
+    const Outcome outcome = run({"tessellate", "builtin:teapot", "--grid", "32", "-o", pipe},
+                                {.ignored_signals = {SIGPIPE}});
+    reader.join();
+    expect_failure(outcome, 1, pipe + ": expected room to write, found 'Broken pipe'");
+  }
+}
+
+TEST(MeshOutput, IsNoInput) {
+  const TemporaryFolder folder;
+  const std::string net = read_file(std::string(SIMDBEZIER_TEST_DATA) + "/sample.bpt");
+  for (const std::string extension : kExtensions) {
+    const std::string in = folder.write("in." + extension, net);
+    expect_failure(run({"tessellate", in, "--format", "bpt", "-o", in}), 1,
+                   in + ": expected an output that is no input, found the file that " + in);
+    EXPECT_EQ(read_file(in), net);
+  }
+}
+
+// A file system of 256 KiB, if this user may make one.
+class SmallDisk {
+public:
+  SmallDisk() { mounted_ = mount("tmpfs", folder_.path("").c_str(), "tmpfs", 0, "size=256k") == 0; }
+  ~SmallDisk() {
+    if (mounted_) {
+      umount2(folder_.path("").c_str(), MNT_DETACH);
+    }
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+  [[nodiscard]] bool is_there() const { return mounted_; }
+  [[nodiscard]] const TemporaryFolder& folder() const { return folder_; }
+
+private:
+  TemporaryFolder folder_;
+  bool mounted_ = false;
+};
+
+TEST(MeshOutput, FailsOnASmallDisk) {
+  const SmallDisk disk;
+  if (!disk.is_there()) {
+    GTEST_SKIP() << "this user may not mount a file system";
+  }
+  const TemporaryFolder& folder = disk.folder();
+  struct Attempt {
+    const char* extension;
+    const char* grid;
+    const char* expected;
+  };
+  // 12x12 is 560 KB of text that could be 210 KB, so that OBJ finds out while it writes.
+  const Attempt attempts[] = {{"obj", "12", "room to write, found 'No space left on device'"},
+                              {"obj", "24", "room for "},
+                              {"ply", "24", "room for "},
+                              {"stl", "24", "room for "},
+                              {"glb", "24", "room for "}};
+  for (const Attempt& attempt : attempts) {
+    const std::string name = std::string("mesh.") + attempt.extension;
+    const std::string out = folder.write(name, "before");
+    expect_failure(run({"tessellate", "builtin:teapot", "--grid", attempt.grid, "-o", out}), 1,
+                   out + ": expected " + attempt.expected);
+    EXPECT_EQ(read_file(out), "before");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{name});
+    std::filesystem::remove(out);
+  }
+}
+
+} // namespace
+} // namespace simdbezier::tests

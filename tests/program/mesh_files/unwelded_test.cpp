@@ -1,0 +1,85 @@
+// Meshes whose patches stay apart, as the program has always written them, and in every format.
+#include <gtest/gtest.h>
+
+#include "tests/program/process/program.hpp"
+#include "tests/program/formats/sample_nets.hpp"
+#include "tests/program/mesh_files/mesh_readers.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+std::string tessellated(const std::string& in, const std::string& extension,
+                        const std::vector<std::string>& options) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path("out." + extension);
+  std::vector<std::string> arguments = {"tessellate", in, "-o", out};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  expect_silent_success(run(arguments));
+  return read_file(out);
+}
+
+// The unit square at z = 0 and at z = 1.
+std::string two_squares(const TemporaryFolder& folder) {
+  std::vector<Net> nets = {flat_net(), flat_net()};
+  for (Vector3& point : nets[1].points) {
+    point[2] = 1;
+  }
+  return folder.write("squares.bez", bez_text(nets));
+}
+
+TEST(UnweldedMesh, IsTheSameTextAsEver) {
+  const TemporaryFolder folder;
+  const std::string positions = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
+                                "v 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n";
+  std::string normals;
+  for (int k = 0; k < 8; ++k) {
+    normals += "vn 0 0 1\n";
+  }
+  EXPECT_EQ(tessellated(two_squares(folder), "obj", {"--grid", "2"}),
+            positions + normals +
+                "f 1//1 2//2 4//4\nf 1//1 4//4 3//3\nf 5//5 6//6 8//8\nf 5//5 8//8 7//7\n");
+  EXPECT_EQ(tessellated(two_squares(folder), "obj", {"--grid", "2", "--no-normals"}),
+            positions + "f 1 2 4\nf 1 4 3\nf 5 6 8\nf 5 8 7\n");
+}
+
+TEST(UnweldedMesh, IsTheSamePlyAsEver) {
+  std::string expected = "ply\nformat binary_little_endian 1.0\nelement vertex 8\n"
+                         "property float x\nproperty float y\nproperty float z\n"
+                         "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string zero(4, '\0');
+  const std::string one("\0\0\x80\x3f", 4); // as a float
+  for (const std::string& z : {zero, one}) {
+    expected += zero + zero + z + one + zero + z + zero + one + z + one + one + z;
+  }
+  for (const std::string corners : {"013", "032", "457", "476"}) {
+    expected += '\3';
+    for (const char corner : corners) {
+      expected += static_cast<char>(corner - '0') + std::string(3, '\0');
+    }
+  }
+  const TemporaryFolder folder;
+  EXPECT_TRUE(tessellated(two_squares(folder), "ply", {"--grid", "2", "--no-normals"}) == expected);
+}
+
+TEST(UnweldedMesh, IsOneMeshInAllFormats) {
+  const std::vector<std::string> options = {"--grid", "9x6"};
+  const ReadMesh ply = read_ply_mesh(tessellated("builtin:teapot", "ply", options));
+  const ReadMesh glb = read_glb_mesh(tessellated("builtin:teapot", "glb", options));
+  const ReadMesh stl = read_stl_mesh(tessellated("builtin:teapot", "stl", options));
+  const ReadMesh obj = read_obj_mesh(tessellated("builtin:teapot", "obj", options));
+  ASSERT_EQ(ply.positions.size(), 32U * 9 * 6);
+  ASSERT_EQ(ply.faces.size(), 32U * 8 * 5 * 2);
+  EXPECT_EQ(glb.positions, ply.positions);
+  EXPECT_EQ(glb.normals, ply.normals);
+  EXPECT_EQ(glb.faces, ply.faces);
+  EXPECT_EQ(obj.faces, ply.faces);
+  ASSERT_EQ(stl.faces.size(), ply.faces.size());
+  for (std::size_t k = 0; k < ply.faces.size(); ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(stl.positions[3 * k + c], ply.positions[ply.faces[k][c]]);
+    }
+  }
+}
+
+} // namespace
+} // namespace simdbezier::tests
