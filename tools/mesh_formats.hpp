@@ -11,7 +11,7 @@
 
 namespace simdbezier::tools {
 
-/// Wavefront OBJ: v, vt, vn and f lines; patch numbers are left out.
+/// Wavefront OBJ, without patch numbers: of each block all v, then all vt, then all vn lines.
 template <typename T>
 [[nodiscard]] std::unique_ptr<MeshWriter<T>> make_obj_writer(const std::string& path,
                                                              const MeshContents& contents);
