@@ -61,13 +61,17 @@ private:
   }
 
   void take_faces(std::span<const std::uint32_t> corners) override {
-    const std::size_t count = this->contents().corners;
-    std::array<std::byte, 1 + 4 * kIndexBytes> face = {static_cast<std::byte>(count)};
-    for (std::size_t k = 0; k < corners.size(); k += count) {
-      for (std::size_t c = 0; c < count; ++c) {
+    this->contents().corners == 3 ? write_faces<3>(corners) : write_faces<4>(corners);
+  }
+
+  template <std::size_t Corners>
+  void write_faces(std::span<const std::uint32_t> corners) {
+    std::array<std::byte, 1 + Corners* kIndexBytes> face = {static_cast<std::byte>(Corners)};
+    for (std::size_t k = 0; k < corners.size(); k += Corners) {
+      for (std::size_t c = 0; c < Corners; ++c) {
         store_little(&face[1 + c * kIndexBytes], corners[k + c]);
       }
-      file_.bytes(face.data(), 1 + count * kIndexBytes);
+      file_.bytes(face.data(), face.size());
     }
   }
 

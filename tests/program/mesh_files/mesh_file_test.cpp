@@ -95,7 +95,6 @@ protected:
                               : written<float>(mesh, GetParam().format, block);
   }
   static bool is_empty() { return GetParam().shape.vertices == 0 || GetParam().shape.faces == 0; }
-
   // The number that a file should hold for one that is not quantised.
   static double stored(double value) {
     const bool floats =
@@ -149,8 +148,8 @@ TEST_P(MeshFile, HasEveryVertexBitForBit) {
     }
     return;
   }
-  const bool glb_without = GetParam().format == MeshFormat::glb && is_empty();
-  const std::size_t count = glb_without ? 0 : mesh.contents.vertices;
+  const bool is_without = GetParam().format == MeshFormat::glb && is_empty();
+  const std::size_t count = is_without ? 0 : mesh.contents.vertices;
   ASSERT_EQ(file.positions.size(), count);
   ASSERT_EQ(file.normals.size(), mesh.contents.normals ? count : 0);
   ASSERT_EQ(file.uv.size(), mesh.contents.uv ? count : 0);
@@ -217,7 +216,7 @@ std::vector<std::string> lines_by_kind(const std::string& text) {
 TEST_P(MeshFile, IsTheSameWhateverTheBlocks) {
   const SampleMesh mesh = sample();
   const std::string whole = bytes(mesh);
-  for (const std::size_t block : {1, 7, 1000}) {
+  for (const std::size_t block : {1U, 7U, 1000U}) {
     const std::string file = bytes(mesh, block);
     EXPECT_TRUE(GetParam().format == MeshFormat::obj ? lines_by_kind(file) == lines_by_kind(whole)
                                                      : file == whole)

@@ -91,7 +91,7 @@ TEST_P(SplitGlb, HasTheSameTrianglesInTheSameOrder) {
 TEST_P(SplitGlb, IsTheSameWhateverTheBlocks) {
   const SampleMesh mesh = sample();
   std::map<std::string, std::string> first;
-  for (const std::size_t block : {1, 13, 5000}) {
+  for (const std::size_t block : {1U, 13U, 5000U}) {
     const TemporaryFolder folder;
     write_parts(mesh, folder.path("mesh.glb"), block);
     std::map<std::string, std::string> files;
