@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <tools/mesh_formats.hpp>
 
-#include "tests/program/process/program.hpp"
 #include "tests/program/mesh_files/sample_mesh.hpp"
+#include "tests/program/process/program.hpp"
 
 namespace simdbezier::tests {
 namespace {

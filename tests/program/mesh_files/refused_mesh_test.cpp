@@ -16,9 +16,9 @@
 #include <fcntl.h>
 #include <tools/failure.hpp>
 
-#include "tests/program/process/program.hpp"
 #include "tests/program/mesh_files/mesh_readers.hpp"
 #include "tests/program/mesh_files/sample_mesh.hpp"
+#include "tests/program/process/program.hpp"
 
 namespace simdbezier::tests {
 namespace {

@@ -11,9 +11,9 @@
 #include <tools/failure.hpp>
 #include <tools/mesh_formats.hpp>
 
-#include "tests/program/process/program.hpp"
 #include "tests/program/mesh_files/mesh_readers.hpp"
 #include "tests/program/mesh_files/sample_mesh.hpp"
+#include "tests/program/process/program.hpp"
 
 namespace simdbezier::tests {
 namespace {

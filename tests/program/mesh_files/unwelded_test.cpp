@@ -1,9 +1,9 @@
 // Meshes whose patches stay apart, as the program has always written them, and in every format.
 #include <gtest/gtest.h>
 
-#include "tests/program/process/program.hpp"
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/mesh_files/mesh_readers.hpp"
+#include "tests/program/process/program.hpp"
 
 namespace simdbezier::tests {
 namespace {
