@@ -15,6 +15,7 @@ CountedPatches::CountedPatches(TextInput& input, std::string each)
                           std::numeric_limits<std::size_t>::max());
   count_line_ = lexer_.line();
   file_.name = input.name();
+  file_.expect(input.stored_size());
 }
 
 int CountedPatches::degree(const std::string& where) {

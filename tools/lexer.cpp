@@ -1,5 +1,9 @@
 #include <tools/lexer.hpp>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
 #include <simdbezier/control_nets.hpp>
 #include <tools/failure.hpp>
 
@@ -16,9 +20,21 @@ constexpr bool is_of_number(int c) noexcept {
 
 } // namespace
 
+Lexer::Lexer(TextInput& input, const Syntax& syntax) : input_(input), syntax_(syntax) {
+  for (std::size_t c = 0; c < ends_word_.size(); ++c) {
+    ends_word_[c] = is_space(static_cast<int>(c)) || (syntax.brackets && (c == '[' || c == ']')) ||
+                    (syntax.strings && c == '"');
+  }
+}
+
 Lexer& Lexer::next() {
+  value_.reset();
+  if (is_in_memory()) {
+    return *this;
+  }
   do {
-    text_.clear();
+    copy_.clear();
+    text_ = {};
     if (skip_space()) {
       kind_ = TokenKind::line_end;
       line_ = input_.line();
@@ -32,14 +48,62 @@ Lexer& Lexer::next() {
     }
     if (syntax_.brackets && (c == '[' || c == ']')) {
       kind_ = c == '[' ? TokenKind::open : TokenKind::close;
-      text_.push_back(static_cast<char>(c));
+      copy_.push_back(static_cast<char>(c));
     } else if (syntax_.strings && c == '"') {
       string();
     } else {
       word(c);
     }
-  } while (at(TokenKind::word) && text_.empty()); // only a backslash that joins two lines
+  } while (at(TokenKind::word) && copy_.empty()); // only a backslash that joins two lines
+  text_ = copy_;
   return *this;
+}
+
+// Nearly all tokens take this way: no character is copied, and a number is converted while its end
+// is looked for.
+bool Lexer::is_in_memory() {
+  if (joins_lines_) {
+    return false;
+  }
+  input_.skip_space_in_memory(syntax_.lines);
+  const std::string_view rest = input_.in_memory();
+  if (rest.empty() || rest[0] == '\n' || (syntax_.comments && rest[0] == '#')) {
+    return false;
+  }
+  std::size_t length = 1;
+  if (!ends_word(rest[0])) {
+    length = word_length(rest);
+    // A word may go on behind what is in memory, or end with a backslash that joins lines.
+    if (length >= std::min(rest.size(), kLongestWord) ||
+        (syntax_.lines && rest[length - 1] == '\\')) {
+      value_.reset();
+      return false;
+    }
+    kind_ = TokenKind::word;
+  } else if (rest[0] == '"') {
+    return false;
+  } else {
+    kind_ = rest[0] == '[' ? TokenKind::open : TokenKind::close;
+  }
+  text_ = rest.substr(0, length);
+  input_.skip_in_line(length);
+  line_ = input_.line();
+  return true;
+}
+
+std::size_t Lexer::word_length(std::string_view rest) {
+  if (is_of_number(rest[0])) {
+    double value = 0;
+    const char* const last = rest.data() + rest.size();
+    const auto [end, error] = std::from_chars(rest.data(), last, value);
+    if (error == std::errc() && end != last && ends_word(*end) && std::isfinite(value)) {
+      value_ = value;
+      return static_cast<std::size_t>(end - rest.data());
+    }
+  }
+  rest = rest.substr(0, kLongestWord);
+  const auto end = std::ranges::find_if(rest, [this](char c) { return ends_word(c); });
+  return static_cast<std::size_t>(end - rest.begin());
 }
 
 bool Lexer::skip_space() {
@@ -60,22 +124,19 @@ bool Lexer::skip_space() {
 
 void Lexer::word(int first) {
   kind_ = TokenKind::word;
-  text_.push_back(static_cast<char>(first));
+  copy_.push_back(static_cast<char>(first));
   bool number = is_of_number(first);
   int c = input_.peek();
-  for (; c != TextInput::kEnd && !is_space(c); c = input_.peek()) {
-    if ((syntax_.brackets && (c == '[' || c == ']')) || (syntax_.strings && c == '"')) {
-      return;
-    }
+  for (; c != TextInput::kEnd && !ends_word(static_cast<char>(c)); c = input_.peek()) {
     number = number && (is_of_number(c) || (syntax_.lines && c == '\\'));
-    if (text_.size() >= kLongestWord && !number) {
-      text_.push_back('~');
+    if (copy_.size() >= kLongestWord && !number) {
+      copy_.push_back('~');
       return;
     }
-    text_.push_back(static_cast<char>(input_.get()));
+    copy_.push_back(static_cast<char>(input_.get()));
   }
-  if (syntax_.lines && text_.back() == '\\' && c == '\n') {
-    text_.pop_back();
+  if (syntax_.lines && copy_.back() == '\\' && c == '\n') {
+    copy_.pop_back();
     joins_lines_ = true;
   }
 }
@@ -87,8 +148,8 @@ void Lexer::string() {
     if (c == TextInput::kEnd) {
       fail("a closing quote", "the end of the file");
     }
-    if (text_.size() < kLongestWord) {
-      text_.push_back(static_cast<char>(c));
+    if (copy_.size() < kLongestWord) {
+      copy_.push_back(static_cast<char>(c));
     }
   }
 }
@@ -133,6 +194,9 @@ std::string Lexer::described() const {
 }
 
 double Lexer::number() const {
+  if (value_) {
+    return *value_;
+  }
   const auto value = at(TokenKind::word) ? parse_finite(text_) : std::nullopt;
   if (!value) {
     fail("a finite number", at(TokenKind::word) ? describe_non_number(text_) : described());

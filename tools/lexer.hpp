@@ -1,6 +1,7 @@
 // Text as tokens: words, and what else a format has.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -26,7 +27,7 @@ enum class TokenKind : std::uint8_t { word, string, open, close, line_end, end }
 /// names the file and the line of the current token.
 class Lexer {
 public:
-  Lexer(TextInput& input, const Syntax& syntax) : input_(input), syntax_(syntax) {}
+  Lexer(TextInput& input, const Syntax& syntax);
 
   /// Reads the next token, which all other functions are about. Numbers may have any length.
   /// Another word of absurd length, as in binary files, is cut off and marked.
@@ -69,6 +70,14 @@ public:
   [[nodiscard]] int degree(const std::string& where) const;
 
 private:
+  /// Whether the next token is in memory as a whole. It has been read then, and otherwise nothing
+  /// of it.
+  bool is_in_memory();
+  /// Of the word that `rest` begins with; finds its value where it is a number.
+  std::size_t word_length(std::string_view rest);
+  [[nodiscard]] bool ends_word(char c) const noexcept {
+    return ends_word_[static_cast<unsigned char>(c)];
+  }
   void word(int first);
   void string();
   /// Whether it ends behind a line end that is a token.
@@ -76,8 +85,11 @@ private:
 
   TextInput& input_;
   Syntax syntax_;
+  std::array<bool, 256> ends_word_ = {};
   TokenKind kind_ = TokenKind::end;
-  std::string text_;
+  std::string_view text_;
+  std::string copy_;            // what text_ is of, where the input's memory has not all of it
+  std::optional<double> value_; // of a finite number, where it has been found already
   std::size_t line_ = 1;
   bool joins_lines_ = false;
 };

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <new>
 #include <ranges>
+#include <type_traits>
 
 #include <tools/counts.hpp>
 #include <tools/failure.hpp>
@@ -38,10 +40,10 @@ const Format* find_format(const std::string& name) {
 }
 
 PatchFormat format_of(const std::string& name) {
-  const std::string extension = extension_of(name);
-  if (extension == "gz") {
-    bad_input(name + ": expected a file of patches, found a compressed one; unpack it first");
-  }
+  constexpr std::string_view kCompressed = ".gz";
+  const bool compressed = name.ends_with(kCompressed); // model.bez.gz is a .bez file
+  const std::string extension =
+      extension_of(compressed ? name.substr(0, name.size() - kCompressed.size()) : name);
   if (const Format* const format = find_format(extension)) {
     return format->format;
   }
@@ -56,6 +58,17 @@ PatchFile read_builtin(const std::string& name) {
 }
 
 } // namespace
+
+void PatchFile::expect(std::uint64_t bytes) {
+  constexpr std::size_t kUsualBytes = 6; // of a number
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 36;
+  const auto numbers = static_cast<std::size_t>(std::min(bytes, kMost) / kUsualBytes);
+  try {
+    points.reserve(numbers);
+    lines.reserve(numbers / 3);
+  } catch (const std::bad_alloc&) { // there may be less in the file than its size promises
+  }
+}
 
 void PatchFile::add_line(std::size_t line) {
   constexpr std::size_t kLast = std::numeric_limits<std::uint32_t>::max();
@@ -124,11 +137,14 @@ bool PatchRun::is_patch() const noexcept {
   return u.patches == 1 && v.patches == 1 && u.points * v.points == points_per_patch();
 }
 
-bool PatchRun::is_column_like(const PatchRun& patch) const noexcept {
+bool PatchRun::is_column() const noexcept {
   return u.patches == 1 && u.points == static_cast<std::size_t>(degree_u) + 1 &&
-         v.step == static_cast<std::size_t>(degree_v) + 1 && v.points == v.patches * v.step &&
-         degree_u == patch.degree_u && degree_v == patch.degree_v && weights == patch.weights &&
-         first_vertex.has_value() == patch.first_vertex.has_value();
+         v.step == static_cast<std::size_t>(degree_v) + 1 && v.points == v.patches * v.step;
+}
+
+bool PatchRun::is_column_like(const PatchRun& patch) const noexcept {
+  return is_column() && degree_u == patch.degree_u && degree_v == patch.degree_v &&
+         weights == patch.weights && first_vertex.has_value() == patch.first_vertex.has_value();
 }
 
 const PatchRun& PatchFile::run_of(std::size_t patch) const {
@@ -157,7 +173,7 @@ std::string PatchFile::place(std::size_t patch, std::size_t point) const {
 }
 
 template <typename S>
-void PatchFile::append(const PatchRun& run, std::size_t patch, std::vector<S>& values) const {
+void PatchFile::append(const PatchRun& run, std::size_t patch, LargeVector<S>& values) const {
   const auto columns = static_cast<std::size_t>(run.degree_u) + 1;
   const auto rows = static_cast<std::size_t>(run.degree_v) + 1;
   const std::size_t each = run.values_per_point();
@@ -172,32 +188,50 @@ void PatchFile::append(const PatchRun& run, std::size_t patch, std::vector<S>& v
   }
 }
 
+template <typename S>
+const S* PatchFile::in_place(const PatchRun& run, std::size_t patch) const {
+  if constexpr (std::is_same_v<S, double>) {
+    if (run.is_column() && !run.first_vertex && run.stride == run.values_per_point()) {
+      return points.data() + run.first_value +
+             (patch - run.first_patch) * run.points_per_patch() * run.stride;
+    }
+  }
+  return nullptr;
+}
+
 template <typename S, typename Patches>
 PatchNets<S> PatchFile::gather(const Patches& patches) const {
-  struct Part {
+  struct Part { // of one run
     const PatchRun* run;
+    std::size_t first;
     std::size_t count;
+    const S* values; // null: they have to be copied
   };
   std::vector<Part> parts;
-  std::size_t size = 0;
+  std::size_t copied = 0;
   for (const std::size_t p : patches) {
-    if (parts.empty() || p - parts.back().run->first_patch >= parts.back().run->count) {
-      parts.push_back({&run_of(p), 0});
+    if (parts.empty() || p - parts.back().run->first_patch >= parts.back().run->count ||
+        (parts.back().values != nullptr && p != parts.back().first + parts.back().count)) {
+      const PatchRun& run = run_of(p);
+      parts.push_back({&run, p, 0, in_place<S>(run, p)});
     }
-    const PatchRun& run = *parts.back().run;
-    ++parts.back().count;
-    size += run.points_per_patch() * run.values_per_point();
+    Part& part = parts.back();
+    ++part.count;
+    copied +=
+        part.values != nullptr ? 0 : part.run->points_per_patch() * part.run->values_per_point();
   }
   PatchNets<S> result;
-  result.values.reserve(size); // pointers into it stay valid
+  result.values.reserve(copied); // pointers into it stay valid
   result.nets.reserve(parts.size());
   auto next = patches.begin();
-  for (const auto& [run, number] : parts) {
-    result.nets.push_back(ControlNets<S>::packed(result.values.data() + result.values.size(),
-                                                 number, run->degree_u, run->degree_v, 3,
-                                                 run->weights));
+  for (const auto& [run, first, number, values] : parts) {
+    const S* const end = result.values.data() + result.values.size();
+    result.nets.push_back(ControlNets<S>::packed(values != nullptr ? values : end, number,
+                                                 run->degree_u, run->degree_v, 3, run->weights));
     for (std::size_t k = 0; k < number; ++k, ++next) {
-      append(*run, *next - run->first_patch, result.values);
+      if (values == nullptr) {
+        append(*run, *next - run->first_patch, result.values);
+      }
     }
   }
   return result;
@@ -246,7 +280,7 @@ PatchFile read_patches(const std::string& in, PatchFormat format) {
   // It is opened before its name is judged: what cannot be read is bad input, whatever its name.
   TextInput input(in);
   const PatchFormat found = format == PatchFormat::by_name ? format_of(in) : format;
-  Progress progress("reading", "bytes", input.size());
+  Progress progress("reading", "bytes", input.stored_size());
   input.show(progress);
   return std::ranges::find(kFormats, found, &Format::format)->read(input);
 }

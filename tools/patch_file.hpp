@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <simdbezier/simdbezier.hpp>
+#include <tools/large_pages.hpp>
 #include <tools/segment_mesh.hpp>
 #include <tools/text_input.hpp>
 
@@ -41,6 +42,8 @@ struct PatchRun {
   }
   /// Whether all of its points are those of one patch …
   [[nodiscard]] bool is_patch() const noexcept;
+  /// Whether it is patches below each other that share nothing …
+  [[nodiscard]] bool is_column() const noexcept;
   /// … and whether that would be the next patch here: below, sharing nothing.
   [[nodiscard]] bool is_column_like(const PatchRun& patch) const noexcept;
   /// The number of the mesh's point that is (i, j) of a patch; the run's first one has 0.
@@ -53,7 +56,9 @@ struct PatchRun {
 /// Patches side by side, as pack() and its like take them.
 template <typename S>
 struct PatchNets {
-  std::vector<S> values; ///< point after point, u fastest, patch after patch
+  /// Point after point, u fastest, patch after patch; without those that are read where the file
+  /// has them.
+  LargeVector<S> values;
   std::vector<ControlNets<S>> nets;
 };
 
@@ -66,11 +71,14 @@ struct PatchFile {
   std::string name;           ///< for messages
   std::size_t count = 0;      ///< patches
   std::vector<PatchRun> runs; ///< cover all patches, none is empty
-  std::vector<double> points; ///< x y z or x y z w; finite, weights that count above 0
-  std::vector<std::uint32_t>
+  LargeVector<double> points; ///< x y z or x y z w; finite, weights that count above 0
+  LargeVector<std::uint32_t>
       lines; ///< of every point's first coordinate; empty where there is no file
   std::vector<std::uint32_t> vertices; ///< where meshes name their points: numbers of points
 
+  /// Makes room for what an input of so many bytes usually has. Memory that turns out not to be
+  /// needed is never touched.
+  void expect(std::uint64_t bytes);
   /// Readers append a point's values, say where it stands …
   void add_line(std::size_t line);
   /// … and, where that is homogeneous, whether it can be divided by its weight, …
@@ -91,7 +99,8 @@ struct PatchFile {
   /// "FILE:LINE" of a point, or the bare name.
   [[nodiscard]] std::string place(std::size_t patch, std::size_t point) const;
 
-  /// Some of the patches, in S. The library's results do not depend on which ones.
+  /// Some of the patches, in S, to be used while the file is there. The library's results do not
+  /// depend on which ones.
   template <typename S>
   [[nodiscard]] PatchNets<S> nets(std::size_t first = 0, std::size_t patches = kAll) const;
   /// The same for any of them, in ascending order.
@@ -112,7 +121,10 @@ private:
   template <typename S, typename Patches>
   [[nodiscard]] PatchNets<S> gather(const Patches& patches) const;
   template <typename S>
-  void append(const PatchRun& run, std::size_t patch, std::vector<S>& values) const;
+  void append(const PatchRun& run, std::size_t patch, LargeVector<S>& values) const;
+  /// A patch's values where they stand as S already; null where they do not.
+  template <typename S>
+  [[nodiscard]] const S* in_place(const PatchRun& run, std::size_t patch) const;
 };
 
 /// The formats that can be read. Each row has a name, which is also the extension of files, and

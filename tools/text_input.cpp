@@ -1,18 +1,12 @@
 #include <tools/text_input.hpp>
 
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
-#include <sys/stat.h>
-
 #include <tools/failure.hpp>
-#include <tools/progress.hpp>
 
 namespace simdbezier::tools {
 
@@ -47,46 +41,19 @@ ParsedNumber parse_number(std::string_view word) {
 
 } // namespace
 
-void TextInput::Close::operator()(std::FILE* file) const noexcept {
-  if (file != stdin) {
-    std::fclose(file);
-  }
-}
-
 TextInput::TextInput(const std::string& path)
-    : name_(path == "-" ? "standard input" : path), buffer_(kBufferSize) {
-  if (path == "-") {
-    file_.reset(stdin);
-    return;
-  }
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    bad_input(path + ": expected a file, found a directory");
-  }
-  file_.reset(std::fopen(path.c_str(), "rb"));
-  if (!file_) {
-    bad_input(path + ": expected a readable file, found " + in_quotes(std::strerror(errno)));
-  }
-}
-
-std::uint64_t TextInput::size() const {
-  struct stat status = {};
-  const bool known = fstat(fileno(file_.get()), &status) == 0 && S_ISREG(status.st_mode);
-  return known ? static_cast<std::uint64_t>(status.st_size) : 0;
-}
+    : name_(path == "-" ? "standard input" : path), source_(path), buffer_(kBufferSize) {}
 
 bool TextInput::fill() {
   do {
     next_ = 0;
-    end_ = std::fread(buffer_.data(), 1, buffer_.size(), file_.get());
-    if (end_ == 0 && std::ferror(file_.get()) != 0) {
-      bad_input_at(name_, line_, "readable text", in_quotes(std::strerror(errno)));
+    try {
+      end_ = source_.read(buffer_.data(), buffer_.size());
+    } catch (const DamagedInput& damage) {
+      bad_input_at(name_, line_, damage.expected, damage.found);
     }
     if (end_ == 0) {
       return false;
-    }
-    if (progress_ != nullptr) {
-      progress_->advance(end_);
     }
     skip_byte_order_mark();
     unify_line_ends();
@@ -104,6 +71,9 @@ void TextInput::skip_byte_order_mark() {
 
 // An LF behind a CR belongs to it, even where a block ends in between.
 void TextInput::unify_line_ends() {
+  if (!after_return_ && std::memchr(buffer_.data(), '\r', end_) == nullptr) {
+    return;
+  }
   std::size_t kept = next_;
   for (std::size_t k = next_; k < end_; ++k) {
     const bool goes_with = after_return_ && buffer_[k] == '\n';

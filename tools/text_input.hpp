@@ -3,32 +3,34 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <tools/byte_source.hpp>
+
 namespace simdbezier::tools {
 
-class Progress;
+/// Space, tab, line break and their kin.
+[[nodiscard]] constexpr bool is_space(int c) noexcept {
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
+}
 
-/// A file or standard input ("-"), one character at a time. All formats have in common that a
-/// UTF-8 byte-order mark is passed over and that LF, CR LF and CR are line ends, which come as \n.
+/// A file or standard input ("-"), one character at a time or as far as it is in memory. All
+/// formats have in common that a UTF-8 byte-order mark is passed over and that LF, CR LF and CR are
+/// line ends, which come as \n, and that the input may be compressed (ByteSource).
 class TextInput {
 public:
   static constexpr int kEnd = -1;
 
-  /// Throws Failure when the input cannot be read: missing, a directory, no permission.
+  /// Throws Failure where ByteSource does.
   explicit TextInput(const std::string& path);
 
   /// The name for messages.
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  /// In bytes; 0 where that is unknown, as for pipes.
-  [[nodiscard]] std::uint64_t size() const;
-  /// Shows from now on how much has been read.
-  void show(Progress& progress) noexcept { progress_ = &progress; }
+  [[nodiscard]] std::uint64_t stored_size() const { return source_.stored_size(); }
+  void show(Progress& progress) noexcept { source_.show(progress); }
   /// The line of the character that get() returned last; at the end, the last line there is.
   [[nodiscard]] std::size_t line() const noexcept { return line_; }
 
@@ -36,27 +38,43 @@ public:
     if (next_ == end_ && !fill()) {
       return kEnd;
     }
-    const char c = buffer_[next_++];
-    line_ += line_break_pending_ ? 1 : 0;
-    line_break_pending_ = c == '\n';
-    return static_cast<unsigned char>(c);
+    return take();
   }
   /// What get() will return next.
   [[nodiscard]] int peek() {
     return next_ == end_ && !fill() ? kEnd : static_cast<unsigned char>(buffer_[next_]);
   }
 
+  /// What get() will return next, as far as it has been read already, which may be nothing.
+  [[nodiscard]] std::string_view in_memory() const noexcept {
+    return {buffer_.data() + next_, end_ - next_};
+  }
+  /// Passes over white space in memory, but over no line end where `lines` says so.
+  void skip_space_in_memory(bool lines) noexcept {
+    while (next_ != end_ && is_space(buffer_[next_]) && !(lines && buffer_[next_] == '\n')) {
+      static_cast<void>(take());
+    }
+  }
+  /// Passes over so many characters in memory, without a line end among them.
+  void skip_in_line(std::size_t count) noexcept {
+    line_ += line_break_pending_ ? 1 : 0;
+    line_break_pending_ = false;
+    next_ += count;
+  }
+
 private:
-  struct Close {
-    void operator()(std::FILE* file) const noexcept;
-  };
+  int take() noexcept {
+    const char c = buffer_[next_++];
+    line_ += line_break_pending_ ? 1 : 0;
+    line_break_pending_ = c == '\n';
+    return static_cast<unsigned char>(c);
+  }
   bool fill();
   void skip_byte_order_mark();
   void unify_line_ends();
 
   std::string name_;
-  std::unique_ptr<std::FILE, Close> file_;
-  Progress* progress_ = nullptr;
+  ByteSource source_;
   std::vector<char> buffer_;
   std::size_t next_ = 0;
   std::size_t end_ = 0;
@@ -76,9 +94,5 @@ private:
 [[nodiscard]] std::string in_quotes(std::string_view word);
 /// What to say instead of a word that parse_finite() refused.
 [[nodiscard]] std::string describe_non_number(std::string_view word);
-/// Space, tab, line break and their kin.
-[[nodiscard]] constexpr bool is_space(int c) noexcept {
-  return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
-}
 
 } // namespace simdbezier::tools

@@ -1,6 +1,6 @@
 # See CMakeLists.txt beside this file.
 set(bare)
-foreach(package CLI11 nlohmann_json benchmark GTest)
+foreach(package CLI11 nlohmann_json ZLIB benchmark GTest)
   list(APPEND bare -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 
@@ -59,9 +59,11 @@ if(TOOLS_CAN_BE_BUILT)
 endif()
 
 # What is asked for and cannot be had is an error that names it.
-configure(no_tools CLI11 ${bare} -DSIMDBEZIER_BUILD_TOOLS=ON)
-configure(no_bench benchmark ${bare} -DSIMDBEZIER_BUILD_BENCH=ON)
-configure(no_tests GTest ${bare} -DSIMDBEZIER_BUILD_TESTS=ON)
+set(zlib -DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=OFF) # readers, which all of these have
+configure(no_zlib ZLIB ${bare} -DSIMDBEZIER_BUILD_TOOLS=ON)
+configure(no_tools CLI11 ${bare} ${zlib} -DSIMDBEZIER_BUILD_TOOLS=ON)
+configure(no_bench benchmark ${bare} ${zlib} -DSIMDBEZIER_BUILD_BENCH=ON)
+configure(no_tests GTest ${bare} ${zlib} -DSIMDBEZIER_BUILD_TESTS=ON)
 
 # Parts of the instruction sets; names that are none.
 configure(subset "" ${bare} -DSIMDBEZIER_ISAS=scalar)

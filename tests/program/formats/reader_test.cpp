@@ -181,7 +181,6 @@ std::vector<BadFile> bad_files() {
        ":19: expected a finite number, found 'nan(1)', which is not a number"},
       {"NegativeNan", "bpt", replaced(bpt, "201 ", "-NaN "),
        ":21: expected a finite number, found '-NaN', which is not a number"},
-      {"Compressed", "gz", "\x1f\x8b", ": expected a file of patches, found a compressed one"},
   };
 }
 

@@ -1,0 +1,51 @@
+// Unpacks what gzip has compressed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include <zlib.h>
+
+namespace simdbezier::tools {
+
+/// Takes compressed bytes, gives back what they stand for. Files that follow each other are one, as
+/// gzip has it. Throws DamagedInput where the bytes are none of gzip's, and where they unpack to
+/// more than the limit that SECURITY.md states, which small files could exceed a thousandfold.
+class Gunzip {
+public:
+  /// What compressed bytes begin with, and text never does.
+  static constexpr std::string_view kMagic = "\x1f\x8b";
+  static constexpr std::size_t kRoom = std::size_t{1} << 16;
+  /// At any place of the input, no more has been unpacked than this, and so many times its bytes.
+  static constexpr std::uint64_t kAlwaysUnpacked = std::uint64_t{1} << 24;
+  static constexpr std::uint64_t kMostTimes = 100;
+
+  explicit Gunzip(std::string_view first);
+  ~Gunzip();
+  Gunzip(const Gunzip&) = delete;
+  Gunzip& operator=(const Gunzip&) = delete;
+
+  /// Returns how many bytes there are; 0 where compressed ones are missing.
+  [[nodiscard]] std::size_t unpack(char* data, std::size_t size);
+  /// Where the next compressed bytes go, at most kRoom …
+  [[nodiscard]] char* room() noexcept { return packed_.data(); }
+  /// … and how many there were.
+  void fed(std::size_t size) noexcept;
+  /// Throws where the compressed data end too early.
+  void expect_end() const;
+
+private:
+  void step();
+  void check_limit() const;
+
+  std::vector<char> packed_;
+  z_stream stream_ = {};
+  std::uint64_t bytes_in_ = 0;
+  std::uint64_t bytes_out_ = 0;
+  bool is_complete_ = false; // the bytes so far are one or more whole files
+  bool has_more_ = false;    // than there was room for
+};
+
+} // namespace simdbezier::tools
