@@ -7,7 +7,7 @@ install(
   EXPORT simdbezierTargets
   LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev
   ARCHIVE COMPONENT dev)
-install(DIRECTORY include/simdbezier DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
+install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 install(EXPORT simdbezierTargets NAMESPACE simdbezier:: DESTINATION ${package_dir} COMPONENT dev)
 
 configure_package_config_file(cmake/simdbezierConfig.cmake.in simdbezierConfig.cmake

@@ -1,0 +1,41 @@
+// simdbezier for C (C99) and whatever can call it: many Bézier patches at many parameters in one
+// call. Each function names the C++ function that it runs, whose header says what is computed, how
+// exactly, and what it costs; the rules below are what the C form adds.
+//
+//     simdbezier_nets nets = simdbezier_packed_nets_f32(points, 48 * patches, 3, 3, 3, 0);
+//     simdbezier_patch_set *set = NULL;
+//     if (simdbezier_pack(&nets, 1, SIMDBEZIER_F32, NULL, &set) != SIMDBEZIER_OK) { … }
+//     simdbezier_grid grid = simdbezier_uniform_grid(17, 17);
+//     simdbezier_outputs out = {.struct_size = sizeof out};
+//     out.position = simdbezier_triples_f32(xyz, 3 * 17 * 17 * patches, 3);
+//     if (simdbezier_evaluate_grid(set, &grid, &out, NULL) != SIMDBEZIER_OK) {
+//       puts(simdbezier_last_message());
+//     }
+//     simdbezier_patch_set_free(set);
+//
+//   Statuses   Every function that can fail returns one. simdbezier_last_fault() then says which
+//              argument was at fault. Nothing prints, aborts or lets an exception through, and on
+//              an error nothing has been written.
+//   Structs    begin with struct_size, which the caller sets to sizeof. They may grow at their end:
+//              a caller that was compiled for a smaller one goes on working, and one that was
+//              compiled for a larger one does as long as what this library does not know is zero.
+//              Zero is every member's usual value, so `simdbezier_options options =
+//              {.struct_size = sizeof options}`
+//              is complete. Small structs without a struct_size never change. The elements of an
+//              array of structs all have the struct_size of the first.
+//   Pointers   come with the number of elements that are behind them, and a call that would go
+//              beyond is refused. Pointers to options may be null: all members zero.
+//   Strides    count elements, not bytes.
+//   Numbers    are float or double: a struct says which by its `scalar`. The functions ending in
+//              _f32 and _f64 below fill in structs, so that the compiler checks the pointers.
+//   Handles    are made by one function and given back to one …_free(), which accepts null.
+//              They are immutable: any number of threads may use one at once.
+#pragma once
+
+#include <simdbezier/c/curves.h>   // IWYU pragma: export
+#include <simdbezier/c/evaluate.h> // IWYU pragma: export
+#include <simdbezier/c/meshes.h>   // IWYU pragma: export
+#include <simdbezier/c/models.h>   // IWYU pragma: export
+#include <simdbezier/c/nets.h>     // IWYU pragma: export
+#include <simdbezier/c/sets.h>     // IWYU pragma: export
+#include <simdbezier/c/types.h>    // IWYU pragma: export

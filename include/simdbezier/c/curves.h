@@ -1,0 +1,98 @@
+// curves.hpp, iso_curves.hpp: curves at parameters, and curves on patches.
+#pragma once
+
+#include <simdbezier/c/sets.h>
+
+SIMDBEZIER_BEGIN_C
+
+// CurveGrid: n parameters of every curve; sample (curve, i) has the index
+// (curve - first_curve) * n + i.
+typedef struct simdbezier_curve_grid {
+  size_t struct_size;
+  size_t n;
+  const void* t;            // null: uniform, ends included; else n values
+  size_t t_length;          // elements behind t
+  simdbezier_scalar scalar; // of t, where there is any: that of the set
+  simdbezier_parameters parameters;
+  size_t first_curve;
+  size_t curve_count; // 0: all from first_curve on
+} simdbezier_curve_grid;
+
+static inline simdbezier_curve_grid simdbezier_uniform_curve_grid(size_t n) {
+  simdbezier_curve_grid grid = {sizeof grid, 0, 0, 0, 0, 0, 0, 0};
+  grid.n = n;
+  return grid;
+}
+
+// CurveGrids: a number of uniform parameters for each of the curves from first_curve on.
+typedef struct simdbezier_curve_grids {
+  size_t struct_size;
+  const uint32_t* n;
+  size_t n_length;
+  const size_t* offset; // where each curve's samples begin; null: packed without gaps
+  size_t offset_length;
+  size_t first_curve;
+} simdbezier_curve_grids;
+
+// CurveSamples: sample k lies on curve[k] at t[k].
+typedef struct simdbezier_curve_samples {
+  size_t struct_size;
+  const uint32_t* curve;
+  size_t curve_length; // the number of samples
+  const void* t;
+  size_t t_length; // that of curve
+  simdbezier_scalar scalar;
+  simdbezier_parameters parameters;
+} simdbezier_curve_samples;
+
+// CurveOutputs.
+typedef struct simdbezier_curve_outputs {
+  size_t struct_size;
+  simdbezier_vectors position;
+  simdbezier_vectors d1;
+  simdbezier_vectors d2;
+  simdbezier_vectors tangent;
+  simdbezier_values curvature;
+  uint8_t* status;
+  size_t status_length;
+  int32_t first_component;
+} simdbezier_curve_outputs;
+
+// evaluate() of curves. Return what it does, and null_input | bad_struct_size | bad_scalar |
+// bad_value | input_too_small (fewer t than n).
+SIMDBEZIER_API simdbezier_status simdbezier_evaluate_curve_grid(const simdbezier_curve_set* set,
+                                                                const simdbezier_curve_grid* grid,
+                                                                const simdbezier_curve_outputs* out,
+                                                                const simdbezier_options* options);
+SIMDBEZIER_API simdbezier_status simdbezier_evaluate_curve_grids(
+    const simdbezier_curve_set* set, const simdbezier_curve_grids* grids,
+    const simdbezier_curve_outputs* out, const simdbezier_options* options);
+SIMDBEZIER_API simdbezier_status simdbezier_evaluate_curve_samples(
+    const simdbezier_curve_set* set, const simdbezier_curve_samples* samples,
+    const simdbezier_curve_outputs* out, const simdbezier_options* options);
+
+// PatchEdge.
+typedef int32_t simdbezier_edge;
+enum { SIMDBEZIER_EDGE_V0, SIMDBEZIER_EDGE_V1, SIMDBEZIER_EDGE_U0, SIMDBEZIER_EDGE_U1 };
+
+// boundary_curves(): the control points of one edge of every net, in the memory of the nets.
+SIMDBEZIER_API simdbezier_status simdbezier_boundary_curves(const simdbezier_nets* nets,
+                                                            simdbezier_edge edge,
+                                                            simdbezier_control_curves* curves);
+
+// iso_u(), iso_v() of a set of patches: the curves S(u0, .) and S(., v0), packed in the set's type.
+SIMDBEZIER_API simdbezier_status simdbezier_iso_u(const simdbezier_patch_set* patches, double u0,
+                                                  const simdbezier_pack_options* options,
+                                                  simdbezier_curve_set** curves);
+SIMDBEZIER_API simdbezier_status simdbezier_iso_v(const simdbezier_patch_set* patches, double v0,
+                                                  const simdbezier_pack_options* options,
+                                                  simdbezier_curve_set** curves);
+// The control points of the same curves, from nets: packed, `length` elements behind `points`.
+SIMDBEZIER_API simdbezier_status simdbezier_iso_u_points(const simdbezier_nets* nets, double u0,
+                                                         double* points, size_t length,
+                                                         const simdbezier_options* options);
+SIMDBEZIER_API simdbezier_status simdbezier_iso_v_points(const simdbezier_nets* nets, double v0,
+                                                         double* points, size_t length,
+                                                         const simdbezier_options* options);
+
+SIMDBEZIER_END_C

@@ -1,0 +1,120 @@
+// adjacency.hpp, topology.hpp, rates.hpp, mesh_layout.hpp: which edges of a model are one, how many
+// cells its patches need, and what its vertices are. Nets of a call have one type.
+#pragma once
+
+#include <simdbezier/c/sets.h>
+
+SIMDBEZIER_BEGIN_C
+
+// EdgeKind.
+enum {
+  SIMDBEZIER_EDGE_BOUNDARY,
+  SIMDBEZIER_EDGE_SHARED,
+  SIMDBEZIER_EDGE_NON_MANIFOLD,
+  SIMDBEZIER_EDGE_COLLAPSED
+};
+// EdgeLink.
+typedef struct simdbezier_edge_link {
+  uint8_t kind;     // SIMDBEZIER_EDGE_BOUNDARY …
+  uint8_t edge;     // SIMDBEZIER_EDGE_V0 …
+  uint8_t reversed; // 1: the matching edge runs the other way
+  size_t patch;
+} simdbezier_edge_link;
+
+// find_adjacency(): 4 links a patch.
+SIMDBEZIER_API simdbezier_status simdbezier_find_adjacency(const simdbezier_nets* nets,
+                                                           size_t length,
+                                                           simdbezier_edge_link* links,
+                                                           size_t link_length,
+                                                           const simdbezier_options* options);
+
+typedef struct simdbezier_topology simdbezier_topology;
+typedef struct simdbezier_mesh_layout simdbezier_mesh_layout;
+
+// TopologyOptions.
+typedef struct simdbezier_topology_options {
+  size_t struct_size;
+  double point_size;
+  int32_t orient; // not 0: patches are turned until neighbours agree
+  int32_t threads;
+} simdbezier_topology_options;
+
+// TopologyCounts.
+typedef struct simdbezier_topology_counts {
+  size_t struct_size;
+  size_t patches;
+  size_t edges;
+  size_t open_edges;
+  size_t non_manifold_edges;
+  size_t collapsed_sides;
+  size_t corners;
+  size_t repeated_patches;
+  size_t turned_edges;
+  int32_t orientable;
+} simdbezier_topology_counts;
+
+// find_topology(). topology: written on ok only.
+SIMDBEZIER_API simdbezier_status simdbezier_find_topology(
+    const simdbezier_nets* nets, size_t length, const simdbezier_topology_options* options,
+    simdbezier_topology** topology);
+SIMDBEZIER_API void simdbezier_topology_free(simdbezier_topology* topology);
+SIMDBEZIER_API simdbezier_status simdbezier_topology_count(const simdbezier_topology* topology,
+                                                           simdbezier_topology_counts* counts);
+// Topology::is_turned(), is_repeated(); 0 outside of the model.
+SIMDBEZIER_API int32_t simdbezier_topology_is_turned(const simdbezier_topology* topology,
+                                                     size_t patch);
+SIMDBEZIER_API int32_t simdbezier_topology_is_repeated(const simdbezier_topology* topology,
+                                                       size_t patch);
+
+// RateOptions.
+typedef struct simdbezier_rate_options {
+  size_t struct_size;
+  double tolerance;
+  const double* tolerances; // one value a patch, instead of `tolerance`; or null
+  size_t tolerances_length;
+  const double* errors; // simdbezier_position_errors(), or null
+  size_t errors_length;
+  double longest_edge;    // 0: no limit
+  uint32_t most_segments; // 0: 4096
+  int32_t threads;
+} simdbezier_rate_options;
+
+// CertifiedRates: one value a patch each. diagonals: a patch's cells are cut as PatchRates says.
+typedef struct simdbezier_rates {
+  size_t struct_size;
+  uint32_t* nu;
+  size_t nu_length;
+  uint32_t* nv;
+  size_t nv_length;
+  uint16_t* diagonals;
+  size_t diagonals_length;
+  double* deviation; // may be null
+  size_t deviation_length;
+} simdbezier_rates;
+
+// choose_rates(), certify_rates(); the latter reads nu and nv, and errors may be null.
+SIMDBEZIER_API simdbezier_status simdbezier_choose_rates(const simdbezier_nets* nets, size_t length,
+                                                         const simdbezier_topology* topology,
+                                                         const simdbezier_rate_options* options,
+                                                         const simdbezier_rates* rates);
+SIMDBEZIER_API simdbezier_status simdbezier_certify_rates(
+    const simdbezier_nets* nets, size_t length, const simdbezier_topology* topology,
+    const double* errors, size_t errors_length, const simdbezier_rates* rates, int32_t threads);
+// separate_vertices(): raises rates of 1; `raised` may be null.
+SIMDBEZIER_API simdbezier_status simdbezier_separate_vertices(const simdbezier_topology* topology,
+                                                              uint32_t* nu, size_t nu_length,
+                                                              uint32_t* nv, size_t nv_length,
+                                                              size_t* raised);
+
+// lay_out_mesh(): of nu, nv and, where they are not null, diagonals. layout: written on ok only.
+SIMDBEZIER_API simdbezier_status simdbezier_lay_out_mesh(const simdbezier_topology* topology,
+                                                         const simdbezier_rates* rates,
+                                                         simdbezier_mesh_layout** layout);
+SIMDBEZIER_API void simdbezier_mesh_layout_free(simdbezier_mesh_layout* layout);
+// MeshLayout::size(), first_triangle(); 0 of null.
+SIMDBEZIER_API size_t simdbezier_mesh_layout_vertices(const simdbezier_mesh_layout* layout);
+SIMDBEZIER_API size_t simdbezier_mesh_layout_triangles(const simdbezier_mesh_layout* layout);
+SIMDBEZIER_API size_t simdbezier_mesh_layout_first_triangle(const simdbezier_mesh_layout* layout,
+                                                            size_t patch);
+
+SIMDBEZIER_END_C

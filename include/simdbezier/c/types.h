@@ -1,0 +1,196 @@
+// What all functions of simdbezier.h share: statuses, numbers, memory, options.
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <simdbezier/version.hpp>
+
+#ifdef __cplusplus
+#define SIMDBEZIER_BEGIN_C extern "C" {
+#define SIMDBEZIER_END_C }
+#else
+#define SIMDBEZIER_BEGIN_C
+#define SIMDBEZIER_END_C
+#endif
+
+SIMDBEZIER_BEGIN_C
+
+// How a call ended. Those below 100 are the codes of simdbezier::Status (status.hpp).
+typedef int32_t simdbezier_status;
+enum {
+  SIMDBEZIER_OK,
+  SIMDBEZIER_NULL_INPUT,
+  SIMDBEZIER_NULL_OUTPUT,
+  SIMDBEZIER_BAD_DEGREE,
+  SIMDBEZIER_BAD_COMPONENTS,
+  SIMDBEZIER_BAD_WEIGHT,
+  SIMDBEZIER_BAD_STRIDE,
+  SIMDBEZIER_OVERLAPPING_OUTPUTS,
+  SIMDBEZIER_BAD_OFFSETS,
+  SIMDBEZIER_NON_FINITE_INPUT,
+  SIMDBEZIER_COEFFICIENT_OVERFLOW,
+  SIMDBEZIER_BAD_GRID,
+  SIMDBEZIER_BAD_PATCH_RANGE,
+  SIMDBEZIER_BAD_PATCH_INDEX,
+  SIMDBEZIER_SIZE_OVERFLOW,
+  SIMDBEZIER_UNKNOWN_ISA,
+  SIMDBEZIER_UNSUPPORTED_ISA,
+  SIMDBEZIER_OUT_OF_MEMORY,
+  SIMDBEZIER_INPUT_TOO_SMALL,
+  SIMDBEZIER_OUTPUT_TOO_SMALL,
+  SIMDBEZIER_UNEQUAL_LENGTHS,
+  SIMDBEZIER_BAD_TOLERANCE,
+  SIMDBEZIER_BAD_RATES,
+  SIMDBEZIER_NOT_ORIENTABLE,
+  SIMDBEZIER_BAD_STRUCT_SIZE = 100, // a struct_size is none, or has members that are not known here
+  SIMDBEZIER_BAD_SCALAR,            // neither float nor double, or not what the others are
+  SIMDBEZIER_BAD_VALUE              // a number that stands for no name of its enumeration
+};
+
+// One line of English; never null, static lifetime.
+SIMDBEZIER_API const char* simdbezier_status_text(simdbezier_status status);
+
+// What went wrong in the last call of this thread that returned a status; all zero where nothing.
+typedef struct simdbezier_fault {
+  size_t struct_size;
+  simdbezier_status status;
+  int32_t point;        // control point at fault, j*(degree_u+1)+i; -1: none, an option is
+  int32_t component;    // its component; the number of components for a weight
+  size_t patch;         // the patch or curve at fault, where control points are
+  const char* function; // "simdbezier_pack"
+  const char* argument; // "nets[0].points"; empty where no single one is at fault
+} simdbezier_fault;
+
+// The strings live until the thread's next call. Returns ok | null_output | bad_struct_size.
+SIMDBEZIER_API simdbezier_status simdbezier_last_fault(simdbezier_fault* fault);
+// The same as one line, such as "simdbezier_pack: nets[0].points: a required input pointer is
+// null"; never null, lives until the thread's next call.
+SIMDBEZIER_API const char* simdbezier_last_message(void);
+
+// "0.1.0": of the library that runs; SIMDBEZIER_VERSION_MAJOR … are those of the header.
+SIMDBEZIER_API const char* simdbezier_version(void);
+
+typedef int32_t simdbezier_scalar;
+enum { SIMDBEZIER_F32 = 1, SIMDBEZIER_F64 = 2 };
+
+// Whether points carry a weight, and in which form: Weights of control_nets.hpp.
+typedef int32_t simdbezier_weights;
+enum { SIMDBEZIER_POLYNOMIAL, SIMDBEZIER_CARTESIAN, SIMDBEZIER_HOMOGENEOUS };
+
+// u in [0,1], or x = 2u-1.
+typedef int32_t simdbezier_parameters;
+enum { SIMDBEZIER_UNIT, SIMDBEZIER_CENTRED };
+
+// Instruction sets: isa.hpp.
+typedef int32_t simdbezier_isa;
+enum {
+  SIMDBEZIER_ISA_AUTOMATIC,
+  SIMDBEZIER_ISA_SCALAR,
+  SIMDBEZIER_ISA_SSE2,
+  SIMDBEZIER_ISA_AVX2,
+  SIMDBEZIER_ISA_AVX512,
+  SIMDBEZIER_ISA_NEON64
+};
+// to_string(Isa), isa_from_name(), available_isas(), fuses_multiply_add(), resolve_isa().
+SIMDBEZIER_API const char* simdbezier_isa_name(simdbezier_isa isa); // "unknown" for other numbers
+SIMDBEZIER_API simdbezier_status simdbezier_isa_from_name(const char* name, simdbezier_isa* isa);
+// Writes at most `length` of them; returns how many there are.
+SIMDBEZIER_API size_t simdbezier_available_isas(simdbezier_isa* isas, size_t length);
+SIMDBEZIER_API int simdbezier_fuses_multiply_add(simdbezier_isa isa);
+SIMDBEZIER_API simdbezier_status simdbezier_resolve_isa(simdbezier_isa requested,
+                                                        simdbezier_isa* chosen);
+
+// Destination of options.hpp.
+typedef int32_t simdbezier_destination;
+enum { SIMDBEZIER_TO_AUTOMATIC, SIMDBEZIER_TO_CACHE, SIMDBEZIER_TO_MEMORY };
+
+// Options of options.hpp.
+typedef struct simdbezier_options {
+  size_t struct_size;
+  int32_t threads;        // 0: OpenMP's default; 1: the calling thread alone
+  int32_t not_watertight; // not 0: edges come from the interior's formula
+  simdbezier_isa isa;
+  simdbezier_destination destination;
+  simdbezier_isa* executed; // where given, the kernel that ran writes its name here
+} simdbezier_options;
+
+// Vectors of vectors.hpp: component c of sample k is c-th pointer [k * stride]. All zero: not asked
+// for. Strides are positive here.
+typedef struct simdbezier_vectors {
+  void* x;
+  void* y;
+  void* z;
+  ptrdiff_t stride;
+  size_t capacity; // samples that there is room for
+  simdbezier_scalar scalar;
+} simdbezier_vectors;
+
+// Values of vectors.hpp: one value a sample. All zero: not asked for.
+typedef struct simdbezier_values {
+  void* first;
+  size_t length;
+  simdbezier_scalar scalar;
+} simdbezier_values;
+
+// Below: `length` elements are behind the pointer. Records of which too few fit have no room.
+static inline size_t simdbezier_records(size_t length, size_t members, ptrdiff_t stride) {
+  return length < members || stride <= 0 ? 0 : (length - members) / (size_t)stride + 1;
+}
+
+// x y z triples, `stride` elements from one to the next.
+static inline simdbezier_vectors simdbezier_triples_f32(float* first, size_t length,
+                                                        ptrdiff_t stride) {
+  simdbezier_vectors vectors = {0, 0, 0, 0, 0, SIMDBEZIER_F32};
+  vectors.x = first;
+  vectors.y = length < 2 ? 0 : first + 1;
+  vectors.z = length < 3 ? 0 : first + 2;
+  vectors.stride = stride;
+  vectors.capacity = simdbezier_records(length, 3, stride);
+  return vectors;
+}
+static inline simdbezier_vectors simdbezier_triples_f64(double* first, size_t length,
+                                                        ptrdiff_t stride) {
+  simdbezier_vectors vectors = {0, 0, 0, 0, 0, SIMDBEZIER_F64};
+  vectors.x = first;
+  vectors.y = length < 2 ? 0 : first + 1;
+  vectors.z = length < 3 ? 0 : first + 2;
+  vectors.stride = stride;
+  vectors.capacity = simdbezier_records(length, 3, stride);
+  return vectors;
+}
+
+// Planes of `length` elements each; y and z are null for sets of one or two components.
+static inline simdbezier_vectors simdbezier_planes_f32(float* x, float* y, float* z,
+                                                       size_t length) {
+  simdbezier_vectors vectors = {0, 0, 0, 1, 0, SIMDBEZIER_F32};
+  vectors.x = x;
+  vectors.y = y;
+  vectors.z = z;
+  vectors.capacity = length;
+  return vectors;
+}
+static inline simdbezier_vectors simdbezier_planes_f64(double* x, double* y, double* z,
+                                                       size_t length) {
+  simdbezier_vectors vectors = {0, 0, 0, 1, 0, SIMDBEZIER_F64};
+  vectors.x = x;
+  vectors.y = y;
+  vectors.z = z;
+  vectors.capacity = length;
+  return vectors;
+}
+
+static inline simdbezier_values simdbezier_values_f32(float* first, size_t length) {
+  simdbezier_values values = {0, 0, SIMDBEZIER_F32};
+  values.first = first;
+  values.length = length;
+  return values;
+}
+static inline simdbezier_values simdbezier_values_f64(double* first, size_t length) {
+  simdbezier_values values = {0, 0, SIMDBEZIER_F64};
+  values.first = first;
+  values.length = length;
+  return values;
+}
+
+SIMDBEZIER_END_C

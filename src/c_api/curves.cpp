@@ -1,0 +1,222 @@
+// Curves of simdbezier.h.
+#include <simdbezier/iso_curves.hpp>
+
+#include "src/c_api/handles.hpp"
+#include "src/c_api/views.hpp"
+
+namespace simdbezier::c_api {
+namespace {
+
+constexpr Path kSet{"set"};
+constexpr Path kGrid{"grid"};
+constexpr Path kGrids{"grids"};
+constexpr Path kSamples{"samples"};
+constexpr Path kOut{"out"};
+
+static_assert(SIMDBEZIER_EDGE_U1 == static_cast<int>(PatchEdge::u1));
+
+constexpr simdbezier_vectors simdbezier_curve_outputs::*kVectors[kCurveVectorOutputs] = {
+    &simdbezier_curve_outputs::position, &simdbezier_curve_outputs::d1,
+    &simdbezier_curve_outputs::d2, &simdbezier_curve_outputs::tangent};
+constexpr const char* kNames[kCurveVectorOutputs] = {"position", "d1", "d2", "tangent"};
+
+template <typename T>
+CurveOutputs<T> outputs_of(const simdbezier_curve_outputs* given) {
+  const simdbezier_curve_outputs known = read(given, kOut);
+  CurveOutputs<T> out;
+  for (std::size_t k = 0; k < kCurveVectorOutputs; ++k) {
+    out[static_cast<CurveOutput>(k)] = vectors_of<T>(known.*kVectors[k], kOut / kNames[k]);
+  }
+  out.curvature = values_of<T>(known.curvature, kOut / "curvature");
+  out.status = sample_statuses(known.status, known.status_length, kOut);
+  out.first_component = known.first_component;
+  return out;
+}
+
+template <typename T>
+CurveGrid<T> where_of(const simdbezier_curve_grid* given) {
+  const simdbezier_curve_grid known = read(given, kGrid);
+  return {known.n,
+          grid_parameters<T>(known.t, known.t_length, known.n, known.scalar, kGrid, "t_length"),
+          parameters_of(known.parameters, kGrid), range_of(known.first_curve, known.curve_count)};
+}
+
+template <typename T>
+CurveGrids where_of(const simdbezier_curve_grids* given) {
+  const simdbezier_curve_grids known = read(given, kGrids);
+  return {span_of(known.n, known.n_length, kGrids / "n"),
+          span_of(known.offset, known.offset_length, kGrids / "offset"), known.first_curve};
+}
+
+template <typename T>
+CurveSamples<T> where_of(const simdbezier_curve_samples* given) {
+  const simdbezier_curve_samples known = read(given, kSamples);
+  return {span_of(known.curve, known.curve_length, kSamples / "curve"),
+          sample_parameters<T>(known.t, known.t_length, known.scalar, kSamples, "t"),
+          parameters_of(known.parameters, kSamples)};
+}
+
+template <typename T>
+Path blamed_output(const CurveOutputs<T>& out, Status status, std::size_t samples, int components) {
+  for (std::size_t k = 0; k < kCurveVectorOutputs; ++k) {
+    if (is_at_fault(out[static_cast<CurveOutput>(k)], status, samples, components)) {
+      return kOut / kNames[k];
+    }
+  }
+  if (status == Status::output_too_small && out.curvature.wanted() &&
+      out.curvature.capacity < samples) {
+    return kOut / "curvature";
+  }
+  return status == Status::output_too_small ? kOut / "status" : kOut;
+}
+
+template <typename Where>
+simdbezier_status evaluate_at(const char* function, const simdbezier_curve_set* set,
+                              const Where* given, const Path& path,
+                              const simdbezier_curve_outputs* out,
+                              const simdbezier_options* options) noexcept {
+  return answer(function, [&] {
+    with_set(set, kSet, [&]<typename T>(const CurveSet<T>& curves) {
+      const auto where = where_of<T>(given);
+      const CurveOutputs<T> to = outputs_of<T>(out);
+      const CallOptions how(options);
+      require_ok(evaluate(curves, where, to, *how), [&](Status status) {
+        const Path blamed = blamed_in_call(status, path);
+        return blamed.root == kOut.root && blamed.member == nullptr
+                   ? blamed_output(to, status, sample_count(curves, where),
+                                   curves.components() - to.first_component)
+                   : blamed;
+      });
+    });
+  });
+}
+
+/// iso_u() or iso_v() of a set.
+template <typename Call>
+simdbezier_status iso_curves(const char* function, const simdbezier_patch_set* patches,
+                             const char* parameter, const simdbezier_pack_options* options,
+                             simdbezier_curve_set** curves, Call call) noexcept {
+  return answer(function, [&] {
+    require_place(curves, {"curves"});
+    const PackOptions how = pack_options_of(options);
+    with_set(patches, {"patches"}, [&]<typename T>(const PatchSet<T>& set) {
+      CurveSet<T> made;
+      require_ok(call(set, made, how), [&](Status status) -> Path {
+        if (status == Status::unsupported_isa) {
+          return kOptions / "isa";
+        }
+        return {status == Status::non_finite_input ? parameter : "patches"};
+      });
+      give(curves, std::move(made));
+    });
+  });
+}
+
+/// iso_u() or iso_v() of nets.
+template <typename Call>
+simdbezier_status iso_points(const char* function, const simdbezier_nets* nets, double* points,
+                             std::size_t length, const simdbezier_options* options,
+                             Call call) noexcept {
+  return answer(function, [&] {
+    const Path path{"nets"};
+    const simdbezier_nets given = read(nets, path);
+    const Values<double> out = span_of(points, length, {"points"});
+    const CallOptions how(options);
+    with_scalar(given.scalar, path / "scalar", [&]<typename S>() {
+      require_ok(call(nets_of<S>(given, path), out, *how), [&](Status status) {
+        const bool about_points = status == Status::null_output ||
+                                  status == Status::output_too_small ||
+                                  status == Status::overlapping_outputs;
+        return about_points ? Path{"points"} : blamed_nets(status, path);
+      });
+    });
+  });
+}
+
+} // namespace
+} // namespace simdbezier::c_api
+
+using namespace simdbezier;
+using namespace simdbezier::c_api;
+
+simdbezier_status simdbezier_evaluate_curve_grid(const simdbezier_curve_set* set,
+                                                 const simdbezier_curve_grid* grid,
+                                                 const simdbezier_curve_outputs* out,
+                                                 const simdbezier_options* options) {
+  return evaluate_at(__func__, set, grid, kGrid, out, options);
+}
+
+simdbezier_status simdbezier_evaluate_curve_grids(const simdbezier_curve_set* set,
+                                                  const simdbezier_curve_grids* grids,
+                                                  const simdbezier_curve_outputs* out,
+                                                  const simdbezier_options* options) {
+  return evaluate_at(__func__, set, grids, kGrids, out, options);
+}
+
+simdbezier_status simdbezier_evaluate_curve_samples(const simdbezier_curve_set* set,
+                                                    const simdbezier_curve_samples* samples,
+                                                    const simdbezier_curve_outputs* out,
+                                                    const simdbezier_options* options) {
+  return evaluate_at(__func__, set, samples, kSamples, out, options);
+}
+
+simdbezier_status simdbezier_boundary_curves(const simdbezier_nets* nets, simdbezier_edge edge,
+                                             simdbezier_control_curves* curves) {
+  return answer(__func__, [&] {
+    const Path path{"nets"};
+    const simdbezier_nets given = read(nets, path);
+    const auto which = choice<PatchEdge>(edge, kPatchEdges, {"edge"});
+    require_writable(curves, {"curves"});
+    with_scalar(given.scalar, path / "scalar", [&]<typename S>() {
+      const ControlNets<S> view = nets_of<S>(given, path);
+      const ControlCurves<S> of = boundary_curves(view, which);
+      simdbezier_control_curves known{};
+      known.points = given.points;
+      known.length = given.length;
+      known.first = view.points == nullptr ? 0 : given.first + (of.points - view.points);
+      known.count = of.count;
+      known.curve_stride = of.curve_stride;
+      known.point_stride = of.point_stride;
+      known.component_stride = of.component_stride;
+      known.degree = of.degree;
+      known.components = of.components;
+      known.weights = given.weights;
+      known.scalar = given.scalar;
+      write(curves, known);
+    });
+  });
+}
+
+simdbezier_status simdbezier_iso_u(const simdbezier_patch_set* patches, double u0,
+                                   const simdbezier_pack_options* options,
+                                   simdbezier_curve_set** curves) {
+  return iso_curves(__func__, patches, "u0", options, curves,
+                    [&](const auto& set, auto& made, const PackOptions& how) {
+                      return iso_u(set, u0, made, how);
+                    });
+}
+
+simdbezier_status simdbezier_iso_v(const simdbezier_patch_set* patches, double v0,
+                                   const simdbezier_pack_options* options,
+                                   simdbezier_curve_set** curves) {
+  return iso_curves(__func__, patches, "v0", options, curves,
+                    [&](const auto& set, auto& made, const PackOptions& how) {
+                      return iso_v(set, v0, made, how);
+                    });
+}
+
+simdbezier_status simdbezier_iso_u_points(const simdbezier_nets* nets, double u0, double* points,
+                                          size_t length, const simdbezier_options* options) {
+  return iso_points(__func__, nets, points, length, options,
+                    [&](const auto& views, const Values<double>& out, const Options& how) {
+                      return iso_u(views, u0, out, how);
+                    });
+}
+
+simdbezier_status simdbezier_iso_v_points(const simdbezier_nets* nets, double v0, double* points,
+                                          size_t length, const simdbezier_options* options) {
+  return iso_points(__func__, nets, points, length, options,
+                    [&](const auto& views, const Values<double>& out, const Options& how) {
+                      return iso_v(views, v0, out, how);
+                    });
+}

@@ -1,0 +1,287 @@
+// Patches at samples: evaluations of simdbezier.h.
+#include <simdbezier/derivatives.hpp>
+#include <simdbezier/evaluate.hpp>
+#include <simdbezier/tiles.hpp>
+
+#include "src/c_api/handles.hpp"
+#include "src/c_api/views.hpp"
+
+namespace simdbezier::c_api {
+namespace {
+
+constexpr Path kSet{"set"};
+constexpr Path kGrid{"grid"};
+constexpr Path kGrids{"grids"};
+constexpr Path kSamples{"samples"};
+constexpr Path kOut{"out"};
+
+static_assert(SIMDBEZIER_SAMPLE_NON_FINITE == static_cast<int>(SampleStatus::non_finite));
+static_assert(SIMDBEZIER_OUTPUT_STATUS == 1 << static_cast<int>(Output::status));
+
+/// The vector outputs in the order of Output.
+constexpr simdbezier_vectors simdbezier_outputs::*kVectors[kVectorOutputs] = {
+    &simdbezier_outputs::position, &simdbezier_outputs::du,  &simdbezier_outputs::dv,
+    &simdbezier_outputs::duu,      &simdbezier_outputs::duv, &simdbezier_outputs::dvv,
+    &simdbezier_outputs::normal};
+constexpr const char* kNames[kVectorOutputs] = {"position", "du",  "dv",    "duu",
+                                                "duv",      "dvv", "normal"};
+
+template <typename T>
+Outputs<T> outputs_of(const simdbezier_outputs* given) {
+  const simdbezier_outputs known = read(given, kOut);
+  Outputs<T> out;
+  for (std::size_t k = 0; k < kVectorOutputs; ++k) {
+    out[static_cast<Output>(k)] = vectors_of<T>(known.*kVectors[k], kOut / kNames[k]);
+  }
+  out.curvature = {
+      values_of<T>(known.gaussian, kOut / "gaussian"), values_of<T>(known.mean, kOut / "mean"),
+      values_of<T>(known.minimum, kOut / "minimum"), values_of<T>(known.maximum, kOut / "maximum")};
+  out.status = sample_statuses(known.status, known.status_length, kOut);
+  out.first_component = known.first_component;
+  return out;
+}
+
+template <typename T>
+Grid<T> where_of(const simdbezier_grid* given) {
+  const simdbezier_grid known = read(given, kGrid);
+  return {known.nu,
+          known.nv,
+          grid_parameters<T>(known.u, known.u_length, known.nu, known.scalar, kGrid, "u_length"),
+          grid_parameters<T>(known.v, known.v_length, known.nv, known.scalar, kGrid, "v_length"),
+          parameters_of(known.parameters, kGrid),
+          range_of(known.first_patch, known.patch_count)};
+}
+
+template <typename T>
+PatchGrids where_of(const simdbezier_patch_grids* given) {
+  const simdbezier_patch_grids known = read(given, kGrids);
+  return {span_of(known.nu, known.nu_length, kGrids / "nu"),
+          span_of(known.nv, known.nv_length, kGrids / "nv"),
+          span_of(known.offset, known.offset_length, kGrids / "offset"), known.first_patch};
+}
+
+template <typename T>
+Samples<T> where_of(const simdbezier_samples* given) {
+  const simdbezier_samples known = read(given, kSamples);
+  return {span_of(known.patch, known.patch_length, kSamples / "patch"),
+          sample_parameters<T>(known.u, known.u_length, known.scalar, kSamples, "u"),
+          sample_parameters<T>(known.v, known.v_length, known.scalar, kSamples, "v"),
+          parameters_of(known.parameters, kSamples)};
+}
+
+/// The values of one number a sample, and what they are called.
+template <typename T>
+Path blamed_values(const Outputs<T>& out, std::size_t samples) {
+  const std::pair<const Values<T>*, const char*> all[] = {{&out.curvature.gaussian, "gaussian"},
+                                                          {&out.curvature.mean, "mean"},
+                                                          {&out.curvature.minimum, "minimum"},
+                                                          {&out.curvature.maximum, "maximum"}};
+  for (const auto& [values, name] : all) {
+    if (values->wanted() && values->capacity < samples) {
+      return kOut / name;
+    }
+  }
+  const bool status = out.status.wanted() && out.status.capacity < samples;
+  return status ? kOut / "status" : kOut;
+}
+
+template <typename T>
+Path blamed_output(const Outputs<T>& out, Status status, std::size_t samples, int components) {
+  for (std::size_t k = 0; k < kVectorOutputs; ++k) {
+    if (is_at_fault(out[static_cast<Output>(k)], status, samples, components)) {
+      return kOut / kNames[k];
+    }
+  }
+  return status == Status::output_too_small ? blamed_values(out, samples) : kOut;
+}
+
+/// evaluate() of any kind of samples.
+template <typename Where>
+simdbezier_status evaluate_at(const char* function, const simdbezier_patch_set* set,
+                              const Where* given, const Path& path, const simdbezier_outputs* out,
+                              const simdbezier_options* options) noexcept {
+  return answer(function, [&] {
+    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+      const auto where = where_of<T>(given);
+      const Outputs<T> to = outputs_of<T>(out);
+      const CallOptions how(options);
+      require_ok(evaluate(patches, where, to, *how), [&](Status status) {
+        const Path blamed = blamed_in_call(status, path);
+        return blamed.root == kOut.root && blamed.member == nullptr
+                   ? blamed_output(to, status, sample_count(patches, where),
+                                   patches.components() - to.first_component)
+                   : blamed;
+      });
+    });
+  });
+}
+
+/// evaluate_derivatives() of grids and samples.
+template <typename Where>
+simdbezier_status derivatives_at(const char* function, const simdbezier_patch_set* set,
+                                 const Where* given, const Path& path,
+                                 const simdbezier_partial_derivative* derivatives,
+                                 std::size_t length, int first_component,
+                                 const simdbezier_options* options) noexcept {
+  return answer(function, [&] {
+    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+      const auto where = where_of<T>(given);
+      std::vector<PartialDerivative<T>> wanted;
+      for (std::size_t k = 0; k < length; ++k) {
+        const auto one = read_element(derivatives, k, "derivatives");
+        wanted.push_back(
+            {one.order_u, one.order_v, vectors_of<T>(one.out, Path{"derivatives", k} / "out")});
+      }
+      const CallOptions how(options);
+      const DerivativeOutputs<T> out(wanted, first_component);
+      require_ok(evaluate_derivatives(patches, where, out, *how), [&](Status status) -> Path {
+        if (status == Status::bad_components) {
+          return {"first_component"};
+        }
+        const bool about_orders = status == Status::bad_degree;
+        const Path blamed = about_orders ? Path{"derivatives"} : blamed_in_call(status, path);
+        return blamed.root == kOut.root ? Path{"derivatives"} : blamed;
+      });
+    });
+  });
+}
+
+TileFormat format_of(const simdbezier_tile_format* given) {
+  const Path path{"format"};
+  const simdbezier_tile_format known = read_options(given, path);
+  require(known.outputs < 2 * SIMDBEZIER_OUTPUT_STATUS, SIMDBEZIER_BAD_VALUE, path / "outputs");
+  TileFormat format;
+  if (known.outputs != 0) {
+    format.outputs = {};
+    for (unsigned k = 0; k <= static_cast<unsigned>(Output::status); ++k) {
+      if ((known.outputs >> k & 1U) != 0) {
+        format.outputs.add(static_cast<Output>(k));
+      }
+    }
+  }
+  format.layout = choice<TileLayout>(known.layout, 3, path / "layout");
+  format.samples = known.samples;
+  format.first_component = known.first_component;
+  return format;
+}
+
+template <typename T>
+simdbezier_outputs given_back(const Outputs<T>& out, std::size_t samples) noexcept {
+  simdbezier_outputs known{};
+  known.struct_size = sizeof known;
+  for (std::size_t k = 0; k < kVectorOutputs; ++k) {
+    const Vectors<T>& vectors = out[static_cast<Output>(k)];
+    if (vectors.wanted()) {
+      known.*kVectors[k] = {vectors.x, vectors.y, vectors.z, vectors.stride, samples, kScalar<T>};
+    }
+  }
+  const auto values = [&](const Values<T>& of) {
+    return of.wanted() ? simdbezier_values{of.first, samples, kScalar<T>} : simdbezier_values{};
+  };
+  known.gaussian = values(out.curvature.gaussian);
+  known.mean = values(out.curvature.mean);
+  known.minimum = values(out.curvature.minimum);
+  known.maximum = values(out.curvature.maximum);
+  if (out.status.wanted()) {
+    known.status = reinterpret_cast<std::uint8_t*>(out.status.first);
+    known.status_length = samples;
+  }
+  known.first_component = out.first_component;
+  return known;
+}
+
+} // namespace
+} // namespace simdbezier::c_api
+
+using namespace simdbezier;
+using namespace simdbezier::c_api;
+
+simdbezier_status simdbezier_evaluate_grid(const simdbezier_patch_set* set,
+                                           const simdbezier_grid* grid,
+                                           const simdbezier_outputs* out,
+                                           const simdbezier_options* options) {
+  return evaluate_at(__func__, set, grid, kGrid, out, options);
+}
+
+simdbezier_status simdbezier_evaluate_patch_grids(const simdbezier_patch_set* set,
+                                                  const simdbezier_patch_grids* grids,
+                                                  const simdbezier_outputs* out,
+                                                  const simdbezier_options* options) {
+  return evaluate_at(__func__, set, grids, kGrids, out, options);
+}
+
+simdbezier_status simdbezier_evaluate_samples(const simdbezier_patch_set* set,
+                                              const simdbezier_samples* samples,
+                                              const simdbezier_outputs* out,
+                                              const simdbezier_options* options) {
+  return evaluate_at(__func__, set, samples, kSamples, out, options);
+}
+
+size_t simdbezier_grid_sample_count(const simdbezier_patch_set* set, const simdbezier_grid* grid) {
+  return size_or_zero([&] {
+    return with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+      return sample_count(patches, where_of<T>(grid));
+    });
+  });
+}
+
+size_t simdbezier_patch_grids_sample_count(const simdbezier_patch_set* set,
+                                           const simdbezier_patch_grids* grids) {
+  return size_or_zero([&] {
+    return with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+      return sample_count(patches, where_of<T>(grids));
+    });
+  });
+}
+
+simdbezier_status
+simdbezier_evaluate_grid_derivatives(const simdbezier_patch_set* set, const simdbezier_grid* grid,
+                                     const simdbezier_partial_derivative* derivatives,
+                                     size_t length, int32_t first_component,
+                                     const simdbezier_options* options) {
+  return derivatives_at(__func__, set, grid, kGrid, derivatives, length, first_component, options);
+}
+
+simdbezier_status simdbezier_evaluate_sample_derivatives(
+    const simdbezier_patch_set* set, const simdbezier_samples* samples,
+    const simdbezier_partial_derivative* derivatives, size_t length, int32_t first_component,
+    const simdbezier_options* options) {
+  return derivatives_at(__func__, set, samples, kSamples, derivatives, length, first_component,
+                        options);
+}
+
+simdbezier_status simdbezier_evaluate_tiles(const simdbezier_patch_set* set,
+                                            const simdbezier_grid* grid,
+                                            const simdbezier_tile_format* format,
+                                            simdbezier_tile_function function, void* context,
+                                            const simdbezier_options* options) {
+  return answer(__func__, [&] {
+    require(function != nullptr, SIMDBEZIER_NULL_INPUT, {"function"});
+    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+      const Grid<T> where = where_of<T>(grid);
+      const TileFormat as = format_of(format);
+      const CallOptions how(options);
+      const auto hand_over = [&](const Tile<T>& tile) {
+        const simdbezier_outputs out = given_back(tile.out, tile.samples);
+        const simdbezier_tile known{
+            sizeof known,   tile.first_patch, tile.patch_count, tile.first_row,
+            tile.row_count, tile.nu,          tile.samples,     &out,
+            tile.worker};
+        function(&known, context);
+      };
+      require_ok(evaluate_tiles(patches, where, as, hand_over, *how), [](Status status) {
+        const Path blamed = blamed_in_call(status, kGrid);
+        return blamed.root == kOut.root ? Path{"format"} : blamed;
+      });
+    });
+  });
+}
+
+size_t simdbezier_largest_tile(const simdbezier_patch_set* set, const simdbezier_grid* grid,
+                               const simdbezier_tile_format* format) {
+  return size_or_zero([&] {
+    return with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+      return largest_tile(patches, where_of<T>(grid), format_of(format));
+    });
+  });
+}

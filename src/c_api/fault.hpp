@@ -1,0 +1,97 @@
+// How functions of simdbezier.h end: in a status, and in a fault that is kept for the thread.
+//
+// Inside of this folder a refused call throws a Fault, which answer() catches: nothing leaves it.
+#pragma once
+
+#include <cstddef>
+#include <new>
+#include <stdexcept>
+
+#include <simdbezier.h>
+#include <simdbezier/patch_set.hpp>
+#include <simdbezier/status.hpp>
+
+namespace simdbezier::c_api {
+
+/// An argument or a part of one: "nets[1].points", "out->normal.stride". All strings are literals.
+struct Path {
+  static constexpr std::size_t kNoIndex = static_cast<std::size_t>(-1);
+
+  const char* root = "";
+  std::size_t index = kNoIndex; ///< of an array
+  const char* member = nullptr;
+  const char* part = nullptr; ///< of the member
+
+  /// One level down.
+  [[nodiscard]] constexpr Path operator/(const char* name) const noexcept {
+    Path path = *this;
+    (path.member == nullptr ? path.member : path.part) = name;
+    return path;
+  }
+};
+
+struct Fault {
+  simdbezier_status status = SIMDBEZIER_OK;
+  Path path;
+  std::size_t patch = 0;
+  int point = 0;
+  int component = 0;
+};
+
+/// Keeps a fault for simdbezier_last_fault(), and returns its status.
+simdbezier_status record(const char* function, const Fault& fault) noexcept;
+
+inline simdbezier_status code_of(Status status) noexcept {
+  return static_cast<simdbezier_status>(status.code());
+}
+
+/// Refuses the call where a condition of its arguments does not hold.
+inline void require(bool holds, simdbezier_status otherwise, const Path& path) {
+  if (!holds) {
+    throw Fault{otherwise, path};
+  }
+}
+
+/// Refuses the call where the C++ function did; path_of(status) names the argument.
+template <typename PathOf>
+void require_ok(Status status, PathOf path_of) {
+  if (!status) {
+    throw Fault{code_of(status), path_of(status)};
+  }
+}
+template <typename PathOf>
+void require_ok(const PackReport& report, PathOf path_of) {
+  if (!report) {
+    throw Fault{code_of(report.status), path_of(report.status), report.patch, report.point,
+                report.component};
+  }
+}
+
+/// The body of a function: runs it and says how it ended.
+template <typename Body>
+simdbezier_status answer(const char* function, Body body) noexcept {
+  try {
+    body();
+    return record(function, {});
+  } catch (const Fault& fault) {
+    return record(function, fault);
+  } catch (const std::bad_alloc&) {
+    return record(function, {SIMDBEZIER_OUT_OF_MEMORY, {}});
+  } catch (const std::length_error&) {
+    return record(function, {SIMDBEZIER_SIZE_OVERFLOW, {}});
+  }
+}
+
+/// The body of a function that returns a size and explains nothing: 0 where it is refused.
+template <typename Body>
+std::size_t size_or_zero(Body body) noexcept {
+  try {
+    return body();
+  } catch (const Fault&) {
+    return 0;
+  } catch (const std::bad_alloc&) {
+    return 0;
+  }
+}
+
+} // namespace simdbezier::c_api

@@ -1,0 +1,276 @@
+// Operations on control nets of simdbezier.h.
+#include <simdbezier/bases.hpp>
+#include <simdbezier/bounds.hpp>
+#include <simdbezier/nets.hpp>
+
+#include "src/c_api/views.hpp"
+
+namespace simdbezier::c_api {
+namespace {
+
+constexpr Path kNets{"nets"};
+constexpr Path kOut{"out"};
+
+static_assert(SIMDBEZIER_BASIS_B_SPLINE == static_cast<int>(Basis::b_spline));
+
+template <typename T>
+UnitParameter<T> parameter_of(const simdbezier_parameter& given, const Path& path) {
+  if (given.denominator == 0) {
+    const T value = static_cast<T>(given.value);
+    return given.from_end != 0 ? UnitParameter<T>::from_end(value) : UnitParameter<T>(value);
+  }
+  const bool integer = given.value >= INT32_MIN && given.value <= INT32_MAX &&
+                       given.value == static_cast<double>(static_cast<int>(given.value));
+  require(integer && given.denominator > 0, SIMDBEZIER_BAD_VALUE, path);
+  const auto there = UnitParameter<T>::fraction(static_cast<int>(given.value), given.denominator);
+  return given.from_end != 0 ? there.mirrored() : there;
+}
+
+/// What an operation was refused for: faults of outputs are those of `out`.
+Path blamed(Status status, const Path& out) {
+  const bool output = status == Status::null_output || status == Status::output_too_small ||
+                      status == Status::overlapping_outputs || status == Status::bad_patch_range;
+  return blamed_nets(status, output ? out : kNets);
+}
+
+/// body(ControlNets<T>, options) of the nets' type; `out` names the outputs.
+template <typename Body>
+simdbezier_status operate(const char* function, const simdbezier_nets* nets,
+                          const simdbezier_options* options, const Path& out, Body body) noexcept {
+  return answer(function, [&] {
+    const simdbezier_nets given = read(nets, kNets);
+    const CallOptions how(options);
+    with_scalar(given.scalar, kNets / "scalar", [&]<typename T>() {
+      require_ok(body(nets_of<T>(given, kNets), *how),
+                 [&](Status status) { return blamed(status, out); });
+    });
+  });
+}
+
+template <typename T>
+MutableNets<T> output_of(const simdbezier_mutable_nets* out, const Path& path) {
+  require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, path);
+  return nets_of<T>(read(out, path), path);
+}
+
+/// The operations from nets to nets that take no more.
+template <typename Call>
+simdbezier_status operate(const char* function, const simdbezier_nets* nets,
+                          const simdbezier_mutable_nets* out, const simdbezier_options* options,
+                          Call call) noexcept {
+  return operate(function, nets, options, kOut,
+                 [&]<typename T>(const ControlNets<T>& in, const Options& how) {
+                   return call(in, output_of<T>(out, kOut), how);
+                 });
+}
+
+template <typename Call>
+simdbezier_status split_in_two(const char* function, const simdbezier_nets* nets,
+                               const simdbezier_parameter& at, const Path& path,
+                               const simdbezier_mutable_nets* low,
+                               const simdbezier_mutable_nets* high,
+                               const simdbezier_options* options, Call call) noexcept {
+  return operate(function, nets, options, {"low or high"},
+                 [&]<typename T>(const ControlNets<T>& in, const Options& how) {
+                   return call(in, parameter_of<T>(at, path), output_of<T>(low, {"low"}),
+                               output_of<T>(high, {"high"}), how);
+                 });
+}
+
+template <typename Call>
+simdbezier_status change_basis(const char* function, simdbezier_basis basis,
+                               const simdbezier_nets* nets, const simdbezier_mutable_nets* out,
+                               const simdbezier_options* options, Call call) noexcept {
+  return operate(function, nets, options, kOut,
+                 [&]<typename T>(const ControlNets<T>& in, const Options& how) {
+                   const auto from = choice<Basis>(basis, 5, {"basis"});
+                   return call(from, in, output_of<T>(out, kOut), how);
+                 });
+}
+
+template <typename Call>
+simdbezier_status boxes(const char* function, const simdbezier_nets* nets, simdbezier_values low,
+                        simdbezier_values high, const simdbezier_options* options,
+                        Call call) noexcept {
+  return operate(function, nets, options, {"low or high"},
+                 [&]<typename T>(const ControlNets<T>& in, const Options& how) {
+                   const Boxes<T> out{values_of<T>(low, {"low"}), values_of<T>(high, {"high"})};
+                   return call(in, out, how);
+                 });
+}
+
+template <typename T>
+SplineMesh<T> mesh_of(const simdbezier_spline_mesh& given, const Path& path) {
+  require(given.points != nullptr, SIMDBEZIER_NULL_INPUT, path / "points");
+  const ptrdiff_t strides[] = {given.row_stride, given.point_stride, given.component_stride};
+  const char* const names[] = {"row_stride", "point_stride", "component_stride"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    require(strides[k] > 0, SIMDBEZIER_BAD_STRIDE, path / names[k]);
+  }
+  const Weights weights = weights_of(given.weights, path);
+  require(given.components >= 1 && given.components <= kMostComponents, SIMDBEZIER_BAD_COMPONENTS,
+          path / "components");
+  require(given.rows > 0 && given.columns > 0, SIMDBEZIER_BAD_GRID, path / "rows");
+  // The place of the last value, refused where it overflows.
+  const int values = given.components + (weights == Weights::none ? 0 : 1);
+  const std::size_t counts[] = {given.rows - 1, given.columns - 1,
+                                static_cast<std::size_t>(values - 1)};
+  std::size_t left = given.length;
+  bool fits = left > 0;
+  for (std::size_t k = 0; fits && k < 3; ++k) {
+    const auto stride = static_cast<std::size_t>(strides[k]);
+    fits = counts[k] <= (left - 1) / stride;
+    left -= fits ? counts[k] * stride : 0;
+  }
+  require(fits, SIMDBEZIER_INPUT_TOO_SMALL, path / "length");
+  return {static_cast<const T*>(given.points),
+          given.rows,
+          given.columns,
+          given.row_stride,
+          given.point_stride,
+          given.component_stride,
+          given.components,
+          weights,
+          given.periodic_u != 0,
+          given.periodic_v != 0};
+}
+
+} // namespace
+} // namespace simdbezier::c_api
+
+using namespace simdbezier;
+using namespace simdbezier::c_api;
+
+// Overloads and templates cannot be handed over as they are.
+#define SIMDBEZIER_CALL(function)                                                                  \
+  [](const auto&... arguments) { return simdbezier::function(arguments...); }
+
+simdbezier_status simdbezier_split_u(const simdbezier_nets* nets, simdbezier_parameter u,
+                                     const simdbezier_mutable_nets* low,
+                                     const simdbezier_mutable_nets* high,
+                                     const simdbezier_options* options) {
+  return split_in_two(__func__, nets, u, {"u"}, low, high, options, SIMDBEZIER_CALL(split_u));
+}
+
+simdbezier_status simdbezier_split_v(const simdbezier_nets* nets, simdbezier_parameter v,
+                                     const simdbezier_mutable_nets* low,
+                                     const simdbezier_mutable_nets* high,
+                                     const simdbezier_options* options) {
+  return split_in_two(__func__, nets, v, {"v"}, low, high, options, SIMDBEZIER_CALL(split_v));
+}
+
+simdbezier_status simdbezier_split(const simdbezier_nets* nets, simdbezier_parameter u,
+                                   simdbezier_parameter v, const simdbezier_mutable_nets* out,
+                                   const simdbezier_options* options) {
+  return operate(
+      __func__, nets, options, kOut, [&]<typename T>(const ControlNets<T>& in, const Options& how) {
+        require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, kOut);
+        std::array<MutableNets<T>, 4> quarters;
+        for (std::size_t k = 0; k < 4; ++k) {
+          quarters[k] = nets_of<T>(read_element(out, k, "out"), {"out", k});
+        }
+        return split(in, parameter_of<T>(u, {"u"}), parameter_of<T>(v, {"v"}), quarters, how);
+      });
+}
+
+simdbezier_status simdbezier_segment(const simdbezier_nets* nets, simdbezier_parameter u0,
+                                     simdbezier_parameter u1, simdbezier_parameter v0,
+                                     simdbezier_parameter v1, const simdbezier_mutable_nets* out,
+                                     const simdbezier_options* options) {
+  return operate(
+      __func__, nets, options, kOut, [&]<typename T>(const ControlNets<T>& in, const Options& how) {
+        const SubPatch<T> piece{parameter_of<T>(u0, {"u0"}), parameter_of<T>(u1, {"u1"}),
+                                parameter_of<T>(v0, {"v0"}), parameter_of<T>(v1, {"v1"})};
+        return segment(in, piece, output_of<T>(out, kOut), how);
+      });
+}
+
+simdbezier_status simdbezier_elevate(const simdbezier_nets* nets,
+                                     const simdbezier_mutable_nets* out,
+                                     const simdbezier_options* options) {
+  return operate(__func__, nets, out, options, SIMDBEZIER_CALL(elevate));
+}
+
+simdbezier_status simdbezier_hodograph_u(const simdbezier_nets* nets,
+                                         const simdbezier_mutable_nets* out,
+                                         const simdbezier_options* options) {
+  return operate(__func__, nets, out, options, SIMDBEZIER_CALL(hodograph_u));
+}
+
+simdbezier_status simdbezier_hodograph_v(const simdbezier_nets* nets,
+                                         const simdbezier_mutable_nets* out,
+                                         const simdbezier_options* options) {
+  return operate(__func__, nets, out, options, SIMDBEZIER_CALL(hodograph_v));
+}
+
+simdbezier_status simdbezier_reverse_u(const simdbezier_nets* nets,
+                                       const simdbezier_mutable_nets* out,
+                                       const simdbezier_options* options) {
+  return operate(__func__, nets, out, options, SIMDBEZIER_CALL(reverse_u));
+}
+
+simdbezier_status simdbezier_reverse_v(const simdbezier_nets* nets,
+                                       const simdbezier_mutable_nets* out,
+                                       const simdbezier_options* options) {
+  return operate(__func__, nets, out, options, SIMDBEZIER_CALL(reverse_v));
+}
+
+simdbezier_status simdbezier_transpose(const simdbezier_nets* nets,
+                                       const simdbezier_mutable_nets* out,
+                                       const simdbezier_options* options) {
+  return operate(__func__, nets, out, options, SIMDBEZIER_CALL(transpose));
+}
+
+simdbezier_status simdbezier_to_bezier(simdbezier_basis basis, const simdbezier_nets* nets,
+                                       const simdbezier_mutable_nets* out,
+                                       const simdbezier_options* options) {
+  return change_basis(__func__, basis, nets, out, options, SIMDBEZIER_CALL(to_bezier));
+}
+
+simdbezier_status simdbezier_from_bezier(simdbezier_basis basis, const simdbezier_nets* nets,
+                                         const simdbezier_mutable_nets* out,
+                                         const simdbezier_options* options) {
+  return change_basis(__func__, basis, nets, out, options, SIMDBEZIER_CALL(from_bezier));
+}
+
+simdbezier_status simdbezier_spline_to_bezier(const simdbezier_spline_mesh* mesh,
+                                              const simdbezier_mutable_nets* out,
+                                              const simdbezier_options* options) {
+  return answer(__func__, [&] {
+    const Path path{"mesh"};
+    const simdbezier_spline_mesh given = read(mesh, path);
+    const CallOptions how(options);
+    with_scalar(given.scalar, path / "scalar", [&]<typename T>() {
+      require_ok(spline_to_bezier(mesh_of<T>(given, path), output_of<T>(out, kOut), *how),
+                 [&](Status status) {
+                   const Path found = blamed(status, kOut);
+                   const bool of_mesh = found.root == kNets.root || status == Status::bad_grid;
+                   return of_mesh ? path : found;
+                 });
+    });
+  });
+}
+
+simdbezier_status simdbezier_control_boxes(const simdbezier_nets* nets, simdbezier_values low,
+                                           simdbezier_values high,
+                                           const simdbezier_options* options) {
+  return boxes(__func__, nets, low, high, options, SIMDBEZIER_CALL(control_boxes));
+}
+
+simdbezier_status simdbezier_tight_boxes(const simdbezier_nets* nets, int32_t levels,
+                                         simdbezier_values low, simdbezier_values high,
+                                         const simdbezier_options* options) {
+  return boxes(__func__, nets, low, high, options,
+               [&](const auto& in, const auto& out, const Options& how) {
+                 require(levels >= 0 && levels <= kMostBoxLevels, SIMDBEZIER_BAD_GRID, {"levels"});
+                 return tight_boxes(in, levels, out, how);
+               });
+}
+
+simdbezier_status simdbezier_flatness(const simdbezier_nets* nets, simdbezier_values flatness,
+                                      const simdbezier_options* options) {
+  return operate(__func__, nets, options, {"flatness"},
+                 [&]<typename T>(const ControlNets<T>& in, const Options& how) {
+                   return simdbezier::flatness(in, values_of<T>(flatness, {"flatness"}), how);
+                 });
+}

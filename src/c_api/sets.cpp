@@ -1,0 +1,188 @@
+// Packed sets of simdbezier.h, and their error bounds.
+#include <simdbezier/error_bounds.hpp>
+#include <simdbezier/rates.hpp>
+
+#include "src/c_api/handles.hpp"
+#include "src/c_api/views.hpp"
+
+namespace simdbezier::c_api {
+namespace {
+
+constexpr Path kSet{"set"};
+
+/// What packing was refused for: an option where no point is at fault.
+template <typename PathOf>
+void require_packed(const PackReport& report, PathOf nets) {
+  require_ok(report, [&](Status status) {
+    const bool option = status == Status::non_finite_input && report.point < 0;
+    return option ? kOptions / "relative_to" : blamed_nets(status, nets(report.patch));
+  });
+}
+
+template <typename Set>
+void require_member(const Set& set, std::size_t member, const Path& path) {
+  require(member < set.size(), SIMDBEZIER_BAD_PATCH_RANGE, path);
+}
+
+/// error_bounds() answers with infinities where an instruction set cannot be resolved.
+Isa resolved(simdbezier_isa isa) {
+  Isa chosen = Isa::automatic;
+  require_ok(resolve_isa(isa_of(isa, {"isa"}), chosen), [](Status) { return Path{"isa"}; });
+  return chosen;
+}
+
+template <std::size_t N>
+void copy(const double (&from)[N], double (&to)[N]) {
+  std::copy_n(from, N, to);
+}
+
+/// A number that a handle knows; 0 of null.
+template <typename Handle, typename Ask>
+auto ask(const Handle* handle, Ask question) noexcept
+    -> decltype(std::visit(question, handle->of)) {
+  return handle == nullptr ? 0 : std::visit(question, handle->of);
+}
+
+} // namespace
+} // namespace simdbezier::c_api
+
+using namespace simdbezier;
+using namespace simdbezier::c_api;
+
+simdbezier_status simdbezier_pack(const simdbezier_nets* nets, size_t length,
+                                  simdbezier_scalar scalar, const simdbezier_pack_options* options,
+                                  simdbezier_patch_set** set) {
+  return answer(__func__, [&] {
+    require_place(set, kSet);
+    const PackOptions how = pack_options_of(options);
+    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+      with_scalar(scalar, {"scalar"}, [&]<typename T>() {
+        PatchSet<T> packed;
+        require_packed(pack(views, packed, how),
+                       [&](std::size_t patch) { return nets_with_patch(views, patch); });
+        give(set, std::move(packed));
+      });
+    });
+  });
+}
+
+void simdbezier_patch_set_free(simdbezier_patch_set* set) { delete set; }
+
+simdbezier_status simdbezier_pack_curves(const simdbezier_control_curves* curves,
+                                         simdbezier_scalar scalar,
+                                         const simdbezier_pack_options* options,
+                                         simdbezier_curve_set** set) {
+  return answer(__func__, [&] {
+    require_place(set, kSet);
+    const PackOptions how = pack_options_of(options);
+    const Path path{"curves"};
+    const simdbezier_control_curves given = read(curves, path);
+    with_scalar(given.scalar, path / "scalar", [&]<typename S>() {
+      with_scalar(scalar, {"scalar"}, [&]<typename T>() {
+        CurveSet<T> packed;
+        require_packed(pack(curves_of<S>(given, path), packed, how),
+                       [&](std::size_t) { return path; });
+        give(set, std::move(packed));
+      });
+    });
+  });
+}
+
+void simdbezier_curve_set_free(simdbezier_curve_set* set) { delete set; }
+
+size_t simdbezier_patch_set_size(const simdbezier_patch_set* set) {
+  return ask(set, [](const auto& patches) { return patches.size(); });
+}
+
+simdbezier_scalar simdbezier_patch_set_scalar(const simdbezier_patch_set* set) {
+  return ask(set, []<typename T>(const PatchSet<T>&) { return kScalar<T>; });
+}
+
+int32_t simdbezier_patch_set_components(const simdbezier_patch_set* set) {
+  return ask(set, [](const auto& patches) { return patches.components(); });
+}
+
+simdbezier_status simdbezier_patch_set_shape(const simdbezier_patch_set* set, size_t patch,
+                                             simdbezier_patch_shape* shape) {
+  return answer(__func__, [&] {
+    require_writable(shape, {"shape"});
+    with_set(set, kSet, [&](const auto& patches) {
+      require_member(patches, patch, {"patch"});
+      const PatchShape of = patches.shape(patch);
+      write(shape, {0, of.degree_u, of.degree_v, of.components, of.rational ? 1 : 0});
+    });
+  });
+}
+
+size_t simdbezier_curve_set_size(const simdbezier_curve_set* set) {
+  return ask(set, [](const auto& curves) { return curves.size(); });
+}
+
+simdbezier_scalar simdbezier_curve_set_scalar(const simdbezier_curve_set* set) {
+  return ask(set, []<typename T>(const CurveSet<T>&) { return kScalar<T>; });
+}
+
+int32_t simdbezier_curve_set_degree(const simdbezier_curve_set* set) {
+  return ask(set, [](const auto& curves) { return curves.degree(); });
+}
+
+int32_t simdbezier_curve_set_components(const simdbezier_curve_set* set) {
+  return ask(set, [](const auto& curves) { return curves.components(); });
+}
+
+int32_t simdbezier_curve_set_rational(const simdbezier_curve_set* set) {
+  return ask(set, [](const auto& curves) { return curves.rational() ? 1 : 0; });
+}
+
+simdbezier_status simdbezier_patch_error_bounds(const simdbezier_patch_set* set, size_t patch,
+                                                simdbezier_isa isa,
+                                                simdbezier_error_bounds_of_patch* bounds) {
+  return answer(__func__, [&] {
+    require_writable(bounds, {"bounds"});
+    with_set(set, kSet, [&](const auto& patches) {
+      require_member(patches, patch, {"patch"});
+      const ErrorBounds of = error_bounds(patches, patch, resolved(isa));
+      simdbezier_error_bounds_of_patch known{};
+      copy(of.position, known.position);
+      copy(of.du, known.du);
+      copy(of.dv, known.dv);
+      write(bounds, known);
+    });
+  });
+}
+
+simdbezier_status simdbezier_curve_error_bounds(const simdbezier_curve_set* set, size_t curve,
+                                                simdbezier_isa isa,
+                                                simdbezier_error_bounds_of_curve* bounds) {
+  return answer(__func__, [&] {
+    require_writable(bounds, {"bounds"});
+    with_set(set, kSet, [&](const auto& curves) {
+      require_member(curves, curve, {"curve"});
+      const CurveErrorBounds of = error_bounds(curves, curve, resolved(isa));
+      simdbezier_error_bounds_of_curve known{};
+      copy(of.position, known.position);
+      copy(of.d1, known.d1);
+      copy(of.d2, known.d2);
+      write(bounds, known);
+    });
+  });
+}
+
+simdbezier_status simdbezier_largest_position_bound(const simdbezier_patch_set* set,
+                                                    simdbezier_isa isa, double* bound) {
+  return answer(__func__, [&] {
+    require(bound != nullptr, SIMDBEZIER_NULL_OUTPUT, {"bound"});
+    with_set(set, kSet,
+             [&](const auto& patches) { *bound = largest_position_bound(patches, resolved(isa)); });
+  });
+}
+
+simdbezier_status simdbezier_position_errors(const simdbezier_patch_set* set, double* errors,
+                                             size_t length) {
+  return answer(__func__, [&] {
+    const std::span<double> out = span_of(errors, length, {"errors"});
+    with_set(set, kSet, [&](const auto& patches) {
+      require_ok(position_errors(patches, out), [](Status) { return Path{"length"}; });
+    });
+  });
+}

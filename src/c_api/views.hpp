@@ -1,0 +1,231 @@
+// The C++ views and options that structs of simdbezier.h stand for, checked as far as C++ cannot:
+// null pointers, lengths, types, numbers that stand for names.
+#pragma once
+
+#include <vector>
+
+#include <simdbezier/control_curves.hpp>
+#include <simdbezier/nets.hpp>
+#include <simdbezier/options.hpp>
+#include <simdbezier/patch_set.hpp>
+#include <simdbezier/sample_status.hpp>
+#include <simdbezier/samples.hpp>
+#include <simdbezier/vectors.hpp>
+
+#include "src/c_api/structs.hpp"
+
+namespace simdbezier::c_api {
+
+inline constexpr Path kOptions{"options"};
+inline constexpr std::int32_t kIsas = 6;
+
+inline Isa isa_of(simdbezier_isa isa, const Path& path) { return choice<Isa>(isa, kIsas, path); }
+
+/// Options, and the way back of the kernel's name.
+class CallOptions {
+public:
+  explicit CallOptions(const simdbezier_options* given) : given_(read_options(given, kOptions)) {
+    options_.threads = given_.threads;
+    options_.watertight = given_.not_watertight == 0;
+    options_.isa = isa_of(given_.isa, kOptions / "isa");
+    options_.destination = choice<Destination>(given_.destination, 3, kOptions / "destination");
+    options_.executed = given_.executed == nullptr ? nullptr : &executed_;
+  }
+  CallOptions(const CallOptions&) = delete;
+  CallOptions& operator=(const CallOptions&) = delete;
+  ~CallOptions() {
+    if (given_.executed != nullptr && executed_ != Isa::automatic) {
+      *given_.executed = static_cast<simdbezier_isa>(executed_);
+    }
+  }
+  [[nodiscard]] const Options& operator*() const noexcept { return options_; }
+
+private:
+  simdbezier_options given_;
+  Options options_;
+  Isa executed_ = Isa::automatic;
+};
+
+inline PackOptions pack_options_of(const simdbezier_pack_options* given) {
+  const simdbezier_pack_options known = read_options(given, kOptions);
+  PackOptions options;
+  options.local_origin = known.local_origin != 0;
+  std::copy_n(known.relative_to, 3, options.relative_to);
+  options.threads = known.threads;
+  options.isa = isa_of(known.isa, kOptions / "isa");
+  return options;
+}
+
+inline Weights weights_of(simdbezier_weights weights, const Path& path) {
+  return choice<Weights>(weights, 3, path / "weights");
+}
+
+inline Parameters parameters_of(simdbezier_parameters parameters, const Path& path) {
+  return choice<Parameters>(parameters, 2, path / "parameters");
+}
+
+/// Where the first value of nets or curves stands; what is null or ends before it is refused.
+template <typename S, typename Struct>
+auto first_value(const Struct& given, const Path& path) {
+  constexpr bool kInput = std::is_const_v<std::remove_pointer_t<decltype(given.points)>>;
+  using Value = std::conditional_t<kInput, const S, S>;
+  require_scalar<S>(given.scalar, path);
+  if (given.count == 0) {
+    return std::pair<Value*, std::span<Value>>();
+  }
+  require(given.points != nullptr, kInput ? SIMDBEZIER_NULL_INPUT : SIMDBEZIER_NULL_OUTPUT,
+          path / "points");
+  constexpr auto kTooSmall = kInput ? SIMDBEZIER_INPUT_TOO_SMALL : SIMDBEZIER_OUTPUT_TOO_SMALL;
+  require(given.length > 0, kTooSmall, path / "length");
+  require(given.first >= 0 && static_cast<std::size_t>(given.first) < given.length, kTooSmall,
+          path / "first");
+  auto* const points = static_cast<Value*>(given.points);
+  return std::pair<Value*, std::span<Value>>(points + given.first, {points, given.length});
+}
+
+/// Nets = ControlNets<S> or MutableNets<S>.
+template <typename S, typename Nets, typename Struct>
+Nets nets_like(const Struct& given, const Path& path) {
+  const auto [points, memory] = first_value<S>(given, path);
+  return {points,
+          given.count,
+          given.degree_u,
+          given.degree_v,
+          given.net_stride,
+          given.row_stride,
+          given.point_stride,
+          given.component_stride,
+          given.components,
+          weights_of(given.weights, path),
+          memory};
+}
+template <typename S>
+ControlNets<S> nets_of(const simdbezier_nets& given, const Path& path) {
+  return nets_like<S, ControlNets<S>>(given, path);
+}
+template <typename S>
+MutableNets<S> nets_of(const simdbezier_mutable_nets& given, const Path& path) {
+  return nets_like<S, MutableNets<S>>(given, path);
+}
+template <typename S>
+ControlCurves<S> curves_of(const simdbezier_control_curves& given, const Path& path) {
+  const auto [points, memory] = first_value<S>(given, path);
+  return {points,
+          given.count,
+          given.degree,
+          given.curve_stride,
+          given.point_stride,
+          given.component_stride,
+          given.components,
+          weights_of(given.weights, path),
+          memory};
+}
+
+/// The member of nets or curves that a status is about.
+Path blamed_nets(Status status, const Path& nets);
+
+/// body(std::span<const ControlNets<S>>) with the nets of an array, S being their type.
+template <typename Body>
+auto with_net_array(const simdbezier_nets* nets, std::size_t length, Body body) {
+  const simdbezier_scalar scalar =
+      length == 0 ? SIMDBEZIER_F32 : read_element(nets, 0, "nets").scalar;
+  return with_scalar(scalar, Path{"nets", 0} / "scalar", [&]<typename S>() {
+    std::vector<ControlNets<S>> views;
+    views.reserve(length);
+    for (std::size_t k = 0; k < length; ++k) {
+      views.push_back(nets_of<S>(read_element(nets, k, "nets"), {"nets", k}));
+    }
+    return body(std::span<const ControlNets<S>>(views));
+  });
+}
+
+/// Which of several nets holds a patch.
+template <typename S>
+Path nets_with_patch(std::span<const ControlNets<S>> nets, std::size_t patch) {
+  std::size_t k = 0;
+  while (k + 1 < nets.size() && patch >= nets[k].count) {
+    patch -= nets[k++].count;
+  }
+  return {"nets", k};
+}
+
+template <typename T>
+Vectors<T> vectors_of(const simdbezier_vectors& given, const Path& path) {
+  if (given.x == nullptr && given.y == nullptr && given.z == nullptr && given.capacity == 0) {
+    return {};
+  }
+  require(given.x != nullptr, SIMDBEZIER_NULL_OUTPUT, path / "x");
+  require_scalar<T>(given.scalar, path);
+  require(given.stride > 0, SIMDBEZIER_BAD_STRIDE, path / "stride");
+  return {static_cast<T*>(given.x), static_cast<T*>(given.y), static_cast<T*>(given.z),
+          given.stride, given.capacity};
+}
+
+template <typename T>
+Values<T> values_of(const simdbezier_values& given, const Path& path) {
+  if (given.first == nullptr && given.length == 0) {
+    return {};
+  }
+  require(given.first != nullptr, SIMDBEZIER_NULL_OUTPUT, path / "first");
+  require_scalar<T>(given.scalar, path);
+  return std::span<T>(static_cast<T*>(given.first), given.length);
+}
+
+/// SIMDBEZIER_SAMPLE_… and SampleStatus are the same bytes.
+inline Values<SampleStatus> sample_statuses(std::uint8_t* first, std::size_t length,
+                                            const Path& path) {
+  if (first == nullptr && length == 0) {
+    return {};
+  }
+  require(first != nullptr, SIMDBEZIER_NULL_OUTPUT, path / "status");
+  return std::span(reinterpret_cast<SampleStatus*>(first), length);
+}
+
+/// `count` parameters of a grid; null: uniform ones.
+template <typename T>
+const T* grid_parameters(const void* first, std::size_t length, std::size_t count,
+                         simdbezier_scalar scalar, const Path& path, const char* member) {
+  if (first == nullptr) {
+    require(length == 0, SIMDBEZIER_NULL_INPUT, path / member);
+    return nullptr;
+  }
+  require_scalar<T>(scalar, path);
+  require(length >= count, SIMDBEZIER_INPUT_TOO_SMALL, path / member);
+  return static_cast<const T*>(first);
+}
+
+/// The parameters of single samples.
+template <typename T>
+std::span<const T> sample_parameters(const void* first, std::size_t length,
+                                     simdbezier_scalar scalar, const Path& path,
+                                     const char* member) {
+  require_scalar<T>(scalar, path);
+  return span_of(static_cast<const T*>(first), length, path / member);
+}
+
+inline SetRange range_of(std::size_t first, std::size_t count) {
+  return {first, count == 0 ? SetRange::kToTheEnd : count};
+}
+
+/// One vector output of a call, where it is wanted, that a status is about.
+template <typename T>
+bool is_at_fault(const Vectors<T>& vectors, Status status, std::size_t samples, int components) {
+  if (!vectors.wanted()) {
+    return false;
+  }
+  switch (status.code()) {
+  case Status::output_too_small:
+    return vectors.capacity < samples;
+  case Status::null_output:
+    return (vectors.y == nullptr) != (components < 2) || (vectors.z == nullptr) != (components < 3);
+  case Status::bad_stride:
+    return vectors.stride < components && vectors.y == vectors.x + 1;
+  default:
+    return false;
+  }
+}
+
+/// What a status of an evaluation is about, where it is not one of the outputs.
+Path blamed_in_call(Status status, const Path& where);
+
+} // namespace simdbezier::c_api

@@ -1,0 +1,40 @@
+// The sizes of the structs of simdbezier.h, which programs are compiled for: part of the ABI.
+#include <stdio.h>
+
+#include <simdbezier.h>
+
+#define SIZE(name) printf("struct %s %zu\n", #name, sizeof(struct name))
+
+int main(void) {
+  SIZE(simdbezier_cluster);
+  SIZE(simdbezier_control_curves);
+  SIZE(simdbezier_curve_grid);
+  SIZE(simdbezier_curve_grids);
+  SIZE(simdbezier_curve_outputs);
+  SIZE(simdbezier_curve_samples);
+  SIZE(simdbezier_edge_link);
+  SIZE(simdbezier_error_bounds_of_curve);
+  SIZE(simdbezier_error_bounds_of_patch);
+  SIZE(simdbezier_fault);
+  SIZE(simdbezier_grid);
+  SIZE(simdbezier_mutable_nets);
+  SIZE(simdbezier_nets);
+  SIZE(simdbezier_options);
+  SIZE(simdbezier_outputs);
+  SIZE(simdbezier_pack_options);
+  SIZE(simdbezier_parameter);
+  SIZE(simdbezier_partial_derivative);
+  SIZE(simdbezier_patch_grids);
+  SIZE(simdbezier_patch_shape);
+  SIZE(simdbezier_rate_options);
+  SIZE(simdbezier_rates);
+  SIZE(simdbezier_samples);
+  SIZE(simdbezier_spline_mesh);
+  SIZE(simdbezier_tile);
+  SIZE(simdbezier_tile_format);
+  SIZE(simdbezier_topology_counts);
+  SIZE(simdbezier_topology_options);
+  SIZE(simdbezier_values);
+  SIZE(simdbezier_vectors);
+  return 0;
+}
