@@ -1,6 +1,6 @@
 # See CMakeLists.txt beside this file.
 set(prefix ${WORK}/prefix)
-file(REMOVE_RECURSE ${prefix} ${WORK}/consumer)
+file(REMOVE_RECURSE ${prefix} ${WORK}/consumer ${WORK}/c_consumer)
 
 include(${CMAKE_CURRENT_LIST_DIR}/../../support/run.cmake)
 
@@ -44,6 +44,17 @@ separate_arguments(flags UNIX_COMMAND "${output}")
 run(${CXX} -std=c++20 ${SOURCE}/main.cpp -o ${WORK}/by_pkg_config ${flags} ${LINK_FLAGS}
     -Wl,-rpath,${prefix}/${LIBDIR})
 run(${WORK}/by_pkg_config)
+expect_teapot_point("${output}")
+
+# From C, by CMake in a project that has no other language, and by pkg-config.
+run(${CMAKE_COMMAND} -S ${SOURCE}/../c_consumer -B ${WORK}/c_consumer -G ${GENERATOR}
+    -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_EXE_LINKER_FLAGS=${LINK_FLAGS})
+run(${CMAKE_COMMAND} --build ${WORK}/c_consumer)
+run(${WORK}/c_consumer/c_consumer)
+expect_teapot_point("${output}")
+run(${CC} -std=c99 -Wall -Wextra -Wpedantic -Werror ${SOURCE}/../c_consumer/main.c
+    -o ${WORK}/c_by_pkg_config ${flags} ${LINK_FLAGS} -Wl,-rpath,${prefix}/${LIBDIR})
+run(${WORK}/c_by_pkg_config)
 expect_teapot_point("${output}")
 
 # The installed program finds the installed library; it is all that is installed to be run.
