@@ -6,6 +6,7 @@
 #include <variant>
 
 #include <simdbezier/curves.hpp>
+#include <simdbezier/mesh.hpp>
 #include <simdbezier/mesh_layout.hpp>
 #include <simdbezier/topology.hpp>
 
@@ -22,6 +23,9 @@ struct simdbezier_topology {
 };
 struct simdbezier_mesh_layout {
   simdbezier::MeshLayout of;
+};
+struct simdbezier_mesh {
+  std::variant<simdbezier::Mesh<float>, simdbezier::Mesh<double>> of;
 };
 
 namespace simdbezier::c_api {
@@ -43,6 +47,36 @@ const auto& object_of(const Handle* handle, const Path& path) {
 template <typename Handle, typename Object>
 void give(Handle** handle, Object&& object) {
   *handle = std::make_unique<Handle>(Handle{std::forward<Object>(object)}).release();
+}
+
+inline simdbezier_topology_counts counts_of(const TopologyCounts& of) noexcept {
+  simdbezier_topology_counts known{};
+  known.patches = of.patches;
+  known.edges = of.edges;
+  known.open_edges = of.open_edges;
+  known.non_manifold_edges = of.non_manifold_edges;
+  known.collapsed_sides = of.collapsed_sides;
+  known.corners = of.corners;
+  known.repeated_patches = of.repeated_patches;
+  known.turned_edges = of.turned_edges;
+  known.snapped_sides = of.snapped_sides;
+  known.orientable = of.orientable ? 1 : 0;
+  return known;
+}
+
+inline Camera camera_of(const simdbezier_camera* given, const Path& path) {
+  const simdbezier_camera known = read_options(given, path);
+  Camera camera;
+  std::copy_n(known.eye, 3, camera.eye.begin());
+  if (known.direction[0] != 0 || known.direction[1] != 0 || known.direction[2] != 0) {
+    std::copy_n(known.direction, 3, camera.direction.begin());
+  }
+  const auto set = [](double& member, double value) { member = value != 0 ? value : member; };
+  set(camera.focal_length, known.focal_length);
+  set(camera.width, known.width);
+  set(camera.height, known.height);
+  set(camera.nearest, known.nearest);
+  return camera;
 }
 
 /// Where a handle goes.

@@ -1,68 +1,121 @@
-// Triangles, polygons, strips and clusters of simdbezier.h.
-#include <cstddef>
+// Vertices of meshes, and meshes in one call, of simdbezier.h.
+#include <cmath>
+#include <limits>
 
-#include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/evaluate_mesh.hpp>
+#include <simdbezier/mesh.hpp>
 
 #include "src/c_api/handles.hpp"
+#include "src/c_api/views.hpp"
 
 namespace simdbezier::c_api {
 namespace {
 
+constexpr Path kSet{"set"};
 constexpr Path kLayout{"layout"};
+constexpr Path kOut{"out"};
 
-// Clusters are written in place.
-static_assert(sizeof(simdbezier_cluster) == sizeof(MeshCluster) &&
-              offsetof(simdbezier_cluster, vertices) == offsetof(MeshCluster, vertices) &&
-              offsetof(simdbezier_cluster, triangles) == offsetof(MeshCluster, triangles) &&
-              offsetof(simdbezier_cluster, patch) == offsetof(MeshCluster, patch));
-
-/// What a status of a writer is about.
-auto about(const char* output) {
-  return [output](Status status) -> Path {
-    switch (status.code()) {
-    case Status::null_output:
-    case Status::output_too_small:
-      return {output};
-    case Status::size_overflow:
-      return kLayout;
-    default:
-      return {};
-    }
-  };
+template <typename T>
+MeshOutputs<T> outputs_of(const simdbezier_mesh_outputs* given) {
+  const simdbezier_mesh_outputs known = read(given, kOut);
+  MeshOutputs<T> out{vectors_of<T>(known.position, kOut / "position"),
+                     vectors_of<T>(known.normal, kOut / "normal"),
+                     vectors_of<T>(known.parameters, kOut / "parameters"),
+                     {}};
+  if (known.patch != nullptr || known.patch_length != 0) {
+    out.patch = span_of(known.patch, known.patch_length, kOut / "patch");
+  }
+  return out;
 }
 
-template <typename Index>
-simdbezier_status triangles_of(const char* function, const simdbezier_mesh_layout* layout,
-                               Index* triangles, std::size_t length, int threads) noexcept {
-  return answer(function, [&] {
-    const std::span<Index> out = span_of(triangles, length, {"triangles"});
-    require_ok(write_triangles(object_of(layout, kLayout), out, threads), about("triangles"));
-  });
+/// Of how many patches a set is, and not of where it is asked about.
+Path blamed_in_mesh(Status status) {
+  switch (status.code()) {
+  case Status::unequal_lengths:
+  case Status::bad_components:
+    return kSet;
+  case Status::bad_patch_range:
+    return {"first_patch or patch_count"};
+  default:
+    return blamed_in_call(status, kLayout);
+  }
 }
 
-template <typename Index>
-simdbezier_status polygons_of(const char* function, const simdbezier_mesh_layout* layout,
-                              Index* indices, std::size_t length, std::uint8_t* sizes,
-                              std::size_t sizes_length, int threads) noexcept {
-  return answer(function, [&] {
-    const std::span<Index> out = span_of(indices, length, {"indices"});
-    const std::span<std::uint8_t> of = span_of(sizes, sizes_length, {"sizes"});
-    require_ok(write_polygons(object_of(layout, kLayout), out, of, threads),
-               about("indices or sizes"));
-  });
+/// Zero stands for no limit.
+double limit_of(double value) {
+  return value == 0 ? std::numeric_limits<double>::infinity() : value;
 }
 
-template <typename Index>
-simdbezier_status strips_of(const char* function, const simdbezier_mesh_layout* layout,
-                            Index* indices, std::size_t length, int threads) noexcept {
-  return answer(function, [&] {
-    const std::span<Index> out = span_of(indices, length, {"indices"});
-    require_ok(write_strips(object_of(layout, kLayout), out, threads), about("indices"));
-  });
+MeshOptions mesh_options_of(const simdbezier_mesh_options* given) {
+  const simdbezier_mesh_options known = read(given, kOptions);
+  MeshOptions options;
+  options.tolerance = limit_of(known.tolerance);
+  options.relative_tolerance = limit_of(known.relative_tolerance);
+  options.tolerances = span_of(known.tolerances, known.tolerances_length, kOptions / "tolerances");
+  options.pixels = limit_of(known.pixels);
+  require(known.pixels == 0 || known.camera != nullptr, SIMDBEZIER_NULL_INPUT, kOptions / "camera");
+  options.camera = camera_of(known.camera, kOptions / "camera");
+  options.longest_edge = limit_of(known.longest_edge);
+  options.normal_angle = limit_of(known.normal_angle);
+  options.nu = known.nu;
+  options.nv = known.nv;
+  options.point_size = known.point_size;
+  options.snap = known.snap;
+  options.crease_angle = known.unshared != 0 ? 0 : limit_of(known.crease_angle);
+  options.orient = known.orient != 0;
+  options.flip = known.flip != 0;
+  options.drop_repeated = known.drop_repeated != 0;
+  options.normals = known.no_normals == 0;
+  options.parameters = known.parameters != 0;
+  options.short_indices = known.short_indices != 0;
+  options.local_origin = known.local_origin != 0;
+  options.threads = known.threads;
+  options.isa = isa_of(known.isa, kOptions / "isa");
+  return options;
 }
 
-void require_number(const std::size_t* number, const char* name) {
-  require(number != nullptr, SIMDBEZIER_NULL_OUTPUT, {name});
+template <typename S>
+Path blamed_in_tessellation(Status status, std::span<const ControlNets<S>> nets,
+                            std::size_t patch) {
+  switch (status.code()) {
+  case Status::bad_tolerance:
+    return kOptions / "tolerance";
+  case Status::bad_grid:
+    return kOptions / "nu or nv";
+  case Status::bad_rates:
+  case Status::not_orientable:
+    return kOptions;
+  default:
+    return blamed_nets(status, nets_with_patch(nets, patch));
+  }
+}
+
+/// The first element, or null where there is none.
+template <typename V>
+const auto* first_of(const std::vector<V>& values) {
+  if constexpr (std::is_arithmetic_v<V>) {
+    return values.data();
+  } else {
+    return values.empty() ? nullptr : values.front().data();
+  }
+}
+
+template <typename T>
+simdbezier_mesh_arrays arrays_of(const Mesh<T>& mesh) noexcept {
+  simdbezier_mesh_arrays known{};
+  known.scalar = kScalar<T>;
+  known.vertices = mesh.positions.size();
+  known.triangles = mesh.triangles.size() + mesh.short_triangles.size();
+  known.positions = first_of(mesh.positions);
+  known.normals = first_of(mesh.normals);
+  known.parameters = first_of(mesh.parameters);
+  known.patches = first_of(mesh.patches);
+  known.indices = first_of(mesh.triangles);
+  known.short_indices = first_of(mesh.short_triangles);
+  known.deviations = first_of(mesh.deviations);
+  known.patches_given = mesh.deviations.size();
+  known.deviation = mesh.deviation;
+  return known;
 }
 
 } // namespace
@@ -71,87 +124,97 @@ void require_number(const std::size_t* number, const char* name) {
 using namespace simdbezier;
 using namespace simdbezier::c_api;
 
-simdbezier_status simdbezier_write_triangles_u32(const simdbezier_mesh_layout* layout,
-                                                 uint32_t* triangles, size_t length,
-                                                 int32_t threads) {
-  return triangles_of(__func__, layout, triangles, length, threads);
-}
-
-simdbezier_status simdbezier_write_triangles_u16(const simdbezier_mesh_layout* layout,
-                                                 uint16_t* triangles, size_t length,
-                                                 int32_t threads) {
-  return triangles_of(__func__, layout, triangles, length, threads);
-}
-
-simdbezier_status simdbezier_polygon_size(const simdbezier_mesh_layout* layout, size_t* polygons,
-                                          size_t* indices, int32_t threads) {
+simdbezier_status simdbezier_evaluate_mesh(const simdbezier_patch_set* set,
+                                           const simdbezier_mesh_layout* layout,
+                                           const simdbezier_mesh_outputs* out,
+                                           const simdbezier_options* options, size_t first_patch,
+                                           size_t patch_count) {
   return answer(__func__, [&] {
-    require_number(polygons, "polygons");
-    require_number(indices, "indices");
-    PolygonSize size;
-    require_ok(polygon_size(object_of(layout, kLayout), size, threads), about(""));
-    *polygons = size.polygons;
-    *indices = size.indices;
+    const MeshLayout& numbers = object_of(layout, kLayout);
+    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+      const MeshOutputs<T> to = outputs_of<T>(out);
+      const CallOptions how(options);
+      require_ok(evaluate_mesh(patches, numbers, to, *how, range_of(first_patch, patch_count)),
+                 blamed_in_mesh);
+    });
   });
 }
 
-simdbezier_status simdbezier_write_polygons_u32(const simdbezier_mesh_layout* layout,
-                                                uint32_t* indices, size_t length, uint8_t* sizes,
-                                                size_t sizes_length, int32_t threads) {
-  return polygons_of(__func__, layout, indices, length, sizes, sizes_length, threads);
-}
-
-simdbezier_status simdbezier_write_polygons_u16(const simdbezier_mesh_layout* layout,
-                                                uint16_t* indices, size_t length, uint8_t* sizes,
-                                                size_t sizes_length, int32_t threads) {
-  return polygons_of(__func__, layout, indices, length, sizes, sizes_length, threads);
-}
-
-simdbezier_status simdbezier_strip_size(const simdbezier_mesh_layout* layout, size_t* indices,
-                                        int32_t threads) {
+simdbezier_status simdbezier_evaluate_mesh_attributes(const simdbezier_patch_set* set,
+                                                      const simdbezier_mesh_layout* layout,
+                                                      const simdbezier_vectors* out,
+                                                      int32_t first_component,
+                                                      const simdbezier_options* options,
+                                                      size_t first_patch, size_t patch_count) {
   return answer(__func__, [&] {
-    require_number(indices, "indices");
-    std::size_t size = 0;
-    require_ok(strip_size(object_of(layout, kLayout), size, threads), about(""));
-    *indices = size;
+    const MeshLayout& numbers = object_of(layout, kLayout);
+    require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, kOut);
+    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+      const Vectors<T> to = vectors_of<T>(*out, kOut);
+      const CallOptions how(options);
+      require_ok(evaluate_mesh_attributes(patches, numbers, to, first_component, *how,
+                                          range_of(first_patch, patch_count)),
+                 [](Status status) {
+                   return status == Status::bad_components ? Path{"first_component"}
+                                                           : blamed_in_mesh(status);
+                 });
+    });
   });
 }
 
-simdbezier_status simdbezier_write_strips_u32(const simdbezier_mesh_layout* layout,
-                                              uint32_t* indices, size_t length, int32_t threads) {
-  return strips_of(__func__, layout, indices, length, threads);
-}
-
-simdbezier_status simdbezier_write_strips_u16(const simdbezier_mesh_layout* layout,
-                                              uint16_t* indices, size_t length, int32_t threads) {
-  return strips_of(__func__, layout, indices, length, threads);
-}
-
-simdbezier_status simdbezier_cluster_size(const simdbezier_mesh_layout* layout, size_t* clusters,
-                                          size_t* vertices, size_t* triangles, int32_t threads) {
+simdbezier_status simdbezier_split_creases(const simdbezier_patch_set* set,
+                                           const simdbezier_mesh_layout* layout, double angle,
+                                           const simdbezier_options* options,
+                                           simdbezier_mesh_layout** split) {
   return answer(__func__, [&] {
-    require_number(clusters, "clusters");
-    require_number(vertices, "vertices");
-    require_number(triangles, "triangles");
-    ClusterSize size;
-    require_ok(cluster_size(object_of(layout, kLayout), size, threads), about(""));
-    *clusters = size.clusters;
-    *vertices = size.vertices;
-    *triangles = size.triangles;
+    require_place(split, {"split"});
+    const MeshLayout& numbers = object_of(layout, kLayout);
+    with_set(set, kSet, [&](const auto& patches) {
+      const CallOptions how(options);
+      MeshLayout made;
+      require_ok(split_creases(patches, numbers, angle, made, *how), [](Status status) {
+        return status == Status::bad_tolerance ? Path{"angle"} : blamed_in_mesh(status);
+      });
+      give(split, std::move(made));
+    });
   });
 }
 
-simdbezier_status simdbezier_write_clusters(const simdbezier_mesh_layout* layout,
-                                            simdbezier_cluster* clusters, size_t clusters_length,
-                                            uint32_t* vertices, size_t vertices_length,
-                                            uint8_t* corners, size_t corners_length,
-                                            int32_t threads) {
+simdbezier_status simdbezier_tessellate(const simdbezier_nets* nets, size_t length,
+                                        simdbezier_scalar scalar,
+                                        const simdbezier_mesh_options* options,
+                                        simdbezier_mesh** mesh) {
   return answer(__func__, [&] {
-    const std::span<simdbezier_cluster> to = span_of(clusters, clusters_length, {"clusters"});
-    const ClusterOutputs out{{reinterpret_cast<MeshCluster*>(to.data()), to.size()},
-                             span_of(vertices, vertices_length, {"vertices"}),
-                             span_of(corners, corners_length, {"corners"})};
-    require_ok(write_clusters(object_of(layout, kLayout), out, threads),
-               about("clusters, vertices or corners"));
+    require_place(mesh, {"mesh"});
+    const MeshOptions how = mesh_options_of(options);
+    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+      with_scalar(scalar, {"scalar"}, [&]<typename T>() {
+        Mesh<T> made = tessellate<T>(views, how);
+        if (!made) {
+          throw Fault{code_of(made.status),
+                      blamed_in_tessellation(made.status, views, made.fault_patch),
+                      made.fault_patch};
+        }
+        give(mesh, std::move(made));
+      });
+    });
+  });
+}
+
+void simdbezier_mesh_free(simdbezier_mesh* mesh) { delete mesh; }
+
+simdbezier_status simdbezier_mesh_look(const simdbezier_mesh* mesh,
+                                       simdbezier_mesh_arrays* arrays) {
+  return answer(__func__, [&] {
+    require_writable(arrays, {"arrays"});
+    with_set(mesh, {"mesh"}, [&](const auto& of) { write(arrays, arrays_of(of)); });
+  });
+}
+
+simdbezier_status simdbezier_mesh_count(const simdbezier_mesh* mesh,
+                                        simdbezier_topology_counts* counts) {
+  return answer(__func__, [&] {
+    require_writable(counts, {"counts"});
+    with_set(mesh, {"mesh"}, [&](const auto& of) { write(counts, counts_of(of.counts)); });
   });
 }

@@ -54,6 +54,9 @@ RateOptions rate_options_of(const simdbezier_rate_options* given) {
   if (known.most_segments != 0) {
     options.most_segments = known.most_segments;
   }
+  if (known.normal_angle != 0) {
+    options.normal_angle = known.normal_angle;
+  }
   options.threads = known.threads;
   return options;
 }
@@ -108,9 +111,14 @@ simdbezier_status simdbezier_find_topology(const simdbezier_nets* nets, size_t l
     const simdbezier_topology_options known = read_options(options, kOptions);
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
       Topology found;
-      const TopologyOptions how{known.point_size, known.orient != 0, known.threads};
+      TopologyOptions how;
+      how.point_size = known.point_size;
+      how.orient = known.orient != 0;
+      how.flip = known.flip != 0;
+      how.snap = known.snap;
+      how.threads = known.threads;
       require_ok(find_topology(views, found, how), [&](Status status) {
-        return status == Status::bad_tolerance ? kOptions / "point_size"
+        return status == Status::bad_tolerance ? kOptions / "point_size or snap"
                                                : blamed_nets(status, {"nets"});
       });
       give(topology, std::move(found));
@@ -124,10 +132,7 @@ simdbezier_status simdbezier_topology_count(const simdbezier_topology* topology,
                                             simdbezier_topology_counts* counts) {
   return answer(__func__, [&] {
     require_writable(counts, {"counts"});
-    const TopologyCounts of = object_of(topology, kTopology).counts();
-    write(counts,
-          {0, of.patches, of.edges, of.open_edges, of.non_manifold_edges, of.collapsed_sides,
-           of.corners, of.repeated_patches, of.turned_edges, of.orientable ? 1 : 0});
+    write(counts, counts_of(object_of(topology, kTopology).counts()));
   });
 }
 
@@ -173,6 +178,27 @@ simdbezier_status simdbezier_certify_rates(const simdbezier_nets* nets, size_t l
   });
 }
 
+simdbezier_status simdbezier_pixel_tolerances(const simdbezier_nets* nets, size_t length,
+                                              const simdbezier_camera* camera, double pixels,
+                                              double* tolerances, size_t tolerances_length) {
+  return answer(__func__, [&] {
+    const Camera seen_by = camera_of(camera, {"camera"});
+    const std::span<double> out = span_of(tolerances, tolerances_length, {"tolerances"});
+    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+      require_ok(pixel_tolerances(views, seen_by, pixels, out), [&](Status status) -> Path {
+        switch (status.code()) {
+        case Status::bad_tolerance:
+          return {"pixels or camera"};
+        case Status::output_too_small:
+          return {"tolerances"};
+        default:
+          return blamed_nets(status, {"nets"});
+        }
+      });
+    });
+  });
+}
+
 simdbezier_status simdbezier_separate_vertices(const simdbezier_topology* topology, uint32_t* nu,
                                                size_t nu_length, uint32_t* nv, size_t nv_length,
                                                size_t* raised) {
@@ -208,6 +234,10 @@ size_t simdbezier_mesh_layout_vertices(const simdbezier_mesh_layout* layout) {
 
 size_t simdbezier_mesh_layout_triangles(const simdbezier_mesh_layout* layout) {
   return layout == nullptr ? 0 : layout->of.size().triangles;
+}
+
+size_t simdbezier_mesh_layout_first_vertex(const simdbezier_mesh_layout* layout, size_t patch) {
+  return layout == nullptr ? 0 : layout->of.first_vertex(patch);
 }
 
 size_t simdbezier_mesh_layout_first_triangle(const simdbezier_mesh_layout* layout, size_t patch) {

@@ -205,12 +205,38 @@ const Case kCases[] = {
        auto bounds = sized<simdbezier_error_bounds_of_patch>();
        return simdbezier_patch_error_bounds(w.set.get(), 2, 0, &bounds);
      }},
-    {SIMDBEZIER_BAD_TOLERANCE, "options->point_size",
+    {SIMDBEZIER_BAD_TOLERANCE, "options->point_size or snap",
      [](World& w) {
        auto options = sized<simdbezier_topology_options>();
        options.point_size = -1;
        simdbezier_topology* topology = nullptr;
        return simdbezier_find_topology(&w.nets, 1, &options, &topology);
+     }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->tolerance",
+     [](World& w) {
+       const auto options = sized<simdbezier_mesh_options>();
+       simdbezier_mesh* mesh = nullptr;
+       return simdbezier_tessellate(&w.nets, 1, SIMDBEZIER_F32, &options, &mesh);
+     }},
+    {SIMDBEZIER_NULL_INPUT, "options",
+     [](World& w) {
+       simdbezier_mesh* mesh = nullptr;
+       return simdbezier_tessellate(&w.nets, 1, SIMDBEZIER_F32, nullptr, &mesh);
+     }},
+    {SIMDBEZIER_NULL_INPUT, "options->camera",
+     [](World& w) {
+       auto options = sized<simdbezier_mesh_options>();
+       options.pixels = 1;
+       simdbezier_mesh* mesh = nullptr;
+       return simdbezier_tessellate(&w.nets, 1, SIMDBEZIER_F32, &options, &mesh);
+     }},
+    {SIMDBEZIER_BAD_GRID, "options->nu or nv",
+     [](World& w) {
+       auto options = sized<simdbezier_mesh_options>();
+       options.nu = 1;
+       options.nv = 2;
+       simdbezier_mesh* mesh = nullptr;
+       return simdbezier_tessellate(&w.nets, 1, SIMDBEZIER_F32, &options, &mesh);
      }},
 };
 

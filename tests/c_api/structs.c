@@ -6,6 +6,7 @@
 #define SIZE(name) printf("struct %s %zu\n", #name, sizeof(struct name))
 
 int main(void) {
+  SIZE(simdbezier_camera);
   SIZE(simdbezier_cluster);
   SIZE(simdbezier_control_curves);
   SIZE(simdbezier_curve_grid);
@@ -17,6 +18,9 @@ int main(void) {
   SIZE(simdbezier_error_bounds_of_patch);
   SIZE(simdbezier_fault);
   SIZE(simdbezier_grid);
+  SIZE(simdbezier_mesh_arrays);
+  SIZE(simdbezier_mesh_options);
+  SIZE(simdbezier_mesh_outputs);
   SIZE(simdbezier_mutable_nets);
   SIZE(simdbezier_nets);
   SIZE(simdbezier_options);

@@ -1,4 +1,5 @@
-// mesh_primitives.hpp: the cells of a mesh as triangles, polygons, strips or clusters.
+// mesh_primitives.hpp, evaluate_mesh.hpp, mesh.hpp: the cells of a mesh as triangles, polygons,
+// strips or clusters; its vertices; all of it in one call.
 #pragma once
 
 #include <simdbezier/c/models.h>
@@ -53,5 +54,92 @@ SIMDBEZIER_API simdbezier_status simdbezier_write_clusters(const simdbezier_mesh
                                                            uint32_t* vertices,
                                                            size_t vertices_length, uint8_t* corners,
                                                            size_t corners_length, int32_t threads);
+
+// MeshOutputs: u as x and v as y of `parameters`.
+typedef struct simdbezier_mesh_outputs {
+  size_t struct_size;
+  simdbezier_vectors position;
+  simdbezier_vectors normal;
+  simdbezier_vectors parameters;
+  uint32_t* patch; // null: not asked for
+  size_t patch_length;
+} simdbezier_mesh_outputs;
+
+// evaluate_mesh(), evaluate_mesh_attributes(): of the patches from first_patch on, all of them
+// where patch_count is 0.
+SIMDBEZIER_API simdbezier_status simdbezier_evaluate_mesh(const simdbezier_patch_set* set,
+                                                          const simdbezier_mesh_layout* layout,
+                                                          const simdbezier_mesh_outputs* out,
+                                                          const simdbezier_options* options,
+                                                          size_t first_patch, size_t patch_count);
+SIMDBEZIER_API simdbezier_status simdbezier_evaluate_mesh_attributes(
+    const simdbezier_patch_set* set, const simdbezier_mesh_layout* layout,
+    const simdbezier_vectors* out, int32_t first_component, const simdbezier_options* options,
+    size_t first_patch, size_t patch_count);
+// split_creases(). split: written on ok only.
+SIMDBEZIER_API simdbezier_status simdbezier_split_creases(const simdbezier_patch_set* set,
+                                                          const simdbezier_mesh_layout* layout,
+                                                          double angle,
+                                                          const simdbezier_options* options,
+                                                          simdbezier_mesh_layout** split);
+
+// MeshOptions. How fine the mesh is has to be said by a tolerance, by pixels or by a grid.
+typedef struct simdbezier_mesh_options {
+  size_t struct_size;
+  double tolerance;          // 0: none, as below
+  double relative_tolerance; // a share of the diagonal of the box of all control points
+  const double* tolerances;  // one a patch, or null
+  size_t tolerances_length;
+  double pixels;
+  const simdbezier_camera* camera; // needed by pixels
+  double longest_edge;
+  double normal_angle;
+  uint32_t nu; // samples of every patch, instead of tolerances
+  uint32_t nv;
+  double point_size;
+  double snap;
+  double crease_angle; // in radians; 0: all normals are merged
+  int32_t unshared;    // not 0: patches share no vertices
+  int32_t orient;
+  int32_t flip;
+  int32_t drop_repeated;
+  int32_t no_normals;
+  int32_t parameters; // not 0: u, v and patch of every vertex
+  int32_t short_indices;
+  int32_t local_origin;
+  int32_t threads;
+  simdbezier_isa isa;
+} simdbezier_mesh_options;
+
+typedef struct simdbezier_mesh simdbezier_mesh;
+
+// What a mesh consists of. The arrays belong to the mesh; those that it has not are null.
+typedef struct simdbezier_mesh_arrays {
+  size_t struct_size;
+  simdbezier_scalar scalar; // of positions, normals and parameters
+  size_t vertices;
+  size_t triangles;
+  const void* positions;         // 3 a vertex
+  const void* normals;           // 3 a vertex
+  const void* parameters;        // 2 a vertex
+  const uint32_t* patches;       // 1 a vertex
+  const uint32_t* indices;       // 3 a triangle
+  const uint16_t* short_indices; // instead of `indices`
+  const double* deviations;      // 1 a patch
+  size_t patches_given;
+  double deviation;
+} simdbezier_mesh_arrays;
+
+// tessellate(): a mesh whose vertices have the type `scalar`. mesh: written on ok only.
+SIMDBEZIER_API simdbezier_status simdbezier_tessellate(const simdbezier_nets* nets, size_t length,
+                                                       simdbezier_scalar scalar,
+                                                       const simdbezier_mesh_options* options,
+                                                       simdbezier_mesh** mesh);
+SIMDBEZIER_API void simdbezier_mesh_free(simdbezier_mesh* mesh);
+SIMDBEZIER_API simdbezier_status simdbezier_mesh_look(const simdbezier_mesh* mesh,
+                                                      simdbezier_mesh_arrays* arrays);
+// TopologyCounts of the mesh's model.
+SIMDBEZIER_API simdbezier_status simdbezier_mesh_count(const simdbezier_mesh* mesh,
+                                                       simdbezier_topology_counts* counts);
 
 SIMDBEZIER_END_C

@@ -35,7 +35,9 @@ typedef struct simdbezier_mesh_layout simdbezier_mesh_layout;
 typedef struct simdbezier_topology_options {
   size_t struct_size;
   double point_size;
+  double snap;
   int32_t orient; // not 0: patches are turned until neighbours agree
+  int32_t flip;   // not 0: all patches are turned, after that
   int32_t threads;
 } simdbezier_topology_options;
 
@@ -50,6 +52,7 @@ typedef struct simdbezier_topology_counts {
   size_t corners;
   size_t repeated_patches;
   size_t turned_edges;
+  size_t snapped_sides;
   int32_t orientable;
 } simdbezier_topology_counts;
 
@@ -75,9 +78,27 @@ typedef struct simdbezier_rate_options {
   const double* errors; // simdbezier_position_errors(), or null
   size_t errors_length;
   double longest_edge;    // 0: no limit
+  double normal_angle;    // 0: no limit
   uint32_t most_segments; // 0: 4096
   int32_t threads;
 } simdbezier_rate_options;
+
+// Camera. Zeros: its usual values.
+typedef struct simdbezier_camera {
+  size_t struct_size;
+  double eye[3];
+  double direction[3]; // all 0: (0, 0, -1)
+  double focal_length; // 0: 1000
+  double width;        // 0: 1920
+  double height;       // 0: 1080
+  double nearest;      // 0: 0.001
+} simdbezier_camera;
+// pixel_tolerances(): one value a patch.
+SIMDBEZIER_API simdbezier_status simdbezier_pixel_tolerances(const simdbezier_nets* nets,
+                                                             size_t length,
+                                                             const simdbezier_camera* camera,
+                                                             double pixels, double* tolerances,
+                                                             size_t tolerances_length);
 
 // CertifiedRates: one value a patch each. diagonals: a patch's cells are cut as PatchRates says.
 typedef struct simdbezier_rates {
@@ -111,10 +132,12 @@ SIMDBEZIER_API simdbezier_status simdbezier_lay_out_mesh(const simdbezier_topolo
                                                          const simdbezier_rates* rates,
                                                          simdbezier_mesh_layout** layout);
 SIMDBEZIER_API void simdbezier_mesh_layout_free(simdbezier_mesh_layout* layout);
-// MeshLayout::size(), first_triangle(); 0 of null.
+// MeshLayout::size(), first_triangle(), first_vertex(); 0 of null.
 SIMDBEZIER_API size_t simdbezier_mesh_layout_vertices(const simdbezier_mesh_layout* layout);
 SIMDBEZIER_API size_t simdbezier_mesh_layout_triangles(const simdbezier_mesh_layout* layout);
 SIMDBEZIER_API size_t simdbezier_mesh_layout_first_triangle(const simdbezier_mesh_layout* layout,
                                                             size_t patch);
+SIMDBEZIER_API size_t simdbezier_mesh_layout_first_vertex(const simdbezier_mesh_layout* layout,
+                                                          size_t patch);
 
 SIMDBEZIER_END_C

@@ -1,0 +1,157 @@
+// Triangles, polygons, strips and clusters of simdbezier.h.
+#include <cstddef>
+
+#include <simdbezier/mesh_primitives.hpp>
+
+#include "src/c_api/handles.hpp"
+
+namespace simdbezier::c_api {
+namespace {
+
+constexpr Path kLayout{"layout"};
+
+// Clusters are written in place.
+static_assert(sizeof(simdbezier_cluster) == sizeof(MeshCluster) &&
+              offsetof(simdbezier_cluster, vertices) == offsetof(MeshCluster, vertices) &&
+              offsetof(simdbezier_cluster, triangles) == offsetof(MeshCluster, triangles) &&
+              offsetof(simdbezier_cluster, patch) == offsetof(MeshCluster, patch));
+
+/// What a status of a writer is about.
+auto about(const char* output) {
+  return [output](Status status) -> Path {
+    switch (status.code()) {
+    case Status::null_output:
+    case Status::output_too_small:
+      return {output};
+    case Status::size_overflow:
+      return kLayout;
+    default:
+      return {};
+    }
+  };
+}
+
+template <typename Index>
+simdbezier_status triangles_of(const char* function, const simdbezier_mesh_layout* layout,
+                               Index* triangles, std::size_t length, int threads) noexcept {
+  return answer(function, [&] {
+    const std::span<Index> out = span_of(triangles, length, {"triangles"});
+    require_ok(write_triangles(object_of(layout, kLayout), out, threads), about("triangles"));
+  });
+}
+
+template <typename Index>
+simdbezier_status polygons_of(const char* function, const simdbezier_mesh_layout* layout,
+                              Index* indices, std::size_t length, std::uint8_t* sizes,
+                              std::size_t sizes_length, int threads) noexcept {
+  return answer(function, [&] {
+    const std::span<Index> out = span_of(indices, length, {"indices"});
+    const std::span<std::uint8_t> of = span_of(sizes, sizes_length, {"sizes"});
+    require_ok(write_polygons(object_of(layout, kLayout), out, of, threads),
+               about("indices or sizes"));
+  });
+}
+
+template <typename Index>
+simdbezier_status strips_of(const char* function, const simdbezier_mesh_layout* layout,
+                            Index* indices, std::size_t length, int threads) noexcept {
+  return answer(function, [&] {
+    const std::span<Index> out = span_of(indices, length, {"indices"});
+    require_ok(write_strips(object_of(layout, kLayout), out, threads), about("indices"));
+  });
+}
+
+void require_number(const std::size_t* number, const char* name) {
+  require(number != nullptr, SIMDBEZIER_NULL_OUTPUT, {name});
+}
+
+} // namespace
+} // namespace simdbezier::c_api
+
+using namespace simdbezier;
+using namespace simdbezier::c_api;
+
+simdbezier_status simdbezier_write_triangles_u32(const simdbezier_mesh_layout* layout,
+                                                 uint32_t* triangles, size_t length,
+                                                 int32_t threads) {
+  return triangles_of(__func__, layout, triangles, length, threads);
+}
+
+simdbezier_status simdbezier_write_triangles_u16(const simdbezier_mesh_layout* layout,
+                                                 uint16_t* triangles, size_t length,
+                                                 int32_t threads) {
+  return triangles_of(__func__, layout, triangles, length, threads);
+}
+
+simdbezier_status simdbezier_polygon_size(const simdbezier_mesh_layout* layout, size_t* polygons,
+                                          size_t* indices, int32_t threads) {
+  return answer(__func__, [&] {
+    require_number(polygons, "polygons");
+    require_number(indices, "indices");
+    PolygonSize size;
+    require_ok(polygon_size(object_of(layout, kLayout), size, threads), about(""));
+    *polygons = size.polygons;
+    *indices = size.indices;
+  });
+}
+
+simdbezier_status simdbezier_write_polygons_u32(const simdbezier_mesh_layout* layout,
+                                                uint32_t* indices, size_t length, uint8_t* sizes,
+                                                size_t sizes_length, int32_t threads) {
+  return polygons_of(__func__, layout, indices, length, sizes, sizes_length, threads);
+}
+
+simdbezier_status simdbezier_write_polygons_u16(const simdbezier_mesh_layout* layout,
+                                                uint16_t* indices, size_t length, uint8_t* sizes,
+                                                size_t sizes_length, int32_t threads) {
+  return polygons_of(__func__, layout, indices, length, sizes, sizes_length, threads);
+}
+
+simdbezier_status simdbezier_strip_size(const simdbezier_mesh_layout* layout, size_t* indices,
+                                        int32_t threads) {
+  return answer(__func__, [&] {
+    require_number(indices, "indices");
+    std::size_t size = 0;
+    require_ok(strip_size(object_of(layout, kLayout), size, threads), about(""));
+    *indices = size;
+  });
+}
+
+simdbezier_status simdbezier_write_strips_u32(const simdbezier_mesh_layout* layout,
+                                              uint32_t* indices, size_t length, int32_t threads) {
+  return strips_of(__func__, layout, indices, length, threads);
+}
+
+simdbezier_status simdbezier_write_strips_u16(const simdbezier_mesh_layout* layout,
+                                              uint16_t* indices, size_t length, int32_t threads) {
+  return strips_of(__func__, layout, indices, length, threads);
+}
+
+simdbezier_status simdbezier_cluster_size(const simdbezier_mesh_layout* layout, size_t* clusters,
+                                          size_t* vertices, size_t* triangles, int32_t threads) {
+  return answer(__func__, [&] {
+    require_number(clusters, "clusters");
+    require_number(vertices, "vertices");
+    require_number(triangles, "triangles");
+    ClusterSize size;
+    require_ok(cluster_size(object_of(layout, kLayout), size, threads), about(""));
+    *clusters = size.clusters;
+    *vertices = size.vertices;
+    *triangles = size.triangles;
+  });
+}
+
+simdbezier_status simdbezier_write_clusters(const simdbezier_mesh_layout* layout,
+                                            simdbezier_cluster* clusters, size_t clusters_length,
+                                            uint32_t* vertices, size_t vertices_length,
+                                            uint8_t* corners, size_t corners_length,
+                                            int32_t threads) {
+  return answer(__func__, [&] {
+    const std::span<simdbezier_cluster> to = span_of(clusters, clusters_length, {"clusters"});
+    const ClusterOutputs out{{reinterpret_cast<MeshCluster*>(to.data()), to.size()},
+                             span_of(vertices, vertices_length, {"vertices"}),
+                             span_of(corners, corners_length, {"corners"})};
+    require_ok(write_clusters(object_of(layout, kLayout), out, threads),
+               about("clusters, vertices or corners"));
+  });
+}
