@@ -1,6 +1,10 @@
 // simdbezier: many Bézier patches at many parameters in one call.
 #pragma once
 
+#if __cplusplus < 202002L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
+#error "simdbezier's C++ headers need C++20 (-std=c++20); <simdbezier.h> is for C and older C++"
+#endif
+
 #include <simdbezier/adjacency.hpp>       // IWYU pragma: export
 #include <simdbezier/bases.hpp>           // IWYU pragma: export
 #include <simdbezier/bounds.hpp>          // IWYU pragma: export

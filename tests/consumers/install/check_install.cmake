@@ -57,6 +57,13 @@ run(${CC} -std=c99 -Wall -Wextra -Wpedantic -Werror ${SOURCE}/../c_consumer/main
 run(${WORK}/c_by_pkg_config)
 expect_teapot_point("${output}")
 
+# An older standard is named as what is wrong.
+execute_process(COMMAND ${CXX} -std=c++17 -fsyntax-only ${SOURCE}/main.cpp ${flags}
+                RESULT_VARIABLE result ERROR_VARIABLE errors OUTPUT_QUIET)
+if(result EQUAL 0 OR NOT errors MATCHES "need C\\+\\+20")
+  message(FATAL_ERROR "C++17: expected the headers to ask for C++20, found ${result}: ${errors}")
+endif()
+
 # The installed program finds the installed library; it is all that is installed to be run.
 file(GLOB programs RELATIVE ${prefix}/bin ${prefix}/bin/*)
 foreach(program IN LISTS programs)
