@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <valarray>
 #include <vector>
 
 #include "tests/properties/accuracy/judge/shape_bounds.hpp"
@@ -86,19 +87,27 @@ private:
   return values;
 }
 
+/// The size of a value in a chain: its own, or, of a linear form in the control values, the largest
+/// that values in [-1,1] can give.
+[[nodiscard]] inline double size_of(double value) { return std::abs(value); }
+[[nodiscard]] inline double size_of(const std::valarray<double>& form) {
+  return std::abs(form).sum();
+}
+
 /// The errors of a chain of multiply-adds c[k] = c[k+1] x + below[k], which starts with c[n] =
 /// below[n]; errors in units of u.
+template <typename Value>
 struct Chain {
-  std::vector<double> value;
+  std::vector<Value> value;
   std::vector<double> error;
 
   [[nodiscard]] Chain next(double x, std::size_t last, bool fma) const {
     Chain chain = *this;
     for (std::size_t k = value.size() - 1; k-- > last;) {
-      const double product = chain.value[k + 1] * x;
+      const Value product = chain.value[k + 1] * x;
       chain.value[k] = product + value[k];
-      chain.error[k] = chain.error[k + 1] * std::abs(x) + error[k] + std::abs(chain.value[k]) +
-                       (fma ? 0 : std::abs(product));
+      chain.error[k] = chain.error[k + 1] * std::abs(x) + error[k] + size_of(chain.value[k]) +
+                       (fma ? 0 : size_of(product));
     }
     return chain;
   }
@@ -106,9 +115,10 @@ struct Chain {
 
 /// The error of the derivative d/dt^order, t over the patch's whole range, by Horner's rule and
 /// `order` synthetic divisions from coefficients without error.
-[[nodiscard]] inline double running_error(const std::vector<double>& coefficients, int order,
-                                          double x, bool fma, double x_per_t) {
-  Chain chain{coefficients, std::vector<double>(coefficients.size(), 0.0)};
+template <typename Value>
+[[nodiscard]] double running_error(const std::vector<Value>& coefficients, int order, double x,
+                                   bool fma, double x_per_t) {
+  Chain<Value> chain{coefficients, std::vector<double>(coefficients.size(), 0.0)};
   double factor = 1;
   for (int division = 0; division <= order; ++division) {
     chain = chain.next(x, static_cast<std::size_t>(order), fma);
@@ -117,35 +127,68 @@ struct Chain {
   return factor * chain.error[static_cast<std::size_t>(order)];
 }
 
+/// What maxima are taken over.
+inline constexpr double kPlaces[] = {-1.0, -0.9, -0.75, -0.5, 0.0, 0.5, 0.75, 0.9, 1.0};
+
+/// How much the coefficient of the power k counts in the derivative of one order, at x = 1.
+[[nodiscard]] inline double power_factor(int k, int order, double x_per_t) {
+  double factor = k < order ? 0 : 1;
+  for (int step = 0; step < order; ++step) {
+    factor *= (k - step) * x_per_t;
+  }
+  return factor;
+}
+
+/// The coefficients as linear forms in the control values of the hodograph of that order.
+[[nodiscard]] inline std::vector<std::valarray<double>> coefficient_forms(int degree, int order) {
+  const CentredBasis basis(degree);
+  const auto count = static_cast<std::size_t>(degree + 1 - order);
+  std::vector<std::valarray<double>> forms(static_cast<std::size_t>(degree) + 1,
+                                           std::valarray<double>(0.0, count));
+  for (std::size_t i = 0; i < count; ++i) {
+    std::vector<double> unit(count, 0.0);
+    unit[i] = 1;
+    const std::vector<double> a = basis.coefficients(integrated(unit, order));
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      forms[k][i] = a[k];
+    }
+  }
+  return forms;
+}
+
 /// All that shape_bounds.hpp tabulates of one degree, for the derivative of one order.
 [[nodiscard]] inline DirectionError largest_direction_error(int degree, int order) {
   const CentredBasis basis(degree);
   const double x_per_t = is_cut(degree) ? 4 : 2;
-  const std::size_t count = static_cast<std::size_t>(degree + 1 - order);
+  const auto count = static_cast<std::size_t>(degree + 1 - order);
   DirectionError largest;
-  std::vector<double> norms(static_cast<std::size_t>(degree) + 1, 0.0);
+  const std::vector<std::valarray<double>> forms = coefficient_forms(degree, order);
+  for (int k = order; k <= degree; ++k) {
+    largest.coefficients +=
+        power_factor(k, order, x_per_t) * size_of(forms[static_cast<std::size_t>(k)]);
+  }
+  for (const double x : kPlaces) {
+    largest.apart_fused =
+        std::max(largest.apart_fused, running_error(forms, order, x, true, x_per_t));
+    largest.apart_rounded_twice =
+        std::max(largest.apart_rounded_twice, running_error(forms, order, x, false, x_per_t));
+  }
   for (std::size_t bits = 0; bits < std::size_t{1} << (count - 1); ++bits) {
     std::vector<double> signs(count);
     for (std::size_t k = 0; k < count; ++k) {
       signs[k] = ((bits >> k) & 1) != 0 ? -1 : 1;
     }
     const std::vector<double> a = basis.coefficients(integrated(signs, order));
-    for (std::size_t k = 0; k < a.size(); ++k) {
-      norms[k] = std::max(norms[k], std::abs(a[k]));
+    double together = 0;
+    for (int k = order; k <= degree; ++k) {
+      together += power_factor(k, order, x_per_t) * std::abs(a[static_cast<std::size_t>(k)]);
     }
-    for (const double x : {-1.0, -0.9, -0.75, -0.5, 0.0, 0.5, 0.75, 0.9, 1.0}) {
+    largest.together = std::max(largest.together, together);
+    for (const double x : kPlaces) {
       largest.fused = std::max(largest.fused, running_error(a, order, x, true, x_per_t));
       largest.rounded_twice =
           std::max(largest.rounded_twice, running_error(a, order, x, false, x_per_t));
     }
-  }
-  // Each coefficient at its own worst control values: in two directions they are not independent.
-  for (int k = order; k <= degree; ++k) {
-    double factor = 1;
-    for (int step = 0; step < order; ++step) {
-      factor *= (k - step) * x_per_t;
-    }
-    largest.coefficients += factor * norms[static_cast<std::size_t>(k)];
   }
   return largest;
 }

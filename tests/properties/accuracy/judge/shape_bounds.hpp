@@ -1,17 +1,20 @@
 // The error bounds of patches of any degrees, in units of the unit roundoff u.
 //
-// K(m,n) = S S' + R S' + R' + L + L', the first of each pair in u, the primed one in v:
-//   S  sum over the powers of the largest coefficient that control values in [-1,1] can give: each
-//      coefficient carries one rounding;
-//   R  the largest sum of the roundings of Horner's rule: rows in u, whose own control values are
-//      coefficients in v (hence R S'), then the column in v;
+// K(m,n) = min(S J', J S') + min(R S', Q J') + R' + L + L', the plain ones in u, the primed ones in
+// v, all maxima over control values in [-1,1]:
+//   S  sum over the powers of the largest coefficient: each coefficient carries one rounding;
+//   J  the largest sum of the coefficients, all powers at once;
+//   R  the largest sum of the roundings of Horner's rule;
+//   Q  sum over its steps of the largest rounding of each;
 //   L  degree/2 where the direction is cut in two: its local parameter is rounded once, which moves
 //      the sample by u/4 of the patch at the most, at the speed of the hodograph.
-// Derivatives: the same with S and R of synthetic division, per unit of the hodograph's control
-// values; second ones per unit of the second hodograph's. Bicubic patches have tighter bounds,
+// docs/accuracy.md has the proof.
+// Derivatives: the same of synthetic division, per unit of the hodograph's control values;
+// second ones per unit of the second hodograph's. Bicubic patches have tighter bounds,
 // maximised over all nets at once (bounds.hpp). shape_bounds_test.cpp computes the table anew.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -24,58 +27,64 @@ inline constexpr int kFirstCutDegree = 6;
 [[nodiscard]] constexpr bool is_cut(int degree) { return degree >= kFirstCutDegree; }
 
 struct DirectionError {
-  double coefficients = 0;  ///< S
-  double fused = 0;         ///< R, one rounding a multiply-add
-  double rounded_twice = 0; ///< R, two of them
+  double coefficients = 0;        ///< S
+  double together = 0;            ///< J
+  double fused = 0;               ///< R, one rounding a multiply-add
+  double rounded_twice = 0;       ///< R, two of them
+  double apart_fused = 0;         ///< Q, one rounding a multiply-add
+  double apart_rounded_twice = 0; ///< Q, two of them
   [[nodiscard]] constexpr double steps(bool fma) const { return fma ? fused : rounded_twice; }
+  [[nodiscard]] constexpr double steps_apart(bool fma) const {
+    return fma ? apart_fused : apart_rounded_twice;
+  }
 };
 
 /// [order of the derivative][degree - 1], rounded up.
-inline constexpr DirectionError kDirectionErrors[3][15] = {{{2, 1, 2},
-                                                            {3, 2.5, 4.5},
-                                                            {5, 4, 7},
-                                                            {6.5, 5.38, 10.2},
-                                                            {10.8, 6.75, 12.9},
-                                                            {4.24, 4.21, 7.42},
-                                                            {4.92, 4.82, 8.63},
-                                                            {5.78, 5.51, 10.1},
-                                                            {6.75, 6.24, 11.5},
-                                                            {7.92, 7.03, 13.1},
-                                                            {9.33, 7.71, 14.5},
-                                                            {10.7, 8.61, 16.3},
-                                                            {12.2, 9.74, 18.5},
-                                                            {14.5, 10.8, 20.6},
-                                                            {16.7, 11.7, 22.3}},
-                                                           {{1, 0, 0},
-                                                            {2, 2, 2.5},
-                                                            {3, 3.34, 5.34},
-                                                            {5, 5, 8},
-                                                            {6.5, 6.6, 11.4},
-                                                            {3.63, 4.64, 7.27},
-                                                            {4.24, 5.25, 8.46},
-                                                            {4.92, 5.86, 9.68},
-                                                            {5.78, 6.64, 11.2},
-                                                            {6.75, 7.37, 12.6},
-                                                            {7.92, 8.19, 14.3},
-                                                            {9.33, 9.05, 15.8},
-                                                            {10.7, 10.2, 17.9},
-                                                            {12.2, 11.3, 20.1},
-                                                            {14.5, 12.3, 22.2}},
-                                                           {{0, 0, 0},
-                                                            {1, 0, 0},
-                                                            {2, 3, 3},
-                                                            {3, 4.34, 6.34},
-                                                            {5, 6.5, 9.5},
-                                                            {2.85, 5.04, 7.08},
-                                                            {3.63, 5.81, 8.44},
-                                                            {4.24, 6.56, 9.75},
-                                                            {4.92, 7.33, 11.2},
-                                                            {5.78, 8.13, 12.7},
-                                                            {6.75, 8.95, 14.3},
-                                                            {7.92, 10.1, 16.2},
-                                                            {9.33, 11.1, 18.1},
-                                                            {10.7, 12.3, 20.3},
-                                                            {12.2, 13.6, 22.7}}};
+inline constexpr DirectionError kDirectionErrors[3][15] = {{{2, 1, 1, 2, 1, 2},
+                                                            {3, 2, 2.5, 4.5, 2.5, 5},
+                                                            {5, 2.5, 4, 7, 4.25, 8.5},
+                                                            {6.5, 4, 5.38, 10.2, 7, 14},
+                                                            {10.8, 4.75, 6.75, 12.9, 9.57, 19.2},
+                                                            {4.24, 2.29, 4.21, 7.42, 5.46, 9.94},
+                                                            {4.92, 2.48, 4.82, 8.63, 6.53, 12.1},
+                                                            {5.78, 2.97, 5.51, 10.1, 7.67, 14.4},
+                                                            {6.75, 3.31, 6.24, 11.5, 8.93, 16.9},
+                                                            {7.92, 3.86, 7.03, 13.1, 10.5, 20},
+                                                            {9.33, 4.33, 7.71, 14.5, 12.2, 23.4},
+                                                            {10.7, 5.24, 8.61, 16.3, 14.1, 27.2},
+                                                            {12.2, 5.94, 9.74, 18.5, 16, 31},
+                                                            {14.5, 6.65, 10.8, 20.6, 18.3, 35.5},
+                                                            {16.7, 7.9, 11.7, 22.3, 21.1, 41.2}},
+                                                           {{1, 1, 0, 0, 0, 0},
+                                                            {2, 1, 2, 2.5, 2, 3},
+                                                            {3, 2, 3.34, 5.34, 4.17, 6.67},
+                                                            {5, 2.5, 5, 8, 6.57, 11},
+                                                            {6.5, 4, 6.6, 11.4, 10.1, 17.3},
+                                                            {3.63, 2.06, 4.64, 7.27, 6.6, 10.1},
+                                                            {4.24, 2.29, 5.25, 8.46, 7.88, 12.4},
+                                                            {4.92, 2.48, 5.86, 9.68, 9.11, 14.7},
+                                                            {5.78, 2.97, 6.64, 11.2, 10.7, 17.5},
+                                                            {6.75, 3.31, 7.37, 12.6, 12.6, 20.9},
+                                                            {7.92, 3.86, 8.19, 14.3, 14.4, 24.3},
+                                                            {9.33, 4.33, 9.05, 15.8, 16.4, 28},
+                                                            {10.7, 5.24, 10.2, 17.9, 18.6, 32},
+                                                            {12.2, 5.94, 11.3, 20.1, 21.1, 36.8},
+                                                            {14.5, 6.65, 12.3, 22.2, 24.2, 42.6}},
+                                                           {{0, 0, 0, 0, 0, 0},
+                                                            {1, 1, 0, 0, 0, 0},
+                                                            {2, 1, 3, 3, 3, 4},
+                                                            {3, 2, 4.34, 6.34, 5.84, 8.34},
+                                                            {5, 2.5, 6.5, 9.5, 8.95, 13.4},
+                                                            {2.85, 1.74, 5.04, 7.08, 7.4, 10.1},
+                                                            {3.63, 2.06, 5.81, 8.44, 8.77, 12.3},
+                                                            {4.24, 2.29, 6.56, 9.75, 10.4, 14.9},
+                                                            {4.92, 2.48, 7.33, 11.2, 12, 17.7},
+                                                            {5.78, 2.97, 8.13, 12.7, 13.8, 20.7},
+                                                            {6.75, 3.31, 8.95, 14.3, 16, 24.4},
+                                                            {7.92, 3.86, 10.1, 16.2, 17.9, 27.9},
+                                                            {9.33, 4.33, 11.1, 18.1, 20.3, 32.1},
+                                                            {10.7, 5.24, 12.3, 20.3, 23.4, 37.4},
+                                                            {12.2, 5.94, 13.6, 22.7, 26.6, 42.9}}};
 
 [[nodiscard]] constexpr const DirectionError& direction_error(int degree, int order) {
   return kDirectionErrors[order][degree - 1];
@@ -94,8 +103,10 @@ inline constexpr DirectionError kDirectionErrors[3][15] = {{{2, 1, 2},
   }
   const DirectionError& u = direction_error(degree_u, order_u);
   const DirectionError& v = direction_error(degree_v, order_v);
-  return (u.coefficients + u.steps(fma)) * v.coefficients + v.steps(fma) +
-         local_parameter_error(degree_u, order_u) + local_parameter_error(degree_v, order_v);
+  const double coefficients = std::min(u.coefficients * v.together, u.together * v.coefficients);
+  const double rows = std::min(u.steps(fma) * v.coefficients, u.steps_apart(fma) * v.together);
+  return coefficients + rows + v.steps(fma) + local_parameter_error(degree_u, order_u) +
+         local_parameter_error(degree_v, order_v);
 }
 
 /// What the library promises for polynomial patches of these degrees.
