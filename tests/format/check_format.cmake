@@ -5,7 +5,7 @@ if(NOT clang_format)
   return()
 endif()
 set(files)
-foreach(folder include kernels src tools bench examples tests)
+foreach(folder include kernels src tools bench examples python tests)
   file(GLOB_RECURSE more RELATIVE ${SOURCE} ${SOURCE}/${folder}/*.cpp ${SOURCE}/${folder}/*.hpp
        ${SOURCE}/${folder}/*.c ${SOURCE}/${folder}/*.h)
   list(APPEND files ${more})

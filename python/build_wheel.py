@@ -1,0 +1,100 @@
+"""Builds the wheel of the Python module: a backend of PEP 517 that runs CMake.
+
+It needs nothing but Python's own library, so that `pip install .` works without a network. The
+library is linked statically: the wheel needs a C++ and an OpenMP runtime of the system, no more.
+
+    CMAKE_ARGS="-DSIMDBEZIER_ISAS=avx2" pip install .      passes arguments to CMake
+"""
+import base64
+import hashlib
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import tempfile
+import zipfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def version():
+    header = (ROOT / 'include/simdbezier/version.hpp').read_text()
+    return '.'.join(re.search(rf'VERSION_{part} (\d+)', header).group(1)
+                    for part in ('MAJOR', 'MINOR', 'PATCH'))
+
+
+def metadata():
+    project = (ROOT / 'pyproject.toml').read_text()
+    description = re.search(r'^description = "(.*)"$', project, re.M).group(1)
+    python = re.search(r'^requires-python = "(.*)"$', project, re.M).group(1)
+    return (f'Metadata-Version: 2.1\nName: simdbezier\nVersion: {version()}\n'
+            f'Summary: {description}\nLicense: MIT\nRequires-Python: {python}\n'
+            'Requires-Dist: numpy\nDescription-Content-Type: text/markdown\n\n'
+            f'{(ROOT / "README.md").read_text()}')
+
+
+def tag():
+    platform = re.sub(r'[-.]', '_', sysconfig.get_platform())
+    python = f'cp{sys.version_info.major}{sys.version_info.minor}'
+    return f'{python}-{python}-{platform}'
+
+
+def run(*command):
+    print('+', shlex.join(map(str, command)), flush=True)
+    subprocess.run([str(word) for word in command], check=True)
+
+
+def install_package(build, prefix):
+    """Configures, builds and installs the module, and nothing else, below a prefix."""
+    run('cmake', '-S', ROOT, '-B', build, '-DCMAKE_BUILD_TYPE=Release', '-DBUILD_SHARED_LIBS=OFF',
+        '-DSIMDBEZIER_BUILD_PYTHON=ON', '-DSIMDBEZIER_BUILD_TOOLS=OFF',
+        f'-DPython_EXECUTABLE={sys.executable}', '-DSIMDBEZIER_PYTHON_DIR=.',
+        *shlex.split(os.environ.get('CMAKE_ARGS', '')))
+    run('cmake', '--build', build, '--target', 'simdbezier_python', '--parallel',
+        os.cpu_count() or 1)
+    run('cmake', '--install', build, '--prefix', prefix, '--component', 'python', '--strip')
+
+
+def record_line(name, data):
+    digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()
+    return f'{name},sha256={digest},{len(data)}\n'
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    """The hook that pip calls; returns the wheel's name."""
+    info = f'simdbezier-{version()}.dist-info'
+    name = f'simdbezier-{version()}-{tag()}.whl'
+    with tempfile.TemporaryDirectory() as scratch:
+        build = pathlib.Path(os.environ.get('SIMDBEZIER_WHEEL_BUILD', f'{scratch}/build'))
+        prefix = pathlib.Path(scratch, 'prefix')
+        install_package(build, prefix)
+        files = {path.relative_to(prefix).as_posix(): path.read_bytes()
+                 for path in sorted(prefix.rglob('*')) if path.is_file()}
+    files[f'{info}/METADATA'] = metadata().encode()
+    files[f'{info}/LICENSE'] = (ROOT / 'LICENSE').read_bytes()
+    files[f'{info}/WHEEL'] = (f'Wheel-Version: 1.0\nGenerator: simdbezier {version()}\n'
+                              f'Root-Is-Purelib: false\nTag: {tag()}\n').encode()
+    record = ''.join(record_line(path, data) for path, data in files.items())
+    files[f'{info}/RECORD'] = f'{record}{info}/RECORD,,\n'.encode()
+    with zipfile.ZipFile(pathlib.Path(wheel_directory, name), 'w', zipfile.ZIP_DEFLATED) as wheel:
+        for path, data in files.items():
+            entry = zipfile.ZipInfo(path)
+            entry.external_attr = (0o755 if path.endswith('.so') else 0o644) << 16
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            wheel.writestr(entry, data)
+    return name
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    """The hook for source archives: what git knows."""
+    name = f'simdbezier-{version()}'
+    listed = subprocess.run(['git', '-C', ROOT, 'ls-files', '-z'], check=True,
+                            stdout=subprocess.PIPE).stdout.decode().split('\0')
+    with tarfile.open(pathlib.Path(sdist_directory, f'{name}.tar.gz'), 'w:gz') as archive:
+        for path in filter(None, listed):
+            archive.add(ROOT / path, f'{name}/{path}')
+    return f'{name}.tar.gz'

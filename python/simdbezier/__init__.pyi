@@ -1,0 +1,157 @@
+from os import PathLike
+from typing import Any, Iterable, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+__version__: str
+
+# Control points (patches, rows, columns, components), or several such arrays where degrees differ.
+_Nets = Union[ArrayLike, Sequence[NDArray[Any]]]
+_Names = Union[str, Iterable[str]]
+_Arrays = dict[str, NDArray[Any]]
+_Out = Optional[dict[str, NDArray[Any]]]
+# Control points, or with weights a pair of points and weights.
+_Points = Any
+
+class PatchIndexError(IndexError, ValueError): ...
+
+class PatchSet:
+    def __init__(
+        self,
+        points: _Nets,
+        weights: Optional[_Nets] = None,
+        dtype: Optional[DTypeLike] = None,
+        *,
+        local_origin: bool = False,
+        relative_to: Optional[ArrayLike] = None,
+        threads: int = 0,
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    @property
+    def components(self) -> int: ...
+    @property
+    def dtype(self) -> np.dtype[Any]: ...
+    def degrees(self, patch: int) -> tuple[int, int]: ...
+    def is_rational(self, patch: int) -> bool: ...
+    def evaluate_grid(
+        self,
+        nu: int,
+        nv: int,
+        outputs: _Names = ('position',),
+        out: _Out = None,
+        threads: int = 0,
+    ) -> _Arrays: ...
+    def evaluate(
+        self,
+        patch: Union[int, ArrayLike],
+        u: ArrayLike,
+        v: ArrayLike,
+        outputs: _Names = ('position',),
+        out: _Out = None,
+        threads: int = 0,
+    ) -> _Arrays: ...
+    def error_bounds(self, patch: int) -> dict[str, NDArray[np.float64]]: ...
+
+class CurveSet:
+    def __init__(
+        self,
+        points: ArrayLike,
+        weights: Optional[ArrayLike] = None,
+        dtype: Optional[DTypeLike] = None,
+        *,
+        local_origin: bool = False,
+        relative_to: Optional[ArrayLike] = None,
+        threads: int = 0,
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    @property
+    def degree(self) -> int: ...
+    @property
+    def components(self) -> int: ...
+    @property
+    def rational(self) -> bool: ...
+    @property
+    def dtype(self) -> np.dtype[Any]: ...
+    def evaluate_grid(
+        self, n: int, outputs: _Names = ('position',), out: _Out = None, threads: int = 0
+    ) -> _Arrays: ...
+    def evaluate(
+        self,
+        curve: Union[int, ArrayLike],
+        t: ArrayLike,
+        outputs: _Names = ('position',),
+        out: _Out = None,
+        threads: int = 0,
+    ) -> _Arrays: ...
+    def error_bounds(self, curve: int) -> dict[str, NDArray[np.float64]]: ...
+
+class Mesh:
+    @property
+    def positions(self) -> NDArray[Any]: ...
+    @property
+    def normals(self) -> Optional[NDArray[Any]]: ...
+    @property
+    def parameters(self) -> Optional[NDArray[Any]]: ...
+    @property
+    def patches(self) -> Optional[NDArray[np.uint32]]: ...
+    @property
+    def triangles(self) -> NDArray[np.uint32]: ...
+    @property
+    def deviation(self) -> float: ...
+    @property
+    def deviations(self) -> NDArray[np.float64]: ...
+    def save(self, path: Union[str, PathLike[str]]) -> None: ...
+
+def tessellate(
+    points: _Nets,
+    tolerance: Union[None, float, ArrayLike] = None,
+    weights: Optional[_Nets] = None,
+    *,
+    relative: Optional[float] = None,
+    grid: Union[None, int, tuple[int, int]] = None,
+    crease: Optional[float] = None,
+    normals: bool = True,
+    parameters: bool = False,
+    orient: bool = False,
+    flip: bool = False,
+    snap: float = 0.0,
+    point_size: float = 0.0,
+    drop_repeated: bool = False,
+    longest_edge: Optional[float] = None,
+    dtype: Optional[DTypeLike] = None,
+    threads: int = 0,
+) -> Mesh: ...
+def available_isas() -> list[str]: ...
+def elevate(
+    points: ArrayLike, degree_u: int, degree_v: int, weights: Optional[ArrayLike] = None
+) -> _Points: ...
+def reverse_u(points: ArrayLike, weights: Optional[ArrayLike] = None) -> _Points: ...
+def reverse_v(points: ArrayLike, weights: Optional[ArrayLike] = None) -> _Points: ...
+def transpose(points: ArrayLike, weights: Optional[ArrayLike] = None) -> _Points: ...
+def hodograph_u(points: ArrayLike) -> NDArray[Any]: ...
+def hodograph_v(points: ArrayLike) -> NDArray[Any]: ...
+def split_u(
+    points: ArrayLike, u: float = 0.5, weights: Optional[ArrayLike] = None
+) -> tuple[_Points, _Points]: ...
+def split_v(
+    points: ArrayLike, v: float = 0.5, weights: Optional[ArrayLike] = None
+) -> tuple[_Points, _Points]: ...
+def split(
+    points: ArrayLike, u: float = 0.5, v: float = 0.5, weights: Optional[ArrayLike] = None
+) -> tuple[_Points, _Points, _Points, _Points]: ...
+def segment(
+    points: ArrayLike,
+    u0: float,
+    u1: float,
+    v0: float,
+    v1: float,
+    weights: Optional[ArrayLike] = None,
+) -> _Points: ...
+def control_boxes(
+    points: ArrayLike, weights: Optional[ArrayLike] = None
+) -> tuple[NDArray[Any], NDArray[Any]]: ...
+def tight_boxes(
+    points: ArrayLike, levels: int = 2, weights: Optional[ArrayLike] = None
+) -> tuple[NDArray[Any], NDArray[Any]]: ...
+def flatness(points: ArrayLike, weights: Optional[ArrayLike] = None) -> NDArray[Any]: ...

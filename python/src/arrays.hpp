@@ -1,0 +1,90 @@
+// numpy's arrays as the library's views: control points, parameters, outputs. Nothing is copied
+// that lies in memory as floats or doubles, whatever its strides.
+#pragma once
+
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <simdbezier/control_curves.hpp>
+#include <simdbezier/control_nets.hpp>
+
+#include "python/src/errors.hpp"
+
+namespace simdbezier::python {
+
+template <typename T>
+[[nodiscard]] std::string scalar_name() {
+  return std::is_same_v<T, float> ? "float32" : "float64";
+}
+
+/// "float64", "int32", …
+[[nodiscard]] std::string dtype_name(const py::array& array);
+
+/// Whether an array holds T as this machine has it.
+template <typename T>
+[[nodiscard]] bool holds(const py::array& array) {
+  return py::isinstance<py::array_t<T>>(array);
+}
+
+/// An array of float or double with this many dimensions: the object itself where it is one, else
+/// numpy's copy of it (lists, integers).
+[[nodiscard]] py::array float_array(const py::object& values, py::ssize_t dimensions,
+                                    const std::string& argument);
+
+/// Strides in elements. Copies an array first that has others, or has elements in common.
+[[nodiscard]] std::vector<std::ptrdiff_t> element_strides(py::array& array);
+
+/// The type that a set is to have: `dtype`, or else that of the points.
+[[nodiscard]] bool wants_float(const py::object& dtype, bool points_are_float);
+
+/// Control nets of one type S, and the arrays that they are views of.
+template <typename S, template <typename> class View>
+struct PointViews {
+  std::vector<View<S>> views;
+  std::vector<py::array> arrays;
+};
+template <template <typename> class View>
+using AnyPointViews = std::variant<PointViews<float, View>, PointViews<double, View>>;
+
+/// Points (patches, rows, columns, components), or a list of such arrays for patches of several
+/// degrees; weights (patches, rows, columns) likewise, or None.
+[[nodiscard]] AnyPointViews<ControlNets> control_nets(const py::object& points,
+                                                      const py::object& weights);
+/// Points (curves, points, components) and weights (curves, points).
+[[nodiscard]] AnyPointViews<ControlCurves> control_curves(const py::object& points,
+                                                          const py::object& weights);
+
+/// `values` as a contiguous array of V with one dimension; the object itself where it is one.
+template <typename V>
+[[nodiscard]] py::array_t<V> contiguous(const py::object& values, const std::string& argument) {
+  auto array = py::array_t<V, py::array::c_style | py::array::forcecast>::ensure(values);
+  if (!array) {
+    throw py::error_already_set();
+  }
+  if (array.ndim() > 1) {
+    throw_value_error(argument, "expected one dimension, found " + std::to_string(array.ndim()));
+  }
+  return array;
+}
+
+template <typename V>
+[[nodiscard]] std::span<const V> span_of(const py::array_t<V>& array) {
+  return {array.data(), static_cast<std::size_t>(array.size())};
+}
+
+/// Numbers of patches or curves: any integers, none negative.
+[[nodiscard]] py::array_t<std::uint32_t> indices(const py::object& values, std::size_t count,
+                                                 const std::string& argument);
+
+/// `count` parameters of single samples.
+template <typename T>
+[[nodiscard]] py::array_t<T> parameters(const py::object& values, const std::string& argument) {
+  const py::array any = float_array(values, -1, argument);
+  return contiguous<T>(any, argument);
+}
+
+} // namespace simdbezier::python

@@ -1,0 +1,178 @@
+// CurveSet: packed curves, evaluated into numpy's arrays.
+#include <simdbezier/curves.hpp>
+#include <simdbezier/error_bounds.hpp>
+
+#include "python/src/module.hpp"
+#include "python/src/outputs.hpp"
+
+namespace simdbezier::python {
+namespace {
+
+const OutputNames kOutputs{{"position", "d1", "d2", "tangent"}, {"curvature"}};
+
+class PyCurveSet {
+public:
+  PyCurveSet(const py::object& points, const py::object& weights, const py::object& dtype,
+             bool local_origin, const py::object& relative_to, int threads) {
+    const AnyPointViews<ControlCurves> any = control_curves(points, weights);
+    const PackOptions options = pack_options(local_origin, relative_to, threads);
+    const bool is_float = wants_float(dtype, any.index() == 0);
+    std::visit(
+        [&]<typename S>(const PointViews<S, ControlCurves>& curves) {
+          is_float ? pack_as<float>(curves.views.front(), options)
+                   : pack_as<double>(curves.views.front(), options);
+        },
+        any);
+  }
+
+  [[nodiscard]] std::size_t size() const {
+    return std::visit([](const auto& set) { return set.size(); }, set_);
+  }
+  [[nodiscard]] int degree() const {
+    return std::visit([](const auto& set) { return set.degree(); }, set_);
+  }
+  [[nodiscard]] int components() const {
+    return std::visit([](const auto& set) { return set.components(); }, set_);
+  }
+  [[nodiscard]] bool rational() const {
+    return std::visit([](const auto& set) { return set.rational(); }, set_);
+  }
+  [[nodiscard]] py::dtype dtype() const {
+    return set_.index() == 0 ? py::dtype::of<float>() : py::dtype::of<double>();
+  }
+
+  [[nodiscard]] py::dict evaluate_grid(const py::object& n, const py::object& outputs,
+                                       const py::object& out, int threads) const {
+    const std::size_t count = integer(n, 2, "n");
+    return std::visit(
+        [&]<typename T>(const CurveSet<T>& set) {
+          const CurveGrid<T> grid = CurveGrid<T>::uniform(count);
+          require_addressable(sample_count(set, grid), set.components(), "n");
+          return evaluate_at(
+              set, grid, {static_cast<py::ssize_t>(set.size()), static_cast<py::ssize_t>(count)},
+              outputs, out, threads);
+        },
+        set_);
+  }
+
+  [[nodiscard]] py::dict evaluate(const py::object& curve, const py::object& t,
+                                  const py::object& outputs, const py::object& out,
+                                  int threads) const {
+    return std::visit(
+        [&]<typename T>(const CurveSet<T>& set) {
+          const py::array_t<T> ts = parameters<T>(t, "t");
+          const py::array_t<std::uint32_t> curves =
+              indices(curve, static_cast<std::size_t>(ts.size()), "curve");
+          if (curves.size() != ts.size()) {
+            throw_value_error("curve", "expected " + std::to_string(ts.size()) +
+                                           " values, as many as t, found " +
+                                           std::to_string(curves.size()));
+          }
+          return evaluate_at(set, CurveSamples<T>{span_of(curves), span_of(ts)}, {ts.size()},
+                             outputs, out, threads);
+        },
+        set_);
+  }
+
+  [[nodiscard]] py::dict error_bounds(const py::object& curve) const {
+    const std::size_t index = integer(curve, 0, "curve");
+    if (index >= size()) {
+      throw_index_error("curve", "the set has " + plural(size(), "curve", "curves"));
+    }
+    const CurveErrorBounds bounds =
+        std::visit([&](const auto& set) { return simdbezier::error_bounds(set, index); }, set_);
+    py::dict result;
+    result["position"] = bounds_of(bounds.position, components());
+    result["d1"] = bounds_of(bounds.d1, components());
+    result["d2"] = bounds_of(bounds.d2, components());
+    return result;
+  }
+
+  [[nodiscard]] std::string text() const {
+    return "<simdbezier.CurveSet: " + plural(size(), "curve", "curves") + " of degree " +
+           std::to_string(degree()) + (rational() ? ", rational" : "") + ", " +
+           plural(static_cast<std::size_t>(components()), "component", "components") + ", " +
+           py::str(py::object(dtype())).cast<std::string>() + ">";
+  }
+
+private:
+  template <typename T, typename S>
+  void pack_as(const ControlCurves<S>& curves, const PackOptions& options) {
+    CurveSet<T> packed;
+    PackReport report;
+    {
+      const py::gil_scoped_release release;
+      report = pack(curves, packed, options);
+    }
+    require_ok(report, "points");
+    set_ = std::move(packed);
+  }
+
+  template <typename T, typename Where>
+  static py::dict evaluate_at(const CurveSet<T>& set, const Where& where,
+                              const std::vector<py::ssize_t>& samples, const py::object& outputs,
+                              const py::object& out, int threads) {
+    const int components = set.components();
+    for (const std::string& name : wanted_outputs(kOutputs, outputs, out)) {
+      if (components != 2 && components != 3 && (name == "tangent" || name == "curvature")) {
+        throw_value_error("outputs", "'" + name + "' needs two or three components, the set has " +
+                                         std::to_string(components));
+      }
+    }
+    const OutputArrays<T> arrays(kOutputs, outputs, out, samples, components);
+    Options options;
+    options.threads = threads;
+    Status status;
+    for_each_three(components, [&](int first, int count) {
+      if (!status || (first > 0 && !arrays.any_vector(kOutputs))) {
+        return;
+      }
+      CurveOutputs<T> to;
+      for (std::size_t k = 0; k < kCurveVectorOutputs; ++k) {
+        to[static_cast<CurveOutput>(k)] = arrays.vectors(kOutputs.vectors[k], first, count);
+      }
+      to.curvature = arrays.values("curvature");
+      to.status = arrays.status();
+      to.first_component = first;
+      const py::gil_scoped_release release;
+      status = simdbezier::evaluate(set, where, to, options);
+    });
+    require_ok(status, status == Status::bad_patch_index ? "curve" : "out");
+    return arrays.result();
+  }
+
+  std::variant<CurveSet<float>, CurveSet<double>> set_;
+};
+
+} // namespace
+
+void add_curve_set(py::module_& module) {
+  const py::tuple position = py::make_tuple("position");
+  py::class_<PyCurveSet>(module, "CurveSet",
+                         "Bezier curves of one degree, packed to be evaluated many times. "
+                         "Immutable.")
+      .def(py::init<const py::object&, const py::object&, const py::object&, bool,
+                    const py::object&, int>(),
+           py::arg("points"), py::arg("weights") = py::none(), py::arg("dtype") = py::none(),
+           py::kw_only(), py::arg("local_origin") = false, py::arg("relative_to") = py::none(),
+           py::arg("threads") = 0)
+      .def("__len__", &PyCurveSet::size)
+      .def("__repr__", &PyCurveSet::text)
+      .def_property_readonly("degree", &PyCurveSet::degree, "The degree of every curve.")
+      .def_property_readonly("components", &PyCurveSet::components, "Components of every point.")
+      .def_property_readonly("rational", &PyCurveSet::rational, "Whether curves have weights.")
+      .def_property_readonly("dtype", &PyCurveSet::dtype, "The type of all results.")
+      .def("evaluate_grid", &PyCurveSet::evaluate_grid, py::arg("n"), py::arg("outputs") = position,
+           py::arg("out") = py::none(), py::arg("threads") = 0,
+           "Every curve at n uniform parameters, ends included: a dict of arrays (curves, n, "
+           "components). Arrays in `out` are written to, whatever their strides, and returned.")
+      .def("evaluate", &PyCurveSet::evaluate, py::arg("curve"), py::arg("t"),
+           py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
+           "Single samples in any order: a dict of arrays (samples, components). `curve` is one "
+           "number for all of them, or one each.")
+      .def("error_bounds", &PyCurveSet::error_bounds, py::arg("curve"),
+           "Certified bounds on |computed - exact| of every component: a dict with position, d1 "
+           "and d2.");
+}
+
+} // namespace simdbezier::python

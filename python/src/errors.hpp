@@ -1,0 +1,29 @@
+// Statuses as Python's exceptions, whose text begins with the argument at fault.
+#pragma once
+
+#include <string>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <simdbezier/patch_set.hpp>
+#include <simdbezier/status.hpp>
+
+namespace simdbezier::python {
+
+namespace py = pybind11;
+
+[[noreturn]] void throw_value_error(const std::string& argument, const std::string& fault);
+[[noreturn]] void throw_type_error(const std::string& argument, const std::string& fault);
+/// An index outside of a set: an IndexError that is a ValueError as well.
+[[noreturn]] void throw_index_error(const std::string& argument, const std::string& fault);
+
+/// Throws where the status is not ok: MemoryError, or ValueError about the argument.
+void require_ok(Status status, const std::string& argument);
+/// The same, with the control point at fault.
+void require_ok(const PackReport& report, const std::string& points);
+
+/// Makes the exception that throw_index_error() throws part of the module.
+void add_errors(py::module_& module);
+
+} // namespace simdbezier::python

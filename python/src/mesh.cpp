@@ -1,0 +1,230 @@
+// tessellate() and Mesh: the mesh's own memory as numpy's arrays, and mesh files.
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include <simdbezier/mesh.hpp>
+
+#include "python/src/mesh_files.hpp"
+#include "python/src/module.hpp"
+
+namespace simdbezier::python {
+namespace {
+
+class PyMesh {
+public:
+  template <typename T>
+  explicit PyMesh(Mesh<T>&& mesh) : mesh_(std::move(mesh)) {}
+
+  template <typename Ask>
+  [[nodiscard]] auto ask(Ask question) const {
+    return std::visit(question, mesh_);
+  }
+
+  void save(const py::object& path) const {
+    const auto name = py::module_::import("os").attr("fsdecode")(path).cast<std::string>();
+    const py::gil_scoped_release release;
+    ask([&](const auto& mesh) { save_mesh(mesh, name); });
+  }
+
+  [[nodiscard]] std::string text() const {
+    return ask([]<typename T>(const Mesh<T>& mesh) {
+      char deviation[32];
+      std::snprintf(deviation, sizeof deviation, "%.3g", mesh.deviation);
+      return "<simdbezier.Mesh: " + plural(mesh.positions.size(), "vertex", "vertices") + ", " +
+             plural(mesh.triangles.size(), "triangle", "triangles") + ", within " + deviation +
+             " of the surface, " + scalar_name<T>() + ">";
+    });
+  }
+
+private:
+  std::variant<Mesh<float>, Mesh<double>> mesh_;
+};
+
+/// A view of a mesh's vector, which keeps the mesh.
+template <typename V, std::size_t N>
+py::object rows(const std::vector<std::array<V, N>>& values, const py::object& mesh) {
+  return py::array_t<V>({static_cast<py::ssize_t>(values.size()), static_cast<py::ssize_t>(N)},
+                        values.empty() ? nullptr : values.front().data(), mesh);
+}
+
+/// The same, or None where the mesh has none.
+template <typename V, std::size_t N>
+py::object rows_or_none(const std::vector<std::array<V, N>>& values, const py::object& mesh) {
+  return values.empty() ? py::object(py::none()) : rows(values, mesh);
+}
+
+/// A property of PyMesh: read(mesh, self).
+template <typename Read>
+auto property(Read read) {
+  return [read](const py::object& self) -> py::object {
+    return self.cast<const PyMesh&>().ask(
+        [&](const auto& mesh) -> py::object { return read(mesh, self); });
+  };
+}
+
+double number(const py::object& value, const char* argument) {
+  if (value.is_none()) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double found = PyFloat_AsDouble(value.ptr());
+  if (found == -1.0 && PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    throw_type_error(argument, "expected a number, found " + py::repr(value).cast<std::string>());
+  }
+  return found;
+}
+
+/// One tolerance, or one a patch.
+void set_tolerance(const py::object& tolerance, py::array_t<double>& several,
+                   MeshOptions& options) {
+  if (py::isinstance<py::sequence>(tolerance) || py::isinstance<py::array>(tolerance)) {
+    several = parameters<double>(tolerance, "tolerance");
+    options.tolerances = span_of(several);
+  } else {
+    options.tolerance = number(tolerance, "tolerance");
+  }
+}
+
+/// n, or (nu, nv) samples.
+void set_grid(const py::object& grid, MeshOptions& options) {
+  if (grid.is_none()) {
+    return;
+  }
+  const bool pair = py::isinstance<py::sequence>(grid);
+  if (pair && py::len(grid) != 2) {
+    throw_value_error("grid", "expected one number, or two");
+  }
+  const auto samples = [&](int k) {
+    const py::object value = pair ? py::object(grid[py::int_(k)]) : grid;
+    const std::size_t count = integer(value, 2, "grid");
+    if (count > kMostSegments + 1) {
+      throw_value_error("grid", "expected at most " + std::to_string(kMostSegments + 1));
+    }
+    return static_cast<std::uint32_t>(count);
+  };
+  options.nu = samples(0);
+  options.nv = samples(1);
+}
+
+std::string blamed(Status status, const MeshOptions& options) {
+  switch (status.code()) {
+  case Status::bad_tolerance:
+    return std::isfinite(options.relative_tolerance) ? "relative" : "tolerance";
+  case Status::bad_grid:
+    return "grid";
+  case Status::bad_rates:
+    return "tolerance";
+  case Status::not_orientable:
+    return "orient";
+  case Status::bad_weight:
+    return "weights";
+  default:
+    return "points";
+  }
+}
+
+template <typename T, typename S>
+PyMesh tessellated(const PointViews<S, ControlNets>& nets, const MeshOptions& options) {
+  Mesh<T> mesh;
+  {
+    const py::gil_scoped_release release;
+    mesh = simdbezier::tessellate<T>(std::span<const ControlNets<S>>(nets.views), options);
+  }
+  if (!mesh && mesh.fault_patch > 0) {
+    throw_value_error(blamed(mesh.status, options), std::string(to_string(mesh.status)) +
+                                                        " (patch " +
+                                                        std::to_string(mesh.fault_patch) + ")");
+  }
+  require_ok(mesh.status, blamed(mesh.status, options));
+  return PyMesh(std::move(mesh));
+}
+
+PyMesh tessellate_points(const py::object& points, const py::object& tolerance,
+                         const py::object& weights, const py::object& relative,
+                         const py::object& grid, const py::object& crease, bool normals,
+                         bool parameters, bool orient, bool flip, double snap, double point_size,
+                         bool drop_repeated, const py::object& longest_edge,
+                         const py::object& dtype, int threads) {
+  const AnyPointViews<ControlNets> any = control_nets(points, weights);
+  MeshOptions options;
+  py::array_t<double> tolerances;
+  set_tolerance(tolerance, tolerances, options);
+  options.relative_tolerance = number(relative, "relative");
+  set_grid(grid, options);
+  options.crease_angle = number(crease, "crease") * std::numbers::pi / 180;
+  options.longest_edge = number(longest_edge, "longest_edge");
+  options.normals = normals;
+  options.parameters = parameters;
+  options.orient = orient;
+  options.flip = flip;
+  options.snap = snap;
+  options.point_size = point_size;
+  options.drop_repeated = drop_repeated;
+  options.threads = threads;
+  if (tolerance.is_none() && relative.is_none() && grid.is_none()) {
+    throw_type_error("tolerance", "how fine the mesh is has to be said by tolerance, relative or "
+                                  "grid");
+  }
+  const bool is_float = wants_float(dtype, any.index() == 0);
+  return std::visit(
+      [&](const auto& nets) {
+        return is_float ? tessellated<float>(nets, options) : tessellated<double>(nets, options);
+      },
+      any);
+}
+
+} // namespace
+
+void add_mesh(py::module_& module) {
+  py::class_<PyMesh>(module, "Mesh", "A closed mesh of triangles. Its arrays are its own memory.")
+      .def("__repr__", &PyMesh::text)
+      .def_property_readonly("positions", property([](const auto& mesh, const py::object& self) {
+                               return rows(mesh.positions, self);
+                             }),
+                             "(vertices, 3)")
+      .def_property_readonly("normals", property([](const auto& mesh, const py::object& self) {
+                               return rows_or_none(mesh.normals, self);
+                             }),
+                             "(vertices, 3), or None")
+      .def_property_readonly("parameters", property([](const auto& mesh, const py::object& self) {
+                               return rows_or_none(mesh.parameters, self);
+                             }),
+                             "u, v of every vertex on its patch: (vertices, 2), or None")
+      .def_property_readonly(
+          "patches", property([](const auto& mesh, const py::object& self) -> py::object {
+            if (mesh.patches.empty()) {
+              return py::none();
+            }
+            return py::array_t<std::uint32_t>(static_cast<py::ssize_t>(mesh.patches.size()),
+                                              mesh.patches.data(), self);
+          }),
+          "The patch of every vertex: (vertices,), or None")
+      .def_property_readonly("triangles", property([](const auto& mesh, const py::object& self) {
+                               return rows(mesh.triangles, self);
+                             }),
+                             "(triangles, 3), counter-clockwise about the normals")
+      .def_property_readonly("deviation", property([](const auto& mesh, const py::object&) {
+                               return py::float_(mesh.deviation);
+                             }),
+                             "The mesh is certified to be this close to the surface.")
+      .def_property_readonly("deviations", property([](const auto& mesh, const py::object& self) {
+                               return py::array_t<double>(
+                                   static_cast<py::ssize_t>(mesh.deviations.size()),
+                                   mesh.deviations.data(), self);
+                             }),
+                             "The same for single patches: (patches,)")
+      .def("save", &PyMesh::save, py::arg("path"),
+           "Writes a file of the format that its name ends in: .obj, .ply, .stl or .glb.");
+  module.def("tessellate", &tessellate_points, py::arg("points"), py::arg("tolerance") = py::none(),
+             py::arg("weights") = py::none(), py::kw_only(), py::arg("relative") = py::none(),
+             py::arg("grid") = py::none(), py::arg("crease") = py::none(),
+             py::arg("normals") = true, py::arg("parameters") = false, py::arg("orient") = false,
+             py::arg("flip") = false, py::arg("snap") = 0.0, py::arg("point_size") = 0.0,
+             py::arg("drop_repeated") = false, py::arg("longest_edge") = py::none(),
+             py::arg("dtype") = py::none(), py::arg("threads") = 0,
+             "A closed mesh of all patches, within a tolerance of their surface.");
+}
+
+} // namespace simdbezier::python

@@ -1,0 +1,256 @@
+// Operations on control nets: arrays (patches, rows, columns, components) in and out.
+#include <array>
+
+#include <simdbezier/bases.hpp>
+#include <simdbezier/bounds.hpp>
+#include <simdbezier/nets.hpp>
+
+#include "python/src/module.hpp"
+
+namespace simdbezier::python {
+namespace {
+
+/// The nets of an operation, which takes those of one shape.
+template <typename S>
+const ControlNets<S>& only_one(const PointViews<S, ControlNets>& nets) {
+  if (nets.views.size() != 1) {
+    throw_value_error("points", "expected one array");
+  }
+  return nets.views.front();
+}
+
+/// A new array for nets like these, but of other degrees.
+template <typename S>
+py::array_t<S> room_for(const ControlNets<S>& like, int degree_u, int degree_v) {
+  const int values = like.components + (like.weights == Weights::none ? 0 : 1);
+  return py::array_t<S>(std::vector<py::ssize_t>{static_cast<py::ssize_t>(like.count), degree_v + 1,
+                                                 degree_u + 1, values});
+}
+
+template <typename S>
+MutableNets<S> view_of(py::array_t<S>& array, const ControlNets<S>& like) {
+  return MutableNets<S>::packed(
+      array.mutable_data(), like.count, static_cast<int>(array.shape(2) - 1),
+      static_cast<int>(array.shape(1) - 1), like.components, like.weights);
+}
+
+/// The points, and with weights a pair of them and the weights: views of one array.
+template <typename S>
+py::object given_back(const py::array_t<S>& array, const ControlNets<S>& like) {
+  if (like.weights == Weights::none) {
+    return array;
+  }
+  const py::ellipsis all;
+  const py::slice points(py::none(), py::int_(-1), py::none());
+  const py::object whole = array;
+  return py::make_tuple(whole[py::make_tuple(all, points)],
+                        whole[py::make_tuple(all, py::int_(-1))]);
+}
+
+/// What an operation makes of nets: `degrees(nets)` says what the degrees of `count` results are,
+/// call(nets, outputs) runs it.
+template <std::size_t N, typename Degrees, typename Call>
+py::object operate(const py::object& points, const py::object& weights, Degrees degrees,
+                   Call call) {
+  const AnyPointViews<ControlNets> any = control_nets(points, weights);
+  return std::visit(
+      [&]<typename S>(const PointViews<S, ControlNets>& nets) -> py::object {
+        const ControlNets<S>& in = only_one(nets);
+        const auto [degree_u, degree_v] = degrees(in);
+        std::array<py::array_t<S>, N> arrays;
+        std::array<MutableNets<S>, N> out;
+        for (std::size_t k = 0; k < N; ++k) {
+          arrays[k] = room_for(in, degree_u, degree_v);
+          out[k] = view_of(arrays[k], in);
+        }
+        NetReport report;
+        {
+          const py::gil_scoped_release release;
+          report = call(in, out);
+        }
+        require_ok(report, "points");
+        if constexpr (N == 1) {
+          return given_back(arrays[0], in);
+        } else {
+          py::tuple results(N);
+          for (std::size_t k = 0; k < N; ++k) {
+            results[k] = given_back(arrays[k], in);
+          }
+          return results;
+        }
+      },
+      any);
+}
+
+// Degrees of results.
+const auto kSame = [](const auto& nets) { return std::pair(nets.degree_u, nets.degree_v); };
+const auto kSwapped = [](const auto& nets) { return std::pair(nets.degree_v, nets.degree_u); };
+int lowered(int degree) { return degree > 1 ? degree - 1 : 1; }
+
+#define SIMDBEZIER_OPERATION(function, degrees)                                                    \
+  [](const py::object& given, const py::object& given_weights) {                                   \
+    return operate<1>(given, given_weights, degrees, [](const auto& nets, const auto& out) {       \
+      return simdbezier::function(nets, out[0]);                                                   \
+    });                                                                                            \
+  }
+
+py::object elevated(const py::object& points, const py::object& degree_u,
+                    const py::object& degree_v, const py::object& weights) {
+  const auto u = static_cast<int>(std::min<std::size_t>(integer(degree_u, 1, "degree_u"), 99));
+  const auto v = static_cast<int>(std::min<std::size_t>(integer(degree_v, 1, "degree_v"), 99));
+  const auto degrees = [&](const auto& nets) {
+    const auto check = [](int wanted, int found, const char* argument) {
+      if (wanted < found || wanted > kMostDegree) {
+        throw_value_error(argument, "expected " + std::to_string(found) + " to " +
+                                        std::to_string(kMostDegree) + ", found " +
+                                        std::to_string(wanted));
+      }
+    };
+    check(u, nets.degree_u, "degree_u");
+    check(v, nets.degree_v, "degree_v");
+    return std::pair(u, v);
+  };
+  return operate<1>(points, weights, degrees, [](const auto& nets, const auto& out) {
+    return simdbezier::elevate(nets, out[0]);
+  });
+}
+
+py::object split_in_u(const py::object& points, double u, const py::object& weights) {
+  return operate<2>(points, weights, kSame,
+                    [&]<typename S>(const ControlNets<S>& nets, const auto& out) {
+                      return split_u(nets, static_cast<S>(u), out[0], out[1]);
+                    });
+}
+
+py::object split_in_v(const py::object& points, double v, const py::object& weights) {
+  return operate<2>(points, weights, kSame,
+                    [&]<typename S>(const ControlNets<S>& nets, const auto& out) {
+                      return split_v(nets, static_cast<S>(v), out[0], out[1]);
+                    });
+}
+
+py::object split_in_four(const py::object& points, double u, double v, const py::object& weights) {
+  return operate<4>(points, weights, kSame,
+                    [&]<typename S>(const ControlNets<S>& nets, const auto& out) {
+                      return split(nets, static_cast<S>(u), static_cast<S>(v), out);
+                    });
+}
+
+py::object segment_of(const py::object& points, double u0, double u1, double v0, double v1,
+                      const py::object& weights) {
+  return operate<1>(points, weights, kSame,
+                    [&]<typename S>(const ControlNets<S>& nets, const auto& out) {
+                      const SubPatch<S> piece{static_cast<S>(u0), static_cast<S>(u1),
+                                              static_cast<S>(v0), static_cast<S>(v1)};
+                      return segment(nets, piece, out[0]);
+                    });
+}
+
+/// Boxes: (low, high), each (patches, components).
+template <typename Call>
+py::object boxes(const py::object& points, const py::object& weights, Call call) {
+  const AnyPointViews<ControlNets> any = control_nets(points, weights);
+  return std::visit(
+      [&]<typename S>(const PointViews<S, ControlNets>& nets) -> py::object {
+        const ControlNets<S>& in = only_one(nets);
+        const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(in.count), in.components};
+        py::array_t<S> low(shape);
+        py::array_t<S> high(shape);
+        const Boxes<S> out{low.mutable_data(), high.mutable_data()};
+        NetReport report;
+        {
+          const py::gil_scoped_release release;
+          report = call(in, out);
+        }
+        require_ok(report, "points");
+        return py::make_tuple(low, high);
+      },
+      any);
+}
+
+py::object tight_boxes_of(const py::object& points, const py::object& levels,
+                          const py::object& weights) {
+  const std::size_t depth = integer(levels, 0, "levels");
+  if (depth > kMostBoxLevels) {
+    throw_value_error("levels", "expected 0 to " + std::to_string(kMostBoxLevels));
+  }
+  return boxes(points, weights, [&](const auto& nets, const auto& out) {
+    return tight_boxes(nets, static_cast<int>(depth), out);
+  });
+}
+
+py::object flatness_of(const py::object& points, const py::object& weights) {
+  const AnyPointViews<ControlNets> any = control_nets(points, weights);
+  return std::visit(
+      [&]<typename S>(const PointViews<S, ControlNets>& nets) -> py::object {
+        const ControlNets<S>& in = only_one(nets);
+        py::array_t<S> values(static_cast<py::ssize_t>(in.count));
+        const Values<S> out(values.mutable_data());
+        NetReport report;
+        {
+          const py::gil_scoped_release release;
+          report = flatness(in, out);
+        }
+        require_ok(report, "points");
+        return values;
+      },
+      any);
+}
+
+} // namespace
+
+void add_nets(py::module_& module) {
+  const auto points = py::arg("points");
+  const auto weights = py::arg("weights") = py::none();
+  module.def("elevate", &elevated, points, py::arg("degree_u"), py::arg("degree_v"), weights,
+             "The same patches with higher degrees.");
+  module.def("reverse_u", SIMDBEZIER_OPERATION(reverse_u, kSame), points, weights,
+             "The same surfaces, run through backwards in u.");
+  module.def("reverse_v", SIMDBEZIER_OPERATION(reverse_v, kSame), points, weights,
+             "The same surfaces, run through backwards in v.");
+  module.def("transpose", SIMDBEZIER_OPERATION(transpose, kSwapped), points, weights,
+             "The same surfaces with u and v exchanged.");
+  const auto lower_u = [](const auto& nets) {
+    return std::pair(lowered(nets.degree_u), nets.degree_v);
+  };
+  const auto lower_v = [](const auto& nets) {
+    return std::pair(nets.degree_u, lowered(nets.degree_v));
+  };
+  module.def(
+      "hodograph_u",
+      [lower_u](const py::object& p) {
+        return operate<1>(p, py::none(), lower_u, [](const auto& nets, const auto& out) {
+          return hodograph_u(nets, out[0]);
+        });
+      },
+      points, "Control points of dS/du.");
+  module.def(
+      "hodograph_v",
+      [lower_v](const py::object& p) {
+        return operate<1>(p, py::none(), lower_v, [](const auto& nets, const auto& out) {
+          return hodograph_v(nets, out[0]);
+        });
+      },
+      points, "Control points of dS/dv.");
+  module.def("split_u", &split_in_u, points, py::arg("u") = 0.5, weights,
+             "Cuts every patch at u: (low, high).");
+  module.def("split_v", &split_in_v, points, py::arg("v") = 0.5, weights,
+             "Cuts every patch at v: (low, high).");
+  module.def("split", &split_in_four, points, py::arg("u") = 0.5, py::arg("v") = 0.5, weights,
+             "Cuts every patch in four: element 2 * (v half) + (u half).");
+  module.def("segment", &segment_of, points, py::arg("u0"), py::arg("u1"), py::arg("v0"),
+             py::arg("v1"), weights, "The piece of every patch over [u0, u1] x [v0, v1].");
+  module.def(
+      "control_boxes",
+      [](const py::object& p, const py::object& w) {
+        return boxes(p, w,
+                     [](const auto& nets, const auto& out) { return control_boxes(nets, out); });
+      },
+      points, weights, "Boxes of the control points: (low, high).");
+  module.def("tight_boxes", &tight_boxes_of, points, py::arg("levels") = 2, weights,
+             "Certified boxes of the surfaces: (low, high).");
+  module.def("flatness", &flatness_of, points, weights,
+             "Certified distances from the bilinear patches of the corners.");
+}
+
+} // namespace simdbezier::python

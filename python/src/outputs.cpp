@@ -1,0 +1,171 @@
+// See outputs.hpp.
+#include "python/src/outputs.hpp"
+
+#include <cstdint>
+#include <limits>
+
+#include <pybind11/stl.h>
+
+namespace simdbezier::python {
+namespace {
+
+std::string all_names(const OutputNames& known) {
+  std::string text;
+  for (const auto* const list : {&known.vectors, &known.values}) {
+    for (const std::string& name : *list) {
+      text += name + ", ";
+    }
+  }
+  return text + "status";
+}
+
+class Wanted {
+public:
+  explicit Wanted(const OutputNames& known) : known_(known) {}
+
+  void add(const py::handle& given, const char* argument) {
+    if (!py::isinstance<py::str>(given)) {
+      throw_type_error(argument, "expected names, found " + py::repr(given).cast<std::string>());
+    }
+    const auto name = given.cast<std::string>();
+    if (!known_.is_vector(name) && !known_.is_value(name) && name != "status") {
+      throw_value_error(argument, "'" + name + "' is none of " + all_names(known_));
+    }
+    if (std::find(names_.begin(), names_.end(), name) == names_.end()) {
+      names_.push_back(name);
+    }
+  }
+  [[nodiscard]] std::vector<std::string> names() const {
+    const bool only_status = names_.size() == 1 && names_.front() == "status";
+    if (names_.empty() || only_status) {
+      throw_value_error("outputs", "expected at least one of " + all_names(known_));
+    }
+    return names_;
+  }
+
+private:
+  const OutputNames& known_;
+  std::vector<std::string> names_;
+};
+
+std::string shape_text(const std::vector<py::ssize_t>& shape) {
+  return py::repr(py::tuple(py::cast(shape))).cast<std::string>();
+}
+
+/// From the first byte of an array to behind its last.
+std::pair<std::uintptr_t, std::uintptr_t> extent(const py::array& array) {
+  auto low = reinterpret_cast<std::uintptr_t>(array.data());
+  std::uintptr_t high = low + static_cast<std::uintptr_t>(array.itemsize());
+  for (py::ssize_t k = 0; k < array.ndim(); ++k) {
+    const py::ssize_t reach = (array.shape(k) - 1) * array.strides(k);
+    (reach < 0 ? low : high) += static_cast<std::uintptr_t>(reach);
+  }
+  return {low, high};
+}
+
+} // namespace
+
+void require_addressable(std::size_t samples, int components, const std::string& argument) {
+  const std::size_t bytes = static_cast<std::size_t>(components) * sizeof(double);
+  if (samples > static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max()) / bytes) {
+    throw_value_error(argument, "the samples exceed what memory can address");
+  }
+}
+
+std::vector<std::string> wanted_outputs(const OutputNames& known, const py::object& outputs,
+                                        const py::object& out) {
+  Wanted wanted(known);
+  if (py::isinstance<py::str>(outputs)) {
+    wanted.add(outputs, "outputs");
+  } else if (py::isinstance<py::iterable>(outputs)) {
+    for (const py::handle name : outputs) {
+      wanted.add(name, "outputs");
+    }
+  } else if (!outputs.is_none()) {
+    throw_type_error("outputs", "expected names, found " + py::repr(outputs).cast<std::string>());
+  }
+  if (!out.is_none()) {
+    if (!py::isinstance<py::dict>(out)) {
+      throw_type_error("out", "expected a dict of arrays, found " +
+                                  py::str(py::type::of(out)).cast<std::string>());
+    }
+    for (const auto& item : py::reinterpret_borrow<py::dict>(out)) {
+      wanted.add(item.first, "out");
+    }
+  }
+  return wanted.names();
+}
+
+py::array output_array(const std::string& name, const py::object& out, const py::dtype& dtype,
+                       const std::vector<py::ssize_t>& shape) {
+  const py::str key(name);
+  if (out.is_none() || !py::reinterpret_borrow<py::dict>(out).contains(key)) {
+    return py::array(dtype, shape);
+  }
+  const std::string argument = "out['" + name + "']";
+  const py::object given = out[key];
+  if (!py::isinstance<py::array>(given)) {
+    throw_type_error(argument, "expected a numpy array, found " +
+                                   py::str(py::type::of(given)).cast<std::string>());
+  }
+  const auto array = py::reinterpret_borrow<py::array>(given);
+  if (!array.dtype().equal(dtype)) {
+    throw_type_error(argument, "expected " + py::str(py::object(dtype)).cast<std::string>() +
+                                   ", found " + dtype_name(array));
+  }
+  const std::vector<py::ssize_t> found(array.shape(), array.shape() + array.ndim());
+  if (found != shape) {
+    throw_value_error(argument,
+                      "expected shape " + shape_text(shape) + ", found " + shape_text(found));
+  }
+  if (!array.writeable()) {
+    throw_value_error(argument, "is read-only");
+  }
+  for (py::ssize_t k = 0; k < array.ndim(); ++k) {
+    if (array.shape(k) > 1 && array.strides(k) % array.itemsize() != 0) {
+      throw_value_error(argument, "its strides are no multiples of its items");
+    }
+  }
+  return array;
+}
+
+std::ptrdiff_t sample_stride(const py::array& array, std::size_t samples,
+                             const std::string& argument) {
+  std::ptrdiff_t stride = 0; // of the last dimension that has more than one sample
+  std::ptrdiff_t next = 0;   // what that of the one before has to be
+  for (auto k = static_cast<py::ssize_t>(samples) - 1; k >= 0; --k) {
+    if (array.shape(k) <= 1) {
+      continue;
+    }
+    if (stride == 0) {
+      stride = array.strides(k);
+    } else if (array.strides(k) != next) {
+      throw_value_error(argument, "its samples have to be evenly spaced: the next row begins where "
+                                  "the last one ends");
+    }
+    next = array.strides(k) * array.shape(k);
+  }
+  const py::ssize_t last = array.ndim() - 1;
+  const bool vectors = array.ndim() > static_cast<py::ssize_t>(samples);
+  return stride == 0 ? (vectors ? array.shape(last) : 1) : stride / array.itemsize();
+}
+
+void refuse_overlaps(const std::vector<std::pair<std::string, py::array>>& arrays) {
+  for (std::size_t i = 0; i < arrays.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto [low, high] = extent(arrays[i].second);
+      const auto [other_low, other_high] = extent(arrays[j].second);
+      const bool empty = arrays[i].second.size() == 0 || arrays[j].second.size() == 0;
+      // Members of one vertex lie between each other, and share nothing.
+      if (!empty && low < other_high && other_low < high &&
+          py::module_::import("numpy")
+              .attr("shares_memory")(arrays[i].second, arrays[j].second)
+              .cast<bool>()) {
+        throw_value_error("out['" + arrays[i].first + "']",
+                          "overlaps out['" + arrays[j].first + "']");
+      }
+    }
+  }
+}
+
+} // namespace simdbezier::python

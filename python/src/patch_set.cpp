@@ -1,0 +1,204 @@
+// PatchSet: packed patches, evaluated into numpy's arrays.
+#include <simdbezier/error_bounds.hpp>
+#include <simdbezier/evaluate.hpp>
+
+#include "python/src/module.hpp"
+#include "python/src/outputs.hpp"
+
+namespace simdbezier::python {
+namespace {
+
+const OutputNames kOutputs{{"position", "du", "dv", "duu", "duv", "dvv", "normal"},
+                           {"gaussian", "mean", "minimum", "maximum"}};
+
+class PyPatchSet {
+public:
+  PyPatchSet(const py::object& points, const py::object& weights, const py::object& dtype,
+             bool local_origin, const py::object& relative_to, int threads) {
+    const AnyPointViews<ControlNets> any = control_nets(points, weights);
+    const PackOptions options = pack_options(local_origin, relative_to, threads);
+    const bool is_float = wants_float(dtype, any.index() == 0);
+    std::visit(
+        [&]<typename S>(const PointViews<S, ControlNets>& nets) {
+          is_float ? pack_as<float>(nets, options) : pack_as<double>(nets, options);
+        },
+        any);
+  }
+
+  [[nodiscard]] std::size_t size() const {
+    return std::visit([](const auto& set) { return set.size(); }, set_);
+  }
+  [[nodiscard]] int components() const {
+    return std::visit([](const auto& set) { return set.components(); }, set_);
+  }
+  [[nodiscard]] py::dtype dtype() const {
+    return set_.index() == 0 ? py::dtype::of<float>() : py::dtype::of<double>();
+  }
+  [[nodiscard]] PatchShape shape(const py::object& patch) const {
+    const std::size_t index = integer(patch, 0, "patch");
+    if (index >= size()) {
+      throw_index_error("patch", "the set has " + plural(size(), "patch", "patches"));
+    }
+    return std::visit([&](const auto& set) { return set.shape(index); }, set_);
+  }
+
+  [[nodiscard]] py::dict evaluate_grid(const py::object& nu, const py::object& nv,
+                                       const py::object& outputs, const py::object& out,
+                                       int threads) const {
+    const std::size_t columns = integer(nu, 2, "nu");
+    const std::size_t rows = integer(nv, 2, "nv");
+    return std::visit(
+        [&]<typename T>(const PatchSet<T>& set) {
+          const Grid<T> grid = Grid<T>::uniform(columns, rows);
+          require_addressable(sample_count(set, grid), set.components(), "nu or nv");
+          return evaluate_at(set, grid,
+                             {static_cast<py::ssize_t>(set.size()), static_cast<py::ssize_t>(rows),
+                              static_cast<py::ssize_t>(columns)},
+                             outputs, out, threads);
+        },
+        set_);
+  }
+
+  [[nodiscard]] py::dict evaluate(const py::object& patch, const py::object& u, const py::object& v,
+                                  const py::object& outputs, const py::object& out,
+                                  int threads) const {
+    return std::visit(
+        [&]<typename T>(const PatchSet<T>& set) {
+          const py::array_t<T> us = parameters<T>(u, "u");
+          const py::array_t<T> vs = parameters<T>(v, "v");
+          const auto count = static_cast<std::size_t>(us.size());
+          const py::array_t<std::uint32_t> patches = indices(patch, count, "patch");
+          require_length("v", vs.size(), us.size());
+          require_length("patch", patches.size(), us.size());
+          const Samples<T> samples{span_of(patches), span_of(us), span_of(vs)};
+          return evaluate_at(set, samples, {us.size()}, outputs, out, threads);
+        },
+        set_);
+  }
+
+  [[nodiscard]] py::dict error_bounds(const py::object& patch) const {
+    const PatchShape of = shape(patch);
+    const std::size_t index = integer(patch, 0, "patch");
+    const ErrorBounds bounds =
+        std::visit([&](const auto& set) { return simdbezier::error_bounds(set, index); }, set_);
+    py::dict result;
+    result["position"] = bounds_of(bounds.position, of.components);
+    result["du"] = bounds_of(bounds.du, of.components);
+    result["dv"] = bounds_of(bounds.dv, of.components);
+    return result;
+  }
+
+  [[nodiscard]] std::string text() const {
+    const std::size_t count = size();
+    std::string degrees;
+    if (count > 0) {
+      const PatchShape first = shape(py::int_(0));
+      bool same = true;
+      for (std::size_t k = 1; same && k < count; ++k) {
+        same = shape(py::int_(k)) == first;
+      }
+      degrees = same ? " of degree " + std::to_string(first.degree_u) + " x " +
+                           std::to_string(first.degree_v) + (first.rational ? ", rational" : "")
+                     : " of several shapes";
+    }
+    return "<simdbezier.PatchSet: " + plural(count, "patch", "patches") + degrees + ", " +
+           plural(static_cast<std::size_t>(components()), "component", "components") + ", " +
+           py::str(py::object(dtype())).cast<std::string>() + ">";
+  }
+
+private:
+  template <typename T, typename S>
+  void pack_as(const PointViews<S, ControlNets>& nets, const PackOptions& options) {
+    PatchSet<T> packed;
+    PackReport report;
+    {
+      const py::gil_scoped_release release;
+      report = pack(std::span<const ControlNets<S>>(nets.views), packed, options);
+    }
+    require_ok(report, "points");
+    set_ = std::move(packed);
+  }
+
+  static void require_length(const std::string& argument, py::ssize_t found, py::ssize_t expected) {
+    if (found != expected) {
+      throw_value_error(argument, "expected " + std::to_string(expected) +
+                                      " values, as many as u, found " + std::to_string(found));
+    }
+  }
+
+  template <typename T, typename Where>
+  static py::dict evaluate_at(const PatchSet<T>& set, const Where& where,
+                              const std::vector<py::ssize_t>& samples, const py::object& outputs,
+                              const py::object& out, int threads) {
+    for (const std::string& name : wanted_outputs(kOutputs, outputs, out)) {
+      if (set.components() != 3 && (name == "normal" || kOutputs.is_value(name))) {
+        throw_value_error("outputs", "'" + name + "' needs three components, the set has " +
+                                         std::to_string(set.components()));
+      }
+    }
+    const OutputArrays<T> arrays(kOutputs, outputs, out, samples, set.components());
+    Options options;
+    options.threads = threads;
+    Status status;
+    for_each_three(set.components(), [&](int first, int count) {
+      if (!status || (first > 0 && !arrays.any_vector(kOutputs))) {
+        return;
+      }
+      Outputs<T> to;
+      for (std::size_t k = 0; k < kVectorOutputs; ++k) {
+        to[static_cast<Output>(k)] = arrays.vectors(kOutputs.vectors[k], first, count);
+      }
+      to.curvature = {arrays.values("gaussian"), arrays.values("mean"), arrays.values("minimum"),
+                      arrays.values("maximum")};
+      to.status = arrays.status();
+      to.first_component = first;
+      const py::gil_scoped_release release;
+      status = simdbezier::evaluate(set, where, to, options);
+    });
+    require_ok(status, status == Status::bad_patch_index ? "patch" : "out");
+    return arrays.result();
+  }
+
+  std::variant<PatchSet<float>, PatchSet<double>> set_;
+};
+
+} // namespace
+
+void add_patch_set(py::module_& module) {
+  const py::tuple position = py::make_tuple("position");
+  py::class_<PyPatchSet>(module, "PatchSet",
+                         "Bezier patches, packed to be evaluated many times. Immutable.")
+      .def(py::init<const py::object&, const py::object&, const py::object&, bool,
+                    const py::object&, int>(),
+           py::arg("points"), py::arg("weights") = py::none(), py::arg("dtype") = py::none(),
+           py::kw_only(), py::arg("local_origin") = false, py::arg("relative_to") = py::none(),
+           py::arg("threads") = 0)
+      .def("__len__", &PyPatchSet::size)
+      .def("__repr__", &PyPatchSet::text)
+      .def_property_readonly("components", &PyPatchSet::components, "Components of every point.")
+      .def_property_readonly("dtype", &PyPatchSet::dtype, "The type of all results.")
+      .def(
+          "degrees",
+          [](const PyPatchSet& set, const py::object& patch) {
+            const PatchShape shape = set.shape(patch);
+            return py::make_tuple(shape.degree_u, shape.degree_v);
+          },
+          py::arg("patch"), "Degrees of one patch: (along a row, across rows).")
+      .def(
+          "is_rational",
+          [](const PyPatchSet& set, const py::object& patch) { return set.shape(patch).rational; },
+          py::arg("patch"), "Whether one patch has weights.")
+      .def("evaluate_grid", &PyPatchSet::evaluate_grid, py::arg("nu"), py::arg("nv"),
+           py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
+           "Every patch on a uniform grid, ends included: a dict of arrays (patches, nv, nu, "
+           "components). Arrays in `out` are written to, whatever their strides, and returned.")
+      .def("evaluate", &PyPatchSet::evaluate, py::arg("patch"), py::arg("u"), py::arg("v"),
+           py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
+           "Single samples in any order: a dict of arrays (samples, components). `patch` is one "
+           "number for all of them, or one each.")
+      .def("error_bounds", &PyPatchSet::error_bounds, py::arg("patch"),
+           "Certified bounds on |computed - exact| of every component: a dict with position, du "
+           "and dv.");
+}
+
+} // namespace simdbezier::python

@@ -1,0 +1,148 @@
+"""Bad input: a TypeError or ValueError whose text begins with the argument, and nothing written."""
+import numpy as np
+import pytest
+
+import simdbezier
+
+POINTS = np.random.default_rng(1).random((2, 4, 4, 3)).astype(np.float32)
+PATCHES = simdbezier.PatchSet(POINTS)
+CURVES = simdbezier.CurveSet(POINTS[:, 0])
+SHAPE = (2, 3, 5, 3)
+
+
+def fresh(shape=SHAPE, dtype=np.float32):
+    return np.full(shape, 7, dtype)
+
+
+def read_only():
+    array = fresh()
+    array.flags.writeable = False
+    return array
+
+
+def grid(**out):
+    return PATCHES.evaluate_grid(5, 3, outputs=(), out=out)
+
+
+def two_in_one(second):
+    whole = fresh((2, 3, 5, 8))
+    return grid(position=whole[..., :3], normal=whole[..., second:second + 3])
+
+
+def with_nan():
+    points = POINTS.copy()
+    points[1, 2, 3, 0] = np.nan
+    return points
+
+
+# The error, the argument that its text begins with, and the call.
+CASES = [
+    # Control points.
+    (ValueError, 'points', lambda: simdbezier.PatchSet([[1, 2, 3], [1, 2]])),
+    (ValueError, 'points', lambda: simdbezier.PatchSet(POINTS[0])),
+    (ValueError, 'points', lambda: simdbezier.PatchSet(POINTS[:, :1])),
+    (ValueError, 'points', lambda: simdbezier.PatchSet(np.zeros((1, 17, 4, 3)))),
+    (ValueError, 'points', lambda: simdbezier.PatchSet(np.zeros((1, 4, 4, 17)))),
+    (ValueError, 'points', lambda: simdbezier.PatchSet(np.zeros((1, 4, 4, 0)))),
+    (ValueError, 'points', lambda: simdbezier.PatchSet(with_nan())),
+    (TypeError, 'points', lambda: simdbezier.PatchSet(POINTS.astype(complex))),
+    (TypeError, 'points', lambda: simdbezier.PatchSet('teapot')),
+    (TypeError, 'points', lambda: simdbezier.PatchSet(None)),
+    (ValueError, 'points', lambda: simdbezier.CurveSet(POINTS)),
+    (ValueError, 'points', lambda: simdbezier.elevate([POINTS, POINTS], 4, 4)),
+    (ValueError, 'points[1]',
+     lambda: simdbezier.PatchSet([POINTS, np.zeros((1, 1, 4, 3), np.float32)])),
+    (ValueError, 'weights', lambda: simdbezier.PatchSet(POINTS, POINTS[:1, ..., 0])),
+    (ValueError, 'weights', lambda: simdbezier.PatchSet(POINTS, [1, 2, 3])),
+    (ValueError, 'weights', lambda: simdbezier.PatchSet(POINTS, np.zeros((2, 4, 4)))),
+    (ValueError, 'weights', lambda: simdbezier.PatchSet([POINTS, POINTS], [POINTS[..., 0]])),
+    (TypeError, 'dtype', lambda: simdbezier.PatchSet(POINTS, dtype=np.int32)),
+    (TypeError, 'dtype', lambda: simdbezier.PatchSet(POINTS, dtype='nonsense')),
+    (ValueError, 'relative_to', lambda: simdbezier.PatchSet(POINTS, relative_to=[0] * 4)),
+    # Which samples.
+    (ValueError, 'nu', lambda: PATCHES.evaluate_grid(1, 3)),
+    (ValueError, 'nv', lambda: PATCHES.evaluate_grid(5, -3)),
+    (TypeError, 'nu', lambda: PATCHES.evaluate_grid(5.0, 3)),
+    (TypeError, 'nv', lambda: PATCHES.evaluate_grid(5, '3')),
+    (ValueError, 'nu or nv', lambda: PATCHES.evaluate_grid(2**62, 2**62)),
+    (ValueError, 'n: the samples', lambda: CURVES.evaluate_grid(2**70)),
+    (ValueError, 'v', lambda: PATCHES.evaluate([0, 1], [0.5, 0.5], [0.5])),
+    (ValueError, 'patch', lambda: PATCHES.evaluate([0, 1, 1], [0.5, 0.5], [0.5, 0.5])),
+    (ValueError, 'patch', lambda: PATCHES.evaluate([0, 2], [0.5, 0.5], [0.5, 0.5])),
+    (IndexError, 'patch', lambda: PATCHES.evaluate([0, -1], [0.5, 0.5], [0.5, 0.5])),
+    (TypeError, 'patch', lambda: PATCHES.evaluate([0.5], [0.5], [0.5])),
+    (TypeError, 'u', lambda: PATCHES.evaluate([0], ['a'], [0.5])),
+    (ValueError, 'u', lambda: PATCHES.evaluate([0], [[0.5]], [0.5])),
+    (ValueError, 'curve', lambda: CURVES.evaluate([2], [0.5])),
+    (ValueError, 'n', lambda: CURVES.evaluate_grid(0)),
+    (IndexError, 'patch', lambda: PATCHES.error_bounds(2)),
+    (ValueError, 'patch', lambda: PATCHES.error_bounds(-1)),
+    (IndexError, 'curve', lambda: CURVES.error_bounds(2)),
+    # Which outputs.
+    (ValueError, 'outputs', lambda: PATCHES.evaluate_grid(5, 3, ('position', 'colour'))),
+    (ValueError, 'outputs', lambda: PATCHES.evaluate_grid(5, 3, ())),
+    (ValueError, 'outputs', lambda: PATCHES.evaluate_grid(5, 3, 'status')),
+    (TypeError, 'outputs', lambda: PATCHES.evaluate_grid(5, 3, 3)),
+    (TypeError, 'outputs', lambda: PATCHES.evaluate_grid(5, 3, [3])),
+    (ValueError, 'outputs',
+     lambda: simdbezier.PatchSet(POINTS[..., :2]).evaluate_grid(3, 3, 'normal')),
+    (ValueError, 'outputs',
+     lambda: simdbezier.CurveSet(POINTS[:, 0, :, :1]).evaluate_grid(3, 'tangent')),
+    # Where they go.
+    (TypeError, 'out', lambda: PATCHES.evaluate_grid(5, 3, out=fresh())),
+    (ValueError, 'out', lambda: grid(colour=fresh())),
+    (TypeError, "out['position']", lambda: grid(position=fresh().tolist())),
+    (TypeError, "out['position']", lambda: grid(position=fresh(dtype=np.float64))),
+    (TypeError, "out['position']", lambda: grid(position=fresh().astype('>f4'))),
+    (TypeError, "out['status']", lambda: grid(position=fresh(), status=fresh())),
+    (ValueError, "out['position']", lambda: grid(position=fresh((2, 5, 3, 3)))),
+    (ValueError, "out['position']", lambda: grid(position=fresh((2, 3, 5, 2)))),
+    (ValueError, "out['position']", lambda: grid(position=read_only())),
+    (ValueError, "out['position']", lambda: grid(position=fresh((2, 3, 9, 3))[:, :, :5])),
+    (ValueError, "out['mean']", lambda: grid(mean=fresh((2, 3, 10))[..., ::2])),
+    (ValueError, "out['normal']", lambda: two_in_one(2)),
+    # Meshes and nets.
+    (TypeError, 'tolerance', lambda: simdbezier.tessellate(POINTS)),
+    (ValueError, 'tolerance', lambda: simdbezier.tessellate(POINTS, tolerance=0)),
+    (TypeError, 'tolerance', lambda: simdbezier.tessellate(POINTS, tolerance='fine')),
+    (ValueError, 'tolerance', lambda: simdbezier.tessellate(POINTS, tolerance=[1e-3] * 3)),
+    (ValueError, 'relative', lambda: simdbezier.tessellate(POINTS, relative=-1)),
+    (ValueError, 'grid', lambda: simdbezier.tessellate(POINTS, grid=1)),
+    (ValueError, 'grid', lambda: simdbezier.tessellate(POINTS, grid=(3, 3, 3))),
+    (TypeError, 'grid', lambda: simdbezier.tessellate(POINTS, grid=3.5)),
+    (ValueError, 'points', lambda: simdbezier.tessellate(POINTS[..., :2], tolerance=1)),
+    (ValueError, 'path', lambda: simdbezier.tessellate(POINTS, grid=3).save('mesh.png')),
+    (OSError, '/nowhere/', lambda: simdbezier.tessellate(POINTS, grid=3).save('/nowhere/x.ply')),
+    (ValueError, 'degree_u', lambda: simdbezier.elevate(POINTS, 2, 3)),
+    (ValueError, 'degree_v', lambda: simdbezier.elevate(POINTS, 3, 16)),
+    (ValueError, 'a parameter', lambda: simdbezier.split_u(POINTS, np.nan)),
+    (ValueError, 'levels', lambda: simdbezier.tight_boxes(POINTS, 7)),
+]
+
+
+@pytest.mark.parametrize('error, argument, call', CASES, ids=[str(k) for k in range(len(CASES))])
+def test_it_is_refused_by_name(error, argument, call):
+    with pytest.raises(error) as caught:
+        call()
+    assert str(caught.value).startswith(argument)
+
+
+def test_nothing_is_written_on_an_error():
+    position = fresh()
+    with pytest.raises(ValueError):
+        grid(position=position, normal=read_only())
+    with pytest.raises(ValueError):
+        PATCHES.evaluate([0, 9], [0.5, 0.5], [0.5, 0.5], out={'position': position[0, 0, :2]})
+    assert (position == 7).all()
+
+
+def test_overlapping_arrays_are_both_named():
+    with pytest.raises(ValueError, match=r"out\['normal'\]: overlaps out\['position'\]"):
+        two_in_one(1)
+    assert two_in_one(3)['normal'].shape == SHAPE
+
+
+def test_not_finite_parameters_give_not_finite_samples():
+    got = PATCHES.evaluate(0, [0.5, np.nan], [0.5, 0.5], ('position', 'status'))
+    assert np.isfinite(got['position'][0]).all() and np.isnan(got['position'][1]).all()
+    assert got['status'].tolist() == [0, 3]

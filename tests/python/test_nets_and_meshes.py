@@ -1,0 +1,141 @@
+"""Operations on nets, and meshes with their files."""
+import math
+import pathlib
+import struct
+
+import numpy as np
+import pytest
+
+import reference
+import simdbezier
+
+
+@pytest.fixture(name='points', params=[np.float32, np.float64])
+def fixture_points(request):
+    return np.random.default_rng(6).random((5, 4, 3, 3)).astype(request.param)
+
+
+# The operation, and the parameters that it maps (u, v) of the result to.
+OPERATIONS = [
+    ('elevate', lambda p: simdbezier.elevate(p, 5, 4), lambda u, v: (u, v)),
+    ('reverse_u', simdbezier.reverse_u, lambda u, v: (1 - u, v)),
+    ('reverse_v', simdbezier.reverse_v, lambda u, v: (u, 1 - v)),
+    ('transpose', simdbezier.transpose, lambda u, v: (v, u)),
+    ('split_u low', lambda p: simdbezier.split_u(p, 0.25)[0], lambda u, v: (u / 4, v)),
+    ('split_v high', lambda p: simdbezier.split_v(p)[1], lambda u, v: (u, (1 + v) / 2)),
+    ('split', lambda p: simdbezier.split(p, 0.5, 0.25)[1], lambda u, v: ((1 + u) / 2, v / 4)),
+    ('segment', lambda p: simdbezier.segment(p, 0.25, 0.75, 0, 0.5),
+     lambda u, v: (0.25 + u / 2, v / 2)),
+]
+
+
+@pytest.mark.parametrize('call, where', [row[1:] for row in OPERATIONS],
+                         ids=[row[0] for row in OPERATIONS])
+def test_operations_describe_the_same_surface(points, call, where):
+    u, v = reference.grid(5, 6)
+    got = call(points)
+    assert got.dtype == points.dtype
+    np.testing.assert_allclose(reference.polynomial(got, u, v),
+                               reference.polynomial(points, *where(u, v)), atol=1e-5)
+
+
+def test_hodographs_are_derivatives(points):
+    u, v = reference.grid(5, 6)
+    for call, orders in ((simdbezier.hodograph_u, (1, 0)), (simdbezier.hodograph_v, (0, 1))):
+        np.testing.assert_allclose(reference.polynomial(call(points), u, v),
+                                   reference.polynomial(points, u, v, *orders), atol=1e-4)
+
+
+def test_weights_come_back_with_the_points(points):
+    weights = 0.5 + np.random.default_rng(1).random((5, 4, 3)).astype(points.dtype)
+    new_points, new_weights = simdbezier.elevate(points, 3, 4, weights)
+    assert new_points.shape == (5, 5, 4, 3) and new_weights.shape == (5, 5, 4)
+    u, v = reference.grid(5, 6)
+    for got, expected in zip(reference.surface(new_points, new_weights, u, v),
+                             reference.surface(points, weights, u, v)):
+        np.testing.assert_allclose(got, expected, atol=1e-4)
+    halves = simdbezier.split_u(points, 0.5, weights)
+    assert [part.shape for half in halves for part in half] == [(5, 4, 3, 3), (5, 4, 3)] * 2
+
+
+def test_boxes_and_flatness_hold(points):
+    u, v = reference.grid(9, 9)
+    surface = reference.polynomial(points, u, v)
+    for low, high in (simdbezier.control_boxes(points), simdbezier.tight_boxes(points, 3)):
+        assert (surface.min(axis=1) >= low - 1e-6).all()
+        assert (surface.max(axis=1) <= high + 1e-6).all()
+    corners = points[:, ::3, ::2].astype(float)
+    distance = np.linalg.norm(surface - reference.polynomial(corners, u, v), axis=-1)
+    assert (distance.max(axis=1) <= simdbezier.flatness(points) + 1e-6).all()
+
+
+def hill(dtype):
+    """Two by two patches of one bicubic hill."""
+    x = np.arange(7) / 6
+    whole = np.zeros((7, 7, 3), dtype)
+    whole[..., 0], whole[..., 1] = np.meshgrid(x, x)
+    whole[..., 2] = np.sin(math.pi * whole[..., 0]) * np.sin(math.pi * whole[..., 1])
+    return np.stack([whole[j:j + 4, i:i + 4] for j in (0, 3) for i in (0, 3)])
+
+
+@pytest.mark.parametrize('dtype', [np.float32, np.float64])
+def test_a_mesh_is_within_its_deviation(dtype):
+    points = hill(dtype)
+    mesh = simdbezier.tessellate(points, tolerance=1e-3, parameters=True)
+    assert 0 < mesh.deviation <= 1e-3
+    assert mesh.deviations.shape == (4,) and mesh.deviations.max() == mesh.deviation
+    assert mesh.positions.dtype == dtype and mesh.triangles.dtype == np.uint32
+    assert mesh.positions.shape == mesh.normals.shape
+    # Every vertex lies on the surface at its parameters.
+    for patch in range(4):
+        own = mesh.patches == patch
+        u, v = mesh.parameters[own].T
+        expected = reference.polynomial(points[patch:patch + 1], u, v)[0]
+        np.testing.assert_allclose(mesh.positions[own], expected, atol=1e-6)
+    # It is closed inside, and its triangles face upwards.
+    a, b, c = (mesh.positions[mesh.triangles[:, k]].astype(float) for k in range(3))
+    assert (np.cross(b - a, c - a)[:, 2] > 0).all()
+    edges = np.sort(mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    _, counts = np.unique(edges, axis=0, return_counts=True)
+    assert set(counts) <= {1, 2}
+
+
+def test_options_of_a_mesh():
+    points = hill(np.float64)
+    few = simdbezier.tessellate(points, grid=5)
+    assert len(few.positions) == 81 and len(few.triangles) == 128
+    assert few.parameters is None and few.patches is None
+    assert len(simdbezier.tessellate(points, grid=(5, 3)).positions) == 45
+    assert simdbezier.tessellate(points, grid=5, normals=False).normals is None
+    assert len(simdbezier.tessellate(points, grid=5, crease=0).positions) == 100
+    assert simdbezier.tessellate(points, relative=1e-3).deviation <= 1e-3 * math.sqrt(3)
+    flipped = simdbezier.tessellate(points, grid=5, flip=True)
+    np.testing.assert_array_equal(flipped.normals, -few.normals)
+    several = simdbezier.tessellate(points, tolerance=[1e-2, 1e-2, 1e-2, 1e-4])
+    assert several.deviations[3] <= 1e-4 < several.deviations[0]
+    assert repr(few).startswith('<simdbezier.Mesh: 81 vertices, 128 triangles, within ')
+
+
+@pytest.mark.parametrize('parameters', [False, True])
+@pytest.mark.parametrize('ending', ['obj', 'ply', 'stl', 'glb'])
+@pytest.mark.parametrize('dtype', [np.float32, np.float64])
+def test_meshes_become_files(tmp_path, ending, dtype, parameters):
+    mesh = simdbezier.tessellate(hill(dtype), tolerance=1e-2, parameters=parameters)
+    path = tmp_path / f'hill.{ending}'
+    mesh.save(path)
+    data = path.read_bytes()
+    triangles = len(mesh.triangles)
+    if ending == 'obj':
+        lines = data.decode().splitlines()
+        vertices = [line.split()[1:4] for line in lines if line.startswith('v ')]
+        np.testing.assert_array_equal(np.array(vertices, dtype), mesh.positions)
+        assert sum(line.startswith('f ') for line in lines) == triangles
+    elif ending == 'ply':
+        assert f'element face {triangles}'.encode() in data
+    elif ending == 'stl':
+        assert struct.unpack_from('<I', data, 80)[0] == triangles
+    else:
+        assert data[:4] == b'glTF' and struct.unpack_from('<I', data, 8)[0] == len(data)
+    mesh.save(str(path))
+    assert path.read_bytes() == data
+    assert [entry.name for entry in pathlib.Path(tmp_path).iterdir()] == [path.name]

@@ -1,0 +1,140 @@
+"""PatchSet against the definition, and where its results go."""
+import numpy as np
+import pytest
+
+import reference
+import simdbezier
+
+# dtype, rows, columns, components, weights
+SHAPES = [
+    (np.float32, 4, 4, 3, False),
+    (np.float64, 4, 4, 3, False),
+    (np.float32, 3, 6, 3, True),
+    (np.float64, 2, 9, 2, False),
+    (np.float32, 4, 3, 1, False),
+    (np.float64, 4, 4, 5, True),
+    (np.float64, 16, 2, 16, False),
+]
+
+
+@pytest.fixture(params=SHAPES, ids=str)
+def net(request):
+    dtype, rows, columns, components, rational = request.param
+    random = np.random.default_rng(7)
+    points = random.random((5, rows, columns, components)).astype(dtype)
+    weights = (0.5 + random.random((5, rows, columns))).astype(dtype) if rational else None
+    return points, weights
+
+
+def tolerance(points):
+    """Far above what rounding does, far below any mistake."""
+    return 1e-4 if points.dtype == np.float32 else 1e-11
+
+
+def test_grids_are_those_of_the_definition(net):
+    points, weights = net
+    patches = simdbezier.PatchSet(points, weights)
+    got = patches.evaluate_grid(7, 4, outputs=('position', 'du', 'dv'))
+    expected = reference.surface(points, weights, *reference.grid(7, 4))
+    for name, values in zip(('position', 'du', 'dv'), expected):
+        assert got[name].shape == (5, 4, 7, points.shape[3])
+        assert got[name].dtype == points.dtype
+        np.testing.assert_allclose(got[name].reshape(values.shape), values,
+                                   atol=tolerance(points), rtol=tolerance(points))
+
+
+def test_positions_keep_their_bound(net):
+    points, weights = net
+    patches = simdbezier.PatchSet(points, weights)
+    got = patches.evaluate_grid(9, 5)['position']
+    expected, _, _ = reference.surface(points, weights, *reference.grid(9, 5))
+    # Parameters are exact here; the reference has errors of its own.
+    slack = 1e-14
+    for k in range(len(patches)):
+        worst = np.abs(got[k].reshape(-1, points.shape[3]) - expected[k]).max(axis=0)
+        assert (worst <= patches.error_bounds(k)['position'] + slack).all()
+
+
+def test_single_samples_are_those_of_the_definition(net):
+    points, weights = net
+    random = np.random.default_rng(3)
+    patch = random.integers(0, 5, 40)
+    u, v = random.random((2, 40)).astype(points.dtype)
+    got = simdbezier.PatchSet(points, weights).evaluate(patch, u, v, ('position', 'dv'))
+    position, _, dv = reference.surface(points, weights, u, v)
+    rows = np.arange(40)
+    for name, values in (('position', position), ('dv', dv)):
+        np.testing.assert_allclose(got[name], values[patch, rows], atol=tolerance(points),
+                                   rtol=tolerance(points))
+
+
+def test_normals_are_unit_and_upright():
+    points = np.random.default_rng(5).random((3, 4, 4, 3))
+    got = simdbezier.PatchSet(points).evaluate_grid(6, 6, ('du', 'dv', 'normal', 'status'))
+    expected = np.cross(got['du'], got['dv'])
+    expected /= np.linalg.norm(expected, axis=-1, keepdims=True)
+    np.testing.assert_allclose(got['normal'], expected, atol=1e-12)
+    assert got['status'].dtype == np.uint8
+    assert not got['status'].any()
+
+
+def test_second_derivatives_and_curvatures():
+    # The graph of x y: duu and dvv vanish, K = -1 and H = 0 in the middle of the saddle.
+    points = np.zeros((1, 2, 2, 3))
+    points[0, :, :, 0] = [[-1, 1], [-1, 1]]
+    points[0, :, :, 1] = [[-1, -1], [1, 1]]
+    points[0, :, :, 2] = [[1, -1], [-1, 1]]
+    names = ('duu', 'duv', 'dvv', 'gaussian', 'mean', 'minimum', 'maximum')
+    got = simdbezier.PatchSet(points).evaluate(0, [0.5], [0.5], names)
+    assert got['duv'].tolist() == [[0, 0, 4]]
+    assert not got['duu'].any() and not got['dvv'].any()
+    assert [got[name][0] for name in names[3:]] == pytest.approx([-1, 0, -1, 1])
+
+
+def test_patches_of_several_degrees_are_one_set():
+    random = np.random.default_rng(1)
+    nets = [random.random((2, 4, 4, 3)), random.random((3, 3, 6, 3))]
+    patches = simdbezier.PatchSet(nets)
+    assert [patches.degrees(k) for k in range(5)] == [(3, 3)] * 2 + [(5, 2)] * 3
+    got = patches.evaluate_grid(4, 3)['position']
+    for part, points in ((got[:2], nets[0]), (got[2:], nets[1])):
+        expected, _, _ = reference.surface(points, None, *reference.grid(4, 3))
+        np.testing.assert_allclose(part.reshape(expected.shape), expected, atol=1e-12)
+    assert 'several shapes' in repr(patches)
+
+
+def test_dtype_is_that_of_the_points_or_as_asked_for():
+    points = np.random.default_rng(2).random((1, 4, 4, 3))
+    assert simdbezier.PatchSet(points).dtype == np.float64
+    assert simdbezier.PatchSet(points.astype(np.float32)).dtype == np.float32
+    assert simdbezier.PatchSet(points, dtype='float32').dtype == np.float32
+    single = simdbezier.PatchSet(points, dtype=np.float32).evaluate_grid(3, 3)['position']
+    assert single.dtype == np.float32
+    assert simdbezier.PatchSet(points.tolist()).dtype == np.float64
+    assert simdbezier.PatchSet(np.zeros((1, 2, 2, 3), int)).dtype == np.float64
+
+
+@pytest.mark.parametrize('threads', [1, 2])
+def test_bits_depend_on_nothing(threads):
+    points = np.random.default_rng(4).random((300, 4, 4, 3)).astype(np.float32)
+    expected = simdbezier.PatchSet(points).evaluate_grid(17, 9, ('position', 'normal'))
+    got = simdbezier.PatchSet(points, threads=threads).evaluate_grid(
+        17, 9, ('position', 'normal'), threads=threads)
+    for name in expected:
+        assert np.array_equal(got[name], expected[name])
+
+
+def test_an_empty_set_has_empty_results():
+    patches = simdbezier.PatchSet(np.zeros((0, 4, 4, 3)))
+    assert len(patches) == 0
+    assert patches.evaluate_grid(3, 3)['position'].shape == (0, 3, 3, 3)
+
+
+def test_it_says_what_it_is():
+    points = np.ones((2, 3, 4, 3), np.float32)
+    text = '<simdbezier.PatchSet: 2 patches of degree 3 x 2, 3 components, float32>'
+    assert repr(simdbezier.PatchSet(points)) == text
+    rational = simdbezier.PatchSet(points[:1], np.ones((1, 3, 4)))
+    assert repr(rational) == ('<simdbezier.PatchSet: 1 patch of degree 3 x 2, rational, '
+                              '3 components, float32>')
+    assert rational.is_rational(0) and not simdbezier.PatchSet(points).is_rational(1)
