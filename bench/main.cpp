@@ -8,6 +8,7 @@
 #include <simdbezier/isa.hpp>
 
 #include "bench/machine.hpp"
+#include "bench/plugin_rows.hpp"
 #include "bench/rows.hpp"
 
 namespace simdbezier_bench {
@@ -42,8 +43,10 @@ int main(int argc, char** argv) {
   std::string min_time = "--benchmark_min_time=0.05";
   std::vector<char*> arguments(argv, argv + argc);
   arguments.insert(arguments.begin() + (argc > 0 ? 1 : 0), min_time.data());
+  bool faulty = false;
+  const auto plugins = start_plugins(take_evaluators(arguments), faulty);
+  int count = static_cast<int>(arguments.size());
   arguments.push_back(nullptr);
-  int count = argc + 1;
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) {
     return 2;
@@ -63,8 +66,9 @@ int main(int argc, char** argv) {
   register_pack_rows();
   register_curve_rows();
   register_peer_rows();
+  register_plugin_rows(plugins);
   register_limit_rows();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
-  return any_row_failed() ? 1 : 0;
+  return any_row_failed() || faulty ? 1 : 0;
 }

@@ -51,10 +51,16 @@ struct Capabilities {
 
 /// Whose bits and bounds an evaluator shares.
 enum class ResultClass : std::uint8_t {
-  fma,   ///< this library, fused multiply-adds: gates and committed thresholds apply
-  nofma, ///< this library, rounding twice: likewise
-  other  ///< somebody else's: measured and reported, never failed
+  fma,    ///< this library, fused multiply-adds: gates and committed thresholds apply
+  nofma,  ///< this library, rounding twice: likewise
+  plugin, ///< somebody's who wants it judged: flagged where it leaves the bounds of `fma`
+  other   ///< another library's: measured and reported, never failed
 };
+
+/// This library's own.
+[[nodiscard]] constexpr bool is_ours(ResultClass result_class) {
+  return result_class == ResultClass::fma || result_class == ResultClass::nofma;
+}
 
 template <typename T>
 class Evaluator {

@@ -265,7 +265,7 @@ Reference make_reference(const Family<T>& family, bool centred) {
 template <typename T>
 Measurement measure(Evaluator<T>& evaluator, const Family<T>& family, const Reference& reference) {
   const ResultClass result_class = evaluator.result_class();
-  Collector<T> collector(result_class != ResultClass::nofma, result_class != ResultClass::other,
+  Collector<T> collector(result_class != ResultClass::nofma, is_ours(result_class),
                          evaluator.variant() == "+origin");
   const int grid = family.rule == SampleRule::grid ? kGridSamples : 0;
   for (std::size_t n = 0; n < family.nets.size(); ++n) {

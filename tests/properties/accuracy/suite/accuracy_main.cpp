@@ -7,7 +7,10 @@
 #include <optional>
 #include <string>
 
+#include <tools/failure.hpp>
+
 #include "tests/properties/accuracy/suite/evaluators.hpp"
+#include "tests/properties/accuracy/suite/plugin_evaluator.hpp"
 #include "tests/properties/accuracy/suite/report.hpp"
 #include "tests/support/nets/shape_families.hpp"
 
@@ -16,14 +19,17 @@ namespace {
 
 constexpr const char* kUsage =
     "usage: simdbezier_accuracy [--json FILE] [--thresholds FILE] [--write-thresholds]\n"
-    "                           [--nets N] [--samples N]\n"
+    "                           [--nets N] [--samples N] [--evaluator FILE.so]...\n"
+    "  --evaluator FILE.so  judge another evaluator beside the library's own\n"
+    "                       (simdbezier/evaluator_plugin.h, docs/judge-your-own.md)\n"
     "  --json FILE          write all rows, worst inputs as hexadecimal floats\n"
     "  --thresholds FILE    compare with committed figures "
     "(tests/properties/accuracy/suite/thresholds.json)\n"
     "  --write-thresholds   write that file instead of comparing; to be reviewed by hand\n"
     "  --nets, --samples    nets a family (500) and samples a net (100); committed figures hold\n"
     "                       for the defaults only\n"
-    "exit: 0 all gates hold, 1 a regression (each is named), 2 bad usage or a file's error\n";
+    "exit: 0 all gates hold, 1 a regression or a plug-in's fault (each is named), 2 bad usage or\n"
+    "a file's error\n";
 
 struct Settings {
   std::string json;
@@ -31,7 +37,21 @@ struct Settings {
   bool write_thresholds = false;
   std::size_t nets = 500;
   std::size_t samples = 100;
+  std::vector<std::string> evaluators; ///< files
 };
+
+/// Plug-ins that run; what is wrong with the others is a failure like any.
+[[nodiscard]] std::vector<PluginProcess> start_plugins(const Settings& settings, Report& report) {
+  std::vector<PluginProcess> plugins;
+  for (const std::string& file : settings.evaluators) {
+    try {
+      plugins.push_back(std::make_shared<tools::EvaluatorProcess>(file));
+    } catch (const tools::Failure& failure) {
+      report.failures.emplace_back(failure.what());
+    }
+  }
+  return plugins;
+}
 
 [[nodiscard]] std::optional<Settings> parse(int argc, char** argv) {
   Settings settings;
@@ -49,6 +69,8 @@ struct Settings {
       settings.json = value;
     } else if (name == "--thresholds") {
       settings.thresholds = value;
+    } else if (name == "--evaluator") {
+      settings.evaluators.push_back(value);
     } else if (name == "--nets") {
       settings.nets = std::stoul(value);
     } else if (name == "--samples") {
@@ -74,9 +96,28 @@ template <typename T>
   return {family.name + variant, net.degree_u, net.degree_v, most / least};
 }
 
+/// Measures one evaluator on one family. One that died is a failure, and measured no more.
 template <typename T>
-void run(const char* type, const Settings& settings, Report& report) {
-  const Evaluators<T> evaluators = all_evaluators<T>();
+void run_one(std::unique_ptr<Evaluator<T>>& evaluator, const Family<T>& family, const char* type,
+             const Reference& reference, Report& report) {
+  const FamilyInfo info = describe(family, evaluator->variant());
+  try {
+    report.add(info, type, evaluator->result_class(), evaluator->name(),
+               measure(*evaluator, family, reference));
+  } catch (const tools::EvaluatorDied& died) {
+    report.failures.push_back(info.name + "/" + type + "/" + evaluator->name() + ": " +
+                              died.what() + "; it is left out from here on");
+    evaluator.reset();
+  }
+}
+
+template <typename T>
+void run(const char* type, const Settings& settings, const std::vector<PluginProcess>& plugins,
+         Report& report) {
+  Evaluators<T> evaluators = all_evaluators<T>();
+  for (const PluginProcess& plugin : plugins) {
+    add_plugin(plugin, evaluators);
+  }
   std::vector<Family<T>> families = all_families<T>(settings.nets, settings.samples);
   // There are many shapes: a twelfth of the samples each.
   for (Family<T>& family : shape_families<T>(settings.nets / 4 + 1, settings.samples / 3 + 1)) {
@@ -86,12 +127,9 @@ void run(const char* type, const Settings& settings, Report& report) {
     std::fprintf(stderr, "%s/%s\n", family.name.c_str(), type);
     const Reference at_centred = make_reference(family, true);
     const Reference at_unit = make_reference(family, false);
-    for (const auto& evaluator : evaluators) {
-      if (evaluator->variant().empty() || family.with_origins) {
-        const Measurement measured =
-            measure(*evaluator, family, evaluator->reads_centred() ? at_centred : at_unit);
-        report.add(describe(family, evaluator->variant()), type, evaluator->result_class(),
-                   evaluator->name(), measured);
+    for (auto& evaluator : evaluators) {
+      if (evaluator != nullptr && (evaluator->variant().empty() || family.with_origins)) {
+        run_one(evaluator, family, type, evaluator->reads_centred() ? at_centred : at_unit, report);
       }
     }
   }
@@ -99,13 +137,18 @@ void run(const char* type, const Settings& settings, Report& report) {
 
 [[nodiscard]] int run_suite(const Settings& settings) {
   Report report;
-  run<float>("f32", settings, report);
-  run<double>("f64", settings, report);
+  const std::vector<PluginProcess> plugins = start_plugins(settings, report);
+  run<float>("f32", settings, plugins, report);
+  run<double>("f64", settings, plugins, report);
   report.judge_contracts();
+  report.judge_plugins();
   if (!settings.thresholds.empty() && !settings.write_thresholds) {
     report.judge_thresholds(read_thresholds(settings.thresholds));
   }
   print_table(report);
+  if (!plugins.empty()) {
+    print_rankings(report);
+  }
   if (!settings.json.empty()) {
     write_json(report, settings.json);
   }

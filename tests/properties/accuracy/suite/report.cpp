@@ -58,6 +58,8 @@ std::string class_name(ResultClass result_class) {
     return "fma";
   case ResultClass::nofma:
     return "nofma";
+  case ResultClass::plugin:
+    return "plugin";
   default:
     return "other";
   }
@@ -83,14 +85,33 @@ void Report::add(const FamilyInfo& family, const std::string& type, ResultClass 
     }
   };
   expect_none(measurement.nan_values, "NaN values at finite parameters");
+  if (result_class == ResultClass::plugin) {
+    return;
+  }
   expect_none(measurement.bad_lengths, "normals neither of unit length nor zero with a status");
   expect_none(measurement.missed_limits, "zero normals where the surface has a limit");
+}
+
+void Report::judge_plugins() {
+  for (const Row& row : rows) {
+    const bool judged = row.quantity == Quantity::position || row.quantity == Quantity::du ||
+                        row.quantity == Quantity::dv;
+    if (row.result_class == ResultClass::plugin && judged && !(row.metric.max_ratio <= 1)) {
+      char text[200];
+      std::snprintf(text, sizeof text,
+                    ": an error of %.4g u, %.3g times the library's bound (net %zu, component %d, "
+                    "x %a, y %a)",
+                    row.metric.max, row.metric.max_ratio, row.metric.worst.net,
+                    row.metric.worst.component, row.metric.worst.x, row.metric.worst.y);
+      failures.push_back(row.name() + text);
+    }
+  }
 }
 
 void Report::judge_contracts() {
   std::map<std::string, const Row*> first_of_class;
   for (const Row& row : rows) {
-    if (row.result_class == ResultClass::other) {
+    if (!is_ours(row.result_class)) {
       continue;
     }
     if (is_contract(row.quantity) && !(row.metric.max_ratio <= 1)) {
@@ -120,7 +141,7 @@ void Report::judge_contracts() {
 }
 
 bool has_threshold(const Row& row) {
-  return row.result_class != ResultClass::other && row.quantity < Quantity::gaussian;
+  return is_ours(row.result_class) && row.quantity < Quantity::gaussian;
 }
 
 void Report::judge_thresholds(const Thresholds& thresholds) {

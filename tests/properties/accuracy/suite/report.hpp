@@ -34,7 +34,7 @@ struct Row {
   [[nodiscard]] std::string name() const { return key() + "/" + evaluator; }
 };
 
-/// "fma", "nofma" or "other".
+/// "fma", "nofma", "plugin" or "other".
 [[nodiscard]] std::string class_name(ResultClass result_class);
 
 /// Whether a row has committed figures: ours, and not a curvature, whose errors are those of the
@@ -59,11 +59,15 @@ struct Report {
            const std::string& evaluator, const Measurement& measurement);
   /// G1 ratios, G4 hashes inside a class, G5 against de Casteljau, G6 limits.
   void judge_contracts();
+  /// What plug-ins do outside of the bounds that hold for the library's own FMA class.
+  void judge_plugins();
   /// G2: not above the committed figures by more than 5 %.
   void judge_thresholds(const Thresholds& thresholds);
 };
 
 void print_table(const Report& report);
+/// Plug-ins among all others, by RMS error.
+void print_rankings(const Report& report);
 /// Throw std::runtime_error naming the file where it cannot be read or written.
 void write_json(const Report& report, const std::string& path);
 [[nodiscard]] Thresholds read_thresholds(const std::string& path);
