@@ -36,6 +36,12 @@ set(dev_what "headers, and what CMake and pkg-config need")
 set(tools_what "the program that tessellates, evaluates and describes files of patches")
 set(python_what "the module for Python, on numpy arrays")
 set(dev_depends "${runtime_package} (= ${PROJECT_VERSION})")
+if(SIMDBEZIER_BUILD_PYTHON) # extension modules are made for one version
+  string(REPLACE "." ";" version ${SIMDBEZIER_MODULE_PYTHON_VERSION})
+  list(GET version 1 minor)
+  math(EXPR minor "${minor} + 1")
+  set(python_depends "python3 (>= ${SIMDBEZIER_MODULE_PYTHON_VERSION}), python3 (<< 3.${minor}), python3-numpy")
+endif()
 set(long_description
     "Control points go in; positions, derivatives, normals or closed meshes of
  triangles come out. Vector kernels are chosen when a program runs. Error

@@ -64,10 +64,21 @@ if(result EQUAL 0 OR NOT errors MATCHES "need C\\+\\+20")
   message(FATAL_ERROR "C++17: expected the headers to ask for C++20, found ${result}: ${errors}")
 endif()
 
-# The installed program finds the installed library; it is all that is installed to be run.
+# From Python, where the module was built.
+if(PYTHON)
+  set(ENV{PYTHONPATH} ${prefix}/lib/python3/dist-packages)
+  run(${PYTHON} -B -c "import simdbezier, numpy
+grid = numpy.stack(numpy.meshgrid(range(4), range(4), [0]), -1).reshape(1, 4, 4, 3)
+corner = simdbezier.PatchSet(grid, dtype='float32').evaluate_grid(9, 9)['position'][0, 0, 0]
+assert '${prefix}' in simdbezier.__file__
+print('corner', *corner.astype(int))")
+  expect_teapot_point("${output}")
+endif()
+
+# The installed programs find the installed library; they are all that is installed to be run.
 file(GLOB programs RELATIVE ${prefix}/bin ${prefix}/bin/*)
 foreach(program IN LISTS programs)
-  if(NOT program STREQUAL "simdbezier")
+  if(NOT program MATCHES "^simdbezier(_accuracy)?$")
     message(FATAL_ERROR "bin/${program} was installed")
   endif()
   run(${prefix}/bin/${program} --help)

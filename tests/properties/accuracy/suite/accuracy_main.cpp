@@ -168,6 +168,10 @@ void run(const char* type, const Settings& settings, const std::vector<PluginPro
 int main(int argc, char** argv) {
   using namespace simdbezier::tests;
   try {
+    if (argc == 2 && std::strcmp(argv[1], "--help") == 0) {
+      std::fputs(kUsage, stdout);
+      return 0;
+    }
     const auto settings = parse(argc, argv);
     if (!settings) {
       std::fputs(kUsage, stderr);
