@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
   register_tile_rows();
   register_scattered_rows();
   register_net_rows();
+  register_tessellate_rows();
   register_pack_rows();
   register_curve_rows();
   register_peer_rows();

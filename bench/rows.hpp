@@ -22,6 +22,7 @@ void register_net_rows();
 void register_pack_rows();
 void register_peer_rows();
 void register_limit_rows();
+void register_tessellate_rows();
 
 enum class Place { cache, memory };
 
