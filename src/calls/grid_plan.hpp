@@ -39,15 +39,6 @@ public:
   /// last not where `memory` has room for memory_values() of the grid.
   [[nodiscard]] Status build(const Grid<T>& grid, T* memory = nullptr) noexcept;
   [[nodiscard]] static std::size_t memory_values(std::size_t nu, std::size_t nv) noexcept;
-  /// Takes half-centred parameters that are there already, with kMaxLanes more readable ones behind
-  /// each line, and that live as long as the plan.
-  void refer(const T* x, std::size_t nu, const T* y, std::size_t nv) noexcept {
-    ++generation_;
-    x_ = x;
-    nu_ = nu;
-    y_ = y;
-    nv_ = nv;
-  }
 
   [[nodiscard]] std::size_t nu() const noexcept { return nu_; }
   [[nodiscard]] std::size_t nv() const noexcept { return nv_; }

@@ -49,9 +49,6 @@ public:
         curvature[k] = outputs.out().curvature_at(k, sample);
       }
     }
-    /// Planes that are there, records `step` values apart.
-    Target(const Planes<T>* where, DrainQueue<T>* queue, std::size_t step) noexcept
-        : planes(where), drain(queue), record(step) {}
     /// The same piece from a sample of it on, by patches that are staged together no longer; its
     /// planes are formed in `memory`.
     [[nodiscard]] Target from(std::size_t sample, Planes<T> (&memory)[kGroups]) const noexcept {

@@ -1,5 +1,6 @@
 // The samples that corners and edges of a mesh are made of: one for every vertex there, or one for
-// every patch that has it, where normals are merged.
+// every patch that has it, where normals are merged. Edges are rows and columns for the grid
+// kernels.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "src/mesh/corner_cache.hpp"
 #include "src/mesh/mesh_data.hpp"
 #include "src/mesh/parameter_lines.hpp"
 
@@ -43,33 +45,51 @@ void for_edge_points(const MeshData& mesh, std::uint32_t edge, std::uint32_t* sc
              });
 }
 
-/// One thread's list of samples, gathered patch by patch.
+/// What samples are asked for.
+struct BoundaryWishes {
+  std::size_t dimension; ///< components of positions
+  bool normals;
+  bool every_patch;    ///< a sample for every patch that has a vertex, else for the first of them
+  std::size_t samples; ///< the most that are kept
+};
+
+/// One thread's samples, gathered patch by patch.
 template <typename T>
 class BoundarySamples {
 public:
-  /// Room for `samples`, in memory of as many bytes.
-  [[nodiscard]] static std::size_t bytes(const MeshData& mesh, std::size_t samples) noexcept {
-    return whole_lines(samples * sizeof(BoundaryEntry)) + whole_lines(samples * sizeof(*patch_)) +
-           2 * whole_lines(samples * sizeof(T)) +
-           whole_lines(2 * mesh.most_sides * sizeof(*patch_));
+  [[nodiscard]] static std::size_t bytes(const MeshData& mesh,
+                                         const BoundaryWishes& wishes) noexcept {
+    return whole_lines(wishes.samples * sizeof(BoundaryEntry)) +
+           whole_lines(2 * mesh.most_sides * sizeof(std::uint32_t)) +
+           2 * whole_lines(line_values(mesh) * sizeof(T)) +
+           whole_lines(CornerCache<T>::memory_values(planes(wishes)) * sizeof(T)) +
+           planes(wishes) * whole_lines(wishes.samples * sizeof(T));
   }
-  /// every_patch: a sample for every patch that has a vertex, else for the first of them.
-  BoundarySamples(const MeshData& mesh, bool every_patch, std::size_t samples,
+  BoundarySamples(const MeshData& mesh, const BoundaryWishes& wishes, PatchRunner<T>& runner,
                   ParameterLines<T>& lines, unsigned char* memory) noexcept
-      : mesh_(mesh), topology_(*mesh.topology.data()), every_patch_(every_patch), lines_(lines) {
-    const auto take = [&]<typename Value>(Value*& to, std::size_t count) {
-      to = reinterpret_cast<Value*>(memory);
-      memory += whole_lines(count * sizeof(Value));
-    };
-    take(entries_, samples);
-    take(patch_, samples);
-    take(u_, samples);
-    take(v_, samples);
-    take(scratch_, 2 * mesh.most_sides);
+      : mesh_(mesh), topology_(*mesh.topology.data()), wishes_(wishes), runner_(runner),
+        lines_(lines), corners_(runner, mesh.patches(), wishes.dimension, wishes.normals,
+                                take<T>(memory, CornerCache<T>::memory_values(planes(wishes)))) {
+    entries_ = take<BoundaryEntry>(memory, wishes.samples);
+    scratch_ = take<std::uint32_t>(memory, 2 * mesh.most_sides);
+    line_[0] = take<T>(memory, line_values(mesh));
+    line_[1] = take<T>(memory, line_values(mesh));
+    for (std::size_t c = 0; c < wishes.dimension; ++c) {
+      positions_.component[c] = take<T>(memory, wishes.samples);
+    }
+    for (std::size_t c = 0; c < 3 && wishes.normals; ++c) {
+      normals_.component[c] = take<T>(memory, wishes.samples);
+    }
+    std::fill_n(low_, kMaxLanes + 1, T(-0.5));
+    std::fill_n(high_, kMaxLanes + 1, T(0.5));
   }
 
   void clear() noexcept { count_ = entry_count_ = 0; }
-  /// Of the corners and edges that a patch owns; there has to be room for most_boundary_samples.
+  /// Whether there is room for one more patch.
+  [[nodiscard]] bool has_room() const noexcept {
+    return count_ + mesh_.most_boundary_samples <= wishes_.samples;
+  }
+  /// Evaluates the corners and edges that a patch owns.
   void add(std::size_t patch) noexcept {
     for (std::size_t k = kPatchCorners * patch; k < kPatchCorners * (patch + 1); ++k) {
       if (topology_.corners[k] == k) {
@@ -87,20 +107,29 @@ public:
     return {entries_, entry_count_};
   }
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
-  [[nodiscard]] const std::uint32_t* patch() const noexcept { return patch_; }
-  /// Centred parameters.
-  [[nodiscard]] const T* u() const noexcept { return u_; }
-  [[nodiscard]] const T* v() const noexcept { return v_; }
+  [[nodiscard]] const Planes<T>& positions() const noexcept { return positions_; }
+  [[nodiscard]] const Planes<T>& normals() const noexcept { return normals_; }
 
 private:
+  static std::size_t planes(const BoundaryWishes& wishes) noexcept {
+    return wishes.dimension + (wishes.normals ? 3 : 0);
+  }
+  static std::size_t line_values(const MeshData& mesh) noexcept {
+    return mesh.most_segments + kMaxLanes;
+  }
+  template <typename Value>
+  static Value* take(unsigned char*& memory, std::size_t count) noexcept {
+    auto* const taken = reinterpret_cast<Value*>(memory);
+    memory += whole_lines(count * sizeof(Value));
+    return taken;
+  }
+
   void add_corner(std::uint32_t lowest) noexcept {
     BoundaryEntry& entry = entries_[entry_count_++];
     entry = {lowest, true, static_cast<std::uint32_t>(count_), 1, 0};
     topology_.for_joined(lowest, [&](std::size_t corner) {
-      if (every_patch_ || entry.members == 0) {
-        patch_[count_] = static_cast<std::uint32_t>(corner / kPatchCorners);
-        u_[count_] = T(corner % 2 != 0 ? 1 : -1);
-        v_[count_] = T(corner % kPatchCorners >= 2 ? 1 : -1);
+      if (wishes_.every_patch || entry.members == 0) {
+        corners_.fetch(static_cast<std::uint32_t>(corner), positions_, normals_, count_);
         ++count_;
         ++entry.members;
       }
@@ -112,53 +141,75 @@ private:
     if (points == 0) {
       return;
     }
-    const auto sides =
-        topology_.sides_of(edge).first(every_patch_ ? topology_.sides_of(edge).size() : 1);
-    BoundaryEntry& entry = entries_[entry_count_++];
-    entry = {edge, false, static_cast<std::uint32_t>(count_), points,
-             static_cast<std::uint32_t>(sides.size())};
-    // The first side has the edge's direction.
-    T* const line = runs_in_u(sides[0]) ? u_ + count_ : v_ + count_;
-    fill_line(edge, points, line);
+    const auto all = topology_.sides_of(edge);
+    const auto sides = all.first(wishes_.every_patch ? all.size() : 1);
+    entries_[entry_count_++] = {edge, false, static_cast<std::uint32_t>(count_), points,
+                                static_cast<std::uint32_t>(sides.size())};
+    const T* along[2] = {nullptr, nullptr}; // in the edge's direction, against it
+    const std::uint32_t rate = mesh_.rate(sides[0]);
+    if (rate == points + 1) { // the other rates are divisors of it
+      along[0] = lines_.line(rate);
+    } else {
+      fill_union(edge, points);
+      along[0] = line_[0];
+    }
     for (const std::uint32_t side : sides) {
-      const bool in_u = runs_in_u(side);
-      T* const along = (in_u ? u_ : v_) + count_;
       const bool reversed = topology_.sides[side].reversed();
-      for (std::uint32_t k = 0; k < points; ++k) {
-        along[k] = reversed ? T(0) - line[k] : line[k]; // no -0
+      if (reversed && along[1] == nullptr) {
+        std::transform(along[0], along[0] + points + kMaxLanes, line_[1],
+                       [](T x) { return T(0) - x; }); // no -0
+        along[1] = line_[1];
       }
-      std::fill_n((in_u ? v_ : u_) + count_, points, T(side % 2 != 0 ? 1 : -1));
-      std::fill_n(patch_ + count_, points, static_cast<std::uint32_t>(side / kPatchEdges));
+      run_side(side, along[reversed ? 1 : 0], points);
       count_ += points;
     }
   }
 
-  /// Centred parameters of an edge's points.
-  void fill_line(std::uint32_t edge, std::uint32_t points, T* to) noexcept {
-    const auto sides = topology_.sides_of(edge);
-    const std::uint32_t rate = mesh_.rate(sides[0]);
-    if (rate == points + 1) { // the other rates are divisors of it
-      const T* const line = lines_.line(rate);
-      std::transform(line, line + points, to, [](T x) { return T(2) * x; });
-      return;
+  /// One side as a row or a column.
+  void run_side(std::uint32_t side, const T* along, std::uint32_t points) noexcept {
+    PieceTarget<T> to;
+    for (std::size_t c = 0; c < 3; ++c) {
+      to.position.component[c] = moved(positions_.component[c]);
+      to.normal.component[c] = moved(normals_.component[c]);
     }
+    const bool far = side % 2 != 0;
+    const T* const end = far ? high_ : low_;
+    if (runs_in_u(side)) {
+      const RowRun<T> run{end, 1, far ? RowKind::edge_v1 : RowKind::edge_v0};
+      runner_.run(side / kPatchEdges, 1, {along, points, &run, 1, 1}, to);
+    } else {
+      const RowRun<T> run{along, points, RowKind::interior};
+      runner_.run(side / kPatchEdges, 1, {end, 1, &run, 1, points}, to);
+    }
+  }
+  [[nodiscard]] T* moved(T* plane) const noexcept {
+    return plane == nullptr ? nullptr : plane + count_;
+  }
+
+  /// Half-centred parameters of an edge's points.
+  void fill_union(std::uint32_t edge, std::uint32_t points) noexcept {
     for_edge_points(mesh_, edge, scratch_,
                     [&](std::uint32_t k, std::uint32_t numerator, std::uint32_t denominator) {
-                      to[k - 1] = T(2) * uniform_parameter<T>(numerator, denominator);
+                      line_[0][k - 1] = uniform_parameter<T>(numerator, denominator);
                     });
+    std::fill_n(line_[0] + points, kMaxLanes, line_[0][points - 1]);
   }
 
   const MeshData& mesh_;
   const TopologyData& topology_;
-  bool every_patch_;
+  BoundaryWishes wishes_;
+  PatchRunner<T>& runner_;
   ParameterLines<T>& lines_;
+  CornerCache<T> corners_;
   BoundaryEntry* entries_ = nullptr;
-  std::uint32_t* patch_ = nullptr;
-  T* u_ = nullptr;
-  T* v_ = nullptr;
   std::uint32_t* scratch_ = nullptr;
+  T* line_[2] = {nullptr, nullptr}; ///< of an edge with several rates; the same reversed
+  Planes<T> positions_;
+  Planes<T> normals_;
   std::size_t count_ = 0;
   std::size_t entry_count_ = 0;
+  T low_[kMaxLanes + 1];
+  T high_[kMaxLanes + 1];
 };
 
 } // namespace simdbezier::detail

@@ -4,7 +4,6 @@
 #include <simdbezier/evaluate_mesh.hpp>
 
 #include "src/calls/call.hpp"
-#include "src/calls/sample_evaluator.hpp"
 #include "src/mesh/crease_groups.hpp"
 #include "src/mesh/layout_builder.hpp"
 
@@ -19,7 +18,9 @@ public:
   CreaseWork(const MeshData& mesh, const PatchKernels<T>& kernels, double angle,
              CreaseGroups& groups, std::uint32_t* sample_of_corner) noexcept
       : mesh_(mesh), kernels_(kernels), angle_(angle), groups_(groups),
-        sample_of_corner_(sample_of_corner), samples_(mesh.most_boundary_samples + kMostSamples) {
+        sample_of_corner_(sample_of_corner), wishes_{0, true, true,
+                                                     std::max(kMostSamples,
+                                                              mesh.most_boundary_samples)} {
     const auto most = [](const auto& rates) {
       return *std::max_element(rates.begin(), rates.end());
     };
@@ -28,41 +29,25 @@ public:
 
   [[nodiscard]] std::size_t units() const noexcept { return mesh_.patches(); }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
-    return lines_bytes() + BoundarySamples<T>::bytes(mesh_, samples_) + 3 * plane_bytes() +
-           SampleEvaluator<T>::scratch_bytes(*kernels_.set, samples_);
+    return lines_bytes() + BoundarySamples<T>::bytes(mesh_, wishes_);
   }
 
   Isa run(int /*worker*/, std::size_t begin, std::size_t end,
           unsigned char* scratch) const noexcept {
-    const auto take = [&](std::size_t bytes) {
-      unsigned char* const taken = scratch;
-      scratch += bytes;
-      return taken;
-    };
-    ParameterLines<T> lines(reinterpret_cast<T*>(take(lines_bytes())), most_rate_);
-    BoundarySamples<T> samples(mesh_, true, samples_, lines,
-                               take(BoundarySamples<T>::bytes(mesh_, samples_)));
-    Planes<T> planes[kGroups];
-    for (T*& plane : planes[kNormalGroup].component) {
-      plane = reinterpret_cast<T*>(take(plane_bytes()));
-    }
-    const SampleEvaluator<T> evaluator(kernels_, scratch);
-    const CreaseFinder<T> finder(mesh_, angle_, planes[kNormalGroup], groups_);
-    Isa executed = Isa::automatic;
+    PatchRunner<T> runner(kernels_);
+    ParameterLines<T> lines(reinterpret_cast<T*>(scratch), most_rate_);
+    BoundarySamples<T> samples(mesh_, wishes_, runner, lines, scratch + lines_bytes());
+    const CreaseFinder<T> finder(mesh_, angle_, samples.normals(), groups_);
     for (std::size_t patch = begin; patch < end; ++patch) {
       samples.add(patch);
-      if (samples.size() < kMostSamples && patch + 1 < end) {
-        continue;
+      if (!samples.has_room() || patch + 1 == end) {
+        for (const BoundaryEntry& entry : samples.entries()) {
+          finder.group(entry, sample_of_corner_);
+        }
+        samples.clear();
       }
-      executed = evaluator.run({samples.patch(), samples.u(), samples.v(), samples.size(),
-                                samples.size(), Parameters::centred},
-                               {planes});
-      for (const BoundaryEntry& entry : samples.entries()) {
-        finder.group(entry, sample_of_corner_);
-      }
-      samples.clear();
     }
-    return executed;
+    return runner.executed();
   }
 
 private:
@@ -71,16 +56,13 @@ private:
   [[nodiscard]] std::size_t lines_bytes() const noexcept {
     return whole_lines(ParameterLines<T>::memory_values(most_rate_) * sizeof(T));
   }
-  [[nodiscard]] std::size_t plane_bytes() const noexcept {
-    return whole_lines(samples_ * sizeof(T));
-  }
 
   const MeshData& mesh_;
   const PatchKernels<T>& kernels_;
   double angle_;
   CreaseGroups& groups_;
   std::uint32_t* sample_of_corner_;
-  std::size_t samples_;
+  BoundaryWishes wishes_;
   std::uint32_t most_rate_;
 };
 

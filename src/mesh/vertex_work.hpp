@@ -2,15 +2,14 @@
 //
 // Patch by patch there are the vertices on its boundary that it owns, and its inner points, row by
 // row. Both go to planes that a delivery provides, chunk by chunk: inner rows straight from the
-// grid kernels, boundaries from the kernels for single samples, a chunk's worth at once.
+// grid kernels, boundaries by way of samples of all patches that have them.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 
-#include "src/calls/piece_evaluator.hpp"
-#include "src/calls/sample_evaluator.hpp"
 #include "src/mesh/boundary_store.hpp"
+#include "src/output/delivery.hpp"
 
 namespace simdbezier::detail {
 
@@ -33,10 +32,9 @@ struct VertexTask {
 /// Sizes of one thread's memory.
 template <typename T>
 struct VertexSizes {
-  std::size_t chunk;   ///< vertices
-  std::size_t samples; ///< on boundaries, evaluated together
-  std::size_t planes;  ///< of these samples
+  std::size_t chunk; ///< vertices
   std::size_t most_rate;
+  BoundaryWishes wishes;
 
   VertexSizes(const VertexTask<T>& task, std::size_t wanted_chunk) noexcept {
     const MeshData& mesh = *task.mesh;
@@ -46,9 +44,13 @@ struct VertexSizes {
     const std::size_t widest = most(mesh.nu);
     most_rate = std::max<std::size_t>(widest, most(mesh.nv));
     chunk = std::max({wanted_chunk, mesh.most_boundary_vertices, widest});
-    samples = std::max<std::size_t>(chunk, mesh.most_boundary_samples);
-    planes = task.dimension + (task.normals ? 3 : 0);
+    wishes = {task.dimension, task.normals, task.every_patch(),
+              std::max(kBoundarySamples, mesh.most_boundary_samples)};
   }
+
+private:
+  /// Few enough that they stay in the first-level cache until vertices are made of them.
+  static constexpr std::size_t kBoundarySamples = 512;
 };
 
 /// Rows of inner points that a kernel takes at once.
@@ -61,34 +63,17 @@ class VertexWorker {
 public:
   [[nodiscard]] static std::size_t scratch_bytes(const VertexTask<T>& task,
                                                  const VertexSizes<T>& sizes) noexcept {
-    return lines_bytes(sizes) + BoundarySamples<T>::bytes(*task.mesh, sizes.samples) +
-           BoundaryStore<T>::bytes(*task.mesh) +
-           sizes.planes * whole_lines(sizes.samples * sizeof(T)) +
-           SampleEvaluator<T>::scratch_bytes(*task.kernels->set, sizes.samples) +
-           whole_lines(PieceEvaluator<T>::scratch_bytes(kMostMeshRows));
+    return lines_bytes(sizes) + BoundarySamples<T>::bytes(*task.mesh, sizes.wishes) +
+           BoundaryStore<T>::bytes(*task.mesh);
   }
 
   VertexWorker(const VertexTask<T>& task, const VertexSizes<T>& sizes, Sink& sink,
                unsigned char* scratch) noexcept
-      : task_(task), mesh_(*task.mesh), sizes_(sizes), sink_(sink),
+      : task_(task), mesh_(*task.mesh), sizes_(sizes), sink_(sink), runner_(*task.kernels),
         lines_(reinterpret_cast<T*>(take(scratch, lines_bytes(sizes))), sizes.most_rate),
-        samples_(mesh_, task.every_patch(), sizes.samples, lines_,
-                 take(scratch, BoundarySamples<T>::bytes(mesh_, sizes.samples))),
-        store_(mesh_, task.values, take(scratch, BoundaryStore<T>::bytes(mesh_))),
-        sample_evaluator_(*task.kernels, take(scratch, SampleEvaluator<T>::scratch_bytes(
-                                                           *task.kernels->set, sizes.samples))),
-        rows_(*task.kernels, kMostMeshRows,
-              take(scratch, whole_lines(PieceEvaluator<T>::scratch_bytes(kMostMeshRows)))) {
-    const auto take_plane = [&] {
-      return reinterpret_cast<T*>(take(scratch, whole_lines(sizes.samples * sizeof(T))));
-    };
-    for (std::size_t c = 0; c < task.dimension; ++c) {
-      results_[kPositionGroup].component[c] = take_plane();
-    }
-    for (std::size_t c = 0; c < 3 && task.normals; ++c) {
-      results_[kNormalGroup].component[c] = take_plane();
-    }
-  }
+        samples_(mesh_, sizes.wishes, runner_, lines_,
+                 take(scratch, BoundarySamples<T>::bytes(mesh_, sizes.wishes))),
+        store_(mesh_, task.values, take(scratch, BoundaryStore<T>::bytes(mesh_))) {}
 
   /// Whatever begins at vertices [begin, end): boundaries and rows.
   Isa run(std::size_t begin, std::size_t end) noexcept {
@@ -100,8 +85,8 @@ public:
       }
       if (first >= begin && inner > first) {
         make_room(first, inner - first);
-        if (samples_.size() + mesh_.most_boundary_samples > sizes_.samples) {
-          evaluate_boundaries();
+        if (!samples_.has_room()) {
+          store_boundaries();
         }
         samples_.add(patch);
         filled_ += inner - first;
@@ -110,7 +95,7 @@ public:
     }
     pass_on();
     sink_.finish();
-    return executed_;
+    return runner_.executed();
   }
 
 private:
@@ -155,22 +140,16 @@ private:
     }
   }
   void pass_on() noexcept {
-    evaluate_boundaries();
+    store_boundaries();
     if (filled_ > 0) {
       sink_.end(filled_);
     }
     filled_ = 0;
   }
 
-  void evaluate_boundaries() noexcept {
-    if (samples_.size() == 0) {
-      return;
-    }
-    executed_ = sample_evaluator_.run({samples_.patch(), samples_.u(), samples_.v(),
-                                       samples_.size(), samples_.size(), Parameters::centred},
-                                      {results_});
+  void store_boundaries() noexcept {
     for (const BoundaryEntry& entry : samples_.entries()) {
-      store_.store(entry, results_[kPositionGroup], results_[kNormalGroup], target_);
+      store_.store(entry, samples_.positions(), samples_.normals(), target_);
     }
     samples_.clear();
   }
@@ -180,19 +159,17 @@ private:
     if (row == last || columns == 0) {
       return;
     }
-    plan_.refer(lines_.line(mesh_.nu[patch]), columns, lines_.line(mesh_.nv[patch]),
-                mesh_.nv[patch] - 1);
+    const T* const x = lines_.line(mesh_.nu[patch]);
+    const T* const y = lines_.line(mesh_.nv[patch]);
     while (row < last) {
-      const std::size_t vertex = mesh_.inner[patch] + row * columns;
-      make_room(vertex, columns);
+      make_room(mesh_.inner[patch] + row * columns, columns);
       const std::size_t rows =
           std::min({last - row, (sizes_.chunk - filled_) / columns, kMostMeshRows});
-      Planes<T> planes[kGroups];
-      planes[kPositionGroup] = moved(target_.position);
-      planes[kNormalGroup] = moved(target_.normal);
-      rows_.run(plan_, {patch, 1, row, row + rows}, {planes, sink_.queue(), sink_.step()});
-      executed_ = rows_.executed();
-      finish_rows(patch, row, rows, planes);
+      const PieceTarget<T> to{moved(target_.position), moved(target_.normal), target_.step,
+                              sink_.queue()};
+      const RowRun<T> run{y + row, static_cast<std::uint32_t>(rows), RowKind::interior};
+      runner_.run(patch, 1, {x, columns, &run, 1, rows}, to);
+      finish_rows(patch, row, rows, to.normal);
       row += rows;
       filled_ += rows * columns;
     }
@@ -208,10 +185,10 @@ private:
   }
   /// Normals of turned patches, and parameters.
   void finish_rows(std::size_t patch, std::size_t row, std::size_t rows,
-                   const Planes<T> (&planes)[kGroups]) const noexcept {
+                   const Planes<T>& normals) const noexcept {
     const std::size_t columns = mesh_.nu[patch] - 1;
     if (task_.normals && mesh_.topology.data()->is_turned(patch)) {
-      for (T* const plane : planes[kNormalGroup].component) {
+      for (T* const plane : normals.component) {
         for (std::size_t k = 0; k < rows * columns; ++k) {
           plane[k * target_.step] = T(0) - plane[k * target_.step];
         }
@@ -234,16 +211,12 @@ private:
   const MeshData& mesh_;
   const VertexSizes<T>& sizes_;
   Sink& sink_;
+  PatchRunner<T> runner_;
   ParameterLines<T> lines_;
   BoundarySamples<T> samples_;
   BoundaryStore<T> store_;
-  SampleEvaluator<T> sample_evaluator_;
-  PieceEvaluator<T> rows_;
-  GridPlan<T> plan_;
-  Planes<T> results_[kGroups]; ///< of samples on boundaries
-  VertexTarget<T> target_;     ///< of the chunk
-  std::size_t filled_ = 0;     ///< vertices of the chunk
-  Isa executed_ = Isa::automatic;
+  VertexTarget<T> target_; ///< of the chunk
+  std::size_t filled_ = 0; ///< vertices of the chunk
 };
 
 } // namespace simdbezier::detail
