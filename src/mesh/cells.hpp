@@ -1,5 +1,6 @@
 // From the cells of a patch to what a sink makes of them:
 //     sink.cell(corners, falling)   a cell with four different vertices, two triangles
+//     sink.cells(first, steps, n, falling)   n of them side by side
 //     sink.triangle(a, b, c)        of any other cell, three different vertices, counter-clockwise
 #pragma once
 
@@ -59,9 +60,32 @@ struct CellCorners {
   std::uint32_t at[4];
 };
 
+/// From the vertices of a cell to those of the next one: below and above.
+struct CellSteps {
+  std::uint32_t below;
+  std::uint32_t above;
+
+  void advance(CellCorners& c) const {
+    c.at[0] += below;
+    c.at[1] += below;
+    c.at[2] += above;
+    c.at[3] += above;
+  }
+};
+
+/// The cells of a row one by one, for sinks that have no better way.
+template <typename Sink>
+void put_cells(CellCorners first, const CellSteps& steps, std::uint32_t count, bool falling,
+               Sink& sink) {
+  for (; count > 0; --count, steps.advance(first)) {
+    sink.cell(first, falling);
+  }
+}
+
 /// Gives the two triangles of a cell to put(a, b, c), counter-clockwise.
 template <typename Put>
-void put_halves(const CellCorners& c, bool falling, const Put& put) {
+__attribute__((always_inline)) inline void put_halves(const CellCorners& c, bool falling,
+                                                      const Put& put) {
   if (falling) {
     put(c.at[0], c.at[1], c.at[2]);
     put(c.at[3], c.at[2], c.at[1]);
@@ -108,7 +132,8 @@ private:
   }
   /// Whether the cell's diagonal runs from (1,0) to (0,1).
   [[nodiscard]] bool falling(std::uint32_t i, std::uint32_t j) const {
-    for (std::uint32_t corner = 0; corner < kPatchCorners; ++corner) {
+    for (std::uint32_t corner = 0; corner < kPatchCorners && has_forced_diagonal(flags_);
+         ++corner) {
       if (is_forced_through(flags_, corner) && i == (corner % 2 != 0 ? nu_ - 1 : 0) &&
           j == (corner >= 2 ? nv_ - 1 : 0)) {
         return falls(corner);
@@ -126,16 +151,28 @@ private:
                       : inner_ + (j - 1) * (nu_ - 1) + (i - 1);
   }
 
+  [[nodiscard]] PointRow point_row(std::uint32_t j) const {
+    return j == 0     ? boundary_.row(kV0)
+           : j == nv_ ? boundary_.row(kV1)
+                      : PointRow{inner_ + (j - 1) * (nu_ - 1) - 1, 1};
+  }
+
   template <typename Sink>
   void cut_row(std::uint32_t j, std::uint32_t begin, std::uint32_t end, Sink& sink) const {
-    const bool border = j == 0 || j + 1 == nv_;
+    const PointRow below = point_row(j);
+    const PointRow above = point_row(j + 1);
+    const bool single = j == 0 && j + 1 == nv_; // both sides may be one edge
+    const bool regular = below.step != 0 && above.step != 0 && !single;
     for (std::uint32_t i = begin; i < end;) {
-      if (border || i == 0 || i + 1 == nu_) {
+      if (!regular || i == 0 || i + 1 == nu_) {
         cut_border_cell(i, j, sink);
         ++i;
       } else {
         const std::uint32_t last = std::min(end, zone_end(i));
-        cut_inner_cells(j, i, last, sink);
+        const std::uint32_t b = below.zero + i * below.step;
+        const std::uint32_t a = above.zero + i * above.step;
+        sink.cells({{b, b + below.step, a, a + above.step}}, {below.step, above.step}, last - i,
+                   falling(i, j));
         i = last;
       }
     }
@@ -143,19 +180,31 @@ private:
 
   template <typename Sink>
   void cut_border_cell(std::uint32_t i, std::uint32_t j, Sink& sink) const {
-    const CellCorners c{{vertex(i, j), vertex(i + 1, j), vertex(i, j + 1), vertex(i + 1, j + 1)}};
+    const std::uint32_t a = vertex(i, j);
+    const std::uint32_t b = vertex(i + 1, j);
+    const std::uint32_t c = vertex(i, j + 1);
+    const std::uint32_t d = vertex(i + 1, j + 1);
+    const bool plain = (j > 0 || boundary_.segments(kV0, i) == 1) &&
+                       (j + 1 < nv_ || boundary_.segments(kV1, i) == 1) &&
+                       (i > 0 || boundary_.segments(kU0, j) == 1) &&
+                       (i + 1 < nu_ || boundary_.segments(kU1, j) == 1);
+    if (plain && a != b && a != c && a != d && b != c && b != d && c != d) {
+      sink.cell({{a, b, c, d}}, falling(i, j));
+    } else {
+      cut_chains(i, j, {{a, b, c, d}}, sink);
+    }
+  }
+
+  /// A cell whose sides have further vertices, or none.
+  template <typename Sink>
+  void cut_chains(std::uint32_t i, std::uint32_t j, const CellCorners& c, Sink& sink) const {
     const std::uint32_t left[2] = {c.at[0], c.at[2]};
     const std::uint32_t right[2] = {c.at[1], c.at[3]};
     const Chain bottom = j == 0 ? boundary_.between(kV0, i) : Chain{c.at, 1};
     const Chain top = j + 1 == nv_ ? boundary_.between(kV1, i) : Chain{c.at + 2, 1};
     const Chain west = i == 0 ? boundary_.between(kU0, j) : Chain{left, 1};
     const Chain east = i + 1 == nu_ ? boundary_.between(kU1, j) : Chain{right, 1};
-    const bool falls_here = falling(i, j);
-    const bool plain =
-        bottom.segments == 1 && top.segments == 1 && west.segments == 1 && east.segments == 1;
-    if (plain && are_different(c)) {
-      sink.cell(c, falls_here);
-    } else if (falls_here) { // right angles at (i, j) and (i + 1, j + 1)
+    if (falling(i, j)) { // right angles at (i, j) and (i + 1, j + 1)
       cut_half(Leg(bottom, false), Leg(west, false), sink);
       cut_half(Leg(top, true), Leg(east, true), sink);
     } else { // at (i + 1, j) and (i, j + 1)
@@ -163,21 +212,7 @@ private:
       cut_half(Leg(west, true), Leg(top, false), sink);
     }
   }
-  static bool are_different(const CellCorners& c) {
-    return c.at[0] != c.at[1] && c.at[0] != c.at[2] && c.at[0] != c.at[3] && c.at[1] != c.at[2] &&
-           c.at[1] != c.at[3] && c.at[2] != c.at[3];
-  }
 
-  /// Cells of one zone that touch no side.
-  template <typename Sink>
-  void cut_inner_cells(std::uint32_t j, std::uint32_t begin, std::uint32_t end, Sink& sink) const {
-    const std::uint32_t below = inner_ + (j - 1) * (nu_ - 1) - 1; // of (i, j) less i
-    const std::uint32_t above = below + (nu_ - 1);
-    const bool falls_here = falling(begin, j);
-    for (std::uint32_t i = begin; i < end; ++i) {
-      sink.cell({{below + i, below + i + 1, above + i, above + i + 1}}, falls_here);
-    }
-  }
   /// Where the zone of an inner cell ends, or the inner cells do.
   [[nodiscard]] std::uint32_t zone_end(std::uint32_t i) const {
     const std::uint32_t middle = nu_ / 2;

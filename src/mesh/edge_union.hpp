@@ -30,10 +30,38 @@ inline void include_rate(EdgeRates& rates, std::uint32_t rate) {
 /// Returns the number of segments.
 ///
 /// next: memory for as many values as rates.
+namespace unions {
+
+/// The usual case: two sides of different rates.
+template <typename Visit>
+std::uint32_t walk_two(const std::uint32_t* rates, std::uint32_t* next, const Visit& visit) {
+  const std::uint64_t a = rates[0];
+  const std::uint64_t b = rates[1];
+  std::uint64_t at_a = 0; // next[0] b and next[1] a: over a common denominator
+  std::uint64_t at_b = 0;
+  for (std::uint32_t place = 0;; ++place) {
+    const bool first = at_a <= at_b;
+    const bool both = at_a == at_b;
+    visit(place, static_cast<const std::uint32_t*>(next), std::size_t{first ? 0U : 1U});
+    if (at_a == a * b && both) {
+      return place;
+    }
+    next[0] += first ? 1 : 0;
+    at_a += first ? b : 0;
+    next[1] += !first || both ? 1 : 0;
+    at_b += !first || both ? a : 0;
+  }
+}
+
+} // namespace unions
+
 template <typename Visit>
 std::uint32_t walk_union(std::span<const std::uint32_t> rates, std::uint32_t* next,
                          const Visit& visit) {
   std::fill_n(next, rates.size(), 0U);
+  if (rates.size() == 2) {
+    return unions::walk_two(rates.data(), next, visit);
+  }
   for (std::uint32_t place = 0;; ++place) {
     std::size_t lowest = 0;
     for (std::size_t k = 1; k < rates.size(); ++k) {
@@ -70,6 +98,24 @@ inline void union_places(std::span<const std::uint32_t> rates, std::uint32_t rat
                          std::vector<std::uint32_t>& scratch, std::span<std::uint32_t> places) {
   if (rates.size() == 1) {
     std::iota(places.begin(), places.end(), 0U);
+    return;
+  }
+  if (rates.size() == 2) {
+    // i own ones and those of the other side, j < i other / rate, lie before i/rate; common ones
+    // count once: i common / rate of them, rounded up like the others.
+    const std::uint32_t other = rates[rates[0] == rate ? 1 : 0];
+    const std::uint32_t common = std::gcd(rate, other);
+    std::uint32_t others = 0;
+    std::uint32_t commons = 0;
+    for (std::uint32_t i = 0; i <= rate; ++i) {
+      while (std::uint64_t{others} * rate < std::uint64_t{i} * other) {
+        ++others;
+      }
+      while (std::uint64_t{commons} * rate < std::uint64_t{i} * common) {
+        ++commons;
+      }
+      places[i] = i + others - commons;
+    }
     return;
   }
   const auto own =

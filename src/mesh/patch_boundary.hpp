@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,13 @@ namespace simdbezier::detail {
 struct Chain {
   const std::uint32_t* first;
   std::uint32_t segments; ///< 0 on a side that is a point
+};
+
+/// Points of a row that are neither its first nor its last one, where their numbers follow each
+/// other: number `zero` + i * step for point i.
+struct PointRow {
+  std::uint32_t zero = 0;
+  std::uint32_t step = 0; ///< 0: they do not
 };
 
 /// The vertices of one patch after the other, in memory of its own.
@@ -32,6 +40,8 @@ public:
     }
   }
 
+  /// The own points of a side, where it has no others.
+  [[nodiscard]] const PointRow& row(std::size_t side) const { return lines_[side].row; }
   /// The vertex of own point i of a side.
   [[nodiscard]] std::uint32_t vertex(std::size_t side, std::uint32_t i) const {
     const Line& line = lines_[side];
@@ -41,6 +51,10 @@ public:
   [[nodiscard]] Chain between(std::size_t side, std::uint32_t i) const {
     const Line& line = lines_[side];
     return {&line.chain[line.places[i]], line.places[i + 1] - line.places[i]};
+  }
+  [[nodiscard]] std::uint32_t segments(std::size_t side, std::uint32_t i) const {
+    const Line& line = lines_[side];
+    return line.places[i + 1] - line.places[i];
   }
   /// All vertices of a side.
   [[nodiscard]] std::span<const std::uint32_t> chain(std::size_t side) const {
@@ -63,6 +77,7 @@ public:
       }
     }
     for (std::size_t k = 0; k < kPatchEdges; ++k) {
+      lines_[k].row = {};
       auto& chain = lines_[k].chain;
       const std::uint32_t ends[2] = {corners[kSideCorners[k][0]], corners[kSideCorners[k][1]]};
       vertices[ends[0]] = chain.front();
@@ -90,6 +105,7 @@ private:
   struct Line {
     std::vector<std::uint32_t> chain;  ///< all vertices
     std::vector<std::uint32_t> places; ///< of the own points in it
+    PointRow row;
   };
 
   void fill(std::size_t side, Line& line) {
@@ -97,9 +113,11 @@ private:
     const std::size_t corners = side / kPatchEdges * kPatchCorners;
     const auto& ends = kSideCorners[side % kPatchEdges];
     const std::uint32_t begin = mesh_.corners[corners + ends[0]];
-    line.places.assign(rate + 1, 0);
+    line.places.resize(rate + 1);
+    line.row = {};
     if (topology_.sides[side].collapsed()) {
       line.chain.assign(1, begin);
+      std::fill(line.places.begin(), line.places.end(), 0U);
       return;
     }
     const Side own = topology_.sides[side];
@@ -107,8 +125,22 @@ private:
     line.chain.resize(segments + 1);
     line.chain.front() = begin;
     line.chain.back() = mesh_.corners[corners + ends[1]];
-    for (std::uint32_t k = 1; k < segments; ++k) {
-      line.chain[k] = mesh_.edge_vertex(side, own.reversed() ? segments - k : k);
+    if (mesh_.is_split(side)) {
+      for (std::uint32_t k = 1; k < segments; ++k) {
+        line.chain[k] = mesh_.edge_vertex(side, own.reversed() ? segments - k : k);
+      }
+    } else {
+      const std::uint32_t step = own.reversed() ? ~0U : 1;
+      const std::uint32_t zero =
+          mesh_.edge_first[own.edge()] + (own.reversed() ? segments - 1 : ~0U);
+      for (std::uint32_t k = 1; k < segments; ++k) {
+        line.chain[k] = zero + k * step;
+      }
+      line.row = {zero, rate == segments ? step : 0};
+    }
+    if (rate == segments) {
+      std::iota(line.places.begin(), line.places.end(), 0U);
+      return;
     }
     mesh_.rates_of(own.edge(), rates_);
     union_places(rates_, rate, scratch_, line.places);

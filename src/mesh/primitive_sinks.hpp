@@ -2,7 +2,7 @@
 // to.
 #pragma once
 
-#include "src/mesh/cells.hpp"
+#include "src/mesh/cell_patterns.hpp"
 
 namespace simdbezier::detail {
 
@@ -32,18 +32,27 @@ class TriangleSink {
 public:
   TriangleSink(Index* to, bool turned) : to_(to), turned_(turned) {}
 
-  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    to_[0] = static_cast<Index>(a);
-    to_[1] = static_cast<Index>(turned_ ? c : b);
-    to_[2] = static_cast<Index>(turned_ ? b : c);
-    to_ += 3;
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { to_ = put(to_, a, b, c); }
+  // In registers: what has been stored in parts is slow to be read as a whole.
+  __attribute__((always_inline)) void cell(const CellCorners& c, bool falling) {
+    Index* to = to_;
+    put_halves(c, falling, [&](auto... vertices) { to = put(to, vertices...); });
+    to_ = to;
   }
-  void cell(const CellCorners& c, bool falling) {
-    put_halves(c, falling, [this](auto... vertices) { triangle(vertices...); });
+  void cells(const CellCorners& first, const CellSteps& steps, std::uint32_t count, bool falling) {
+    CellRun<Index> run(first.at[0], first.at[2], steps, falling, turned_);
+    to_ = run.write(count, to_);
   }
   [[nodiscard]] const Index* end() const { return to_; }
 
 private:
+  __attribute__((always_inline)) Index* put(Index* to, std::uint32_t a, std::uint32_t b,
+                                            std::uint32_t c) const {
+    to[0] = static_cast<Index>(a);
+    to[1] = static_cast<Index>(turned_ ? c : b);
+    to[2] = static_cast<Index>(turned_ ? b : c);
+    return to + 3;
+  }
   Index* to_;
   bool turned_;
 };
@@ -67,6 +76,9 @@ public:
     const std::uint32_t fourth = falling ? c.at[0] : c.at[2];
     indices_.put(first, turned_ ? fourth : second, third, turned_ ? second : fourth);
     sizes_.put(4);
+  }
+  void cells(const CellCorners& first, const CellSteps& steps, std::uint32_t count, bool falling) {
+    put_cells(first, steps, count, falling, *this);
   }
   [[nodiscard]] std::size_t indices() const { return indices_.count(); }
   [[nodiscard]] std::size_t polygons() const { return sizes_.count(); }
@@ -108,6 +120,9 @@ public:
     falling_ = falling;
     last_[0] = c.at[1];
     last_[1] = c.at[3];
+  }
+  void cells(const CellCorners& first, const CellSteps& steps, std::uint32_t count, bool falling) {
+    put_cells(first, steps, count, falling, *this);
   }
   void end_strip() {
     if (open_) {

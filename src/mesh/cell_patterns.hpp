@@ -1,0 +1,90 @@
+// The numbers of cells side by side, some cells at a time: in each place stands a vertex below or
+// above, some steps away from the first one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "src/mesh/cells.hpp"
+
+namespace simdbezier::detail {
+
+template <typename Index>
+class CellRun {
+public:
+  /// Cells whose numbers fill three registers.
+  static constexpr std::uint32_t kTogether = 8 / sizeof(Index);
+
+  /// The cell's first vertices below and above, and steps of 1 or -1 to the next ones.
+  CellRun(std::uint32_t below, std::uint32_t above, const CellSteps& steps, bool falling,
+          bool turned)
+      : pattern_(kPatterns[falling ? 1 : 0][turned ? 1 : 0]) {
+    const auto low = spread(below);
+    const auto rise = spread(above - below);
+    const auto back_below = spread(steps.below == 1 ? 0 : ~0U);
+    const auto back_above = spread(steps.above == 1 ? 0 : ~0U);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Register mask = load(pattern_.above, k);
+      const Register from_below = (load(pattern_.below_steps, k) ^ back_below) - back_below;
+      const Register from_above = (load(pattern_.above_steps, k) ^ back_above) - back_above;
+      next_[k] = low + (mask & rise) + from_below + from_above;
+      step_[k] =
+          (mask & spread(kTogether * steps.above)) | (~mask & spread(kTogether * steps.below));
+    }
+  }
+
+  /// Six numbers a cell; returns where they end.
+  Index* write(std::uint32_t cells, Index* to) {
+    for (; cells >= kTogether; cells -= kTogether, to += kNumbers) {
+      std::memcpy(to, next_, sizeof next_);
+      for (std::size_t k = 0; k < 3; ++k) {
+        next_[k] += step_[k];
+      }
+    }
+    std::memcpy(to, next_, 6 * sizeof(Index) * cells);
+    return to + std::size_t{6} * cells;
+  }
+
+private:
+  typedef Index Register __attribute__((vector_size(16)));
+  static constexpr std::size_t kLanes = 16 / sizeof(Index);
+  static constexpr std::size_t kNumbers = 3 * kLanes;
+
+  struct Pattern {
+    alignas(16) Index above[kNumbers];
+    alignas(16) Index below_steps[kNumbers];
+    alignas(16) Index above_steps[kNumbers];
+
+    constexpr Pattern(bool falling, bool turned) : above{}, below_steps{}, above_steps{} {
+      // Corners at (0,0), (1,0), (0,1), (1,1), in the order of put_halves().
+      constexpr std::uint32_t kCorners[2][6] = {{1, 3, 0, 2, 0, 3}, {0, 1, 2, 3, 2, 1}};
+      for (std::size_t k = 0; k < kNumbers; ++k) {
+        const std::size_t in_cell = k % 6;
+        const std::size_t in_triangle = in_cell % 3;
+        const std::size_t from =
+            turned && in_triangle > 0 ? in_cell + 3 - 2 * in_triangle : in_cell;
+        const std::uint32_t corner = kCorners[falling ? 1 : 0][from];
+        const auto steps = static_cast<Index>(k / 6 + corner % 2);
+        above[k] = corner >= 2 ? static_cast<Index>(-1) : Index{0};
+        below_steps[k] = corner >= 2 ? Index{0} : steps;
+        above_steps[k] = corner >= 2 ? steps : Index{0};
+      }
+    }
+  };
+  static constexpr Pattern kPatterns[2][2] = {{Pattern(false, false), Pattern(false, true)},
+                                              {Pattern(true, false), Pattern(true, true)}};
+
+  static Register spread(std::uint32_t value) { return Register{} + static_cast<Index>(value); }
+  static Register load(const Index* from, std::size_t k) {
+    Register value;
+    std::memcpy(&value, from + k * kLanes, sizeof value);
+    return value;
+  }
+
+  const Pattern& pattern_;
+  Register next_[3];
+  Register step_[3];
+};
+
+} // namespace simdbezier::detail
