@@ -32,3 +32,4 @@
 #include <simdbezier/tiles.hpp>           // IWYU pragma: export
 #include <simdbezier/topology.hpp>        // IWYU pragma: export
 #include <simdbezier/version.hpp>         // IWYU pragma: export
+#include <simdbezier/vertex_formats.hpp>  // IWYU pragma: export

@@ -16,17 +16,24 @@ template <typename T>
 class DeliverySink {
 public:
   DeliverySink(const OutputPlan<T>& plan, const KernelTable<T>& table, std::size_t chunk,
+               const ParameterOutputs<T>& parameters, std::size_t first_vertex,
                void* scratch) noexcept
-      : plan_(plan), delivery_(plan, table, chunk, scratch) {}
+      : plan_(plan), parameters_(parameters), first_vertex_(first_vertex),
+        delivery_(plan, table, chunk, scratch) {}
 
-  const Planes<T>* begin(std::size_t vertex) noexcept { return delivery_.begin(vertex); }
+  void begin(std::size_t vertex, VertexTarget<T>& to) noexcept {
+    const Planes<T>* const planes = delivery_.begin(vertex - first_vertex_);
+    to = {planes[kPositionGroup], planes[kNormalGroup], plan_.record(), vertex, parameters_,
+          first_vertex_};
+  }
   void end(std::size_t vertices) noexcept { delivery_.end(vertices); }
   void finish() noexcept { delivery_.finish(); }
   DrainQueue<T>* queue() noexcept { return delivery_.queue(); }
-  [[nodiscard]] std::size_t step() const noexcept { return plan_.record(); }
 
 private:
   const OutputPlan<T>& plan_;
+  const ParameterOutputs<T>& parameters_;
+  std::size_t first_vertex_;
   Delivery<T> delivery_;
 };
 
@@ -35,9 +42,9 @@ template <typename T>
 class MeshWork {
 public:
   MeshWork(const PatchKernels<T>& kernels, const OutputList<T>& out, const VertexTask<T>& task,
-           const Options& options) noexcept
+           const ParameterOutputs<T>& parameters, const Options& options) noexcept
       : outputs_(out, task.last_vertex - task.first_vertex, options.destination), task_(task),
-        kernels_(kernels), sizes_(task, 0) {
+        parameters_(parameters), kernels_(kernels), sizes_(task, 0) {
     task_.kernels = &kernels_;
     const auto& nu = task.mesh->nu;
     outputs_.arrange(kernels_.direct_rows(*std::min_element(nu.begin(), nu.end()) - 1, false),
@@ -57,7 +64,8 @@ public:
   }
   Isa run(int /*worker*/, std::size_t begin, std::size_t end,
           unsigned char* scratch) const noexcept {
-    DeliverySink<T> sink(outputs_, *kernels_.table, sizes_.chunk, scratch);
+    DeliverySink<T> sink(outputs_, *kernels_.table, sizes_.chunk, parameters_, task_.first_vertex,
+                         scratch);
     VertexWorker<T, DeliverySink<T>> worker(task_, sizes_, sink, scratch + delivery_bytes_);
     return worker.run(task_.first_vertex + begin, task_.first_vertex + end);
   }
@@ -68,6 +76,7 @@ private:
 
   OutputPlan<T> outputs_;
   VertexTask<T> task_;
+  ParameterOutputs<T> parameters_;
   PatchKernels<T> kernels_;
   VertexSizes<T> sizes_;
   std::size_t delivery_bytes_ = 0;
@@ -177,10 +186,10 @@ public:
     task.dimension = out_.holds(Output::position) ? request_.components.dimension : 0;
     task.normals = out_.holds(Output::normal);
     task.values = in_.values;
-    task.parameters = in_.attributes.outputs();
     task.first_vertex = first_vertex();
     task.last_vertex = last_vertex();
-    return MeshWork<T>({*in_.set.storage(), request_, out_, in_.options}, out_, task, in_.options);
+    return MeshWork<T>({*in_.set.storage(), request_, out_, in_.options}, out_, task,
+                       in_.attributes.outputs(), in_.options);
   }
 
 private:

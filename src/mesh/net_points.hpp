@@ -64,6 +64,14 @@ public:
       high_[c] = std::max(high_[c], point.x[c]);
     }
   }
+  [[nodiscard]] double low(std::size_t c) const noexcept { return low_[c]; }
+  [[nodiscard]] double middle(std::size_t c) const noexcept {
+    return low_[c] + (high_[c] - low_[c]) / 2;
+  }
+  /// Of the axes; nan where a value is.
+  [[nodiscard]] double longest() const noexcept {
+    return std::max({high_[0] - low_[0], high_[1] - low_[1], high_[2] - low_[2]});
+  }
   [[nodiscard]] double diagonal() const noexcept {
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {

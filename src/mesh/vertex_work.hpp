@@ -21,9 +21,8 @@ struct VertexTask {
   std::size_t dimension; ///< components of positions
   bool normals;
   ValuesOf values;
-  ParameterOutputs<T> parameters; ///< of vertices from first_vertex on
-  std::size_t first_vertex;       ///< what is vertex 0 for the caller
-  std::size_t last_vertex;        ///< behind the last one wanted
+  std::size_t first_vertex; ///< what is vertex 0 for the caller
+  std::size_t last_vertex;  ///< behind the last one wanted
 
   /// Whether a vertex needs a sample of every patch that has it.
   [[nodiscard]] bool every_patch() const noexcept { return normals || !mesh->side_first.empty(); }
@@ -56,8 +55,11 @@ private:
 /// Rows of inner points that a kernel takes at once.
 inline constexpr std::size_t kMostMeshRows = 1024;
 
-/// One thread. Sink: const Planes<T>* begin(vertex), void end(vertices), void finish(),
-/// DrainQueue<T>* queue(), std::size_t step().
+/// One thread. Sink:
+///   void begin(vertex, VertexTarget<T>&)   where a chunk goes that begins with a vertex
+///   void end(vertices)                     it is complete
+///   DrainQueue<T>* queue()                 what kernels pass on meanwhile, or null
+///   void finish()                          after the last chunk
 template <typename T, typename Sink>
 class VertexWorker {
 public:
@@ -134,9 +136,7 @@ private:
       pass_on();
     }
     if (filled_ == 0) {
-      const Planes<T>* const planes = sink_.begin(vertex - task_.first_vertex);
-      target_ = {planes[kPositionGroup], planes[kNormalGroup], sink_.step(), vertex,
-                 task_.parameters,       task_.first_vertex};
+      sink_.begin(vertex, target_);
     }
   }
   void pass_on() noexcept {
@@ -194,15 +194,15 @@ private:
         }
       }
     }
-    if (!task_.parameters.wanted()) {
+    if (!target_.parameters.wanted()) {
       return;
     }
-    std::size_t vertex = mesh_.inner[patch] + row * columns - task_.first_vertex;
+    std::size_t vertex = mesh_.inner[patch] + row * columns - target_.parameters_first;
     for (std::size_t j = row + 1; j <= row + rows; ++j) {
       const T v = static_cast<T>(j) / static_cast<T>(mesh_.nv[patch]);
       for (std::size_t i = 1; i <= columns; ++i, ++vertex) {
-        task_.parameters.put(vertex, static_cast<std::uint32_t>(patch),
-                             static_cast<T>(i) / static_cast<T>(mesh_.nu[patch]), v);
+        target_.parameters.put(vertex, static_cast<std::uint32_t>(patch),
+                               static_cast<T>(i) / static_cast<T>(mesh_.nu[patch]), v);
       }
     }
   }

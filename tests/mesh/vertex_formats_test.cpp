@@ -1,0 +1,303 @@
+// Vertex formats decoded by formulas of the test's own, against the values that they stand for.
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include <simdbezier/vertex_formats.hpp>
+
+#include "tests/mesh/evaluated_mesh.hpp"
+#include "tests/mesh/mesh_oracle.hpp"
+#include "tests/support/isas.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+template <typename Value>
+Value read(const std::vector<unsigned char>& bytes, std::size_t at) {
+  Value value;
+  std::memcpy(&value, &bytes[at], sizeof value);
+  return value;
+}
+
+double from_half(std::uint16_t bits) {
+  const int exponent = bits >> 10 & 31;
+  const double fraction = bits & 1023;
+  const double sign = (bits & 0x8000) != 0 ? -1 : 1;
+  if (exponent == 31) {
+    return sign * std::numeric_limits<double>::infinity();
+  }
+  return sign *
+         (exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25));
+}
+
+/// Component c of what is stored at a place.
+double decode(VertexFormat format, const std::vector<unsigned char>& bytes, std::size_t at,
+              std::size_t c, const QuantisationBox& box) {
+  switch (format) {
+  case VertexFormat::float32:
+    return static_cast<double>(read<float>(bytes, at + 4 * c));
+  case VertexFormat::half:
+    return from_half(read<std::uint16_t>(bytes, at + 2 * c));
+  case VertexFormat::unorm16:
+    return box.low[c] + box.step * read<std::uint16_t>(bytes, at + 2 * c);
+  default:
+    return box.low[c] + box.step * read<std::int16_t>(bytes, at + 2 * c);
+  }
+}
+
+Point decode_normal(VertexFormat format, const std::vector<unsigned char>& bytes, std::size_t at) {
+  if (format == VertexFormat::float32) {
+    return {read<float>(bytes, at), read<float>(bytes, at + 4), read<float>(bytes, at + 8)};
+  }
+  const bool wide = format == VertexFormat::octahedral16;
+  double s = wide ? read<std::int16_t>(bytes, at) / 32767.0 : read<std::int8_t>(bytes, at) / 127.0;
+  double t =
+      wide ? read<std::int16_t>(bytes, at + 2) / 32767.0 : read<std::int8_t>(bytes, at + 1) / 127.0;
+  const double z = 1 - std::fabs(s) - std::fabs(t);
+  if (z < 0) {
+    const double folded = std::copysign(1 - std::fabs(t), s);
+    t = std::copysign(1 - std::fabs(s), t);
+    s = folded;
+  }
+  const Point n = {s, t, z};
+  return 1 / length(n) * n;
+}
+
+MeshModel ball() {
+  for (MeshModel& model : mesh_models()) {
+    if (model.name == "ball 4 x 2") {
+      return model;
+    }
+  }
+  return {};
+}
+
+/// The mesh of a ball, fine enough to have normals in nearly all directions.
+EvaluatedMesh<float>& fine_ball() {
+  static EvaluatedMesh<float> mesh(ball(), 1, 1);
+  if (mesh.position.empty()) {
+    std::fill(mesh.nu.begin(), mesh.nu.end(), 90U);
+    std::fill(mesh.nv.begin(), mesh.nv.end(), 83U);
+    EXPECT_EQ(lay_out_mesh(mesh.topology, {mesh.nu, mesh.nv, {}}, mesh.layout), Status::ok);
+    mesh.evaluate_all();
+  }
+  return mesh;
+}
+
+QuantisationBox box_of(const EvaluatedMesh<float>& mesh, VertexFormat format) {
+  QuantisationBox box;
+  const auto nets = ControlNets<double>::packed(std::span<const double>(mesh.values));
+  EXPECT_EQ(quantisation_box(std::span<const ControlNets<double>>(&nets, 1), format, box),
+            Status::ok);
+  return box;
+}
+
+struct PositionCase {
+  VertexFormat format;
+  double relative; ///< of the value
+  double steps;    ///< of the box
+};
+constexpr PositionCase kPositions[] = {{VertexFormat::float32, 0, 0},
+                                       {VertexFormat::half, 0x1p-11, 0},
+                                       {VertexFormat::unorm16, 0, 0.5},
+                                       {VertexFormat::snorm16, 0, 0.5}};
+
+TEST(VertexFormats, positions_are_as_close_as_promised) {
+  EvaluatedMesh<float>& mesh = fine_ball();
+  for (const PositionCase& c : kPositions) {
+    const bool boxed = c.steps > 0;
+    const QuantisationBox box = boxed ? box_of(mesh, c.format) : QuantisationBox{};
+    for (const std::size_t stride : {format_bytes(c.format, 3), std::size_t{17}}) {
+      std::vector<unsigned char> bytes(stride * mesh.position.size(), 0xab);
+      FormattedOutputs out;
+      out.position = {bytes.data(), static_cast<std::ptrdiff_t>(stride), c.format,
+                      mesh.position.size()};
+      out.box = box;
+      ASSERT_EQ(evaluate_mesh(mesh.set, mesh.layout, out), Status::ok);
+      double worst = 0;
+      for (std::size_t k = 0; k < mesh.position.size(); ++k) {
+        for (std::size_t i = 0; i < 3; ++i) {
+          const auto exact = static_cast<double>(mesh.position[k][i]);
+          const double error = std::fabs(decode(c.format, bytes, stride * k, i, box) - exact);
+          const double most = c.relative * std::fabs(exact) + (c.relative > 0 ? 0x1p-25 : 0) +
+                              (c.steps + 1e-9) * box.step;
+          ASSERT_LE(error, most) << k;
+          worst = std::max(worst, most > 0 ? error / most : 0);
+        }
+        for (std::size_t i = format_bytes(c.format, 3); i < stride; ++i) {
+          ASSERT_EQ(bytes[stride * k + i], 0xab);
+        }
+      }
+      EXPECT_EQ(worst > 0.9, c.format != VertexFormat::float32);
+    }
+  }
+}
+
+struct NormalCase {
+  VertexFormat format;
+  double degrees;
+};
+constexpr NormalCase kNormals[] = {{VertexFormat::float32, 1e-5},
+                                   {VertexFormat::octahedral16, 0.0037},
+                                   {VertexFormat::octahedral8, 0.95}};
+
+TEST(VertexFormats, normals_are_as_close_as_promised) {
+  EvaluatedMesh<float>& mesh = fine_ball();
+  for (const NormalCase& c : kNormals) {
+    const std::size_t size = format_bytes(c.format, 3);
+    std::vector<unsigned char> bytes(size * mesh.normal.size());
+    FormattedOutputs out;
+    out.normal = {bytes.data(), 0, c.format, mesh.normal.size()};
+    ASSERT_EQ(evaluate_mesh(mesh.set, mesh.layout, out), Status::ok);
+    double worst = 0;
+    for (std::size_t k = 0; k < mesh.normal.size(); ++k) {
+      const Point n = {mesh.normal[k][0], mesh.normal[k][1], mesh.normal[k][2]};
+      const Point decoded = decode_normal(c.format, bytes, size * k);
+      const double angle = std::atan2(length(cross(n, decoded)), dot(n, decoded));
+      worst = std::max(worst, angle * 180 / std::numbers::pi);
+    }
+    EXPECT_LE(worst, c.degrees);
+    EXPECT_EQ(worst > c.degrees / 2, c.format != VertexFormat::float32) << worst;
+  }
+}
+
+TEST(VertexFormats, parameters_are_as_close_as_promised) {
+  EvaluatedMesh<float>& mesh = fine_ball();
+  const QuantisationBox unit{{0, 0, 0}, 1.0 / 65535};
+  for (const auto& [format, most] :
+       std::map<VertexFormat, double>{{VertexFormat::float32, 0},
+                                      {VertexFormat::half, 0x1p-12},
+                                      {VertexFormat::unorm16, 0.51 / 65535}}) {
+    const std::size_t size = format_bytes(format, 2);
+    std::vector<unsigned char> bytes(size * mesh.position.size());
+    FormattedOutputs out;
+    out.parameters = {bytes.data(), 0, format, mesh.position.size()};
+    ASSERT_EQ(evaluate_mesh(mesh.set, mesh.layout, out), Status::ok);
+    for (std::size_t k = 0; k < mesh.position.size(); ++k) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        ASSERT_NEAR(decode(format, bytes, size * k, i, unit),
+                    static_cast<double>(mesh.parameters[k][i]), most);
+      }
+    }
+  }
+}
+
+/// Every half, every middle between two neighbours, and what is next to it.
+TEST(VertexFormats, halves_are_the_nearest) {
+  const auto stored = [](float value) {
+    // A patch that is one point: all of its vertices are it.
+    const std::vector<float> net(48, value);
+    PatchSet<float> set;
+    Topology topology;
+    MeshLayout layout;
+    const auto nets = ControlNets<float>::packed(std::span<const float>(net));
+    EXPECT_TRUE(pack(nets, set));
+    EXPECT_EQ(find_topology(nets, topology), Status::ok);
+    const std::array<std::uint32_t, 1> one = {1};
+    EXPECT_EQ(lay_out_mesh(topology, {one, one, {}}, layout), Status::ok);
+    std::vector<unsigned char> bytes(6 * layout.size().vertices);
+    FormattedOutputs out;
+    out.position = {bytes.data(), 0, VertexFormat::half, layout.size().vertices};
+    EXPECT_EQ(evaluate_mesh(set, layout, out), Status::ok);
+    return read<std::uint16_t>(bytes, 0);
+  };
+  for (std::uint32_t bits = 0; bits < 0x7bff; bits += 61) {
+    const double low = from_half(static_cast<std::uint16_t>(bits));
+    const double high = from_half(static_cast<std::uint16_t>(bits + 1));
+    const auto middle = static_cast<float>((low + high) / 2);
+    EXPECT_EQ(stored(static_cast<float>(low)), bits);
+    EXPECT_EQ(stored(-static_cast<float>(high)), 0x8000 + bits + 1);
+    EXPECT_EQ(stored(middle), bits % 2 == 0 ? bits : bits + 1) << "ties to even";
+    EXPECT_EQ(stored(std::nextafter(middle, 0.0F)), bits);
+    EXPECT_EQ(stored(std::nextafter(middle, 1e9F)), bits + 1);
+  }
+  EXPECT_EQ(stored(65519), 0x7bff);
+  EXPECT_EQ(stored(65520), 0x7c00);
+  EXPECT_EQ(stored(1e20F), 0x7c00);
+}
+
+TEST(VertexFormats, bytes_are_equal_for_any_threads_and_instruction_set_of_a_class) {
+  EvaluatedMesh<float>& mesh = fine_ball();
+  std::vector<unsigned char> expected[2];
+  for (const Isa isa : available_isas()) {
+    for (const int threads : {1, 3}) {
+      std::vector<unsigned char> bytes(14 * mesh.position.size());
+      FormattedOutputs out;
+      out.position = {bytes.data(), 14, VertexFormat::unorm16, mesh.position.size()};
+      out.normal = {bytes.data() + 6, 14, VertexFormat::octahedral16, mesh.position.size()};
+      out.parameters = {bytes.data() + 10, 14, VertexFormat::half, mesh.position.size()};
+      out.box = box_of(mesh, VertexFormat::unorm16);
+      Options options;
+      options.isa = isa;
+      options.threads = threads;
+      ASSERT_EQ(evaluate_mesh(mesh.set, mesh.layout, out, options), Status::ok);
+      auto& same = expected[fuses_multiply_add(isa) ? 1 : 0];
+      same = same.empty() ? bytes : same;
+      EXPECT_TRUE(same == bytes);
+    }
+  }
+}
+
+struct Refused {
+  const char* what;
+  Status status;
+  void (*change)(FormattedOutputs&);
+};
+const Refused kRefused[] = {
+    {"nothing", Status::null_output, [](FormattedOutputs& o) { o = {}; }},
+    {"octahedral position", Status::bad_components,
+     [](FormattedOutputs& o) { o.position.format = VertexFormat::octahedral16; }},
+    {"half normal", Status::bad_components,
+     [](FormattedOutputs& o) { o.normal.format = VertexFormat::half; }},
+    {"snorm parameters", Status::bad_components,
+     [](FormattedOutputs& o) { o.parameters.format = VertexFormat::snorm16; }},
+    {"no box", Status::bad_tolerance, [](FormattedOutputs& o) { o.box.step = 0; }},
+    {"stride", Status::bad_stride, [](FormattedOutputs& o) { o.position.stride = 5; }},
+    {"negative stride", Status::bad_stride, [](FormattedOutputs& o) { o.normal.stride = -14; }},
+    {"small", Status::output_too_small, [](FormattedOutputs& o) { --o.normal.capacity; }},
+    {"overlap", Status::overlapping_outputs,
+     [](FormattedOutputs& o) { o.normal.first = o.position.first; }},
+    {"half of an overlap", Status::overlapping_outputs,
+     [](FormattedOutputs& o) {
+       o.normal.first = static_cast<unsigned char*>(o.position.first) + 5;
+     }},
+    {"strides differ", Status::overlapping_outputs,
+     [](FormattedOutputs& o) { o.normal.stride = 16; }}};
+
+TEST(VertexFormats, bad_input_is_a_status) {
+  EvaluatedMesh<float> mesh(ball(), 3, 1);
+  const std::size_t vertices = mesh.layout.size().vertices;
+  std::vector<unsigned char> bytes(16 * vertices);
+  FormattedOutputs out;
+  out.position = {bytes.data(), 14, VertexFormat::unorm16, vertices};
+  out.normal = {bytes.data() + 6, 14, VertexFormat::octahedral16, vertices};
+  out.parameters = {bytes.data() + 10, 14, VertexFormat::unorm16, vertices};
+  out.box = box_of(mesh, VertexFormat::unorm16);
+  EXPECT_EQ(evaluate_mesh(mesh.set, mesh.layout, out), Status::ok);
+  for (const Refused& refused : kRefused) {
+    FormattedOutputs changed = out;
+    refused.change(changed);
+    EXPECT_EQ(to_string(evaluate_mesh(mesh.set, mesh.layout, changed)), to_string(refused.status))
+        << refused.what;
+  }
+  EXPECT_EQ(evaluate_mesh(PatchSet<float>(), mesh.layout, out), Status::unequal_lengths);
+  EXPECT_EQ(evaluate_mesh(mesh.set, mesh.layout, out, {}, {0, 99}), Status::bad_patch_range);
+  QuantisationBox box;
+  std::vector<double> points(48, 1.0);
+  const auto status = [&](VertexFormat format) {
+    const auto nets = ControlNets<double>::packed(std::span<const double>(points));
+    return quantisation_box(std::span<const ControlNets<double>>(&nets, 1), format, box);
+  };
+  EXPECT_EQ(status(VertexFormat::unorm16), Status::bad_tolerance) << "one point";
+  EXPECT_EQ(status(VertexFormat::half), Status::bad_tolerance);
+  points[5] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(status(VertexFormat::snorm16), Status::non_finite_input);
+}
+
+} // namespace
+} // namespace simdbezier::tests
