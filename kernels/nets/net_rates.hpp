@@ -193,9 +193,8 @@ Isa rate_kernel(const detail::RateTask<T>& task, std::size_t begin, std::size_t 
     const RateGroup<V> group = read_rate_group<T>(task, first, count, scratch);
     if (task.choose) {
       choose_group<T>(task, first, count, scratch, group);
-    } else {
-      certify_group<T>(task, first, count, scratch, group);
     }
+    certify_group<T>(task, first, count, scratch, group);
   });
   return Isa::SIMDBEZIER_ISA;
 }

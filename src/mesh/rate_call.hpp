@@ -50,6 +50,7 @@ public:
     }
   }
 
+  /// Rates with their certificates.
   RateReport choose() {
     if (const RateReport fault = find_faults(); !fault) {
       return fault;
@@ -77,7 +78,8 @@ public:
           put(patch, cells);
           return raise_until(patch, bound, t);
         });
-    return report ? first_beyond() : report;
+    const RateReport within = report ? first_beyond() : report;
+    return within && measures ? certify() : within;
   }
 
   /// Where rates have been raised, the bound is looked at again: it does not fall with every step.
@@ -121,7 +123,7 @@ public:
     };
     return for_patches(is_open, [&](std::size_t patch, const PatchBound& bound) -> Status {
       const CellCounts cells{out_.nu[patch], out_.nv[patch]};
-      deviations_[patch] = bound.bound(cells, &out_.diagonals[patch]) + error(patch);
+      certify_patch(patch, bound, cells);
       return Status::ok;
     });
   }
@@ -148,6 +150,9 @@ private:
     out_.nu[patch] = cells.nu;
     out_.nv[patch] = cells.nv;
   }
+  void certify_patch(std::size_t patch, const PatchBound& bound, const CellCounts& cells) {
+    deviations_[patch] = bound.bound(cells, &out_.diagonals[patch]) + error(patch);
+  }
   Status raise_until(std::size_t patch, const PatchBound& bound, double t) {
     CellCounts cells{out_.nu[patch], out_.nv[patch]};
     while (cells.nu <= most_ && cells.nv <= most_ && !(bound.bound(cells) <= t)) {
@@ -155,6 +160,7 @@ private:
       ++cells.nv;
     }
     put(patch, cells);
+    certify_patch(patch, bound, cells);
     return cells.nu <= most_ && cells.nv <= most_ ? Status::ok : Status::bad_tolerance;
   }
   /// The first patch whose tolerance a kernel could not meet.

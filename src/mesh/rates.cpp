@@ -86,6 +86,7 @@ RateReport choose_rates(std::span<const ControlNets<S>> sets, const Topology& to
   detail::RateCall<S> call(sets, topology, options, out);
   RateReport report = call.choose();
   // Raising rates of one patch can bring it next to another in the same way, or its bound up.
+  bool settled = true;
   for (bool changed = true; report && changed;) {
     std::size_t raised = 0;
     report.status = separate_vertices(topology, out.nu, out.nv, raised);
@@ -93,8 +94,12 @@ RateReport choose_rates(std::span<const ControlNets<S>> sets, const Topology& to
     if (report && raised > 0) {
       report = call.settle(changed);
     }
+    settled = settled && !changed;
   }
-  return report ? call.certify() : report;
+  if (report && !settled) {
+    return call.certify();
+  }
+  return report;
 } catch (const std::bad_alloc&) {
   return {Status::out_of_memory};
 }

@@ -8,8 +8,8 @@ namespace simdbezier::detail {
 /// Rates of a patch whose numbers are too large or too small for the kernel.
 inline constexpr std::uint32_t kUndecided = 0xffffffff;
 
-/// Chooses rates, or certifies those that are given, for bicubic polynomial nets of three
-/// components. Scratch: kRateValues values.
+/// Certifies rates, those that are given or those that it chooses, for bicubic polynomial nets of
+/// three components. Scratch: kRateValues values.
 template <typename T>
 struct RateTask {
   NetView<const T> in;
@@ -20,7 +20,7 @@ struct RateTask {
   std::uint32_t most;   ///< segments
   std::uint32_t* nu; ///< chosen: 0 where no tolerance is left, more than `most` where it would take
   std::uint32_t* nv; ///< that many
-  std::uint16_t* diagonals; ///< certified only, as is deviations
+  std::uint16_t* diagonals; ///< of rates from 1 to `most`, as are deviations
   double* deviations;       ///< -1 where undecided
 };
 

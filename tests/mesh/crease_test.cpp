@@ -107,6 +107,11 @@ TEST(Creases, of_no_angle_leave_patches_alone) {
       for (const std::uint32_t vertex : mesh.vertices_of(p)) {
         both.insert({mesh.position[vertex], mesh.normal[vertex]});
         EXPECT_EQ(mesh.patch[vertex], p);
+        const auto [u, v] = mesh.parameters[vertex];
+        const auto& x = mesh.position[vertex];
+        const Point exact =
+            surface(model.patches[p], static_cast<double>(u), static_cast<double>(v));
+        EXPECT_LT(length(exact - Point{x[0], x[1], x[2]}), 1e-4);
       }
       for (std::size_t k = 0; k < samples.position.size(); ++k) {
         EXPECT_TRUE(both.contains({samples.position[k], samples.normal[k]}));

@@ -106,6 +106,11 @@ public:
 
   /// The normal of a vertex; zero where one of its patches has none.
   [[nodiscard]] Point at(std::size_t vertex) const {
+    const Point sum = sum_at(vertex);
+    return length(sum) > 0.01 ? 1 / length(sum) * sum : Point{};
+  }
+  /// The sum of the unit normals there.
+  [[nodiscard]] Point sum_at(std::size_t vertex) const {
     const Point& x = mesh_.position[vertex];
     std::set<std::array<double, 3>> seen;
     Point sum{};
@@ -122,7 +127,7 @@ public:
       const auto [u, v] = mesh_.parameters[vertex];
       sum = sided_normal(mesh_.patch[vertex], u, v);
     }
-    return length(sum) > 0.01 ? 1 / length(sum) * sum : Point{};
+    return sum;
   }
 
 private:
@@ -192,6 +197,46 @@ TEST(MeshNormals, of_sides_that_disagree_are_the_first_ones) {
       EXPECT_LT(length(mesh.normal[k] - 1 / length(n) * n), 1e-12);
     }
   }
+}
+
+/// Faces of a cube, some of them inside out: where two disagree along an edge, the normal is that
+/// of the lower one.
+TEST(MeshNormals, of_faces_inside_out_are_not_merged) {
+  std::size_t alone = 0;
+  std::size_t merged = 0;
+  for (unsigned seed = 1; seed < 6; ++seed) {
+    for (const MeshModel& original : mesh_models()) {
+      if (original.name != "cube") {
+        continue;
+      }
+      const MeshModel model = shuffled(original, seed);
+      EvaluatedMesh<double> mesh(model, 5, seed);
+      mesh.evaluate_all();
+      const auto outwards = [&](const Point& n, std::size_t k) {
+        return dot(n, mesh.position[k]) > 0;
+      };
+      const NormalOracle oracle(mesh, model);
+      for (std::size_t k = 0; k < mesh.normal.size(); ++k) {
+        const auto [u, v] = mesh.parameters[k];
+        const bool on_u = u == 0 || u == 1;
+        const bool on_v = v == 0 || v == 1;
+        if (on_u == on_v) {
+          continue; // inside, or a corner
+        }
+        const Point own = surface_normal(model.patches[mesh.patch[k]], u, v);
+        const Point sum = oracle.sum_at(k);
+        // Normals of both faces point away from the middle, or both towards it: by far more than
+        // where they are on different sides.
+        const bool agree = std::fabs(dot(sum, mesh.position[k])) > length(mesh.position[k]);
+        agree ? ++merged : ++alone;
+        const Point expected = agree ? sum : own;
+        EXPECT_EQ(outwards(mesh.normal[k], k), outwards(own, k));
+        EXPECT_LT(length(mesh.normal[k] - 1 / length(expected) * expected), 1e-9);
+      }
+    }
+  }
+  EXPECT_GT(alone, 20U);
+  EXPECT_GT(merged, 20U);
 }
 
 TEST(MeshTriangles, are_counter_clockwise_about_the_normals) {
