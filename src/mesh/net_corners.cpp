@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace simdbezier::detail {
 namespace {
@@ -123,6 +124,17 @@ bool NetCorners<S>::sides_leave_together(std::size_t patch, std::size_t corner) 
 }
 
 template <typename S>
+std::array<double, 3> NetCorners<S>::lowest_point(std::size_t patch) const noexcept {
+  const Place at = place(patch);
+  std::array<double, 3> lowest = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  for_points(*at.nets, at.patch, [&](const Point3& point) {
+    const std::array<double, 3> x = {point.x[0] + 0.0, point.x[1] + 0.0, point.x[2] + 0.0};
+    lowest = std::isfinite(x[0] + x[1] + x[2]) ? std::min(lowest, x) : lowest;
+  });
+  return lowest;
+}
+
+template <typename S>
 bool NetCorners<S>::same(std::size_t a, std::size_t b) const noexcept {
   const Place p = place(a);
   const Place q = place(b);
@@ -133,6 +145,39 @@ bool NetCorners<S>::same(std::size_t a, std::size_t b) const noexcept {
   }
   return false;
 }
+
+namespace {
+
+/// Of patches with the same four edges, ascending. Those that are the same have the same lowest
+/// control point; patches that are points, of which there may be many, seldom do otherwise.
+template <typename S>
+void mark_repeated_of(const NetCorners<S>& nets, std::span<const std::uint32_t> group,
+                      TopologyData& topology) {
+  if (group.size() < 2) {
+    return;
+  }
+  std::vector<std::pair<std::array<double, 3>, std::uint32_t>> patches;
+  for (const std::uint32_t patch : group) {
+    patches.emplace_back(nets.lowest_point(patch), patch);
+  }
+  std::sort(patches.begin(), patches.end());
+  std::vector<std::uint32_t> different; // those with one lowest point
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    if (k == 0 || patches[k].first != patches[k - 1].first) {
+      different.clear();
+    }
+    const std::uint32_t patch = patches[k].second;
+    if (std::any_of(different.begin(), different.end(),
+                    [&](std::uint32_t earlier) { return nets.same(earlier, patch); })) {
+      topology.flags[patch] |= kRepeated;
+      ++topology.counts.repeated_patches;
+    } else {
+      different.push_back(patch);
+    }
+  }
+}
+
+} // namespace
 
 template <typename S>
 void mark_repeated(const NetCorners<S>& nets, TopologyData& topology) {
@@ -160,19 +205,13 @@ void mark_repeated(const NetCorners<S>& nets, TopologyData& topology) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.edges != b.edges ? a.edges < b.edges : a.patch < b.patch;
   });
-  std::vector<std::uint32_t> different; // those of one group
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    if (k == 0 || candidates[k].edges != candidates[k - 1].edges) {
-      different.clear();
+  for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
+    std::vector<std::uint32_t> group;
+    for (end = begin; end < candidates.size() && candidates[end].edges == candidates[begin].edges;
+         ++end) {
+      group.push_back(candidates[end].patch);
     }
-    const std::uint32_t patch = candidates[k].patch;
-    if (std::any_of(different.begin(), different.end(),
-                    [&](std::uint32_t earlier) { return nets.same(earlier, patch); })) {
-      topology.flags[patch] |= kRepeated;
-      ++topology.counts.repeated_patches;
-    } else {
-      different.push_back(patch);
-    }
+    mark_repeated_of(nets, group, topology);
   }
 }
 

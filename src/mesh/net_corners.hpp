@@ -1,6 +1,7 @@
 // What a topology asks of control points besides which edges are equal.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -46,6 +47,9 @@ public:
   /// Whether both sides at a corner leave it in one direction, so that the triangle of its cell has
   /// almost no area however small cells are.
   [[nodiscard]] bool sides_leave_together(std::size_t patch, std::size_t corner) const noexcept;
+
+  /// The first of a patch's control points by x, y and z.
+  [[nodiscard]] std::array<double, 3> lowest_point(std::size_t patch) const noexcept;
 
   /// Whether two patches have the same control points, whichever way round.
   [[nodiscard]] bool same(std::size_t a, std::size_t b) const noexcept;

@@ -282,7 +282,7 @@ TEST(Tessellate, of_a_side_that_is_a_loop_has_no_triangle_without_area) {
       }
       const std::vector<double> values = MeshModel{"lid", {patch}}.values();
       MeshOptions options;
-      options.tolerance = 3;
+      options.tolerance = 100;
       const auto nets = ControlNets<double>::packed(std::span<const double>(values));
       expect_sound(tessellate<float>(nets, options), true);
     }
