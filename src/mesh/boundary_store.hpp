@@ -118,41 +118,37 @@ private:
     return entry.corner ? mesh_.corners[entry.place] : mesh_.edge_first[entry.place];
   }
 
-  static void copy(const Planes<T>& from, std::size_t at, std::size_t points, const Planes<T>& to,
-                   std::size_t step, std::size_t place) noexcept {
-    for (std::size_t c = 0; c < 3 && to.component[c] != nullptr; ++c) {
-      const T* const values = from.component[c] + at;
-      T* const out = to.component[c] + place * step;
+  /// Values to every step-th place; most often they are planes.
+  static void put(const T* values, std::size_t points, T* to, std::size_t step) noexcept {
+    if (step == 1) { // a dozen values: starting std::copy_n() takes longer
       for (std::size_t k = 0; k < points; ++k) {
-        out[k * step] = values[k];
+        to[k] = values[k];
       }
+      return;
+    }
+    for (std::size_t k = 0; k < points; ++k) {
+      to[k * step] = values[k];
     }
   }
-  static void put(const NormalSums<T>& sums, std::size_t points, const Planes<T>& to,
+  static void put(const Planes<T>& from, std::size_t at, std::size_t points, const Planes<T>& to,
                   std::size_t step, std::size_t place) noexcept {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const T* const values = sums.component(c);
-      T* const out = to.component[c] + place * step;
-      for (std::size_t k = 0; k < points; ++k) {
-        out[k * step] = values[k];
-      }
+    for (std::size_t c = 0; c < 3 && to.component[c] != nullptr; ++c) {
+      put(from.component[c] + at, points, to.component[c] + place * step, step);
     }
   }
-
   void store_whole(const BoundaryEntry& entry, const Planes<T>& positions, const Planes<T>& normals,
                    const VertexTarget<T>& to) const noexcept {
     const std::size_t place = first_vertex(entry) - to.first;
-    copy(positions, entry.first, entry.points, to.position, to.step, place);
+    put(positions, entry.first, entry.points, to.position, to.step, place);
     for (std::size_t k = 0; k < entry.points && to.normal.wanted(); k += NormalSums<T>::kMost) {
       const std::size_t points = std::min(entry.points - k, NormalSums<T>::kMost);
-      NormalSums<T> sums(points);
-      for (std::size_t m = 0; m < entry.members; ++m) {
+      NormalSums<T> sums(points, normals, entry.first + k, members_[0].turned);
+      for (std::size_t m = 1; m < entry.members; ++m) {
         if (!members_[m].apart) {
           sums.add(normals, entry.first + m * entry.points + k, members_[m].turned);
         }
       }
-      sums.finish();
-      put(sums, points, to.normal, to.step, place + k);
+      sums.finish(to.normal, place + k, to.step);
     }
   }
 
@@ -162,16 +158,16 @@ private:
       for_vertices(entry, k, [&](std::size_t m, std::uint32_t vertex) {
         const std::size_t place = vertex - to.first;
         const std::size_t from = values_ == ValuesOf::owner ? 0 : m;
-        copy(positions, entry.first + from * entry.points + k, 1, to.position, to.step, place);
+        put(positions, entry.first + from * entry.points + k, 1, to.position, to.step, place);
         if (to.normal.wanted()) {
-          NormalSums<T> sums(1);
-          for (std::size_t n = m; n < entry.members; ++n) {
+          const auto sample = [&](std::size_t n) { return entry.first + n * entry.points + k; };
+          NormalSums<T> sums(1, normals, sample(m), members_[m].turned);
+          for (std::size_t n = m + 1; n < entry.members; ++n) {
             if (members_[n].vertex == vertex) {
-              sums.add(normals, entry.first + n * entry.points + k, members_[n].turned);
+              sums.add(normals, sample(n), members_[n].turned);
             }
           }
-          sums.finish();
-          put(sums, 1, to.normal, to.step, place);
+          sums.finish(to.normal, place, to.step);
         }
       });
     }
