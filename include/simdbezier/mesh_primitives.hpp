@@ -8,8 +8,7 @@
 //   Returns      ok | null_output | output_too_small (a span is shorter than the size that the mesh
 //                needs) | size_overflow (more vertices than Index has numbers) | out_of_memory.
 //   Threads      as in Options. Allocation: scratch per thread, and 16 bytes a patch where sizes
-//   are
-//                not known from the layout.
+//                are not known from the layout.
 #pragma once
 
 #include <cstddef>
@@ -35,18 +34,20 @@ struct PolygonSize {
   std::size_t polygons = 0;
   std::size_t indices = 0;
 };
+/// patches: all of them, or some, as for write_triangles().
 [[nodiscard]] SIMDBEZIER_API Status polygon_size(const MeshLayout& layout, PolygonSize& size,
-                                                 int threads = 0) noexcept;
+                                                 int threads = 0, SetRange patches = {}) noexcept;
 
 /// Writes a quad for every cell of four vertices, triangles for all others. The certificate holds
 /// for those who cut quads between their first and third vertex.
 ///
-/// indices: the vertices of all polygons. sizes: 3 or 4, one value a polygon.
+/// indices: the vertices of all polygons. sizes: 3 or 4, one value a polygon. patches: all of them,
+///          or some, as for write_triangles().
 template <typename Index>
 [[nodiscard]] SIMDBEZIER_API Status write_polygons(const MeshLayout& layout,
                                                    std::span<Index> indices,
-                                                   std::span<std::uint8_t> sizes,
-                                                   int threads = 0) noexcept;
+                                                   std::span<std::uint8_t> sizes, int threads = 0,
+                                                   SetRange patches = {}) noexcept;
 
 /// How many numbers write_strips() writes.
 [[nodiscard]] SIMDBEZIER_API Status strip_size(const MeshLayout& layout, std::size_t& indices,

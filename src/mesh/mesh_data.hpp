@@ -1,6 +1,7 @@
 // What a mesh layout consists of.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -28,6 +29,12 @@ struct MeshData {
   std::vector<std::size_t> side_first;
   std::vector<std::uint32_t> side_vertices;
   std::uint32_t most_segments = 0; ///< of one edge
+  /// Of edges with many sides, each of which would look at all the others.
+  struct CrowdedEdge {
+    std::size_t edge;
+    EdgeRates rates;
+  };
+  std::vector<CrowdedEdge> crowded_edges; ///< ascending
   // Of a patch's own corners and edges, what scratch has to have room for:
   std::size_t most_boundary_vertices = 0;
   std::size_t most_boundary_samples = 0; ///< a vertex counts once for every patch that has it
@@ -58,6 +65,13 @@ struct MeshData {
   }
   /// The different rates of an edge's sides.
   void rates_of(std::size_t edge, EdgeRates& rates) const {
+    const auto crowded = std::lower_bound(
+        crowded_edges.begin(), crowded_edges.end(), edge,
+        [](const CrowdedEdge& known, std::size_t wanted) { return known.edge < wanted; });
+    if (crowded != crowded_edges.end() && crowded->edge == edge) {
+      rates = crowded->rates;
+      return;
+    }
     rates.clear();
     for (const std::uint32_t side : topology.data()->sides_of(edge)) {
       include_rate(rates, rate(side));

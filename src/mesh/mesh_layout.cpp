@@ -13,12 +13,17 @@ namespace {
 /// Vertices are counted in 64 bits and have to fit 32, without the largest number.
 constexpr std::uint64_t kMostVertices = std::numeric_limits<std::uint32_t>::max();
 
+constexpr std::size_t kManySides = 8;
+
 void count_segments(const TopologyData& topology, MeshData& mesh) {
   EdgeRates rates;
   std::vector<std::uint32_t> scratch;
   mesh.segments.resize(topology.edges());
   for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
     mesh.rates_of(edge, rates);
+    if (topology.sides_of(edge).size() > kManySides) {
+      mesh.crowded_edges.push_back({edge, rates});
+    }
     mesh.segments[edge] = union_segments(rates, scratch);
     mesh.most_segments = std::max(mesh.most_segments, mesh.segments[edge]);
   }

@@ -142,6 +142,10 @@ private:
       std::iota(line.places.begin(), line.places.end(), 0U);
       return;
     }
+    if (segments == rate) { // all points of the edge are its own
+      std::iota(line.places.begin(), line.places.end(), 0U);
+      return;
+    }
     mesh_.rates_of(own.edge(), rates_);
     union_places(rates_, rate, scratch_, line.places);
   }

@@ -53,10 +53,14 @@ public:
     for (const std::uint64_t ends : points_) {
       const auto a = static_cast<std::uint32_t>(ends >> 32);
       const auto b = static_cast<std::uint32_t>(ends);
-      if (!boundary_.is_segment(a, b)) {
-        edges.push_back({pair_of(vertices_[a], vertices_[b]), place_of(patch, ends), patch});
+      if (boundary_.is_segment(a, b)) {
+        continue;
       }
+      const bool inside = std::max(a, b) >= boundary_points;
+      (inside ? inside_ : edges)
+          .push_back({pair_of(vertices_[a], vertices_[b]), place_of(patch, ends), patch});
     }
+    move_coinciding(edges);
   }
 
 private:
@@ -83,6 +87,21 @@ private:
     }
   }
 
+  /// No other patch has edges to a patch's inner points, which are most of all edges, so only those
+  /// that coincide with others of their own patch go on to be compared.
+  void move_coinciding(std::vector<MeshEdge>& edges) {
+    std::sort(inside_.begin(), inside_.end());
+    for (std::size_t k = 0; k < inside_.size(); ++k) {
+      const auto joins_same = [&](std::size_t other) {
+        return other < inside_.size() && inside_[other].vertices == inside_[k].vertices;
+      };
+      if (joins_same(k + 1) || (k > 0 && joins_same(k - 1))) {
+        edges.push_back(inside_[k]);
+      }
+    }
+    inside_.clear();
+  }
+
   /// The edges of all triangles, by points of the patch.
   void add_points(std::uint32_t patch) {
     triangles_.resize(3 * (mesh_.triangles[patch + 1] - mesh_.triangles[patch]) + 64);
@@ -100,6 +119,7 @@ private:
   std::vector<std::uint32_t> vertices_; ///< of the patch's points
   std::vector<std::uint32_t> triangles_;
   std::vector<std::uint64_t> points_; ///< two of a patch, joined
+  std::vector<MeshEdge> inside_;      ///< edges to inner points
 };
 
 class Separation {

@@ -52,27 +52,48 @@ Status check(const MeshLayout& layout, std::span<const Index> indices,
   return indices.size() < needed ? Status::output_too_small : Status::ok;
 }
 
-/// Sizes of all patches, summed up: sizes[p] is what stands before patch p, the last one all.
+/// Patches of a layout.
+struct PatchRange {
+  std::size_t first = 0;
+  std::size_t count = 0;
+
+  /// Returns false where the layout has no such patches.
+  [[nodiscard]] bool resolve(const MeshLayout& layout, SetRange patches) noexcept {
+    const std::size_t all = layout.data() == nullptr ? 0 : layout.data()->patches();
+    return resolve_range(patches, all, first, count);
+  }
+};
+
+/// Sizes of patches, summed up: sizes[k] is what stands before the k-th of them, the last one all.
 template <typename Size, typename Count, typename Add>
-Status sum_sizes(const MeshLayout& layout, int threads, std::vector<Size>& sizes,
-                 const Count& count, const Add& add) {
-  sizes.assign(layout.data() == nullptr ? 1 : layout.data()->nu.size() + 1, Size{});
-  if (layout.data() == nullptr) {
+Status sum_sizes(const MeshLayout& layout, const PatchRange& patches, int threads,
+                 std::vector<Size>& sizes, const Count& count, const Add& add) {
+  sizes.assign(patches.count + 1, Size{});
+  if (patches.count == 0) {
     return Status::ok;
   }
-  const Status status =
-      for_cells(layout, threads, [&](std::size_t patch, const CellCutter& cells, bool turned) {
-        sizes[patch + 1] = count(patch, cells, turned);
-      });
+  const Status status = for_cells(layout, patches.first, patches.count, threads,
+                                  [&](std::size_t patch, const CellCutter& cells, bool turned) {
+                                    sizes[patch - patches.first + 1] = count(patch, cells, turned);
+                                  });
   for (std::size_t k = 1; k < sizes.size(); ++k) {
     add(sizes[k - 1], sizes[k]);
   }
   return status;
 }
 
-Status polygon_sizes(const MeshLayout& layout, int threads, std::vector<PolygonSize>& sizes) {
+template <typename Size, typename Count, typename Add>
+Status sum_sizes(const MeshLayout& layout, int threads, std::vector<Size>& sizes,
+                 const Count& count, const Add& add) {
+  PatchRange all;
+  static_cast<void>(all.resolve(layout, {}));
+  return sum_sizes(layout, all, threads, sizes, count, add);
+}
+
+Status polygon_sizes(const MeshLayout& layout, const PatchRange& patches, int threads,
+                     std::vector<PolygonSize>& sizes) {
   return sum_sizes(
-      layout, threads, sizes,
+      layout, patches, threads, sizes,
       [](std::size_t, const CellCutter& cells, bool turned) {
         PolygonSink<std::uint32_t> sink(nullptr, nullptr, turned);
         cells.cut(sink);
@@ -120,21 +141,19 @@ Status cluster_sizes(const MeshLayout& layout, int threads, std::vector<ClusterS
 template <typename Index>
 Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, int threads,
                        SetRange patches) noexcept {
-  std::size_t first = 0;
-  std::size_t count = 0;
-  const std::size_t all = layout.data() == nullptr ? 0 : layout.data()->patches();
-  if (!detail::resolve_range(patches, all, first, count)) {
+  detail::PatchRange range;
+  if (!range.resolve(layout, patches)) {
     return Status::bad_patch_range;
   }
-  const std::size_t before = layout.first_triangle(first);
-  const std::size_t needed = 3 * (layout.first_triangle(first + count) - before);
+  const std::size_t before = layout.first_triangle(range.first);
+  const std::size_t needed = 3 * (layout.first_triangle(range.first + range.count) - before);
   const Status status = detail::check<Index>(layout, triangles, needed);
   if (status != Status::ok || needed == 0) {
     return status;
   }
   const detail::MeshData& mesh = *layout.data();
   return detail::for_cells(
-      layout, first, count, threads,
+      layout, range.first, range.count, threads,
       [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
         Index* const begin = triangles.data() + 3 * (mesh.triangles[patch] - before);
         Index* const end = triangles.data() + 3 * (mesh.triangles[patch + 1] - before);
@@ -146,9 +165,14 @@ Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, int
       });
 }
 
-Status polygon_size(const MeshLayout& layout, PolygonSize& size, int threads) noexcept try {
+Status polygon_size(const MeshLayout& layout, PolygonSize& size, int threads,
+                    SetRange patches) noexcept try {
+  detail::PatchRange range;
+  if (!range.resolve(layout, patches)) {
+    return Status::bad_patch_range;
+  }
   std::vector<PolygonSize> sizes;
-  const Status status = detail::polygon_sizes(layout, threads, sizes);
+  const Status status = detail::polygon_sizes(layout, range, threads, sizes);
   size = status == Status::ok ? sizes.back() : size;
   return status;
 } catch (const std::bad_alloc&) {
@@ -157,9 +181,13 @@ Status polygon_size(const MeshLayout& layout, PolygonSize& size, int threads) no
 
 template <typename Index>
 Status write_polygons(const MeshLayout& layout, std::span<Index> indices,
-                      std::span<std::uint8_t> sizes, int threads) noexcept try {
+                      std::span<std::uint8_t> sizes, int threads, SetRange patches) noexcept try {
+  detail::PatchRange range;
+  if (!range.resolve(layout, patches)) {
+    return Status::bad_patch_range;
+  }
   std::vector<PolygonSize> before;
-  Status status = detail::polygon_sizes(layout, threads, before);
+  Status status = detail::polygon_sizes(layout, range, threads, before);
   if (status == Status::ok) {
     status = detail::check<Index>(layout, indices, before.back().indices);
   }
@@ -169,12 +197,13 @@ Status write_polygons(const MeshLayout& layout, std::span<Index> indices,
   if (status != Status::ok || before.back().polygons == 0) {
     return status;
   }
-  return detail::for_cells(
-      layout, threads, [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
-        detail::PolygonSink<Index> sink(indices.data() + before[patch].indices,
-                                        sizes.data() + before[patch].polygons, turned);
-        cells.cut(sink);
-      });
+  return detail::for_cells(layout, range.first, range.count, threads,
+                           [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
+                             const PolygonSize& place = before[patch - range.first];
+                             detail::PolygonSink<Index> sink(indices.data() + place.indices,
+                                                             sizes.data() + place.polygons, turned);
+                             cells.cut(sink);
+                           });
 } catch (const std::bad_alloc&) {
   return Status::out_of_memory;
 }
@@ -252,9 +281,9 @@ template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std:
 template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint16_t>, int,
                                                SetRange) noexcept;
 template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint32_t>,
-                                              std::span<std::uint8_t>, int) noexcept;
+                                              std::span<std::uint8_t>, int, SetRange) noexcept;
 template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint16_t>,
-                                              std::span<std::uint8_t>, int) noexcept;
+                                              std::span<std::uint8_t>, int, SetRange) noexcept;
 template SIMDBEZIER_API Status write_strips(const MeshLayout&, std::span<std::uint32_t>,
                                             int) noexcept;
 template SIMDBEZIER_API Status write_strips(const MeshLayout&, std::span<std::uint16_t>,
