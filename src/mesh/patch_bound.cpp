@@ -158,28 +158,41 @@ double PatchBound::corner_bound(std::size_t corner, const CellCounts& cells) con
   return bound_of(steps, largest, measure_diagonal(nets, steps, falls(corner), hull), doubt_, hull);
 }
 
-double PatchBound::bound(const CellCounts& cells, std::uint16_t* diagonals) const {
+template <typename Visit>
+void PatchBound::for_zones(const CellCounts& cells, const Visit& visit) {
   constexpr QuarterSet kHalves[3] = {0b0101, 0b1010, kAll}; // of u, by Zone
   constexpr QuarterSet kRows[3] = {0b0011, 0b1100, kAll};   // of v
   const auto occurs = [](std::uint32_t n, std::size_t zone) {
     return zone == static_cast<std::size_t>(Zone::middle) ? n % 2 != 0 : n > 1;
   };
-  double worst = 0;
-  std::uint16_t falling = 0;
   for (std::size_t zone_v = 0; zone_v < 3; ++zone_v) {
     for (std::size_t zone_u = 0; zone_u < 3; ++zone_u) {
-      if (!occurs(cells.nu, zone_u) || !occurs(cells.nv, zone_v)) {
-        continue;
+      if (occurs(cells.nu, zone_u) && occurs(cells.nv, zone_v)) {
+        visit(kHalves[zone_u] & kRows[zone_v], 3 * zone_v + zone_u);
       }
-      const QuarterSet quarters = kHalves[zone_u] & kRows[zone_v];
-      const double rising_bound = zone_bound(quarters, cells, false);
-      const double falling_bound = zone_bound(quarters, cells, true);
-      if (!(rising_bound < falling_bound)) {
-        falling = static_cast<std::uint16_t>(falling | 1U << (3 * zone_v + zone_u));
-      }
-      worst = std::max(worst, std::min(rising_bound, falling_bound));
     }
   }
+}
+
+double PatchBound::rising_bound(const CellCounts& cells) const {
+  double worst = 0;
+  for_zones(cells, [&](QuarterSet quarters, std::size_t) {
+    worst = std::max(worst, zone_bound(quarters, cells, false));
+  });
+  return worst * kRounding;
+}
+
+double PatchBound::bound(const CellCounts& cells, std::uint16_t* diagonals) const {
+  double worst = 0;
+  std::uint16_t falling = 0;
+  for_zones(cells, [&](QuarterSet quarters, std::size_t zone) {
+    const double rising_bound = zone_bound(quarters, cells, false);
+    const double falling_bound = zone_bound(quarters, cells, true);
+    if (!(rising_bound < falling_bound)) {
+      falling = static_cast<std::uint16_t>(falling | 1U << zone);
+    }
+    worst = std::max(worst, std::min(rising_bound, falling_bound));
+  });
   for (std::size_t corner = 0; corner < kPatchCorners; ++corner) {
     if (is_forced_through(flags_, corner)) {
       worst = std::max(worst, corner_bound(corner, cells));

@@ -20,6 +20,9 @@ public:
   /// The bound for rates; diagonals: those that it holds for, where wanted.
   [[nodiscard]] double bound(const CellCounts& cells, std::uint16_t* diagonals = nullptr) const;
 
+  /// The bound where all diagonals run from (0,0) to (1,1), whatever else would be better.
+  [[nodiscard]] double rising_bound(const CellCounts& cells) const;
+
   /// The least cells whose bound is at most t > 0; more than `most` a direction where there are
   /// none.
   [[nodiscard]] CellCounts choose(double t, std::uint32_t most) const;
@@ -36,6 +39,9 @@ private:
   /// Quarters, halves, all: what a zone of cells lies in.
   static constexpr QuarterSet kZones[] = {1, 2, 4, 8, 3, 12, 5, 10, kAll};
 
+  /// Calls visit(quarters, zone) for the zones that there are.
+  template <typename Visit>
+  static void for_zones(const CellCounts& cells, const Visit& visit);
   void find_hulls();
   [[nodiscard]] const Hull& hull_of(QuarterSet quarters) const {
     return hulls_[patch_.rational ? quarters : kAll];

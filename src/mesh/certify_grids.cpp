@@ -1,0 +1,84 @@
+// See rates.hpp.
+#include <simdbezier/rates.hpp>
+
+#include <atomic>
+#include <new>
+
+#include "src/mesh/patch_bound.hpp"
+#include "src/nets/net_call.hpp"
+#include "src/runtime/batch.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// All patches of one view.
+template <typename S>
+RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::span<double> deviation,
+                   int threads) noexcept {
+  if (const Status status = check_input(nets); !status) {
+    return {status};
+  }
+  if (nets.components != 3) {
+    return {Status::bad_components};
+  }
+  if (const NetReport fault = find_fault(nets, threads); !fault) {
+    return {fault.status, fault.patch};
+  }
+  std::atomic<bool> failed = false;
+  auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
+    try {
+      PatchBound bound;
+      for (std::size_t patch = begin; patch < end; ++patch) {
+        static_cast<void>(bound.read(nets, patch, 0)); // nets without faults can be read
+        deviation[patch] += bound.rising_bound(cells);
+      }
+    } catch (const std::bad_alloc&) {
+      failed = true;
+    }
+  };
+  for_blocks(nets.count, thread_count(threads, nets.count), BlockBody(body));
+  return {failed ? Status::out_of_memory : Status::ok};
+}
+
+} // namespace
+} // namespace detail
+
+template <typename S>
+RateReport certify_grids(std::span<const ControlNets<S>> sets, std::uint32_t nu, std::uint32_t nv,
+                         std::span<const double> errors, std::span<double> deviation,
+                         int threads) noexcept {
+  std::size_t patches = 0;
+  for (const ControlNets<S>& nets : sets) {
+    patches += nets.count;
+  }
+  const auto is_rate = [](std::uint32_t n) { return n >= 1 && n <= kMostGridCells; };
+  if (!is_rate(nu) || !is_rate(nv) || deviation.size() != patches ||
+      !(errors.empty() || errors.size() == patches)) {
+    return {Status::bad_rates};
+  }
+  for (std::size_t patch = 0; patch < patches; ++patch) {
+    deviation[patch] = errors.empty() ? 0 : errors[patch];
+  }
+  std::size_t first = 0;
+  for (const ControlNets<S>& nets : sets) {
+    RateReport report =
+        detail::certify(nets, {nu, nv}, deviation.subspan(first, nets.count), threads);
+    if (!report) {
+      report.patch += first;
+      return report;
+    }
+    first += nets.count;
+  }
+  return {};
+}
+
+template SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<float>>, std::uint32_t,
+                                                 std::uint32_t, std::span<const double>,
+                                                 std::span<double>, int) noexcept;
+template SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<double>>,
+                                                 std::uint32_t, std::uint32_t,
+                                                 std::span<const double>, std::span<double>,
+                                                 int) noexcept;
+
+} // namespace simdbezier
