@@ -70,22 +70,14 @@ std::vector<OutputGroup> parse_outputs(const std::string& option) {
   return groups;
 }
 
-void check_output_name(Command command, const std::string& out) {
-  const bool is_known = command == Command::evaluate
-                            ? extension_of(out) == "csv" || is_written_directly(out)
-                            : mesh_format_of(out).has_value();
-  if (!is_known) {
-    bad_usage("-o: expected " + find_option("-o", command_name(command))->expected + ", found " +
-              in_quotes(out));
-  }
-}
-
 void understand_evaluation(const Words& words, Arguments& arguments) {
-  if (words.has("--tolerance")) {
-    bad_usage("--tolerance: adaptive tessellation is not supported yet");
-  }
   arguments.out = *words.value("-o");
-  check_output_name(words.command, arguments.out);
+  if (words.command == Command::tessellate) {
+    arguments.mesh = parse_mesh_arguments(words);
+  } else if (extension_of(arguments.out) != "csv" && !is_written_directly(arguments.out)) {
+    bad_usage("-o: expected " + find_option("-o", command_name(words.command))->expected +
+              ", found " + in_quotes(arguments.out));
+  }
   if (words.has("--samples") && words.has("--grid")) {
     bad_usage("--samples: expected without --grid, found both");
   }
@@ -93,7 +85,6 @@ void understand_evaluation(const Words& words, Arguments& arguments) {
   arguments.precision = parse_precision(words.value("--precision").value_or("f32"));
   arguments.outputs = parse_outputs(words.value("--outputs").value_or("position"));
   arguments.threads = parse_threads(words.value("--threads").value_or("0"));
-  arguments.normals = !words.has("--no-normals");
   arguments.samples = words.value("--samples");
   if (arguments.samples == "" || (arguments.samples == "-" && arguments.in == "-")) {
     refuse("--samples", *arguments.samples == "" ? "''" : "standard input, which IN is read from");

@@ -9,6 +9,7 @@
 #include <tools/command_line.hpp>
 #include <tools/csv.hpp>
 #include <tools/grid_blocks.hpp>
+#include <tools/mesh_arguments.hpp>
 #include <tools/patch_file.hpp>
 
 namespace simdbezier::tools {
@@ -25,7 +26,7 @@ struct Arguments {
   Precision precision = Precision::f32;
   std::vector<OutputGroup> outputs; ///< for evaluate: in the order of the columns, each once
   int threads = 0;                  ///< 0 means all
-  bool normals = true;
+  MeshArguments mesh;               ///< for tessellate
   bool json = false;
 };
 

@@ -1,10 +1,8 @@
 // simdbezier info: what a file holds and what this machine would do with it.
 #include <tools/commands.hpp>
 
-#include <algorithm>
 #include <array>
 #include <compare>
-#include <limits>
 #include <map>
 #include <string>
 
@@ -13,6 +11,7 @@
 #include <tools/grid_blocks.hpp>
 #include <tools/library_status.hpp>
 #include <tools/output_file.hpp>
+#include <tools/patch_box.hpp>
 #include <tools/topology.hpp>
 
 namespace simdbezier::tools {
@@ -32,39 +31,11 @@ struct Summary {
   std::string name;
   std::size_t patches = 0;
   std::size_t rational = 0;
-  std::array<double, 3> low;
-  std::array<double, 3> high;
+  MeshBox box;
   std::map<Shape, std::size_t> shapes; ///< how many patches there are of each
   EdgeCounts edges;
   Isa chosen = Isa::automatic;
 };
-
-void extend_box(const ControlNets<double>& nets, Summary& summary) {
-  const std::ptrdiff_t values = nets.point_stride;
-  const double* const end =
-      nets.points + static_cast<std::ptrdiff_t>(nets.count) * nets.patch_stride;
-  for (const double* point = nets.points; point != end; point += values) {
-    const double divisor = nets.weights == Weights::homogeneous ? point[3] : 1;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double coordinate = point[c] / divisor + 0.0; // -0 becomes 0, as in the library
-      summary.low[c] = std::min(summary.low[c], coordinate);
-      summary.high[c] = std::max(summary.high[c], coordinate);
-    }
-  }
-}
-
-/// The box of all control points, in Cartesian coordinates.
-void measure_box(const PatchFile& file, Summary& summary) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  summary.low.fill(kInfinity);
-  summary.high.fill(-kInfinity);
-  for (std::size_t first = 0; first < file.count; first += kBlockPatches) {
-    const PatchNets<double> block = file.nets<double>(first, kBlockPatches);
-    for (const ControlNets<double>& nets : block.nets) {
-      extend_box(nets, summary);
-    }
-  }
-}
 
 Summary summarise(const PatchFile& file, Isa chosen) {
   Summary summary;
@@ -75,7 +46,7 @@ Summary summarise(const PatchFile& file, Isa chosen) {
     summary.shapes[{run.degree_u, run.degree_v, run.rational()}] += run.count;
     summary.rational += run.rational() ? run.count : 0;
   }
-  measure_box(file, summary);
+  summary.box = box_of(file);
   summary.edges = count_edges(file);
   return summary;
 }
@@ -115,7 +86,8 @@ std::string as_text(const Summary& summary) {
   std::string text;
   text += "patches            " + std::to_string(summary.patches) + "\n";
   text += describe(summary.shapes);
-  text += "control point box  " + describe(summary.low) + " to " + describe(summary.high) + "\n";
+  text += "control point box  " + describe(summary.box.low) + " to " + describe(summary.box.high) +
+          "\n";
   text += "edges              " + kinds + " (four a patch, shared ones count on each side)\n";
   text += "instruction sets   " + available_isa_names(" ") + "\n";
   text += "chosen             " + std::string(to_string(summary.chosen)) + "\n";
@@ -141,7 +113,7 @@ std::string as_json(const Summary& summary) {
                               {"rational", shape.rational},
                               {"patches", count}});
   }
-  json["control_point_box"] = {{"min", summary.low}, {"max", summary.high}};
+  json["control_point_box"] = {{"min", summary.box.low}, {"max", summary.box.high}};
   json["edges"] = {{"total", summary.patches * 4},
                    {"shared", summary.edges.shared},
                    {"boundary", summary.edges.boundary},

@@ -1,62 +1,67 @@
 // simdbezier tessellate: patches in, triangles out.
 #include <tools/commands.hpp>
 
-#include <vector>
+#include <cstdio>
+#include <memory>
+#include <utility>
 
 #include <tools/failure.hpp>
 #include <tools/grid_mesh.hpp>
 #include <tools/library_status.hpp>
 #include <tools/mesh_file.hpp>
-#include <tools/progress.hpp>
+#include <tools/output_file.hpp>
+#include <tools/welded_mesh.hpp>
 
 namespace simdbezier::tools {
 
 namespace {
 
-// Faces of these patches, a bounded number at a time.
+// Data in a pipe mostly end up on the terminal that would show the bar.
 template <typename T>
-void write_faces(MeshWriter<T>& writer, const GridMesh& mesh, std::size_t first,
-                 std::size_t count) {
-  constexpr std::size_t kBlockCorners = std::size_t{3} << 14;
-  std::vector<std::uint32_t> corners;
-  for (std::size_t p = first; p < first + count; ++p) {
-    mesh.for_each_triangle(p, [&](const std::array<std::uint32_t, 3>& triangle) {
-      corners.insert(corners.end(), triangle.begin(), triangle.end());
-      if (corners.size() == kBlockCorners) {
-        writer.faces(corners);
-        corners.clear();
-      }
-    });
-  }
-  writer.faces(corners);
+bool may_show_bar(const Arguments& arguments, const MeshWriter<T>& writer) {
+  return arguments.out != "-" && !writer.is_terminal();
 }
 
 template <typename T>
-void tessellate(const Arguments& arguments, const PatchFile& patches, const GridMesh& mesh) {
-  GridEvaluator<T> evaluator(patches, mesh.grid, arguments.threads);
-  const MeshContents contents = mesh.contents();
-  const auto writer = make_mesh_writer<T>(arguments.out, *mesh_format_of(arguments.out), contents);
-  const auto stride = static_cast<std::ptrdiff_t>(contents.stride());
-  Progress progress("evaluating", "samples", mesh.vertices(), !writer->is_terminal());
-  std::vector<T> values;
-  for_each_block(mesh.patches, mesh.grid, [&](const GridBlock& block) {
-    values.resize(block.samples(mesh.grid) * contents.stride());
-    Outputs<T> out;
-    out.position = Vectors<T>::xyz(values.data(), stride);
-    if (mesh.normals) {
-      out.normal = Vectors<T>::xyz(values.data() + 3, stride);
-    }
-    evaluator.evaluate(block, out);
-    writer->vertices({values});
-    if (writer->takes_faces_early() && block.first_row + block.row_count == mesh.grid.nv) {
-      write_faces(*writer, mesh, block.first_patch, block.patch_count);
-    }
-    progress.advance(block.samples(mesh.grid));
-  });
-  if (!writer->takes_faces_early()) {
-    write_faces(*writer, mesh, 0, mesh.patches);
+void write_mesh(MeshSource<T>& mesh, const Arguments& arguments, MeshStats& stats) {
+  std::unique_ptr<MeshWriter<T>> writer;
+  {
+    const Stopwatch watch(stats.seconds.write);
+    writer = make_mesh_writer<T>(arguments.out, arguments.mesh.format, mesh.contents());
   }
+  {
+    Progress progress("tessellating", "patches", stats.patches, may_show_bar(arguments, *writer));
+    mesh.write(*writer, stats.seconds, progress);
+  }
+  const Stopwatch watch(stats.seconds.write);
   writer->finish();
+}
+
+template <typename T>
+void tessellate(const Arguments& arguments, PatchFile patches, MeshStats& stats) {
+  if (arguments.mesh.weld) {
+    WeldedMesh<T> mesh(std::move(patches), arguments, stats);
+    return write_mesh(mesh, arguments, stats);
+  }
+  const std::uint64_t vertices = checked_sample_count(patches.count, arguments.grid,
+                                                      (arguments.mesh.normals ? 6 : 3) * sizeof(T));
+  if (vertices > kMostMeshVertices) {
+    bad_usage("--grid: expected at most " + std::to_string(kMostMeshVertices) +
+              " vertices, found " + std::to_string(vertices));
+  }
+  GridMesh<T> mesh(patches, arguments, stats);
+  write_mesh(mesh, arguments, stats);
+}
+
+// JSON is data, text is for people.
+void print(const MeshStats& stats, StatsForm form) {
+  if (form == StatsForm::json) {
+    OutputFile out("-");
+    out.text(stats_as_json(stats));
+    out.commit();
+  } else if (form == StatsForm::text) {
+    std::fputs(stats_as_text(stats).c_str(), stderr);
+  }
 }
 
 } // namespace
@@ -64,18 +69,15 @@ void tessellate(const Arguments& arguments, const PatchFile& patches, const Grid
 void run_tessellate(const Arguments& arguments) {
   chosen_isa();
   refuse_input_as_output(arguments.out, inputs_of(arguments));
-  const PatchFile patches = read_patches(arguments.in, arguments.format);
-  const GridMesh mesh{patches.count, arguments.grid, arguments.normals};
-  const bool single = arguments.precision == Precision::f32;
-  const std::uint64_t vertices =
-      checked_sample_count(mesh.patches, mesh.grid,
-                           mesh.contents().stride() * (single ? sizeof(float) : sizeof(double)));
-  if (vertices > kMostMeshVertices) {
-    bad_usage("--grid: expected at most " + std::to_string(kMostMeshVertices) +
-              " vertices, found " + std::to_string(vertices));
+  MeshStats stats;
+  PatchFile patches;
+  {
+    const Stopwatch watch(stats.seconds.read);
+    patches = read_patches(arguments.in, arguments.format);
   }
-  single ? tessellate<float>(arguments, patches, mesh)
-         : tessellate<double>(arguments, patches, mesh);
+  arguments.precision == Precision::f32 ? tessellate<float>(arguments, std::move(patches), stats)
+                                        : tessellate<double>(arguments, std::move(patches), stats);
+  print(stats, arguments.mesh.stats);
 }
 
 } // namespace simdbezier::tools

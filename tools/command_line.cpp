@@ -8,8 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include <simdbezier/simdbezier.hpp>
 #include <tools/failure.hpp>
+#include <tools/library_status.hpp>
 #include <tools/output_file.hpp>
 #include <tools/text_input.hpp>
 
@@ -35,6 +35,8 @@ void add_options(CLI::App& app, std::string_view command, Parser& parser) {
     if (entry.value.empty()) {
       app.add_flag((entry.alias.empty() ? "" : entry.alias + ",") + entry.name)
           ->disable_flag_override();
+    } else if (!entry.needs_value) {
+      app.add_flag(entry.name + "{}", parser.values[entry.name]);
     } else {
       app.add_option(entry.name, parser.values[entry.name])->take_last();
     }
@@ -71,7 +73,7 @@ std::unique_ptr<Parser> make_parser() {
     if (entry != nullptr && entry->value.empty() && equals < word.size()) {
       bad_usage(entry->name + ": expected no value, found " + in_quotes(word.substr(equals + 1)));
     }
-    if (entry != nullptr && !entry->value.empty() && k == argc - 1) {
+    if (entry != nullptr && entry->needs_value && !entry->value.empty() && k == argc - 1) {
       refuse_missing(*entry, "the end of the command line");
     }
   }
@@ -89,7 +91,7 @@ void check_option(const OptionEntry& entry, const CLI::Option& option, const std
     bad_usage(entry.name + ": expected once, found " + std::to_string(option.count()) + " times");
   }
   // Then the value of this option is missing, and not the one that CLI11 misses at the end.
-  if (!entry.value.empty() && is_name_of_option(value, command)) {
+  if (entry.needs_value && is_name_of_option(value, command)) {
     refuse_missing(entry, in_quotes(value));
   }
 }
@@ -134,12 +136,6 @@ Words collect(const Parser& parser, Command command) {
   return words;
 }
 
-std::string version_text() {
-  return "simdbezier " + std::to_string(SIMDBEZIER_VERSION_MAJOR) + "." +
-         std::to_string(SIMDBEZIER_VERSION_MINOR) + "." + std::to_string(SIMDBEZIER_VERSION_PATCH) +
-         "\n";
-}
-
 std::nullopt_t print(const std::string& text) {
   OutputFile out("-");
   out.text(text);
@@ -180,7 +176,7 @@ std::optional<Words> split_command_line(int argc, const char* const* argv) {
     return print(help_text(std::nullopt));
   }
   if (parser->app.count("--version") > 0) {
-    return print(version_text());
+    return print(program_version() + "\n");
   }
   for (std::size_t k = 0; k < kCommands.size(); ++k) {
     if (parser->commands[k]->parsed()) {

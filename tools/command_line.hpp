@@ -20,8 +20,8 @@ struct OptionEntry {
   std::string expected; ///< what the value has to be, for messages and for help
   std::string help;     ///< what it is for
   std::string commands; ///< " tessellate evaluate info "
-  bool listed = true;   ///< false where a later release has it and this one says so
   std::string alias = {};
+  bool needs_value = true; ///< false where the value may be left out, and follows a = otherwise
 
   [[nodiscard]] bool is_of(std::string_view command) const;
 };

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
+#include <tools/arguments.hpp>
 #include <tools/grid_blocks.hpp>
-#include <tools/mesh_file.hpp>
+#include <tools/mesh_source.hpp>
 
 namespace simdbezier::tools {
 
@@ -16,39 +18,33 @@ namespace simdbezier::tools {
 ///     |   / |      Triangles a b c and a c d are counter-clockwise about du x dv.
 ///     | /   |
 ///     a --- b
-struct GridMesh {
-  std::size_t patches = 0;
-  GridSize grid;
-  bool normals = true;
+template <typename T>
+class GridMesh final : public MeshSource<T> {
+public:
+  /// The file has to outlive it. Throws Failure where there are too many vertices, or where T
+  /// cannot hold a patch.
+  GridMesh(const PatchFile& file, const Arguments& arguments, MeshStats& stats);
 
-  [[nodiscard]] std::uint64_t vertices_per_patch() const noexcept { return grid.nu * grid.nv; }
-  [[nodiscard]] std::uint64_t vertices() const noexcept { return patches * vertices_per_patch(); }
-  [[nodiscard]] std::uint64_t triangles() const noexcept {
-    return patches * (grid.nu - 1) * (grid.nv - 1) * 2;
-  }
-  [[nodiscard]] MeshContents contents() const {
-    MeshContents contents;
-    contents.vertices = vertices();
-    contents.faces = triangles();
-    contents.normals = normals;
-    return contents;
-  }
+  [[nodiscard]] MeshContents contents() const override;
+  void write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& progress) override;
 
-  /// Calls f({a, b, c}) for a patch's triangles, vertices counted from 0 in the whole mesh, which
-  /// has at most kMostMeshVertices.
-  template <typename F>
-  void for_each_triangle(std::size_t patch, F&& f) const {
-    for (std::size_t j = 0; j + 1 < grid.nv; ++j) {
-      for (std::size_t i = 0; i + 1 < grid.nu; ++i) {
-        const auto a = static_cast<std::uint32_t>(patch * vertices_per_patch() + j * grid.nu + i);
-        const std::uint32_t b = a + 1;
-        const auto d = static_cast<std::uint32_t>(a + grid.nu);
-        const std::uint32_t c = d + 1;
-        f(std::array{a, b, c});
-        f(std::array{a, c, d});
-      }
-    }
-  }
+private:
+  /// What takes time and is wanted for statistics only.
+  void measure(const PatchFile& file, MeshStats& stats) const;
+  [[nodiscard]] std::uint64_t vertices_per_patch() const noexcept { return grid_.nu * grid_.nv; }
+  void write_block(const GridBlock& block, MeshWriter<T>& writer, StageSeconds& seconds);
+  /// Faces of these patches, a bounded number at a time.
+  void write_faces(std::size_t first, std::size_t count, MeshWriter<T>& writer,
+                   StageSeconds& seconds);
+  void append_cell(std::uint32_t a);
+
+  const Arguments& arguments_;
+  std::size_t patches_;
+  GridSize grid_;
+  MeshBox box_;
+  GridEvaluator<T> evaluator_;
+  std::vector<T> values_;
+  std::vector<std::uint32_t> corners_;
 };
 
 } // namespace simdbezier::tools

@@ -3,9 +3,6 @@
 
 #include <algorithm>
 
-#include <tools/grid_blocks.hpp>
-#include <tools/patch_file.hpp>
-
 namespace simdbezier::tools {
 
 namespace {
@@ -21,10 +18,10 @@ struct CommandText {
 };
 constexpr CommandText kCommandTexts[] = {
     {"tessellate", "IN -o OUT [options]",
-     "Writes patches as triangles, each patch as a grid of vertices.",
-     "simdbezier tessellate builtin:teapot --grid 32 -o teapot.ply\n"
-     "simdbezier tessellate model.bv --grid 8x24 --no-normals -o model.obj\n"
-     "cat model.itd | simdbezier tessellate - --format itd -o model.ply\n"},
+     "Writes patches as a mesh of triangles without gaps, as coarse as asked for.",
+     "simdbezier tessellate builtin:teapot --relative 1e-3 --stats -o teapot.glb\n"
+     "simdbezier tessellate model.bv --tolerance 0.05 --crease 30 -o model.obj\n"
+     "cat model.itd.gz | simdbezier tessellate - --format itd --grid 8x24 -o model.ply\n"},
     {"evaluate", "IN -o OUT.csv [options]",
      "Writes values as CSV: of a grid on every patch, or of a file of samples.",
      "simdbezier evaluate builtin:teapot --grid 8 --outputs position,normal -o teapot.csv\n"
@@ -66,9 +63,11 @@ std::string explained(const std::string& term, std::string_view meaning) {
 std::string options_of(std::string_view command) {
   std::string text;
   for (const OptionEntry& entry : option_entries()) {
-    if (entry.listed && entry.is_of(command)) {
+    if (entry.is_of(command)) {
       std::string term = (entry.alias.empty() ? "" : entry.alias + ", ") + entry.name;
-      term += entry.value.empty() || entry.name == "IN" ? "" : " " + entry.value;
+      term += entry.value.empty() || entry.name == "IN" ? ""
+              : entry.needs_value                       ? " " + entry.value
+                                                        : "[=" + entry.value + "]";
       text += explained(term, entry.help + (entry.expected.empty() ? "" : ": " + entry.expected));
     }
   }
@@ -99,47 +98,7 @@ std::string program_help() {
          std::string(kExitCodes) + std::string(kEnvironment);
 }
 
-std::vector<OptionEntry> make_entries() {
-  const std::string all = " tessellate evaluate info ";
-  const std::string both = " tessellate evaluate ";
-  const std::string side = std::to_string(kMostPerDirection);
-  return {
-      {"IN", "IN", "builtin:teapot, the name of a file or - for standard input",
-       "Patches (" + patch_format_names(".") + ")", all},
-      {"-o", "OUT", "a name that ends in .obj, .ply, .stl or .glb", "Output, required",
-       " tessellate "},
-      {"-o", "OUT", "a name that ends in .csv, or - for standard output", "Output, required",
-       " evaluate "},
-      {"--format", "NAME", patch_format_names(""), "Format of IN, which otherwise its name tells",
-       all},
-      {"--grid", "N|NUxNV", "N or NUxNV, each from 2 to " + side,
-       "Samples of every patch (default 16)", both},
-      {"--samples", "FILE.csv", "the name of a CSV file or - for standard input",
-       "Samples instead of a grid, with the header patch,u,v, or patch,x,y with x = 2u-1, y = "
-       "2v-1",
-       " evaluate "},
-      {"--outputs", "LIST", std::string(kOutputNames) + " separated by commas",
-       "Columns (default position); curvature is four: gaussian, mean, smaller and larger "
-       "principal",
-       " evaluate "},
-      {"--precision", "TYPE", "f32 or f64",
-       "Numbers to compute with (default f32, control points are rounded to float first)", both},
-      {"--threads", "N", "1 to " + std::to_string(kMostThreads) + ", or 0 for all",
-       "Threads to compute with (default 0)", both},
-      {"--no-normals", "", "", "Positions only", " tessellate "},
-      {"--json", "", "", "One JSON object, for machines", " info "},
-      {"--tolerance", "D", "a distance", "", " tessellate ", false},
-      {"--version", "", "", "Print the version", " simdbezier "},
-      {"--help", "", "", "Print this text", " simdbezier tessellate evaluate info ", true, "-h"},
-  };
-}
-
 } // namespace
-
-const std::vector<OptionEntry>& option_entries() {
-  static const std::vector<OptionEntry> entries = make_entries();
-  return entries;
-}
 
 std::string help_text(std::optional<Command> command) {
   if (!command) {

@@ -17,6 +17,11 @@ std::string available_isa_names(std::string_view separator) {
   return names;
 }
 
+std::string program_version() {
+  return "simdbezier " + std::to_string(SIMDBEZIER_VERSION_MAJOR) + "." +
+         std::to_string(SIMDBEZIER_VERSION_MINOR) + "." + std::to_string(SIMDBEZIER_VERSION_PATCH);
+}
+
 void check(Status status) {
   switch (status.code()) {
   case Status::ok:

@@ -15,6 +15,9 @@ void check(Status status);
 /// SIMDBEZIER_ISA where that is not available.
 Isa chosen_isa();
 
+/// "simdbezier 1.2.3".
+[[nodiscard]] std::string program_version();
+
 /// The names of the available instruction sets, narrowest first.
 [[nodiscard]] std::string available_isa_names(std::string_view separator);
 

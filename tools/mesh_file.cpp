@@ -78,13 +78,22 @@ std::optional<MeshFormat> mesh_format_of(const std::string& path) {
              : std::optional(static_cast<MeshFormat>(entry - std::begin(kFormats)));
 }
 
+std::string mesh_format_names(const std::string& prefix) {
+  std::string names;
+  for (const FormatEntry& entry : kFormats) {
+    names += names.empty() ? "" : (&entry == std::end(kFormats) - 1 ? " or " : ", ");
+    names += prefix + entry.extension;
+  }
+  return names;
+}
+
 template <typename T>
-double storage_error(MeshFormat format, const MeshContents& contents) {
+double stated_deviation(MeshFormat format, const MeshContents& contents) {
   constexpr double kHalfFloat = 0x1p-24; // unit roundoff
   const bool quantised = contents.storage != VertexStorage::full;
   const bool rounded = sizeof(T) > sizeof(float) && entry_of(format).floats_only;
   if (!quantised && !rounded) {
-    return 0;
+    return *contents.deviation;
   }
   assert(contents.box);
   const double size = largest_coordinate(*contents.box);
@@ -92,7 +101,8 @@ double storage_error(MeshFormat format, const MeshContents& contents) {
   const double component =
       quantised ? quantised_space(*contents.box).extent / 65535 / 2 + 3 * kHalfFloat * size
                 : kHalfFloat * size + 0x1p-150;
-  return std::sqrt(3.0) * component * (1 + 0x1p-40);
+  const double error = std::sqrt(3.0) * component * (1 + 0x1p-40);
+  return std::nextafter(*contents.deviation + error, HUGE_VAL);
 }
 
 std::uintmax_t checked_file_size(const std::string& path, Count bytes) {
@@ -137,8 +147,9 @@ template <typename T>
 void MeshWriter<T>::faces(std::span<const std::uint32_t> corners) {
   assert(corners.size() % contents_.corners == 0);
   assert(takes_faces_early() || vertices_done_ == contents_.vertices);
-  assert(
-      std::ranges::all_of(corners, [&](std::uint32_t corner) { return corner < vertices_done_; }));
+  assert(std::ranges::all_of(corners, [&](std::uint32_t corner) {
+    return corner < vertices_done_ || (corner == kNoVertex && contents_.corners == 4);
+  }));
   faces_done_ += corners.size() / contents_.corners;
   assert(faces_done_ <= contents_.faces);
   take_faces(corners);
@@ -155,8 +166,8 @@ std::unique_ptr<MeshWriter<T>> make_mesh_writer(const std::string& path, MeshFor
                                                 const MeshContents& contents) {
   check_contents<T>(path, format, contents);
   MeshContents stated = contents;
-  if (const double error = contents.deviation ? storage_error<T>(format, contents) : 0; error > 0) {
-    stated.deviation = std::nextafter(*contents.deviation + error, HUGE_VAL);
+  if (contents.deviation) {
+    stated.deviation = stated_deviation<T>(format, contents);
   }
   switch (format) {
   case MeshFormat::obj:
@@ -177,8 +188,8 @@ template std::unique_ptr<MeshWriter<float>> make_mesh_writer(const std::string&,
                                                              const MeshContents&);
 template std::unique_ptr<MeshWriter<double>> make_mesh_writer(const std::string&, MeshFormat,
                                                               const MeshContents&);
-template double storage_error<float>(MeshFormat, const MeshContents&);
-template double storage_error<double>(MeshFormat, const MeshContents&);
+template double stated_deviation<float>(MeshFormat, const MeshContents&);
+template double stated_deviation<double>(MeshFormat, const MeshContents&);
 template float as_float(const std::string&, float);
 template float as_float(const std::string&, double);
 

@@ -19,6 +19,9 @@ enum class MeshFormat : std::uint8_t { obj, ply, stl, glb };
 /// The format that a file's name asks for by its extension.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::string& path);
 
+/// "obj, ply, … or glb", every name behind `prefix`.
+[[nodiscard]] std::string mesh_format_names(const std::string& prefix);
+
 struct MeshBox {
   std::array<double, 3> low = {};
   std::array<double, 3> high = {};
@@ -31,11 +34,15 @@ enum class VertexStorage : std::uint8_t { full, quantised_16, quantised_8 };
 /// An index needs 32 bits, and the largest one stays free.
 inline constexpr std::uint64_t kMostMeshVertices = std::numeric_limits<std::uint32_t>::max();
 
+/// In place of a quad's fourth corner, which makes it a triangle.
+inline constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
+
 /// All that has to be known of a mesh before its first vertex is written.
 struct MeshContents {
   std::uint64_t vertices = 0;
   std::uint64_t faces = 0;
-  unsigned corners = 3; ///< of a face: 3, or 4 in OBJ and PLY
+  unsigned corners = 3;          ///< of a face: 3, or 4 in OBJ and PLY
+  std::uint64_t among_quads = 0; ///< faces of 4 corners that are triangles (kNoVertex)
   bool normals = false;
   bool uv = false;           ///< within 0 and 1
   std::uint64_t patches = 0; ///< every vertex has a patch number below this; 0: none has
@@ -108,8 +115,9 @@ template <typename T>
 [[nodiscard]] std::unique_ptr<MeshWriter<T>>
 make_mesh_writer(const std::string& path, MeshFormat format, const MeshContents& contents);
 
-/// The largest distance by which the format moves a vertex.
+/// The deviation that a file states: what the contents have, and the largest distance by which the
+/// format moves a vertex.
 template <typename T>
-[[nodiscard]] double storage_error(MeshFormat format, const MeshContents& contents);
+[[nodiscard]] double stated_deviation(MeshFormat format, const MeshContents& contents);
 
 } // namespace simdbezier::tools

@@ -4,16 +4,19 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace simdbezier::tools {
 
 /// What a bar of at most `columns` shows: as much of the work's name, a bar and a share as there is
-/// room for. Where the total is unknown (0), it shows how much has been done, in `unit`.
+/// room for, and the time that is left where it is known. Where the total is unknown (0), it shows
+/// how much has been done, in `unit`.
 [[nodiscard]] std::string progress_line(std::string_view work, std::string_view unit,
                                         std::uint64_t done, std::uint64_t total,
-                                        std::size_t columns);
+                                        std::size_t columns,
+                                        std::optional<double> seconds_left = std::nullopt);
 
 /// One piece of work. Its line is cleared at the end, whatever ends it.
 class Progress {
@@ -37,6 +40,8 @@ private:
   using Clock = std::chrono::steady_clock;
 
   void show_when_due();
+  /// As much again for every part that is missing.
+  [[nodiscard]] std::optional<double> seconds_left(Clock::time_point now) const;
 
   std::string work_;
   std::string unit_;
@@ -44,7 +49,8 @@ private:
   std::uint64_t done_ = 0;
   bool wanted_;
   bool shown_ = false;
-  Clock::time_point next_ = Clock::now() + std::chrono::seconds(1);
+  Clock::time_point begin_ = Clock::now();
+  Clock::time_point next_ = begin_ + std::chrono::seconds(1);
 };
 
 } // namespace simdbezier::tools

@@ -13,7 +13,8 @@ Count fewest_bytes(const MeshContents& contents) {
   const std::size_t vertex = 8 + (contents.uv ? 7U : 0U) + (contents.normals ? 9U : 0U);
   const std::size_t corner = 2 + (contents.normals ? 3U : contents.uv ? 2U : 0U);
   return Count(contents.vertices) * vertex +
-         Count(contents.faces) * (2 + corner * contents.corners);
+         Count(contents.faces - contents.among_quads) * (2 + corner * contents.corners) +
+         Count(contents.among_quads) * (2 + corner * 3);
 }
 
 template <typename T>
@@ -63,8 +64,10 @@ private:
     for (std::size_t k = 0; k < corners.size(); k += contents().corners) {
       file_.character('f');
       for (const std::uint32_t corner : corners.subspan(k, contents().corners)) {
-        file_.character(' ');
-        name(std::uint64_t{corner} + 1);
+        if (corner != kNoVertex) {
+          file_.character(' ');
+          name(std::uint64_t{corner} + 1);
+        }
       }
       file_.character('\n');
     }

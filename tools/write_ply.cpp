@@ -43,7 +43,7 @@ public:
   PlyWriter(const std::string& path, const MeshContents& mesh)
       : MeshWriter<T>(path, mesh), packer_(path, mesh, exact_records<T>(mesh)),
         size_(checked_file_size(path, Count(mesh.vertices) * exact_records<T>(mesh).size +
-                                          Count(mesh.faces) * (1 + mesh.corners * kIndexBytes))),
+                                          face_bytes(mesh))),
         file_(path) {
     const std::string text = header<T>(mesh);
     file_.expect_room(checked_file_size(path, Count(size_) + text.size()));
@@ -64,14 +64,21 @@ private:
     this->contents().corners == 3 ? write_faces<3>(corners) : write_faces<4>(corners);
   }
 
+  static Count face_bytes(const MeshContents& mesh) {
+    return Count(mesh.faces - mesh.among_quads) * (1 + mesh.corners * kIndexBytes) +
+           Count(mesh.among_quads) * (1 + 3 * kIndexBytes);
+  }
+
   template <std::size_t Corners>
   void write_faces(std::span<const std::uint32_t> corners) {
-    std::array<std::byte, 1 + Corners* kIndexBytes> face = {static_cast<std::byte>(Corners)};
+    std::array<std::byte, 1 + Corners* kIndexBytes> face = {};
     for (std::size_t k = 0; k < corners.size(); k += Corners) {
-      for (std::size_t c = 0; c < Corners; ++c) {
+      const std::size_t count = corners[k + Corners - 1] == kNoVertex ? 3 : Corners;
+      face[0] = static_cast<std::byte>(count);
+      for (std::size_t c = 0; c < count; ++c) {
         store_little(&face[1 + c * kIndexBytes], corners[k + c]);
       }
-      file_.bytes(face.data(), face.size());
+      file_.bytes(face.data(), 1 + count * kIndexBytes);
     }
   }
 

@@ -63,8 +63,8 @@ TEST_P(AnyShapeTest, UsesItsWeights) {
 
 TEST_P(AnyShapeTest, BecomesTriangles) {
   const TemporaryFolder folder;
-  expect_silent_success(
-      run({"tessellate", sample_path(GetParam()), "--grid", "3x2", "-o", folder.path("out.obj")}));
+  expect_silent_success(run({"tessellate", sample_path(GetParam()), "--no-weld", "--grid", "3x2",
+                             "-o", folder.path("out.obj")}));
   const ParsedMesh mesh = parse_obj(read_file(folder.path("out.obj")));
   const std::size_t patches = sample_patches(GetParam()).size();
   EXPECT_EQ(mesh.positions.size(), patches * 6);

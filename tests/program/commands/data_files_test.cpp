@@ -59,7 +59,7 @@ TEST_P(DataFileTest, IsCounted) {
 TEST_P(DataFileTest, IsTessellatedWithItsCornersInPlace) {
   for (const std::string extension : {"obj", "ply"}) {
     const std::string out = folder_.path("out." + extension);
-    const Outcome outcome = run({"tessellate", in_, "--grid", "4", "-o", out});
+    const Outcome outcome = run({"tessellate", in_, "--no-weld", "--grid", "4", "-o", out});
     if (lies()) {
       EXPECT_EQ(outcome.exit_code, 1);
       EXPECT_FALSE(std::filesystem::exists(out));

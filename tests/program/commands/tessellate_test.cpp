@@ -1,4 +1,4 @@
-// simdbezier tessellate: what it writes, read back by parsers of our own.
+// simdbezier tessellate --no-weld: what it writes, read back by parsers of our own.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,8 @@ namespace {
 ParsedMesh tessellate(const std::string& in, const std::string& extension,
                       const std::vector<std::string>& options = {}) {
   const TemporaryFolder folder;
-  std::vector<std::string> arguments = {"tessellate", in, "-o", folder.path("out." + extension)};
+  std::vector<std::string> arguments = {"tessellate", in, "--no-weld", "-o",
+                                        folder.path("out." + extension)};
   arguments.insert(arguments.end(), options.begin(), options.end());
   expect_silent_success(run(arguments));
   const std::string bytes = read_file(folder.path("out." + extension));
@@ -178,10 +179,12 @@ TEST(Tessellate, GridsLargerThanABlockAreTheSameSurface) {
 TEST(Tessellate, ThreadsDoNotChangeTheFile) {
   const TemporaryFolder folder;
   const std::string one = folder.path("one.ply");
-  expect_silent_success(run({"tessellate", "builtin:teapot", "--threads", "1", "-o", one}));
+  expect_silent_success(
+      run({"tessellate", "builtin:teapot", "--no-weld", "--threads", "1", "-o", one}));
   for (const char* const threads : {"0", "2", "3", "7"}) {
     const std::string many = folder.path("many.ply");
-    expect_silent_success(run({"tessellate", "builtin:teapot", "--threads", threads, "-o", many}));
+    expect_silent_success(
+        run({"tessellate", "builtin:teapot", "--no-weld", "--threads", threads, "-o", many}));
     EXPECT_TRUE(read_file(one) == read_file(many)) << threads << " threads";
   }
 }

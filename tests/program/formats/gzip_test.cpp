@@ -37,10 +37,11 @@ std::string gzip(const std::string& text, int level = 6) {
 // Patches whose text hardly repeats, of `count` times about 1 KB.
 std::string random_patches(int count) {
   std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-100, 1000);
   std::vector<Net> nets(static_cast<std::size_t>(count));
   for (Net& net : nets) {
     for (Vector3& point : net.points) {
-      point = {random() / 1e5, random() / 1e6, random() / 1e7};
+      point = {place(random), place(random), place(random)};
     }
   }
   return bez_text(nets);

@@ -111,7 +111,7 @@ TEST_P(MemoryTest, IsAFewTimesTheFile) {
   const Outcome none = run({"tessellate", "builtin:teapot", "-o", folder.path("none.ply")});
   const std::string samples = folder.write("samples.csv", every_third_patch(9000));
   const std::vector<std::vector<std::string>> commands = {
-      {"tessellate", in, "--grid", "2", "-o", folder.path("out.ply")},
+      {"tessellate", in, "--no-weld", "--grid", "2", "-o", folder.path("out.ply")},
       {"evaluate", in, "--grid", "2", "-o", folder.path("out.csv")},
       {"evaluate", in, "--samples", samples, "-o", folder.path("out.csv")}};
   for (std::vector<std::string> command : commands) {
@@ -119,6 +119,31 @@ TEST_P(MemoryTest, IsAFewTimesTheFile) {
     const Outcome outcome = run(command);
     expect_silent_success(outcome);
     EXPECT_LT(outcome.memory - none.memory, most) << text.size() << " bytes";
+  }
+}
+
+// A mesh without gaps needs all patches at once, in proportion to their number: that is much where
+// few characters make a patch.
+TEST(Memory, OfWeldedMeshesIsAFewTimesTheFile) {
+  if (kSanitized) {
+    GTEST_SKIP() << "memory of a sanitizer";
+  }
+  constexpr std::size_t kTimes = 1100;
+  constexpr long kAlways = 24L << 10;
+  const TemporaryFolder folder;
+  const Outcome none = run({"tessellate", "builtin:teapot", "-o", folder.path("none.ply")});
+  const std::pair<const char*, std::string> files[] = {
+      {"obj", shared_vertices(120)},
+      {"rib", closed_mesh(120)},
+      {"bez", separate("2000\n", separate("", "0 0 1 ", 16), 2000)}};
+  for (const auto& [format, text] : files) {
+    const std::string in = folder.write(std::string("in.") + format, text);
+    const Outcome outcome = run({"tessellate", in, "--grid", "2", "--precision", "f64", "--threads",
+                                 "1", "-o", folder.path("out.ply")});
+    expect_silent_success(outcome);
+    EXPECT_LT(outcome.memory - none.memory,
+              kAlways + static_cast<long>(kTimes * text.size() / 1024))
+        << format;
   }
 }
 

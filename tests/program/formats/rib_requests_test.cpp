@@ -45,7 +45,6 @@ INSTANTIATE_TEST_SUITE_P(
         RibCase{"CutOff", "P ", "P"}, RibCase{"PartOfAName", "Begin ", "Begin"},
         RibCase{"ByteOrderMarkInside", " \xef\xbb\xbf", "\\xef\\xbb\\xbfPatch"},
         RibCase{"Binary", "\xcc\x05 ", "\\xcc\\x05"},
-        RibCase{"Compressed", "\x1f\x8b\x08 ", "\\x1f\\x8b\\x08"},
         RibCase{"StrayBracket", "Translate 0 0 5 ] ", "]"}),
     [](const auto& item) { return item.param.name; });
 

@@ -12,7 +12,7 @@ std::string tessellated(const std::string& in, const std::string& extension,
                         const std::vector<std::string>& options) {
   const TemporaryFolder folder;
   const std::string out = folder.path("out." + extension);
-  std::vector<std::string> arguments = {"tessellate", in, "-o", out};
+  std::vector<std::string> arguments = {"tessellate", in, "--no-weld", "-o", out};
   arguments.insert(arguments.end(), options.begin(), options.end());
   expect_silent_success(run(arguments));
   return read_file(out);

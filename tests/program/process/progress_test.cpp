@@ -40,6 +40,23 @@ TEST(ProgressLine, ShowsWhatThereIsRoomFor) {
   EXPECT_EQ(line(80, 50), "reading [" + std::string(40, '#') + "] 100 %") << "a file that grows";
 }
 
+TEST(ProgressLine, SaysHowLongItTakesWhereThereIsRoom) {
+  const auto line = [](std::size_t columns, double seconds) {
+    return tools::progress_line("tessellating", "patches", 50, 200, columns, seconds);
+  };
+  EXPECT_EQ(line(80, 9),
+            "tessellating [" + std::string(10, '#') + std::string(30, ' ') + "]  25 %, 9 s left");
+  EXPECT_TRUE(line(80, 59.1).ends_with(", 1 min 0 s left"));
+  EXPECT_TRUE(line(80, 200).ends_with(", 3 min 20 s left"));
+  EXPECT_TRUE(line(80, 7500).ends_with(", 2 h 5 min left"));
+  EXPECT_TRUE(line(80, 1e300).ends_with(" min left"));
+  EXPECT_EQ(line(28, 9), "tessellating  25 %, 9 s left");
+  EXPECT_EQ(line(27, 9), "tessellating [#      ]  25 %");
+  for (std::size_t columns = 0; columns < 100; ++columns) {
+    EXPECT_LE(line(columns, 7500).size(), columns);
+  }
+}
+
 // Shows after a second of work, with the next block that arrives.
 void read_for_long(Program& program) {
   const std::string block = "0 " + std::string(70000, ' ');

@@ -1,0 +1,319 @@
+// simdbezier tessellate: meshes without gaps, as independent readers find them in files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+#include <set>
+
+#include "tests/program/formats/format_files.hpp"
+#include "tests/program/formats/sample_nets.hpp"
+#include "tests/program/mesh_files/welded_mesh.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// Twice the area times the normal.
+Point turn(const ReadMesh& mesh, const std::vector<std::uint32_t>& face, std::size_t c = 2) {
+  const Point& a = mesh.positions[face[0]];
+  return cross(mesh.positions[face[c - 1]] - a, mesh.positions[face[c]] - a);
+}
+
+const std::vector<std::vector<std::string>> kResolutions = {
+    {"--grid", "2"},
+    {"--grid", "5x4"},
+    {},
+    {"--relative", "1e-1"},
+    {"--relative", "1e-3"},
+    {"--angle", "20"},
+    {"--relative", "1e-3", "--precision", "f64"}};
+
+class WeldedModel : public ::testing::TestWithParam<MeshModel> {};
+
+TEST_P(WeldedModel, HangsTogetherAsTheModelDoes) {
+  const TemporaryFolder folder;
+  const std::string in = folder.write("in.bez", bez_of(GetParam()));
+  for (const std::vector<std::string>& options : kResolutions) {
+    SCOPED_TRACE(options.empty() ? "" : options[0] + " " + options[1]);
+    const ReadMesh mesh = welded(in, options);
+    const TriangleCensus census = census_of(mesh);
+    EXPECT_EQ(census.degenerate, 0U);
+    EXPECT_EQ(census.unused, 0U);
+    EXPECT_EQ(census.crowded > 0, !GetParam().manifold);
+    if (GetParam().manifold) {
+      EXPECT_EQ(census.loops, GetParam().loops);
+      EXPECT_EQ(census.euler, GetParam().euler);
+      EXPECT_EQ(census.repeated, 0U);
+    }
+    EXPECT_EQ(census.disagreeing > 0, !GetParam().agree);
+    EXPECT_GT(mesh.deviation.value_or(0), 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WeldedModel, ::testing::ValuesIn(mesh_models()),
+                         [](const auto& test) {
+                           std::string name = test.param.name;
+                           std::erase_if(name, [](char c) { return std::isalnum(c) == 0; });
+                           return name + std::to_string(test.index);
+                         });
+
+TEST(WeldedMesh, HasEveryPositionOfTheTeapotOnce) {
+  const ReadMesh mesh = welded("builtin:teapot", {"--grid", "32"});
+  const std::set<Point> different(mesh.positions.begin(), mesh.positions.end());
+  // Vertices that touch in a point without an edge in common stay apart: there is one such pair.
+  EXPECT_EQ(different.size(), 30877U);
+  EXPECT_EQ(mesh.positions.size(), 30878U);
+  for (const auto& face : mesh.faces) {
+    EXPECT_GT(dot(turn(mesh, face), turn(mesh, face)), 0);
+  }
+}
+
+TEST(WeldedMesh, IsOneMeshInAllFormats) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--grid", "6"}, {"--relative", "1e-3"}}) {
+    const ReadMesh ply = welded("builtin:teapot", options);
+    const ReadMesh obj = read_obj_mesh(tessellated("builtin:teapot", "obj", options));
+    const ReadMesh glb = read_glb_mesh(tessellated("builtin:teapot", "glb", options));
+    const ReadMesh stl = read_stl_mesh(tessellated("builtin:teapot", "stl", options));
+    EXPECT_EQ(glb.positions, ply.positions);
+    EXPECT_EQ(glb.normals, ply.normals);
+    EXPECT_EQ(glb.faces, ply.faces);
+    EXPECT_EQ(obj.faces, ply.faces);
+    ASSERT_EQ(stl.faces.size(), ply.faces.size());
+    for (std::size_t k = 0; k < ply.faces.size(); ++k) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_EQ(stl.positions[3 * k + c], ply.positions[ply.faces[k][c]]);
+      }
+    }
+    for (const ReadMesh& mesh : {ply, obj, glb, stl}) {
+      EXPECT_EQ(mesh.deviation, ply.deviation);
+      EXPECT_NE(mesh.generator.find("simdbezier "), std::string::npos);
+    }
+  }
+}
+
+// The distance from a point to a triangle: Ericson's regions would be faster, but this is shorter.
+double distance(const Point& p, const Point& a, const Point& b, const Point& c) {
+  const Point n = cross(b - a, c - a);
+  const double area = std::sqrt(dot(n, n));
+  const auto inside = [&](const Point& from, const Point& to) {
+    return dot(cross(to - from, p - from), n) >= 0;
+  };
+  if (area > 0 && inside(a, b) && inside(b, c) && inside(c, a)) {
+    return std::abs(dot(p - a, n)) / area;
+  }
+  double least = HUGE_VAL;
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+    const Point side = to - from;
+    const double length = dot(side, side);
+    const double t = length > 0 ? std::clamp(dot(p - from, side) / length, 0.0, 1.0) : 0;
+    const Point apart =
+        p - Point{from[0] + t * side[0], from[1] + t * side[1], from[2] + t * side[2]};
+    least = std::min(least, std::sqrt(dot(apart, apart)));
+  }
+  return least;
+}
+
+TEST(WeldedMesh, KeepsTheDeviationThatItStates) {
+  const Outcome samples =
+      run({"evaluate", "builtin:teapot", "--grid", "8", "--precision", "f64", "-o", "-"});
+  const std::vector<std::vector<double>> rows = [&] {
+    std::vector<std::vector<double>> all;
+    std::istringstream lines(samples.out);
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+      std::vector<double>& row = all.emplace_back();
+      std::istringstream fields(line);
+      for (std::string field; std::getline(fields, field, ',');) {
+        row.push_back(std::strtod(field.c_str(), nullptr));
+      }
+    }
+    return all;
+  }();
+  ASSERT_EQ(rows.size(), 32U * 64);
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--tolerance", "0.05"}, {"--grid", "4"}}) {
+    const ReadMesh mesh = welded("builtin:teapot", options);
+    if (options[0] == "--tolerance") {
+      EXPECT_LE(*mesh.deviation, 0.05);
+    }
+    double farthest = 0;
+    for (const std::vector<double>& row : rows) {
+      double least = HUGE_VAL;
+      for (const auto& face : mesh.faces) {
+        least = std::min(least, distance({row[3], row[4], row[5]}, mesh.positions[face[0]],
+                                         mesh.positions[face[1]], mesh.positions[face[2]]));
+      }
+      farthest = std::max(farthest, least);
+    }
+    EXPECT_LE(farthest, *mesh.deviation);
+    EXPECT_GT(farthest, *mesh.deviation / 5) << "a bound without meaning";
+  }
+}
+
+TEST(WeldedMesh, IsFinerWhereMoreIsAsked) {
+  std::size_t faces = 0;
+  for (const char* const tolerance : {"1", "0.1", "0.01", "0.001"}) {
+    const ReadMesh mesh = welded("builtin:teapot", {"--tolerance", tolerance});
+    EXPECT_LE(*mesh.deviation, std::strtod(tolerance, nullptr));
+    EXPECT_GT(mesh.faces.size(), faces);
+    faces = mesh.faces.size();
+  }
+}
+
+TEST(WeldedMesh, RelativeTolerancesAreSharesOfTheDiagonal) {
+  const std::string diagonal = number_text(std::sqrt(6.525 * 6.525 + 16 + 3.15 * 3.15) / 1024);
+  EXPECT_TRUE(tessellated("builtin:teapot", "ply", {"--relative", "0.0009765625"}) ==
+              tessellated("builtin:teapot", "ply", {"--tolerance", diagonal}));
+}
+
+TEST(WeldedMesh, CamerasWantMoreWhereTheyAreNear) {
+  const auto faces = [](const std::string& camera, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> options = {"--pixels", "0.5", "--camera", camera};
+    options.insert(options.end(), more.begin(), more.end());
+    return welded("builtin:teapot", options).faces.size();
+  };
+  const std::size_t near = faces("8,0,2,0,0,1.5");
+  EXPECT_GT(near, faces("80,0,2,0,0,1.5"));
+  EXPECT_GT(near, faces("8,0,2,0,0,1.5", {"--view-angle", "90"}));
+  EXPECT_LT(near, faces("8,0,2,0,0,1.5", {"--picture", "3840x2160"}));
+  EXPECT_EQ(near, faces("8,0,2,-8,0,1", {"--view-angle", "45", "--picture", "1920x1080"}));
+}
+
+TEST(WeldedMesh, FlipTurnsFacesAndNormals) {
+  const ReadMesh mesh = welded("builtin:teapot", {"--grid", "5"});
+  const ReadMesh flipped = welded("builtin:teapot", {"--grid", "5", "--flip"});
+  ASSERT_EQ(flipped.positions, mesh.positions);
+  for (std::size_t k = 0; k < mesh.normals.size(); ++k) {
+    EXPECT_EQ(flipped.normals[k],
+              (Point{0 - mesh.normals[k][0], 0 - mesh.normals[k][1], 0 - mesh.normals[k][2]}));
+  }
+  ASSERT_EQ(flipped.faces.size(), mesh.faces.size());
+  for (std::size_t k = 0; k < mesh.faces.size(); ++k) {
+    EXPECT_LT(dot(turn(mesh, mesh.faces[k]), turn(flipped, flipped.faces[k])), 0);
+  }
+}
+
+TEST(WeldedMesh, QuadsCoverTheSameCells) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--grid", "5"}, {"--relative", "1e-2"}}) {
+    std::vector<std::string> with = options;
+    with.emplace_back("--quads");
+    const ReadMesh mesh = welded("builtin:teapot", options);
+    const ReadMesh quads = welded("builtin:teapot", with);
+    EXPECT_EQ(quads.positions, mesh.positions);
+    std::size_t triangles = 0;
+    std::set<std::set<std::uint32_t>> cut;
+    for (const auto& face : quads.faces) {
+      ASSERT_TRUE(face.size() == 3 || face.size() == 4);
+      for (std::size_t c = 2; c < face.size(); ++c, ++triangles) {
+        cut.insert({face[0], face[c - 1], face[c]});
+      }
+    }
+    std::set<std::set<std::uint32_t>> whole;
+    for (const auto& face : mesh.faces) {
+      whole.insert({face.begin(), face.end()});
+    }
+    EXPECT_EQ(triangles, mesh.faces.size());
+    EXPECT_TRUE(cut == whole);
+    EXPECT_EQ(read_obj_mesh(tessellated("builtin:teapot", "obj", with)).faces, quads.faces);
+  }
+}
+
+TEST(WeldedMesh, OrientMakesNeighboursAgree) {
+  std::size_t turned = 0;
+  for (const MeshModel& model : mesh_models()) {
+    if (!model.manifold || !model.orientable) {
+      continue;
+    }
+    const TemporaryFolder folder;
+    MeshModel mixed = model;
+    for (std::size_t k = 1; k < mixed.patches.size(); k += 2) {
+      std::ranges::reverse(mixed.patches[k]);
+    }
+    const std::string in = folder.write("in.bez", bez_of(mixed));
+    turned += census_of(welded(in, {"--grid", "3"})).disagreeing;
+    EXPECT_EQ(census_of(welded(in, {"--grid", "3", "--orient"})).disagreeing, 0U) << model.name;
+  }
+  EXPECT_GT(turned, 0U);
+}
+
+// Two unit squares side by side in different planes, with a gap between them.
+std::string two_squares(const TemporaryFolder& folder, double gap, double slope) {
+  std::vector<Net> nets = {flat_net(), flat_net()};
+  for (Vector3& point : nets[1].points) {
+    point = {1 + gap + point[0], point[1], slope * point[0]};
+  }
+  return folder.write("squares.bez", bez_text(nets));
+}
+
+TEST(WeldedMesh, SnapJoinsWhatNearlyMeets) {
+  const TemporaryFolder folder;
+  const std::string in = two_squares(folder, 1e-4, 0);
+  EXPECT_EQ(welded(in, {"--grid", "3"}).positions.size(), 18U);
+  EXPECT_EQ(welded(in, {"--grid", "3", "--snap", "1e-5"}).positions.size(), 18U);
+  const ReadMesh joined = welded(in, {"--grid", "3", "--snap", "1e-3"});
+  EXPECT_EQ(joined.positions.size(), 15U);
+  EXPECT_EQ(census_of(joined).loops, 1U);
+  EXPECT_GE(*joined.deviation, 1e-4);
+}
+
+TEST(WeldedMesh, CreasesHaveNormalsOnBothSides) {
+  const TemporaryFolder folder;
+  const std::string in = two_squares(folder, 0, 1); // 45 degrees
+  const ReadMesh smooth = welded(in, {"--grid", "3"});
+  EXPECT_EQ(smooth.positions.size(), 15U);
+  EXPECT_EQ(welded(in, {"--grid", "3", "--crease", "50"}).positions.size(), 15U);
+  const ReadMesh sharp = welded(in, {"--grid", "3", "--crease", "40"});
+  EXPECT_EQ(sharp.positions.size(), 18U);
+  const auto are_of_one_patch = [](const ReadMesh& mesh) {
+    return std::ranges::all_of(mesh.normals, [](const Point& n) {
+      return n == Point{0, 0, 1} || (std::abs(n[0] + n[2]) < 1e-6 && n[1] == 0);
+    });
+  };
+  EXPECT_TRUE(are_of_one_patch(sharp));
+  EXPECT_FALSE(are_of_one_patch(smooth));
+}
+
+TEST(WeldedMesh, TakesPatchesOfAnyFormatAndShape) {
+  for (const char* const format : kSampleFormats) {
+    const ReadMesh mesh = welded(sample_path(format), {"--relative", "1e-2"});
+    EXPECT_GT(mesh.faces.size(), 1U) << format;
+    EXPECT_EQ(census_of(mesh).degenerate, 0U) << format;
+  }
+}
+
+TEST(WeldedMesh, NormalsMayBeLeftOut) {
+  const ReadMesh mesh = welded("builtin:teapot", {"--grid", "4", "--no-normals"});
+  EXPECT_TRUE(mesh.normals.empty());
+  EXPECT_EQ(mesh.positions, welded("builtin:teapot", {"--grid", "4"}).positions);
+}
+
+TEST(WeldedMesh, IsQuantisedWithinItsDeviation) {
+  const ReadMesh full = read_glb_mesh(tessellated("builtin:teapot", "glb", {"--grid", "5"}));
+  for (const std::string bits : {"16", "8"}) {
+    const ReadMesh mesh =
+        read_glb_mesh(tessellated("builtin:teapot", "glb", {"--grid", "5", "--quantise", bits}));
+    ASSERT_TRUE(mesh.quantised);
+    EXPECT_GT(*mesh.deviation, *full.deviation);
+    ASSERT_EQ(mesh.positions.size(), full.positions.size());
+    for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(mesh.translation[c] + mesh.scale * mesh.positions[k][c] / 65535,
+                    full.positions[k][c], *mesh.deviation - *full.deviation);
+      }
+    }
+  }
+}
+
+} // namespace
+} // namespace simdbezier::tests

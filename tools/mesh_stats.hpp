@@ -1,0 +1,51 @@
+// What tessellate tells about its work.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace simdbezier::tools {
+
+/// Seconds that the stages of a run took.
+struct StageSeconds {
+  double read = 0;
+  double pack = 0;
+  double rates = 0;
+  double topology = 0;
+  double evaluate = 0;
+  double write = 0;
+};
+
+struct MeshStats {
+  std::size_t patches = 0;
+  std::uint64_t vertices = 0;
+  std::uint64_t triangles = 0; ///< quads count as two
+  double deviation = 0;        ///< certified, as the file states it
+  double diagonal = 0;         ///< of the box of all control points
+  std::size_t open_edges = 0;  ///< edges of patches that no other patch has
+  std::size_t non_manifold_edges = 0;
+  std::uint64_t samples = 0; ///< that were evaluated for vertices
+  StageSeconds seconds;
+};
+
+/// Adds the time of its life to a stage's.
+class Stopwatch {
+public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point begin_ = Clock::now();
+};
+
+[[nodiscard]] std::string stats_as_text(const MeshStats& stats);
+/// One object, with the names of MeshStats.
+[[nodiscard]] std::string stats_as_json(const MeshStats& stats);
+
+} // namespace simdbezier::tools

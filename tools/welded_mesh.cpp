@@ -1,0 +1,352 @@
+#include <tools/welded_mesh.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include <tools/failure.hpp>
+#include <tools/library_status.hpp>
+#include <tools/output_file.hpp>
+#include <tools/patch_box.hpp>
+#include <tools/patch_rounding.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+template <typename T>
+std::span<const ControlNets<T>> views(const PatchNets<T>& nets) {
+  return nets.nets;
+}
+
+// Assigning an empty one might keep the memory.
+template <typename T>
+void set_free(T& object) {
+  const T freed = std::exchange(object, T());
+}
+
+} // namespace
+
+template <typename T>
+WeldedMesh<T>::WeldedMesh(PatchFile file, const Arguments& arguments, MeshStats& stats)
+    : arguments_(arguments), stats_(stats), patches_(file.count), name_(file.name) {
+  stats_.patches = patches_;
+  {
+    const Stopwatch watch(stats_.seconds.pack);
+    take_points(std::move(file));
+  }
+  {
+    const Stopwatch watch(stats_.seconds.topology);
+    join();
+  }
+  {
+    const Stopwatch watch(stats_.seconds.rates);
+    choose_cells();
+  }
+  {
+    const Stopwatch watch(stats_.seconds.topology);
+    lay_out();
+  }
+  {
+    const Stopwatch watch(stats_.seconds.pack);
+    pack_all();
+  }
+  const Stopwatch watch(stats_.seconds.topology);
+  if (arguments_.mesh.crease) {
+    Options options;
+    options.threads = arguments_.threads;
+    check(split_creases(set_, layout_, *arguments_.mesh.crease, layout_, options));
+  }
+  count_faces();
+  const MeshContents mesh = contents();
+  stats_.vertices = stats_.samples = mesh.vertices;
+  stats_.triangles = 2 * mesh.faces - (mesh.corners == 3 ? mesh.faces : mesh.among_quads);
+  stats_.deviation = stated_deviation<T>(arguments_.mesh.format, mesh);
+}
+
+// A patch that T cannot hold is found here, where its place in the file is still known; what
+// rounding does to every patch is found as well.
+template <typename T>
+void WeldedMesh<T>::take_points(PatchFile file) {
+  box_ = box_of(file);
+  stats_.diagonal = diagonal_of(box_);
+  errors_.resize(patches_);
+  for (std::size_t first = 0; first < patches_; first += kBlockPatches) {
+    const std::size_t count = std::min(kBlockPatches, patches_ - first);
+    std::ranges::copy(rounding_errors<T>(file, first, count),
+                      errors_.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+  file_ = std::make_unique<PatchFile>(std::move(file));
+  nets_ = file_->template nets<T>();
+  if (std::is_same_v<T, float>) { // and otherwise nets are in the file's own memory
+    file_.reset();
+  }
+}
+
+template <typename T>
+void WeldedMesh<T>::join() {
+  TopologyOptions how;
+  how.orient = arguments_.mesh.orient;
+  how.flip = arguments_.mesh.flip;
+  how.snap = arguments_.mesh.snap;
+  how.threads = arguments_.threads;
+  const Status status = find_topology(views(nets_), topology_, how);
+  if (status == Status::not_orientable) {
+    bad_input("--orient: expected patches that can be turned to agree with their neighbours, found "
+              "a surface of one side in " +
+              name_);
+  }
+  check(status);
+  const TopologyCounts counts = topology_.counts();
+  stats_.open_edges = counts.open_edges;
+  stats_.non_manifold_edges = counts.non_manifold_edges;
+}
+
+template <typename T>
+void WeldedMesh<T>::choose_cells() {
+  nu_.resize(patches_);
+  nv_.resize(patches_);
+  diagonals_.resize(patches_);
+  std::vector<double> deviations(patches_);
+  const CertifiedRates rates{nu_, nv_, diagonals_, deviations};
+  arguments_.mesh.adaptive() ? choose_adaptive(rates) : choose_uniform(rates);
+  // Rounding leaves a distance even where a mesh is as flat as its patches.
+  deviation_ = std::max(std::ranges::max(deviations), std::numeric_limits<double>::min());
+}
+
+template <typename T>
+void WeldedMesh<T>::choose_uniform(const CertifiedRates& rates) {
+  const GridSize& grid = arguments_.grid;
+  if (std::max(grid.nu, grid.nv) > kMostSegments + 1) {
+    bad_input("--grid: expected at most " + std::to_string(kMostSegments + 1) +
+              " samples a direction without --no-weld, found " + std::to_string(grid.nu) + "x" +
+              std::to_string(grid.nv));
+  }
+  std::ranges::fill(nu_, static_cast<std::uint32_t>(grid.nu - 1));
+  std::ranges::fill(nv_, static_cast<std::uint32_t>(grid.nv - 1));
+  std::size_t raised = 0;
+  check(separate_vertices(topology_, nu_, nv_, raised));
+  check(certify_rates<T>(views(nets_), topology_, errors_, rates, arguments_.threads).status);
+}
+
+template <typename T>
+void WeldedMesh<T>::choose_adaptive(const CertifiedRates& rates) {
+  RateOptions how;
+  how.errors = errors_;
+  how.threads = arguments_.threads;
+  how.normal_angle = arguments_.mesh.angle.value_or(how.normal_angle);
+  const std::vector<double> tolerances = patch_tolerances(how.tolerance);
+  how.tolerances = tolerances;
+  const RateReport report = choose_rates<T>(views(nets_), topology_, how, rates);
+  if (report.status == Status::bad_tolerance) {
+    refuse_tolerance(report.patch);
+  }
+  check(report.status);
+}
+
+// `all` is the tolerance of all patches where there is nothing for single ones.
+template <typename T>
+std::vector<double> WeldedMesh<T>::patch_tolerances(double& all) const {
+  const MeshArguments& mesh = arguments_.mesh;
+  // Far more than any mesh is off, where nothing but an angle is asked for.
+  all = stats_.diagonal > 0 ? 1e3 * stats_.diagonal : 1;
+  all = std::min(all, mesh.tolerance.value_or(all));
+  if (mesh.relative && stats_.diagonal > 0) {
+    all = std::min(all, *mesh.relative * stats_.diagonal);
+  }
+  std::vector<double> tolerances;
+  if (mesh.pixels) {
+    tolerances.resize(patches_);
+    check(pixel_tolerances<T>(views(nets_), mesh.camera, *mesh.pixels, tolerances));
+    for (double& tolerance : tolerances) {
+      tolerance = std::min(tolerance, all);
+    }
+  }
+  return tolerances;
+}
+
+template <typename T>
+void WeldedMesh<T>::refuse_tolerance(std::size_t patch) const {
+  const MeshArguments& mesh = arguments_.mesh;
+  double all = 0;
+  const std::vector<double> tolerances = patch_tolerances(all);
+  const double found = tolerances.empty() ? all : tolerances[patch];
+  const char* const option = mesh.tolerance  ? "--tolerance"
+                             : mesh.relative ? "--relative"
+                             : mesh.pixels   ? "--pixels"
+                                             : "--angle";
+  const std::string needed =
+      found > errors_[patch]
+          ? "a distance that " + std::to_string(kMostSegments) + " cells a direction can keep"
+          : "a distance above the error of rounding, " + shortest(errors_[patch]);
+  bad_input(std::string(option) + ": expected " + needed + ", found " + shortest(found) +
+            " for patch " + std::to_string(patch) + " of " + name_);
+}
+
+template <typename T>
+void WeldedMesh<T>::lay_out() {
+  const Status status = lay_out_mesh(topology_, {nu_, nv_, diagonals_}, layout_);
+  if (status == Status::size_overflow) {
+    const char* const option = arguments_.mesh.adaptive() ? "--tolerance" : "--grid";
+    bad_input(std::string(option) + ": expected at most " + std::to_string(kMostMeshVertices) +
+              " vertices, found more");
+  }
+  check(status);
+  set_free(nu_); // the layout has its own
+  set_free(nv_);
+  set_free(diagonals_);
+}
+
+template <typename T>
+void WeldedMesh<T>::pack_all() {
+  PackOptions how;
+  how.threads = arguments_.threads;
+  check(pack(views(nets_), set_, how).status);
+  set_free(nets_);
+  file_.reset();
+}
+
+// Cells where two sides of a patch are one edge have fewer triangles than the layout counts, which
+// the faces themselves show.
+template <typename T>
+void WeldedMesh<T>::count_faces() {
+  if (arguments_.mesh.quads) {
+    PolygonSize size;
+    check(polygon_size(layout_, size, arguments_.threads));
+    faces_ = size.polygons;
+    among_quads_ = 4 * size.polygons - size.indices;
+    return;
+  }
+  for (Block block = block_from(0); block.count > 0;
+       block = block_from(block.first + block.count)) {
+    faces_ += faces(block).size() / 3;
+  }
+}
+
+template <typename T>
+MeshContents WeldedMesh<T>::contents() const {
+  const MeshArguments& mesh = arguments_.mesh;
+  MeshContents contents;
+  contents.vertices = layout_.size().vertices;
+  contents.faces = faces_;
+  contents.corners = mesh.quads ? 4 : 3;
+  contents.among_quads = among_quads_;
+  contents.normals = mesh.normals;
+  contents.storage = mesh.storage;
+  contents.deviation = deviation_;
+  contents.generator = program_version();
+  // Positions may leave the control points' box by their errors.
+  const double margin = std::ranges::max(errors_);
+  contents.box = box_;
+  for (std::size_t c = 0; c < 3; ++c) {
+    contents.box->low[c] -= margin;
+    contents.box->high[c] += margin;
+  }
+  return contents;
+}
+
+// One patch at least, and as many as have a moderate number of vertices and triangles.
+template <typename T>
+typename WeldedMesh<T>::Block WeldedMesh<T>::block_from(std::size_t patch) const {
+  const auto size = [&](std::size_t end) {
+    return layout_.first_vertex(end) - layout_.first_vertex(patch) +
+           (layout_.first_triangle(end) - layout_.first_triangle(patch)) / 2;
+  };
+  std::size_t end = std::min(patch + 1, patches_);
+  while (end < patches_ && end - patch < kBlockPatches && size(end + 1) <= kBlockSamples) {
+    ++end;
+  }
+  return {patch, end - patch};
+}
+
+template <typename T>
+void WeldedMesh<T>::write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& progress) {
+  const auto for_blocks = [&](auto&& visit) {
+    for (Block block = block_from(0); block.count > 0;
+         block = block_from(block.first + block.count)) {
+      visit(block);
+    }
+  };
+  for_blocks([&](const Block& block) {
+    write_vertices(block, writer, seconds);
+    if (writer.takes_faces_early()) {
+      write_faces(block, writer, seconds);
+    }
+    progress.advance(block.count);
+  });
+  if (!writer.takes_faces_early()) {
+    for_blocks([&](const Block& block) { write_faces(block, writer, seconds); });
+  }
+}
+
+template <typename T>
+void WeldedMesh<T>::write_vertices(const Block& block, MeshWriter<T>& writer,
+                                   StageSeconds& seconds) {
+  const std::size_t vertices =
+      layout_.first_vertex(block.first + block.count) - layout_.first_vertex(block.first);
+  const std::size_t stride = arguments_.mesh.normals ? 6 : 3;
+  values_.resize(vertices * stride);
+  MeshOutputs<T> out;
+  out.position = Vectors<T>::xyz(values_.data(), static_cast<std::ptrdiff_t>(stride));
+  if (arguments_.mesh.normals) {
+    out.normal = Vectors<T>::xyz(values_.data() + 3, static_cast<std::ptrdiff_t>(stride));
+  }
+  Options options;
+  options.threads = arguments_.threads;
+  if (vertices > 0) {
+    const Stopwatch watch(seconds.evaluate);
+    check(evaluate_mesh(set_, layout_, out, options, {block.first, block.count}));
+  }
+  const Stopwatch watch(seconds.write);
+  writer.vertices({values_});
+}
+
+template <typename T>
+void WeldedMesh<T>::write_faces(const Block& block, MeshWriter<T>& writer, StageSeconds& seconds) {
+  std::span<const std::uint32_t> corners;
+  {
+    const Stopwatch watch(seconds.topology);
+    corners = arguments_.mesh.quads ? quads(block) : faces(block);
+  }
+  const Stopwatch watch(seconds.write);
+  writer.faces(corners);
+}
+
+template <typename T>
+std::span<const std::uint32_t> WeldedMesh<T>::faces(const Block& block) {
+  corners_.resize(3 * (layout_.first_triangle(block.first + block.count) -
+                       layout_.first_triangle(block.first)));
+  check(write_triangles<std::uint32_t>(layout_, corners_, arguments_.threads,
+                                       {block.first, block.count}));
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < corners_.size(); k += 3) {
+    if (corners_[k] != corners_[k + 1]) { // and not a place for a triangle that is not there
+      std::copy_n(&corners_[k], 3, &corners_[kept]);
+      kept += 3;
+    }
+  }
+  return std::span(corners_).first(kept);
+}
+
+template <typename T>
+std::span<const std::uint32_t> WeldedMesh<T>::quads(const Block& block) {
+  const SetRange range{block.first, block.count};
+  PolygonSize size;
+  check(polygon_size(layout_, size, arguments_.threads, range));
+  polygons_.resize(size.indices);
+  sizes_.resize(size.polygons);
+  check(write_polygons<std::uint32_t>(layout_, polygons_, sizes_, arguments_.threads, range));
+  corners_.assign(4 * size.polygons, kNoVertex);
+  auto next = polygons_.begin();
+  for (std::size_t k = 0; k < sizes_.size(); next += sizes_[k++]) {
+    std::copy_n(next, sizes_[k], &corners_[4 * k]);
+  }
+  return corners_;
+}
+
+template class WeldedMesh<float>;
+template class WeldedMesh<double>;
+
+} // namespace simdbezier::tools
