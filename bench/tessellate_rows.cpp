@@ -175,6 +175,7 @@ public:
   MeshRow(const Part<T>& part, bool adaptive, Isa isa, int threads)
       : part_(part), stages_(shared_stages<T>(adaptive)) {
     options_.isa = isa;
+    options_.destination = simdbezier::Destination::memory;
     options_.threads = threads;
   }
   void operator()() { (void)run(options_); }

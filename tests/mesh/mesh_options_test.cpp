@@ -1,0 +1,240 @@
+// What tessellate() is asked for besides a tolerance, and what it refuses.
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include <simdbezier/mesh.hpp>
+
+#include "tests/mesh/mesh_models.hpp"
+#include "tests/mesh/mesh_oracle.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+std::vector<double> sheet_values() {
+  for (const MeshModel& model : mesh_models()) {
+    if (model.name == "sheet") {
+      return model.values();
+    }
+  }
+  return {};
+}
+
+TEST(MeshOptions, options_are_followed) {
+  const std::vector<double> values = sheet_values();
+  const auto nets = ControlNets<double>::packed(std::span<const double>(values));
+  const auto mesh_of = [&](const auto& change) {
+    MeshOptions options;
+    options.tolerance = 0.01;
+    change(options);
+    const Mesh<float> mesh = tessellate<float>(nets, options);
+    EXPECT_EQ(mesh.status, Status::ok);
+    return mesh;
+  };
+  const Mesh<float> usual = mesh_of([](auto&) {});
+  const Mesh<float> flipped = mesh_of([](auto& o) { o.flip = true; });
+  ASSERT_EQ(usual.triangles.size(), flipped.triangles.size());
+  for (std::size_t t = 0; t < usual.triangles.size(); ++t) {
+    EXPECT_EQ(usual.triangles[t][1], flipped.triangles[t][2]);
+  }
+  for (std::size_t k = 0; k < usual.normals.size(); ++k) {
+    EXPECT_EQ(usual.normals[k][2], -flipped.normals[k][2]);
+  }
+  const Mesh<float> small = mesh_of([](auto& o) { o.short_indices = true; });
+  EXPECT_TRUE(small.triangles.empty());
+  ASSERT_EQ(small.short_triangles.size(), usual.triangles.size());
+  for (std::size_t t = 0; t < usual.triangles.size(); ++t) {
+    EXPECT_EQ(usual.triangles[t][0], small.short_triangles[t][0]);
+  }
+  EXPECT_TRUE(mesh_of([](auto& o) { o.normals = false; }).normals.empty());
+  EXPECT_EQ(mesh_of([](auto& o) { o.parameters = true; }).patches.size(), usual.positions.size());
+  const Mesh<float> uniform = mesh_of([](auto& o) {
+    o = {};
+    o.nu = 5;
+    o.nv = 4;
+  });
+  EXPECT_EQ(uniform.triangles.size(), 6U * 4U * 3U * 2U);
+  EXPECT_EQ(uniform.positions.size(), 13U * 7U);
+  EXPECT_GT(uniform.deviation, 0);
+  const std::vector<double> tolerances(6, 0.002);
+  const Mesh<float> finer = mesh_of([&](auto& o) { o.tolerances = tolerances; });
+  EXPECT_LE(finer.deviation, 0.002);
+  EXPECT_LE(mesh_of([](auto& o) { o.relative_tolerance = 1e-4; }).deviation, 1e-4 * 12.4);
+  const auto split = mesh_of([](auto& o) { o.crease_angle = 0; });
+  EXPECT_GT(split.positions.size(), usual.positions.size());
+  EXPECT_EQ(split.triangles.size(), usual.triangles.size());
+}
+
+/// Of a square that is turned about its middle: the longest edge, and the largest angle between
+/// neighbouring vertices' normals along rows and columns of vertices.
+TEST(MeshOptions, edges_and_angles_are_as_short_as_asked_for) {
+  for (const MeshModel& model : mesh_models()) {
+    if (!model.name.starts_with("torus 4") && model.name != "sheet") {
+      continue;
+    }
+    const std::vector<double> values = model.values();
+    const auto nets = ControlNets<double>::packed(values.data(), model.patches.size(), 3, 3);
+    for (const double most : {0.7, 0.2}) {
+      SCOPED_TRACE(model.name);
+      MeshOptions options;
+      options.longest_edge = most;
+      const MeshPlan<double> by_length = plan_mesh<double>(nets, options);
+      ASSERT_EQ(by_length.status, Status::ok);
+      options = {};
+      options.normal_angle = most;
+      const MeshPlan<double> by_angle = plan_mesh<double>(nets, options);
+      ASSERT_EQ(by_angle.status, Status::ok);
+      double longest = 0;
+      double widest = 0;
+      const auto angle = [](const Point& a, const Point& b) {
+        return std::atan2(length(cross(a, b)), dot(a, b));
+      };
+      for (std::size_t p = 0; p < model.patches.size(); ++p) {
+        const PatchPoints& patch = model.patches[p];
+        for (std::uint32_t i = 0; i < by_length.nu[p]; ++i) {
+          const double n = by_length.nu[p];
+          longest = std::max(longest,
+                             length(surface(patch, (i + 1) / n, 0.3) - surface(patch, i / n, 0.3)));
+        }
+        for (std::uint32_t j = 0; j < by_angle.nv[p]; ++j) {
+          const double n = by_angle.nv[p];
+          widest = std::max(widest, angle(surface_normal(patch, 0.6, (j + 1) / n),
+                                          surface_normal(patch, 0.6, j / n)));
+        }
+      }
+      EXPECT_LE(longest, most);
+      EXPECT_GT(longest, most / 4);
+      EXPECT_LE(widest, 1.5 * most);
+      EXPECT_GT(widest, most / 4);
+    }
+  }
+}
+
+/// No point of the surface is seen farther from its place on the mesh than asked for.
+TEST(MeshOptions, pixels_are_those_of_the_camera) {
+  const MeshModel model = [] {
+    for (MeshModel& candidate : mesh_models()) {
+      if (candidate.name == "torus 4 x 3") {
+        return candidate;
+      }
+    }
+    return MeshModel{};
+  }();
+  const std::vector<double> values = model.values();
+  const auto nets = ControlNets<double>::packed(values.data(), model.patches.size(), 3, 3);
+  for (const double pixels : {8.0, 1.0}) {
+    MeshOptions options;
+    options.pixels = pixels;
+    options.camera.eye = {9, 0, 3};
+    options.camera.direction = {-3, 0, -1};
+    options.camera.focal_length = 800;
+    options.camera.width = 1000;
+    options.camera.height = 1000;
+    const MeshPlan<double> plan = plan_mesh<double>(nets, options);
+    ASSERT_EQ(plan.status, Status::ok);
+    double worst = 0;
+    for (std::size_t p = 0; p < model.patches.size(); ++p) {
+      double depth = std::numeric_limits<double>::infinity();
+      for (const auto& row : model.patches[p]) {
+        for (const Point& x : row) {
+          depth = std::min(depth, dot(x - Point{9, 0, 3}, Point{-3, 0, -1}) / std::sqrt(10.0));
+        }
+      }
+      EXPECT_LE(plan.deviations[p] * 800 / depth, pixels) << "on the axis";
+      worst = std::max(worst, plan.deviations[p] * 800 / depth);
+    }
+    EXPECT_GT(worst, pixels / 4);
+  }
+}
+
+struct Refused {
+  const char* what;
+  Status status;
+  void (*change)(MeshOptions&);
+};
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+const Refused kRefused[] = {
+    {"nothing asked", Status::bad_tolerance, [](MeshOptions& o) { o = {}; }},
+    {"tolerance 0", Status::bad_tolerance, [](MeshOptions& o) { o.tolerance = 0; }},
+    {"tolerance nan", Status::bad_tolerance, [](MeshOptions& o) { o.tolerance = kNan; }},
+    {"relative -1", Status::bad_tolerance, [](MeshOptions& o) { o.relative_tolerance = -1; }},
+    {"too small", Status::bad_tolerance, [](MeshOptions& o) { o.tolerance = 1e-9; }},
+    {"pixels 0", Status::bad_tolerance, [](MeshOptions& o) { o.pixels = 0; }},
+    {"camera", Status::bad_tolerance,
+     [](MeshOptions& o) {
+       o.pixels = 1;
+       o.camera.direction = {0, 0, 0};
+     }},
+    {"edge 0", Status::bad_tolerance, [](MeshOptions& o) { o.longest_edge = 0; }},
+    {"angle nan", Status::bad_tolerance, [](MeshOptions& o) { o.normal_angle = kNan; }},
+    {"crease nan", Status::bad_tolerance, [](MeshOptions& o) { o.crease_angle = kNan; }},
+    {"crease -1", Status::bad_tolerance, [](MeshOptions& o) { o.crease_angle = -1; }},
+    {"snap -1", Status::bad_tolerance, [](MeshOptions& o) { o.snap = -1; }},
+    {"points nan", Status::bad_tolerance, [](MeshOptions& o) { o.point_size = kNan; }},
+    {"both", Status::bad_grid, [](MeshOptions& o) { o.nu = o.nv = 4; }},
+    {"grid of 1", Status::bad_grid,
+     [](MeshOptions& o) {
+       o = {};
+       o.nu = 1;
+       o.nv = 4;
+     }},
+    {"grid of 0", Status::bad_grid,
+     [](MeshOptions& o) {
+       o = {};
+       o.nv = 4;
+     }},
+    {"grid too large", Status::bad_rates,
+     [](MeshOptions& o) {
+       o = {};
+       o.nu = o.nv = kMostSegments + 2;
+     }},
+};
+
+TEST(MeshOptions, refuses_bad_options) {
+  const std::vector<double> values = sheet_values();
+  const auto nets = ControlNets<double>::packed(std::span<const double>(values));
+  for (const Refused& refused : kRefused) {
+    MeshOptions options;
+    options.tolerance = 0.01;
+    refused.change(options);
+    const Mesh<float> mesh = tessellate<float>(nets, options);
+    EXPECT_EQ(to_string(mesh.status), to_string(refused.status)) << refused.what;
+    EXPECT_TRUE(mesh.positions.empty() && mesh.triangles.empty());
+  }
+}
+
+TEST(MeshOptions, refuses_bad_nets) {
+  std::vector<double> values = sheet_values();
+  MeshOptions options;
+  options.tolerance = 0.01;
+  const auto mesh_of = [&](const ControlNets<double>& nets) {
+    return tessellate<float>(nets, options);
+  };
+  values[3 * 48 + 5] = kNan;
+  const auto nets = ControlNets<double>::packed(std::span<const double>(values));
+  const Mesh<float> mesh = mesh_of(nets);
+  EXPECT_EQ(mesh.status, Status::non_finite_input);
+  EXPECT_EQ(mesh.fault_patch, 3U);
+  auto flat = nets;
+  flat.components = 2;
+  EXPECT_EQ(mesh_of(flat).status, Status::bad_components);
+  EXPECT_EQ(mesh_of(ControlNets<double>{nullptr, 2}).status, Status::null_input);
+  auto degree = nets;
+  degree.degree_u = 16;
+  EXPECT_EQ(mesh_of(degree).status, Status::bad_degree);
+  const Mesh<float> none = mesh_of(ControlNets<double>{});
+  EXPECT_EQ(none.status, Status::ok);
+  EXPECT_TRUE(none.triangles.empty());
+  for (const MeshModel& model : mesh_models()) {
+    if (!model.orientable) {
+      const std::vector<double> ring = model.values();
+      options.orient = true;
+      EXPECT_EQ(mesh_of(ControlNets<double>::packed(std::span<const double>(ring))).status,
+                Status::not_orientable);
+    }
+  }
+}
+
+} // namespace
+} // namespace simdbezier::tests
