@@ -59,6 +59,16 @@ TYPED_TEST(CNets, BecomeOtherNets) {
        [&](COut o) { return simdbezier_transpose(c_in, o, nullptr); }},
       {3, 2,
        [&](Out o) {
+         const auto mirrored = UnitParameter<T>::fraction(1, 3).mirrored();
+         return segment(in, {T(0), T(1), T(0), mirrored}, o);
+       },
+       [&](COut o) {
+         const simdbezier_parameter from_end = {1, 3, 1};
+         return simdbezier_segment(c_in, simdbezier_at(0), simdbezier_at(1), simdbezier_at(0),
+                                   from_end, o, nullptr);
+       }},
+      {3, 2,
+       [&](Out o) {
          return segment(in,
                         {T(0.25), UnitParameter<T>::from_end(T(0.1)), T(0.125),
                          UnitParameter<T>::fraction(2, 3)},

@@ -110,17 +110,24 @@ def test_arrays_of_a_mesh_are_its_own_memory(points):
     assert np.array_equal(positions, copy)
 
 
+# What is prepared before, and what is called then.
 CALLS = [
-    ('pack', lambda points: simdbezier.PatchSet(points, threads=1)),
-    ('evaluate_grid',
-     lambda points: simdbezier.PatchSet(points).evaluate_grid(33, 33, ('normal',), threads=1)),
-    ('tessellate', lambda points: simdbezier.tessellate(points, grid=17, threads=1)),
+    ('pack', lambda points: points, lambda points: simdbezier.PatchSet(points, threads=1)),
+    ('evaluate_grid', simdbezier.PatchSet,
+     lambda patches: patches.evaluate_grid(33, 33, ('normal',), threads=1)),
+    ('evaluate', simdbezier.PatchSet,
+     lambda patches: patches.evaluate(0, np.zeros(3000000), np.zeros(3000000), threads=1)),
+    ('curves', lambda points: simdbezier.CurveSet(points[:, 0]),
+     lambda curves: curves.evaluate_grid(999, threads=1)),
+    ('tessellate', lambda points: points[:2000],
+     lambda points: simdbezier.tessellate(points, grid=17, threads=1)),
+    ('elevate', lambda points: points, lambda points: simdbezier.elevate(points, 9, 9)),
 ]
 
 
-@pytest.mark.parametrize('name, call', CALLS, ids=[name for name, _ in CALLS])
-def test_other_threads_run_meanwhile(name, call):
-    points = np.random.default_rng(9).random((20000, 4, 4, 3)).astype(np.float32)
+@pytest.mark.parametrize('name, prepare, call', CALLS, ids=[row[0] for row in CALLS])
+def test_other_threads_run_meanwhile(name, prepare, call):
+    prepared = prepare(np.random.default_rng(9).random((20000, 4, 4, 3)).astype(np.float32))
     stop = threading.Event()
     turns = [0]
 
@@ -135,7 +142,7 @@ def test_other_threads_run_meanwhile(name, call):
         sys.setswitchinterval(1000)
         worker.start()
         before = turns[0]
-        call(points)
+        call(prepared)
         assert turns[0] > before, f'{name} kept the interpreter to itself'
     finally:
         stop.set()
