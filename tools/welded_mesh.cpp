@@ -106,97 +106,21 @@ void WeldedMesh<T>::join() {
 
 template <typename T>
 void WeldedMesh<T>::choose_cells() {
-  nu_.resize(patches_);
-  nv_.resize(patches_);
-  diagonals_.resize(patches_);
-  std::vector<double> deviations(patches_);
-  const CertifiedRates rates{nu_, nv_, diagonals_, deviations};
-  arguments_.mesh.adaptive() ? choose_adaptive(rates) : choose_uniform(rates);
-  // Rounding leaves a distance even where a mesh is as flat as its patches.
-  deviation_ = std::max(std::ranges::max(deviations), std::numeric_limits<double>::min());
-}
-
-template <typename T>
-void WeldedMesh<T>::choose_uniform(const CertifiedRates& rates) {
-  const GridSize& grid = arguments_.grid;
-  if (std::max(grid.nu, grid.nv) > kMostSegments + 1) {
-    bad_input("--grid: expected at most " + std::to_string(kMostSegments + 1) +
-              " samples a direction without --no-weld, found " + std::to_string(grid.nu) + "x" +
-              std::to_string(grid.nv));
-  }
-  std::ranges::fill(nu_, static_cast<std::uint32_t>(grid.nu - 1));
-  std::ranges::fill(nv_, static_cast<std::uint32_t>(grid.nv - 1));
-  std::size_t raised = 0;
-  check(separate_vertices(topology_, nu_, nv_, raised));
-  check(certify_rates<T>(views(nets_), topology_, errors_, rates, arguments_.threads).status);
-}
-
-template <typename T>
-void WeldedMesh<T>::choose_adaptive(const CertifiedRates& rates) {
-  RateOptions how;
-  how.errors = errors_;
-  how.threads = arguments_.threads;
-  how.normal_angle = arguments_.mesh.angle.value_or(how.normal_angle);
-  const std::vector<double> tolerances = patch_tolerances(how.tolerance);
-  how.tolerances = tolerances;
-  const RateReport report = choose_rates<T>(views(nets_), topology_, how, rates);
-  if (report.status == Status::bad_tolerance) {
-    refuse_tolerance(report.patch);
-  }
-  check(report.status);
-}
-
-// `all` is the tolerance of all patches where there is nothing for single ones.
-template <typename T>
-std::vector<double> WeldedMesh<T>::patch_tolerances(double& all) const {
-  const MeshArguments& mesh = arguments_.mesh;
-  // Far more than any mesh is off, where nothing but an angle is asked for.
-  all = stats_.diagonal > 0 ? 1e3 * stats_.diagonal : 1;
-  all = std::min(all, mesh.tolerance.value_or(all));
-  if (mesh.relative && stats_.diagonal > 0) {
-    all = std::min(all, *mesh.relative * stats_.diagonal);
-  }
-  std::vector<double> tolerances;
-  if (mesh.pixels) {
-    tolerances.resize(patches_);
-    check(pixel_tolerances<T>(views(nets_), mesh.camera, *mesh.pixels, tolerances));
-    for (double& tolerance : tolerances) {
-      tolerance = std::min(tolerance, all);
-    }
-  }
-  return tolerances;
-}
-
-template <typename T>
-void WeldedMesh<T>::refuse_tolerance(std::size_t patch) const {
-  const MeshArguments& mesh = arguments_.mesh;
-  double all = 0;
-  const std::vector<double> tolerances = patch_tolerances(all);
-  const double found = tolerances.empty() ? all : tolerances[patch];
-  const char* const option = mesh.tolerance  ? "--tolerance"
-                             : mesh.relative ? "--relative"
-                             : mesh.pixels   ? "--pixels"
-                                             : "--angle";
-  const std::string needed =
-      found > errors_[patch]
-          ? "a distance that " + std::to_string(kMostSegments) + " cells a direction can keep"
-          : "a distance above the error of rounding, " + shortest(errors_[patch]);
-  bad_input(std::string(option) + ": expected " + needed + ", found " + shortest(found) +
-            " for patch " + std::to_string(patch) + " of " + name_);
+  rates_ =
+      choose_mesh_rates<T>({views(nets_), topology_, errors_, stats_.diagonal, name_}, arguments_);
 }
 
 template <typename T>
 void WeldedMesh<T>::lay_out() {
-  const Status status = lay_out_mesh(topology_, {nu_, nv_, diagonals_}, layout_);
+  const Status status = lay_out_mesh(topology_, {rates_.nu, rates_.nv, rates_.diagonals}, layout_);
   if (status == Status::size_overflow) {
     const char* const option = arguments_.mesh.adaptive() ? "--tolerance" : "--grid";
     bad_input(std::string(option) + ": expected at most " + std::to_string(kMostMeshVertices) +
               " vertices, found more");
   }
   check(status);
-  set_free(nu_); // the layout has its own
-  set_free(nv_);
-  set_free(diagonals_);
+  deviation_ = rates_.deviation;
+  set_free(rates_); // the layout has its own
 }
 
 template <typename T>

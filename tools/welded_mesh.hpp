@@ -7,6 +7,7 @@
 
 #include <simdbezier/simdbezier.hpp>
 #include <tools/arguments.hpp>
+#include <tools/mesh_rates.hpp>
 #include <tools/mesh_source.hpp>
 #include <tools/patch_file.hpp>
 
@@ -32,10 +33,6 @@ private:
   void take_points(PatchFile file);
   void join();
   void choose_cells();
-  void choose_adaptive(const CertifiedRates& rates);
-  void choose_uniform(const CertifiedRates& rates);
-  [[nodiscard]] std::vector<double> patch_tolerances(double& all) const;
-  [[noreturn]] void refuse_tolerance(std::size_t patch) const;
   void lay_out();
   void pack_all();
   void count_faces();
@@ -56,9 +53,7 @@ private:
   std::unique_ptr<PatchFile> file_; // where nets_ is of its memory
   PatchNets<T> nets_;
   std::vector<double> errors_; // of rounding, for each patch
-  std::vector<std::uint32_t> nu_;
-  std::vector<std::uint32_t> nv_;
-  std::vector<std::uint16_t> diagonals_;
+  MeshRates rates_;
   Topology topology_;
   MeshLayout layout_;
   PatchSet<T> set_;

@@ -105,6 +105,37 @@ TEST(MeshPrimitives, quads_cut_from_first_to_third_vertex_are_the_triangles) {
   EXPECT_GT(quads, 1000U);
 }
 
+TEST(MeshPrimitives, polygons_of_some_patches_are_those_of_all) {
+  for (const Case& one : cases()) {
+    SCOPED_TRACE(one.name);
+    PolygonSize all;
+    ASSERT_EQ(polygon_size(one.layout, all), Status::ok);
+    std::vector<std::uint32_t> indices(all.indices);
+    std::vector<std::uint8_t> sizes(all.polygons);
+    ASSERT_EQ(write_polygons(one.layout, std::span(indices), std::span(sizes)), Status::ok);
+    std::vector<std::uint32_t> found;
+    std::vector<std::uint8_t> found_sizes;
+    std::size_t patches = 0;
+    for (; one.layout.first_triangle(patches) < one.layout.size().triangles; patches += 2) {
+      const bool last = one.layout.first_triangle(patches + 1) == one.layout.size().triangles;
+      const SetRange range{patches, last ? 1U : 2U};
+      PolygonSize size;
+      ASSERT_EQ(polygon_size(one.layout, size, 2, range), Status::ok);
+      std::vector<std::uint32_t> part(size.indices);
+      std::vector<std::uint8_t> part_sizes(size.polygons);
+      ASSERT_EQ(write_polygons(one.layout, std::span(part), std::span(part_sizes), 2, range),
+                Status::ok);
+      found.insert(found.end(), part.begin(), part.end());
+      found_sizes.insert(found_sizes.end(), part_sizes.begin(), part_sizes.end());
+    }
+    EXPECT_EQ(found, indices);
+    EXPECT_EQ(found_sizes, sizes);
+    EXPECT_EQ(polygon_size(one.layout, all, 1, {0, patches + 2}), Status::bad_patch_range);
+    EXPECT_EQ(write_polygons(one.layout, std::span(indices), std::span(sizes), 1, {patches + 2, 1}),
+              Status::bad_patch_range);
+  }
+}
+
 TEST(MeshPrimitives, strips_are_the_triangles) {
   constexpr std::uint32_t kRestart = 0xffffffff;
   for (const Case& one : cases()) {

@@ -201,10 +201,11 @@ TEST(Rates, given_rates_are_certified) {
       choice.nu[0] = rates[0];
       choice.nv[0] = rates[1];
       const ControlNets<double> nets = patch.nets();
-      ASSERT_EQ(
-          certify_rates(std::span<const ControlNets<double>>(&nets, 1), topology, {}, choice.out())
-              .status,
-          Status::ok);
+      const std::span<const ControlNets<double>> sets(&nets, 1);
+      ASSERT_EQ(certify_rates(sets, topology, {}, choice.out()).status, Status::ok);
+      EXPECT_LE(found_deviation(patch, topology, choice), choice.deviation[0]);
+      choice.diagonals[0] = 0;
+      ASSERT_EQ(certify_grids(sets, rates[0], rates[1], {}, choice.deviation).status, Status::ok);
       EXPECT_LE(found_deviation(patch, topology, choice), choice.deviation[0]);
     }
   }
@@ -281,6 +282,7 @@ TEST(Rates, bad_input_is_a_status) {
   EXPECT_EQ(choose_rates(sets, Topology(), options, choice.out()).status, Status::bad_rates);
   choice.nu[0] = 0;
   EXPECT_EQ(certify_rates(sets, topology, {}, choice.out()).status, Status::bad_rates);
+  EXPECT_EQ(certify_grids(sets, 1, 0, {}, choice.deviation).status, Status::bad_rates);
   TestPatch broken = patch;
   broken.values[7] = nan;
   const ControlNets<double> bad = broken.nets();

@@ -1,4 +1,4 @@
-// What tessellate says about meshes, where it writes them, and what it refuses.
+// What tessellate says about meshes, and where it writes them.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -119,8 +119,9 @@ TEST(MeshStatistics, StateWhatFilesState) {
 // Meshes of sheets state nothing in their files, which are as they always were.
 TEST(MeshStatistics, AreOfSheetsAsWell) {
   const auto stats = [](const std::string& grid, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments = {"tessellate", "builtin:teapot", "--no-weld", "--grid",
-                                          grid, "--stats=json", "-o", "/dev/null", "--to", "glb"};
+    std::vector<std::string> arguments = {
+        "tessellate", "builtin:teapot", "--no-weld", "--grid", grid, "--stats=json",
+        "-o",         "/dev/null",      "--to",      "glb"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return Json::parse(run(arguments).out, nullptr, false);
   };
@@ -188,162 +189,6 @@ TEST(MeshToStandardOutput, LeavesRoomForReadableStatistics) {
       run({"tessellate", "builtin:teapot", "-o", "-", "--to", "ply", "--stats"});
   EXPECT_TRUE(outcome.out.starts_with("ply\n"));
   EXPECT_TRUE(outcome.err.starts_with("patches ")) << outcome.err;
-}
-
-struct Refused {
-  const char* name;
-  int exit_code;
-  std::vector<std::string> options;
-  const char* message;
-};
-void PrintTo(const Refused& item, std::ostream* out) { *out << item.name; }
-
-const Refused kRefused[] = {
-    {"ToleranceZero",
-     1,
-     {"--tolerance", "0"},
-     "--tolerance: expected a distance above 0, found '0'"},
-    {"ToleranceNegative", 1, {"--tolerance", "-1"}, "--tolerance: expected a distance above 0"},
-    {"ToleranceNan", 1, {"--tolerance", "nan"}, "--tolerance: expected a distance above 0"},
-    {"ToleranceInfinite", 1, {"--tolerance", "inf"}, "--tolerance: expected a distance above 0"},
-    {"ToleranceWord", 2, {"--tolerance", "fine"}, "--tolerance: expected a distance above 0"},
-    {"ToleranceEmpty", 2, {"--tolerance", ""}, "--tolerance: expected a distance above 0"},
-    {"ToleranceBelowRounding",
-     1,
-     {"--tolerance", "1e-9"},
-     "--tolerance: expected a distance above the error of rounding, "},
-    {"ToleranceBeyondRates",
-     1,
-     {"--tolerance", "1e-10", "--precision", "f64"},
-     "--tolerance: expected a distance that 4096 cells a direction can keep, found 1e-10 for "
-     "patch"},
-    {"RelativeZero", 1, {"--relative", "0"}, "--relative: expected a share above 0, found '0'"},
-    {"RelativeBelowRounding",
-     1,
-     {"--relative", "1e-12"},
-     "--relative: expected a distance above the error of rounding, "},
-    {"AngleZero", 1, {"--angle", "0"}, "--angle: expected degrees above 0 and at most 180"},
-    {"AngleLarge", 1, {"--angle", "181"}, "--angle: expected degrees above 0 and at most 180"},
-    {"AngleTiny", 1, {"--angle", "1e-9"}, "--angle: expected "},
-    {"PixelsZero", 1, {"--pixels", "0", "--camera", "9,0,0,0,0,0"}, "--pixels: expected a number"},
-    {"PixelsWithoutCamera", 2, {"--pixels", "1"}, "--pixels: expected with --camera"},
-    {"CameraWithoutPixels", 2, {"--camera", "9,0,0,0,0,0"}, "--camera: expected with --pixels"},
-    {"ViewAngleWithoutCamera", 2, {"--view-angle", "30"}, "--view-angle: expected with --camera"},
-    {"PictureWithoutCamera", 2, {"--picture", "4x4"}, "--picture: expected with --camera"},
-    {"CameraInItsTarget",
-     1,
-     {"--pixels", "1", "--camera", "1,2,3,1,2,3"},
-     "--camera: expected six numbers separated by commas, for two different points, found"},
-    {"CameraOfFive", 2, {"--pixels", "1", "--camera", "1,2,3,4,5"}, "--camera: expected six"},
-    {"CameraOfSeven", 2, {"--pixels", "1", "--camera", "1,2,3,4,5,6,7"}, "--camera: expected six"},
-    {"CameraOfWords", 2, {"--pixels", "1", "--camera", "1,2,x,4,5,6"}, "--camera: expected six"},
-    {"PictureEmpty",
-     2,
-     {"--pixels", "1", "--camera", "9,0,0,0,0,0", "--picture", "0x5"},
-     "--picture: expected WxH, each from 1 to 65536, found '0x5'"},
-    {"PictureOfOneNumber",
-     2,
-     {"--pixels", "1", "--camera", "9,0,0,0,0,0", "--picture", "50"},
-     "--picture: expected WxH"},
-    {"ViewAngleFlat",
-     1,
-     {"--pixels", "1", "--camera", "9,0,0,0,0,0", "--view-angle", "180"},
-     "--view-angle: expected degrees above 0 and below 180"},
-    {"CreaseNegative", 1, {"--crease", "-1"}, "--crease: expected degrees from 0 to 180"},
-    {"CreaseNan", 1, {"--crease", "nan"}, "--crease: expected degrees from 0 to 180"},
-    {"CreaseWithoutNormals",
-     2,
-     {"--crease", "30", "--no-normals"},
-     "--crease: expected without --no-normals, found both"},
-    {"SnapZero", 1, {"--snap", "0"}, "--snap: expected a distance above 0"},
-    {"GridBeyondRates",
-     1,
-     {"--grid", "5000"},
-     "--grid: expected at most 4097 samples a direction without --no-weld, found 5000x5000"},
-    {"GridAndTolerance",
-     2,
-     {"--grid", "4", "--tolerance", "1"},
-     "--tolerance: expected without --grid, found both"},
-    {"GridAndRelative",
-     2,
-     {"--grid", "4", "--relative", "1"},
-     "--relative: expected without --grid"},
-    {"ToleranceOfSheets",
-     2,
-     {"--no-weld", "--tolerance", "1"},
-     "--tolerance: expected without --no-weld, found both"},
-    {"CreaseOfSheets", 2, {"--no-weld", "--crease", "1"}, "--crease: expected without --no-weld"},
-    {"OrientOfSheets", 2, {"--no-weld", "--orient"}, "--orient: expected without --no-weld"},
-    {"SnapOfSheets", 2, {"--no-weld", "--snap", "1"}, "--snap: expected without --no-weld"},
-    {"StatsUnknown", 2, {"--stats=xml"}, "--stats: expected text or json, found 'xml'"},
-    {"QuantisedPly", 2, {"--quantise", "16"}, "--quantise: expected an output in glb"},
-    {"QuantisedWords", 2, {"--quantise", "12"}, "--quantise: expected 16 or 8, found '12'"},
-    {"OtherFormat", 2, {"--to", "obj"}, "--to: expected the format of "},
-    {"UnknownFormat", 2, {"--to", "fbx"}, "--to: expected obj, ply, stl or glb, found 'fbx'"},
-};
-
-class RefusedOptions : public ::testing::TestWithParam<Refused> {};
-
-TEST_P(RefusedOptions, AreNamedInOneLine) {
-  const TemporaryFolder folder;
-  const std::string out = folder.write("out.ply", "before");
-  std::vector<std::string> arguments = {"tessellate", "builtin:teapot", "-o", out};
-  arguments.insert(arguments.end(), GetParam().options.begin(), GetParam().options.end());
-  expect_failure(run(arguments), GetParam().exit_code, GetParam().message);
-  EXPECT_EQ(read_file(out), "before");
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"out.ply"});
-}
-
-INSTANTIATE_TEST_SUITE_P(All, RefusedOptions, ::testing::ValuesIn(kRefused),
-                         [](const auto& test) { return std::string(test.param.name); });
-
-TEST(RefusedMeshOptions, MoreVerticesThanIndices) {
-  const TemporaryFolder folder;
-  std::vector<Net> nets(300, flat_net());
-  for (std::size_t k = 0; k < nets.size(); ++k) {
-    for (Vector3& point : nets[k].points) {
-      point[2] = static_cast<double>(k);
-    }
-  }
-  const std::string in = folder.write("in.bez", bez_text(nets));
-  expect_failure(run({"tessellate", in, "--grid", "4097", "-o", folder.path("out.ply")}), 1,
-                 "--grid: expected at most 4294967295 vertices, found more");
-  EXPECT_EQ(folder.names(), std::vector<std::string>{"in.bez"});
-}
-
-TEST(RefusedMeshOptions, SurfacesOfOneSide) {
-  std::size_t found = 0;
-  for (const MeshModel& model : mesh_models()) {
-    if (model.orientable) {
-      continue;
-    }
-    const TemporaryFolder folder;
-    const std::string in = folder.write("in.bez", bez_of(model));
-    expect_failure(run({"tessellate", in, "--orient", "-o", folder.path("out.ply")}), 1,
-                   "--orient: expected patches that can be turned to agree with their neighbours, "
-                   "found a surface of one side in " +
-                       in);
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"in.bez"});
-    ++found;
-  }
-  EXPECT_GT(found, 0U);
-}
-
-TEST(RefusedMeshOptions, QuadsInFormatsOfTriangles) {
-  for (const std::string extension : {"stl", "glb"}) {
-    expect_failure(run({"tessellate", "builtin:teapot", "--quads", "-o", "out." + extension}), 2,
-                   "--quads: expected an output in obj or ply, found 'out." + extension + "'");
-  }
-}
-
-TEST(RefusedMeshOptions, JsonAmongData) {
-  expect_failure(run({"tessellate", "builtin:teapot", "--stats=json", "-o", "-", "--to", "ply"}), 2,
-                 "--stats: expected json for an output that is not standard output");
-}
-
-TEST(RefusedMeshOptions, StandardOutputWithoutAFormat) {
-  expect_failure(run({"tessellate", "builtin:teapot", "-o", "-"}), 2,
-                 "-o: expected a name that ends in .obj, .ply, .stl or .glb, or - with --to");
 }
 
 // Vertices and faces come and go block by block.

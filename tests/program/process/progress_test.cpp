@@ -51,7 +51,7 @@ TEST(ProgressLine, SaysHowLongItTakesWhereThereIsRoom) {
   EXPECT_TRUE(line(80, 7500).ends_with(", 2 h 5 min left"));
   EXPECT_TRUE(line(80, 1e300).ends_with(" min left"));
   EXPECT_EQ(line(28, 9), "tessellating  25 %, 9 s left");
-  EXPECT_EQ(line(27, 9), "tessellating [#      ]  25 %");
+  EXPECT_EQ(line(27, 9), "tessellating [#     ]  25 %");
   for (std::size_t columns = 0; columns < 100; ++columns) {
     EXPECT_LE(line(columns, 7500).size(), columns);
   }
