@@ -6,6 +6,7 @@
 
 #include "tests/derivatives/derivative_calls.hpp"
 #include "tests/support/call_options.hpp"
+#include "tests/support/isas.hpp"
 
 namespace simdbezier::tests {
 namespace {

@@ -179,7 +179,7 @@ TEST(Adjacency, SoupsHaveEveryKind) {
 TEST(Adjacency, Teapot) {
   const tools::PatchFile file = tools::teapot();
   Batch<double> batch({3, 3, 3, Weights::none}, file.count);
-  batch.values = file.points;
+  batch.values.assign(file.points.begin(), file.points.end());
   expect_links<double>({batch});
   const tools::EdgeCounts counts = tools::count_edges(file);
   EXPECT_EQ(counts.shared, 104U);
