@@ -28,30 +28,21 @@ constexpr int kPatience = 120'000;                           // milliseconds for
 
 enum class Function : std::uint8_t { f32, f64, grid_f32 };
 
-// Places in the shared memory, in bytes from its start; 0 stands for null.
-struct Places {
-  std::size_t net, weights, u, v, position, du, dv;
-};
-
 struct Request {
   Function function;
   int degree_u, degree_v;
   std::size_t n; // samples, or patches
   std::size_t nu, nv;
-  Places at;
+  struct { // places in the shared memory, in bytes from its start; 0 stands for null
+    std::size_t net, weights, u, v, position, du, dv;
+  } at;
   int answer;
 };
 
-// The child's side.
-template <typename T>
-struct Symbols {
-  int (*evaluate)(const T*, int, int, const T*, const T*, const T*, std::size_t, T*, T*,
-                  T*) = nullptr;
-};
-
+// What the child found.
 struct Loaded {
-  Symbols<float> f32;
-  Symbols<double> f64;
+  decltype(&sbe_evaluate_f32) f32 = nullptr;
+  decltype(&sbe_evaluate_f64) f64 = nullptr;
   decltype(&sbe_grid_f32) grid_f32 = nullptr;
 };
 
@@ -69,6 +60,10 @@ struct EvaluatorProcess::Shared {
   char error[512];
   std::size_t used; // of the bytes that follow
 
+  Request& start() {
+    used = sizeof(Shared);
+    return request = {};
+  }
   unsigned char* base() { return reinterpret_cast<unsigned char*>(this); }
   template <typename T>
   T* at(std::size_t place) {
@@ -100,8 +95,10 @@ struct EvaluatorProcess::Shared {
     return begin;
   }
   template <typename T>
-  void copy_out(std::size_t begin, std::span<T> values) {
-    std::copy_n(at<T>(begin), values.size(), values.begin());
+  void copy_out(std::span<T> position, std::span<T> du, std::span<T> dv) {
+    std::copy_n(at<T>(request.at.position), position.size(), position.begin());
+    std::copy_n(at<T>(request.at.du), du.size(), du.begin());
+    std::copy_n(at<T>(request.at.dv), dv.size(), dv.begin());
   }
 };
 
@@ -109,22 +106,22 @@ namespace {
 
 using Shared = EvaluatorProcess::Shared;
 
-template <typename T>
-int run_patch(const Symbols<T>& symbols, Shared& shared) {
+template <typename T, typename Evaluate>
+int run_patch(Evaluate evaluate, Shared& shared) {
   const Request& task = shared.request;
-  return symbols.evaluate(shared.at<T>(task.at.net), task.degree_u, task.degree_v,
-                          shared.at<T>(task.at.weights), shared.at<T>(task.at.u),
-                          shared.at<T>(task.at.v), task.n, shared.at<T>(task.at.position),
-                          shared.at<T>(task.at.du), shared.at<T>(task.at.dv));
+  return evaluate(shared.at<T>(task.at.net), task.degree_u, task.degree_v,
+                  shared.at<T>(task.at.weights), shared.at<T>(task.at.u), shared.at<T>(task.at.v),
+                  task.n, shared.at<T>(task.at.position), shared.at<T>(task.at.du),
+                  shared.at<T>(task.at.dv));
 }
 
 int run_request(const Loaded& loaded, Shared& shared) {
   const Request& task = shared.request;
   switch (task.function) {
   case Function::f32:
-    return run_patch(loaded.f32, shared);
+    return run_patch<float>(loaded.f32, shared);
   case Function::f64:
-    return run_patch(loaded.f64, shared);
+    return run_patch<double>(loaded.f64, shared);
   default:
     return loaded.grid_f32(shared.at<float>(task.at.net), task.n, task.nu, task.nv,
                            shared.at<float>(task.at.position), shared.at<float>(task.at.du),
@@ -140,16 +137,16 @@ Loaded load(const std::string& file, Shared& shared) {
     std::strncpy(shared.error, dlerror(), sizeof shared.error - 1);
     return loaded;
   }
-  find(library, "sbe_evaluate_f32", loaded.f32.evaluate);
-  find(library, "sbe_evaluate_f64", loaded.f64.evaluate);
+  find(library, "sbe_evaluate_f32", loaded.f32);
+  find(library, "sbe_evaluate_f64", loaded.f64);
   find(library, "sbe_grid_f32", loaded.grid_f32);
   decltype(&sbe_name) name = nullptr;
   find(library, "sbe_name", name);
   const std::string called =
       name != nullptr ? std::string(name()) : std::filesystem::path(file).stem().string();
   std::strncpy(shared.name, called.c_str(), sizeof shared.name - 1);
-  shared.has[0] = loaded.f32.evaluate != nullptr;
-  shared.has[1] = loaded.f64.evaluate != nullptr;
+  shared.has[0] = loaded.f32 != nullptr;
+  shared.has[1] = loaded.f64 != nullptr;
   shared.has[2] = loaded.grid_f32 != nullptr;
   return loaded;
 }
@@ -266,9 +263,7 @@ void EvaluatorProcess::wait_for_answer(const char* function) {
 template <typename T>
 int EvaluatorProcess::evaluate(const PatchTask<T>& task) {
   Shared& shared = *shared_;
-  shared.used = sizeof(Shared);
-  Request& request = shared.request;
-  request = {};
+  Request& request = shared.start();
   constexpr bool kSingle = sizeof(T) == sizeof(float);
   request.function = kSingle ? Function::f32 : Function::f64;
   request.degree_u = task.degree_u;
@@ -278,9 +273,7 @@ int EvaluatorProcess::evaluate(const PatchTask<T>& task) {
                 shared.copy_in(task.v),   shared.output(task.position), shared.output(task.du),
                 shared.output(task.dv)};
   send(kSingle ? "sbe_evaluate_f32" : "sbe_evaluate_f64");
-  shared.copy_out(request.at.position, task.position);
-  shared.copy_out(request.at.du, task.du);
-  shared.copy_out(request.at.dv, task.dv);
+  shared.copy_out(task.position, task.du, task.dv);
   return request.answer;
 }
 
@@ -289,9 +282,7 @@ template int EvaluatorProcess::evaluate(const PatchTask<double>&);
 
 int EvaluatorProcess::evaluate(const GridTask& task) {
   Shared& shared = *shared_;
-  shared.used = sizeof(Shared);
-  Request& request = shared.request;
-  request = {};
+  Request& request = shared.start();
   request.function = Function::grid_f32;
   request.n = task.patches;
   request.nu = task.nu;
@@ -301,9 +292,7 @@ int EvaluatorProcess::evaluate(const GridTask& task) {
   request.at.du = shared.output(task.du);
   request.at.dv = shared.output(task.dv);
   send("sbe_grid_f32");
-  shared.copy_out(request.at.position, task.position);
-  shared.copy_out(request.at.du, task.du);
-  shared.copy_out(request.at.dv, task.dv);
+  shared.copy_out(task.position, task.du, task.dv);
   return request.answer;
 }
 
