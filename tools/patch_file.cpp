@@ -5,7 +5,6 @@
 #include <iterator>
 #include <limits>
 #include <new>
-#include <ranges>
 #include <type_traits>
 
 #include <tools/counts.hpp>
@@ -199,8 +198,9 @@ const S* PatchFile::in_place(const PatchRun& run, std::size_t patch) const {
   return nullptr;
 }
 
-template <typename S, typename Patches>
-PatchNets<S> PatchFile::gather(const Patches& patches) const {
+// number(k) is that of the k-th of them.
+template <typename S, typename Number>
+PatchNets<S> PatchFile::gather(std::size_t patches, const Number& number) const {
   struct Part { // of one run
     const PatchRun* run;
     std::size_t first;
@@ -209,7 +209,8 @@ PatchNets<S> PatchFile::gather(const Patches& patches) const {
   };
   std::vector<Part> parts;
   std::size_t copied = 0;
-  for (const std::size_t p : patches) {
+  for (std::size_t k = 0; k < patches; ++k) {
+    const std::size_t p = number(k);
     if (parts.empty() || p - parts.back().run->first_patch >= parts.back().run->count ||
         (parts.back().values != nullptr && p != parts.back().first + parts.back().count)) {
       const PatchRun& run = run_of(p);
@@ -223,14 +224,15 @@ PatchNets<S> PatchFile::gather(const Patches& patches) const {
   PatchNets<S> result;
   result.values.reserve(copied); // pointers into it stay valid
   result.nets.reserve(parts.size());
-  auto next = patches.begin();
-  for (const auto& [run, first, number, values] : parts) {
+  std::size_t next = 0;
+  for (const Part& part : parts) {
     const S* const end = result.values.data() + result.values.size();
-    result.nets.push_back(ControlNets<S>::packed(values != nullptr ? values : end, number,
-                                                 run->degree_u, run->degree_v, 3, run->weights));
-    for (std::size_t k = 0; k < number; ++k, ++next) {
-      if (values == nullptr) {
-        append(*run, *next - run->first_patch, result.values);
+    result.nets.push_back(ControlNets<S>::packed(part.values != nullptr ? part.values : end,
+                                                 part.count, part.run->degree_u, part.run->degree_v,
+                                                 3, part.run->weights));
+    for (std::size_t k = 0; k < part.count; ++k, ++next) {
+      if (part.values == nullptr) {
+        append(*part.run, number(next) - part.run->first_patch, result.values);
       }
     }
   }
@@ -239,12 +241,12 @@ PatchNets<S> PatchFile::gather(const Patches& patches) const {
 
 template <typename S>
 PatchNets<S> PatchFile::nets(std::size_t first, std::size_t patches) const {
-  return gather<S>(std::views::iota(first, first + std::min(patches, count - first)));
+  return gather<S>(std::min(patches, count - first), [&](std::size_t k) { return first + k; });
 }
 
 template <typename S>
 PatchNets<S> PatchFile::nets(std::span<const std::uint32_t> patches) const {
-  return gather<S>(patches);
+  return gather<S>(patches.size(), [&](std::size_t k) { return patches[k]; });
 }
 
 template PatchNets<float> PatchFile::nets<float>(std::size_t, std::size_t) const;

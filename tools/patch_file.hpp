@@ -118,8 +118,8 @@ private:
                                         std::size_t mesh_point) const noexcept {
     return run.first_vertex ? vertices[*run.first_vertex + mesh_point] : mesh_point;
   }
-  template <typename S, typename Patches>
-  [[nodiscard]] PatchNets<S> gather(const Patches& patches) const;
+  template <typename S, typename Number>
+  [[nodiscard]] PatchNets<S> gather(std::size_t patches, const Number& number) const;
   template <typename S>
   void append(const PatchRun& run, std::size_t patch, LargeVector<S>& values) const;
   /// A patch's values where they stand as S already; null where they do not.
