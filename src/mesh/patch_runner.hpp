@@ -54,8 +54,13 @@ public:
     return count;
   }
 
+  /// Where neither positions nor normals are wanted, kernels have nothing to do, and do not all
+  /// take a task without outputs.
   void run(std::size_t patch, std::size_t count, const PieceParameters<T>& piece,
            const PieceTarget<T>& to) noexcept {
+    if (to.position.component[0] == nullptr && to.normal.component[0] == nullptr) {
+      return;
+    }
     const PatchPlace place = kernels_.set->place(patch);
     const PatchStorage<T>& bucket = kernels_.set->buckets[place.bucket];
     if (bucket_ != &bucket) {

@@ -80,6 +80,54 @@ TYPED_TEST(VertexCalls, have_the_same_bits_for_any_threads_destination_and_instr
   }
 }
 
+/// Of patches that kernels of their own evaluate, and of those of any degrees and weights.
+TYPED_TEST(VertexCalls, give_parameters_and_patches_alone_for_patches_of_any_shape) {
+  using T = TypeParam;
+  struct Shape {
+    int degree;
+    Weights weights;
+  };
+  for (const Shape shape : {Shape{3, Weights::none}, Shape{2, Weights::none},
+                            Shape{2, Weights::cartesian}, Shape{4, Weights::homogeneous}}) {
+    for (const std::uint32_t rate : {1U, 2U, 7U}) {
+      SCOPED_TRACE(std::to_string(shape.degree) + ", " + std::to_string(rate));
+      std::vector<double> values;
+      for (int j = 0; j <= shape.degree; ++j) {
+        for (int i = 0; i <= shape.degree; ++i) {
+          values.insert(values.end(), {1.0 * i, 1.0 * j, 1.0 * i * j});
+          values.resize(values.size() + (shape.weights == Weights::none ? 0 : 1), 1.0);
+        }
+      }
+      const auto nets = ControlNets<double>::packed(values.data(), 1, shape.degree, shape.degree, 3,
+                                                    shape.weights);
+      Topology topology;
+      ASSERT_EQ(find_topology(nets, topology), Status::ok);
+      MeshLayout layout;
+      const std::vector<std::uint32_t> rates = {rate};
+      ASSERT_EQ(lay_out_mesh(topology, {rates, rates, {}}, layout), Status::ok);
+      PatchSet<T> set;
+      ASSERT_TRUE(pack(nets, set));
+      const std::size_t n = layout.size().vertices;
+      std::vector<T> positions(3 * n);
+      std::vector<T> together(2 * n);
+      std::vector<T> alone(2 * n, T(77));
+      MeshOutputs<T> out;
+      out.position = Vectors<T>::xyz(positions.data(), 3);
+      out.parameters = Vectors<T>::pairs(together.data(), 2);
+      ASSERT_EQ(evaluate_mesh(set, layout, out), Status::ok);
+      out.position = {};
+      out.parameters = Vectors<T>::pairs(alone.data(), 2);
+      ASSERT_EQ(evaluate_mesh(set, layout, out), Status::ok);
+      EXPECT_EQ(alone, together);
+      std::vector<std::uint32_t> patch(n, 77);
+      out = {};
+      out.patch = patch;
+      ASSERT_EQ(evaluate_mesh(set, layout, out), Status::ok);
+      EXPECT_EQ(patch, std::vector<std::uint32_t>(n, 0));
+    }
+  }
+}
+
 /// Vertices as one record each, as planes, or alone.
 TYPED_TEST(VertexCalls, have_the_same_bits_in_any_layout) {
   using T = TypeParam;
