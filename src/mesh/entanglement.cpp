@@ -7,7 +7,7 @@
 namespace simdbezier::detail {
 namespace {
 
-/// Corners with more patches are left to the pairs' other corners: pairs are compared as a whole.
+/// Patches at corners with no more of them are compared one by one.
 constexpr std::size_t kMostCompared = 64;
 
 /// Which of the four corners, or sides, of a patch: a bit each.
@@ -115,6 +115,117 @@ struct CornerPatches {
       patches[next[corners[k]]++] = static_cast<std::uint32_t>(k / kPatchCorners);
     }
   }
+  [[nodiscard]] bool is_crowded(std::uint32_t corner) const {
+    return first[corner + 1] - first[corner] > kMostCompared;
+  }
+};
+
+/// Which patches meet those with which they share crowded corners only: all are counted, instead of
+/// compared.
+class CrowdedCorners {
+public:
+  CrowdedCorners(const TopologyData& topology, const CornerPatches& at)
+      : topology_(topology), at_(at) {
+    for (std::uint32_t corner = 0; corner < topology.corners.size() && !any_; ++corner) {
+      any_ = at.is_crowded(corner);
+    }
+    if (any_) {
+      count_all();
+    }
+  }
+
+  /// Whether a patch, which has no edge twice, shares two edges with another patch, or two corners
+  /// that no common edge joins: those that share one edge have both of its ends.
+  [[nodiscard]] bool entangled(std::size_t patch) {
+    if (!any_) {
+      return false;
+    }
+    find_pairs(patch);
+    return std::any_of(edge_pairs_.begin(), edge_pairs_.end(),
+                       [&](Pair pair) { return count(edges_, pair) > 1; }) ||
+           std::any_of(corner_pairs_.begin(), corner_pairs_.end(), [&](Pair pair) {
+             return count(corners_, pair) > 1 + neighbours_across(patch, pair);
+           });
+  }
+
+private:
+  using Pair = std::uint64_t;
+
+  void count_all() {
+    for (std::size_t patch = 0; patch < topology_.patches(); ++patch) {
+      find_pairs(patch);
+      corners_.insert(corners_.end(), corner_pairs_.begin(), corner_pairs_.end());
+      edges_.insert(edges_.end(), edge_pairs_.begin(), edge_pairs_.end());
+    }
+    std::sort(corners_.begin(), corners_.end());
+    std::sort(edges_.begin(), edges_.end());
+    edge_patches_.resize(topology_.edges());
+    for (std::size_t edge = 0; edge < topology_.edges(); ++edge) {
+      std::size_t last = topology_.patches();
+      for (const std::uint32_t side : topology_.sides_of(edge)) { // ascending
+        edge_patches_[edge] += side / kPatchEdges != last ? 1 : 0;
+        last = side / kPatchEdges;
+      }
+    }
+  }
+
+  static Pair pair_of(std::uint32_t a, std::uint32_t b) {
+    return Pair{std::min(a, b)} << 32 | std::max(a, b);
+  }
+  static std::size_t count(const std::vector<Pair>& pairs, Pair pair) {
+    const auto [begin, end] = std::equal_range(pairs.begin(), pairs.end(), pair);
+    return static_cast<std::size_t>(end - begin);
+  }
+  static void insert(std::vector<Pair>& pairs, Pair pair) {
+    if (std::find(pairs.begin(), pairs.end(), pair) == pairs.end()) {
+      pairs.push_back(pair);
+    }
+  }
+
+  /// A patch's different crowded corners, and its edges between such, two by two.
+  void find_pairs(std::size_t patch) {
+    corner_pairs_.clear();
+    edge_pairs_.clear();
+    const auto edge_of = [&](std::size_t k) -> const Side* {
+      const std::size_t side = kPatchEdges * patch + k;
+      const bool crowded = !topology_.sides[side].collapsed() &&
+                           at_.is_crowded(topology_.corner_of(side, 0)) &&
+                           at_.is_crowded(topology_.corner_of(side, 1));
+      return crowded ? &topology_.sides[side] : nullptr;
+    };
+    for (std::size_t a = 0; a < 4; ++a) {
+      const std::uint32_t corner = topology_.corners[kPatchCorners * patch + a];
+      for (std::size_t b = a + 1; b < 4; ++b) {
+        const std::uint32_t other = topology_.corners[kPatchCorners * patch + b];
+        if (corner != other && at_.is_crowded(corner) && at_.is_crowded(other)) {
+          insert(corner_pairs_, pair_of(corner, other));
+        }
+        if (edge_of(a) != nullptr && edge_of(b) != nullptr) {
+          insert(edge_pairs_, pair_of(edge_of(a)->edge(), edge_of(b)->edge()));
+        }
+      }
+    }
+  }
+  /// The patches behind the edges that join a patch's two corners.
+  [[nodiscard]] std::size_t neighbours_across(std::size_t patch, Pair corners) const {
+    std::size_t neighbours = 0;
+    for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
+      if (!topology_.sides[side].collapsed() &&
+          pair_of(topology_.corner_of(side, 0), topology_.corner_of(side, 1)) == corners) {
+        neighbours += edge_patches_[topology_.sides[side].edge()] - 1;
+      }
+    }
+    return neighbours;
+  }
+
+  const TopologyData& topology_;
+  const CornerPatches& at_;
+  bool any_ = false;
+  std::vector<std::uint32_t> edge_patches_; ///< how many there are at every edge
+  std::vector<Pair> corners_;               ///< of all patches
+  std::vector<Pair> edges_;
+  std::vector<Pair> corner_pairs_; ///< of one patch
+  std::vector<Pair> edge_pairs_;
 };
 
 } // namespace
@@ -122,18 +233,19 @@ struct CornerPatches {
 void mark_entangled(TopologyData& topology) {
   const Neighbours neighbours(topology);
   const CornerPatches at(topology.corners);
+  CrowdedCorners crowded(topology, at);
   for (std::size_t patch = 0; patch < topology.patches(); ++patch) {
     bool marked = neighbours.touches_itself(patch);
     for (std::size_t k = 0; k < kPatchCorners && !marked; ++k) {
       const std::uint32_t corner = topology.corners[kPatchCorners * patch + k];
-      const auto* const begin = at.patches.data() + at.first[corner];
-      const auto* const end = at.patches.data() + at.first[corner + 1];
-      if (static_cast<std::size_t>(end - begin) <= kMostCompared) {
-        marked = std::any_of(begin, end, [&](std::uint32_t other) {
-          return other != patch && neighbours.entangled(patch, other);
-        });
+      if (!at.is_crowded(corner)) {
+        marked = std::any_of(at.patches.begin() + at.first[corner],
+                             at.patches.begin() + at.first[corner + 1], [&](std::uint32_t other) {
+                               return other != patch && neighbours.entangled(patch, other);
+                             });
       }
     }
+    marked = marked || crowded.entangled(patch);
     topology.flags[patch] |= marked ? kEntangled : 0;
   }
 }
