@@ -167,10 +167,12 @@ void mark_repeated_of(const NetCorners<S>& nets, std::span<const std::uint32_t> 
       different.clear();
     }
     const std::uint32_t patch = patches[k].second;
-    if (std::any_of(different.begin(), different.end(),
-                    [&](std::uint32_t earlier) { return nets.same(earlier, patch); })) {
+    const auto original =
+        std::find_if(different.begin(), different.end(),
+                     [&](std::uint32_t earlier) { return nets.same(earlier, patch); });
+    if (original != different.end()) {
       topology.flags[patch] |= kRepeated;
-      ++topology.counts.repeated_patches;
+      topology.originals.emplace_back(patch, *original);
     } else {
       different.push_back(patch);
     }
@@ -213,6 +215,8 @@ void mark_repeated(const NetCorners<S>& nets, TopologyData& topology) {
     }
     mark_repeated_of(nets, group, topology);
   }
+  std::sort(topology.originals.begin(), topology.originals.end());
+  topology.counts.repeated_patches = topology.originals.size();
 }
 
 template class NetCorners<float>;

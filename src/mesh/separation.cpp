@@ -6,145 +6,43 @@
 #include <simdbezier/mesh_layout.hpp>
 
 #include "src/mesh/layout_builder.hpp"
-#include "src/mesh/primitive_sinks.hpp"
+#include "src/mesh/patch_edges.hpp"
 #include "src/mesh/topology_data.hpp"
 
 namespace simdbezier {
 namespace detail {
 namespace {
 
-/// An edge that a mesh may have: where it is, and the two vertices that it joins. Two edges in
-/// different places must not join the same two.
-struct MeshEdge {
-  std::uint64_t vertices;
-  std::uint64_t place; ///< a segment of an edge, or two points of one patch
-  std::uint32_t patch;
-
-  friend auto operator<=>(const MeshEdge&, const MeshEdge&) = default;
-};
-
-std::uint64_t pair_of(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
-
-/// The edges of one patch after the other.
-class PatchEdges {
-public:
-  PatchEdges(MeshData& mesh, PatchBoundary& boundary) : mesh_(mesh), boundary_(boundary) {}
-
-  void append(std::uint32_t patch, std::vector<MeshEdge>& edges) {
-    boundary_.move_to(patch);
-    add_segments(patch, edges);
-    points_.clear();
-    boundary_.number_locally(vertices_);
-    const auto boundary_points = static_cast<std::uint32_t>(vertices_.size());
-    const std::uint32_t inner = mesh_.inner[patch];
-    mesh_.inner[patch] = boundary_points;
-    for (std::uint32_t k = 0; k < (mesh_.nu[patch] - 1) * (mesh_.nv[patch] - 1); ++k) {
-      vertices_.push_back(inner + k);
-    }
-    for (const std::uint16_t diagonals : {std::uint16_t{0}, kAllFalling}) {
-      mesh_.diagonals[patch] = diagonals;
-      add_points(patch);
-    }
-    mesh_.inner[patch] = inner;
-    std::sort(points_.begin(), points_.end());
-    points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
-    for (const std::uint64_t ends : points_) {
-      const auto a = static_cast<std::uint32_t>(ends >> 32);
-      const auto b = static_cast<std::uint32_t>(ends);
-      if (boundary_.is_segment(a, b)) {
-        continue;
-      }
-      const bool inside = std::max(a, b) >= boundary_points;
-      (inside ? inside_ : edges)
-          .push_back({pair_of(vertices_[a], vertices_[b]), place_of(patch, ends), patch});
-    }
-    move_coinciding(edges);
-  }
-
-private:
-  static constexpr std::uint16_t kAllFalling = 0x1ff;
-  static constexpr std::uint64_t kInside = std::uint64_t{1} << 63;
-
-  /// Points of patches in doubt are few: some thousands a patch at the most.
-  static std::uint64_t place_of(std::uint32_t patch, std::uint64_t ends) {
-    return kInside | std::uint64_t{patch} << 34 | (ends >> 32 & 0x1ffff) << 17 | (ends & 0x1ffff);
-  }
-
-  void add_segments(std::uint32_t patch, std::vector<MeshEdge>& edges) const {
-    for (std::size_t k = 0; k < kPatchEdges; ++k) {
-      const Side& side = mesh_.topology.data()->sides[kPatchEdges * patch + k];
-      if (side.collapsed()) {
-        continue;
-      }
-      const auto chain = boundary_.chain(k);
-      for (std::size_t s = 0; s + 1 < chain.size(); ++s) {
-        const std::size_t segment = side.reversed() ? chain.size() - 2 - s : s;
-        edges.push_back(
-            {pair_of(chain[s], chain[s + 1]), std::uint64_t{side.edge()} << 20 | segment, patch});
-      }
-    }
-  }
-
-  /// No other patch has edges to a patch's inner points, which are most of all edges, so only those
-  /// that coincide with others of their own patch go on to be compared.
-  void move_coinciding(std::vector<MeshEdge>& edges) {
-    std::sort(inside_.begin(), inside_.end());
-    for (std::size_t k = 0; k < inside_.size(); ++k) {
-      const auto joins_same = [&](std::size_t other) {
-        return other < inside_.size() && inside_[other].vertices == inside_[k].vertices;
-      };
-      if (joins_same(k + 1) || (k > 0 && joins_same(k - 1))) {
-        edges.push_back(inside_[k]);
-      }
-    }
-    inside_.clear();
-  }
-
-  /// The edges of all triangles, by points of the patch.
-  void add_points(std::uint32_t patch) {
-    triangles_.resize(3 * (mesh_.triangles[patch + 1] - mesh_.triangles[patch]) + 64);
-    TriangleSink<std::uint32_t> sink(triangles_.data(), false);
-    CellCutter(mesh_, boundary_, patch).cut(sink);
-    for (const std::uint32_t* t = triangles_.data(); t != sink.end(); t += 3) {
-      points_.push_back(pair_of(t[0], t[1]));
-      points_.push_back(pair_of(t[1], t[2]));
-      points_.push_back(pair_of(t[2], t[0]));
-    }
-  }
-
-  MeshData& mesh_;
-  PatchBoundary& boundary_;
-  std::vector<std::uint32_t> vertices_; ///< of the patch's points
-  std::vector<std::uint32_t> triangles_;
-  std::vector<std::uint64_t> points_; ///< two of a patch, joined
-  std::vector<MeshEdge> inside_;      ///< edges to inner points
-};
-
 class Separation {
 public:
   Separation(const Topology& topology, std::span<std::uint32_t> nu, std::span<std::uint32_t> nv)
-      : topology_(topology), data_(*topology.data()), nu_(nu), nv_(nv), raised_(nu.size()) {}
+      : topology_(topology), data_(*topology.data()), nu_(nu), nv_(nv), given_(copy()) {}
 
   std::size_t run() {
     raise_torn_cells();
     raise_between_points();
     raise_loops();
-    // More cells take vertices apart; what is not apart then never will be, such as a patch whose
-    // neighbouring sides are one edge.
+    // More cells take vertices apart; what a few rounds do not take apart never will be.
     constexpr int kRounds = 6;
     for (int round = 0; round < kRounds && raise_coinciding(); ++round) {
     }
-    return static_cast<std::size_t>(std::count(raised_.begin(), raised_.end(), true));
+    std::size_t raised = 0;
+    for (std::size_t patch = 0; patch < nu_.size(); ++patch) {
+      raised += nu_[patch] != given_.nu[patch] || nv_[patch] != given_.nv[patch] ? 1 : 0;
+    }
+    return raised;
   }
 
 private:
+  struct Rates {
+    std::vector<std::uint32_t> nu;
+    std::vector<std::uint32_t> nv;
+  };
+  [[nodiscard]] Rates copy() const { return {{nu_.begin(), nu_.end()}, {nv_.begin(), nv_.end()}}; }
   void raise(std::size_t patch, bool in_u, std::uint32_t least) {
     std::uint32_t& n = (in_u ? nu_ : nv_)[patch];
     if (n < least && least <= kMostSegments) {
       n = least;
-      raised_[patch] = true;
     }
   }
 
@@ -166,15 +64,19 @@ private:
     }
   }
 
-  /// Opposite sides that are points have a row of vertices between them.
+  /// Opposite sides that are points have a row of vertices between them; where all sides are, two
+  /// rows, so that there are triangles.
   void raise_between_points() {
     for (std::size_t patch = 0; patch < nu_.size(); ++patch) {
       const Side* const sides = &data_.sides[kPatchEdges * patch];
-      if (sides[0].collapsed() && sides[1].collapsed()) {
-        raise(patch, false, 2);
+      const bool in_v = sides[0].collapsed() && sides[1].collapsed();
+      const bool in_u = sides[2].collapsed() && sides[3].collapsed();
+      const std::uint32_t least = in_u && in_v ? 3 : 2;
+      if (in_v) {
+        raise(patch, false, least);
       }
-      if (sides[2].collapsed() && sides[3].collapsed()) {
-        raise(patch, true, 2);
+      if (in_u) {
+        raise(patch, true, least);
       }
     }
   }
@@ -214,36 +116,76 @@ private:
     return edges;
   }
 
-  /// Raises both rates of all patches with edges that coincide; whether there were any.
+  /// Whether two neighbouring sides are one edge, folded at their corner: the cell there has one
+  /// vertex at two of its corners, however many cells there are.
+  [[nodiscard]] bool is_folded(std::size_t patch) const {
+    const Side* const sides = &data_.sides[kPatchEdges * patch];
+    for (std::size_t k = 0; k < kPatchCorners; ++k) {
+      const std::size_t in_u = k / 2;
+      const std::size_t in_v = k % 2;
+      const Side& a = sides[in_u];
+      const Side& b = sides[2 + in_v];
+      if (!a.collapsed() && !b.collapsed() && a.edge() == b.edge() &&
+          (in_v != (a.reversed() ? 1U : 0U)) == (in_u != (b.reversed() ? 1U : 0U))) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Raises both rates of all patches with edges that coincide, where that helps; whether there
+  /// were any.
   bool raise_coinciding() {
+    doubtful_.clear();
     std::vector<MeshEdge> edges = edges_in_doubt();
     std::sort(edges.begin(), edges.end());
-    bool any = false;
     for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-      bool coincide = edges[begin].vertices >> 32 == (edges[begin].vertices & 0xffffffff);
-      for (end = begin; end < edges.size() && edges[end].vertices == edges[begin].vertices; ++end) {
-        coincide = coincide || edges[end].place != edges[begin].place;
+      while (end < edges.size() && edges[end].vertices == edges[begin].vertices) {
+        ++end;
       }
-      for (std::size_t k = begin; k < end && coincide; ++k) {
-        doubtful_.push_back(edges[k].patch);
-        any = true;
-      }
+      add_coinciding(std::span(edges).subspan(begin, end - begin));
     }
     std::sort(doubtful_.begin(), doubtful_.end());
     doubtful_.erase(std::unique(doubtful_.begin(), doubtful_.end()), doubtful_.end());
+    std::erase_if(doubtful_, [&](std::uint32_t patch) { return is_folded(patch); });
     for (const std::uint32_t patch : doubtful_) {
       raise(patch, true, nu_[patch] + 1);
       raise(patch, false, nv_[patch] + 1);
     }
-    doubtful_.clear();
-    return any;
+    return !doubtful_.empty();
+  }
+
+  /// Of edges that join the same two vertices. Those of a patch and of its repetitions lie in one
+  /// place, whatever their numbers, so that only edges of one patch are compared among these.
+  void add_coinciding(std::span<MeshEdge> same) {
+    const auto model = [&](const MeshEdge& edge) { return data_.original_of(edge.patch); };
+    const auto differs_from_first = [&](const auto& value) {
+      return std::any_of(same.begin(), same.end(),
+                         [&](const MeshEdge& edge) { return value(edge) != value(same.front()); });
+    };
+    const bool point = same.front().vertices >> 32 == (same.front().vertices & 0xffffffff);
+    const bool places = differs_from_first([](const MeshEdge& edge) { return edge.place; });
+    if (point || (places && differs_from_first(model))) {
+      for (const MeshEdge& edge : same) {
+        doubtful_.push_back(edge.patch);
+      }
+    } else if (places) {
+      std::sort(same.begin(), same.end(), [](const MeshEdge& a, const MeshEdge& b) {
+        return a.patch != b.patch ? a.patch < b.patch : a.place < b.place;
+      });
+      for (std::size_t k = 1; k < same.size(); ++k) {
+        if (same[k].patch == same[k - 1].patch && same[k].place != same[k - 1].place) {
+          doubtful_.push_back(same[k].patch);
+        }
+      }
+    }
   }
 
   const Topology& topology_;
   const TopologyData& data_;
   std::span<std::uint32_t> nu_;
   std::span<std::uint32_t> nv_;
-  std::vector<bool> raised_;
+  Rates given_;
   std::vector<std::uint32_t> doubtful_;
 };
 

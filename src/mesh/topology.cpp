@@ -9,6 +9,7 @@
 #include <simdbezier/adjacency.hpp>
 
 #include "src/mesh/entanglement.hpp"
+#include "src/mesh/forced_diagonals.hpp"
 #include "src/mesh/net_corners.hpp"
 #include "src/mesh/orientation.hpp"
 #include "src/mesh/snapping.hpp"
@@ -123,51 +124,6 @@ void collapse_short_sides(const NetCorners<S>& nets, double point_size, std::spa
   }
 }
 
-/// Where a mesh would be wrong near a corner if a diagonal cut it off: at corners of two patches,
-/// which would have the same triangle; between a side that is a point and one that is not, where a
-/// polygon would be left between a curve and its chord; where both sides leave in one direction,
-/// and the triangle would have no area.
-template <typename S>
-void mark_corners(const NetCorners<S>& nets, TopologyData& topology) {
-  std::vector<std::uint8_t> patches(topology.corners.size());
-  std::vector<bool> open(topology.corners.size());
-  for (const std::uint32_t corner : topology.corners) {
-    patches[corner] = static_cast<std::uint8_t>(std::min(patches[corner] + 1, 3));
-  }
-  for (std::size_t side = 0; side < topology.sides.size(); ++side) {
-    const Side& own = topology.sides[side];
-    if (own.collapsed() || topology.sides_of(own.edge()).size() != 2) {
-      open[topology.corner_of(side, 0)] = open[topology.corner_of(side, 1)] = true;
-    }
-  }
-  for (std::size_t k = 0; k < topology.corners.size(); ++k) {
-    const std::size_t patch = k / kPatchCorners;
-    const std::size_t corner = k % kPatchCorners;
-    const std::size_t in_u = kPatchEdges * patch + (corner < 2 ? 0 : 1);
-    const std::size_t in_v = kPatchEdges * patch + (corner % 2 == 0 ? 2 : 3);
-    const std::uint32_t joined = topology.corners[k];
-    const bool pillow = patches[joined] <= 2 && !open[joined];
-    const bool tip = topology.sides[in_u].collapsed() != topology.sides[in_v].collapsed();
-    if (pillow || tip || nets.sides_leave_together(patch, corner)) {
-      topology.flags[patch] |= static_cast<std::uint8_t>(kThroughCorner << corner);
-    }
-  }
-}
-
-template <typename S>
-void mark_loops(const NetCorners<S>& nets, TopologyData& topology) {
-  for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
-    const std::uint32_t side = topology.sides_of(edge)[0];
-    if (topology.corner_of(side, 0) != topology.corner_of(side, 1)) {
-      const Point3 d =
-          nets.corner_point(corner_at(side, 1)) - nets.corner_point(corner_at(side, 0));
-      if (dot(d, d) == 0) {
-        topology.loops.push_back(side);
-      }
-    }
-  }
-}
-
 template <typename S>
 Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& options,
              TopologyData& topology) {
@@ -194,9 +150,9 @@ Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& option
   if (options.snap > 0 || options.point_size > 0) {
     find_displacements(nets, topology);
   }
+  mark_repeated(nets, topology);
   mark_corners(nets, topology);
   mark_loops(nets, topology);
-  mark_repeated(nets, topology);
   mark_entangled(topology);
   const Status oriented = orient(options, topology);
   if (oriented == Status::ok) {
@@ -258,8 +214,7 @@ bool Topology::is_turned(std::size_t patch) const noexcept {
 }
 
 bool Topology::is_repeated(std::size_t patch) const noexcept {
-  return data_ != nullptr && patch < data_->patches() &&
-         (data_->flags[patch] & detail::kRepeated) != 0;
+  return data_ != nullptr && patch < data_->patches() && data_->is_repeated(patch);
 }
 
 } // namespace simdbezier

@@ -1,8 +1,10 @@
 // What a topology consists of.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <simdbezier/topology.hpp>
@@ -77,6 +79,8 @@ struct TopologyData {
   std::vector<std::uint32_t> next_corner; ///< [4 * patch + corner]: the next one of those joined,
                                           ///< ascending, and from the last back to the lowest
   std::vector<std::uint8_t> flags;        ///< PatchFlag, of each patch
+  /// Repeated patches, ascending, and the first patch with the control points of each.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> originals;
   /// First sides of edges that are no points, and whose ends are different corners in one place.
   std::vector<std::uint32_t> loops;
   /// ApartFlag of each patch; empty where nothing is apart.
@@ -107,6 +111,15 @@ struct TopologyData {
       visit(corner);
       corner = next_corner[corner];
     } while (corner != lowest);
+  }
+  [[nodiscard]] bool is_repeated(std::size_t patch) const noexcept {
+    return (flags[patch] & kRepeated) != 0;
+  }
+  /// The first patch with the control points of a patch.
+  [[nodiscard]] std::uint32_t original_of(std::uint32_t patch) const noexcept {
+    return is_repeated(patch)
+               ? std::lower_bound(originals.begin(), originals.end(), std::pair(patch, 0U))->second
+               : patch;
   }
   [[nodiscard]] bool is_turned(std::size_t patch) const noexcept {
     return (flags[patch] & kTurned) != 0;

@@ -180,8 +180,9 @@ std::vector<MeshModel> mesh_models() {
   touching.patches = {from_net(1, 1, wavy)[0],
                       from_net(1, 1, [](int k, int l) { return wavy(k + 3, l + 3); })[0]};
   models.push_back(touching);
-  // Two sides everywhere, so that it is closed, though its normals disagree.
-  MeshModel twice{"one patch twice", {}, 2, 0};
+  // Its two meshes coincide: no surface to count.
+  MeshModel twice{"one patch twice", {}, 1, 0};
+  twice.repeated = true;
   twice.patches = {from_net(1, 1, wavy)[0], from_net(1, 1, wavy)[0]};
   twice.agree = false;
   models.push_back(twice);

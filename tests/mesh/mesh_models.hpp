@@ -21,7 +21,8 @@ struct MeshModel {
   std::size_t loops = 0; ///< closed curves of open edges
   bool manifold = true;
   bool orientable = true;
-  bool agree = true; ///< whether normals of neighbours agree as the patches are given
+  bool repeated = false; ///< whether it has patches twice
+  bool agree = true;     ///< whether normals of neighbours agree as the patches are given
 
   /// All values in one array, which has to outlive the view.
   [[nodiscard]] std::vector<double> values() const;
