@@ -103,7 +103,7 @@ TEST_P(MemoryTest, IsAFewTimesTheFile) {
     GTEST_SKIP() << "memory of a sanitizer";
   }
   constexpr std::size_t kTimes = 20;
-  constexpr long kAlways = 24L << 10; // KiB: blocks of samples and of packed patches
+  constexpr long kAlways = 32L << 10; // KiB: blocks of samples and patches, large pages
   const TemporaryFolder folder;
   const std::string text = GetParam().text();
   const std::string in = folder.write(std::string("in.") + GetParam().format, text);
