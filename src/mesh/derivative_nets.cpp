@@ -141,10 +141,15 @@ bool VectorPatch::read(const ControlNets<S>& nets, std::size_t patch) {
   // smallest.
   largest = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const double middle = low[c] + (high[c] - low[c]) / 2;
     largest = std::max({largest, std::fabs(low[c]), std::fabs(high[c])});
+  }
+  exponent = largest > 0 ? std::ilogb(largest) : 0;
+  largest = std::scalbn(largest, -exponent);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double least = std::scalbn(low[c], -exponent);
+    const double middle = least + (std::scalbn(high[c], -exponent) - least) / 2;
     for (ControlVector& v : net.at) {
-      v.x[c] = (v.x[c] - middle) * v.x[3];
+      v.x[c] = (std::scalbn(v.x[c], -exponent) - middle) * v.x[3];
     }
   }
   largest *= largest_weight;

@@ -81,6 +81,9 @@ struct VectorPatch {
   VectorNet net;
   bool rational = false;
   double largest = 0; ///< of all values, for rounding
+  /// Values are so many powers of two smaller than those given: the largest is between 1 and 2, so
+  /// that squares are numbers as well.
+  int exponent = 0;
 
   /// Reads a patch: false where a value is not finite, or a weight not positive.
   template <typename S>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 #include <stdexcept>
 
@@ -44,6 +45,7 @@ public:
         }
       }
     }
+    scale();
     centre();
     return Status::ok;
   }
@@ -67,12 +69,32 @@ public:
     const double lightest = *std::min_element(weight_, weight_ + points_);
     const double doubt = 32 * 0x1p-53 * (radius_ + size_) * heaviest;
     const auto n = static_cast<double>(points_ - 1);
-    return points_ < 3 ? 0 : n * (n - 1) * (most + doubt) / lightest * (1 + 1e-12);
+    if (points_ < 3) {
+      return 0;
+    }
+    const double all = n * (n - 1) * (most + doubt) / lightest * (1 + 1e-12);
+    return std::scalbn(all, exponent_) + std::numeric_limits<double>::denorm_min();
   }
 
 private:
   [[nodiscard]] double weighted(std::size_t i, std::size_t c) const {
     return weight_[i] * point_[i][c];
+  }
+  /// So many powers of two smaller that the largest value is between 1 and 2: squares are numbers
+  /// then.
+  void scale() {
+    double largest = 0;
+    for (std::size_t i = 0; i < points_; ++i) {
+      for (std::size_t c = 0; c < components_; ++c) {
+        largest = std::max(largest, std::fabs(point_[i][c]));
+      }
+    }
+    exponent_ = largest > 0 ? std::ilogb(largest) : 0;
+    for (std::size_t i = 0; i < points_; ++i) {
+      for (std::size_t c = 0; c < components_; ++c) {
+        point_[i][c] = std::scalbn(point_[i][c], -exponent_);
+      }
+    }
   }
   void centre() {
     double square = 0;
@@ -98,6 +120,7 @@ private:
   std::size_t components_ = 0;
   bool rational_ = false;
   bool divided_ = false;
+  int exponent_ = 0;
   double point_[kMostDegree + 1][kMostComponents];
   double weight_[kMostDegree + 1];
   double radius_ = 0; ///< half of the diagonal of the box
@@ -176,10 +199,13 @@ Status position_errors(const CurveSet<T>& set, std::span<double> out) noexcept {
   }
   for (std::size_t curve = 0; curve < set.size(); ++curve) {
     double square = 0;
+    double norm = 0; // where squares are no numbers of any use
     for (const double error : error_bounds(set, curve).position) {
       square += error * error;
+      norm = std::hypot(norm, error);
     }
-    out[curve] = std::sqrt(square) * (1 + 0x1p-40);
+    const bool usual = square > 0x1p-900 && square < 0x1p900;
+    out[curve] = (usual ? std::sqrt(square) : norm) * (1 + 0x1p-40);
   }
   return Status::ok;
 }

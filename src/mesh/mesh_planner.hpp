@@ -158,9 +158,11 @@ private:
 
   /// The smallest of what is asked of each patch; far more than its size where nothing is.
   Status find_tolerances(RateOptions& how) {
+    // What a share of nothing is, no mesh could keep to.
+    const double relative = plan_.diagonal > 0 ? options_.relative_tolerance * plan_.diagonal
+                                               : std::numeric_limits<double>::infinity();
     const double all = plan_.diagonal > 0 ? 1e3 * plan_.diagonal : 1;
-    how.tolerance =
-        std::min({options_.tolerance, options_.relative_tolerance * plan_.diagonal, all});
+    how.tolerance = std::min({options_.tolerance, relative, all});
     const bool pixels = std::isfinite(options_.pixels);
     if (options_.tolerances.empty() && !pixels) {
       return Status::ok;

@@ -25,7 +25,7 @@ Point3 leaves(const ControlNets<S>& nets, std::size_t patch, std::size_t corner,
   const Point3 from = point_at(nets, patch, i, j);
   const std::ptrdiff_t degree = in_u ? nets.degree_u : nets.degree_v;
   Point3 difference{};
-  for (std::ptrdiff_t k = 1; k <= degree && !(dot(difference, difference) > 0); ++k) {
+  for (std::ptrdiff_t k = 1; k <= degree && !(length(difference) > 0); ++k) {
     difference = (in_u ? point_at(nets, patch, at_u1 ? i - k : k, j)
                        : point_at(nets, patch, i, at_v1 ? j - k : k)) -
                  from;
@@ -116,8 +116,14 @@ bool NetCorners<S>::side_within(std::size_t side, double distance) const {
 template <typename S>
 bool NetCorners<S>::sides_leave_together(std::size_t patch, std::size_t corner) const noexcept {
   const Place at = place(patch);
-  const Point3 a = leaves(*at.nets, at.patch, corner, true);
-  const Point3 b = leaves(*at.nets, at.patch, corner, false);
+  Point3 a = leaves(*at.nets, at.patch, corner, true);
+  Point3 b = leaves(*at.nets, at.patch, corner, false);
+  const auto is_usual = [](const Point3& d) { return dot(d, d) > 0x1p-200 && dot(d, d) < 0x1p200; };
+  if (!is_usual(a) || !is_usual(b)) { // products of squares would not be numbers of any use
+    int exponent = 0;
+    a = scaled_to_one(a, exponent);
+    b = scaled_to_one(b, exponent);
+  }
   const Point3 n = cross(a, b);
   constexpr double kSine = 1e-9;
   return dot(a, b) > 0 && dot(n, n) <= kSine * kSine * dot(a, a) * dot(b, b);

@@ -23,6 +23,30 @@ inline double dot(const Point3& a, const Point3& b) noexcept {
   return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2];
 }
 
+/// By a power of two, so that its largest value is between 1 and 2; vectors of no finite length and
+/// those of 0 stay as they are.
+inline Point3 scaled_to_one(const Point3& a, int& exponent) noexcept {
+  const double largest = std::max({std::fabs(a.x[0]), std::fabs(a.x[1]), std::fabs(a.x[2])});
+  exponent = 0;
+  if (!(largest > 0) || !std::isfinite(a.x[0] + a.x[1] + a.x[2])) {
+    return a;
+  }
+  exponent = std::ilogb(largest);
+  return {std::scalbn(a.x[0], -exponent), std::scalbn(a.x[1], -exponent),
+          std::scalbn(a.x[2], -exponent)};
+}
+
+/// The length of a vector; squares of very small or large ones would not be numbers of any use.
+inline double length(const Point3& a) noexcept {
+  const double square = dot(a, a);
+  if (square > 0x1p-900 && square < 0x1p900) {
+    return std::sqrt(square);
+  }
+  int exponent = 0;
+  const Point3 scaled = scaled_to_one(a, exponent);
+  return std::scalbn(std::sqrt(dot(scaled, scaled)), exponent);
+}
+
 template <typename S>
 const S* values_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t i,
                    std::ptrdiff_t j) noexcept {
@@ -73,12 +97,8 @@ public:
     return std::max({high_[0] - low_[0], high_[1] - low_[1], high_[2] - low_[2]});
   }
   [[nodiscard]] double diagonal() const noexcept {
-    double sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double extent = std::max(high_[c] - low_[c], 0.0);
-      sum += extent * extent;
-    }
-    return std::sqrt(sum);
+    return length({std::max(high_[0] - low_[0], 0.0), std::max(high_[1] - low_[1], 0.0),
+                   std::max(high_[2] - low_[2], 0.0)});
   }
 
 private:

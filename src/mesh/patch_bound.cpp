@@ -2,6 +2,7 @@
 #include "src/mesh/patch_bound.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "src/mesh/topology_data.hpp"
 
@@ -174,12 +175,19 @@ void PatchBound::for_zones(const CellCounts& cells, const Visit& visit) {
   }
 }
 
+double PatchBound::in_space(double bound) const {
+  const double scaled = std::scalbn(bound, patch_.exponent);
+  return bound > 0 && scaled < std::numeric_limits<double>::min()
+             ? std::nextafter(scaled, std::numeric_limits<double>::infinity())
+             : scaled;
+}
+
 double PatchBound::rising_bound(const CellCounts& cells) const {
   double worst = 0;
   for_zones(cells, [&](QuarterSet quarters, std::size_t) {
     worst = std::max(worst, zone_bound(quarters, cells, false));
   });
-  return worst * kRounding;
+  return in_space(worst * kRounding);
 }
 
 double PatchBound::bound(const CellCounts& cells, std::uint16_t* diagonals) const {
@@ -201,10 +209,11 @@ double PatchBound::bound(const CellCounts& cells, std::uint16_t* diagonals) cons
   if (diagonals != nullptr) {
     *diagonals = falling;
   }
-  return worst * kRounding;
+  return in_space(worst * kRounding);
 }
 
-CellCounts PatchBound::filip(double t, std::uint32_t most) const {
+CellCounts PatchBound::filip(double tolerance, std::uint32_t most) const {
+  const double t = std::scalbn(tolerance, -patch_.exponent);
   const double limit =
       8 * t * hulls_[kAll].smallest_weight / (kRounding * step_slack(most) * step_slack(most));
   const double a = whole_.uu + doubt_.uu;
@@ -293,6 +302,7 @@ std::array<double, 2> PatchBound::lengths() const {
   }
   longest[0] *= static_cast<double>(patch_.net.columns - 1) / hull.smallest_weight;
   longest[1] *= static_cast<double>(patch_.net.rows - 1) / hull.smallest_weight;
+  longest = {in_space(longest[0]), in_space(longest[1])};
   return longest;
 }
 

@@ -49,6 +49,8 @@ private:
   [[nodiscard]] double zone_bound(QuarterSet quarters, const CellCounts& cells, bool falling) const;
   [[nodiscard]] double corner_bound(std::size_t corner, const CellCounts& cells) const;
   [[nodiscard]] CellCounts filip(double t, std::uint32_t most) const;
+  /// A bound in the patch's own scale as one in space, rounded up.
+  [[nodiscard]] double in_space(double bound) const;
 
   VectorPatch patch_;
   std::uint8_t flags_ = 0;

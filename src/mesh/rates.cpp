@@ -6,6 +6,7 @@
 
 #include <simdbezier/error_bounds.hpp>
 
+#include "src/mesh/net_points.hpp"
 #include "src/mesh/rate_call.hpp"
 
 namespace simdbezier {
@@ -33,6 +34,11 @@ RateReport check(std::span<const ControlNets<S>> sets, const Topology& topology,
       !(errors.empty() || fits(errors.size()))) {
     return {Status::bad_rates};
   }
+  for (std::size_t patch = 0; patch < errors.size(); ++patch) {
+    if (!(errors[patch] >= 0)) {
+      return {Status::bad_tolerance, patch};
+    }
+  }
   return {};
 }
 
@@ -46,8 +52,7 @@ Status position_errors(const PatchSet<T>& set, std::span<double> out) noexcept {
   }
   for (std::size_t patch = 0; patch < set.size(); ++patch) {
     const auto& error = error_bounds(set, patch).position;
-    out[patch] =
-        std::sqrt(error[0] * error[0] + error[1] * error[1] + error[2] * error[2]) * (1 + 0x1p-40);
+    out[patch] = detail::length({error[0], error[1], error[2]}) * (1 + 0x1p-40);
   }
   return Status::ok;
 }

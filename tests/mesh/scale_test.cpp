@@ -1,0 +1,148 @@
+// Bounds of very small and very large models are those of usual ones, times the scale.
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <simdbezier/flatten.hpp>
+#include <simdbezier/mesh.hpp>
+
+namespace simdbezier::tests {
+namespace {
+
+constexpr int kExponents[] = {-900, -565, -300, 300, 665, 900};
+
+struct Shape {
+  int degree;
+  Weights weights;
+};
+constexpr Shape kShapes[] = {
+    {2, Weights::none}, {4, Weights::none}, {2, Weights::cartesian}, {3, Weights::homogeneous}};
+
+std::vector<double> values_of(const Shape& shape, int exponent) {
+  std::vector<double> values;
+  for (int j = 0; j <= shape.degree; ++j) {
+    for (int i = 0; i <= shape.degree; ++i) {
+      const double w = shape.weights == Weights::none ? 1 : 1 + 0.25 * ((i + j) % 2);
+      const double divisor = shape.weights == Weights::homogeneous ? 1 / w : 1;
+      for (const double x : {1.0 * i, 1.0 * j, std::sin(1.0 * i + 2.0 * j)}) {
+        values.push_back(std::scalbn(x / divisor, exponent));
+      }
+      if (shape.weights != Weights::none) {
+        values.push_back(w);
+      }
+    }
+  }
+  return values;
+}
+
+TEST(MeshScale, certificates_and_rates_go_with_it) {
+  for (const Shape& shape : kShapes) {
+    const auto plan_of = [&](int exponent, bool uniform) {
+      const std::vector<double> values = values_of(shape, exponent);
+      const auto nets = ControlNets<double>::packed(values.data(), 1, shape.degree, shape.degree, 3,
+                                                    shape.weights);
+      MeshOptions options;
+      if (uniform) {
+        options.nu = options.nv = 4;
+      } else {
+        options.relative_tolerance = 1e-3;
+      }
+      return plan_mesh<double>(nets, options);
+    };
+    for (const bool uniform : {false, true}) {
+      const MeshPlan<double> usual = plan_of(0, uniform);
+      ASSERT_EQ(usual.status, Status::ok);
+      EXPECT_GT(usual.deviation, 0);
+      for (const int exponent : kExponents) {
+        SCOPED_TRACE(exponent);
+        const MeshPlan<double> plan = plan_of(exponent, uniform);
+        ASSERT_EQ(plan.status, Status::ok);
+        EXPECT_EQ(plan.diagonal, std::scalbn(usual.diagonal, exponent));
+        EXPECT_EQ(plan.nu, usual.nu);
+        EXPECT_EQ(plan.nv, usual.nv);
+        EXPECT_NEAR(std::scalbn(plan.deviation, -exponent), usual.deviation,
+                    1e-9 * usual.deviation);
+      }
+    }
+  }
+}
+
+TEST(MeshScale, polylines_go_with_it) {
+  for (const bool rational : {false, true}) {
+    const auto lines_of = [&](int exponent) {
+      std::vector<double> values;
+      for (int i = 0; i < 5; ++i) {
+        values.push_back(std::scalbn(1.0 * i, exponent));
+        values.push_back(std::scalbn(std::sin(2.0 * i), exponent));
+        values.push_back(0);
+        if (rational) {
+          values.push_back(1 + 0.25 * (i % 2));
+        }
+      }
+      const auto curves = ControlCurves<double>::packed(
+          values.data(), 1, 4, 3, rational ? Weights::cartesian : Weights::none);
+      return flatten<double>(curves, std::scalbn(1e-3, exponent));
+    };
+    const Polylines<double> usual = lines_of(0);
+    ASSERT_EQ(usual.status, Status::ok);
+    for (const int exponent : kExponents) {
+      SCOPED_TRACE(exponent);
+      const Polylines<double> lines = lines_of(exponent);
+      ASSERT_EQ(lines.status, Status::ok);
+      EXPECT_EQ(lines.first, usual.first);
+      EXPECT_NEAR(std::scalbn(lines.deviation, -exponent), usual.deviation, 1e-9 * usual.deviation);
+    }
+  }
+}
+
+TEST(MeshScale, a_model_that_is_one_point_has_relative_tolerances) {
+  const std::vector<double> values(48, 2.0);
+  const auto nets = ControlNets<double>::packed(std::span<const double>(values));
+  MeshOptions options;
+  options.relative_tolerance = 1e-3;
+  const MeshPlan<float> plan = plan_mesh<float>(nets, options);
+  EXPECT_EQ(plan.status, Status::ok);
+  EXPECT_LT(plan.deviation, 1e-5);
+}
+
+TEST(MeshScale, errors_below_zero_are_refused) {
+  const std::vector<double> values = values_of({3, Weights::none}, 0);
+  const auto nets = ControlNets<double>::packed(std::span<const double>(values));
+  Topology topology;
+  ASSERT_EQ(find_topology(nets, topology), Status::ok);
+  std::vector<std::uint32_t> nu(1, 1);
+  std::vector<std::uint32_t> nv(1, 1);
+  std::vector<std::uint16_t> diagonals(1);
+  for (const double error : {-1.0, -1e-300, std::numeric_limits<double>::quiet_NaN()}) {
+    const std::vector<double> errors = {error};
+    RateOptions options;
+    options.tolerance = 0.1;
+    options.errors = errors;
+    EXPECT_EQ(choose_rates<double>({&nets, 1}, topology, options, {nu, nv, diagonals, {}}).status,
+              Status::bad_tolerance);
+    EXPECT_EQ(certify_rates<double>({&nets, 1}, topology, errors, {nu, nv, diagonals, {}}).status,
+              Status::bad_tolerance);
+  }
+}
+
+TEST(MeshAttributes, have_as_many_components_as_the_set_has_behind_the_first) {
+  const std::vector<double> values = values_of({3, Weights::none}, 0);
+  const auto nets = ControlNets<double>::packed(std::span<const double>(values));
+  MeshOptions options;
+  options.nu = options.nv = 3;
+  const MeshPlan<float> plan = plan_mesh<float>(nets, options);
+  ASSERT_EQ(plan.status, Status::ok);
+  std::vector<float> to(3 * plan.layout.size().vertices, 77.0F);
+  const auto status_of = [&](const Vectors<float>& out, int first) {
+    return evaluate_mesh_attributes(plan.set, plan.layout, out, first);
+  };
+  EXPECT_EQ(status_of(Vectors<float>::xyz(to.data(), 3), 0), Status::ok);
+  EXPECT_EQ(status_of(Vectors<float>::xyz(to.data(), 3), 1), Status::bad_components);
+  EXPECT_EQ(status_of(Vectors<float>::pairs(to.data(), 3), 1), Status::ok);
+  EXPECT_EQ(status_of(Vectors<float>::pairs(to.data(), 3), 2), Status::bad_components);
+}
+
+} // namespace
+} // namespace simdbezier::tests
