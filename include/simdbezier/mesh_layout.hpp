@@ -61,7 +61,10 @@ private:
 
 /// Raises rates of 1 where a mesh would be degenerate: two triangles on the same three vertices, an
 /// edge of the mesh with more than two triangles, a cell that two corners want to be cut
-/// differently. Rates stay as they are everywhere else.
+/// differently. Rates stay as they are everywhere else: among others of patches that repeat an
+/// earlier one, whose triangles coincide with its own, and of patches with two neighbouring sides
+/// that are one edge, which cells do not help. Patches whose four sides are one point get 3 x 3
+/// cells.
 ///
 /// nu, nv:   one value a patch.
 /// raised:   the number of patches that changed.
