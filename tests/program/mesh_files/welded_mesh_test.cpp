@@ -47,11 +47,14 @@ TEST_P(WeldedModel, HangsTogetherAsTheModelDoes) {
     const TriangleCensus census = census_of(mesh);
     EXPECT_EQ(census.degenerate, 0U);
     EXPECT_EQ(census.unused, 0U);
+    EXPECT_EQ(census.repeated > 0, GetParam().repeated); // their meshes coincide
+    if (GetParam().repeated) {
+      continue;
+    }
     EXPECT_EQ(census.crowded > 0, !GetParam().manifold);
     if (GetParam().manifold) {
       EXPECT_EQ(census.loops, GetParam().loops);
       EXPECT_EQ(census.euler, GetParam().euler);
-      EXPECT_EQ(census.repeated, 0U);
     }
     EXPECT_EQ(census.disagreeing > 0, !GetParam().agree);
     EXPECT_GT(mesh.deviation.value_or(0), 0);
