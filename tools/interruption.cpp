@@ -21,6 +21,11 @@ struct Temporary {
 };
 std::array<Temporary, kMostTemporaries> temporaries;
 std::atomic<bool> bar_is_shown{false};
+// While a file is being created it may not exist yet: a signal that another thread takes meanwhile
+// waits in here until the creation has ended.
+std::atomic<bool> creating{false};
+std::atomic<int> waiting_signal{0};
+std::atomic<bool> ending{false}; // a signal is being handled
 static_assert(std::atomic<const char*>::is_always_lock_free &&
               std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
@@ -38,6 +43,13 @@ void clean_up() noexcept {
 extern "C" void clean_up_at_exit() { clean_up(); }
 
 extern "C" void on_signal(int number) {
+  ending = true;
+  if (creating) {
+    waiting_signal = number;
+    if (creating || waiting_signal.exchange(0) == 0) {
+      return; // end_creation() sees the signal, or has seen it
+    }
+  }
   clean_up();
   struct sigaction action = {};
   action.sa_handler = SIG_DFL;
@@ -98,6 +110,23 @@ void forget_temporary(const std::string& name) noexcept {
     if (temporary.name == name.c_str()) {
       temporary.name = nullptr;
     }
+  }
+}
+
+void begin_creation() noexcept {
+  creating = true;
+  if (ending) { // nothing is to be created any more
+    end_creation();
+    for (;;) {
+      pause();
+    }
+  }
+}
+
+void end_creation() noexcept {
+  creating = false;
+  if (const int number = waiting_signal.exchange(0)) {
+    on_signal(number);
   }
 }
 

@@ -20,6 +20,10 @@ inline constexpr std::size_t kMostTemporaries = 256;
 /// left behind. Returns false where there are too many.
 [[nodiscard]] bool remember_temporary(int folder, const std::string& name) noexcept;
 void forget_temporary(const std::string& name) noexcept;
+/// Around the system call that creates a registered file: a signal waits for its end, whichever
+/// thread takes it.
+void begin_creation() noexcept;
+void end_creation() noexcept;
 
 /// Says whether the terminal shows a progress bar, whose line has to be cleared.
 void remember_bar(bool shown) noexcept;

@@ -85,12 +85,17 @@ void TemporaryFile::create(mode_t mode) {
   do {
     forget_temporary(name_);
     name_ = random_name();
+    begin_creation();
     if (!remember_temporary(folder_.number(), name_)) {
+      end_creation();
       name_.clear();
       fail(EMFILE);
     }
     file_ = Descriptor(
         openat(folder_.number(), name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+    const int error = errno;
+    end_creation();
+    errno = error;
   } while (!file_.is_open() && errno == EEXIST);
   if (!file_.is_open()) {
     const int error = errno;
