@@ -157,10 +157,7 @@ private:
   Isa run_bucket(const PatchStorage<T>& patches, const Scratch& scratch, std::size_t at,
                  std::size_t count, std::size_t first) const noexcept {
     DerivativeTask<T> task{};
-    task.shape = &patches.shape;
-    task.coefficients = patches.coefficients;
-    task.edges = patches.edges;
-    task.origins = patches.origins;
+    static_cast<PatchArrays<T>&>(task) = patches.arrays(0);
     task.patch = scratch.patch + at;
     task.x = scratch.x + at;
     task.y = scratch.y + at;

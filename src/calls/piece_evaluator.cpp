@@ -39,12 +39,7 @@ PieceEvaluator<T>::PieceEvaluator(const PatchKernels<T>& kernels, std::size_t ro
 template <typename T>
 void PieceEvaluator<T>::fill(GridTask<T>& task, const PatchStorage<T>& set, const GridPlan<T>& plan,
                              const GridPiece& piece, const Target& to) const noexcept {
-  task.shape = &set.shape;
-  task.coefficients = set.coefficients + piece.patch * set.shape.coefficients();
-  task.edges = set.edges + piece.patch * set.shape.edges();
-  task.given = set.given.from(piece.patch * set.shape.control_values());
-  task.origins = set.origins == nullptr ? nullptr : set.origins + piece.patch * set.shape.origins();
-  task.normal_floor = set.normal_floor + piece.patch * set.shape.floors();
+  static_cast<PatchArrays<T>&>(task) = set.arrays(piece.patch);
   task.patch_count = piece.patches;
   task.x = plan.x();
   task.nu = plan.nu();

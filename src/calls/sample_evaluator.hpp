@@ -78,12 +78,7 @@ private:
                  const SamplePiece<T>& piece, std::size_t at,
                  const SampleTarget<T>& to) const noexcept {
     ScatteredTask<T> task{};
-    task.shape = &patches.shape;
-    task.coefficients = patches.coefficients;
-    task.edges = patches.edges;
-    task.given = patches.given;
-    task.origins = patches.origins;
-    task.normal_floor = patches.normal_floor;
+    static_cast<PatchArrays<T>&>(task) = patches.arrays(0);
     task.common_floor = patches.common_floor;
     task.patch = patch;
     task.u = piece.u + at;

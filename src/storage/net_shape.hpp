@@ -70,9 +70,7 @@ struct NetShape {
   [[nodiscard]] constexpr std::size_t coefficients() const { return cells() * cell_coefficients(); }
 
   /// Powers that an edge's channel has room for: those of the longer edge; unused ones are zero.
-  [[nodiscard]] constexpr std::size_t edge_powers() const {
-    return degree_v == 0 ? 0 : std::max(order_u(), order_v());
-  }
+  [[nodiscard]] constexpr std::size_t edge_powers() const { return std::max(order_u(), order_v()); }
   [[nodiscard]] constexpr std::size_t corners_at() const { return channels() * edge_powers() * 4; }
   [[nodiscard]] constexpr std::size_t cell_edges() const {
     return whole_blocks(corners_at() + channels() * 4);

@@ -13,8 +13,7 @@
 
 #include <vector>
 
-#include "src/storage/given_points.hpp"
-#include "src/storage/net_shape.hpp"
+#include "src/storage/patch_arrays.hpp"
 
 namespace simdbezier::detail {
 
@@ -63,6 +62,15 @@ struct PatchStorage {
   T* normal_floor = nullptr;
   /// No bicubic patch has a higher one; infinity where they differ much.
   T common_floor = std::numeric_limits<T>::infinity();
+
+  [[nodiscard]] PatchArrays<T> arrays(std::size_t patch) const noexcept {
+    return {.shape = &shape,
+            .coefficients = coefficients + patch * shape.coefficients(),
+            .edges = edges + patch * shape.edges(),
+            .given = given.from(patch * shape.control_values()),
+            .origins = origins == nullptr ? nullptr : origins + patch * shape.origins(),
+            .normal_floor = normal_floor + patch * shape.floors()};
+  }
 };
 
 /// Where a patch of a set of several shapes is.

@@ -5,7 +5,7 @@
 
 #include <simdbezier/partial_derivative.hpp>
 
-#include "src/storage/net_shape.hpp"
+#include "src/storage/patch_arrays.hpp"
 
 namespace simdbezier::detail {
 
@@ -20,12 +20,7 @@ struct DerivativeOrders {
 
 /// Samples on patches of one shape. Sample k is number first + k of the call's outputs.
 template <typename T>
-struct DerivativeTask {
-  const NetShape* shape;
-  const T* coefficients;
-  const T* edges;
-  const T* origins; ///< null where the set has none
-
+struct DerivativeTask : PatchArrays<T> {
   const std::size_t* patch;
   const T* x; ///< half-centred; nan where the parameter is not finite
   const T* y;

@@ -9,8 +9,7 @@
 #include <simdbezier/instruction_set.hpp>
 #include <simdbezier/sample_status.hpp>
 
-#include "src/storage/given_points.hpp"
-#include "src/storage/net_shape.hpp"
+#include "src/storage/patch_arrays.hpp"
 
 namespace simdbezier::detail {
 
@@ -70,49 +69,41 @@ struct RowRun {
 template <typename T>
 struct DrainQueue;
 
+/// What tasks of samples have in common: patches, and where results go.
+template <typename T>
+struct SampleTask : PatchArrays<T> {
+  Planes<T> out[kGroups];
+  T* curvature[kCurvatures];   ///< null where not wanted; read by the kernels of any shape only
+  std::size_t first_component; ///< the component that goes to component[0]; likewise
+  SampleStatus* status;        ///< may be null; `regular` beforehand, changed where a sample is not
+  ResolveNormal<T> resolve_normal;
+  bool watertight; ///< edges come from their own control points
+  bool prefetch;   ///< the set does not fit the second-level cache
+  Isa executed;    ///< written by the kernel
+};
+
 /// Consecutive patches on consecutive rows of one grid.
 ///
 /// Sample (patch, row, column) of the task goes to plane[patch * patch_step + row * nu + column],
 /// counted from the task's first patch and first row.
 template <typename T>
-struct GridTask {
-  const NetShape* shape;
-  const T* coefficients;
-  const T* edges;
-  GivenPoints given;
-  const T* origins; ///< null where the set has none
-  const T* normal_floor;
+struct GridTask : SampleTask<T> {
   std::size_t patch_count;
+  std::size_t patch_step;
 
   const T* x; ///< nu values, then kMaxLanes more that repeat the last one
   std::size_t nu;
   const RowRun<T>* runs; ///< the rows, first to last
   std::size_t run_count;
 
-  Planes<T> out[kGroups];
-  T* curvature[kCurvatures];   ///< null where not wanted; read by the kernels of any shape only
-  std::size_t first_component; ///< the component that goes to component[0]; likewise
-  SampleStatus* status; ///< may be null; filled beforehand, changed where a normal is unusual
-  std::size_t patch_step;
-  ResolveNormal<T> resolve_normal;
-  bool prefetch;        ///< the set does not fit the second-level cache
   bool streaming;       ///< rows are whole cache lines, to be stored past the caches
-  bool watertight;      ///< edges come from their own control points
   std::size_t record;   ///< values from one sample to the next: see OutputPlan::record()
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see pace()
-  Isa executed;         ///< written by the kernel
 };
 
 /// Scattered samples with unit-stride outputs.
 template <typename T>
-struct ScatteredTask {
-  const NetShape* shape;
-  const T* coefficients;
-  const T* edges;
-  GivenPoints given;
-  const T* origins; ///< null where the set has none
-  const T* normal_floor;
-
+struct ScatteredTask : SampleTask<T> {
   const std::uint32_t* patch;
   const T* u; ///< as given; half-centred parameters are (u - shift) * scale
   const T* v;
@@ -120,16 +111,7 @@ struct ScatteredTask {
   T scale;
   std::size_t count;
   std::size_t patches_known; ///< how many of `patch` may be read: those of later tasks as well
-  bool watertight;           ///< as in GridTask
-  bool prefetch;             ///< the set's coefficients do not fit the second-level cache
   T common_floor; ///< no patch has a higher normal_floor; infinity where they differ much
-
-  Planes<T> out[kGroups];
-  T* curvature[kCurvatures];   ///< as in GridTask
-  std::size_t first_component; ///< likewise
-  SampleStatus* status;        ///< may be null; `regular` beforehand, changed where a sample is not
-  ResolveNormal<T> resolve_normal;
-  Isa executed; ///< written by the kernel
 };
 
 /// X and Y arrays are padded so that the widest kernel may read past the last column or row.
