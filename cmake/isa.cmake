@@ -95,10 +95,11 @@ function(simdbezier_add_isa_kernels target)
     # Its SLP vectoriser joins loads of fields that were stored one by one, which then wait for
     # streaming stores (src/tables/drain_queue.hpp); and it drops the rounding to float where two
     # statements like double(float(x)) - y stand side by side, as they do in packing.
+    # Clones of functions for one argument are what templates are for, where they pay.
     # g++ 12 warns about its own _mm512_undefined_ps (GCC bug 105593).
     target_compile_options(
       ${object} PRIVATE ${flags} $<IF:$<CONFIG:Debug>,-O1,${level}> -fno-math-errno -fno-exceptions
-                        "$<$<CXX_COMPILER_ID:GNU>:-fno-ivopts;-fno-tree-pre;-fno-tree-slp-vectorize>"
+                        "$<$<CXX_COMPILER_ID:GNU>:-fno-ivopts;-fno-tree-pre;-fno-tree-slp-vectorize;-fno-ipa-cp-clone>"
                         "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>")
     if(SIMDBEZIER_SANITIZE)
       # All that is inlined here would take a sanitizing compiler minutes. Undefined behaviour of

@@ -12,6 +12,14 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::CurveShape;
 
+/// Makes the degree a constant for the compiler, unless kKnownOrder is 0.
+template <std::size_t kKnownOrder>
+SIMDBEZIER_INLINE void assume_order(CurveShape& shape) {
+  if constexpr (kKnownOrder > 0) {
+    shape.degree = static_cast<int>(kKnownOrder) - 1;
+  }
+}
+
 /// A register of parameters: in which cell they are, where in there, and which are its ends.
 template <typename V, bool kHalves>
 struct CurvePoints {
@@ -100,15 +108,20 @@ struct CurveJet {
   V d2[3];
 };
 
-/// Calls body.template operator()<kMixed>().
-template <typename V, bool kHalves, typename Body>
+/// Calls body.template operator()<kMixed>(). kApart: lanes that are all in one half have code of
+/// their own, which is half the loads; without it they run as mixed ones do.
+template <bool kApart, typename V, bool kHalves, typename Body>
 SIMDBEZIER_INLINE void by_cells(const CurvePoints<V, kHalves>& points, Body body) {
-  if constexpr (kHalves) {
-    if (points.mixed) {
-      return body.template operator()<true>();
+  if constexpr (kHalves && !kApart) {
+    body.template operator()<true>();
+  } else {
+    if constexpr (kHalves) {
+      if (points.mixed) {
+        return body.template operator()<true>();
+      }
     }
+    body.template operator()<false>();
   }
-  body.template operator()<false>();
 }
 
 /// From derivatives by a cell's parameter to those by t: nothing that rounds.

@@ -36,7 +36,7 @@ SIMDBEZIER_INLINE void for_curve_blocks(const CurveTask<T>& task, std::size_t va
     const std::size_t left = task.curve_count - begin;
     const CurveBlock block{begin, begin + (left < most ? left : most)};
     body(block);
-    pace(task.drain, values * task.n * (block.end - begin));
+    drain_some(task.drain, values * task.n * (block.end - begin));
   }
 }
 
@@ -65,14 +65,15 @@ SIMDBEZIER_INLINE void for_curves(const CurveTask<T>& task, CurveBlock block, st
 }
 
 /// Values and derivatives of one component of some curves.
-template <typename V, std::size_t kOrder, std::size_t kDepth, bool kMixed, bool kHalves, typename T>
+template <typename V, std::size_t kKnownOrder, std::size_t kDepth, bool kMixed, bool kHalves,
+          typename T>
 SIMDBEZIER_INLINE void sweep_component(const CurveTask<T>& task, const CurveShape& shape,
                                        CurveBlock block, std::size_t first,
                                        const CurvePoints<V, kHalves>& points, std::size_t slot) {
   T* const position = task.out[detail::kCurvePosition].component[slot];
   T* const d1 = task.out[detail::kCurveD1].component[slot];
   T* const d2 = task.out[detail::kCurveD2].component[slot];
-  const Order<kOrder> order(shape.order());
+  const Order<kKnownOrder> order(shape.order());
   const std::size_t step = shape.values();
   const T* values = task.values + block.begin * step;
   // Hardware does not follow across the pauses between blocks.
@@ -128,15 +129,13 @@ SIMDBEZIER_INLINE std::size_t values_per_sample(const CurveTask<T>& task) {
   return values;
 }
 
-template <std::size_t kOrder, bool kHalves, std::size_t kDepth, typename T>
+template <std::size_t kKnownOrder, bool kHalves, std::size_t kDepth, typename T>
 __attribute__((noinline)) void sweep_components(const CurveTask<T>& shared_task) {
   using V = vec<T>;
   // Copies, because stores through vector types might change anything that others can see.
   const CurveTask<T> task = shared_task;
   CurveShape shape = *shared_task.shape;
-  if constexpr (kOrder > 0) {
-    shape.degree = static_cast<int>(kOrder) - 1; // a constant for the compiler
-  }
+  assume_order<kKnownOrder>(shape);
   const bool lone_end = kDepth == 0 && ends_alone<V>(task);
   const std::size_t swept = task.n - (lone_end ? 1 : 0);
   for_curve_blocks(task, values_per_sample(task), [&](CurveBlock block) SIMDBEZIER_INLINE_LAMBDA {
@@ -146,8 +145,8 @@ __attribute__((noinline)) void sweep_components(const CurveTask<T>& shared_task)
       }
       for_registers<V>(swept, [&](std::size_t first) SIMDBEZIER_INLINE_LAMBDA {
         const CurvePoints<V, kHalves> points(load_vector<V>(task.x + first));
-        by_cells(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
-          sweep_component<V, kOrder, kDepth, kMixed>(task, shape, block, first, points, slot);
+        by_cells<kDepth == 0>(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
+          sweep_component<V, kKnownOrder, kDepth, kMixed>(task, shape, block, first, points, slot);
         });
       });
       if (lone_end) {
@@ -157,86 +156,88 @@ __attribute__((noinline)) void sweep_components(const CurveTask<T>& shared_task)
   });
 }
 
-template <std::size_t kOrder, bool kHalves, bool kRational, std::size_t kDepth, typename T>
+template <std::size_t kKnownOrder, bool kHalves, bool kRational, std::size_t kDepth, typename T>
 __attribute__((noinline)) void sweep_samples(const CurveTask<T>& shared_task) {
   using V = vec<T>;
   const CurveTask<T> task = shared_task;
   CurveShape shape = *shared_task.shape;
-  if constexpr (kOrder > 0) {
-    shape.degree = static_cast<int>(kOrder) - 1;
-  }
+  assume_order<kKnownOrder>(shape);
   shape.rational = kRational;
   for_curve_blocks(task, values_per_sample(task), [&](CurveBlock block) SIMDBEZIER_INLINE_LAMBDA {
     for_registers<V>(task.n, [&](std::size_t first) SIMDBEZIER_INLINE_LAMBDA {
       const CurvePoints<V, kHalves> points(load_vector<V>(task.x + first));
-      by_cells(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
+      by_cells<kDepth == 0>(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
         for_curves<V>(task, block, first, [&](const CurveRange<V>& range) SIMDBEZIER_INLINE_LAMBDA {
-          finish_samples<kOrder, kRational, kDepth, kMixed>(task, shape, points, range);
+          finish_samples<kKnownOrder, kRational, kDepth, kMixed>(task, shape, points, range);
         });
       });
     });
   });
 }
 
-/// First derivatives are rarely wanted without second ones where components meet, but for tangents
-/// of polynomial curves.
-template <std::size_t kOrder, bool kHalves, bool kRational, typename T>
-SIMDBEZIER_INLINE void sweep_depth(const CurveTask<T>& task, std::size_t depth) {
-  if (!kRational && !kCompact && depth == 1) {
-    sweep_samples<kOrder, kHalves, kRational, kRational || kCompact ? 2 : 1>(task);
-  } else if (depth > 0) {
-    sweep_samples<kOrder, kHalves, kRational, 2>(task);
+template <bool kRational, std::size_t kDepth, typename T>
+SIMDBEZIER_INLINE void sweep_any_degree(const CurveTask<T>& task) {
+  if (task.shape->cells() == 1) {
+    sweep_samples<0, false, kRational, kDepth>(task);
   } else {
-    sweep_samples<kOrder, kHalves, kRational, kRational || kCompact ? 0 : 2>(task);
+    sweep_samples<0, true, kRational, kDepth>(task);
   }
 }
 
-/// Where components meet, fewer degrees are compiled on their own.
+/// Where components meet, few degrees are compiled on their own: circles and cubics, and tangents
+/// of polynomial cubics. First derivatives are rarely wanted without second ones elsewhere.
 template <bool kRational, typename T>
 SIMDBEZIER_INLINE void sweep_joint(const CurveTask<T>& task) {
   const std::size_t depth = depth_of(task);
-  if constexpr (!kCompact) {
-    if (task.shape->degree == 2 && kRational && depth == 0) {
+  if constexpr (kRational && !kCompact) {
+    if (depth == 0 && task.shape->degree == 2) {
       return sweep_samples<3, false, true, 0>(task);
     }
-    if (task.shape->degree == 3) {
-      return sweep_depth<4, false, kRational>(task, depth);
+    if (depth == 0 && task.shape->degree == 3) {
+      return sweep_samples<4, false, true, 0>(task);
     }
   }
-  if (task.shape->cells() == 1) {
-    sweep_depth<0, false, kRational>(task, depth);
-  } else {
-    sweep_depth<0, true, kRational>(task, depth);
+  if constexpr (!kRational && !kCompact) {
+    if (depth == 1 && task.shape->degree == 3) {
+      return sweep_samples<4, false, false, 1>(task);
+    }
   }
+  if constexpr (kRational || kCompact) { // others that want positions alone sweep components
+    if (depth == 0) {
+      return sweep_any_degree<kRational, 0>(task);
+    }
+  }
+  sweep_any_degree<kRational, 2>(task);
 }
 
-template <std::size_t kOrder, bool kHalves, typename T>
-SIMDBEZIER_INLINE void sweep_degree(const CurveTask<T>& task) {
-  if (task.out[detail::kCurveD2].wanted()) {
-    sweep_components<kOrder, kHalves, 2>(task);
-  } else if (task.out[detail::kCurveD1].wanted()) {
-    sweep_components<kOrder, kHalves, 1>(task);
-  } else {
-    sweep_components<kOrder, kHalves, 0>(task);
-  }
-}
-
-/// Components that do not need each other.
-template <typename T>
+/// Components that do not need each other. Positions have code for every degree of one cell, which
+/// is up to twice as fast; of derivatives cubics have.
+template <std::size_t kDepth, typename T>
 SIMDBEZIER_INLINE void sweep_apart(const CurveTask<T>& task) {
-  switch (task.shape->degree) {
-  case 1:
-    return sweep_degree<2, false>(task);
-  case 2:
-    return sweep_degree<3, false>(task);
-  case 3:
-    return sweep_degree<4, false>(task);
-  case 4:
-    return sweep_degree<5, false>(task);
-  case 5:
-    return sweep_degree<6, false>(task);
-  default:
-    return sweep_degree<0, true>(task);
+  const int degree = task.shape->degree;
+  if constexpr (kDepth == 0) {
+    switch (degree) {
+    case 1:
+      return sweep_components<2, false, 0>(task);
+    case 2:
+      return sweep_components<3, false, 0>(task);
+    case 3:
+      return sweep_components<4, false, 0>(task);
+    case 4:
+      return sweep_components<5, false, 0>(task);
+    case 5:
+      return sweep_components<6, false, 0>(task);
+    default:
+      return sweep_components<0, true, 0>(task);
+    }
+  }
+  if (degree == 3) {
+    return sweep_components<4, false, kDepth>(task);
+  }
+  if (task.shape->cells() == 1) {
+    sweep_components<0, false, kDepth>(task);
+  } else {
+    sweep_components<0, true, kDepth>(task);
   }
 }
 
@@ -251,7 +252,9 @@ void curve_grid_kernel(CurveTask<T>& task) {
       return evaluate_rows(task);
     }
     if (task.curvature == nullptr && !task.out[detail::kCurveTangent].wanted()) {
-      return sweep_apart(task);
+      return task.out[detail::kCurveD2].wanted()   ? sweep_apart<2>(task)
+             : task.out[detail::kCurveD1].wanted() ? sweep_apart<1>(task)
+                                                   : sweep_apart<0>(task);
     }
   }
   sweep_joint<false>(task);

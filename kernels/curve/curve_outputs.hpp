@@ -77,8 +77,7 @@ __attribute__((noinline, cold)) void resolve_lanes(const Task& task, const Curve
   }
 }
 
-/// What |C'|^2 has to exceed; inverse: 1 / w of rational curves. Of those, squares below kLeast
-/// take a second look, too, since products on the way might have left the range of T.
+/// What |C'|^2 has to exceed; inverse: 1 / w of rational curves.
 template <bool kRational, typename V>
 SIMDBEZIER_INLINE V tangent_floor(ScalarOf<V> of_curve, V inverse, V squared) {
   using T = ScalarOf<V>;
@@ -86,10 +85,9 @@ SIMDBEZIER_INLINE V tangent_floor(ScalarOf<V> of_curve, V inverse, V squared) {
   if constexpr (!kRational) {
     return size;
   }
-  constexpr T kLeast = static_cast<T>(sizeof(T) == sizeof(float) ? 0x1p-94 : 0x1p-940);
   const V infinity = broadcast<V>(static_cast<T>(__builtin_inf()));
   const V error = size * inverse * inverse;
-  const V floor = madd(error, error, broadcast<V>(kLeast));
+  const V floor = madd(error, error, broadcast<V>(kLeastSquare<T>));
   return select_where<V>(squared < infinity, floor, infinity);
 }
 
@@ -143,8 +141,21 @@ SIMDBEZIER_INLINE void divide_series(const Quotient<V>& quotient, const Series<V
   }
 }
 
+/// f(slot) for three components: in a loop where their polynomials are loops as well.
+template <bool kUnrolled, typename F>
+SIMDBEZIER_INLINE void for_slots(const F& f) {
+  if constexpr (kUnrolled) {
+    repeat<3>(f);
+  } else {
+#pragma GCC unroll 1
+    for (std::size_t slot = 0; slot < 3; ++slot) {
+      f(slot);
+    }
+  }
+}
+
 /// All outputs that a task wants, of a register of samples; kDepth: see depth_of().
-template <std::size_t kOrder, bool kRational, std::size_t kDepth, bool kMixed, typename V,
+template <std::size_t kKnownOrder, bool kRational, std::size_t kDepth, bool kMixed, typename V,
           bool kHalves, typename Task>
 SIMDBEZIER_INLINE void finish_samples(const Task& task, const CurveShape& shape,
                                       const CurvePoints<V, kHalves>& points,
@@ -153,7 +164,7 @@ SIMDBEZIER_INLINE void finish_samples(const Task& task, const CurveShape& shape,
   using Channel = CurveChannel<V, kMixed>;
   const T* const values = task.values + range.curve * shape.values();
   const auto components = static_cast<std::size_t>(shape.components);
-  const Order<kOrder> order(shape.order());
+  const Order<kKnownOrder> order(shape.order());
   const V zero = broadcast<V>(T(0));
   Series<V> weight{points.x, zero, zero};
   if constexpr (kRational) {
@@ -163,11 +174,11 @@ SIMDBEZIER_INLINE void finish_samples(const Task& task, const CurveShape& shape,
   }
   const Quotient<V> quotient(weight.value);
   CurveJet<V> jet;
-  for (std::size_t slot = 0; slot < 3; ++slot) {
+  for_slots<kKnownOrder != 0>([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
     const std::size_t component = task.first_component + slot;
     if (component >= components) {
       jet.d1[slot] = jet.d2[slot] = zero;
-      continue;
+      return;
     }
     const Channel channel(shape, values, component, points);
     Series<V> s = channel.template series<kDepth>(order);
@@ -184,7 +195,7 @@ SIMDBEZIER_INLINE void finish_samples(const Task& task, const CurveShape& shape,
     if constexpr (kDepth > 1) {
       range.store_if_wanted(task.out[detail::kCurveD2].component[slot], jet.d2[slot]);
     }
-  }
+  });
   if (kDepth > 0 && (task.curvature != nullptr || task.out[detail::kCurveTangent].wanted())) {
     store_tangents<kRational>(task, shape, range, points.x, quotient.inverse, jet);
   }

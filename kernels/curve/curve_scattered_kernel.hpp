@@ -1,5 +1,6 @@
 // Scattered samples on curves: a run of samples of one curve fills registers. A sample whose curve
-// no other one follows takes a register, too: code for single values would be as much again.
+// no other one follows takes a register, too: code for single values would be as much again. So
+// would code for known degrees.
 #pragma once
 
 #include "kernels/curve/curve_outputs.hpp"
@@ -9,7 +10,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 using detail::ScatteredCurveTask;
 
 /// Samples [first, first + own) of a task, all of one curve.
-template <std::size_t kOrder, bool kHalves, bool kRational, std::size_t kDepth, typename T>
+template <bool kHalves, bool kRational, std::size_t kDepth, typename T>
 SIMDBEZIER_INLINE void evaluate_samples(const ScatteredCurveTask<T>& task, const CurveShape& shape,
                                         std::size_t first, std::size_t own) {
   using V = vec<T>;
@@ -26,8 +27,8 @@ SIMDBEZIER_INLINE void evaluate_samples(const ScatteredCurveTask<T>& task, const
   V x = (t - broadcast<V>(task.shift)) * broadcast<V>(task.scale);
   x = x + (x - x); // infinite becomes nan, all else stays
   const CurvePoints<V, kHalves> points(x);
-  by_cells(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
-    finish_samples<kOrder, kRational, kDepth, kMixed>(
+  by_cells<kDepth == 0>(points, [&]<bool kMixed>() SIMDBEZIER_INLINE_LAMBDA {
+    finish_samples<0, kRational, kDepth, kMixed>(
         task, shape, points, CurveRange<V>{task.curve[first], first, own, own, false});
   });
 }
@@ -43,13 +44,10 @@ SIMDBEZIER_INLINE void prefetch_curve(const ScatteredCurveTask<T>& task, const C
   }
 }
 
-template <std::size_t kOrder, bool kHalves, bool kRational, std::size_t kDepth, typename T>
+template <bool kHalves, bool kRational, std::size_t kDepth, typename T>
 __attribute__((noinline)) void scatter_samples(const ScatteredCurveTask<T>& shared_task) {
   const ScatteredCurveTask<T> task = shared_task;
   CurveShape shape = *shared_task.shape;
-  if constexpr (kOrder > 0) {
-    shape.degree = static_cast<int>(kOrder) - 1;
-  }
   shape.rational = kRational;
   for (std::size_t k = 0; k < task.count;) {
     std::size_t run = 1;
@@ -61,37 +59,35 @@ __attribute__((noinline)) void scatter_samples(const ScatteredCurveTask<T>& shar
         prefetch_curve(task, shape, k + i);
       }
     }
-    evaluate_samples<kOrder, kHalves, kRational, kDepth>(task, shape, k, run);
+    evaluate_samples<kHalves, kRational, kDepth>(task, shape, k, run);
     k += run;
   }
 }
 
-template <std::size_t kOrder, bool kHalves, bool kRational, typename T>
+template <bool kHalves, bool kRational, typename T>
 SIMDBEZIER_INLINE void scatter_depth(const ScatteredCurveTask<T>& task) {
   if (depth_of(task) == 0) {
-    scatter_samples<kOrder, kHalves, kRational, 0>(task);
+    scatter_samples<kHalves, kRational, 0>(task);
   } else {
-    scatter_samples<kOrder, kHalves, kRational, 2>(task);
+    scatter_samples<kHalves, kRational, 2>(task);
   }
 }
 
-template <std::size_t kOrder, bool kHalves, typename T>
-SIMDBEZIER_INLINE void scatter_degree(const ScatteredCurveTask<T>& task) {
+template <bool kHalves, typename T>
+SIMDBEZIER_INLINE void scatter_cells(const ScatteredCurveTask<T>& task) {
   if (task.shape->rational) {
-    scatter_depth<kOrder, kHalves, true>(task);
+    scatter_depth<kHalves, true>(task);
   } else {
-    scatter_depth<kOrder, kHalves, false>(task);
+    scatter_depth<kHalves, false>(task);
   }
 }
 
 template <typename T>
 void scattered_curve_kernel(ScatteredCurveTask<T>& task) {
   if (task.shape->cells() == 2) {
-    scatter_degree<0, true>(task);
-  } else if (!kCompact && task.shape->degree == 3) {
-    scatter_degree<kCompact ? 0 : 4, false>(task);
+    scatter_cells<true>(task);
   } else {
-    scatter_degree<0, false>(task);
+    scatter_cells<false>(task);
   }
   task.executed = Isa::SIMDBEZIER_ISA;
 }

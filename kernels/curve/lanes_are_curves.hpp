@@ -17,12 +17,12 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 inline constexpr std::size_t kAcrossStep = detail::kLeastRow;
 
 /// Three components of a register of curves of one cell.
-template <typename V, std::size_t kOrder>
+template <typename V, std::size_t kKnownOrder>
 class CurveColumns {
   using T = ScalarOf<V>;
-  using N = Order<kOrder>;
+  using N = Order<kKnownOrder>;
   static constexpr std::size_t kMostOrderAcross =
-      kOrder > 0 ? kOrder : detail::kMostWholeDegree + 1;
+      kKnownOrder > 0 ? kKnownOrder : detail::kMostWholeDegree + 1;
 
 public:
   static constexpr std::size_t kMostValues = 3 * (kMostOrderAcross + 3);
@@ -31,11 +31,11 @@ public:
   SIMDBEZIER_INLINE CurveColumns(const CurveShape& shape, const T* values, std::size_t stride)
       : order_(shape.order()), channel_(shape.channel_values()), origins_(shape.origins) {
     const std::size_t count = 3 * channel_;
-    for (std::size_t k = 0; k + kPiece<V> < count; k += kPiece<V>) {
+    for (std::size_t k = 0; k + kQuad<V> < count; k += kQuad<V>) {
       load_across<V>(values + k, stride, value_ + k);
     }
     // Some of them twice, but nothing behind the last curve.
-    load_across<V>(values + count - kPiece<V>, stride, value_ + count - kPiece<V>);
+    load_across<V>(values + count - kQuad<V>, stride, value_ + count - kQuad<V>);
   }
 
   /// One component of kAcrossStep samples. any_end: some of them may be ends.
@@ -81,14 +81,14 @@ SIMDBEZIER_INLINE bool any_end(const T* x) {
 /// kCount values of every curve, to rows.
 template <std::size_t kCount, typename V>
 SIMDBEZIER_INLINE void store_samples(const V* values, ScalarOf<V>* to, std::size_t stride) {
-  repeat<kCount / kPiece<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-    store_across(values + k * kPiece<V>, to + k * kPiece<V>, stride);
+  repeat<kCount / kQuad<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+    store_across(values + k * kQuad<V>, to + k * kQuad<V>, stride);
   });
 }
 
 /// A register of curves; calls step() after every few samples.
-template <bool kTriples, typename V, std::size_t kOrder, typename T, typename Step>
-SIMDBEZIER_INLINE void fill_columns(const CurveColumns<V, kOrder>& curves, const T* x,
+template <bool kTriples, typename V, std::size_t kKnownOrder, typename T, typename Step>
+SIMDBEZIER_INLINE void fill_columns(const CurveColumns<V, kKnownOrder>& curves, const T* x,
                                     std::size_t n, const CurveRows<kTriples, T>& rows, Step step) {
   for (std::size_t begin = 0; begin < n; begin += kAcrossStep) {
     const std::size_t s = begin + kAcrossStep <= n ? begin : n - kAcrossStep;
@@ -111,12 +111,12 @@ SIMDBEZIER_INLINE void fill_columns(const CurveColumns<V, kOrder>& curves, const
 }
 
 /// Curves [begin, end) to rows, which must have room for whole registers of curves.
-template <std::size_t kOrder, bool kTriples, typename T, typename Step>
+template <std::size_t kKnownOrder, bool kTriples, typename T, typename Step>
 SIMDBEZIER_INLINE void fill_across(const CurveTask<T>& task, const CurveShape& shape,
                                    std::size_t begin, std::size_t end,
                                    const CurveRows<kTriples, T>& rows, Step step) {
   using V = vec<T>;
-  using Columns = CurveColumns<V, kOrder>;
+  using Columns = CurveColumns<V, kKnownOrder>;
   const std::size_t values = 3 * shape.channel_values();
   for (std::size_t first = begin; first < end; first += kLanes<V>) {
     std::size_t stride = shape.values();

@@ -14,7 +14,7 @@ SIMDBEZIER_INLINE bool ends_alone(const CurveTask<T>& task) {
 }
 
 /// Samples [first, first + a register) of curves [begin, end); calls step() after each.
-template <std::size_t kOrder, bool kTriples, typename T, typename Step>
+template <std::size_t kKnownOrder, bool kTriples, typename T, typename Step>
 SIMDBEZIER_INLINE void sweep_rows(const CurveTask<T>& task, const CurveShape& shape,
                                   std::size_t begin, std::size_t end, std::size_t first,
                                   const CurveRows<kTriples, T>& rows, bool streaming, Step step) {
@@ -28,8 +28,8 @@ SIMDBEZIER_INLINE void sweep_rows(const CurveTask<T>& task, const CurveShape& sh
     V value[3];
     repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
       const CurveChannel<V, false> channel(shape, values, task.first_component + c, points);
-      value[c] =
-          channel.finished(shape, channel.template series<0>(Order<kOrder>(shape.order())).value);
+      value[c] = channel.finished(
+          shape, channel.template series<0>(Order<kKnownOrder>(shape.order())).value);
     });
     if constexpr (kTriples) {
       store_triples(value, rows.first[0] + at, streaming);
@@ -43,7 +43,7 @@ SIMDBEZIER_INLINE void sweep_rows(const CurveTask<T>& task, const CurveShape& sh
 
 /// Curves [begin, end) to rows of their own; the last register of a row may repeat samples of the
 /// one before. Streaming: every register of samples is whole lines, triples only.
-template <std::size_t kOrder, bool kTriples, typename T, typename Step>
+template <std::size_t kKnownOrder, bool kTriples, typename T, typename Step>
 SIMDBEZIER_INLINE void fill_along(const CurveTask<T>& task, const CurveShape& shape,
                                   std::size_t begin, std::size_t end,
                                   const CurveRows<kTriples, T>& rows, bool streaming, Step step) {
@@ -52,7 +52,7 @@ SIMDBEZIER_INLINE void fill_along(const CurveTask<T>& task, const CurveShape& sh
   const std::size_t swept = task.n - (lone_end ? 1 : 0);
   for (std::size_t s = 0; s < swept; s += kLanes<V>) {
     const std::size_t first = s + kLanes<V> <= swept ? s : swept - kLanes<V>;
-    sweep_rows<kOrder>(task, shape, begin, end, first, rows, streaming, step);
+    sweep_rows<kKnownOrder>(task, shape, begin, end, first, rows, streaming, step);
   }
   if (lone_end) {
     const std::size_t channel = shape.channel_values();

@@ -141,7 +141,7 @@ __attribute__((noinline)) void drain_owed(DrainQueue<T>& queue) {
 /// call. Passes about as many on, so that memory and arithmetic overlap; not one line at a time,
 /// since every call costs as much as several.
 template <typename T>
-SIMDBEZIER_INLINE void pace(DrainQueue<T>* drain, std::size_t values) {
+SIMDBEZIER_INLINE void drain_some(DrainQueue<T>* drain, std::size_t values) {
   if (drain != nullptr) [[unlikely]] {
     drain->owed += values;
     if (drain->owed >= detail::kDrainBurst<T>) {

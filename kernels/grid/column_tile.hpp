@@ -3,10 +3,10 @@
 // A tile is one register of columns (or two: simd/register_pair.hpp), swept along v: kRows rows of
 // lanes/kRows columns at a time.
 //   kRows = 1      the bulk of a row; `kWhole` false: its masked end
-//   kRows = 2, 4   the last lanes/2 or lanes/4 columns, which would leave most lanes empty;
-//                  `kWhole`: exactly as many, and the only ones, so that rows follow each other
-//   kRows = lanes  a single column, into consecutive values; `kWhole`: whole registers, also past
-//                  its end (values that masked stores wrote cannot be read back at once)
+//   kRows = 2      the last lanes/2 columns or fewer, which would leave most lanes empty; `kWhole`:
+//                  exactly as many, and the only ones, so that rows follow each other
+//   kRows = lanes  a single column, into consecutive values: whole registers, also past its end
+//                  (values that masked stores wrote cannot be read back at once)
 // A single column behind whole registers is computed by a tile of its own into a buffer (`kExtra`),
 // from where it is moved to the rows' ends as they are stored: stores to one place after the other.
 // With several rows in a register, both edges v = const share one: v = 0 in its first half, v = 1
@@ -47,8 +47,9 @@ struct NoSharedCorners {
 };
 
 template <std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams = false>
-struct Tile {
+struct ColumnTile {
   static_assert(!kStreams || (kRows == 1 && kWhole && !kExtra));
+  static_assert(kWhole || kRows <= 2);
   using T = ScalarOf<V>;
   using Vector = V;
   static constexpr bool kBuffered = kExtra;
@@ -63,8 +64,8 @@ struct Tile {
   Column<V> column;
   std::conditional_t<kShared, SharedCorners<V>, NoSharedCorners> corners;
 
-  SIMDBEZIER_INLINE Tile(const T* x, std::size_t first_column, std::size_t active_columns,
-                         bool own_edges)
+  SIMDBEZIER_INLINE ColumnTile(const T* x, std::size_t first_column, std::size_t active_columns,
+                               bool own_edges)
       : first(first_column), active(active_columns), watertight(own_edges),
         column(Groups::repeat(x + first_column), own_edges), corners(column.x) {}
 
@@ -73,11 +74,7 @@ struct Tile {
   SIMDBEZIER_INLINE void store(T* to, std::size_t step, V value, std::size_t rows,
                                const T* extra) const {
     if constexpr (kRows == kLanes<V>) {
-      if (kWhole || rows == kRows) {
-        store_vector(to, value);
-      } else {
-        store_first(to, value, rows);
-      }
+      store_vector(to, value);
     } else if constexpr (kRows == 1) {
       if constexpr (kStreams) {
         store_streaming(to, value);

@@ -2,7 +2,7 @@
 // which columns go to which tile (grid/column_tile.hpp). With L lanes a row of nu columns is nu / L
 // whole registers and a rest, which takes
 //   1 column           the buffered column (kExtra) of the last whole register
-//   up to L/4, L/2     a tile of 4 or 2 rows a register
+//   up to L/2          a tile of 2 rows a register
 //   more               a masked register
 // Without normals one component is swept after the other (4 or 8 registers of polynomials, one to
 // three store streams), two registers of columns as one where there is room
@@ -30,8 +30,7 @@ struct ColumnSplit {
 
   SIMDBEZIER_INLINE ColumnSplit(std::size_t nu, bool single_columns)
       : full(nu / kLanes<V> * kLanes<V>), rest(nu - full), column(false) {
-    constexpr std::size_t kL = kLanes<V>;
-    if (single_columns && kL > 1 && rest == 1) {
+    if (single_columns && full > 0 && rest == 1) {
       --rest;
       column = true;
     }
@@ -70,32 +69,48 @@ struct TileSweeper {
 };
 
 /// The columns behind whole registers, `rest` of them from `first` on: fewer than a register.
-/// kMany: with tiles for narrow grids, besides those that every grid can do with.
-template <bool kMany, typename T, typename Sweeper>
+template <typename T, typename Sweeper>
 SIMDBEZIER_INLINE void sweep_rest(const Sweeper& tiles, std::size_t first, std::size_t rest) {
   using V = vec<T>;
-  constexpr std::size_t kL = kLanes<V>;
-  constexpr std::size_t kHalf = kL >= 4 ? 2 : 1; // rows of a tile of lanes/2 columns
-  constexpr std::size_t kQuarter = kL >= 8 ? 4 : kHalf;
-  if (rest > kL / 2) {
-    return tiles.template sweep<Tile<1, false, false, V>>(first, rest);
+  constexpr std::size_t kHalf = kLanes<V> / 2;
+  constexpr std::size_t kRows = kHalf > 1 ? 2 : 1; // of a tile of so many columns
+  if (rest > kHalf) {
+    return tiles.template sweep<ColumnTile<1, false, false, V>>(first, rest);
   }
-  if constexpr (kMany && kLineWide<V>) { // short registers gain nothing by this
-    if (tiles.task.nu == kL / 2) {
-      return tiles.template sweep<Tile<kHalf, true, false, V>>(0, kL / 2);
-    }
-    if (tiles.task.nu == kL / 4) {
-      return tiles.template sweep<Tile<kQuarter, true, false, V>>(0, kL / 4);
+  if constexpr (kLineWide<V>) { // short registers gain nothing by this
+    if (tiles.task.nu == kHalf) {
+      return tiles.template sweep<ColumnTile<kRows, true, false, V>>(0, kHalf);
     }
   }
-  if (rest > kL / kQuarter) {
-    tiles.template sweep<Tile<kHalf, false, false, V>>(first, rest);
-  } else if (rest > 0) {
-    tiles.template sweep<Tile<kQuarter, false, false, V>>(first, rest);
+  if (rest > 0) {
+    tiles.template sweep<ColumnTile<kRows, false, false, V>>(first, rest);
   }
 }
 
-/// All tiles of patches [patch, end). Tasks of which nothing is known make do with fewer kinds.
+/// All tiles of patches [patch, end), of tasks of which nothing is known and of rarer outputs:
+/// whole registers and a masked one.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_INLINE void sweep_registers(const GridTask<T>& task, const RowPiece<T>& piece,
+                                       std::size_t patch, std::size_t end) {
+  using V = vec<T>;
+  constexpr std::size_t kL = kLanes<V>;
+  const TileSweeper<kOutputs, Known::nothing, T> tiles{task, piece, patch, end};
+  std::size_t first = 0;
+  for (; first + kL <= task.nu; first += kL) {
+    if constexpr (kLineWide<V> && kUsual<kOutputs>) {
+      if (task.streaming) {
+        tiles.template sweep<ColumnTile<1, true, false, V, true>>(first, kL);
+        continue;
+      }
+    }
+    tiles.template sweep<ColumnTile<1, true, false, V>>(first, kL);
+  }
+  if (first < task.nu) {
+    tiles.template sweep<ColumnTile<1, false, false, V>>(first, task.nu - first);
+  }
+}
+
+/// All tiles of patches [patch, end), of tasks without origins.
 template <detail::OutputSet kOutputs, Known kKnown, typename T>
 SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
                                    const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
@@ -103,45 +118,29 @@ SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<ve
   constexpr std::size_t kL = kLanes<V>;
   const TileSweeper<kOutputs, kKnown, T> tiles{task, piece, patch, end};
   // A single column goes along with the last whole register.
-  const std::size_t plain = split.column && split.full > 0 ? split.full - kL : split.full;
+  const std::size_t plain = split.column ? split.full - kL : split.full;
   std::size_t first = 0;
-  if constexpr (kLineWide<V> && kUsual<kOutputs>) {
-    if (task.streaming) [[unlikely]] { // whole registers only
-      constexpr Known kAsked = kKnown == Known::watertight ? kKnown : Known::nothing;
-      for (; first < plain; first += kL) {
-        sweep_tile<kOutputs, kAsked, Tile<1, true, false, V, true>>(task, piece, first, kL, patch,
-                                                                    end);
-      }
-      return;
-    }
-  }
-  if constexpr (kKnown != Known::nothing && kSweepsTwice<kOutputs, T>) {
-    using W = Twice<V>;
+  if constexpr (kSweepsTwice<kOutputs, T>) {
+    using W = RegisterPair<V>;
     for (; first + 2 * kL <= plain; first += 2 * kL) {
-      tiles.template sweep<Tile<1, true, false, W>>(first, 2 * kL);
+      tiles.template sweep<ColumnTile<1, true, false, W>>(first, 2 * kL);
     }
     if (split.column && first + 2 * kL == split.full) {
-      return tiles.template sweep<Tile<1, true, true, W>>(first, 2 * kL);
+      return tiles.template sweep<ColumnTile<1, true, true, W>>(first, 2 * kL);
     }
-    if (split.rest > kL / 2 && first + kL == split.full) {
-      return tiles.template sweep<Tile<1, false, false, W>>(first, kL + split.rest);
+    if constexpr (!kLineWide<V>) { // seldom so few columns of longer ones
+      if (split.rest > kL / 2 && first + kL == split.full) {
+        return tiles.template sweep<ColumnTile<1, false, false, W>>(first, kL + split.rest);
+      }
     }
   }
   for (; first < plain; first += kL) {
-    tiles.template sweep<Tile<1, true, false, V>>(first, kL);
+    tiles.template sweep<ColumnTile<1, true, false, V>>(first, kL);
   }
-  if constexpr (kL > 1 && !kUsual<kOutputs>) {
-    if (split.rest != 0) {
-      tiles.template sweep<Tile<1, false, false, V>>(split.full, split.rest);
-    }
-  } else if constexpr (kL > 1) {
-    if (!split.column) {
-      sweep_rest<kKnown != Known::nothing, T>(tiles, split.full, split.rest);
-    } else if (split.full != 0) {
-      tiles.template sweep<Tile<1, true, true, V>>(plain, kL);
-    } else {
-      tiles.template sweep<Tile<kL, false, false, V>>(0, 1);
-    }
+  if (split.column) {
+    tiles.template sweep<ColumnTile<1, true, true, V>>(plain, kL);
+  } else {
+    sweep_rest<T>(tiles, split.full, split.rest);
   }
 }
 
@@ -153,30 +152,30 @@ SIMDBEZIER_INLINE void sweep_square(const GridTask<T>& task, const SquarePiece<T
   constexpr std::size_t kL = kLanes<V>;
   constexpr std::size_t kRest = kSide % kL;
   if constexpr (kSweepsTwice<kOutputs, T> && kSide >= 2 * kL && kSide % (2 * kL) <= 1) {
-    using W = Twice<V>;
+    using W = RegisterPair<V>;
     constexpr std::size_t kLast = kSide - kRest - 2 * kL;
     for (std::size_t first = 0; first < kLast; first += 2 * kL) {
-      sweep_tile<kOutputs, Known::watertight, Tile<1, true, false, W>>(task, piece, first, 2 * kL,
-                                                                       patch, end);
+      sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, false, W>>(task, piece, first,
+                                                                             2 * kL, patch, end);
     }
-    sweep_tile<kOutputs, Known::watertight, Tile<1, true, kRest == 1, W>>(task, piece, kLast,
-                                                                          2 * kL, patch, end);
+    sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, kRest == 1, W>>(task, piece, kLast,
+                                                                                2 * kL, patch, end);
     return;
   }
   constexpr std::size_t kKnown = kSide - kRest - (kRest == 1 ? kL : 0);
   for (std::size_t first = 0; first < kKnown; first += kL) {
-    sweep_tile<kOutputs, Known::watertight, Tile<1, true, false, V>>(task, piece, first, kL, patch,
-                                                                     end);
+    sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, false, V>>(task, piece, first, kL,
+                                                                           patch, end);
   }
   if constexpr (kRest == 1) {
-    sweep_tile<kOutputs, Known::watertight, Tile<1, true, true, V>>(task, piece, kKnown, kL, patch,
-                                                                    end);
+    sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, true, V>>(task, piece, kKnown, kL,
+                                                                          patch, end);
   } else if constexpr (kSide * 2 == kL) {
-    sweep_tile<kOutputs, Known::watertight, Tile<2, true, false, V>>(task, piece, 0, kSide, patch,
-                                                                     end);
+    sweep_tile<kOutputs, Known::watertight, ColumnTile<2, true, false, V>>(task, piece, 0, kSide,
+                                                                           patch, end);
   } else if constexpr (kRest != 0) {
-    sweep_tile<kOutputs, Known::watertight, Tile<1, false, false, V>>(task, piece, kKnown, kRest,
-                                                                      patch, end);
+    sweep_tile<kOutputs, Known::watertight, ColumnTile<1, false, false, V>>(task, piece, kKnown,
+                                                                            kRest, patch, end);
   }
 }
 
@@ -213,32 +212,36 @@ SIMDBEZIER_INLINE constexpr auto known_sides() {
 template <detail::OutputSet kOutputs, typename T>
 constexpr bool kKnowsSquares = kUsual<kOutputs> && (kLanes<vec<T>> * sizeof(T) >= 32);
 
-/// Patches [patch, end) on the rows of a piece.
+/// Patches [patch, end) on the rows of a piece. Registers of 64 bytes have tiles for either kind of
+/// edges; short ones ask, since twice the code is too much for what it gains.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_INLINE void sweep_patches(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
                                      const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
-  if constexpr (kPutsRecords<vec<T>> && kUsual<kOutputs>) {
-    if (task.record > 1) {
-      if (task.watertight && task.origins == nullptr) {
-        return sweep_record_tiles<kOutputs, Known::watertight>(task, piece, patch, end);
+  if constexpr (!kUsual<kOutputs>) {
+    sweep_registers<kOutputs>(task, piece, patch, end);
+  } else {
+    constexpr bool kTells = kLineWide<vec<T>>;
+    if constexpr (kPutsRecords<vec<T>>) {
+      if (task.record > 1) {
+        return sweep_record_tiles<kOutputs>(task, piece, patch, end);
       }
-      return sweep_record_tiles<kOutputs, Known::nothing>(task, piece, patch, end);
     }
-  }
-  if (!kUsual<kOutputs> || task.origins != nullptr) {
-    return sweep_tiles<kOutputs, Known::nothing>(task, split, piece, patch, end);
-  }
-  if constexpr (kUsual<kOutputs>) {
-    if (!task.watertight) {
-      return sweep_tiles<kOutputs, Known::open>(task, split, piece, patch, end);
+    if (task.origins != nullptr || task.streaming) {
+      return sweep_registers<kOutputs>(task, piece, patch, end);
+    }
+    if constexpr (kTells) {
+      if (!task.watertight) {
+        return sweep_tiles<kOutputs, Known::open>(task, split, piece, patch, end);
+      }
     }
     if constexpr (kKnowsSquares<kOutputs, T>) {
-      if (!task.streaming &&
+      if (task.watertight &&
           sweep_square_of<kOutputs>(known_sides<kOutputs>(), task, piece, patch, end)) {
         return;
       }
     }
-    sweep_tiles<kOutputs, Known::watertight>(task, split, piece, patch, end);
+    sweep_tiles<kOutputs, kTells ? Known::watertight : Known::no_origins>(task, split, piece, patch,
+                                                                          end);
   }
 }
 

@@ -8,21 +8,27 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// What the compiler knows of a task. Most sets have no origins, and for them it knows whether
-/// edges are watertight as well: asking costs up to a tenth of the speed of small grids, and of
-/// normals.
-enum class Known { watertight, open, nothing };
+/// What the compiler knows of a task. Most sets have no origins: asking costs up to a tenth of the
+/// speed of small grids. Whether edges are watertight costs open grids as much, and normals more.
+enum class Known {
+  watertight, ///< and that there are no origins
+  open,       ///< likewise
+  no_origins,
+  nothing
+};
 
 template <Known kKnown, typename T>
 SIMDBEZIER_INLINE void assume(GridTask<T>& task) {
   if constexpr (kKnown != Known::nothing) {
-    task.watertight = kKnown == Known::watertight;
     task.origins = nullptr;
+  }
+  if constexpr (kKnown == Known::watertight || kKnown == Known::open) {
+    task.watertight = kKnown == Known::watertight;
   }
 }
 template <Known kKnown, typename T>
 SIMDBEZIER_INLINE bool is_watertight(const GridTask<T>& task) {
-  return kKnown == Known::watertight || (kKnown == Known::nothing && task.watertight);
+  return kKnown == Known::watertight || (kKnown != Known::open && task.watertight);
 }
 
 /// Positions and normals, of a tile and the column behind it.
@@ -36,8 +42,8 @@ SIMDBEZIER_INLINE void sweep_normal_patches(const GridTask<T>& shared_task, cons
   task.nu = piece.columns(task.nu);
   assume<kKnown>(task);
   GridTask<T> column_task = shared_task;
-  const ColumnTile<V> column(task.x, tile.first + (SomeTile::kBuffered ? tile.active : 0), 1,
-                             task.watertight);
+  const SingleColumnTile<V> column(task.x, tile.first + (SomeTile::kBuffered ? tile.active : 0), 1,
+                                   task.watertight);
   ColumnBuffer<T, 6> buffer;
   const ColumnPlanes<T> extra = buffer.planes(piece);
   for (std::size_t c = 0; c < 3; ++c) {
@@ -61,7 +67,7 @@ SIMDBEZIER_INLINE void sweep_normal_patches(const GridTask<T>& shared_task, cons
     }
     sweep_normals<kAny, kKnown == Known::nothing>(task, shared_task, piece, tile, patch, at, 1,
                                                   extra);
-    pace(task.drain, samples * (kAny ? 12 : 6));
+    drain_some(task.drain, samples * (kAny ? 12 : 6));
   }
 }
 
@@ -72,8 +78,8 @@ SIMDBEZIER_INLINE void sweep_component_patches(const GridTask<T>& task, const Pi
                                                std::size_t last_patch) {
   using V = vec<T>;
   constexpr std::size_t kPlanes = kOutputs == detail::kPosition ? 1 : 3;
-  const ColumnTile<V> column(task.x, tile.first + (SomeTile::kBuffered ? tile.active : 0), 1,
-                             task.watertight);
+  const SingleColumnTile<V> column(task.x, tile.first + (SomeTile::kBuffered ? tile.active : 0), 1,
+                                   task.watertight);
   ColumnBuffer<T, 3> buffer;
   const JetPlanes<T> there{buffer.first(0, piece), buffer.first(1, piece), buffer.first(2, piece)};
   const ColumnPlanes<T> extra = buffer.planes(piece);
@@ -103,7 +109,7 @@ SIMDBEZIER_INLINE void sweep_component_patches(const GridTask<T>& task, const Pi
       } else {
         sweep_second(task, piece, component, tile, c, at);
       }
-      pace(task.drain, samples * kPlanes);
+      drain_some(task.drain, samples * kPlanes);
     }
   }
 }

@@ -1,4 +1,5 @@
-// Grids whose samples are records: triples of each group, or one vertex of all.
+// Watertight grids of sets without origins whose samples are records: triples of each group, or one
+// vertex of all.
 //
 // A register of samples is computed with all its components, put together in registers and stored
 // where it belongs. Planes in staging and a drain would take longer than the shuffles do.
@@ -47,11 +48,10 @@ struct RecordColumn {
   }
 
   /// The rows of `piece`, whose first one begins with sample `at` of the task.
-  template <bool kAsks>
   __attribute__((noinline)) void sweep(const GridTask<T>& task, const RowPiece<T>& piece,
-                                       const ColumnTile<V>& tile, std::size_t patch,
+                                       const SingleColumnTile<V>& tile, std::size_t patch,
                                        std::size_t at) {
-    using Sweep = RecordSweep<kOutputs, kAsks, ColumnTile<V>>;
+    using Sweep = RecordSweep<kOutputs, SingleColumnTile<V>>;
     const Sweep sweep(task, tile, patch);
     const V floor = floor_inside(tile.column.x, broadcast<V>(task.normal_floor[patch]));
     const auto resolve = [&](const typename Sweep::Samples& s, V y, V limit, std::size_t row,
@@ -99,10 +99,10 @@ struct RecordColumn {
 constexpr std::size_t kWaitingRows = 20;
 
 /// The rows of a register of columns of one patch, and behind them `column` unless it is null.
-template <detail::OutputSet kOutputs, bool kAsks, typename V>
+template <detail::OutputSet kOutputs, typename V>
 struct RecordRows {
   using T = ScalarOf<V>;
-  using Sweep = RecordSweep<kOutputs, kAsks, Tile<1, true, false, V>>;
+  using Sweep = RecordSweep<kOutputs, ColumnTile<1, true, false, V>>;
   using Samples = typename Sweep::Samples;
   using Column = RecordColumn<kOutputs, V>;
   /// p, n and |n|^2 of each row.
@@ -127,8 +127,9 @@ struct RecordRows {
   std::size_t trail; ///< likewise
 
   SIMDBEZIER_INLINE RecordRows(const GridTask<T>& task, const GridTask<T>& the_shared_task,
-                               const RowPiece<T>& the_piece, const Tile<1, true, false, V>& tile,
-                               std::size_t the_patch, std::size_t first)
+                               const RowPiece<T>& the_piece,
+                               const ColumnTile<1, true, false, V>& tile, std::size_t the_patch,
+                               std::size_t first)
       : sweep(task, tile, the_patch), shared_task(the_shared_task), piece(the_piece),
         patch(the_patch), at(first), lead(piece.lead ? 0 : ~std::size_t(0)),
         trail(piece.trail ? piece.rows() - 1 : ~std::size_t(0)) {}
@@ -269,19 +270,18 @@ private:
 
 /// A register of columns of consecutive patches, and the column behind it where it is the only one;
 /// as sweep_tile().
-template <detail::OutputSet kOutputs, Known kKnown, typename T>
+template <detail::OutputSet kOutputs, typename T>
 __attribute__((noinline)) void
 sweep_records(const GridTask<T>& shared_task, const RowPiece<T>& shared_piece,
               std::size_t first_column, std::size_t patch, std::size_t last_patch) {
   using V = vec<T>;
   const bool extra = first_column + kLanes<V> + 1 == shared_task.nu;
-  constexpr bool kAsks = kKnown == Known::nothing;
   GridTask<T> task = shared_task;
-  assume<kKnown>(task);
+  assume<Known::watertight>(task);
   const RowPiece<T> piece = shared_piece;
-  const Tile<1, true, false, V> tile(task.x, first_column, kLanes<V>, task.watertight);
-  const ColumnTile<V> column_tile(task.x, first_column + (extra ? kLanes<V> : 0), 1,
-                                  task.watertight);
+  const ColumnTile<1, true, false, V> tile(task.x, first_column, kLanes<V>, task.watertight);
+  const SingleColumnTile<V> column_tile(task.x, first_column + (extra ? kLanes<V> : 0), 1,
+                                        task.watertight);
   RecordColumn<kOutputs, V> column;
   const bool prefetch = task.prefetch && first_column == 0;
   for (; patch < last_patch; ++patch) {
@@ -290,9 +290,9 @@ sweep_records(const GridTask<T>& shared_task, const RowPiece<T>& shared_piece,
     }
     const std::size_t at = patch * task.patch_step + piece.first * task.nu + first_column;
     if (extra) {
-      column.template sweep<kAsks>(shared_task, shared_piece, column_tile, patch, at + kLanes<V>);
+      column.sweep(shared_task, shared_piece, column_tile, patch, at + kLanes<V>);
     }
-    const RecordRows<kOutputs, kAsks, V> rows(task, shared_task, piece, tile, patch, at);
+    const RecordRows<kOutputs, V> rows(task, shared_task, piece, tile, patch, at);
     const auto start = rows.start(task, extra ? &column : nullptr);
     if constexpr (RecordGroups<kOutputs>::kNormals) {
       rows.put_normals(start);
@@ -303,13 +303,13 @@ sweep_records(const GridTask<T>& shared_task, const RowPiece<T>& shared_piece,
 }
 
 /// All columns of patches [patch, end), at least a register of them.
-template <detail::OutputSet kOutputs, Known kKnown, typename T>
+template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_INLINE void sweep_record_tiles(const GridTask<T>& task, const RowPiece<T>& piece,
                                           std::size_t patch, std::size_t end) {
   constexpr std::size_t kL = kLanes<vec<T>>;
   for (std::size_t first = 0; first + 1 < task.nu; first += kL) {
     const std::size_t last = task.nu - kL;
-    sweep_records<kOutputs, kKnown>(task, piece, first < last ? first : last, patch, end);
+    sweep_records<kOutputs>(task, piece, first < last ? first : last, patch, end);
   }
 }
 

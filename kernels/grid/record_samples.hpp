@@ -58,8 +58,8 @@ struct RecordPlaces {
   }
 };
 
-/// What the rows of one tile have in common. kAsks: see JetColumns.
-template <detail::OutputSet kOutputs, bool kAsks, typename SomeTile>
+/// What the rows of one tile have in common.
+template <detail::OutputSet kOutputs, typename SomeTile>
 struct RecordSweep {
   using V = typename SomeTile::Vector;
   using T = ScalarOf<V>;
@@ -67,7 +67,7 @@ struct RecordSweep {
 
   const SomeTile& tile;
   Component<T> component[3];
-  JetColumns<V, kAsks> columns[3];
+  JetColumns<V, false> columns[3];
 
   SIMDBEZIER_INLINE RecordSweep(const GridTask<T>& task, const SomeTile& the_tile,
                                 std::size_t patch)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/simd/row_groups.hpp"
+#include "src/storage/patch_storage.hpp"
 #include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

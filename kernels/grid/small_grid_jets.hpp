@@ -42,7 +42,7 @@ struct SmallJets {
     V slopes;
     split_fours(horner(k, grid.x, slopes), q);
     split_fours(slopes, dq);
-    inner.p = with_inner_origin(c, horner(q, grid.y, inner.dv));
+    inner.p = horner(q, grid.y, inner.dv);
     inner.du = horner(dq, grid.y);
     const V across_v = horner_slope(q, ends.by_lane);
     split_fours(horner_slope(k, ends.by_group), dq); // of the columns that are edges
@@ -50,7 +50,7 @@ struct SmallJets {
 
     V e[kOrder];
     load_fours(c.edge, e);
-    border.p = with_edge_origins(c, horner(e, grid.along, border.du));
+    border.p = horner(e, grid.along, border.du);
     border.dv = select_where<V>(grid.edges_v, across_v, border.du);
     corner = repeat_four<V>(c.corner);
     third = select_where<V>(ends.first_half, across_u, horner_slope(e, ends.by_group));
@@ -104,13 +104,10 @@ struct SmallSamples {
 };
 
 /// With positions go normals, or else du and dv.
-template <bool kPlain, bool kNormals, typename T>
+template <bool kNormals, typename T>
 __attribute__((noinline)) void sweep_small_jets(const GridTask<T>& shared_task) {
   using V = vec<T>;
-  GridTask<T> task = shared_task;
-  if constexpr (kPlain) {
-    task.origins = nullptr; // a constant for the compiler
-  }
+  const GridTask<T> task = shared_task;
   const SmallGrid<V> grid(task);
   const SmallEnds<V> ends;
   const SmallSamples<V> samples(task.nu, grid.rows + 2);
@@ -148,21 +145,10 @@ __attribute__((noinline)) void sweep_small_jets(const GridTask<T>& shared_task) 
         }
       }
     }
-    pace(task.drain, (kNormals ? 6 : 9) * grid.samples);
+    drain_some(task.drain, (kNormals ? 6 : 9) * grid.samples);
   }
 }
 
-#endif
-
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-template <detail::OutputSet kOutputs, bool kPlain, typename T>
-SIMDBEZIER_INLINE void small_grid(const GridTask<T>& task) {
-  if constexpr (kOutputs == detail::kPosition) {
-    small_grid_positions<kPlain>(task);
-  } else {
-    sweep_small_jets<kPlain, kOutputs == detail::kPositionNormal>(task);
-  }
-}
 #endif
 
 /// A task that is a small grid, if it is one and the instruction set has kernels for it: positions,
@@ -172,8 +158,11 @@ SIMDBEZIER_INLINE bool sweep_small_grid(const GridTask<T>& task) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
   if constexpr (kFourGroups<vec<T>> && kUsual<kOutputs>) {
     if (is_small_grid(task)) {
-      task.origins == nullptr ? small_grid<kOutputs, true>(task)
-                              : small_grid<kOutputs, false>(task);
+      if constexpr (kOutputs == detail::kPosition) {
+        small_grid_positions(task);
+      } else {
+        sweep_small_jets<kOutputs == detail::kPositionNormal>(task);
+      }
       return true;
     }
   }

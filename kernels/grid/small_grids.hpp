@@ -1,4 +1,5 @@
-// Watertight grids of 3 x 3 to 6 x 6 samples that end at the patch's edges, in one piece.
+// Watertight grids of 3 x 3 to 6 x 6 samples that end at the patch's edges, in one piece, of sets
+// without origins.
 //
 // Most of their samples are on the border, and all preparations of a tile (grid/column_tile.hpp)
 // would serve a row or two. So a component takes registers of four groups of four lanes:
@@ -29,7 +30,8 @@ constexpr bool kFourGroups = kLanes<V> == 16;
 /// Whether the task's grid is a small one with edges of its own.
 template <typename T>
 SIMDBEZIER_INLINE bool is_small_grid(const GridTask<T>& task) {
-  if (!task.watertight || task.nu < kLeastSmall || task.nu > kMostSmall || task.run_count != 3) {
+  if (!task.watertight || task.origins != nullptr || task.nu < kLeastSmall ||
+      task.nu > kMostSmall || task.run_count != 3) {
     return false;
   }
   const RowRun<T>* const run = task.runs;
@@ -69,29 +71,11 @@ private:
   }
 };
 
-template <typename V>
-SIMDBEZIER_INLINE V with_inner_origin(const Component<ScalarOf<V>>& c, V p) {
-  if (c.origins != nullptr) [[unlikely]] {
-    p = p + broadcast<V>(c.origin()[0]);
-  }
-  return p;
-}
-template <typename V>
-SIMDBEZIER_INLINE V with_edge_origins(const Component<ScalarOf<V>>& c, V p) {
-  if (c.origins != nullptr) [[unlikely]] {
-    p = p + repeat_four<V>(c.origin() + detail::kEdgeOriginsAt);
-  }
-  return p;
-}
-
-/// kPlain: the set has no origins. kFull: whole registers of samples, before the last one.
-template <bool kPlain, std::size_t kFull, typename T>
+/// kFull: whole registers of samples, before the last one.
+template <std::size_t kFull, typename T>
 __attribute__((noinline)) void sweep_small_positions(const GridTask<T>& shared_task) {
   using V = vec<T>;
-  GridTask<T> task = shared_task;
-  if constexpr (kPlain) {
-    task.origins = nullptr; // a constant for the compiler
-  }
+  const GridTask<T> task = shared_task;
   const SmallGrid<V> grid(task);
   const SmallGridSources& sources = kSmallGrids.of(task.nu, grid.rows + 2).position;
   Assembly sample[kFull + 1];
@@ -111,8 +95,8 @@ __attribute__((noinline)) void sweep_small_positions(const GridTask<T>& shared_t
       load_fours(component.matrix, k);
       load_fours(component.edge, e);
       split_fours(horner(k, grid.x), q);
-      const V inner = with_inner_origin(component, horner(q, grid.y));
-      const V border = with_edge_origins(component, horner(e, grid.along));
+      const V inner = horner(q, grid.y);
+      const V border = horner(e, grid.along);
       const V corner = repeat_four<V>(component.corner);
       T* const to = task.out[detail::kPositionGroup].component[c] + patch * task.patch_step;
       for (std::size_t r = 0; r < kFull; ++r) {
@@ -120,19 +104,19 @@ __attribute__((noinline)) void sweep_small_positions(const GridTask<T>& shared_t
       }
       masked_store(to + kFull * kLanes<V>, sample[kFull].with_quad(inner, border, corner), rest);
     }
-    pace(task.drain, 3 * grid.samples);
+    drain_some(task.drain, 3 * grid.samples);
   }
 }
 
-template <bool kPlain, typename T>
+template <typename T>
 SIMDBEZIER_INLINE void small_grid_positions(const GridTask<T>& task) {
   const std::size_t samples = task.nu * (task.runs[1].rows + 2);
   if (samples <= 16) {
-    sweep_small_positions<kPlain, 0>(task);
+    sweep_small_positions<0>(task);
   } else if (samples <= 32) {
-    sweep_small_positions<kPlain, 1>(task);
+    sweep_small_positions<1>(task);
   } else {
-    sweep_small_positions<kPlain, 2>(task);
+    sweep_small_positions<2>(task);
   }
 }
 

@@ -37,23 +37,23 @@ struct ColumnBuffer {
 
 /// The single column behind a tile.
 template <typename V>
-using ColumnTile = Tile<kLanes<V>, true, false, V>;
+using SingleColumnTile = ColumnTile<kLanes<V>, true, false, V>;
 
 template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
 SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<ScalarOf<V>>& c,
-                                      const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
+                                      const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                       std::size_t nu, ScalarOf<V>* to,
                                       ColumnPlanes<ScalarOf<V>> extra) {
   using T = ScalarOf<V>;
   V q[kOrder];
-  if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kSingle) {
+  if constexpr (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kSingle) {
     single_column_polynomial(c, tile.column, q);
   } else {
     column_polynomial(c, tile.column, q);
   }
   const LocalOrigin<V> origin = column_origin(c, tile.column);
   V shared = tile.column.x; // not used
-  if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
+  if constexpr (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
     if (tile.watertight) {
       shared = tile.edge_rows(c, 0);
     }
@@ -61,7 +61,7 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
   for_rows<kRows, kRows == 1 ? 4 : 1>(
       piece, 0, nu,
       [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
-        const V p = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
+        const V p = (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared)
                         ? shared
                         : tile.edge_rows(c, edge_of(kind));
         tile.store_edge(to + at, p, kind, extra.plane(0) + row);
@@ -93,9 +93,9 @@ struct JetColumns {
   V dq[kOrder];
   LocalOrigin<V> origin;
 
-  template <typename Tile>
-  SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const Tile& tile) {
-    if constexpr (Tile::kSingle) {
+  template <typename SomeTile>
+  SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const SomeTile& tile) {
+    if constexpr (SomeTile::kSingle) {
       single_column_polynomial(c, tile.column, q, dq);
     } else {
       column_polynomial(c, tile.column, q, dq);
@@ -114,8 +114,8 @@ struct JetColumns {
     return jet;
   }
   /// On the edge v = const number `edge`, or on both where they share a register.
-  template <typename Tile>
-  SIMDBEZIER_INLINE Jet<V> edge(Component<ScalarOf<V>> c, const Tile& tile,
+  template <typename SomeTile>
+  SIMDBEZIER_INLINE Jet<V> edge(Component<ScalarOf<V>> c, const SomeTile& tile,
                                 std::size_t edge) const {
     if constexpr (!kAsks) {
       c.origins = nullptr;
@@ -137,14 +137,14 @@ struct JetPlanes {
 
 template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
 SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<ScalarOf<V>>& c,
-                                         const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
+                                         const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                          std::size_t nu, const JetPlanes<ScalarOf<V>>& to,
                                          ColumnPlanes<ScalarOf<V>> extra) {
   using T = ScalarOf<V>;
   JetColumns<V> columns;
   columns.build(c, tile);
   Jet<V> shared;
-  if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
+  if constexpr (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
     if (tile.watertight) {
       shared = columns.edge(c, tile, 0);
     }
@@ -152,7 +152,7 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
   for_rows<kRows, Piece::kKnown ? 2 : 1>(
       piece, 0, nu,
       [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
-        const Jet<V> jet = (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared)
+        const Jet<V> jet = (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared)
                                ? shared
                                : columns.edge(c, tile, edge_of(kind));
         tile.store_edge(to.position + at, jet.p, kind, extra.plane(0) + row);
@@ -169,10 +169,11 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
 
 /// Groups with null planes are computed and dropped.
 template <std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
-SIMDBEZIER_INLINE void
-sweep_second(const GridTask<ScalarOf<V>>& task, const RowPiece<ScalarOf<V>>& piece,
-             const Component<ScalarOf<V>>& c, const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
-             std::size_t component, std::size_t first) {
+SIMDBEZIER_INLINE void sweep_second(const GridTask<ScalarOf<V>>& task,
+                                    const RowPiece<ScalarOf<V>>& piece,
+                                    const Component<ScalarOf<V>>& c,
+                                    const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
+                                    std::size_t component, std::size_t first) {
   using T = ScalarOf<V>;
   SecondColumns<V> columns;
   columns.build(c, tile.column);

@@ -30,7 +30,7 @@ struct NormalSweep {
 
   const GridTask<T>& task;
   const GridTask<T>& shared_task; ///< the same, whose address may leave
-  const Tile<kRows, kWhole, kExtra, V, kStreams>& tile;
+  const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile;
   std::size_t patch;
   std::size_t status_step; ///< statuses from one sample of the planes to the next
   ColumnPlanes<T> extra;   ///< positions, then normals
@@ -39,7 +39,7 @@ struct NormalSweep {
 
   SIMDBEZIER_INLINE
   NormalSweep(const GridTask<T>& the_task, const GridTask<T>& the_shared_task,
-              const Tile<kRows, kWhole, kExtra, V, kStreams>& the_tile, std::size_t the_patch,
+              const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& the_tile, std::size_t the_patch,
               std::size_t the_status_step, ColumnPlanes<T> the_extra)
       : task(the_task), shared_task(the_shared_task), tile(the_tile), patch(the_patch),
         status_step(the_status_step),
@@ -131,7 +131,7 @@ template <bool kAny, bool kAsks, typename Piece, std::size_t kRows, bool kWhole,
           typename V, bool kStreams>
 SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task,
                                      const GridTask<ScalarOf<V>>& shared_task, const Piece& piece,
-                                     const Tile<kRows, kWhole, kExtra, V, kStreams>& tile,
+                                     const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                      std::size_t patch, std::size_t first, std::size_t status_step,
                                      ColumnPlanes<ScalarOf<V>> extra) {
   using T = ScalarOf<V>;
@@ -140,7 +140,7 @@ SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task,
   const V floor = floor_inside(tile.column.x, broadcast<V>(task.normal_floor[patch]));
   const V middle_floor = piece.middle.kind == RowKind::outside ? no_floor<V>() : floor;
   NormalSamples<V> shared;
-  if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
+  if constexpr (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
     if (tile.watertight) {
       shared = sweep.edge(0);
     }
@@ -148,7 +148,7 @@ SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task,
   for_rows<kRows>(
       piece, first, task.nu,
       [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
-        if constexpr (Tile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
+        if constexpr (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
           sweep.store_edge(shared, kind, at, row, floor);
         } else {
           sweep.store_edge(sweep.edge(edge_of(kind)), kind, at, row, floor);

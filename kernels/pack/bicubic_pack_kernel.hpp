@@ -65,6 +65,42 @@ struct PackedPlaces {
   T* normal_floor;
 };
 
+/// 16 values of each patch, from registers that may carry more than doubles.
+template <typename W, typename T>
+SIMDBEZIER_INLINE void store_block(const W values[16], T* to, std::size_t stride) {
+  Wide out[16];
+  for (std::size_t k = 0; k < 16; ++k) {
+    out[k] = to_wide(values[k]);
+  }
+  store_transposed_16(out, to, static_cast<std::ptrdiff_t>(stride));
+}
+
+/// Takes the origins from component c of a group, and stores them.
+template <typename T, typename W>
+SIMDBEZIER_INLINE void split_origins(PackedComponent<W>& formed, std::size_t c, T* to) {
+  Wide origins[detail::kOriginsPerComponent];
+  for (Wide& origin : origins) {
+    origin = Wide(0.0);
+  }
+  origins[0] = take_origin<T>(formed.matrix[0]);
+  for (std::size_t e = 0; e < detail::kEdges; ++e) {
+    origins[detail::kEdgeOriginsAt + e] = take_origin<T>(formed.edges[e]);
+  }
+  store_transposed(origins, to + c * detail::kOriginsPerComponent,
+                   static_cast<std::ptrdiff_t>(detail::kOriginBlock));
+}
+
+/// The control points as given, but for -0.
+template <typename S>
+SIMDBEZIER_INLINE void keep_points(const S* from, std::ptrdiff_t stride, S* to) {
+  for (std::size_t p = 0; p < kWideLanes; ++p) {
+    for (std::size_t e = 0; e < kNet; e += kLanes<vec<S>>) {
+      const vec<S> values = load_vector<vec<S>>(from + static_cast<std::ptrdiff_t>(p) * stride + e);
+      store_vector<vec<S>>(to + p * kNet + e, values + vec<S>(S(0)));
+    }
+  }
+}
+
 /// Packs kWideLanes nets, the first at `from`, each packed, `stride` elements apart. Returns false
 /// where a coefficient may have become infinite or nan.
 template <typename T, typename S, bool kMoved>
@@ -82,35 +118,16 @@ bool pack_group(const detail::PackTask<T, S>& task, const S* from, std::ptrdiff_
   };
   std::conditional_t<kMoved, MovedLanes, PlainLanes> lanes;
   const Wide squares = read_group<T, S, kMoved>(task, from, stride, lanes);
-
-  constexpr auto kEdgeStride = static_cast<std::ptrdiff_t>(detail::kEdgeBlock);
-  constexpr auto kStride = static_cast<std::ptrdiff_t>(kNet);
   NormalFloor<T> normal_floor;
   Wide corners[16];
   for (std::size_t c = 0; c < detail::kComponents; ++c) {
     PackedComponent<W> formed;
     form_component<W>(lanes.net[c], formed);
     if (to.origins != nullptr) {
-      Wide origins[detail::kOriginsPerComponent];
-      for (Wide& origin : origins) {
-        origin = Wide(0.0);
-      }
-      origins[0] = take_origin<T>(formed.matrix[0]);
-      for (std::size_t e = 0; e < detail::kEdges; ++e) {
-        origins[detail::kEdgeOriginsAt + e] = take_origin<T>(formed.edges[e]);
-      }
-      store_transposed(origins, to.origins + c * detail::kOriginsPerComponent,
-                       static_cast<std::ptrdiff_t>(detail::kOriginBlock));
+      split_origins(formed, c, to.origins);
     }
-    Wide out[16];
-    for (std::size_t k = 0; k < 16; ++k) {
-      out[k] = to_wide(formed.matrix[k]);
-    }
-    store_transposed_16(out, to.coefficients + 16 * c, kStride);
-    for (std::size_t k = 0; k < 16; ++k) {
-      out[k] = to_wide(formed.edges[k]);
-    }
-    store_transposed_16(out, to.edges + 16 * c, kEdgeStride);
+    store_block(formed.matrix, to.coefficients + 16 * c, kNet);
+    store_block(formed.edges, to.edges + 16 * c, detail::kEdgeBlock);
     for (std::size_t corner = 0; corner < 4; ++corner) {
       corners[4 * c + corner] = to_wide(lanes.net[c][corner / 2 * 12 + corner % 2 * 3]);
     }
@@ -123,19 +140,13 @@ bool pack_group(const detail::PackTask<T, S>& task, const S* from, std::ptrdiff_
   for (std::size_t k = 12; k < 16; ++k) {
     corners[k] = Wide(0.0);
   }
-  store_transposed_16(corners, to.edges + detail::kCornersAt, kEdgeStride);
-
+  store_block(corners, to.edges + detail::kCornersAt, detail::kEdgeBlock);
   alignas(64) double floors[kWideLanes];
   store_vector<Wide>(floors, normal_floor.value());
   for (std::size_t p = 0; p < kWideLanes; ++p) {
     to.normal_floor[p] = static_cast<T>(floors[p]);
   }
-  for (std::size_t p = 0; p < kWideLanes; ++p) {
-    for (std::size_t e = 0; e < kNet; e += kLanes<vec<S>>) {
-      const vec<S> values = load_vector<vec<S>>(from + static_cast<std::ptrdiff_t>(p) * stride + e);
-      store_vector<vec<S>>(to.control_points + p * kNet + e, values + vec<S>(S(0)));
-    }
-  }
+  keep_points(from, stride, to.control_points);
   return all_of<Wide>(squares <= Wide(kSafeSquares<T>));
 }
 

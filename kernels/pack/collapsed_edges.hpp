@@ -23,8 +23,7 @@ using detail::kEdges;
 template <typename Task>
 class CollapsedEdges {
 public:
-  explicit CollapsedEdges(const Task& task)
-      : task_(task), wanted_(task.shape.rational && task.shape.degree_v > 0) {}
+  explicit CollapsedEdges(const Task& task) : task_(task), wanted_(task.shape.rational) {}
 
   /// Of patches [first, first + count), whose control points have been stored.
   void find(std::size_t first, std::size_t count) {

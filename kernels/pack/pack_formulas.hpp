@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "kernels/pack/double_double.hpp"
+#include "kernels/simd/extrema.hpp"
 #include "src/storage/patch_storage.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -97,8 +98,8 @@ public:
   SIMDBEZIER_INLINE void add(const Wide points[16]) {
     for (int j = 0; j < 4; ++j) {
       for (int i = 0; i < 3; ++i) {
-        size_u_ = larger(magnitude(points[4 * j + i + 1] - points[4 * j + i]), size_u_);
-        size_v_ = larger(magnitude(points[4 * i + 4 + j] - points[4 * i + j]), size_v_);
+        size_u_ = larger_of<Wide>(magnitude(points[4 * j + i + 1] - points[4 * j + i]), size_u_);
+        size_v_ = larger_of<Wide>(magnitude(points[4 * i + 4 + j] - points[4 * i + j]), size_v_);
       }
     }
   }
@@ -110,5 +111,17 @@ private:
   Wide size_u_ = Wide(0.0); ///< largest difference of neighbours, max norm
   Wide size_v_ = Wide(0.0);
 };
+
+/// What a floor of rational patches or curves is made of; infinity, which nothing passes, where
+/// sizes or weights are such that products of the test could leave the range of T.
+template <typename T>
+SIMDBEZIER_INLINE Wide error_size(Wide size, Wide heaviest) {
+  constexpr bool kSingle = sizeof(T) == sizeof(float);
+  const MaskOf<Wide> in_range = (size >= Wide(kSingle ? 0x1p-100 : 0x1p-900)) &
+                                (size <= Wide(kSingle ? 0x1p120 : 0x1p1000)) &
+                                (heaviest >= Wide(kSingle ? 0x1p-40 : 0x1p-400)) &
+                                (heaviest <= Wide(kSingle ? 0x1p40 : 0x1p400));
+  return select_where<Wide>(in_range, size, Wide(std::numeric_limits<double>::infinity()));
+}
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

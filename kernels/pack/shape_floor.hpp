@@ -29,9 +29,8 @@ template <typename T>
 class ShapeFloor {
 public:
   ShapeFloor(const detail::NetShape& shape, bool origins, const Wide* weights)
-      : order_u_(shape.order_u()), order_v_(shape.order_v()),
-        in_space_(shape.components == 3 && shape.degree_v > 0), origins_(origins),
-        weights_(shape.rational ? weights : nullptr) {}
+      : order_u_(shape.order_u()), order_v_(shape.order_v()), in_space_(shape.components == 3),
+        origins_(origins), weights_(shape.rational ? weights : nullptr) {}
 
   /// One component of the control points, Cartesian, [j][i].
   void add(const Wide* points) {
@@ -40,11 +39,12 @@ public:
     }
     for_neighbours([&](std::size_t a, std::size_t b, Wide& size) SIMDBEZIER_INLINE_LAMBDA {
       const Wide distance = magnitude(points[b] - points[a]);
-      size = larger(weights_ == nullptr ? distance : larger(weights_[a], weights_[b]) * distance,
-                    size);
+      size = larger_of<Wide>(
+          weights_ == nullptr ? distance : larger_of<Wide>(weights_[a], weights_[b]) * distance,
+          size);
     });
     if (weights_ != nullptr) {
-      reach_ = larger(reach_of(points), reach_);
+      reach_ = larger_of<Wide>(reach_of(points), reach_);
     }
   }
 
@@ -64,15 +64,19 @@ public:
     const Wide steps_v = size_v_;
     size_u_ = size_v_ = Wide(0.0);
     for_neighbours([&](std::size_t a, std::size_t b, Wide& turn) SIMDBEZIER_INLINE_LAMBDA {
-      turn = larger(magnitude(weights_[b] - weights_[a]), turn);
+      turn = larger_of<Wide>(magnitude(weights_[b] - weights_[a]), turn);
     });
     Wide heaviest(0.0);
     for (std::size_t k = 0; k < order_u_ * order_v_; ++k) {
-      heaviest = larger(weights_[k], heaviest);
+      heaviest = larger_of<Wide>(weights_[k], heaviest);
     }
     const Wide four_reaches = Wide(4.0) * reach_;
-    floors[0] = error_size(m * (steps_u + size_u_ * four_reaches), heaviest);
-    floors[1] = error_size(n * (steps_v + size_v_ * four_reaches), heaviest);
+    // sqrt(2) c, rounded up.
+    const Wide factor(sizeof(T) == sizeof(float) ? 0x1.7p-10 : 0x1.7p-20);
+    floors[0] =
+        error_size<T>(factor * (m * (steps_u + size_u_ * four_reaches)) * heaviest, heaviest);
+    floors[1] =
+        error_size<T>(factor * (n * (steps_v + size_v_ * four_reaches)) * heaviest, heaviest);
   }
 
 private:
@@ -92,26 +96,14 @@ private:
     }
   }
 
-  /// sqrt(2) c (rounded up) of it times the largest weight; infinity, which no normal passes, where
-  /// sizes or weights are such that products of the test could leave the range of T.
-  [[nodiscard]] static Wide error_size(Wide numerator, Wide heaviest) {
-    constexpr bool kSingle = sizeof(T) == sizeof(float);
-    const Wide size = Wide(kSingle ? 0x1.7p-10 : 0x1.7p-20) * numerator * heaviest;
-    const MaskOf<Wide> in_range = (size >= Wide(kSingle ? 0x1p-100 : 0x1p-900)) &
-                                  (size <= Wide(kSingle ? 0x1p120 : 0x1p1000)) &
-                                  (heaviest >= Wide(kSingle ? 0x1p-40 : 0x1p-400)) &
-                                  (heaviest <= Wide(kSingle ? 0x1p40 : 0x1p400));
-    return select_where<Wide>(in_range, size, Wide(std::numeric_limits<double>::infinity()));
-  }
-
   [[nodiscard]] Wide reach_of(const Wide* points) const {
     Wide highest = points[0];
     Wide lowest = points[0];
     for (std::size_t k = 1; k < order_u_ * order_v_; ++k) {
-      highest = larger(points[k], highest);
+      highest = larger_of<Wide>(points[k], highest);
       lowest = select_where<Wide>(points[k] < lowest, points[k], lowest);
     }
-    const Wide distance = larger(magnitude(highest), magnitude(lowest));
+    const Wide distance = larger_of<Wide>(magnitude(highest), magnitude(lowest));
     // Origins are rounded to T.
     constexpr double kUnit = sizeof(T) == sizeof(float) ? 0x1p-24 : 0x1p-53;
     return origins_ ? highest - lowest + Wide(kUnit) * distance : distance;

@@ -111,16 +111,15 @@ void halve(W* values, std::size_t step, std::size_t degree, std::size_t half) {
 }
 
 /// Replaces one channel's control values of a cell, [j][i], by its coefficients, [l][k], and forms
-/// those of its edges, [power][edge]; a curve has none.
+/// those of its edges, [power][edge].
 template <typename W>
 void form_channel(const detail::NetShape& shape, W* values, W* edges) {
   const std::size_t order_u = shape.order_u();
   const std::size_t order_v = shape.order_v();
-  const bool has_edges = shape.degree_v > 0;
   for (std::size_t e = 0; e < shape.edge_powers() * detail::kEdges; ++e) {
     edges[e] = carried<W>(Wide(0.0));
   }
-  for (std::size_t side = 0; has_edges && side < 2; ++side) {
+  for (std::size_t side = 0; side < 2; ++side) {
     W* const edge = edges + detail::kEdgeU0 + side;
     for (std::size_t j = 0; j < order_v; ++j) {
       edge[j * detail::kEdges] = values[j * order_u + side * (order_u - 1)];
@@ -130,7 +129,7 @@ void form_channel(const detail::NetShape& shape, W* values, W* edges) {
   for (std::size_t j = 0; j < order_v; ++j) {
     centre(values + j * order_u, 1, order_u - 1);
   }
-  for (std::size_t k = 0; has_edges && k < order_u; ++k) {
+  for (std::size_t k = 0; k < order_u; ++k) {
     edges[k * detail::kEdges + detail::kEdgeV0] = values[k];
     edges[k * detail::kEdges + detail::kEdgeV1] = values[(order_v - 1) * order_u + k];
     centre(values + k, order_u, order_v - 1);

@@ -108,8 +108,8 @@ struct FloorsOfMany {
 };
 
 /// patch: one index for each lane. kPrefetch: the lines of later samples are asked for.
-template <bool kOrigins, Outcome kOutcome, bool kPrefetch, bool kFull, typename V>
-SIMDBEZIER_INLINE void evaluate_mixed(const Block<kFull, V>& block, const std::uint32_t* patch,
+template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename V>
+SIMDBEZIER_INLINE void evaluate_mixed(const Block<V>& block, const std::uint32_t* patch,
                                       WaitingNormals<kOutcome, V>& waiting) {
   const auto& task = block.task;
   waiting.take_root();

@@ -14,8 +14,8 @@ struct FloorOfOne {
 };
 
 /// kRegisters blocks share every broadcast: with one of them, loads would be the limit.
-template <bool kOrigins, Outcome kOutcome, std::size_t kRegisters, bool kFull, typename V>
-SIMDBEZIER_INLINE void evaluate_run(const Block<kFull, V> block[kRegisters], std::size_t patch,
+template <bool kOrigins, Outcome kOutcome, std::size_t kRegisters, typename V>
+SIMDBEZIER_INLINE void evaluate_run(const Block<V> block[kRegisters], std::size_t patch,
                                     WaitingNormals<kOutcome, V>& waiting) {
   const auto& task = block[0].task;
   Tangents<kOutcome, V> tangents[kRegisters];

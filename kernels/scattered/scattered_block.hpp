@@ -43,31 +43,22 @@ struct Polynomials {
   }
 };
 
-/// The samples that stand in one register: `active` of them, from the task's sample `first` on.
-template <bool kFull, typename V>
+/// The samples that stand in one register, from the task's sample `first` on.
+template <typename V>
 struct Block {
   using T = ScalarOf<V>;
 
   const ScatteredTask<T>& task;
   std::size_t first;
-  std::size_t active;
   V x;
   V y;
 
-  /// u, v: one register each; those of the samples, or copies behind which there is more.
-  SIMDBEZIER_INLINE Block(const ScatteredTask<T>& the_task, std::size_t first_sample,
-                          std::size_t samples, const T* u, const T* v)
-      : task(the_task), first(first_sample), active(samples),
-        x(half_centred(the_task, load_vector<V>(u))), y(half_centred(the_task, load_vector<V>(v))) {
-  }
+  SIMDBEZIER_INLINE Block(const ScatteredTask<T>& the_task, std::size_t first_sample)
+      : task(the_task), first(first_sample),
+        x(half_centred(the_task, load_vector<V>(the_task.u + first_sample))),
+        y(half_centred(the_task, load_vector<V>(the_task.v + first_sample))) {}
 
-  SIMDBEZIER_INLINE void store(T* plane, V value) const {
-    if constexpr (kFull) {
-      store_vector(plane + first, value);
-    } else {
-      store_first(plane + first, value, active);
-    }
-  }
+  SIMDBEZIER_INLINE void store(T* plane, V value) const { store_vector(plane + first, value); }
   SIMDBEZIER_INLINE void store_if_wanted(detail::Group group, std::size_t component,
                                          V value) const {
     compute_here(value);
@@ -151,10 +142,9 @@ SIMDBEZIER_INLINE V with_origin(V p, V origin) {
 }
 
 /// Horner in Y for one component.
-template <bool kOrigins, Outcome kOutcome, bool kFull, typename V>
-SIMDBEZIER_INLINE void finish_component(const Block<kFull, V>& block,
-                                        const Polynomials<kOutcome, V>& q, std::size_t c, V origin,
-                                        Tangents<kOutcome, V>& tangents) {
+template <bool kOrigins, Outcome kOutcome, typename V>
+SIMDBEZIER_INLINE void finish_component(const Block<V>& block, const Polynomials<kOutcome, V>& q,
+                                        std::size_t c, V origin, Tangents<kOutcome, V>& tangents) {
   if constexpr (kOutcome == kPositions) {
     block.store(block.task.out[detail::kPositionGroup].component[c],
                 with_origin<kOrigins>(horner(q.power[0], block.y), origin));
@@ -173,53 +163,51 @@ SIMDBEZIER_INLINE void finish_component(const Block<kFull, V>& block,
 
 /// The samples of a block that the interior's formula does not fit, or whose normal did not pass
 /// the quick test. Vectors come by value, or the fast path would have to keep them in memory.
-template <bool kOrigins, Outcome kOutcome, typename V>
+template <bool kSecond, typename V>
 __attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf<V>>& task,
-                                                    std::size_t first, std::size_t active, V x, V y,
-                                                    V squared, V floor) {
+                                                    std::size_t first, V x, V y, V squared,
+                                                    V floor) {
   using T = ScalarOf<V>;
   const V vectors[4] = {x, y, squared, floor};
   alignas(64) T lanes[4][kLanes<V>];
   for (int i = 0; i < 4; ++i) {
     store_vector(lanes[i], vectors[i]);
   }
-  for (std::size_t i = 0; i < active; ++i) {
+  for (std::size_t i = 0; i < kLanes<V>; ++i) {
     const T ax = lanes[0][i] < 0 ? -lanes[0][i] : lanes[0][i];
     const T ay = lanes[1][i] < 0 ? -lanes[1][i] : lanes[1][i];
     const bool edge = task.watertight && (ax == T(0.5) || ay == T(0.5));
     const bool finite = ax - ax == T(0) && ay - ay == T(0);
     const bool normal = lanes[2][i] > lanes[3][i] && ax <= T(0.5) && ay <= T(0.5);
     if (edge || !finite || !normal) {
-      evaluate_sample<kOutcome == kSecondOrder>(task, first + i);
+      evaluate_sample<kSecond>(task, first + i);
     }
   }
 }
 
 /// As above for outputs that are no normals: outside of the patch the formula holds, too.
-template <bool kOrigins, Outcome kOutcome, typename V>
+template <bool kSecond, typename V>
 __attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf<V>>& task,
-                                                    std::size_t first, std::size_t active, V x,
-                                                    V y) {
+                                                    std::size_t first, V x, V y) {
   using T = ScalarOf<V>;
   alignas(64) T lanes[2][kLanes<V>];
   store_vector(lanes[0], x);
   store_vector(lanes[1], y);
-  for (std::size_t i = 0; i < active; ++i) {
+  for (std::size_t i = 0; i < kLanes<V>; ++i) {
     const T ax = lanes[0][i] < 0 ? -lanes[0][i] : lanes[0][i];
     const T ay = lanes[1][i] < 0 ? -lanes[1][i] : lanes[1][i];
     const bool edge = task.watertight && (ax == T(0.5) || ay == T(0.5));
     if (edge || ax - ax != T(0) || ay - ay != T(0)) {
-      evaluate_sample<kOutcome == kSecondOrder>(task, first + i);
+      evaluate_sample<kSecond>(task, first + i);
     }
   }
 }
 
 /// Normals, where they are wanted, and the samples that have to be evaluated again.
 /// Floor: normal_floor of the samples' patches, and at first a bound on all of them.
-template <bool kOrigins, Outcome kOutcome, bool kFull, typename V, typename Floor>
-SIMDBEZIER_INLINE void finish_block(const Block<kFull, V>& block,
-                                    const Tangents<kOutcome, V>& tangents, const Floor& floor,
-                                    WaitingNormals<kOutcome, V>& waiting) {
+template <bool kOrigins, Outcome kOutcome, typename V, typename Floor>
+SIMDBEZIER_INLINE void finish_block(const Block<V>& block, const Tangents<kOutcome, V>& tangents,
+                                    const Floor& floor, WaitingNormals<kOutcome, V>& waiting) {
   const auto& task = block.task;
   const MaskOf<V> interior = block.interior();
   if constexpr (kOutcome == kNormals) {
@@ -228,7 +216,7 @@ SIMDBEZIER_INLINE void finish_block(const Block<kFull, V>& block,
     const auto all_above = [&](V enough) SIMDBEZIER_INLINE_LAMBDA {
       return all_of<V>(interior & (squared > enough));
     };
-    if (kFull && (all_above(floor.highest()) || all_above(floor.each()))) [[likely]] {
+    if (all_above(floor.highest()) || all_above(floor.each())) [[likely]] {
       waiting.put(n, squared, block.first);
       return;
     }
@@ -238,11 +226,11 @@ SIMDBEZIER_INLINE void finish_block(const Block<kFull, V>& block,
     }
     const V enough = floor.each();
     if (!all_above(enough)) {
-      evaluate_again<kOrigins, kOutcome>(task, block.first, block.active, block.x, block.y, squared,
-                                         enough);
+      evaluate_again<kOutcome == kSecondOrder>(task, block.first, block.x, block.y, squared,
+                                               enough);
     }
   } else if (!all_of<V>(interior)) [[unlikely]] {
-    evaluate_again<kOrigins, kOutcome>(task, block.first, block.active, block.x, block.y);
+    evaluate_again<kOutcome == kSecondOrder>(task, block.first, block.x, block.y);
   }
 }
 

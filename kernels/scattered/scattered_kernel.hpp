@@ -16,80 +16,105 @@ inline std::uint32_t highest_index(const std::uint32_t* index, std::size_t count
   return highest;
 }
 
-/// The last samples, fewer than a register: the register is filled with copies of the last one.
-template <bool kOrigins, Outcome kOutcome, typename V>
-__attribute__((noinline)) void evaluate_rest(const ScatteredTask<ScalarOf<V>>& task,
-                                             std::size_t first) {
-  using T = ScalarOf<V>;
+/// The last samples, fewer than a register: by way of a register of each array, whose other lanes
+/// are the middle of the last patch. second: evaluate() computes second derivatives.
+template <typename T>
+__attribute__((noinline)) void evaluate_rest(const ScatteredTask<T>& task, std::size_t first,
+                                             bool second,
+                                             void (*evaluate)(const ScatteredTask<T>&)) {
+  constexpr std::size_t kN = kLanes<vec<T>>;
   const std::size_t active = task.count - first;
-  alignas(64) T u[kLanes<V>];
-  alignas(64) T v[kLanes<V>];
-  std::uint32_t patch[kLanes<V>];
-  for (std::size_t i = 0; i < kLanes<V>; ++i) {
-    const std::size_t from = first + (i < active ? i : active - 1);
-    u[i] = task.u[from];
-    v[i] = task.v[from];
-    patch[i] = task.patch[from];
+  std::uint32_t patch[kN];
+  alignas(64) T u[kN];
+  alignas(64) T v[kN];
+  SampleStatus status[kN];
+  alignas(64) T value[detail::kGroups][3][kN];
+  for (std::size_t i = 0; i < kN; ++i) {
+    const bool given = i < active;
+    patch[i] = task.patch[given ? first + i : task.count - 1];
+    u[i] = given ? task.u[first + i] : task.shift;
+    v[i] = given ? task.v[first + i] : task.shift;
+    status[i] = given && task.status != nullptr ? task.status[first + i] : SampleStatus::regular;
   }
-  WaitingNormals<kOutcome, V> none;
-  evaluate_mixed<kOrigins, kOutcome, false>(Block<false, V>(task, first, active, u, v), patch,
-                                            none);
+  ScatteredTask<T> part = task;
+  part.patch = patch;
+  part.u = u;
+  part.v = v;
+  part.count = part.patches_known = kN;
+  part.status = task.status == nullptr ? nullptr : status;
+  const auto for_planes = [&](const auto& f) {
+    for (std::size_t g = 0; g < detail::kGroups; ++g) {
+      const bool is_second =
+          g == detail::kDuuGroup || g == detail::kDuvGroup || g == detail::kDvvGroup;
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (is_second == second && task.out[g].component[c] != nullptr) {
+          f(part.out[g].component[c], task.out[g].component[c] + first, value[g][c]);
+        }
+      }
+    }
+  };
+  for_planes([](T*& plane, T*, T* values) { plane = values; });
+  evaluate(part);
+  for_planes([&](T*&, T* to, const T* values) {
+    for (std::size_t i = 0; i < active; ++i) {
+      to[i] = values[i];
+    }
+  });
+  for (std::size_t i = 0; task.status != nullptr && i < active; ++i) {
+    task.status[first + i] = status[i];
+  }
 }
 
+template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename T>
+void evaluate_block(const ScatteredTask<T>& task);
+
 /// kPrefetch: the set is not in a cache. Code of its own for each: asking for lines that are there
-/// costs a third of the speed, and the question whether to ask, up to a tenth.
+/// costs a third of the speed, and the question whether to ask, up to a tenth. Sets with origins
+/// are asked for in any case.
 template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename V>
 SIMDBEZIER_INLINE void evaluate_samples(const ScatteredTask<ScalarOf<V>>& task) {
   constexpr std::size_t kWide = kOutcome == kPositions ? 2 : 1; // registers for a long run
   constexpr std::size_t kN = kLanes<V>;
-  const auto block = [&](std::size_t k) __attribute__((always_inline)) {
-    return Block<true, V>(task, k, kN, task.u + k, task.v + k);
-  };
   WaitingNormals<kOutcome, V> waiting;
   std::size_t k = 0;
   while (k + kN <= task.count) {
     const std::uint32_t* const patch = task.patch + k;
     if (!all_equal<kN>(patch, *patch)) {
-      evaluate_mixed<kOrigins, kOutcome, kPrefetch>(block(k), patch, waiting);
+      evaluate_mixed<kOrigins, kOutcome, kPrefetch>(Block<V>(task, k), patch, waiting);
       k += kN;
       continue;
     }
     if constexpr (kWide == 2) {
       if (k + 2 * kN <= task.count && all_equal<kN>(patch + kN, *patch)) {
-        const Block<true, V> pair[2] = {block(k), block(k + kN)};
+        const Block<V> pair[2] = {{task, k}, {task, k + kN}};
         evaluate_run<kOrigins, kOutcome, 2>(pair, *patch, waiting);
         k += 2 * kN;
         continue;
       }
     }
-    const Block<true, V> single[1] = {block(k)};
+    const Block<V> single[1] = {{task, k}};
     evaluate_run<kOrigins, kOutcome, 1>(single, *patch, waiting);
     k += kN;
   }
   waiting.take_root();
   waiting.store(task);
   if (k < task.count) {
-    evaluate_rest<kOrigins, kOutcome, V>(task, k);
+    evaluate_rest(task, k, kOutcome == kSecondOrder,
+                  evaluate_block<kOrigins, kOutcome, kPrefetch, ScalarOf<V>>);
   }
 }
 
 template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename T>
 __attribute__((noinline)) void evaluate_block(const ScatteredTask<T>& task) {
-  if constexpr (kIsScalar<vec<T>>) {
-    for (std::size_t k = 0; k < task.count; ++k) {
-      evaluate_sample<kOutcome == kSecondOrder>(task, k);
-    }
-  } else {
-    evaluate_samples<kOrigins, kOutcome, kPrefetch, vec<T>>(task);
-  }
+  evaluate_samples<kOrigins, kOutcome, kPrefetch, vec<T>>(task);
 }
 
 template <bool kOrigins, Outcome kOutcome, typename T>
 SIMDBEZIER_INLINE void evaluate_outcome(const ScatteredTask<T>& task) {
-  if (task.prefetch && !kIsScalar<vec<T>>) {
+  if (kOrigins || task.prefetch) {
     evaluate_block<kOrigins, kOutcome, true>(task);
   } else {
-    evaluate_block<kOrigins, kOutcome, false>(task);
+    evaluate_block<kOrigins, kOutcome, kOrigins>(task);
   }
 }
 

@@ -12,15 +12,18 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// to do.
 template <std::size_t kHighest, bool kRational, std::size_t kComponents, std::size_t kU,
           std::size_t kV>
-struct Plan {
+struct ShapePlan {
   static constexpr std::size_t kDepth = kHighest;
   static constexpr bool kWeighted = kRational;
   static constexpr bool kKnown = kV != 0;
+  static constexpr bool kOneCell = kComponents != 0;
   static constexpr bool kSingle = kComponents == 1;
   using Slots = Channels<kRational, kComponents>;
   using OrderU = Order<kU>;
   using OrderV = Order<kV>;
-  static_assert(kKnown == (kComponents != 0));
+  /// The same for all degrees: for functions that do not depend on them.
+  using AnyDegree = ShapePlan<kHighest, kRational, kComponents, 0, 0>;
+  static_assert(kOneCell || !kKnown);
 
   /// What follows from the plan is a constant.
   static SIMDBEZIER_INLINE NetShape shape(NetShape of_set) {
@@ -47,11 +50,6 @@ struct ColumnPolynomials {
   using Powers = V[kDepth + 1][kMostPowers];
 
   Powers power[kSlots]; ///< [slot][derivative][power of Y]
-  V origin[3];          ///< of each lane's values, in sets with origins and where points are
-  /// A lane on an edge u = const has its values relative to the edge's origin, and its derivatives
-  /// by u to the patch's: what to add to the one for the other. Rational patches only, where the
-  /// quotient rule needs both.
-  V to_patch[3];
 
   ColumnPolynomials() = default;
   /// Piece by piece, so that a copy can live in registers.
@@ -62,14 +60,11 @@ struct ColumnPolynomials {
             from.power[slot][k / kMostPowers][k % kMostPowers];
       });
     });
-    repeat<P::Slots::kMost>([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-      origin[slot] = from.origin[slot];
-      to_patch[slot] = from.to_patch[slot];
-    });
   }
 
+  /// origins: null where there are none.
   SIMDBEZIER_INLINE void evaluate(const typename P::Slots& slots, typename P::OrderV order, V y,
-                                  bool origins, SampleJet<V>& jet) const {
+                                  const ColumnOrigins<V>* origins, SampleJet<V>& jet) const {
     if constexpr (kDepth == 0) {
       positions(slots, order, y, jet.position);
     } else if constexpr (P::kWeighted) {
@@ -85,9 +80,9 @@ struct ColumnPolynomials {
         store(jet, slot, partials(order, power[slot], y));
       });
     }
-    if (origins) {
+    if (origins != nullptr) {
       slots.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-        jet.position[slot] = jet.position[slot] + origin[slot];
+        jet.position[slot] = jet.position[slot] + origins->position[slot];
       });
     }
   }
@@ -144,12 +139,12 @@ private:
   }
 
   SIMDBEZIER_INLINE void divide_slot(const Quotient<V>& q, const Partials<V>& h,
-                                     const Partials<V>& w, bool origins, std::size_t slot,
-                                     SampleJet<V>& jet) const {
+                                     const Partials<V>& w, const ColumnOrigins<V>* origins,
+                                     std::size_t slot, SampleJet<V>& jet) const {
     Partials<V> at;
     at.value = q.value(h.value);
     if constexpr (kDepth > 0) {
-      const V s = origins ? at.value + to_patch[slot] : at.value;
+      const V s = origins != nullptr ? at.value + origins->to_patch[slot] : at.value;
       at.x = q.first(h.x, s, w.x);
       at.y = q.first(h.y, at.value, w.y);
       if constexpr (kDepth > 1) {

@@ -2,6 +2,7 @@
 // from the first row to the last.
 #pragma once
 
+#include "kernels/grid/row_pieces.hpp"
 #include "kernels/shape/shape_rows.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -13,39 +14,71 @@ SIMDBEZIER_INLINE std::size_t wanted_components(const GridTask<T>& task) {
   return left < 3 ? left : 3;
 }
 
-/// kFull: all lanes are columns.
+/// The edge v = const that a run of rows is on; kEdges where it is on none, or edges are as good as
+/// any row.
+template <typename T>
+SIMDBEZIER_INLINE std::size_t own_edge(const GridTask<T>& task, const RowRun<T>& run) {
+  return task.watertight && is_edge(run.kind) ? edge_of(run.kind) : kEdges;
+}
+
+/// All rows of a register of columns. kFull: all lanes are columns.
 template <typename P, bool kFull, typename T>
 SIMDBEZIER_INLINE void sweep_rows(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
+                                  const typename ShapeColumns<P, vec<T>>::Edges& edges,
                                   SampleRange<vec<T>> range) {
   using V = vec<T>;
   const ColumnPolynomials<P, V> polynomials = columns.polynomials();
+  const ColumnOrigins<V>* const origins = columns.origins();
   const V floor = range.floor;
-  const bool origins = columns.around_origins();
   range.active = kFull ? kLanes<V> : range.active;
-  const auto evaluate = [&](const T* y, SampleJet<V>& jet) SIMDBEZIER_INLINE_LAMBDA {
-    range.y = broadcast<V>(*y);
+  const auto evaluate = [&](T y, SampleJet<V>& jet) SIMDBEZIER_INLINE_LAMBDA {
+    range.y = broadcast<V>(y);
     polynomials.evaluate(columns.slots(), columns.order_v(), range.y, origins, jet);
   };
   for (std::size_t r = 0; r < task.run_count; ++r) {
     const RowRun<T> run = task.runs[r];
+    const std::size_t edge = own_edge(task, run);
     range.floor = run.kind == RowKind::outside ? no_floor<V>() : floor;
-    if (task.watertight && (run.kind == RowKind::edge_v0 || run.kind == RowKind::edge_v1)) {
-      const std::size_t edge = run.kind == RowKind::edge_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
-      SampleJet<V> on_edge;
-      if constexpr (P::kDepth == 0) {
-        columns.replace_row(edge, on_edge);
-      }
+    if (edge < kEdges) {
       for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
-        if constexpr (P::kDepth > 0) {
-          evaluate(run.y + j, on_edge);
-          columns.replace_row(edge, on_edge);
-        }
+        SampleJet<V> jet;
+        evaluate(run.y[j], jet);
+        edges.replace_row(edge, jet);
+        store_sample<P>(task, range, jet);
+      }
+    } else {
+      for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
+        SampleJet<V> jet;
+        evaluate(run.y[j], jet);
+        store_sample<P>(task, range, jet);
+      }
+    }
+  }
+}
+
+/// The same for positions, of which edges need nothing that the columns give.
+template <typename P, bool kFull, typename T>
+SIMDBEZIER_INLINE void
+sweep_positions(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
+                const typename ShapeColumns<P, vec<T>>::Edges& edges, SampleRange<vec<T>> range) {
+  using V = vec<T>;
+  const ColumnPolynomials<P, V> polynomials = columns.polynomials();
+  const ColumnOrigins<V>* const origins = columns.origins();
+  range.active = kFull ? kLanes<V> : range.active;
+  for (std::size_t r = 0; r < task.run_count; ++r) {
+    const RowRun<T> run = task.runs[r];
+    const std::size_t edge = own_edge(task, run);
+    if (edge < kEdges) {
+      SampleJet<V> on_edge;
+      edges.replace_row(edge, on_edge);
+      for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
         store_sample<P>(task, range, on_edge);
       }
     } else {
       for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
         SampleJet<V> jet;
-        evaluate(run.y + j, jet);
+        polynomials.evaluate(columns.slots(), columns.order_v(), broadcast<V>(run.y[j]), origins,
+                             jet);
         store_sample<P>(task, range, jet);
       }
     }
@@ -61,18 +94,22 @@ SIMDBEZIER_INLINE void sweep_columns(const GridTask<T>& task, const NetShape& sh
   const V x = load_vector<V>(task.x + first);
   const CellColumns<V> at(x, 1, task.watertight);
   const std::size_t first_component = P::kSingle ? task.first_component + component : 0;
-  ShapeColumns<P, V> columns(shape, at, first_component);
-  columns.build(cells);
+  const typename ShapeColumns<P, V>::Edges edges(shape, at, x, task.watertight, first_component,
+                                                 cells);
   const std::size_t left = task.nu - first < kLanes<V> ? task.nu - first : kLanes<V>;
   SampleRange<V> range{patch, patch * task.patch_step + first, left, component, x, x, x};
-  if constexpr (P::kDepth > 0 && !P::kSingle) {
+  ShapeColumns<P, V> columns(shape, at, first_component);
+  ColumnOrigins<V> origins;
+  columns.build(cells, edges, origins);
+  if constexpr (P::kDepth == 0) {
+    left == kLanes<V> ? sweep_positions<P, true>(task, columns, edges, range)
+                      : sweep_positions<P, false>(task, columns, edges, range);
+  } else if constexpr (P::kSingle) {
+    left == kLanes<V> ? sweep_rows<P, true>(task, columns, edges, range)
+                      : sweep_rows<P, false>(task, columns, edges, range);
+  } else { // much code, and many operations for each store
     range.floor = floor_inside(x, patch_floor<P, V>(task, patch));
-  }
-  if constexpr (P::kDepth > 0 && !P::kSingle) { // much code, and many operations for each store
-    sweep_rows<P, false>(task, columns, range);
-  } else {
-    left == kLanes<V> ? sweep_rows<P, true>(task, columns, range)
-                      : sweep_rows<P, false>(task, columns, range);
+    sweep_rows<P, false>(task, columns, edges, range);
   }
 }
 
@@ -88,7 +125,7 @@ __attribute__((noinline)) void sweep_known(const GridTask<T>& shared_task) {
         sweep_columns<P>(task, shape, patch, first, c);
       }
     }
-    pace(task.drain, task.patch_step * 3);
+    drain_some(task.drain, task.patch_step * 3);
   }
 }
 

@@ -21,6 +21,22 @@ struct CellColumns {
         any_high(cells == 2 && !all_of<V>(low)) {}
 };
 
+/// The edge v = const of its cell that a local parameter is on; kEdges where it is on none.
+template <typename T>
+SIMDBEZIER_INLINE std::size_t edge_of_cell(T local) {
+  return local == T(-0.5) ? detail::kEdgeV0 : local == T(0.5) ? detail::kEdgeV1 : kEdges;
+}
+
+/// What the positions of columns are relative to, in sets with origins and where points are.
+template <typename V>
+struct ColumnOrigins {
+  V position[3];
+  /// A lane on an edge u = const has its values relative to the edge's origin, and its derivatives
+  /// by u to the patch's: what to add to the one for the other. Rational patches only, where the
+  /// quotient rule needs both.
+  V to_patch[3];
+};
+
 /// The packed values of a cell.
 template <typename T>
 struct Cell {
@@ -35,6 +51,7 @@ struct CellRow {
   Cell<T> low;
   Cell<T> high;
 
+  SIMDBEZIER_INLINE CellRow(Cell<T> of_low, Cell<T> of_high) : low(of_low), high(of_high) {}
   /// Task: any that holds the arrays of a set.
   template <typename Task>
   SIMDBEZIER_INLINE CellRow(const Task& task, const NetShape& shape, std::size_t patch,

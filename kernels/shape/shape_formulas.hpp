@@ -198,6 +198,11 @@ struct Quotient {
   }
 };
 
+/// |du x dv|^2 or |C'|^2 of rational patches and curves below this takes a second look: products on
+/// the way might have left the range of T.
+template <typename T>
+inline constexpr T kLeastSquare = static_cast<T>(sizeof(T) == sizeof(float) ? 0x1p-94 : 0x1p-940);
+
 template <typename V>
 SIMDBEZIER_INLINE V negated(V a) {
   return broadcast<V>(ScalarOf<V>(0)) - a;

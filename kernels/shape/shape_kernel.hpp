@@ -19,22 +19,26 @@ SIMDBEZIER_INLINE std::size_t highest_derivative(const Task& task) {
 }
 
 template <std::size_t kDepth, bool kRational>
-using AnyPlan = Plan<kDepth, kRational, 0, 0, 0>;
+using AnyPlan = ShapePlan<kDepth, kRational, 0, 0, 0>;
 
-/// Calls run.operator()<Plan>(), with a plan for the degree in v where there is one.
+/// Calls run.operator()<ShapePlan>(), with a plan for the degree in v where there is one: rational
+/// patches of degree 5 and more are too rare.
 template <std::size_t kDepth, bool kRational, std::size_t kComponents, typename Run>
 SIMDBEZIER_INLINE void with_order_v(const NetShape& shape, const Run& run) {
   switch (shape.cells() == 1 ? shape.degree_v : 0) {
   case 1:
-    return run.template operator()<Plan<kDepth, kRational, kComponents, 0, 2>>();
+    return run.template operator()<ShapePlan<kDepth, kRational, kComponents, 0, 2>>();
   case 2:
-    return run.template operator()<Plan<kDepth, kRational, kComponents, 0, 3>>();
+    return run.template operator()<ShapePlan<kDepth, kRational, kComponents, 0, 3>>();
   case 3:
-    return run.template operator()<Plan<kDepth, kRational, kComponents, 0, 4>>();
+    return run.template operator()<ShapePlan<kDepth, kRational, kComponents, 0, 4>>();
   case 4:
-    return run.template operator()<Plan<kDepth, kRational, kComponents, 0, 5>>();
+    return run.template operator()<ShapePlan<kDepth, kRational, kComponents, 0, 5>>();
   case 5:
-    return run.template operator()<Plan<kDepth, kRational, kComponents, 0, 6>>();
+    if constexpr (!kRational) {
+      return run.template operator()<ShapePlan<kDepth, kRational, kComponents, 0, 6>>();
+    }
+    [[fallthrough]];
   default:
     return run.template operator()<AnyPlan<kDepth, kRational>>();
   }
@@ -45,22 +49,22 @@ template <typename Run>
 SIMDBEZIER_INLINE bool with_common_degrees(const NetShape& shape, const Run& run) {
   switch (shape.degree_u * 16 + shape.degree_v) {
   case 0x11:
-    run.template operator()<Plan<0, false, 3, 2, 2>>();
+    run.template operator()<ShapePlan<0, false, 3, 2, 2>>();
     return true;
   case 0x22:
-    run.template operator()<Plan<0, false, 3, 3, 3>>();
+    run.template operator()<ShapePlan<0, false, 3, 3, 3>>();
     return true;
   case 0x44:
-    run.template operator()<Plan<0, false, 3, 5, 5>>();
+    run.template operator()<ShapePlan<0, false, 3, 5, 5>>();
     return true;
   case 0x55:
-    run.template operator()<Plan<0, false, 3, 6, 6>>();
+    run.template operator()<ShapePlan<0, false, 3, 6, 6>>();
     return true;
   case 0x31:
-    run.template operator()<Plan<0, false, 3, 4, 2>>();
+    run.template operator()<ShapePlan<0, false, 3, 4, 2>>();
     return true;
   case 0x13:
-    run.template operator()<Plan<0, false, 3, 2, 4>>();
+    run.template operator()<ShapePlan<0, false, 3, 2, 4>>();
     return true;
   default:
     return false;
@@ -100,7 +104,7 @@ SIMDBEZIER_INLINE void with_depth(const Task& task, const Run& run) {
   case 0:
     return with_weights.template operator()<0>();
   case 1:
-    return with_weights.template operator()<1>();
+    return with_weights.template operator() < kCompact ? 2 : 1 > ();
   default:
     return with_weights.template operator()<2>();
   }

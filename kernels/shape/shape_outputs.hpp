@@ -6,11 +6,7 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Of a rational patch, |du x dv|^2 below this takes a second look: products on the way might have
-/// left the range of T.
-template <typename T>
-inline constexpr T kLeastArea2 = sizeof(T) == sizeof(float) ? static_cast<T>(0x1p-94)
-                                                            : static_cast<T>(0x1p-940);
+using detail::SampleTask;
 
 /// The first `active` lanes of a register go to consecutive samples from `at` on.
 template <typename V>
@@ -33,15 +29,15 @@ struct SampleRange {
 };
 
 /// The floor of all samples of a patch; those of a rational one have floors of their own above it.
-template <typename P, typename V, typename Task>
-SIMDBEZIER_INLINE V patch_floor(const Task& task, std::size_t patch) {
+template <typename P, typename V>
+SIMDBEZIER_INLINE V patch_floor(const SampleTask<ScalarOf<V>>& task, std::size_t patch) {
   using T = ScalarOf<V>;
-  return broadcast<V>(P::kWeighted ? kLeastArea2<T> : task.normal_floor[patch]);
+  return broadcast<V>(P::kWeighted ? kLeastSquare<T> : task.normal_floor[patch]);
 }
 
 /// The floor of samples on a rational patch; see ShapeFloor.
-template <typename V, typename Task>
-SIMDBEZIER_INLINE V rational_floor(const Task& task, const SampleRange<V>& range,
+template <typename V>
+SIMDBEZIER_INLINE V rational_floor(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
                                    const SampleJet<V>& jet, V squared) {
   using T = ScalarOf<V>;
   const T* const sizes = task.normal_floor + 2 * range.patch;
@@ -58,8 +54,8 @@ SIMDBEZIER_INLINE V rational_floor(const Task& task, const SampleRange<V>& range
 }
 
 /// The second look at samples whose |du x dv|^2 is not above their floor.
-template <typename P, typename V, typename Task>
-SIMDBEZIER_INLINE void look_again(const Task& task, const SampleRange<V>& range,
+template <typename P, typename V>
+SIMDBEZIER_INLINE void look_again(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
                                   const SampleJet<V>& jet, V squared) {
   V floor = range.floor;
   if constexpr (P::kWeighted) {
@@ -71,9 +67,9 @@ SIMDBEZIER_INLINE void look_again(const Task& task, const SampleRange<V>& range,
   }
 }
 
-template <typename P, typename V, typename Task>
-SIMDBEZIER_INLINE void store_normals(const Task& task, const SampleRange<V>& range,
-                                     const SampleJet<V>& jet) {
+template <typename P, typename V>
+SIMDBEZIER_INLINE void store_normals(const SampleTask<ScalarOf<V>>& task,
+                                     const SampleRange<V>& range, const SampleJet<V>& jet) {
   V n[3];
   const V squared = cross_product(jet.du, jet.dv, n);
   normalise(n, squared);
@@ -83,8 +79,8 @@ SIMDBEZIER_INLINE void store_normals(const Task& task, const SampleRange<V>& ran
   look_again<P>(task, range, jet, squared);
 }
 
-template <typename P, typename V, typename Task>
-SIMDBEZIER_INLINE void store_group(const Task& task, detail::Group group,
+template <typename P, typename V>
+SIMDBEZIER_INLINE void store_group(const SampleTask<ScalarOf<V>>& task, detail::Group group,
                                    const SampleRange<V>& range, const V value[3]) {
   repeat<P::Slots::kMost>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
     ScalarOf<V>* const plane = task.out[group].component[range.first_plane + c];
@@ -95,9 +91,9 @@ SIMDBEZIER_INLINE void store_group(const Task& task, detail::Group group,
 }
 
 /// Those of samples that turn out to have no normal, or a limit only, become nan afterwards.
-template <typename P, typename V, typename Task>
-SIMDBEZIER_INLINE void store_curvatures(const Task& task, const SampleRange<V>& range,
-                                        const SampleJet<V>& jet) {
+template <typename P, typename V>
+SIMDBEZIER_INLINE void store_curvatures(const SampleTask<ScalarOf<V>>& task,
+                                        const SampleRange<V>& range, const SampleJet<V>& jet) {
   bool wanted = false;
   for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
     wanted = wanted || task.curvature[k] != nullptr;
@@ -117,9 +113,9 @@ SIMDBEZIER_INLINE void store_curvatures(const Task& task, const SampleRange<V>& 
 }
 
 /// All outputs that a task wants and a kernel of this plan computes.
-template <typename P, typename V, typename Task>
-SIMDBEZIER_INLINE void store_sample(const Task& task, const SampleRange<V>& range,
-                                    const SampleJet<V>& jet) {
+template <typename P, typename V>
+SIMDBEZIER_INLINE void store_sample(const SampleTask<ScalarOf<V>>& task,
+                                    const SampleRange<V>& range, const SampleJet<V>& jet) {
   store_group<P>(task, detail::kPositionGroup, range, jet.position);
   if constexpr (P::kDepth > 0) {
     store_group<P>(task, detail::kDuGroup, range, jet.du);
@@ -134,6 +130,14 @@ SIMDBEZIER_INLINE void store_sample(const Task& task, const SampleRange<V>& rang
     store_group<P>(task, detail::kDvvGroup, range, jet.dvv);
     store_curvatures<P>(task, range, jet);
   }
+}
+
+/// The same as a function, which grids and scattered samples share: for plans whose loops have jets
+/// in memory anyway.
+template <typename P, typename V>
+__attribute__((noinline)) void store_shared(const SampleTask<ScalarOf<V>>& task,
+                                            const SampleRange<V>& range, const SampleJet<V>& jet) {
+  store_sample<P>(task, range, jet);
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

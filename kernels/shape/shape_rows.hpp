@@ -16,6 +16,7 @@ using detail::RowRun;
 template <typename P, typename T>
 class ColumnSweep {
   using V = vec<T>;
+  using Columns = ShapeColumns<P, V>;
 
 public:
   SIMDBEZIER_INLINE ColumnSweep(const GridTask<T>& task, const NetShape& shape, std::size_t patch,
@@ -35,17 +36,19 @@ public:
     const std::size_t cells = shape.cells_v();
     for (std::size_t cell = 0; cell < cells; ++cell) {
       const CellRow<T> row(task_, shape, range_.patch, cell);
-      build(row);
+      const typename Columns::Edges edges(shape, x_, range_.x, task_.watertight,
+                                          task_.first_component, row);
+      build_columns(columns_, row, edges, origins_);
       range_.at = first_at_;
       for (std::size_t r = 0; r < task_.run_count; ++r) {
         const RowRun<T> run = task_.runs[r];
-        range_.floor = floor_of(run);
+        range_.floor = run.kind == RowKind::outside ? no_floor<V>() : floor_;
         for (std::size_t j = 0; j < run.rows; ++j, range_.at += task_.nu) {
           const T y = run.y[j];
           if (cells == 1) {
-            put(y, y);
+            put(y, y, edges);
           } else if ((y < T(0)) == (cell == 0)) {
-            put(y, cell_parameter(y));
+            put(y, cell_parameter(y), edges);
           }
         }
       }
@@ -53,46 +56,27 @@ public:
   }
 
 private:
-  __attribute__((noinline)) void build(const CellRow<T>& row) { columns_.build(row); }
-
-  __attribute__((noinline)) void put(T y, T local) {
-    const bool on_edge = task_.watertight && (local == T(-0.5) || local == T(0.5));
+  __attribute__((noinline)) void put(T y, T local, const typename Columns::Edges& edges) {
+    const std::size_t edge = task_.watertight ? edge_of_cell(local) : kEdges;
     range_.y = broadcast<V>(y);
     SampleJet<V> jet;
-    if (P::kDepth > 0 || !on_edge) {
+    if (P::kDepth > 0 || edge == kEdges) {
       columns_.evaluate(broadcast<V>(local), jet);
     }
-    if (on_edge) {
-      put_edge(local, jet);
+    if (edge < kEdges) {
+      edges.replace_row(edge, jet);
     }
-    store_sample<P>(task_, range_, jet);
-  }
-
-  /// What a row on an edge v = const has of its own.
-  SIMDBEZIER_INLINE void put_edge(T local, SampleJet<V>& jet) const {
-    SampleJet<V> edge; // so that the caller's need not be in memory
-    edge_row(local < T(0) ? detail::kEdgeV0 : detail::kEdgeV1, edge);
-    for (std::size_t c = 0; c < P::Slots::kMost; ++c) {
-      jet.position[c] = edge.position[c];
-      if constexpr (P::kDepth > 0) {
-        jet.du[c] = edge.du[c];
-      }
-      if constexpr (P::kDepth > 1) {
-        jet.duu[c] = edge.duu[c];
-      }
+    if constexpr (P::kDepth == 0) { // little else is done
+      store_sample<P>(task_, range_, jet);
+    } else {
+      store_shared<P>(task_, range_, jet);
     }
-  }
-  __attribute__((noinline)) void edge_row(std::size_t edge, SampleJet<V>& jet) const {
-    columns_.replace_row(edge, jet);
-  }
-
-  SIMDBEZIER_INLINE V floor_of(const RowRun<T>& run) const {
-    return run.kind == RowKind::outside ? no_floor<V>() : floor_;
   }
 
   const GridTask<T>& task_;
   CellColumns<V> x_;
-  ShapeColumns<P, V> columns_;
+  Columns columns_;
+  ColumnOrigins<V> origins_;
   SampleRange<V> range_;
   V floor_; ///< of rows that are not outside
   std::size_t first_at_;
@@ -107,7 +91,7 @@ __attribute__((noinline)) void sweep_shape(const GridTask<T>& shared_task) {
     for (std::size_t first = 0; first < task.nu; first += kLanes<vec<T>>) {
       ColumnSweep<P, T>(task, shape, patch, first).run(shape);
     }
-    pace(task.drain, task.patch_step * 3);
+    drain_some(task.drain, task.patch_step * 3);
   }
 }
 

@@ -1,6 +1,8 @@
 // Scattered samples on patches of any shape: lanes = consecutive samples of one patch.
 #pragma once
 
+#include <cstdint>
+
 #include "kernels/scattered/bicubic_sample.hpp"
 #include "kernels/shape/shape_outputs.hpp"
 
@@ -31,21 +33,24 @@ SIMDBEZIER_INLINE void keep_lanes(MaskOf<V> yes, const SampleJet<V>& other, Samp
   }
 }
 
-/// Samples of one patch in one row of cells, at the local y. edge: the edge v = const of the cells
-/// that all of them are on; kEdges where it is none. Out of line: it is large, and there are
-/// several ways to it.
+/// Samples of one patch in one row of cells, at the local y and at x, which `columns` are. edge:
+/// the edge v = const of the cells that all of them are on; kEdges where it is none. Out of line:
+/// it is large, and there are several ways to it.
 template <typename P, typename V>
 __attribute__((noinline)) void evaluate_row(const ScatteredTask<ScalarOf<V>>& task,
                                             const NetShape& shape, std::size_t patch,
-                                            std::size_t cell, const CellColumns<V>& columns, V y,
-                                            std::size_t edge, SampleJet<V>& jet) {
+                                            std::size_t cell, const CellColumns<V>& columns, V x,
+                                            V y, std::size_t edge, SampleJet<V>& jet) {
   using T = ScalarOf<V>;
   const CellRow<T> cells(task, shape, patch, cell);
+  const typename ShapeColumns<P, V>::Edges edges(shape, columns, x, task.watertight,
+                                                 task.first_component, cells);
   ShapeColumns<P, V> polynomials(shape, columns, task.first_component);
-  polynomials.build(cells);
+  ColumnOrigins<V> origins;
+  build_columns(polynomials, cells, edges, origins);
   polynomials.evaluate(y, jet);
   if (edge < kEdges) [[unlikely]] {
-    polynomials.replace_row(edge, jet);
+    edges.replace_row(edge, jet);
   }
 }
 
@@ -58,10 +63,10 @@ SIMDBEZIER_INLINE void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, co
   const CellColumns<V> columns(x, shape.cells_u(), task.watertight);
   const CellColumns<V> rows(y, shape.cells_v(), task.watertight);
   const bool both = rows.any_low && rows.any_high;
-  evaluate_row<P>(task, shape, patch, rows.any_low ? 0 : 1, columns, rows.local.x, edge, jet);
+  evaluate_row<P>(task, shape, patch, rows.any_low ? 0 : 1, columns, x, rows.local.x, edge, jet);
   if (both) {
     SampleJet<V> high;
-    evaluate_row<P>(task, shape, patch, 1, columns, rows.local.x, edge, high);
+    evaluate_row<P>(task, shape, patch, 1, columns, x, rows.local.x, edge, high);
     keep_lanes<P>(rows.low, high, jet);
   }
 }
@@ -74,62 +79,41 @@ SIMDBEZIER_INLINE V sample_floor(const ScatteredTask<ScalarOf<V>>& task,
   return floor_inside(range.y, floor_inside(range.x, floor));
 }
 
-/// Where a sample is among the edges v = const of its cells.
-template <typename T>
-SIMDBEZIER_INLINE std::size_t edge_at(const NetShape& shape, T y) {
-  const T local = shape.cells_v() == 1 ? y : cell_parameter(y);
-  return local == T(-0.5) ? detail::kEdgeV0 : local == T(0.5) ? detail::kEdgeV1 : kEdges;
-}
-
-/// Sample k alone, in all lanes of a register: with an edge v = const of its own where it is on
-/// one.
+/// Samples [k, k + count) of one patch, at most a register of them; the rest of it repeats the
+/// last. Returns which of them cannot be told from samples off the edges v = const here: those that
+/// are on one of their cells, and those that are not finite. alone: count is 1, and the sample is
+/// what it is.
 template <typename P, typename T>
-__attribute__((noinline)) void evaluate_single(const ScatteredTask<T>& task, const NetShape& shape,
-                                               std::size_t k) {
+__attribute__((noinline)) std::uint32_t evaluate_together(const ScatteredTask<T>& task,
+                                                          const NetShape& shape, std::size_t k,
+                                                          std::size_t count, bool alone) {
   using V = vec<T>;
-  const T x = finite_half_centred(task, task.u[k]);
-  const T y = finite_half_centred(task, task.v[k]);
-  SampleRange<V> range{task.patch[k], k, 1, 0, broadcast<V>(x), broadcast<V>(y), {}};
-  range.floor = sample_floor<P>(task, range);
-  SampleJet<V> jet;
-  evaluate_lanes<P, V>(task, shape, range.patch, range.x, range.y,
-                       task.watertight ? edge_at(shape, y) : kEdges, jet);
-  if (task.status != nullptr && (x != x || y != y)) {
-    task.status[k] = SampleStatus::non_finite;
-  }
-  store_sample<P>(task, range, jet);
-}
-
-/// Samples [k, k + count) of one patch, at most a register of them, the rest of it repeats the
-/// last.
-template <typename P, typename V>
-SIMDBEZIER_INLINE void evaluate_together(const ScatteredTask<ScalarOf<V>>& task,
-                                         const NetShape& shape, std::size_t k, std::size_t count) {
-  using T = ScalarOf<V>;
   alignas(64) T x[kLanes<V>];
   alignas(64) T y[kLanes<V>];
-  bool alone[kLanes<V>]; // on an edge v = const or not finite
-  bool any_alone = false;
-  for (std::size_t i = 0; i < kLanes<V>; ++i) {
-    const std::size_t from = k + (i < count ? i : count - 1);
-    x[i] = finite_half_centred(task, task.u[from]);
-    y[i] = finite_half_centred(task, task.v[from]);
-    alone[i] = edge_at(shape, y[i]) < kEdges || x[i] != x[i] || y[i] != y[i];
-    any_alone = any_alone || alone[i];
+  std::uint32_t special = 0;
+  std::size_t edge = kEdges;
+  bool finite = true;
+  for (std::size_t i = 0; i < count; ++i) {
+    x[i] = finite_half_centred(task, task.u[k + i]);
+    y[i] = finite_half_centred(task, task.v[k + i]);
+    edge = edge_of_cell(shape.cells_v() == 1 ? y[i] : cell_parameter(y[i]));
+    finite = x[i] == x[i] && y[i] == y[i];
+    special |= edge < kEdges || !finite ? std::uint32_t{1} << i : 0;
+  }
+  for (std::size_t i = count; i < kLanes<V>; ++i) {
+    x[i] = x[count - 1];
+    y[i] = y[count - 1];
   }
   SampleRange<V> range{task.patch[k], k, count, 0, load_vector<V>(x), load_vector<V>(y), {}};
   range.floor = sample_floor<P>(task, range);
   SampleJet<V> jet;
-  evaluate_lanes<P, V>(task, shape, range.patch, range.x, range.y, kEdges, jet);
-  store_sample<P>(task, range, jet);
-  for (std::size_t i = 0; any_alone && i < count; ++i) {
-    if (alone[i]) {
-      if (task.status != nullptr) {
-        task.status[k + i] = SampleStatus::regular;
-      }
-      evaluate_single<P>(task, shape, k + i);
-    }
+  evaluate_lanes<P, V>(task, shape, range.patch, range.x, range.y,
+                       alone && task.watertight ? edge : kEdges, jet);
+  if (alone && !finite && task.status != nullptr) {
+    task.status[k] = SampleStatus::non_finite;
   }
+  store_shared<P>(task, range, jet);
+  return alone ? 0 : special;
 }
 
 template <typename P, typename T>
@@ -141,10 +125,14 @@ __attribute__((noinline)) void scatter_shape(const ScatteredTask<T>& task) {
     while (count < kLanes<V> && k + count < task.count && task.patch[k + count] == task.patch[k]) {
       ++count;
     }
-    if (count == 1) {
-      evaluate_single<P>(task, shape, k);
-    } else {
-      evaluate_together<P, V>(task, shape, k, count);
+    std::uint32_t special = evaluate_together<P>(task, shape, k, count, count == 1);
+    for (std::size_t i = 0; i < count && special != 0; ++i, special >>= 1) {
+      if (special % 2 != 0) {
+        if (task.status != nullptr) {
+          task.status[k + i] = SampleStatus::regular;
+        }
+        evaluate_together<P>(task, shape, k + i, 1, true);
+      }
     }
     k += count;
   }

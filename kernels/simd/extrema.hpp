@@ -1,5 +1,6 @@
-// Smaller and larger of two values. Which one comes back where one is nan, and which zero of two,
-// depends on the machine: for callers to whom neither matters.
+// Smaller and larger of two values. Which zero of two comes back depends on the machine, and what
+// comes back where one is nan: b where a is, except on NEON, where nan stays. For callers to whom
+// neither matters.
 #pragma once
 
 #include "kernels/simd/vector.hpp"

@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernels/simd/interleave.hpp"
 #include "kernels/simd/lanes.hpp"
+#include "kernels/simd/quad_transpose.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -127,105 +129,17 @@ SIMDBEZIER_INLINE V lane_broadcast(V v) {
 #endif
 }
 
-// The names say where results come from: the low or high halves of each lane of a and b.
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-SIMDBEZIER_INLINE vec<float> zip_low(vec<float> a, vec<float> b) {
-  return vec<float>(_mm512_maskz_unpacklo_ps(0xffff, a, b));
-}
-SIMDBEZIER_INLINE vec<float> zip_high(vec<float> a, vec<float> b) {
-  return vec<float>(_mm512_maskz_unpackhi_ps(0xffff, a, b));
-}
-SIMDBEZIER_INLINE vec<double> zip_low(vec<double> a, vec<double> b) {
-  return vec<double>(_mm512_maskz_unpacklo_pd(0xff, a, b));
-}
-SIMDBEZIER_INLINE vec<double> zip_high(vec<double> a, vec<double> b) {
-  return vec<double>(_mm512_maskz_unpackhi_pd(0xff, a, b));
-}
-SIMDBEZIER_INLINE vec<float> join_low(vec<float> a, vec<float> b) {
-  return vec<float>(
-      _mm512_castpd_ps(_mm512_maskz_unpacklo_pd(0xff, _mm512_castps_pd(a), _mm512_castps_pd(b))));
-}
-SIMDBEZIER_INLINE vec<float> join_high(vec<float> a, vec<float> b) {
-  return vec<float>(
-      _mm512_castpd_ps(_mm512_maskz_unpackhi_pd(0xff, _mm512_castps_pd(a), _mm512_castps_pd(b))));
-}
-#elif defined(SIMDBEZIER_KERNELS_AVX2)
-SIMDBEZIER_INLINE vec<float> zip_low(vec<float> a, vec<float> b) {
-  return vec<float>(_mm256_unpacklo_ps(a, b));
-}
-SIMDBEZIER_INLINE vec<float> zip_high(vec<float> a, vec<float> b) {
-  return vec<float>(_mm256_unpackhi_ps(a, b));
-}
-SIMDBEZIER_INLINE vec<double> zip_low(vec<double> a, vec<double> b) {
-  return vec<double>(_mm256_unpacklo_pd(a, b));
-}
-SIMDBEZIER_INLINE vec<double> zip_high(vec<double> a, vec<double> b) {
-  return vec<double>(_mm256_unpackhi_pd(a, b));
-}
-SIMDBEZIER_INLINE vec<float> join_low(vec<float> a, vec<float> b) {
-  return vec<float>(_mm256_shuffle_ps(a, b, 0x44));
-}
-SIMDBEZIER_INLINE vec<float> join_high(vec<float> a, vec<float> b) {
-  return vec<float>(_mm256_shuffle_ps(a, b, 0xee));
-}
-#elif defined(SIMDBEZIER_KERNELS_SSE2)
-SIMDBEZIER_INLINE vec<float> zip_low(vec<float> a, vec<float> b) {
-  return vec<float>(_mm_unpacklo_ps(a, b));
-}
-SIMDBEZIER_INLINE vec<float> zip_high(vec<float> a, vec<float> b) {
-  return vec<float>(_mm_unpackhi_ps(a, b));
-}
-SIMDBEZIER_INLINE vec<double> zip_low(vec<double> a, vec<double> b) {
-  return vec<double>(_mm_unpacklo_pd(a, b));
-}
-SIMDBEZIER_INLINE vec<double> zip_high(vec<double> a, vec<double> b) {
-  return vec<double>(_mm_unpackhi_pd(a, b));
-}
-SIMDBEZIER_INLINE vec<float> join_low(vec<float> a, vec<float> b) {
-  return vec<float>(_mm_movelh_ps(a, b));
-}
-SIMDBEZIER_INLINE vec<float> join_high(vec<float> a, vec<float> b) {
-  return vec<float>(_mm_movehl_ps(b, a));
-}
-#elif defined(SIMDBEZIER_KERNELS_NEON64)
-SIMDBEZIER_INLINE vec<float> zip_low(vec<float> a, vec<float> b) {
-  return vec<float>(vzip1q_f32(a, b));
-}
-SIMDBEZIER_INLINE vec<float> zip_high(vec<float> a, vec<float> b) {
-  return vec<float>(vzip2q_f32(a, b));
-}
-SIMDBEZIER_INLINE vec<double> zip_low(vec<double> a, vec<double> b) {
-  return vec<double>(vzip1q_f64(a, b));
-}
-SIMDBEZIER_INLINE vec<double> zip_high(vec<double> a, vec<double> b) {
-  return vec<double>(vzip2q_f64(a, b));
-}
-SIMDBEZIER_INLINE vec<float> join_low(vec<float> a, vec<float> b) {
-  return vec<float>(
-      vreinterpretq_f32_f64(vzip1q_f64(vreinterpretq_f64_f32(a), vreinterpretq_f64_f32(b))));
-}
-SIMDBEZIER_INLINE vec<float> join_high(vec<float> a, vec<float> b) {
-  return vec<float>(
-      vreinterpretq_f32_f64(vzip2q_f64(vreinterpretq_f64_f32(a), vreinterpretq_f64_f32(b))));
-}
-#endif
-
 /// Transposes the kQuad x kQuad values that kQuad registers hold in each lane.
 template <typename V>
 SIMDBEZIER_INLINE void lane_transpose(V r[kQuad<V>]) {
-  if constexpr (kQuad<V> == 2) {
-    const V low = zip_low(r[0], r[1]);
-    r[1] = zip_high(r[0], r[1]);
-    r[0] = low;
-  } else {
-    const V a = zip_low(r[0], r[1]);
-    const V b = zip_high(r[0], r[1]);
-    const V c = zip_low(r[2], r[3]);
-    const V d = zip_high(r[2], r[3]);
-    r[0] = join_low(a, c);
-    r[1] = join_high(a, c);
-    r[2] = join_low(b, d);
-    r[3] = join_high(b, d);
+  using B = typename VectorOf<ScalarOf<V>, sizeof(V)>::type;
+  B m[kQuad<V>];
+  for (std::size_t k = 0; k < kQuad<V>; ++k) {
+    m[k] = __builtin_bit_cast(B, r[k]);
+  }
+  transpose_quads<ScalarOf<V>>(m);
+  for (std::size_t k = 0; k < kQuad<V>; ++k) {
+    r[k] = __builtin_bit_cast(V, m[k]);
   }
 }
 

@@ -10,16 +10,17 @@
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 template <typename V>
-struct Twice {
+struct RegisterPair {
   V low;
   V high;
 
-  Twice() = default;
-  SIMDBEZIER_INLINE Twice(V first, V second) : low(first), high(second) {}
+  RegisterPair() = default;
+  SIMDBEZIER_INLINE RegisterPair(V first, V second) : low(first), high(second) {}
   /// In all lanes.
-  explicit SIMDBEZIER_INLINE Twice(ScalarOf<V> value) : low(broadcast<V>(value)), high(low) {}
+  explicit SIMDBEZIER_INLINE RegisterPair(ScalarOf<V> value)
+      : low(broadcast<V>(value)), high(low) {}
 
-  static SIMDBEZIER_INLINE Twice load_unaligned(const ScalarOf<V>* from) {
+  static SIMDBEZIER_INLINE RegisterPair load_unaligned(const ScalarOf<V>* from) {
     return {load_vector<V>(from), load_vector<V>(from + kLanes<V>)};
   }
   SIMDBEZIER_INLINE void store_unaligned(ScalarOf<V>* to) const {
@@ -35,7 +36,7 @@ struct TwiceMask {
 };
 
 template <typename V>
-struct Traits<Twice<V>> {
+struct Traits<RegisterPair<V>> {
   using Scalar = ScalarOf<V>;
   using Mask = TwiceMask<V>;
   static constexpr std::size_t kLanes = 2 * Traits<V>::kLanes;
@@ -43,38 +44,40 @@ struct Traits<Twice<V>> {
 
 /// The first n lanes, more than those of one register.
 template <typename V>
-SIMDBEZIER_INLINE void masked_store(ScalarOf<V>* to, Twice<V> value, std::size_t n) {
+SIMDBEZIER_INLINE void masked_store(ScalarOf<V>* to, RegisterPair<V> value, std::size_t n) {
   store_vector(to, value.low);
   masked_store(to + kLanes<V>, value.high, n - kLanes<V>);
 }
 
 template <typename V>
-SIMDBEZIER_INLINE TwiceMask<V> operator==(Twice<V> a, Twice<V> b) {
+SIMDBEZIER_INLINE TwiceMask<V> operator==(RegisterPair<V> a, RegisterPair<V> b) {
   return {a.low == b.low, a.high == b.high};
 }
 
 template <typename V>
-SIMDBEZIER_INLINE Twice<V> operator+(Twice<V> a, Twice<V> b) {
+SIMDBEZIER_INLINE RegisterPair<V> operator+(RegisterPair<V> a, RegisterPair<V> b) {
   return {a.low + b.low, a.high + b.high};
 }
 
 template <typename V>
-SIMDBEZIER_INLINE Twice<V> vector_fma(Twice<V> a, Twice<V> b, Twice<V> c) {
+SIMDBEZIER_INLINE RegisterPair<V> vector_fma(RegisterPair<V> a, RegisterPair<V> b,
+                                             RegisterPair<V> c) {
   return {madd(a.low, b.low, c.low), madd(a.high, b.high, c.high)};
 }
 
 template <typename V>
-SIMDBEZIER_INLINE Twice<V> madd_by(Twice<V> a, const ScalarOf<V>* t, Twice<V> c) {
+SIMDBEZIER_INLINE RegisterPair<V> madd_by(RegisterPair<V> a, const ScalarOf<V>* t,
+                                          RegisterPair<V> c) {
   return {madd_by(a.low, t, c.low), madd_by(a.high, t, c.high)};
 }
 
 template <typename V>
-class PairSelector<Twice<V>> {
+class PairSelector<RegisterPair<V>> {
 public:
   SIMDBEZIER_INLINE PairSelector(TwiceMask<V> first, TwiceMask<V> second)
       : low_(first.low, second.low), high_(first.high, second.high) {}
   SIMDBEZIER_INLINE bool worthwhile() const { return low_.worthwhile() || high_.worthwhile(); }
-  SIMDBEZIER_INLINE Twice<V> replace(Twice<V> inside, const ScalarOf<V>* pair) const {
+  SIMDBEZIER_INLINE RegisterPair<V> replace(RegisterPair<V> inside, const ScalarOf<V>* pair) const {
     return {low_.replace(inside.low, pair), high_.replace(inside.high, pair)};
   }
 

@@ -21,7 +21,7 @@ SIMDBEZIER_INLINE void turn_square(vec<float> values[16]) {
     m[p] = values[p];
   }
   for (int p = 0; p < 16; p += 4) {
-    turn_4x4(m[p], m[p + 1], m[p + 2], m[p + 3]);
+    transpose_quads<float>(m + p);
   }
   for (int r = 0; r < 4; ++r) {
     const __m512 ab_low = _mm512_shuffle_f32x4(m[r], m[4 + r], 0x44);
@@ -43,8 +43,8 @@ SIMDBEZIER_INLINE void turn_square(vec<float> values[8]) {
   for (int p = 0; p < 8; ++p) {
     m[p] = values[p];
   }
-  turn_4x4(m[0], m[1], m[2], m[3]);
-  turn_4x4(m[4], m[5], m[6], m[7]);
+  transpose_quads<float>(m);
+  transpose_quads<float>(m + 4);
   for (int r = 0; r < 4; ++r) {
     values[r] = vec<float>(_mm256_permute2f128_ps(m[r], m[4 + r], 0x20));
     values[4 + r] = vec<float>(_mm256_permute2f128_ps(m[r], m[4 + r], 0x31));
@@ -55,15 +55,11 @@ template <>
 inline constexpr bool kHasSquares<vec<float>> = true;
 
 SIMDBEZIER_INLINE void turn_square(vec<float> values[4]) {
-  __m128 a = values[0];
-  __m128 b = values[1];
-  __m128 c = values[2];
-  __m128 d = values[3];
-  _MM_TRANSPOSE4_PS(a, b, c, d);
-  values[0] = vec<float>(a);
-  values[1] = vec<float>(b);
-  values[2] = vec<float>(c);
-  values[3] = vec<float>(d);
+  __m128 m[4] = {values[0], values[1], values[2], values[3]};
+  transpose_quads<float>(m);
+  for (int r = 0; r < 4; ++r) {
+    values[r] = vec<float>(m[r]);
+  }
 }
 #endif
 

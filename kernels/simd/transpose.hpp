@@ -6,6 +6,7 @@
 #pragma once
 
 #include "kernels/simd/lanes.hpp"
+#include "kernels/simd/quad_transpose.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -52,33 +53,12 @@ SIMDBEZIER_INLINE Wide magnitude(Wide x) {
 #endif
 }
 
-/// The larger one; `known` where `x` is nan, except on NEON, where nan stays.
-SIMDBEZIER_INLINE Wide larger(Wide x, Wide known) {
-#if defined(SIMDBEZIER_KERNELS_SCALAR)
-  return x > known ? x : known;
-#else
-  return max(x, known);
-#endif
-}
-
 #if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2) ||                      \
     defined(SIMDBEZIER_KERNELS_SSE2)
 SIMDBEZIER_INLINE __m128 low_pairs(__m128 a, __m128 b) { return _mm_movelh_ps(a, b); }
 #endif
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-/// In every 128 bits: rows of a 4x4 matrix become its columns.
-SIMDBEZIER_INLINE void turn_4x4(__m512& a, __m512& b, __m512& c, __m512& d) {
-  const __m512d ab0 = _mm512_castps_pd(_mm512_unpacklo_ps(a, b));
-  const __m512d ab1 = _mm512_castps_pd(_mm512_unpackhi_ps(a, b));
-  const __m512d cd0 = _mm512_castps_pd(_mm512_unpacklo_ps(c, d));
-  const __m512d cd1 = _mm512_castps_pd(_mm512_unpackhi_ps(c, d));
-  a = _mm512_castpd_ps(_mm512_unpacklo_pd(ab0, cd0));
-  b = _mm512_castpd_ps(_mm512_unpackhi_pd(ab0, cd0));
-  c = _mm512_castpd_ps(_mm512_unpacklo_pd(ab1, cd1));
-  d = _mm512_castpd_ps(_mm512_unpackhi_pd(ab1, cd1));
-}
-
 SIMDBEZIER_INLINE void turn_8x8(__m512d m[8]) {
   __m512d pair[8]; // [2i]: even columns of rows 2i and 2i+1, [2i+1]: odd ones
   for (int i = 0; i < 8; i += 2) {
@@ -97,17 +77,6 @@ SIMDBEZIER_INLINE void turn_8x8(__m512d m[8]) {
   }
 }
 #elif defined(SIMDBEZIER_KERNELS_AVX2)
-SIMDBEZIER_INLINE void turn_4x4(__m256& a, __m256& b, __m256& c, __m256& d) {
-  const __m256d ab0 = _mm256_castps_pd(_mm256_unpacklo_ps(a, b));
-  const __m256d ab1 = _mm256_castps_pd(_mm256_unpackhi_ps(a, b));
-  const __m256d cd0 = _mm256_castps_pd(_mm256_unpacklo_ps(c, d));
-  const __m256d cd1 = _mm256_castps_pd(_mm256_unpackhi_ps(c, d));
-  a = _mm256_castpd_ps(_mm256_unpacklo_pd(ab0, cd0));
-  b = _mm256_castpd_ps(_mm256_unpackhi_pd(ab0, cd0));
-  c = _mm256_castpd_ps(_mm256_unpacklo_pd(ab1, cd1));
-  d = _mm256_castpd_ps(_mm256_unpackhi_pd(ab1, cd1));
-}
-
 SIMDBEZIER_INLINE void turn_4x4(__m256d m[4]) {
   const __m256d a0 = _mm256_unpacklo_pd(m[0], m[1]);
   const __m256d a1 = _mm256_unpackhi_pd(m[0], m[1]);
@@ -131,15 +100,10 @@ SIMDBEZIER_INLINE void load_transposed(const float* from, std::ptrdiff_t stride,
       r[p] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(at)),
                                   _mm_loadu_ps(at + 4 * stride), 1);
     }
-    const __m256d ab0 = _mm256_castps_pd(_mm256_unpacklo_ps(r[0], r[1]));
-    const __m256d ab1 = _mm256_castps_pd(_mm256_unpackhi_ps(r[0], r[1]));
-    const __m256d cd0 = _mm256_castps_pd(_mm256_unpacklo_ps(r[2], r[3]));
-    const __m256d cd1 = _mm256_castps_pd(_mm256_unpackhi_ps(r[2], r[3]));
-    const int k = 4 * half;
-    values[k] = Wide(_mm512_cvtps_pd(_mm256_castpd_ps(_mm256_unpacklo_pd(ab0, cd0))));
-    values[k + 1] = Wide(_mm512_cvtps_pd(_mm256_castpd_ps(_mm256_unpackhi_pd(ab0, cd0))));
-    values[k + 2] = Wide(_mm512_cvtps_pd(_mm256_castpd_ps(_mm256_unpacklo_pd(ab1, cd1))));
-    values[k + 3] = Wide(_mm512_cvtps_pd(_mm256_castpd_ps(_mm256_unpackhi_pd(ab1, cd1))));
+    transpose_quads<float>(r);
+    for (int i = 0; i < 4; ++i) {
+      values[4 * half + i] = Wide(_mm512_cvtps_pd(r[i]));
+    }
   }
 #elif defined(SIMDBEZIER_KERNELS_AVX2)
   for (int k = 0; k < 8; k += 4) {
@@ -147,7 +111,7 @@ SIMDBEZIER_INLINE void load_transposed(const float* from, std::ptrdiff_t stride,
     for (int p = 0; p < 4; ++p) {
       r[p] = _mm_loadu_ps(from + k + p * stride);
     }
-    _MM_TRANSPOSE4_PS(r[0], r[1], r[2], r[3]);
+    transpose_quads<float>(r);
     for (int i = 0; i < 4; ++i) {
       values[k + i] = Wide(_mm256_cvtps_pd(r[i]));
     }
@@ -239,7 +203,7 @@ SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], float* t
     const __m256 high = _mm512_cvtpd_ps(values[k + 4]);
     r[k] = _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(values[k])), high, 1);
   }
-  turn_4x4(r[0], r[1], r[2], r[3]);
+  transpose_quads<float>(r);
   for (int p = 0; p < 4; ++p) { // 128 bits: place p, p + 4, then their values 4 to 7
     const __m512 row = _mm512_add_ps(_mm512_shuffle_f32x4(r[p], r[p], 0xd8), _mm512_setzero_ps());
     _mm256_storeu_ps(to + p * stride, _mm512_castps512_ps256(row));
@@ -251,7 +215,7 @@ SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], float* t
     r[k] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(values[k])),
                                 _mm256_cvtpd_ps(values[k + 4]), 1);
   }
-  turn_4x4(r[0], r[1], r[2], r[3]);
+  transpose_quads<float>(r);
   for (int p = 0; p < 4; ++p) {
     _mm256_storeu_ps(to + p * stride, _mm256_add_ps(r[p], _mm256_setzero_ps()));
   }
@@ -320,8 +284,8 @@ SIMDBEZIER_INLINE void store_transposed_16<float>(const Wide values[2 * kTranspo
     r[i] = _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(values[k])),
                               _mm512_cvtpd_ps(values[k + 4]), 1);
   }
-  turn_4x4(r[0], r[1], r[2], r[3]);
-  turn_4x4(r[4], r[5], r[6], r[7]);
+  transpose_quads<float>(r);
+  transpose_quads<float>(r + 4);
   const __m512 zero = _mm512_setzero_ps();
   for (int p = 0; p < 4; ++p) {
     const __m512 first = _mm512_shuffle_f32x4(r[p], r[4 + p], 0x88);

@@ -61,7 +61,7 @@ struct PatchKernels {
     return {.row = bicubic && one_pass ? nu : 0,
             .lanes = table->lanes,
             .streamed = streamed,
-            .records = table->puts_records};
+            .records = table->puts_records && watertight && set->buckets[0].origins == nullptr};
   }
 
   void run(GridTask<T>& task) const noexcept {

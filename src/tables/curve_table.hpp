@@ -58,7 +58,7 @@ struct CurveTask : CurveArrays<T> {
   bool rows;            ///< positions of three components, in the caller's own layout
   T* triples;           ///< of rows: packed x y z take the place of out[kCurvePosition]
   bool streaming;       ///< past the caches; unless `rows`, curves are whole cache lines
-  DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see pace()
+  DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see drain_some()
 };
 
 /// Scattered samples with unit-stride outputs.

@@ -98,7 +98,7 @@ struct GridTask : SampleTask<T> {
 
   bool streaming;       ///< rows are whole cache lines, to be stored past the caches
   std::size_t record;   ///< values from one sample to the next: see OutputPlan::record()
-  DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see pace()
+  DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see drain_some()
 };
 
 /// Scattered samples with unit-stride outputs.
