@@ -27,18 +27,20 @@ std::vector<T>& nets_at_least(std::size_t count) {
 
 } // namespace
 
-unsigned char* output_buffer() {
-  static unsigned char* const buffer = [] {
-    void* memory = std::aligned_alloc(kHugePage, kBufferBytes);
-    if (memory != nullptr) {
+HugeMemory::HugeMemory(std::size_t bytes) {
+  const std::size_t pages = (bytes + kHugePage - 1) / kHugePage * kHugePage;
+  memory_.reset(static_cast<unsigned char*>(std::aligned_alloc(kHugePage, pages)));
+  if (memory_ != nullptr) {
 #if defined(__linux__)
-      madvise(memory, kBufferBytes, MADV_HUGEPAGE);
+    madvise(memory_.get(), pages, MADV_HUGEPAGE);
 #endif
-      std::memset(memory, 0, kBufferBytes);
-    }
-    return static_cast<unsigned char*>(memory);
-  }();
-  return buffer;
+    std::memset(memory_.get(), 0, pages);
+  }
+}
+
+unsigned char* output_buffer() {
+  static const HugeMemory buffer(kBufferBytes);
+  return buffer.get();
 }
 
 template <typename T>

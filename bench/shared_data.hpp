@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdlib>
+#include <memory>
 #include <vector>
 
 #include <simdbezier/simdbezier.hpp>
@@ -13,6 +15,24 @@ namespace simdbezier_bench {
 constexpr std::size_t kCacheBytes = std::size_t{256} << 10;
 constexpr std::size_t kMemoryBytes = std::size_t{256} << 20;
 constexpr std::size_t kLineBytes = 64;
+
+/// Memory in huge pages where the system has them, all of which have been touched. Rows that are
+/// compared with each other, and with the limits, write to such memory: small pages would cost some
+/// of them a third of their speed.
+class HugeMemory {
+public:
+  HugeMemory() = default;
+  explicit HugeMemory(std::size_t bytes);
+
+  /// Null where the memory cannot be had.
+  [[nodiscard]] unsigned char* get() const { return memory_.get(); }
+
+private:
+  struct Free {
+    void operator()(unsigned char* memory) const { std::free(memory); }
+  };
+  std::unique_ptr<unsigned char, Free> memory_;
+};
 
 /// The output buffer: somewhat more than kMemoryBytes, in huge pages where the system has them, all
 /// of which have been touched. Null where the memory cannot be had.
