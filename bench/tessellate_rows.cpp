@@ -19,6 +19,7 @@
 
 #include "bench/library_call.hpp"
 #include "bench/rows.hpp"
+#include "bench/shared_data.hpp"
 
 namespace simdbezier_bench {
 namespace {
@@ -38,8 +39,9 @@ struct MeshStages {
   std::vector<double> deviations;
   double tolerance = 0;
   simdbezier::MeshLayout layout;
-  std::vector<T> vertices; ///< positions, then normals
-  std::vector<std::uint32_t> triangles;
+  HugeMemory vertices; ///< positions, then normals from a line's start on
+  HugeMemory triangles;
+  std::size_t normals_at = 0;
 
   [[nodiscard]] simdbezier::ControlNets<T> views() const {
     return simdbezier::ControlNets<T>::packed(std::span<const T>(nets));
@@ -63,20 +65,34 @@ struct MeshStages {
   Status lay_out(const Options& /*how*/) {
     return simdbezier::lay_out_mesh(topology, {nu, nv, diagonals}, layout);
   }
+  /// Room for the samples of grids, and for the vertices and triangles of a mesh.
+  bool make_room() {
+    constexpr std::size_t kLine = kLineBytes / sizeof(T);
+    normals_at = (3 * static_cast<std::size_t>(grid_samples()) + kLine - 1) / kLine * kLine;
+    vertices = HugeMemory(2 * normals_at * sizeof(T));
+    triangles = HugeMemory(3 * layout.size().triangles * sizeof(std::uint32_t));
+    return vertices.get() != nullptr && triangles.get() != nullptr;
+  }
+  [[nodiscard]] simdbezier::Vectors<T> triples(std::size_t at, std::size_t count) const {
+    return simdbezier::Vectors<T>::xyz(
+        std::span(reinterpret_cast<T*>(vertices.get()) + at, 3 * count));
+  }
   Status evaluate_vertices(const Options& how) {
-    const std::size_t count = 3 * layout.size().vertices;
     simdbezier::MeshOutputs<T> out;
-    out.position = simdbezier::Vectors<T>::xyz(std::span(vertices).first(count));
-    out.normal = simdbezier::Vectors<T>::xyz(std::span(vertices).subspan(count, count));
+    out.position = triples(0, layout.size().vertices);
+    out.normal = triples(normals_at, layout.size().vertices);
     return simdbezier::evaluate_mesh(set, layout, out, how);
   }
   Status write(const Options& how) {
-    return simdbezier::write_triangles(layout, std::span(triangles), how.threads);
+    auto* const to = reinterpret_cast<std::uint32_t*>(triangles.get());
+    return simdbezier::write_triangles(layout, std::span(to, 3 * layout.size().triangles),
+                                       how.threads, {}, how.destination);
   }
   Status evaluate_grids(const Options& how) {
     simdbezier::Outputs<T> out;
-    out.position = simdbezier::Vectors<T>::xyz(std::span(vertices).first(vertices.size() / 2));
-    out.normal = simdbezier::Vectors<T>::xyz(std::span(vertices).last(vertices.size() / 2));
+    const auto samples = static_cast<std::size_t>(grid_samples());
+    out.position = triples(0, samples);
+    out.normal = triples(normals_at, samples);
     return simdbezier::evaluate(set, simdbezier::PatchGrids{samples_u, samples_v}, out, how);
   }
   [[nodiscard]] double grid_samples() const {
@@ -144,9 +160,7 @@ std::shared_ptr<MeshStages<T>> make_stages(bool adaptive) {
     s.samples_u.push_back(s.nu[p] + 1);
     s.samples_v.push_back(s.nv[p] + 1);
   }
-  s.triangles.assign(3 * s.layout.size().triangles, 1);
-  s.vertices.assign(6 * static_cast<std::size_t>(s.grid_samples()), T(1));
-  return stages;
+  return s.make_room() ? stages : nullptr;
 }
 
 template <typename T>
@@ -183,8 +197,7 @@ public:
     if (stages_ == nullptr) {
       return "the sheet could not be laid out";
     }
-    if (!part_.has_isa) {
-      const Status status = run(options_);
+    if (const Status status = run(options_); !part_.has_isa) {
       return status ? std::string() : std::string(simdbezier::to_string(status));
     }
     return run_verified(options_, [&](const Options& how) { return run(how); });
@@ -246,10 +259,9 @@ std::vector<Part<T>> parts_of(bool adaptive) {
     parts.push_back({"layout", {&S::lay_out}, P::patches, false});
     parts.push_back(
         {"mesh", {&S::choose, &S::lay_out, &S::write, &S::evaluate_vertices}, P::vertices, true});
-    parts.push_back({"all",
-                     {&S::join, &S::choose, &S::lay_out, &S::write, &S::evaluate_vertices},
-                     P::vertices,
-                     true});
+    parts.push_back(parts.back());
+    parts.back().name = "all";
+    parts.back().stages.insert(parts.back().stages.begin(), &S::join);
   } else {
     parts.push_back({"mesh", {&S::write, &S::evaluate_vertices}, P::vertices, true});
   }

@@ -6,7 +6,8 @@
 //   Orientation  counter-clockwise about du x dv; the other way round on patches that the topology
 //                turned. What a side that is a point leaves without area is not among them.
 //   Returns      ok | null_output | output_too_small (a span is shorter than the size that the mesh
-//                needs) | size_overflow (more vertices than Index has numbers) | out_of_memory.
+//                needs) | size_overflow (more vertices than Index has numbers) | out_of_memory |
+//                unknown_isa and unsupported_isa (of triangles, as resolve_isa()).
 //   Threads      as in Options. Allocation: scratch per thread, and 16 bytes a patch where sizes
 //                are not known from the layout.
 #pragma once
@@ -16,6 +17,7 @@
 #include <span>
 
 #include <simdbezier/mesh_layout.hpp>
+#include <simdbezier/options.hpp>
 #include <simdbezier/samples.hpp>
 
 namespace simdbezier {
@@ -24,10 +26,11 @@ namespace simdbezier {
 ///
 /// patches: all of them, or some: the first number is that of MeshLayout::first_triangle() of the
 ///          first patch. Returns bad_patch_range where the layout has no such patches.
+/// destination: as in Options; any alignment of Index will do.
 template <typename Index>
-[[nodiscard]] SIMDBEZIER_API Status write_triangles(const MeshLayout& layout,
-                                                    std::span<Index> triangles, int threads = 0,
-                                                    SetRange patches = {}) noexcept;
+[[nodiscard]] SIMDBEZIER_API Status
+write_triangles(const MeshLayout& layout, std::span<Index> triangles, int threads = 0,
+                SetRange patches = {}, Destination destination = Destination::automatic) noexcept;
 
 /// What a mesh of quads and triangles needs.
 struct PolygonSize {

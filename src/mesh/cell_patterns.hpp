@@ -18,38 +18,46 @@ public:
 
   /// The cell's first vertices below and above, and steps of 1 or -1 to the next ones.
   CellRun(std::uint32_t below, std::uint32_t above, const CellSteps& steps, bool falling,
-          bool turned)
-      : pattern_(kPatterns[falling ? 1 : 0][turned ? 1 : 0]) {
+          bool turned) {
+    const Pattern& pattern = kPatterns[falling ? 1 : 0][turned ? 1 : 0];
     const auto low = spread(below);
     const auto rise = spread(above - below);
     const auto back_below = spread(steps.below == 1 ? 0 : ~0U);
     const auto back_above = spread(steps.above == 1 ? 0 : ~0U);
     for (std::size_t k = 0; k < 3; ++k) {
-      const Register mask = load(pattern_.above, k);
-      const Register from_below = (load(pattern_.below_steps, k) ^ back_below) - back_below;
-      const Register from_above = (load(pattern_.above_steps, k) ^ back_above) - back_above;
-      next_[k] = low + (mask & rise) + from_below + from_above;
+      const Register mask = load(pattern.above, k);
+      const Register from_below = (load(pattern.below_steps, k) ^ back_below) - back_below;
+      const Register from_above = (load(pattern.above_steps, k) ^ back_above) - back_above;
+      first_[k] = low + (mask & rise) + from_below + from_above;
       step_[k] =
           (mask & spread(kTogether * steps.above)) | (~mask & spread(kTogether * steps.below));
     }
   }
 
-  /// Six numbers a cell; returns where they end.
-  Index* write(std::uint32_t cells, Index* to) {
-    for (; cells >= kTogether; cells -= kTogether, to += kNumbers) {
-      std::memcpy(to, next_, sizeof next_);
-      for (std::size_t k = 0; k < 3; ++k) {
-        next_[k] += step_[k];
-      }
+  /// Six numbers a cell, all of them larger by `base`; returns where they end. What stands behind
+  /// them, less than kNumbers, is overwritten.
+  Index* write(std::uint32_t base, std::uint32_t cells, Index* to) const {
+    // One by one: g++ keeps what is copied as an array in memory.
+    Register a = first_[0] + spread(base);
+    Register b = first_[1] + spread(base);
+    Register c = first_[2] + spread(base);
+    const Register step_a = step_[0];
+    const Register step_b = step_[1];
+    const Register step_c = step_[2];
+    Index* const end = to + std::size_t{6} * cells;
+    for (; to < end; to += kNumbers, a += step_a, b += step_b, c += step_c) {
+      store(to, a);
+      store(to + kLanes, b);
+      store(to + 2 * kLanes, c);
     }
-    std::memcpy(to, next_, 6 * sizeof(Index) * cells);
-    return to + std::size_t{6} * cells;
+    return end;
   }
+
+  static constexpr std::size_t kNumbers = 48 / sizeof(Index);
 
 private:
   typedef Index Register __attribute__((vector_size(16)));
   static constexpr std::size_t kLanes = 16 / sizeof(Index);
-  static constexpr std::size_t kNumbers = 3 * kLanes;
 
   struct Pattern {
     alignas(16) Index above[kNumbers];
@@ -76,14 +84,14 @@ private:
                                               {Pattern(true, false), Pattern(true, true)}};
 
   static Register spread(std::uint32_t value) { return Register{} + static_cast<Index>(value); }
+  static void store(Index* to, Register value) { std::memcpy(to, &value, sizeof value); }
   static Register load(const Index* from, std::size_t k) {
     Register value;
     std::memcpy(&value, from + k * kLanes, sizeof value);
     return value;
   }
 
-  const Pattern& pattern_;
-  Register next_[3];
+  Register first_[3];
   Register step_[3];
 };
 

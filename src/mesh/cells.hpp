@@ -60,6 +60,26 @@ struct CellCorners {
   std::uint32_t at[4];
 };
 
+/// The four sides of a cell, in the direction of u and v.
+struct CellSides {
+  Chain bottom;
+  Chain top;
+  Chain west;
+  Chain east;
+};
+
+/// A cell whose sides may have further vertices, or none.
+template <typename Sink>
+void cut_cell(const CellSides& cell, bool falling, Sink& sink) {
+  if (falling) { // right angles at (0,0) and (1,1)
+    cut_half(Leg(cell.bottom, false), Leg(cell.west, false), sink);
+    cut_half(Leg(cell.top, true), Leg(cell.east, true), sink);
+  } else { // at (1,0) and (0,1)
+    cut_half(Leg(cell.east, false), Leg(cell.bottom, true), sink);
+    cut_half(Leg(cell.west, true), Leg(cell.top, false), sink);
+  }
+}
+
 /// From the vertices of a cell to those of the next one: below and above.
 struct CellSteps {
   std::uint32_t below;
@@ -95,12 +115,63 @@ __attribute__((always_inline)) inline void put_halves(const CellCorners& c, bool
   }
 }
 
+/// Which way the diagonals of a patch's cells run.
+class CellZones {
+public:
+  CellZones(const MeshData& mesh, std::size_t patch)
+      : nu_(mesh.nu[patch]), nv_(mesh.nv[patch]), flags_(mesh.topology.data()->flags[patch]),
+        diagonals_(mesh.diagonals[patch]) {}
+
+  /// Whether the cell's diagonal runs from (1,0) to (0,1).
+  [[nodiscard]] bool falling(std::uint32_t i, std::uint32_t j) const {
+    for (std::uint32_t corner = 0; corner < kPatchCorners && has_forced_diagonal(flags_);
+         ++corner) {
+      if (is_forced_through(flags_, corner) && i == (corner % 2 != 0 ? nu_ - 1 : 0) &&
+          j == (corner >= 2 ? nv_ - 1 : 0)) {
+        return falls(corner);
+      }
+    }
+    return (diagonals_ >> (3 * zone(j, nv_) + zone(i, nu_)) & 1) != 0;
+  }
+  /// Where cells of another zone begin, or the last cell stands, behind an inner cell.
+  [[nodiscard]] std::uint32_t end_of_zone(std::uint32_t i) const {
+    const std::uint32_t middle = nu_ / 2;
+    const std::uint32_t end = i < middle ? middle : nu_ % 2 != 0 && i == middle ? middle + 1 : nu_;
+    return std::min(end, nu_ - 1);
+  }
+  /// Bit i: whether inner cell i of a row is falling; for up to 64 cells a row.
+  [[nodiscard]] std::uint64_t falling_row(std::uint32_t j) const {
+    const std::uint32_t zones = static_cast<std::uint32_t>(diagonals_) >> 3 * zone(j, nv_);
+    const std::uint32_t middle = nu_ / 2;
+    const std::uint64_t low = (std::uint64_t{1} << middle) - 1;
+    const std::uint64_t centre = nu_ % 2 != 0 ? std::uint64_t{1} << middle : 0;
+    const auto cells = [&](Zone where, std::uint64_t mask) {
+      return (zones >> static_cast<std::uint32_t>(where) & 1) != 0 ? mask : 0;
+    };
+    return cells(Zone::low, low) | cells(Zone::middle, centre) | cells(Zone::high, ~(low | centre));
+  }
+
+private:
+  /// The zone of cell i of n.
+  static std::uint32_t zone(std::uint32_t i, std::uint32_t n) {
+    const Zone where = n % 2 != 0 && i == n / 2 ? Zone::middle
+                       : 2 * i >= n             ? Zone::high
+                                                : Zone::low;
+    return static_cast<std::uint32_t>(where);
+  }
+
+  std::uint32_t nu_;
+  std::uint32_t nv_;
+  std::uint8_t flags_;
+  std::uint16_t diagonals_;
+};
+
 /// The cells of one patch.
 class CellCutter {
 public:
   CellCutter(const MeshData& mesh, const PatchBoundary& boundary, std::size_t patch)
       : boundary_(boundary), nu_(mesh.nu[patch]), nv_(mesh.nv[patch]), inner_(mesh.inner[patch]),
-        flags_(mesh.topology.data()->flags[patch]), diagonals_(mesh.diagonals[patch]) {}
+        zones_(mesh, patch) {}
 
   /// Row by row.
   template <typename Sink>
@@ -122,25 +193,6 @@ public:
 
 private:
   enum SideNumber : std::size_t { kV0, kV1, kU0, kU1 };
-
-  /// The zone of cell i of n.
-  static std::uint32_t zone(std::uint32_t i, std::uint32_t n) {
-    const Zone where = n % 2 != 0 && i == n / 2 ? Zone::middle
-                       : 2 * i >= n             ? Zone::high
-                                                : Zone::low;
-    return static_cast<std::uint32_t>(where);
-  }
-  /// Whether the cell's diagonal runs from (1,0) to (0,1).
-  [[nodiscard]] bool falling(std::uint32_t i, std::uint32_t j) const {
-    for (std::uint32_t corner = 0; corner < kPatchCorners && has_forced_diagonal(flags_);
-         ++corner) {
-      if (is_forced_through(flags_, corner) && i == (corner % 2 != 0 ? nu_ - 1 : 0) &&
-          j == (corner >= 2 ? nv_ - 1 : 0)) {
-        return falls(corner);
-      }
-    }
-    return (diagonals_ >> (3 * zone(j, nv_) + zone(i, nu_)) & 1) != 0;
-  }
 
   /// The vertex of point (i, j).
   [[nodiscard]] std::uint32_t vertex(std::uint32_t i, std::uint32_t j) const {
@@ -168,11 +220,11 @@ private:
         cut_border_cell(i, j, sink);
         ++i;
       } else {
-        const std::uint32_t last = std::min(end, zone_end(i));
+        const std::uint32_t last = std::min(end, zones_.end_of_zone(i));
         const std::uint32_t b = below.zero + i * below.step;
         const std::uint32_t a = above.zero + i * above.step;
         sink.cells({{b, b + below.step, a, a + above.step}}, {below.step, above.step}, last - i,
-                   falling(i, j));
+                   zones_.falling(i, j));
         i = last;
       }
     }
@@ -189,7 +241,7 @@ private:
                        (i > 0 || boundary_.segments(kU0, j) == 1) &&
                        (i + 1 < nu_ || boundary_.segments(kU1, j) == 1);
     if (plain && a != b && a != c && a != d && b != c && b != d && c != d) {
-      sink.cell({{a, b, c, d}}, falling(i, j));
+      sink.cell({{a, b, c, d}}, zones_.falling(i, j));
     } else {
       cut_chains(i, j, {{a, b, c, d}}, sink);
     }
@@ -204,28 +256,14 @@ private:
     const Chain top = j + 1 == nv_ ? boundary_.between(kV1, i) : Chain{c.at + 2, 1};
     const Chain west = i == 0 ? boundary_.between(kU0, j) : Chain{left, 1};
     const Chain east = i + 1 == nu_ ? boundary_.between(kU1, j) : Chain{right, 1};
-    if (falling(i, j)) { // right angles at (i, j) and (i + 1, j + 1)
-      cut_half(Leg(bottom, false), Leg(west, false), sink);
-      cut_half(Leg(top, true), Leg(east, true), sink);
-    } else { // at (i + 1, j) and (i, j + 1)
-      cut_half(Leg(east, false), Leg(bottom, true), sink);
-      cut_half(Leg(west, true), Leg(top, false), sink);
-    }
-  }
-
-  /// Where the zone of an inner cell ends, or the inner cells do.
-  [[nodiscard]] std::uint32_t zone_end(std::uint32_t i) const {
-    const std::uint32_t middle = nu_ / 2;
-    const std::uint32_t end = i < middle ? middle : nu_ % 2 != 0 && i == middle ? middle + 1 : nu_;
-    return std::min(end, nu_ - 1);
+    cut_cell({bottom, top, west, east}, zones_.falling(i, j), sink);
   }
 
   const PatchBoundary& boundary_;
   std::uint32_t nu_;
   std::uint32_t nv_;
   std::uint32_t inner_;
-  std::uint8_t flags_;
-  std::uint16_t diagonals_;
+  CellZones zones_;
 };
 
 } // namespace simdbezier::detail

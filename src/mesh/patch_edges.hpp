@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "src/mesh/cells.hpp"
 #include "src/mesh/mesh_data.hpp"
-#include "src/mesh/primitive_sinks.hpp"
 
 namespace simdbezier::detail {
 
@@ -103,22 +103,32 @@ private:
 
   /// The edges of all triangles, by points of the patch.
   void add_points(std::uint32_t patch) {
-    triangles_.resize(3 * (mesh_.triangles[patch + 1] - mesh_.triangles[patch]) + 64);
-    TriangleSink<std::uint32_t> sink(triangles_.data(), false);
+    PairSink sink{points_};
     CellCutter(mesh_, boundary_, patch).cut(sink);
-    for (const std::uint32_t* t = triangles_.data(); t != sink.end(); t += 3) {
-      points_.push_back(pair_of(t[0], t[1]));
-      points_.push_back(pair_of(t[1], t[2]));
-      points_.push_back(pair_of(t[2], t[0]));
-    }
   }
+  /// The edges of triangles.
+  struct PairSink {
+    std::vector<std::uint64_t>& pairs;
+
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      pairs.push_back(pair_of(a, b));
+      pairs.push_back(pair_of(b, c));
+      pairs.push_back(pair_of(c, a));
+    }
+    void cell(const CellCorners& c, bool falling) {
+      put_halves(c, falling, [&](auto... vertices) { triangle(vertices...); });
+    }
+    void cells(const CellCorners& first, const CellSteps& steps, std::uint32_t count,
+               bool falling) {
+      put_cells(first, steps, count, falling, *this);
+    }
+  };
 
   MeshData& mesh_;
   PatchBoundary& boundary_;
   std::vector<std::uint32_t> vertices_; ///< of the patch's points
-  std::vector<std::uint32_t> triangles_;
-  std::vector<std::uint64_t> points_; ///< two of a patch, joined
-  std::vector<MeshEdge> inside_;      ///< edges to inner points
+  std::vector<std::uint64_t> points_;   ///< two of a patch, joined
+  std::vector<MeshEdge> inside_;        ///< edges to inner points
 };
 
 } // namespace simdbezier::detail

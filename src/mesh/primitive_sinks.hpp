@@ -3,6 +3,7 @@
 #pragma once
 
 #include "src/mesh/cell_patterns.hpp"
+#include "src/mesh/index_stream.hpp"
 
 namespace simdbezier::detail {
 
@@ -30,29 +31,40 @@ private:
 template <typename Index>
 class TriangleSink {
 public:
-  TriangleSink(Index* to, bool turned) : to_(to), turned_(turned) {}
+  TriangleSink(IndexStream<Index>& stream, bool turned)
+      : stream_(stream), to_(stream.cursor()), turned_(turned) {}
 
-  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { to_ = put(to_, a, b, c); }
-  // In registers: what has been stored in parts is slow to be read as a whole.
-  __attribute__((always_inline)) void cell(const CellCorners& c, bool falling) {
-    Index* to = to_;
-    put_halves(c, falling, [&](auto... vertices) { to = put(to, vertices...); });
-    to_ = to;
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    put(a, b, c);
+    to_ = stream_.make_room(to_);
+  }
+  void cell(const CellCorners& c, bool falling) {
+    put_halves(c, falling, [&](auto... vertices) { put(vertices...); });
+    to_ = stream_.make_room(to_);
   }
   void cells(const CellCorners& first, const CellSteps& steps, std::uint32_t count, bool falling) {
-    CellRun<Index> run(first.at[0], first.at[2], steps, falling, turned_);
-    to_ = run.write(count, to_);
+    constexpr std::uint32_t kMost = IndexStream<Index>::kMostNumbers / 6;
+    CellCorners c = first;
+    while (count > 0) {
+      const std::uint32_t n = std::min(count, kMost);
+      const CellRun<Index> run(c.at[0], c.at[2], steps, falling, turned_);
+      to_ = stream_.make_room(run.write(0, n, to_));
+      c.at[0] += n * steps.below;
+      c.at[2] += n * steps.above;
+      count -= n;
+    }
   }
-  [[nodiscard]] const Index* end() const { return to_; }
+  [[nodiscard]] Index* end() const { return to_; }
 
 private:
-  __attribute__((always_inline)) Index* put(Index* to, std::uint32_t a, std::uint32_t b,
-                                            std::uint32_t c) const {
-    to[0] = static_cast<Index>(a);
-    to[1] = static_cast<Index>(turned_ ? c : b);
-    to[2] = static_cast<Index>(turned_ ? b : c);
-    return to + 3;
+  void put(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    to_[0] = static_cast<Index>(a);
+    to_[1] = static_cast<Index>(turned_ ? c : b);
+    to_[2] = static_cast<Index>(turned_ ? b : c);
+    to_ += 3;
   }
+
+  IndexStream<Index>& stream_;
   Index* to_;
   bool turned_;
 };

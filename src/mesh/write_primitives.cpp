@@ -8,6 +8,7 @@
 
 #include "src/calls/call.hpp"
 #include "src/mesh/cluster_sink.hpp"
+#include "src/mesh/primitive_call.hpp"
 #include "src/mesh/primitive_sinks.hpp"
 #include "src/runtime/batch.hpp"
 
@@ -39,30 +40,6 @@ template <typename Visit>
 Status for_cells(const MeshLayout& layout, int threads, const Visit& visit) noexcept {
   return for_cells(layout, 0, layout.data()->patches(), threads, visit);
 }
-
-template <typename Index>
-Status check(const MeshLayout& layout, std::span<const Index> indices,
-             std::size_t needed) noexcept {
-  if (layout.size().vertices > std::numeric_limits<Index>::max()) {
-    return Status::size_overflow;
-  }
-  if (needed > 0 && indices.data() == nullptr) {
-    return Status::null_output;
-  }
-  return indices.size() < needed ? Status::output_too_small : Status::ok;
-}
-
-/// Patches of a layout.
-struct PatchRange {
-  std::size_t first = 0;
-  std::size_t count = 0;
-
-  /// Returns false where the layout has no such patches.
-  [[nodiscard]] bool resolve(const MeshLayout& layout, SetRange patches) noexcept {
-    const std::size_t all = layout.data() == nullptr ? 0 : layout.data()->patches();
-    return resolve_range(patches, all, first, count);
-  }
-};
 
 /// Sizes of patches, summed up: sizes[k] is what stands before the k-th of them, the last one all.
 template <typename Size, typename Count, typename Add>
@@ -138,33 +115,6 @@ Status cluster_sizes(const MeshLayout& layout, int threads, std::vector<ClusterS
 } // namespace
 } // namespace detail
 
-template <typename Index>
-Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, int threads,
-                       SetRange patches) noexcept {
-  detail::PatchRange range;
-  if (!range.resolve(layout, patches)) {
-    return Status::bad_patch_range;
-  }
-  const std::size_t before = layout.first_triangle(range.first);
-  const std::size_t needed = 3 * (layout.first_triangle(range.first + range.count) - before);
-  const Status status = detail::check<Index>(layout, triangles, needed);
-  if (status != Status::ok || needed == 0) {
-    return status;
-  }
-  const detail::MeshData& mesh = *layout.data();
-  return detail::for_cells(
-      layout, range.first, range.count, threads,
-      [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
-        Index* const begin = triangles.data() + 3 * (mesh.triangles[patch] - before);
-        Index* const end = triangles.data() + 3 * (mesh.triangles[patch + 1] - before);
-        detail::TriangleSink<Index> sink(begin, turned);
-        cells.cut(sink);
-        // Where neighbouring sides of a patch are one edge, cells between them have fewer triangles
-        // than were counted: the last vertex in place of what is missing.
-        std::fill(begin + (sink.end() - begin), end, static_cast<Index>(mesh.vertices - 1));
-      });
-}
-
 Status polygon_size(const MeshLayout& layout, PolygonSize& size, int threads,
                     SetRange patches) noexcept try {
   detail::PatchRange range;
@@ -189,7 +139,7 @@ Status write_polygons(const MeshLayout& layout, std::span<Index> indices,
   std::vector<PolygonSize> before;
   Status status = detail::polygon_sizes(layout, range, threads, before);
   if (status == Status::ok) {
-    status = detail::check<Index>(layout, indices, before.back().indices);
+    status = detail::check_indices<Index>(layout, indices, before.back().indices);
   }
   if (status == Status::ok && sizes.size() < before.back().polygons) {
     status = sizes.data() == nullptr ? Status::null_output : Status::output_too_small;
@@ -222,7 +172,7 @@ Status write_strips(const MeshLayout& layout, std::span<Index> indices, int thre
   std::vector<std::size_t> before;
   Status status = detail::strip_sizes(layout, threads, before);
   if (status == Status::ok) {
-    status = detail::check<Index>(layout, indices, before.back());
+    status = detail::check_indices<Index>(layout, indices, before.back());
   }
   if (status != Status::ok || before.back() == 0) {
     return status;
@@ -276,10 +226,6 @@ Status write_clusters(const MeshLayout& layout, const ClusterOutputs& out, int t
   return Status::out_of_memory;
 }
 
-template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint32_t>, int,
-                                               SetRange) noexcept;
-template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint16_t>, int,
-                                               SetRange) noexcept;
 template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint32_t>,
                                               std::span<std::uint8_t>, int, SetRange) noexcept;
 template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint16_t>,

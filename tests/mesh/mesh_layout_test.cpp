@@ -147,18 +147,42 @@ TEST(MeshLayout, rates_and_their_neighbours_are_counted_exactly) {
   EXPECT_EQ(layout.first_triangle(2), layout.size().triangles);
 }
 
-TEST(MeshLayout, numbers_of_sixteen_bits_are_the_same_numbers) {
+/// Triangles that go to all places within a cache line, in every way; what stands around them
+/// stays.
+template <typename Index>
+void expect_numbers_anywhere(const MeshLayout& layout, const std::vector<std::uint32_t>& expected) {
+  constexpr Index kGuard = 0xabcd;
+  constexpr std::size_t kLine = 64 / sizeof(Index);
+  for (const Destination destination : {Destination::cache, Destination::memory}) {
+    for (const int threads : {1, 2, 5}) {
+      for (std::size_t offset = 0; offset < kLine; offset += threads == 1 ? 1 : 7) {
+        SCOPED_TRACE(std::to_string(offset) + ", threads " + std::to_string(threads));
+        std::vector<Index> memory(2 * kLine + expected.size(), kGuard);
+        const std::span all(memory);
+        ASSERT_EQ(
+            write_triangles(layout, all.subspan(offset, expected.size()), threads, {}, destination),
+            Status::ok);
+        EXPECT_TRUE(std::equal(expected.begin(), expected.end(), all.begin() + offset));
+        const auto is_guard = [](Index number) { return number == kGuard; };
+        EXPECT_TRUE(std::all_of(all.begin(), all.begin() + offset, is_guard));
+        EXPECT_TRUE(std::all_of(all.begin() + offset + expected.size(), all.end(), is_guard));
+      }
+    }
+  }
+}
+
+TEST(MeshLayout, numbers_are_the_same_wherever_they_go) {
   const MeshModel model = mesh_models()[7];
   const Topology topology = topology_of(model.values(), false);
-  const Rates rates = random_rates(model.patches.size(), 9, 3);
-  MeshLayout layout;
-  ASSERT_EQ(lay_out_mesh(topology, {rates.nu, rates.nv, rates.diagonals}, layout), Status::ok);
-  std::vector<std::uint32_t> wide(3 * layout.size().triangles);
-  std::vector<std::uint16_t> narrow(wide.size());
-  for (const int threads : {1, 2, 5}) {
-    ASSERT_EQ(write_triangles(layout, std::span(wide), threads), Status::ok);
-    ASSERT_EQ(write_triangles(layout, std::span(narrow), threads), Status::ok);
-    EXPECT_TRUE(std::equal(wide.begin(), wide.end(), narrow.begin(), narrow.end()));
+  for (const unsigned most : {2U, 9U, 80U}) { // one line; some; patches of all kinds
+    const Rates rates = random_rates(model.patches.size(), most, 3);
+    MeshLayout layout;
+    ASSERT_EQ(lay_out_mesh(topology, {rates.nu, rates.nv, rates.diagonals}, layout), Status::ok);
+    ASSERT_LT(layout.size().vertices, 0xabcdU);
+    std::vector<std::uint32_t> expected(3 * layout.size().triangles);
+    ASSERT_EQ(write_triangles(layout, std::span(expected), 1), Status::ok);
+    expect_numbers_anywhere<std::uint32_t>(layout, expected);
+    expect_numbers_anywhere<std::uint16_t>(layout, expected);
   }
 }
 

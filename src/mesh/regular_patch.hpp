@@ -1,0 +1,284 @@
+// The triangles of usual patches: rates from 2 to 63, and sides whose vertices follow each other.
+// The order is that of CellCutter, which cuts all other patches, and the cells in their corners.
+//
+// Nothing is looked up, and little is decided, for a cell: inner cells are written in registers,
+// and of a cell at a side, whose triangles are a fan, two are written before it is known whether
+// the second is there. What follows overwrites it.
+#pragma once
+
+#include <bit>
+
+#include "src/mesh/cell_patterns.hpp"
+#include "src/mesh/index_stream.hpp"
+#include "src/mesh/linear_sides.hpp"
+
+namespace simdbezier::detail {
+
+/// A leg of a cell in a corner of the patch, from the corner on.
+struct CornerLeg {
+  std::uint32_t corner;
+  std::uint32_t zero; ///< the number of the corner, if it were no corner
+  std::uint32_t step;
+  std::uint32_t segments;
+
+  /// The leg's other end.
+  [[nodiscard]] std::uint32_t far() const { return zero + segments * step; }
+};
+
+/// Its vertices one by one.
+class CornerChain {
+public:
+  explicit CornerChain(const CornerLeg& leg) : segments_(leg.segments) {
+    at_[0] = leg.corner;
+    for (std::uint32_t k = 1; k <= segments_; ++k) {
+      at_[k] = leg.zero + k * leg.step;
+    }
+  }
+  [[nodiscard]] Leg leg() const { return Leg({at_, segments_}, false); }
+
+private:
+  std::uint32_t segments_;
+  std::uint32_t at_[2 * UnionPlaces::kMost + 1];
+};
+
+/// Writes triangles with room behind them.
+template <typename Index, bool kTurned>
+class FanWriter {
+public:
+  explicit FanWriter(Index* to) : to_(to) {}
+
+  [[nodiscard]] Index* end() const { return to_; }
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    put(0, a, b, c);
+    to_ += 3;
+  }
+  /// A half of a cell whose first leg is a chain: `n` segments from vertex `first` on.
+  void fan_of_first(std::uint32_t first, std::uint32_t step, std::uint32_t n, std::uint32_t apex) {
+    put(0, first, first + step, apex);
+    put(1, first + step, first + 2 * step, apex);
+    for (std::uint32_t k = 2; k < n; ++k) {
+      put(k, first + k * step, first + (k + 1) * step, apex);
+    }
+    to_ += std::size_t{3} * n;
+  }
+  /// The same where the second leg is one.
+  void fan_of_second(std::uint32_t first, std::uint32_t step, std::uint32_t n, std::uint32_t apex) {
+    put(0, first, apex, first + step);
+    put(1, apex, first + 2 * step, first + step);
+    for (std::uint32_t k = 2; k < n; ++k) {
+      put(k, apex, first + (k + 1) * step, first + k * step);
+    }
+    to_ += std::size_t{3} * n;
+  }
+  /// The same of the legs in a corner, towards the corner.
+  void fan_of_first(const CornerLeg& leg, std::uint32_t apex) {
+    fan_of_first(leg.far(), 0 - leg.step, leg.segments, apex);
+    to_[kTurned ? -1 : -2] = static_cast<Index>(leg.corner);
+  }
+  void fan_of_second(const CornerLeg& leg, std::uint32_t apex) {
+    fan_of_second(leg.far(), 0 - leg.step, leg.segments, apex);
+    const bool single = leg.segments == 1;
+    to_[(single != kTurned) ? -1 : -2] = static_cast<Index>(leg.corner);
+  }
+  /// n cells side by side.
+  void cells(const CellRun<Index>& run, std::uint32_t base, std::uint32_t n) {
+    to_ = run.write(base, n, to_);
+  }
+
+private:
+  void put(std::size_t k, std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    Index* const to = to_ + 3 * k;
+    to[0] = static_cast<Index>(a);
+    to[1] = static_cast<Index>(kTurned ? c : b);
+    to[2] = static_cast<Index>(kTurned ? b : c);
+  }
+
+  Index* to_;
+};
+
+/// One patch.
+template <typename Index, bool kTurned>
+class RegularPatch {
+public:
+  RegularPatch(const MeshData& mesh, std::size_t patch, const LinearSides& sides)
+      : v0_(sides[0]), v1_(sides[1]), u0_(sides[2]), u1_(sides[3]), zones_(mesh, patch),
+        nu_(mesh.nu[patch]), nv_(mesh.nv[patch]),
+        inner_(mesh.inner[patch]), inner_cells_{{0, nu_ - 1, {1, 1}, false, kTurned},
+                                                {0, nu_ - 1, {1, 1}, true, kTurned}} {}
+
+  Index* write(IndexStream<Index>& stream, Index* to) const {
+    to = stream.make_room(border_row(0, v0_, to));
+    for (std::uint32_t j = 1; j + 1 < nv_; ++j) {
+      to = stream.make_room(inner_row(j, to));
+    }
+    return stream.make_room(border_row(nv_ - 1, v1_, to));
+  }
+
+private:
+  using Writer = FanWriter<Index, kTurned>;
+
+  /// The number of inner point (i, j).
+  [[nodiscard]] std::uint32_t inner(std::uint32_t i, std::uint32_t j) const {
+    return inner_ + (j - 1) * (nu_ - 1) + (i - 1);
+  }
+
+  Index* inner_row(std::uint32_t j, Index* to) const {
+    Writer out(to);
+    const std::uint64_t row = zones_.falling_row(j);
+    const std::uint32_t first = inner(1, j);
+    const std::uint32_t last = first + nu_ - 2;
+    cell_at_u0(j, first, (row & 1) != 0, out);
+    for_runs(row, [&](std::uint32_t i, std::uint32_t n, bool falling) {
+      out.cells(inner_cells_[falling ? 1 : 0], first + i - 1, n);
+    });
+    cell_at_u1(j, last, (row >> (nu_ - 1) & 1) != 0, out);
+    return out.end();
+  }
+  /// b: its vertex at (1,0).
+  void cell_at_u0(std::uint32_t j, std::uint32_t b, bool falling, Writer& out) const {
+    const std::uint32_t d = b + nu_ - 1;
+    const std::uint32_t place = u0_.places[j];
+    const std::uint32_t n = u0_.places[j + 1] - place;
+    const std::uint32_t a = u0_.at(place);
+    const std::uint32_t c = u0_.at(place + n);
+    if (falling) {
+      out.fan_of_second(a, u0_.step, n, b);
+      out.triangle(d, c, b);
+    } else {
+      out.triangle(b, d, a);
+      out.fan_of_first(c, 0 - u0_.step, n, d);
+    }
+  }
+  /// a: its vertex at (0,0).
+  void cell_at_u1(std::uint32_t j, std::uint32_t a, bool falling, Writer& out) const {
+    const std::uint32_t c = a + nu_ - 1;
+    const std::uint32_t place = u1_.places[j];
+    const std::uint32_t n = u1_.places[j + 1] - place;
+    const std::uint32_t b = u1_.at(place);
+    const std::uint32_t d = u1_.at(place + n);
+    if (falling) {
+      out.triangle(a, b, c);
+      out.fan_of_second(d, 0 - u1_.step, n, c);
+    } else {
+      out.fan_of_first(b, u1_.step, n, a);
+      out.triangle(c, a, d);
+    }
+  }
+
+  /// The first or the last row of cells.
+  Index* border_row(std::uint32_t j, const LinearSide& side, Index* to) const {
+    to = corner_cell(0, j, to);
+    Writer out(to);
+    const std::uint64_t row = zones_.falling_row(j);
+    if (side.segments == nu_) {
+      plain_cells(j, row, side, out);
+    } else {
+      for (std::uint32_t i = 1; i + 1 < nu_; ++i) {
+        const bool falling = (row >> i & 1) != 0;
+        j == 0 ? cell_at_v0(i, falling, out) : cell_at_v1(i, falling, out);
+      }
+    }
+    return corner_cell(nu_ - 1, j, out.end());
+  }
+  /// Cells at a side without further vertices.
+  void plain_cells(std::uint32_t j, std::uint64_t row, const LinearSide& side, Writer& out) const {
+    const CellSteps steps{j == 0 ? side.step : 1, j == 0 ? 1 : side.step};
+    for_runs(row, [&](std::uint32_t i, std::uint32_t n, bool falling) {
+      const std::uint32_t below = j == 0 ? side.at(i) : inner(i, j);
+      const std::uint32_t above = j == 0 ? inner(i, 1) : side.at(i);
+      out.cells(CellRun<Index>(below, above, steps, falling, kTurned), 0, n);
+    });
+  }
+  /// Calls visit(i, n, falling) for inner cells i .. i + n - 1 of a row with like diagonals.
+  template <typename Visit>
+  void for_runs(std::uint64_t row, const Visit& visit) const {
+    for (std::uint32_t i = 1; i + 1 < nu_;) {
+      const bool falling = (row >> i & 1) != 0;
+      const auto like = static_cast<std::uint32_t>(std::countr_zero((falling ? ~row : row) >> i));
+      const std::uint32_t n = std::min(like, nu_ - 1 - i);
+      visit(i, n, falling);
+      i += n;
+    }
+  }
+  void cell_at_v0(std::uint32_t i, bool falling, Writer& out) const {
+    const std::uint32_t place = v0_.places[i];
+    const std::uint32_t n = v0_.places[i + 1] - place;
+    const std::uint32_t a = v0_.at(place);
+    const std::uint32_t b = v0_.at(place + n);
+    const std::uint32_t c = inner(i, 1);
+    if (falling) {
+      out.fan_of_first(a, v0_.step, n, c);
+      out.triangle(c + 1, c, b);
+    } else {
+      out.fan_of_second(b, 0 - v0_.step, n, c + 1);
+      out.triangle(c, a, c + 1);
+    }
+  }
+  void cell_at_v1(std::uint32_t i, bool falling, Writer& out) const {
+    const std::uint32_t place = v1_.places[i];
+    const std::uint32_t n = v1_.places[i + 1] - place;
+    const std::uint32_t c = v1_.at(place);
+    const std::uint32_t d = v1_.at(place + n);
+    const std::uint32_t a = inner(i, nv_ - 1);
+    if (falling) {
+      out.triangle(a, a + 1, c);
+      out.fan_of_first(d, 0 - v1_.step, n, a + 1);
+    } else {
+      out.triangle(a + 1, d, a);
+      out.fan_of_second(c, v1_.step, n, a);
+    }
+  }
+
+  /// Both sides of it may have further vertices.
+  Index* corner_cell(std::uint32_t i, std::uint32_t j, Index* to) const {
+    const bool right = i > 0;
+    const bool high = j > 0;
+    const CornerLeg row = leg(high ? v1_ : v0_, right, nu_);
+    const CornerLeg column = leg(right ? u1_ : u0_, high, nv_);
+    const std::uint32_t inside = inner(right ? i : 1, high ? j : 1);
+    const bool row_first = right == high; // from leg to leg, counter-clockwise
+    Writer out(to);
+    if (zones_.falling(i, j) == row_first) {
+      if (high) { // the half inside comes first
+        put_inner_half(row, column, row_first, inside, out);
+      }
+      const CornerChain chains[2] = {CornerChain(row), CornerChain(column)};
+      cut_half(chains[row_first ? 0 : 1].leg(), chains[row_first ? 1 : 0].leg(), out);
+      if (!high) {
+        put_inner_half(row, column, row_first, inside, out);
+      }
+    } else if (right) {
+      out.fan_of_first(row_first ? column : row, inside);
+      out.fan_of_second(row_first ? row : column, inside);
+    } else {
+      out.fan_of_second(row_first ? row : column, inside);
+      out.fan_of_first(row_first ? column : row, inside);
+    }
+    return out.end();
+  }
+  /// The half of a cell in a corner that does not have the corner.
+  static void put_inner_half(const CornerLeg& row, const CornerLeg& column, bool row_first,
+                             std::uint32_t inside, Writer& out) {
+    const std::uint32_t a = row_first ? column.far() : row.far();
+    const std::uint32_t b = row_first ? row.far() : column.far();
+    out.triangle(inside, a, b);
+  }
+  /// A side's part in the cell at its beginning or end.
+  static CornerLeg leg(const LinearSide& side, bool at_end, std::uint32_t rate) {
+    return at_end ? CornerLeg{side.end[1], side.at(side.segments), 0 - side.step,
+                              side.segments - side.places[rate - 1]}
+                  : CornerLeg{side.end[0], side.at(0), side.step, side.places[1]};
+  }
+
+  const LinearSide& v0_;
+  const LinearSide& v1_;
+  const LinearSide& u0_;
+  const LinearSide& u1_;
+  CellZones zones_;
+  std::uint32_t nu_;
+  std::uint32_t nv_;
+  std::uint32_t inner_;
+  CellRun<Index> inner_cells_[2]; ///< from vertex 0 on: rising, falling
+};
+
+} // namespace simdbezier::detail

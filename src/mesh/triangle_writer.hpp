@@ -1,0 +1,60 @@
+// The triangles of patches, one after the other: usual ones by RegularPatch, all others by
+// CellCutter.
+#pragma once
+
+#include "src/mesh/primitive_sinks.hpp"
+#include "src/mesh/regular_patch.hpp"
+
+namespace simdbezier::detail {
+
+/// One thread.
+template <typename Index>
+class TriangleWriter {
+public:
+  /// to: where the first patch's triangles begin.
+  TriangleWriter(const MeshData& mesh, const KernelTable<float>& table, Index* to, bool streaming)
+      : mesh_(mesh), sides_(mesh), boundary_(mesh), stream_(table, to, streaming), to_(to) {}
+
+  void write(std::size_t first, std::size_t last) {
+    Index* to = stream_.cursor();
+    for (std::size_t patch = first; patch < last; ++patch) {
+      const bool turned = mesh_.topology.is_turned(patch);
+      to = stream_.make_room(to);
+      to = !sides_.move_to(patch) ? write_any(patch, turned)
+           : turned               ? write_regular<true>(patch, to)
+                                  : write_regular<false>(patch, to);
+      to = fill(to, to_ + 3 * (mesh_.triangles[patch + 1] - mesh_.triangles[first]));
+    }
+    stream_.finish(to);
+  }
+
+private:
+  template <bool kTurned>
+  Index* write_regular(std::size_t patch, Index* to) {
+    return RegularPatch<Index, kTurned>(mesh_, patch, sides_).write(stream_, to);
+  }
+  Index* write_any(std::size_t patch, bool turned) {
+    boundary_.move_to(patch);
+    TriangleSink<Index> sink(stream_, turned);
+    CellCutter(mesh_, boundary_, patch).cut(sink);
+    return sink.end();
+  }
+
+  /// Where neighbouring sides of a patch are one edge, cells between them have fewer triangles than
+  /// were counted: the last vertex in place of what is missing.
+  Index* fill(Index* to, const Index* end) {
+    while (stream_.place_of(to) < end) {
+      std::fill_n(to, 3, static_cast<Index>(mesh_.vertices - 1));
+      to = stream_.make_room(to + 3);
+    }
+    return to;
+  }
+
+  const MeshData& mesh_;
+  LinearSides sides_;
+  PatchBoundary boundary_;
+  IndexStream<Index> stream_;
+  Index* to_;
+};
+
+} // namespace simdbezier::detail
