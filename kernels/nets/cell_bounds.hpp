@@ -51,49 +51,111 @@ struct LaneCells {
   V nv;
 };
 
+/// Squares of steps, and what rounding may have taken from vectors that they are multiplied with.
 template <typename V>
-SIMDBEZIER_INLINE ZoneTerms<V> zone_terms(const QuarterNets<V> (&quarters)[4],
-                                          const LaneCells<V>& cells, const SecondTerms<V>& doubt) {
-  using T = ScalarOf<V>;
-  const V one = broadcast<V>(T(1));
-  const V slack = broadcast<V>(T(4 * 0x1p-24));
-  const V hu = divide(one, cells.nu) + slack;
-  const V hv = divide(one, cells.nv) + slack;
-  const V uu = hu * hu;
-  const V uv = (hu + hu) * hv;
-  const V vv = hv * hv;
-  const V rest = madd(uu, doubt.uu, madd(uv, doubt.uv, vv * doubt.vv));
-  ZoneTerms<V> terms;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const QuarterNets<V>& q = quarters[k];
-    V rising = broadcast<V>(T(0));
-    V falling = rising;
-    for (std::size_t i = 0; i < 16; ++i) {
-      const SpaceVector<V> s = uu * q.uu[i] + vv * q.vv[i];
-      const SpaceVector<V> t = uv * q.uv[i];
-      rising = larger_of<V>((s + t).square(), rising);
-      falling = larger_of<V>((s - t).square(), falling);
-    }
-    terms.uu[k] = uu * (square_root(q.largest.uu) + doubt.uu);
-    terms.vv[k] = vv * (square_root(q.largest.vv) + doubt.vv);
-    terms.rising[k] = square_root(rising) + rest;
-    terms.falling[k] = square_root(falling) + rest;
+struct CellSteps {
+  V uu;
+  V uv;
+  V vv;
+  V doubt;
+
+  SIMDBEZIER_INLINE CellSteps(const LaneCells<V>& cells, const SecondTerms<V>& doubts) {
+    using T = ScalarOf<V>;
+    const V one = broadcast<V>(T(1));
+    const V slack = broadcast<V>(T(4 * 0x1p-24));
+    const V hu = divide(one, cells.nu) + slack;
+    const V hv = divide(one, cells.nv) + slack;
+    uu = hu * hu;
+    uv = (hu + hu) * hv;
+    vv = hv * hv;
+    doubt = madd(uu, doubts.uu, madd(uv, doubts.uv, vv * doubts.vv));
   }
+};
+
+/// Squares of a vector along both diagonals of cells.
+template <typename V>
+struct DiagonalSquares {
+  V rising;
+  V falling;
+
+  SIMDBEZIER_INLINE DiagonalSquares(const CellSteps<V>& step, const SpaceVector<V>& vector_uu,
+                                    const SpaceVector<V>& vector_uv,
+                                    const SpaceVector<V>& vector_vv) {
+    const SpaceVector<V> s = step.uu * vector_uu + step.vv * vector_vv;
+    const SpaceVector<V> t = step.uv * vector_uv;
+    rising = (s + t).square();
+    falling = (s - t).square();
+  }
+};
+
+/// Terms of all but the diagonals, and roots of theirs, which are squares until then.
+template <typename V>
+SIMDBEZIER_INLINE void finish_terms(const QuarterNets<V>& nets, const CellSteps<V>& step,
+                                    const SecondTerms<V>& doubt, ZoneTerms<V>& terms) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    terms.uu[k] = step.uu * (nets.largest[k].uu + doubt.uu);
+    terms.vv[k] = step.vv * (nets.largest[k].vv + doubt.vv);
+    terms.rising[k] = square_root(terms.rising[k]) + step.doubt;
+    terms.falling[k] = square_root(terms.falling[k]) + step.doubt;
+  }
+}
+
+/// Vectors that several quarters have are looked at once.
+template <typename V>
+SIMDBEZIER_INLINE ZoneTerms<V> zone_terms(const QuarterNets<V>& nets, const LaneCells<V>& cells,
+                                          const SecondTerms<V>& doubt) {
+  const V zero = broadcast<V>(ScalarOf<V>(0));
+  const CellSteps<V> step(cells, doubt);
+  constexpr std::size_t kBegin[4] = {0, 3, 4, 7}; // low, common and high rows and columns
+  V rising[3][3];
+  V falling[3][3];
+  for (std::size_t v = 0; v < 3; ++v) {
+    for (std::size_t u = 0; u < 3; ++u) {
+      V up = zero;
+      V down = zero;
+      for (std::size_t j = kBegin[v]; j < kBegin[v + 1]; ++j) {
+        for (std::size_t i = kBegin[u]; i < kBegin[u + 1]; ++i) {
+          const std::size_t k = 7 * j + i;
+          const DiagonalSquares<V> squares(step, nets.uu[k], nets.uv[k], nets.vv[k]);
+          up = larger_of<V>(squares.rising, up);
+          down = larger_of<V>(squares.falling, down);
+        }
+      }
+      rising[v][u] = up;
+      falling[v][u] = down;
+    }
+  }
+  ZoneTerms<V> terms;
+  const auto of_quarter = [](const V(&parts)[3][3], std::size_t u,
+                             std::size_t v) SIMDBEZIER_INLINE_LAMBDA {
+    return larger_of<V>(larger_of<V>(parts[v][u], parts[v][u + 1]),
+                        larger_of<V>(parts[v + 1][u], parts[v + 1][u + 1]));
+  };
+  for (std::size_t k = 0; k < 4; ++k) {
+    terms.rising[k] = of_quarter(rising, k % 2, k / 2);
+    terms.falling[k] = of_quarter(falling, k % 2, k / 2);
+  }
+  finish_terms(nets, step, doubt, terms);
   return terms;
 }
 
+template <typename V>
+SIMDBEZIER_INLINE MaskOf<V> is_odd(V n) {
+  const V half = broadcast<V>(ScalarOf<V>(0.5));
+  return whole_part<V>(half * n) != half * n;
+}
+
+/// The roundings of a bound itself, a few dozen.
+template <typename T>
+inline constexpr T kBoundSlack = T(1) + 64 * std::numeric_limits<T>::epsilon();
+
 /// The bound of every lane's cells; diagonals: a bit for each zone (PatchRates), where wanted.
 template <typename V>
-SIMDBEZIER_INLINE V bound_of_cells(const QuarterNets<V> (&quarters)[4], const LaneCells<V>& cells,
-                                   const SecondTerms<V>& doubt, V* diagonals) {
+SIMDBEZIER_INLINE V worst_zone(const ZoneTerms<V>& terms, const LaneCells<V>& cells, V* diagonals) {
   using T = ScalarOf<V>;
   const V zero = broadcast<V>(T(0));
-  const ZoneTerms<V> terms = zone_terms(quarters, cells, doubt);
-  const V half = broadcast<V>(T(0.5));
-  const auto is_odd = [&](V n)
-                          SIMDBEZIER_INLINE_LAMBDA { return whole_part<V>(half * n) != half * n; };
   const V one = broadcast<V>(T(1));
-  const MaskOf<V> odd[2] = {is_odd(cells.nu), is_odd(cells.nv)};
+  const MaskOf<V> odd[2] = {is_odd<V>(cells.nu), is_odd<V>(cells.nv)};
   const MaskOf<V> several[2] = {cells.nu > one, cells.nv > one};
   V worst = zero;
   V bits = zero;
@@ -124,8 +186,13 @@ SIMDBEZIER_INLINE V bound_of_cells(const QuarterNets<V> (&quarters)[4], const La
   if (diagonals != nullptr) {
     *diagonals = bits;
   }
-  // The roundings of the bound itself, a few dozen.
-  return worst * broadcast<V>(T(1) + 64 * std::numeric_limits<T>::epsilon());
+  return worst * broadcast<V>(kBoundSlack<T>);
+}
+
+template <typename V>
+SIMDBEZIER_INLINE V bound_of_cells(const QuarterNets<V>& nets, const LaneCells<V>& cells,
+                                   const SecondTerms<V>& doubt, V* diagonals) {
+  return worst_zone<V>(zone_terms(nets, cells, doubt), cells, diagonals);
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

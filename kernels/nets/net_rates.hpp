@@ -2,7 +2,7 @@
 // other kinds, and corners whose diagonal is forced, are left to src/mesh/patch_bound.hpp.
 #pragma once
 
-#include "kernels/nets/cell_bounds.hpp"
+#include "kernels/nets/cell_screen.hpp"
 #include "src/tables/rate_task.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -40,40 +40,108 @@ SIMDBEZIER_INLINE LaneCells<V> filip_cells(const RateGroup<V>& group, V t, V mos
   return {select_where<V>(first, by_u.nu, by_v.nu), select_where<V>(first, by_u.nv, by_v.nv)};
 }
 
-/// Cells next to those for which the bound of an even pair is in proportion, in about the order of
-/// their number: the first ones that hold. What Filip's bound gives always holds.
+/// Cells that may do, from a bound's proportion to a tolerance, next to each other in about the
+/// order of their number; the fewest of them that hold are looked for.
 template <typename V>
-SIMDBEZIER_INLINE LaneCells<V> choose_cells(const RateScratch<V>& scratch,
-                                            const RateGroup<V>& group, V t, V most) {
+class CellCandidates {
+public:
+  /// best: cells that hold. centre: for which the bound of cells like them is in proportion.
+  SIMDBEZIER_INLINE CellCandidates(const RateScratch<V>& scratch, const RateGroup<V>& group,
+                                   const LeadingVectors<V>& leading, const LaneCells<V>& centre,
+                                   const LaneCells<V>& best, V t, V most) {
+    using T = ScalarOf<V>;
+    const V one = broadcast<V>(T(1));
+    const V filip = best.nu * best.nv;
+    V fewest = filip; // of those that may hold
+    static constexpr signed char kSteps[kCount][2] = {{-1, 0}, {0, -1}, {0, 0}, {-1, 1}, {1, -1},
+                                                      {0, 1},  {1, 0},  {1, 1}, {0, 2},  {2, 0},
+                                                      {1, 2},  {2, 1},  {2, 2}};
+    for (std::size_t k = 0; k < kCount; ++k) {
+      const auto stepped = [&](V n, signed char by) SIMDBEZIER_INLINE_LAMBDA {
+        return smaller_of<V>(larger_of<V>(n + broadcast<V>(T(by)), one), most);
+      };
+      cells_[k] = {stepped(centre.nu, kSteps[k][0]), stepped(centre.nv, kSteps[k][1])};
+      const V product = cells_[k].nu * cells_[k].nv;
+      open_[k] = product < filip;
+      if (any_of<V>(product < fewest)) {
+        open_[k] = open_[k] & may_hold<V>(scratch.nets, leading, cells_[k], group.doubt, t);
+        fewest = select_where<V>(open_[k] & (product < fewest), product, fewest);
+      }
+    }
+  }
+
+  /// The fewest cells that are still open and fewer than `best`, the first of equally many; `best`
+  /// where there are none.
+  [[nodiscard]] SIMDBEZIER_INLINE LaneCells<V> fewest(const LaneCells<V>& best) const {
+    LaneCells<V> found = best;
+    V product = best.nu * best.nv;
+    for (std::size_t k = 0; k < kCount; ++k) {
+      const V other = cells_[k].nu * cells_[k].nv;
+      const MaskOf<V> fewer = open_[k] & (other < product);
+      product = select_where<V>(fewer, other, product);
+      found.nu = select_where<V>(fewer, cells_[k].nu, found.nu);
+      found.nv = select_where<V>(fewer, cells_[k].nv, found.nv);
+    }
+    return found;
+  }
+  /// Lanes with `mask` do without these cells.
+  SIMDBEZIER_INLINE void close(const LaneCells<V>& cells, MaskOf<V> mask) {
+    for (std::size_t k = 0; k < kCount; ++k) {
+      const MaskOf<V> same = (cells_[k].nu == cells.nu) & (cells_[k].nv == cells.nv);
+      open_[k] = open_[k] & !(same & mask);
+    }
+  }
+
+private:
+  static constexpr std::size_t kCount = 13;
+
+  LaneCells<V> cells_[kCount];
+  MaskOf<V> open_[kCount];
+};
+
+/// Cells with their certificate.
+template <typename V>
+struct CertifiedCells {
+  LaneCells<V> cells;
+  V bound;
+  V diagonals;
+};
+
+/// The fewest cells next to those for which the bound of an even pair is in proportion. What
+/// Filip's bound gives always holds.
+///
+/// Few cells need to be looked at as a whole: most of those that do not hold are known by the
+/// vectors that set the even pair's bound, and every lane has candidates of its own, so that lanes
+/// do not wait for each other's.
+template <typename V>
+SIMDBEZIER_INLINE CertifiedCells<V> choose_cells(const RateScratch<V>& scratch,
+                                                 const RateGroup<V>& group, V t, V most) {
   using T = ScalarOf<V>;
   const V one = broadcast<V>(T(1));
   const V two = broadcast<V>(T(2));
   const V half = broadcast<V>(T(0.5));
-  LaneCells<V> best = filip_cells(group, t, most);
+  const LaneCells<V> filip = filip_cells(group, t, most);
   const auto even = [&](V n) SIMDBEZIER_INLINE_LAMBDA {
     return larger_of<V>(two * whole_part<V>(half * n), two);
   };
-  const LaneCells<V> pair{even(smaller_of<V>(best.nu, most)), even(smaller_of<V>(best.nv, most))};
-  const V bound = bound_of_cells<V>(scratch.quarter, pair, group.doubt, nullptr);
+  const LaneCells<V> pair{even(smaller_of<V>(filip.nu, most)), even(smaller_of<V>(filip.nv, most))};
+  LeadingVectors<V> leading;
+  const V bound =
+      worst_zone<V>(leading_terms(scratch.nets, pair, group.doubt, leading), pair, nullptr);
   const V scale = smaller_of<V>(square_root(divide(bound, t)), one);
   const LaneCells<V> centre{whole_part<V>(pair.nu * scale), whole_part<V>(pair.nv * scale)};
-  static constexpr signed char kSteps[][2] = {{-1, 0}, {0, -1}, {0, 0}, {-1, 1}, {1, -1},
-                                              {0, 1},  {1, 0},  {1, 1}, {0, 2},  {2, 0},
-                                              {1, 2},  {2, 1},  {2, 2}};
-  for (const auto& step : kSteps) {
-    const auto stepped = [&](V n, signed char by) SIMDBEZIER_INLINE_LAMBDA {
-      return smaller_of<V>(larger_of<V>(n + broadcast<V>(T(by)), one), most);
-    };
-    const LaneCells<V> cells{stepped(centre.nu, step[0]), stepped(centre.nv, step[1])};
-    const MaskOf<V> fewer = cells.nu * cells.nv < best.nu * best.nv;
-    if (!any_of<V>(fewer)) {
-      continue;
+  CellCandidates<V> candidates(scratch, group, leading, centre, filip, t, most);
+  for (;;) {
+    CertifiedCells<V> result;
+    result.cells = candidates.fewest(filip);
+    result.bound = bound_of_cells<V>(scratch.nets, result.cells, group.doubt, &result.diagonals);
+    const MaskOf<V> fewer = result.cells.nu * result.cells.nv < filip.nu * filip.nv;
+    const MaskOf<V> fails = fewer & !(result.bound <= t);
+    if (!any_of<V>(fails)) {
+      return result;
     }
-    const MaskOf<V> holds = bound_of_cells<V>(scratch.quarter, cells, group.doubt, nullptr) <= t;
-    best.nu = select_where<V>(fewer & holds, cells.nu, best.nu);
-    best.nv = select_where<V>(fewer & holds, cells.nv, best.nv);
+    candidates.close(result.cells, fails);
   }
-  return best;
 }
 
 /// Reads a group of patches; what it says is per lane.
@@ -97,9 +165,7 @@ SIMDBEZIER_INLINE RateGroup<vec<T>> read_rate_group(const detail::RateTask<T>& t
   for (SpaceVector<V>& p : scratch.points) {
     p = inverse * p;
   }
-  SecondTerms<V> squares;
-  form_quarters<V>(scratch, squares);
-  result.largest = {square_root(squares.uu), square_root(squares.uv), square_root(squares.vv)};
+  form_quarters<V>(scratch, result.largest);
   // Points around the first one err by u, their second differences by 12 u a component before the
   // factors 6 and 9; halving and raising round ten times, relative to the largest vector.
   constexpr T kRoot3 = T(1.7321);
@@ -125,32 +191,59 @@ SIMDBEZIER_INLINE double tolerance_of(const detail::RateTask<T>& task, std::size
   return wanted - (task.errors == nullptr ? 0 : task.errors[patch]);
 }
 
+/// What is known of every lane.
+template <typename T>
+struct RateLanes {
+  using V = vec<T>;
+  alignas(64) T size[kLanes<V>];
+  alignas(64) T nu[kLanes<V>];
+  alignas(64) T nv[kLanes<V>];
+  alignas(64) T bound[kLanes<V>];
+  alignas(64) T diagonals[kLanes<V>];
+
+  SIMDBEZIER_INLINE void store(const CertifiedCells<V>& of) {
+    store_vector<V>(nu, of.cells.nu);
+    store_vector<V>(nv, of.cells.nv);
+    store_vector<V>(bound, of.bound);
+    store_vector<V>(diagonals, of.diagonals);
+  }
+  /// Writes the certificates of patches [first, first + count).
+  SIMDBEZIER_INLINE void put_bounds(const detail::RateTask<T>& task, std::size_t first,
+                                    std::size_t count) const {
+    for (std::size_t p = 0; p < count; ++p) {
+      const bool known = is_usual_size(size[p]);
+      const double error = task.errors == nullptr ? 0 : task.errors[first + p];
+      task.diagonals[first + p] =
+          known ? static_cast<std::uint16_t>(diagonals[p]) : std::uint16_t{0};
+      task.deviations[first + p] =
+          known ? static_cast<double>(bound[p]) * static_cast<double>(size[p]) + error : -1;
+    }
+  }
+};
+
 template <typename T>
 SIMDBEZIER_INLINE void choose_group(const detail::RateTask<T>& task, std::size_t first,
                                     std::size_t count, const RateScratch<vec<T>>& scratch,
                                     const RateGroup<vec<T>>& group) {
   using V = vec<T>;
-  alignas(64) T size[kLanes<V>];
+  RateLanes<T> lanes;
+  store_vector<V>(lanes.size, group.size);
   alignas(64) T t[kLanes<V>];
-  store_vector<V>(size, group.size);
   for (std::size_t p = 0; p < kLanes<V>; ++p) {
     const double left = tolerance_of(task, first + (p < count ? p : count - 1));
-    const double scaled = left / static_cast<double>(size[p]) * (1 - 0x1p-20);
+    const double scaled = left / static_cast<double>(lanes.size[p]) * (1 - 0x1p-20);
     t[p] = scaled > 1e30 ? T(1e30) : scaled > 1e-30 ? static_cast<T>(scaled) : T(1e-30);
   }
   const V most = broadcast<V>(static_cast<T>(task.most));
-  const LaneCells<V> cells = choose_cells<V>(scratch, group, load_vector<V>(t), most);
-  alignas(64) T nu[kLanes<V>];
-  alignas(64) T nv[kLanes<V>];
-  store_vector<V>(nu, cells.nu);
-  store_vector<V>(nv, cells.nv);
+  lanes.store(choose_cells<V>(scratch, group, load_vector<V>(t), most));
   for (std::size_t p = 0; p < count; ++p) {
-    const bool known = is_usual_size(size[p]);
+    const bool known = is_usual_size(lanes.size[p]);
     const bool any = tolerance_of(task, first + p) > 0;
     const std::uint32_t other = any ? detail::kUndecided : 0;
-    task.nu[first + p] = any && known ? static_cast<std::uint32_t>(nu[p]) : other;
-    task.nv[first + p] = any && known ? static_cast<std::uint32_t>(nv[p]) : other;
+    task.nu[first + p] = any && known ? static_cast<std::uint32_t>(lanes.nu[p]) : other;
+    task.nv[first + p] = any && known ? static_cast<std::uint32_t>(lanes.nv[p]) : other;
   }
+  lanes.put_bounds(task, first, count);
 }
 
 template <typename T>
@@ -158,29 +251,19 @@ SIMDBEZIER_INLINE void certify_group(const detail::RateTask<T>& task, std::size_
                                      std::size_t count, const RateScratch<vec<T>>& scratch,
                                      const RateGroup<vec<T>>& group) {
   using V = vec<T>;
-  alignas(64) T nu[kLanes<V>];
-  alignas(64) T nv[kLanes<V>];
+  RateLanes<T> lanes;
+  store_vector<V>(lanes.size, group.size);
   for (std::size_t p = 0; p < kLanes<V>; ++p) {
     const std::size_t patch = first + (p < count ? p : count - 1);
-    nu[p] = static_cast<T>(task.nu[patch]);
-    nv[p] = static_cast<T>(task.nv[patch]);
+    lanes.nu[p] = static_cast<T>(task.nu[patch]);
+    lanes.nv[p] = static_cast<T>(task.nv[patch]);
   }
-  const LaneCells<V> cells{load_vector<V>(nu), load_vector<V>(nv)};
-  V diagonals;
-  const V bound = bound_of_cells<V>(scratch.quarter, cells, group.doubt, &diagonals);
-  alignas(64) T bounds[kLanes<V>];
-  alignas(64) T bits[kLanes<V>];
-  alignas(64) T size[kLanes<V>];
-  store_vector<V>(bounds, bound);
-  store_vector<V>(bits, diagonals);
-  store_vector<V>(size, group.size);
-  for (std::size_t p = 0; p < count; ++p) {
-    const bool known = is_usual_size(size[p]);
-    const double error = task.errors == nullptr ? 0 : task.errors[first + p];
-    task.diagonals[first + p] = known ? static_cast<std::uint16_t>(bits[p]) : std::uint16_t{0};
-    task.deviations[first + p] =
-        known ? static_cast<double>(bounds[p]) * static_cast<double>(size[p]) + error : -1;
-  }
+  CertifiedCells<V> certified;
+  certified.cells = {load_vector<V>(lanes.nu), load_vector<V>(lanes.nv)};
+  certified.bound =
+      bound_of_cells<V>(scratch.nets, certified.cells, group.doubt, &certified.diagonals);
+  lanes.store(certified);
+  lanes.put_bounds(task, first, count);
 }
 
 template <typename T>
@@ -193,8 +276,9 @@ Isa rate_kernel(const detail::RateTask<T>& task, std::size_t begin, std::size_t 
     const RateGroup<V> group = read_rate_group<T>(task, first, count, scratch);
     if (task.choose) {
       choose_group<T>(task, first, count, scratch, group);
+    } else {
+      certify_group<T>(task, first, count, scratch, group);
     }
-    certify_group<T>(task, first, count, scratch, group);
   });
   return Isa::SIMDBEZIER_ISA;
 }

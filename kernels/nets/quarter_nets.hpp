@@ -2,6 +2,8 @@
 // lanes are patches.
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/nets/net_boxes.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -33,20 +35,28 @@ struct SecondTerms {
   V vv;
 };
 
-/// The second derivatives of one quarter.
+/// Control vectors of the second derivatives over the four quarters, raised to degrees 3, 3:
+/// [j][i] of a net of 7 x 7. Quarter 2 * (half of v) + (half of u) has 4 x 4 of them, and its
+/// outermost ones in common with its neighbours.
 template <typename V>
 struct QuarterNets {
-  SecondTerms<V> largest; ///< squares of the largest vectors
-  SpaceVector<V> uu[16];  ///< raised to degrees 3, 3: [j][i]
-  SpaceVector<V> uv[16];
-  SpaceVector<V> vv[16];
+  static constexpr std::size_t kSide = 7;
+
+  SpaceVector<V> uu[kSide * kSide];
+  SpaceVector<V> uv[kSide * kSide];
+  SpaceVector<V> vv[kSide * kSide];
+  SecondTerms<V> largest[4]; ///< of each quarter: its largest vectors
+
+  static constexpr std::size_t first_of(std::size_t quarter) {
+    return 3 * (quarter / 2) * kSide + 3 * (quarter % 2);
+  }
 };
 
 /// Scratch of a group, and what bounds need besides.
 template <typename V>
 struct RateScratch {
   SpaceVector<V> points[16]; ///< around the first one, over a power of two of about their size
-  QuarterNets<V> quarter[4];
+  QuarterNets<V> nets;
 };
 template <typename V>
 struct RateGroup {
@@ -55,129 +65,176 @@ struct RateGroup {
   SecondTerms<V> doubt;   ///< what rounding may have taken from vectors
 };
 
-/// Both halves of a line of control vectors of degree n.
+/// The control values of both halves of a line, which have one in common.
 template <std::size_t kOrder, typename V>
-SIMDBEZIER_INLINE void halve(const SpaceVector<V>* line, std::size_t step, SpaceVector<V>* low,
-                             SpaceVector<V>* high) {
+SIMDBEZIER_INLINE void halve(const V* line, std::size_t step, V* to, std::size_t to_step) {
   const V half = broadcast<V>(ScalarOf<V>(0.5));
-  SpaceVector<V> part[kOrder];
+  V part[kOrder];
   for (std::size_t k = 0; k < kOrder; ++k) {
     part[k] = line[k * step];
   }
   for (std::size_t level = 0; level < kOrder; ++level) {
-    low[level * step] = part[0];
-    high[(kOrder - 1 - level) * step] = part[kOrder - 1 - level];
+    to[level * to_step] = part[0];
+    to[(2 * kOrder - 2 - level) * to_step] = part[kOrder - 1 - level];
     for (std::size_t k = 0; k + 1 + level < kOrder; ++k) {
       part[k] = half * (part[k] + part[k + 1]);
     }
   }
 }
 
-/// Four quarters of a net of kColumns x kRows, number 2 * (half of v) + (half of u).
+/// Quarters of a net of kColumns x kRows, side by side.
 template <std::size_t kColumns, std::size_t kRows, typename V>
-SIMDBEZIER_INLINE void quarter_net(const SpaceVector<V>* net,
-                                   SpaceVector<V> (&to)[4][kColumns * kRows]) {
-  SpaceVector<V> halves[2][kColumns * kRows];
+SIMDBEZIER_INLINE void quarter_net(const V (&net)[kColumns * kRows],
+                                   V (&to)[(2 * kColumns - 1) * (2 * kRows - 1)]) {
+  constexpr std::size_t kWide = 2 * kColumns - 1;
+  V halves[kWide * kRows];
   for (std::size_t j = 0; j < kRows; ++j) {
-    halve<kColumns>(net + j * kColumns, 1, halves[0] + j * kColumns, halves[1] + j * kColumns);
+    halve<kColumns>(net + j * kColumns, 1, halves + j * kWide, 1);
   }
-  for (std::size_t h = 0; h < 2; ++h) {
-    for (std::size_t i = 0; i < kColumns; ++i) {
-      halve<kRows>(halves[h] + i, kColumns, to[h] + i, to[2 + h] + i);
-    }
+  for (std::size_t i = 0; i < kWide; ++i) {
+    halve<kRows>(halves + i, kWide, to + i, kWide);
   }
 }
 
-template <std::size_t kCount, typename V>
-SIMDBEZIER_INLINE V largest_square(const SpaceVector<V> (&net)[kCount]) {
-  V largest = net[0].square();
-  for (std::size_t k = 1; k < kCount; ++k) {
-    largest = larger_of<V>(net[k].square(), largest);
-  }
-  return largest;
-}
-
-/// Second differences times 6 in one direction, or 9 of mixed ones.
-template <typename V>
-SIMDBEZIER_INLINE void second_differences(const SpaceVector<V>* p, SpaceVector<V> (&uu)[8],
-                                          SpaceVector<V> (&uv)[9], SpaceVector<V> (&vv)[8]) {
+/// Both halves of a line, from degrees 1 and 2 to 3.
+template <std::size_t kOrder, typename V, typename Put>
+SIMDBEZIER_INLINE void raise_halves(const V* from, std::size_t step, Put put) {
   using T = ScalarOf<V>;
-  const V six = broadcast<V>(T(6));
-  const V nine = broadcast<V>(T(9));
-  for (std::size_t j = 0; j < 4; ++j) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      const SpaceVector<V>* const at = p + 4 * j + i;
-      uu[2 * j + i] = six * ((at[2] - at[1]) - (at[1] - at[0]));
-    }
-  }
-  for (std::size_t j = 0; j < 2; ++j) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      const SpaceVector<V>* const at = p + 4 * j + i;
-      vv[4 * j + i] = six * ((at[8] - at[4]) - (at[4] - at[0]));
-    }
-  }
-  for (std::size_t j = 0; j < 3; ++j) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const SpaceVector<V>* const at = p + 4 * j + i;
-      uv[3 * j + i] = nine * ((at[5] - at[4]) - (at[1] - at[0]));
-    }
-  }
-}
-
-/// From degrees 1 and 2 to 3, for control vectors `step` apart.
-template <typename V>
-SIMDBEZIER_INLINE void raise_line(const SpaceVector<V>* from, std::size_t order, std::size_t step,
-                                  SpaceVector<V>* to, std::size_t to_step) {
-  using T = ScalarOf<V>;
+  static_assert(kOrder == 2 || kOrder == 3);
   const V third = broadcast<V>(T(1) / T(3));
   const V rest = broadcast<V>(T(2) / T(3));
-  to[0] = from[0];
-  to[3 * to_step] = from[(order - 1) * step];
-  if (order == 2) {
-    to[to_step] = rest * from[0] + third * from[step];
-    to[2 * to_step] = third * from[0] + rest * from[step];
-  } else {
-    to[to_step] = third * from[0] + rest * from[step];
-    to[2 * to_step] = rest * from[step] + third * from[2 * step];
+  put(0, from[0]);
+  for (std::size_t h = 0; h < 2; ++h) {
+    const V* const line = from + h * (kOrder - 1) * step;
+    if constexpr (kOrder == 2) {
+      put(3 * h + 1, rest * line[0] + third * line[step]);
+      put(3 * h + 2, third * line[0] + rest * line[step]);
+    } else {
+      put(3 * h + 1, third * line[0] + rest * line[step]);
+      put(3 * h + 2, rest * line[step] + third * line[2 * step]);
+    }
+    put(3 * h + 3, line[(kOrder - 1) * step]);
   }
 }
 
+/// Squares of vectors, summed up component by component: z, y, x.
 template <typename V>
-SIMDBEZIER_INLINE void raise_quarter(const SpaceVector<V> (&uu)[8], const SpaceVector<V> (&uv)[9],
-                                     const SpaceVector<V> (&vv)[8], QuarterNets<V>& to) {
-  to.largest = {largest_square(uu), largest_square(uv), largest_square(vv)};
-  for (std::size_t j = 0; j < 4; ++j) {
-    raise_line(uu + 2 * j, 2, 1, to.uu + 4 * j, 1);
+struct SecondSquares {
+  V whole_uu[8];
+  V whole_uv[9];
+  V whole_vv[8];
+  V uu[3 * 7]; ///< of quarters side by side, as in quarter_net()
+  V uv[5 * 5];
+  V vv[7 * 3];
+
+  template <bool kFirst, std::size_t kCount>
+  static SIMDBEZIER_INLINE void add(const V (&values)[kCount], V (&to)[kCount]) {
+    for (std::size_t k = 0; k < kCount; ++k) {
+      to[k] = kFirst ? values[k] * values[k] : madd(values[k], values[k], to[k]);
+    }
   }
-  for (std::size_t i = 0; i < 4; ++i) {
-    raise_line(vv + i, 2, 4, to.vv + i, 4);
+  /// The largest vector among some rows of a net of kColumns.
+  template <std::size_t kColumns>
+  static SIMDBEZIER_INLINE V largest(const V* net, std::size_t columns, std::size_t rows) {
+    V found = net[0];
+    for (std::size_t j = 0; j < rows; ++j) {
+      for (std::size_t i = 0; i < columns; ++i) {
+        found = larger_of<V>(net[j * kColumns + i], found);
+      }
+    }
+    return square_root(found);
   }
-  SpaceVector<V> rows[12];
-  for (std::size_t j = 0; j < 3; ++j) {
-    raise_line(uv + 3 * j, 3, 1, rows + 4 * j, 1);
+  [[nodiscard]] SIMDBEZIER_INLINE SecondTerms<V> whole() const {
+    return {largest<2>(whole_uu, 2, 4), largest<3>(whole_uv, 3, 3), largest<4>(whole_vv, 4, 2)};
   }
-  for (std::size_t i = 0; i < 4; ++i) {
-    raise_line(rows + i, 3, 4, to.uv + i, 4);
+  [[nodiscard]] SIMDBEZIER_INLINE SecondTerms<V> of(std::size_t u, std::size_t v) const {
+    return {largest<3>(uu + 3 * 3 * v + u, 2, 4), largest<5>(uv + 5 * 2 * v + 2 * u, 3, 3),
+            largest<7>(vv + 7 * v + 3 * u, 4, 2)};
+  }
+};
+
+/// S_uu: second differences in u times 6, over quarters, raised in u. The others likewise. One
+/// component at a time: it stays in registers.
+template <bool kFirst, typename V>
+__attribute__((noinline)) void form_uu(RateScratch<V>& scratch, V SpaceVector<V>::*c,
+                                       SecondSquares<V>& squares) {
+  const V six = broadcast<V>(ScalarOf<V>(6));
+  V uu[8];
+  for (std::size_t k = 0; k < 8; ++k) {
+    const SpaceVector<V>* const at = scratch.points + 4 * (k / 2) + k % 2;
+    uu[k] = six * ((at[2].*c - at[1].*c) - (at[1].*c - at[0].*c));
+  }
+  squares.template add<kFirst>(uu, squares.whole_uu);
+  V parts[21];
+  quarter_net<2, 4>(uu, parts);
+  squares.template add<kFirst>(parts, squares.uu);
+  for (std::size_t j = 0; j < 7; ++j) {
+    raise_halves<2>(parts + 3 * j, 1, [&](std::size_t i, V value) SIMDBEZIER_INLINE_LAMBDA {
+      scratch.nets.uu[7 * j + i].*c = value;
+    });
+  }
+}
+template <bool kFirst, typename V>
+__attribute__((noinline)) void form_uv(RateScratch<V>& scratch, V SpaceVector<V>::*c,
+                                       SecondSquares<V>& squares) {
+  const V nine = broadcast<V>(ScalarOf<V>(9));
+  V uv[9];
+  for (std::size_t k = 0; k < 9; ++k) {
+    const SpaceVector<V>* const at = scratch.points + 4 * (k / 3) + k % 3;
+    uv[k] = nine * ((at[5].*c - at[4].*c) - (at[1].*c - at[0].*c));
+  }
+  squares.template add<kFirst>(uv, squares.whole_uv);
+  V parts[25];
+  quarter_net<3, 3>(uv, parts);
+  squares.template add<kFirst>(parts, squares.uv);
+  V rows[35];
+  for (std::size_t j = 0; j < 5; ++j) {
+    raise_halves<3>(parts + 5 * j, 1, [&](std::size_t i, V value) SIMDBEZIER_INLINE_LAMBDA {
+      rows[7 * j + i] = value;
+    });
+  }
+  for (std::size_t i = 0; i < 7; ++i) {
+    raise_halves<3>(rows + i, 7, [&](std::size_t j, V value) SIMDBEZIER_INLINE_LAMBDA {
+      scratch.nets.uv[7 * j + i].*c = value;
+    });
+  }
+}
+template <bool kFirst, typename V>
+__attribute__((noinline)) void form_vv(RateScratch<V>& scratch, V SpaceVector<V>::*c,
+                                       SecondSquares<V>& squares) {
+  const V six = broadcast<V>(ScalarOf<V>(6));
+  V vv[8];
+  for (std::size_t k = 0; k < 8; ++k) {
+    const SpaceVector<V>* const at = scratch.points + k;
+    vv[k] = six * ((at[8].*c - at[4].*c) - (at[4].*c - at[0].*c));
+  }
+  squares.template add<kFirst>(vv, squares.whole_vv);
+  V parts[21];
+  quarter_net<4, 2>(vv, parts);
+  squares.template add<kFirst>(parts, squares.vv);
+  for (std::size_t i = 0; i < 7; ++i) {
+    raise_halves<2>(parts + i, 7, [&](std::size_t j, V value) SIMDBEZIER_INLINE_LAMBDA {
+      scratch.nets.vv[7 * j + i].*c = value;
+    });
   }
 }
 
-/// The quarters' nets, and the largest squares of the whole patch. A function of its own, or its
-/// arrays would be in the way of what follows.
+/// The quarters' nets, and the largest vectors of the whole patch.
 template <typename V>
-__attribute__((noinline)) void form_quarters(RateScratch<V>& scratch, SecondTerms<V>& whole) {
-  SpaceVector<V> uu[8];
-  SpaceVector<V> uv[9];
-  SpaceVector<V> vv[8];
-  second_differences(scratch.points, uu, uv, vv);
-  whole = {largest_square(uu), largest_square(uv), largest_square(vv)};
-  SpaceVector<V> uu_parts[4][8];
-  SpaceVector<V> uv_parts[4][9];
-  SpaceVector<V> vv_parts[4][8];
-  quarter_net<2, 4>(uu, uu_parts);
-  quarter_net<3, 3>(uv, uv_parts);
-  quarter_net<4, 2>(vv, vv_parts);
+SIMDBEZIER_INLINE void form_quarters(RateScratch<V>& scratch, SecondTerms<V>& whole) {
+  using S = SpaceVector<V>;
+  SecondSquares<V> squares;
+  const auto form = [&]<bool kFirst>(std::bool_constant<kFirst>, V S::*c) SIMDBEZIER_INLINE_LAMBDA {
+    form_uu<kFirst>(scratch, c, squares);
+    form_uv<kFirst>(scratch, c, squares);
+    form_vv<kFirst>(scratch, c, squares);
+  };
+  form(std::true_type(), &S::z);
+  form(std::false_type(), &S::y);
+  form(std::false_type(), &S::x);
+  whole = squares.whole();
   for (std::size_t k = 0; k < 4; ++k) {
-    raise_quarter(uu_parts[k], uv_parts[k], vv_parts[k], scratch.quarter[k]);
+    scratch.nets.largest[k] = squares.of(k % 2, k / 2);
   }
 }
 
