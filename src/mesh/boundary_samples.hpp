@@ -9,6 +9,7 @@
 #include <span>
 
 #include "src/mesh/corner_cache.hpp"
+#include "src/mesh/merged_normals.hpp"
 #include "src/mesh/mesh_data.hpp"
 #include "src/mesh/parameter_lines.hpp"
 
@@ -63,22 +64,24 @@ public:
            whole_lines(2 * mesh.most_sides * sizeof(std::uint32_t)) +
            2 * whole_lines(line_values(mesh) * sizeof(T)) +
            whole_lines(CornerCache<T>::memory_values(planes(wishes)) * sizeof(T)) +
-           planes(wishes) * whole_lines(wishes.samples * sizeof(T));
+           whole_lines(UnionLines<T>::memory_values() * sizeof(T)) +
+           planes(wishes) * whole_lines(plane_values(wishes) * sizeof(T));
   }
   BoundarySamples(const MeshData& mesh, const BoundaryWishes& wishes, PatchRunner<T>& runner,
                   ParameterLines<T>& lines, unsigned char* memory) noexcept
       : mesh_(mesh), topology_(*mesh.topology.data()), wishes_(wishes), runner_(runner),
         lines_(lines), corners_(runner, mesh.patches(), wishes.dimension, wishes.normals,
-                                take<T>(memory, CornerCache<T>::memory_values(planes(wishes)))) {
+                                take<T>(memory, CornerCache<T>::memory_values(planes(wishes)))),
+        unions_(take<T>(memory, UnionLines<T>::memory_values())) {
     entries_ = take<BoundaryEntry>(memory, wishes.samples);
     scratch_ = take<std::uint32_t>(memory, 2 * mesh.most_sides);
     line_[0] = take<T>(memory, line_values(mesh));
     line_[1] = take<T>(memory, line_values(mesh));
     for (std::size_t c = 0; c < wishes.dimension; ++c) {
-      positions_.component[c] = take<T>(memory, wishes.samples);
+      positions_.component[c] = take<T>(memory, plane_values(wishes));
     }
     for (std::size_t c = 0; c < 3 && wishes.normals; ++c) {
-      normals_.component[c] = take<T>(memory, wishes.samples);
+      normals_.component[c] = take<T>(memory, plane_values(wishes));
     }
     std::fill_n(low_, kMaxLanes + 1, T(-0.5));
     std::fill_n(high_, kMaxLanes + 1, T(0.5));
@@ -114,6 +117,10 @@ private:
   static std::size_t planes(const BoundaryWishes& wishes) noexcept {
     return wishes.dimension + (wishes.normals ? 3 : 0);
   }
+  /// Samples are read in blocks.
+  static std::size_t plane_values(const BoundaryWishes& wishes) noexcept {
+    return wishes.samples + PointBlock<T>::kPoints;
+  }
   static std::size_t line_values(const MeshData& mesh) noexcept {
     return mesh.most_segments + kMaxLanes;
   }
@@ -145,14 +152,7 @@ private:
     const auto sides = all.first(wishes_.every_patch ? all.size() : 1);
     entries_[entry_count_++] = {edge, false, static_cast<std::uint32_t>(count_), points,
                                 static_cast<std::uint32_t>(sides.size())};
-    const T* along[2] = {nullptr, nullptr}; // in the edge's direction, against it
-    const std::uint32_t rate = mesh_.rate(sides[0]);
-    if (rate == points + 1) { // the other rates are divisors of it
-      along[0] = lines_.line(rate);
-    } else {
-      fill_union(edge, points);
-      along[0] = line_[0];
-    }
+    const T* along[2] = {parameters_of(edge, all, points), nullptr}; // and against the direction
     for (const std::uint32_t side : sides) {
       const bool reversed = topology_.sides[side].reversed();
       if (reversed && along[1] == nullptr) {
@@ -186,7 +186,21 @@ private:
     return plane == nullptr ? nullptr : plane + count_;
   }
 
-  /// Half-centred parameters of an edge's points.
+  /// Half-centred parameters of an edge's points, in its direction.
+  const T* parameters_of(std::uint32_t edge, std::span<const std::uint32_t> sides,
+                         std::uint32_t points) noexcept {
+    const std::uint32_t rate = mesh_.rate(sides[0]);
+    if (rate == points + 1) { // the other rates are divisors of it
+      return lines_.line(rate);
+    }
+    const std::uint32_t other = mesh_.rate(sides[sides.size() - 1]);
+    const auto [low, high] = std::minmax(rate, other);
+    if (sides.size() == 2 && high <= UnionLines<T>::kMost) {
+      return unions_.line(low, high);
+    }
+    fill_union(edge, points);
+    return line_[0];
+  }
   void fill_union(std::uint32_t edge, std::uint32_t points) noexcept {
     for_edge_points(mesh_, edge, scratch_,
                     [&](std::uint32_t k, std::uint32_t numerator, std::uint32_t denominator) {
@@ -201,6 +215,7 @@ private:
   PatchRunner<T>& runner_;
   ParameterLines<T>& lines_;
   CornerCache<T> corners_;
+  UnionLines<T> unions_;
   BoundaryEntry* entries_ = nullptr;
   std::uint32_t* scratch_ = nullptr;
   T* line_[2] = {nullptr, nullptr}; ///< of an edge with several rates; the same reversed

@@ -118,37 +118,29 @@ private:
     return entry.corner ? mesh_.corners[entry.place] : mesh_.edge_first[entry.place];
   }
 
-  /// Values to every step-th place; most often they are planes.
-  static void put(const T* values, std::size_t points, T* to, std::size_t step) noexcept {
-    if (step == 1) { // a dozen values: starting std::copy_n() takes longer
-      for (std::size_t k = 0; k < points; ++k) {
-        to[k] = values[k];
-      }
-      return;
-    }
-    for (std::size_t k = 0; k < points; ++k) {
-      to[k * step] = values[k];
-    }
-  }
   static void put(const Planes<T>& from, std::size_t at, std::size_t points, const Planes<T>& to,
                   std::size_t step, std::size_t place) noexcept {
     for (std::size_t c = 0; c < 3 && to.component[c] != nullptr; ++c) {
-      put(from.component[c] + at, points, to.component[c] + place * step, step);
+      PointBlock<T>::store(PointBlock<T>::load(from.component[c] + at), points,
+                           to.component[c] + place * step, step);
     }
   }
   void store_whole(const BoundaryEntry& entry, const Planes<T>& positions, const Planes<T>& normals,
                    const VertexTarget<T>& to) const noexcept {
     const std::size_t place = first_vertex(entry) - to.first;
-    put(positions, entry.first, entry.points, to.position, to.step, place);
-    for (std::size_t k = 0; k < entry.points && to.normal.wanted(); k += NormalSums<T>::kMost) {
-      const std::size_t points = std::min(entry.points - k, NormalSums<T>::kMost);
-      NormalSums<T> sums(points, normals, entry.first + k, members_[0].turned);
+    for (std::size_t k = 0; k < entry.points; k += PointBlock<T>::kPoints) {
+      const std::size_t points = entry.points - k;
+      put(positions, entry.first + k, points, to.position, to.step, place + k);
+      if (!to.normal.wanted()) {
+        continue;
+      }
+      NormalSums<T> sums(normals, entry.first + k, members_[0].turned);
       for (std::size_t m = 1; m < entry.members; ++m) {
         if (!members_[m].apart) {
           sums.add(normals, entry.first + m * entry.points + k, members_[m].turned);
         }
       }
-      sums.finish(to.normal, place + k, to.step);
+      sums.finish(points, to.normal, place + k, to.step);
     }
   }
 
@@ -161,13 +153,13 @@ private:
         put(positions, entry.first + from * entry.points + k, 1, to.position, to.step, place);
         if (to.normal.wanted()) {
           const auto sample = [&](std::size_t n) { return entry.first + n * entry.points + k; };
-          NormalSums<T> sums(1, normals, sample(m), members_[m].turned);
+          NormalSums<T> sums(normals, sample(m), members_[m].turned);
           for (std::size_t n = m + 1; n < entry.members; ++n) {
             if (members_[n].vertex == vertex) {
               sums.add(normals, sample(n), members_[n].turned);
             }
           }
-          sums.finish(to.normal, place, to.step);
+          sums.finish(1, to.normal, place, to.step);
         }
       });
     }

@@ -1,80 +1,91 @@
 // One normal for a vertex that several patches have.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
+#include <limits>
 
 #include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::detail {
 
-/// Sums of unit normals at up to kMost points, whose terms are added patch by patch.
+/// Points whose values fill a register. g++ unrolls loops of this length before it looks for
+/// vectors, and then finds none.
+template <typename T>
+struct PointBlock {
+  static constexpr std::size_t kPoints = 16 / sizeof(T);
+  typedef T Values __attribute__((vector_size(16)));
+
+  static Values load(const T* from) noexcept {
+    Values values;
+    std::memcpy(&values, from, sizeof values);
+    return values;
+  }
+  /// The first `points` values, to every step-th place.
+  static void store(const Values& values, std::size_t points, T* to, std::size_t step) noexcept {
+    if (points >= kPoints && step == 1) {
+      std::memcpy(to, &values, sizeof values);
+      return;
+    }
+    for (std::size_t k = 0; k < points && k < kPoints; ++k) {
+      to[k * step] = values[k];
+    }
+  }
+  static Values square_root(const Values& values) noexcept {
+    Values root;
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      root[k] = std::sqrt(values[k]);
+    }
+    return root;
+  }
+};
+
+/// Sums of unit normals at the points of a block, whose terms are added patch by patch. A whole
+/// block is read from every plane, however few points are wanted.
 template <typename T>
 class NormalSums {
 public:
-  static constexpr std::size_t kMost = 32;
+  using Block = PointBlock<T>;
 
-  /// The first patch's normals at all points, from sample `at` on; they have to stay where they
-  /// are. reversed: they count with the other sign.
-  NormalSums(std::size_t points, const Planes<T>& normals, std::size_t at, bool reversed) noexcept
-      : points_(points), first_sign_(reversed ? T(-1) : T(1)) {
+  /// The first patch's normals, from sample `at` on. reversed: they count with the other sign.
+  NormalSums(const Planes<T>& normals, std::size_t at, bool reversed) noexcept {
+    const T sign = reversed ? T(-1) : T(1);
     for (std::size_t c = 0; c < 3; ++c) {
-      first_[c] = normals.component[c] + at;
-      for (std::size_t k = 0; k < points_; ++k) {
-        sum_[c][k] = first_sign_ * first_[c][k];
-      }
+      first_[c] = sum_[c] = sign * Block::load(normals.component[c] + at);
     }
   }
   /// Those of one more.
   void add(const Planes<T>& normals, std::size_t at, bool reversed) noexcept {
     const T sign = reversed ? T(-1) : T(1);
     for (std::size_t c = 0; c < 3; ++c) {
-      const T* const values = normals.component[c] + at;
-      for (std::size_t k = 0; k < points_; ++k) {
-        sum_[c][k] += sign * values[k];
-      }
+      sum_[c] += sign * Block::load(normals.component[c] + at);
     }
     ++terms_;
   }
 
-  /// Writes their directions to every step-th place; a single term stays as it is, and so does the
-  /// first one where the sum is less than a thousandth of what it could be.
-  void finish(const Planes<T>& to, std::size_t place, std::size_t step) const noexcept {
+  /// Writes the directions of some points to every step-th place; a single term stays as it is, and
+  /// so does the first one where the sum is less than a thousandth of what it could be.
+  void finish(std::size_t points, const Planes<T>& to, std::size_t place,
+              std::size_t step) const noexcept {
+    using Values = typename Block::Values;
     const T least = T(1e-3) * static_cast<T>(terms_);
-    T inverse[kMost];
-    T kept[kMost]; // the first one's sign where it stays, else 0
-    for (std::size_t k = 0; k < points_; ++k) {
-      const T square = sum_[0][k] * sum_[0][k] + sum_[1][k] * sum_[1][k] + sum_[2][k] * sum_[2][k];
-      const T stays = terms_ > 1 && square >= least * least ? T(0) : T(1);
-      inverse[k] = (T(1) - stays) / std::sqrt(square + stays);
-      kept[k] = stays * first_sign_;
-    }
+    const Values square = sum_[0] * sum_[0] + sum_[1] * sum_[1] + sum_[2] * sum_[2];
+    const Values zero = square - square; // squares of sums of unit vectors are finite
+    const auto merges = square >= (terms_ > 1 ? least * least : std::numeric_limits<T>::infinity());
+    const Values kept = merges ? zero : zero + T(1);
+    const Values inverse = (T(1) - kept) / Block::square_root(square + kept);
     for (std::size_t c = 0; c < 3; ++c) {
-      T* const out = to.component[c] + place * step;
-      if (step == 1) {
-        for (std::size_t k = 0; k < points_; ++k) {
-          out[k] = value(c, k, inverse[k], kept[k]);
-        }
-      } else {
-        for (std::size_t k = 0; k < points_; ++k) {
-          out[k * step] = value(c, k, inverse[k], kept[k]);
-        }
-      }
+      // never -0
+      const Values value = sum_[c] * inverse + kept * first_[c] + T(0);
+      Block::store(value, points, to.component[c] + place * step, step);
     }
   }
 
 private:
-  /// Never -0.
-  [[nodiscard]] T value(std::size_t c, std::size_t k, T inverse, T kept) const noexcept {
-    return sum_[c][k] * inverse + kept * first_[c][k] + T(0);
-  }
-
-  std::size_t points_;
   std::size_t terms_ = 1;
-  T first_sign_;
-  const T* first_[3] = {nullptr, nullptr, nullptr};
-  T sum_[3][kMost];
+  typename Block::Values first_[3];
+  typename Block::Values sum_[3];
 };
 
 } // namespace simdbezier::detail

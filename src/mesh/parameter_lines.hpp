@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "src/calls/grid_plan.hpp"
+#include "src/mesh/edge_union.hpp"
 
 namespace simdbezier::detail {
 
@@ -58,6 +59,48 @@ private:
   std::size_t large_n_[2] = {0, 0};
   std::size_t turn_ = 0;
   std::uint64_t known_ = 0; ///< a bit for each n
+};
+
+/// One thread's lines of the parameters of edges that have two rates, for pairs of small rates.
+template <typename T>
+class UnionLines {
+public:
+  static constexpr std::uint32_t kMost = 47;
+
+  [[nodiscard]] static std::size_t memory_values() noexcept { return kSlots * kSlotValues; }
+  explicit UnionLines(T* memory) noexcept : memory_(memory) {}
+
+  /// Half-centred parameters of the points between the ends of an edge with rates a < b <= kMost,
+  /// then kMaxLanes more readable values. Valid until the next call.
+  const T* line(std::uint32_t a, std::uint32_t b) noexcept {
+    const std::size_t slot = (b - a) % kSide * kSide + a % kSide;
+    T* const values = memory_ + slot * kSlotValues;
+    if (rates_[slot][0] != a || rates_[slot][1] != b) {
+      rates_[slot][0] = a;
+      rates_[slot][1] = b;
+      fill(values, rates_[slot]);
+    }
+    return values;
+  }
+
+private:
+  static constexpr std::size_t kSide = 16;
+  static constexpr std::size_t kSlots = kSide * kSide;
+  static constexpr std::size_t kSlotValues = 2 * kMost + kMaxLanes;
+
+  static void fill(T* to, const std::uint32_t (&rates)[2]) noexcept {
+    std::uint32_t next[2];
+    std::size_t points = 0;
+    walk_union(rates, next, [&](std::uint32_t, const std::uint32_t* at, std::size_t lowest) {
+      if (at[lowest] > 0 && at[lowest] < rates[lowest]) {
+        to[points++] = uniform_parameter<T>(at[lowest], rates[lowest]);
+      }
+    });
+    std::fill_n(to + points, kMaxLanes, to[points - 1]);
+  }
+
+  T* memory_;
+  std::uint32_t rates_[kSlots][2] = {};
 };
 
 } // namespace simdbezier::detail

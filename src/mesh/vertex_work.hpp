@@ -124,10 +124,12 @@ private:
   [[nodiscard]] std::size_t rows_before(std::size_t patch, std::size_t vertex) const noexcept {
     const std::size_t inner = mesh_.inner[patch];
     const std::size_t columns = mesh_.nu[patch] - 1;
+    const std::size_t rows = mesh_.nv[patch] - 1;
     if (vertex <= inner || columns == 0) {
       return 0;
     }
-    return std::min<std::size_t>(mesh_.nv[patch] - 1, (vertex - inner + columns - 1) / columns);
+    const std::size_t before = vertex - inner; // most patches lie before both ends of a share
+    return before >= columns * rows ? rows : (before + columns - 1) / columns;
   }
 
   /// Passes on what there is where `count` vertices more would not fit; begins a chunk.
