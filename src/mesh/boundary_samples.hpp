@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "src/mesh/boundary_rings.hpp"
 #include "src/mesh/corner_cache.hpp"
 #include "src/mesh/merged_normals.hpp"
 #include "src/mesh/mesh_data.hpp"
@@ -65,6 +66,7 @@ public:
            2 * whole_lines(line_values(mesh) * sizeof(T)) +
            whole_lines(CornerCache<T>::memory_values(planes(wishes)) * sizeof(T)) +
            whole_lines(UnionLines<T>::memory_values() * sizeof(T)) +
+           whole_lines(BoundaryRings<T>::memory_values(mesh, planes(wishes)) * sizeof(T)) +
            planes(wishes) * whole_lines(plane_values(wishes) * sizeof(T));
   }
   BoundarySamples(const MeshData& mesh, const BoundaryWishes& wishes, PatchRunner<T>& runner,
@@ -72,7 +74,9 @@ public:
       : mesh_(mesh), topology_(*mesh.topology.data()), wishes_(wishes), runner_(runner),
         lines_(lines), corners_(runner, mesh.patches(), wishes.dimension, wishes.normals,
                                 take<T>(memory, CornerCache<T>::memory_values(planes(wishes)))),
-        unions_(take<T>(memory, UnionLines<T>::memory_values())) {
+        unions_(take<T>(memory, UnionLines<T>::memory_values())),
+        rings_(mesh, runner, lines, wishes.dimension, wishes.normals,
+               take<T>(memory, BoundaryRings<T>::memory_values(mesh, planes(wishes)))) {
     entries_ = take<BoundaryEntry>(memory, wishes.samples);
     scratch_ = take<std::uint32_t>(memory, 2 * mesh.most_sides);
     line_[0] = take<T>(memory, line_values(mesh));
@@ -136,7 +140,10 @@ private:
     entry = {lowest, true, static_cast<std::uint32_t>(count_), 1, 0};
     topology_.for_joined(lowest, [&](std::size_t corner) {
       if (wishes_.every_patch || entry.members == 0) {
-        corners_.fetch(static_cast<std::uint32_t>(corner), positions_, normals_, count_);
+        const auto number = static_cast<std::uint32_t>(corner);
+        if (!rings_.fetch_corner(number, positions_, normals_, count_)) {
+          corners_.fetch(number, positions_, normals_, count_);
+        }
         ++count_;
         ++entry.members;
       }
@@ -152,15 +159,21 @@ private:
     const auto sides = all.first(wishes_.every_patch ? all.size() : 1);
     entries_[entry_count_++] = {edge, false, static_cast<std::uint32_t>(count_), points,
                                 static_cast<std::uint32_t>(sides.size())};
-    const T* along[2] = {parameters_of(edge, all, points), nullptr}; // and against the direction
+    const T* along[2] = {nullptr, nullptr}; // parameters in the edge's direction, and against it
     for (const std::uint32_t side : sides) {
       const bool reversed = topology_.sides[side].reversed();
-      if (reversed && along[1] == nullptr) {
-        std::transform(along[0], along[0] + points + kMaxLanes, line_[1],
-                       [](T x) { return T(0) - x; }); // no -0
-        along[1] = line_[1];
+      if (mesh_.rate(side) != points + 1 ||
+          !rings_.fetch_side(side, reversed, positions_, normals_, count_)) {
+        if (along[0] == nullptr) {
+          along[0] = parameters_of(edge, all, points);
+        }
+        if (reversed && along[1] == nullptr) {
+          std::transform(along[0], along[0] + points + kMaxLanes, line_[1],
+                         [](T x) { return T(0) - x; }); // no -0
+          along[1] = line_[1];
+        }
+        run_side(side, along[reversed ? 1 : 0], points);
       }
-      run_side(side, along[reversed ? 1 : 0], points);
       count_ += points;
     }
   }
@@ -216,6 +229,7 @@ private:
   ParameterLines<T>& lines_;
   CornerCache<T> corners_;
   UnionLines<T> unions_;
+  BoundaryRings<T> rings_;
   BoundaryEntry* entries_ = nullptr;
   std::uint32_t* scratch_ = nullptr;
   T* line_[2] = {nullptr, nullptr}; ///< of an edge with several rates; the same reversed

@@ -32,6 +32,16 @@ struct PointBlock {
       to[k * step] = values[k];
     }
   }
+  /// Every second value.
+  static Values load_even(const T* from) noexcept {
+    const Values low = load(from);
+    const Values high = load(from + kPoints);
+    if constexpr (kPoints == 4) {
+      return __builtin_shufflevector(low, high, 0, 2, 4, 6);
+    } else {
+      return __builtin_shufflevector(low, high, 0, 2);
+    }
+  }
   static Values square_root(const Values& values) noexcept {
     Values root;
     for (std::size_t k = 0; k < kPoints; ++k) {
