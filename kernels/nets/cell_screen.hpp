@@ -80,46 +80,99 @@ SIMDBEZIER_INLINE MaskOf<V> is_triangle_within(V a, V c, V d, V t) {
          (obtuse | (a * c * d <= t * (divisor + divisor)));
 }
 
-/// Whether a bound can at all be at most t: what it would be, but for rounding, if each quarter had
-/// its leading vectors only. In zones across the middle, terms of both halves come together, which
-/// have no smaller bound than each of them.
+/// The square of a vector along a diagonal, as a quadratic form of the steps.
 template <typename V>
-SIMDBEZIER_INLINE MaskOf<V> may_hold(const QuarterNets<V>& nets, const LeadingVectors<V>& leading,
-                                     const LaneCells<V>& cells, const SecondTerms<V>& doubt, V t) {
-  using T = ScalarOf<V>;
-  const CellSteps<V> step(cells, doubt);
-  ZoneTerms<V> terms;
-  const auto square = [&](const SecondVectors<V>& v, bool rises) SIMDBEZIER_INLINE_LAMBDA {
-    const SpaceVector<V> s = step.uu * v.uu + step.vv * v.vv;
-    const SpaceVector<V> m = step.uv * v.uv;
-    return (rises ? s + m : s - m).square();
+class SquareForm {
+public:
+  SIMDBEZIER_INLINE SquareForm(const SecondVectors<V>& of, bool rising)
+      : squares_{of.uu.square(), of.uv.square(), of.vv.square()}, same_(dot(of.uu, of.vv)) {
+    const V zero = broadcast<V>(ScalarOf<V>(0));
+    mixed_u_ = rising ? dot(of.uu, of.uv) : zero - dot(of.uu, of.uv);
+    mixed_v_ = rising ? dot(of.vv, of.uv) : zero - dot(of.vv, of.uv);
+  }
+
+  /// Less than it by what may have been rounded, which is small beside the sum of the squares.
+  [[nodiscard]] SIMDBEZIER_INLINE V at_least(const CellSteps<V>& step) const {
+    using T = ScalarOf<V>;
+    const V two_uv = step.uv + step.uv;
+    const V squares = madd(step.uu * step.uu, squares_.uu,
+                           madd(step.vv * step.vv, squares_.vv, step.uv * step.uv * squares_.uv));
+    const V cross = madd((step.uu + step.uu) * step.vv, same_,
+                         madd(two_uv * step.uu, mixed_u_, two_uv * step.vv * mixed_v_));
+    return larger_of<V>(madd(squares, broadcast<V>(T(1) - T(1e-5)), cross), broadcast<V>(T(0)));
+  }
+
+private:
+  static SIMDBEZIER_INLINE V dot(const SpaceVector<V>& a, const SpaceVector<V>& b) {
+    return madd(a.x, b.x, madd(a.y, b.y, a.z * b.z));
+  }
+
+  SecondTerms<V> squares_;
+  V same_;
+  V mixed_u_;
+  V mixed_v_;
+};
+
+/// Whether the bound of cells can at all be at most t: what it would be, but for rounding, if each
+/// quarter had its leading vectors only. In zones across the middle, terms of both halves come
+/// together, which have no smaller bound than each of them.
+template <typename V>
+class CellScreen {
+public:
+  SIMDBEZIER_INLINE CellScreen(const QuarterNets<V>& nets, const LeadingVectors<V>& leading,
+                               const SecondTerms<V>& doubt, V t)
+      : quarter_{{nets.largest[0], leading, 0, doubt},
+                 {nets.largest[1], leading, 1, doubt},
+                 {nets.largest[2], leading, 2, doubt},
+                 {nets.largest[3], leading, 3, doubt}},
+        doubt_(doubt), above_(t * broadcast<V>(ScalarOf<V>(1) + ScalarOf<V>(1e-3))) {}
+
+  [[nodiscard]] SIMDBEZIER_INLINE MaskOf<V> may_hold(const LaneCells<V>& cells) const {
+    const CellSteps<V> step(cells, doubt_);
+    ZoneTerms<V> terms;
+    for (std::size_t k = 0; k < 4; ++k) {
+      terms.uu[k] = step.uu * quarter_[k].uu;
+      terms.vv[k] = step.vv * quarter_[k].vv;
+      terms.rising[k] = quarter_[k].rising.at_least(step);
+      terms.falling[k] = quarter_[k].falling.at_least(step);
+    }
+    const MaskOf<V> odd[2] = {is_odd<V>(cells.nu), is_odd<V>(cells.nv)};
+    for (V* const term : {terms.uu, terms.vv, terms.rising, terms.falling}) {
+      const auto join = [&](std::size_t a, std::size_t b, MaskOf<V> where)
+                            SIMDBEZIER_INLINE_LAMBDA {
+                              const V both = larger_of<V>(term[a], term[b]);
+                              term[a] = select_where<V>(where, both, term[a]);
+                              term[b] = select_where<V>(where, both, term[b]);
+                            };
+      join(0, 1, odd[0]);
+      join(2, 3, odd[0]);
+      join(0, 2, odd[1]);
+      join(1, 3, odd[1]);
+    }
+    MaskOf<V> possible = above_ > broadcast<V>(ScalarOf<V>(0));
+    for (std::size_t k = 0; k < 4; ++k) {
+      const V across = square_root(smaller_of<V>(terms.rising[k], terms.falling[k])) + step.doubt;
+      possible = possible & is_triangle_within<V>(terms.uu[k], terms.vv[k], across, above_);
+    }
+    return possible;
+  }
+
+private:
+  struct Quarter {
+    SquareForm<V> rising;
+    SquareForm<V> falling;
+    V uu;
+    V vv;
+
+    SIMDBEZIER_INLINE Quarter(const SecondTerms<V>& largest, const LeadingVectors<V>& leading,
+                              std::size_t k, const SecondTerms<V>& doubt)
+        : rising(leading.rising[k], true), falling(leading.falling[k], false),
+          uu(largest.uu + doubt.uu), vv(largest.vv + doubt.vv) {}
   };
-  for (std::size_t k = 0; k < 4; ++k) {
-    terms.uu[k] = step.uu * (nets.largest[k].uu + doubt.uu);
-    terms.vv[k] = step.vv * (nets.largest[k].vv + doubt.vv);
-    terms.rising[k] = square(leading.rising[k], true);
-    terms.falling[k] = square(leading.falling[k], false);
-  }
-  const MaskOf<V> odd[2] = {is_odd<V>(cells.nu), is_odd<V>(cells.nv)};
-  for (V* const term : {terms.uu, terms.vv, terms.rising, terms.falling}) {
-    const auto join = [&](std::size_t a, std::size_t b, MaskOf<V> where) SIMDBEZIER_INLINE_LAMBDA {
-      const V both = larger_of<V>(term[a], term[b]);
-      term[a] = select_where<V>(where, both, term[a]);
-      term[b] = select_where<V>(where, both, term[b]);
-    };
-    join(0, 1, odd[0]);
-    join(2, 3, odd[0]);
-    join(0, 2, odd[1]);
-    join(1, 3, odd[1]);
-  }
-  // More than triangle_bound() may err by.
-  const V above = t * broadcast<V>(T(1) + T(1e-3));
-  MaskOf<V> possible = above > broadcast<V>(T(0));
-  for (std::size_t k = 0; k < 4; ++k) {
-    const V across = square_root(smaller_of<V>(terms.rising[k], terms.falling[k])) + step.doubt;
-    possible = possible & is_triangle_within<V>(terms.uu[k], terms.vv[k], across, above);
-  }
-  return possible;
-}
+
+  Quarter quarter_[4];
+  const SecondTerms<V>& doubt_;
+  V above_; ///< t, and more than triangle_bound() may err by
+};
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -46,9 +46,8 @@ template <typename V>
 class CellCandidates {
 public:
   /// best: cells that hold. centre: for which the bound of cells like them is in proportion.
-  SIMDBEZIER_INLINE CellCandidates(const RateScratch<V>& scratch, const RateGroup<V>& group,
-                                   const LeadingVectors<V>& leading, const LaneCells<V>& centre,
-                                   const LaneCells<V>& best, V t, V most) {
+  SIMDBEZIER_INLINE CellCandidates(const CellScreen<V>& screen, const LaneCells<V>& centre,
+                                   const LaneCells<V>& best, V most) {
     using T = ScalarOf<V>;
     const V one = broadcast<V>(T(1));
     const V filip = best.nu * best.nv;
@@ -64,7 +63,7 @@ public:
       const V product = cells_[k].nu * cells_[k].nv;
       open_[k] = product < filip;
       if (any_of<V>(product < fewest)) {
-        open_[k] = open_[k] & may_hold<V>(scratch.nets, leading, cells_[k], group.doubt, t);
+        open_[k] = open_[k] & screen.may_hold(cells_[k]);
         fewest = select_where<V>(open_[k] & (product < fewest), product, fewest);
       }
     }
@@ -130,7 +129,8 @@ SIMDBEZIER_INLINE CertifiedCells<V> choose_cells(const RateScratch<V>& scratch,
       worst_zone<V>(leading_terms(scratch.nets, pair, group.doubt, leading), pair, nullptr);
   const V scale = smaller_of<V>(square_root(divide(bound, t)), one);
   const LaneCells<V> centre{whole_part<V>(pair.nu * scale), whole_part<V>(pair.nv * scale)};
-  CellCandidates<V> candidates(scratch, group, leading, centre, filip, t, most);
+  CellCandidates<V> candidates(CellScreen<V>(scratch.nets, leading, group.doubt, t), centre, filip,
+                               most);
   for (;;) {
     CertifiedCells<V> result;
     result.cells = candidates.fewest(filip);
