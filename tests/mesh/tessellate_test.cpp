@@ -1,15 +1,14 @@
 // tessellate() on models and on real data: closed where they are, oriented, without triangles that
 // have no area, and as close to the surface as certified, by dense samples.
 #include <cmath>
-#include <limits>
+#include <cstdlib>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include <simdbezier/mesh.hpp>
 
-#include "tests/mesh/mesh_models.hpp"
-#include "tests/mesh/mesh_oracle.hpp"
+#include "tests/mesh/dense_deviation.hpp"
 #include "tests/mesh/triangle_census.hpp"
 #include "tests/support/nets/data_files.hpp"
 
@@ -22,19 +21,6 @@ struct Model {
 
   [[nodiscard]] std::vector<double> values() const { return MeshModel{name, patches}.values(); }
 };
-
-std::vector<PatchPoints> patches_of(const std::vector<Net>& nets) {
-  std::vector<PatchPoints> patches;
-  for (const Net& net : nets) {
-    PatchPoints& patch = patches.emplace_back();
-    for (std::size_t k = 0; k < 16; ++k) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        patch[k / 4][k % 4][c] = static_cast<double>(net.points[k][c]);
-      }
-    }
-  }
-  return patches;
-}
 
 /// A sheet of smooth patches with shared edges.
 Model random_sheet(int columns, int rows, unsigned seed) {
@@ -63,12 +49,6 @@ Model random_sheet(int columns, int rows, unsigned seed) {
 }
 
 template <typename T>
-Point corner(const Mesh<T>& mesh, std::size_t triangle, std::size_t k) {
-  const auto& p = mesh.positions[mesh.triangles[triangle][k]];
-  return {p[0], p[1], p[2]};
-}
-
-template <typename T>
 std::span<const std::uint32_t> numbers_of(const Mesh<T>& mesh) {
   return {mesh.triangles.empty() ? nullptr : mesh.triangles.front().data(),
           3 * mesh.triangles.size()};
@@ -92,32 +72,6 @@ void expect_sound(const Mesh<T>& mesh, bool normals) {
     EXPECT_NEAR(std::sqrt(double(n[0]) * n[0] + double(n[1]) * n[1] + double(n[2]) * n[2]), 1,
                 1e-5);
   }
-}
-
-/// The largest distance of dense samples of a patch from its triangles.
-template <typename T>
-double found_deviation(const MeshPlan<T>& plan, const Mesh<T>& mesh, const PatchPoints& patch,
-                       std::size_t p, std::uint32_t in_cell) {
-  std::vector<std::array<Point, 3>> triangles;
-  for (std::size_t t = plan.layout.first_triangle(p); t < plan.layout.first_triangle(p + 1); ++t) {
-    triangles.push_back({corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2)});
-  }
-  double worst = 0;
-  const std::uint32_t nu = in_cell * plan.nu[p];
-  const std::uint32_t nv = in_cell * plan.nv[p];
-  for (std::uint32_t k = 0; k < (nu + 1) * (nv + 1); ++k) {
-    const Point x = surface(patch, static_cast<double>(k % (nu + 1)) / nu,
-                            static_cast<double>(k / (nu + 1)) / nv);
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& triangle : triangles) {
-      least = std::min(least, squared_distance(x, triangle));
-      if (least <= worst) {
-        break;
-      }
-    }
-    worst = std::max(worst, least);
-  }
-  return std::sqrt(worst);
 }
 
 template <typename T>
@@ -194,8 +148,13 @@ TEST(TessellateData, is_closed_where_the_data_is_and_as_close_as_certified) {
   }
 }
 
+/// SIMDBEZIER_MESH_PATCHES: how many patches the sheet has, about.
 TEST(Tessellate, of_ten_thousand_random_patches_is_one_sheet) {
-  const Model model = random_sheet(100, 100, 1);
+  const char* const wish = std::getenv("SIMDBEZIER_MESH_PATCHES");
+  const int side =
+      wish == nullptr ? 100 : static_cast<int>(std::lround(std::sqrt(std::atof(wish))));
+  ASSERT_GT(side, 0);
+  const Model model = random_sheet(side, side, 1);
   const std::vector<double> values = model.values();
   const auto nets = ControlNets<double>::packed(values.data(), model.patches.size(), 3, 3);
   MeshOptions options;

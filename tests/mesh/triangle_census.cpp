@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <compare>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -11,9 +11,13 @@
 namespace simdbezier::tests {
 namespace {
 
+/// An edge of a triangle, in the order of its vertices' numbers.
 struct EdgeUse {
-  std::size_t forward = 0;
-  std::size_t backward = 0;
+  std::size_t low;
+  std::size_t high;
+  bool forward; ///< from the lower number to the higher one
+
+  [[nodiscard]] auto operator<=>(const EdgeUse&) const = default;
 };
 
 /// Connected parts of the graph of open edges.
@@ -27,16 +31,38 @@ std::size_t count_loops(const std::vector<std::pair<std::size_t, std::size_t>>& 
     }
     return v;
   };
-  std::set<std::size_t> touched;
   for (const auto& [a, b] : edges) {
     parent[find(a)] = find(b);
-    touched.insert(a);
   }
   std::set<std::size_t> roots;
-  for (const std::size_t v : touched) {
-    roots.insert(find(v));
+  for (const auto& [a, b] : edges) {
+    roots.insert(find(a));
   }
   return roots.size();
+}
+
+/// Counts edges by how many triangles they have, and in which directions; returns the open ones.
+std::vector<std::pair<std::size_t, std::size_t>>
+count_edges(std::vector<EdgeUse>& uses, TriangleCensus& census, std::size_t& edges) {
+  std::sort(uses.begin(), uses.end());
+  std::vector<std::pair<std::size_t, std::size_t>> open;
+  for (std::size_t k = 0; k < uses.size();) {
+    std::size_t sides = 0;
+    std::size_t forward = 0;
+    const EdgeUse first = uses[k];
+    for (; k < uses.size() && uses[k].low == first.low && uses[k].high == first.high; ++k) {
+      ++sides;
+      forward += uses[k].forward ? 1 : 0;
+    }
+    if (sides == 1) {
+      open.emplace_back(first.low, first.high);
+    }
+    census.crowded += sides > 2 ? 1 : 0;
+    census.disagreeing += sides == 2 && forward != 1 ? 1 : 0;
+    ++edges;
+  }
+  census.open = open.size();
+  return open;
 }
 
 } // namespace
@@ -44,9 +70,9 @@ std::size_t count_loops(const std::vector<std::pair<std::size_t, std::size_t>>& 
 template <typename Index>
 TriangleCensus count_triangles(std::span<const Index> triangles, std::size_t vertices) {
   TriangleCensus census;
-  std::map<std::pair<std::size_t, std::size_t>, EdgeUse> edges;
+  std::vector<EdgeUse> uses;
   std::vector<bool> used(vertices);
-  std::set<std::array<std::size_t, 3>> seen;
+  std::vector<std::array<std::size_t, 3>> seen;
   for (std::size_t k = 0; k + 2 < triangles.size(); k += 3) {
     std::array<std::size_t, 3> corners{triangles[k], triangles[k + 1], triangles[k + 2]};
     if (*std::max_element(corners.begin(), corners.end()) >= vertices) {
@@ -57,26 +83,18 @@ TriangleCensus count_triangles(std::span<const Index> triangles, std::size_t ver
       const std::size_t a = corners[c];
       const std::size_t b = corners[(c + 1) % 3];
       used[a] = true;
-      EdgeUse& use = edges[{std::min(a, b), std::max(a, b)}];
-      ++(a < b ? use.forward : use.backward);
+      uses.push_back({std::min(a, b), std::max(a, b), a < b});
     }
     std::sort(corners.begin(), corners.end());
     census.degenerate += corners[0] == corners[1] || corners[1] == corners[2] ? 1 : 0;
-    census.repeated += seen.insert(corners).second ? 0 : 1;
+    seen.push_back(corners);
   }
-  std::vector<std::pair<std::size_t, std::size_t>> open;
-  for (const auto& [ends, use] : edges) {
-    const std::size_t sides = use.forward + use.backward;
-    if (sides == 1) {
-      open.push_back(ends);
-    }
-    census.crowded += sides > 2 ? 1 : 0;
-    census.disagreeing += sides == 2 && use.forward != 1 ? 1 : 0;
-  }
-  census.open = open.size();
-  census.loops = count_loops(open, vertices);
+  std::sort(seen.begin(), seen.end());
+  census.repeated = static_cast<std::size_t>(seen.end() - std::unique(seen.begin(), seen.end()));
+  std::size_t edges = 0;
+  census.loops = count_loops(count_edges(uses, census, edges), vertices);
   census.unused = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
-  census.euler = static_cast<long>(vertices - census.unused) - static_cast<long>(edges.size()) +
+  census.euler = static_cast<long>(vertices - census.unused) - static_cast<long>(edges) +
                  static_cast<long>(triangles.size() / 3);
   return census;
 }
