@@ -48,9 +48,11 @@ double found_deviation(const MeshPlan<T>& plan, const Mesh<T>& mesh, const Patch
     const Point x = surface(patch, static_cast<double>(k % (nu + 1)) / nu,
                             static_cast<double>(k / (nu + 1)) / nv);
     double least = std::numeric_limits<double>::infinity();
-    const std::size_t begin = nearest;
+    const std::size_t begin = nearest + triangles.size();
     for (std::size_t t = 0; t < triangles.size() && least > worst; ++t) {
-      const std::size_t at = (begin + t) % triangles.size();
+      // Forwards and backwards: triangles follow each other row by row, and so do samples.
+      const std::size_t step = (t + 1) / 2;
+      const std::size_t at = (t % 2 == 0 ? begin + step : begin - step) % triangles.size();
       const double square = squared_distance(x, triangles[at]);
       if (square < least) {
         least = square;

@@ -1,0 +1,154 @@
+// The stages of a mesh, one by one, and the sheet of patches that rows make meshes of.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <simdbezier/simdbezier.hpp>
+
+#include "bench/patches.hpp"
+#include "bench/shared_data.hpp"
+
+namespace simdbezier_bench {
+
+using simdbezier::Options;
+using simdbezier::Status;
+
+/// Whatever stages of a mesh produce, one after the other.
+template <typename T>
+struct MeshStages {
+  std::vector<T> nets;
+  simdbezier::PatchSet<T> set;
+  simdbezier::Topology topology;
+  std::vector<std::uint32_t> nu, nv, samples_u, samples_v;
+  std::vector<std::uint16_t> diagonals;
+  std::vector<double> deviations;
+  double tolerance = 0;
+  simdbezier::MeshLayout layout;
+  HugeMemory vertices; ///< positions, then normals from a line's start on
+  HugeMemory triangles;
+  std::size_t normals_at = 0;
+
+  [[nodiscard]] simdbezier::ControlNets<T> views() const {
+    return simdbezier::ControlNets<T>::packed(std::span<const T>(nets));
+  }
+  [[nodiscard]] std::size_t patches() const { return nu.size(); }
+
+  Status join(const Options& how) {
+    simdbezier::TopologyOptions options;
+    options.threads = how.threads;
+    return simdbezier::find_topology(views(), topology, options);
+  }
+  Status choose(const Options& how) {
+    simdbezier::RateOptions options;
+    options.tolerance = tolerance;
+    options.threads = how.threads;
+    const auto nets_of = views();
+    return simdbezier::choose_rates(std::span<const simdbezier::ControlNets<T>>(&nets_of, 1),
+                                    topology, options, {nu, nv, diagonals, deviations})
+        .status;
+  }
+  Status lay_out(const Options& /*how*/) {
+    return simdbezier::lay_out_mesh(topology, {nu, nv, diagonals}, layout);
+  }
+  /// Room for the samples of grids, and for the vertices and triangles of a mesh.
+  bool make_room() {
+    constexpr std::size_t kLine = kLineBytes / sizeof(T);
+    normals_at = (3 * static_cast<std::size_t>(grid_samples()) + kLine - 1) / kLine * kLine;
+    vertices = HugeMemory(2 * normals_at * sizeof(T));
+    triangles = HugeMemory(3 * layout.size().triangles * sizeof(std::uint32_t));
+    return vertices.get() != nullptr && triangles.get() != nullptr;
+  }
+  [[nodiscard]] simdbezier::Vectors<T> triples(std::size_t at, std::size_t count) const {
+    return simdbezier::Vectors<T>::xyz(
+        std::span(reinterpret_cast<T*>(vertices.get()) + at, 3 * count));
+  }
+  Status evaluate_vertices(const Options& how) {
+    simdbezier::MeshOutputs<T> out;
+    out.position = triples(0, layout.size().vertices);
+    out.normal = triples(normals_at, layout.size().vertices);
+    return simdbezier::evaluate_mesh(set, layout, out, how);
+  }
+  Status write(const Options& how) {
+    auto* const to = reinterpret_cast<std::uint32_t*>(triangles.get());
+    return simdbezier::write_triangles(layout, std::span(to, 3 * layout.size().triangles),
+                                       how.threads, {}, how.destination);
+  }
+  Status evaluate_grids(const Options& how) {
+    simdbezier::Outputs<T> out;
+    const auto samples = static_cast<std::size_t>(grid_samples());
+    out.position = triples(0, samples);
+    out.normal = triples(normals_at, samples);
+    return simdbezier::evaluate(set, simdbezier::PatchGrids{samples_u, samples_v}, out, how);
+  }
+  [[nodiscard]] double grid_samples() const {
+    double sum = 0;
+    for (std::size_t p = 0; p < patches(); ++p) {
+      sum += static_cast<double>(samples_u[p]) * samples_v[p];
+    }
+    return sum;
+  }
+};
+
+inline constexpr std::size_t kColumns = 192;
+inline constexpr std::size_t kRows = 128;
+
+/// A sheet whose waves grow from one side to the other.
+template <typename T>
+std::vector<T> sheet_nets() {
+  const std::vector<double> noise = random_units((3 * kColumns + 1) * (3 * kRows + 1), 5);
+  std::vector<T> nets;
+  for (std::size_t patch = 0; patch < kColumns * kRows; ++patch) {
+    for (std::size_t k = 0; k < 16; ++k) {
+      const std::size_t column = 3 * (patch % kColumns) + k % 4;
+      const std::size_t row = 3 * (patch / kColumns) + k / 4;
+      const double height = 1.5 * static_cast<double>(column) / kColumns;
+      const double at = noise[row * (3 * kColumns + 1) + column];
+      nets.push_back(static_cast<T>(static_cast<double>(column) + 0.3 * at));
+      nets.push_back(static_cast<T>(row));
+      nets.push_back(static_cast<T>(height * at));
+    }
+  }
+  return nets;
+}
+
+/// Packed and laid out; null where something failed.
+template <typename T>
+std::shared_ptr<MeshStages<T>> make_stages(bool adaptive) {
+  auto stages = std::make_shared<MeshStages<T>>();
+  MeshStages<T>& s = *stages;
+  s.nets = sheet_nets<T>();
+  Options how;
+  how.threads = 1;
+  if (!simdbezier::pack(s.views(), s.set) || !s.join(how)) {
+    return nullptr;
+  }
+  const std::size_t patches = s.set.size();
+  s.nu.assign(patches, 15);
+  s.nv.assign(patches, 15);
+  s.diagonals.assign(patches, 0);
+  s.deviations.assign(patches, 0);
+  for (double low = 1e-4, high = 1; adaptive && high / low > 1.01;) {
+    s.tolerance = std::sqrt(low * high);
+    if (!s.choose(how)) {
+      return nullptr;
+    }
+    double cells = 0;
+    for (std::size_t p = 0; p < patches; ++p) {
+      cells += static_cast<double>(s.nu[p]) * s.nv[p] / static_cast<double>(patches);
+    }
+    (cells > 7 * 7 ? low : high) = s.tolerance;
+  }
+  if (!s.lay_out(how)) {
+    return nullptr;
+  }
+  for (std::size_t p = 0; p < patches; ++p) {
+    s.samples_u.push_back(s.nu[p] + 1);
+    s.samples_v.push_back(s.nv[p] + 1);
+  }
+  return s.make_room() ? stages : nullptr;
+}
+
+} // namespace simdbezier_bench
