@@ -14,6 +14,33 @@
 
 namespace simdbezier::detail {
 
+/// Greatest common divisors of small numbers, which Euclid's algorithm takes some 20 ns for.
+class SmallDivisors {
+public:
+  static constexpr std::uint32_t kEnd = 64;
+
+  constexpr SmallDivisors() {
+    for (std::uint32_t a = 0; a < kEnd; ++a) {
+      for (std::uint32_t b = 0; b < kEnd; ++b) {
+        values_[a * kEnd + b] = static_cast<std::uint8_t>(std::gcd(a, b));
+      }
+    }
+  }
+  [[nodiscard]] constexpr std::uint32_t of(std::uint32_t a, std::uint32_t b) const {
+    return values_[a * kEnd + b];
+  }
+
+private:
+  std::uint8_t values_[kEnd * kEnd] = {};
+};
+inline constexpr SmallDivisors kSmallDivisors;
+
+/// The segments of an edge of two rates: common points count once.
+inline std::uint32_t segments_of(std::uint32_t a, std::uint32_t b) {
+  const bool small = a < SmallDivisors::kEnd && b < SmallDivisors::kEnd;
+  return a + b - (small ? kSmallDivisors.of(a, b) : std::gcd(a, b));
+}
+
 /// Different rates of an edge's sides, ascending.
 using EdgeRates = std::vector<std::uint32_t>;
 
@@ -87,7 +114,7 @@ inline std::uint32_t union_segments(std::span<const std::uint32_t> rates,
     return rates[0];
   }
   if (rates.size() == 2) {
-    return rates[0] + rates[1] - std::gcd(rates[0], rates[1]);
+    return segments_of(rates[0], rates[1]);
   }
   scratch.resize(rates.size());
   return walk_union(rates, scratch.data(), [](auto...) {});

@@ -32,13 +32,22 @@ public:
     return false;
   }
 
-  /// Whether two patches share more than one corner, or one edge and its ends.
-  [[nodiscard]] bool entangled(std::size_t a, std::size_t b) const {
+  /// The corners of a patch that another one has as well.
+  [[nodiscard]] Mask common_corners(std::size_t a, std::size_t b) const {
     Mask corners = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      corners |= has_corner(b, corner(a, k)) << k;
+    }
+    return corners;
+  }
+  /// Whether two patches share more than one corner, or one edge and its ends.
+  [[nodiscard]] bool entangled(std::size_t a, std::size_t b, Mask corners) const {
+    if ((corners & (corners - 1)) == 0) {
+      return false; // an edge would have two of them
+    }
     std::size_t edges = 0;
     Mask ends = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-      corners |= has_corner(b, corner(a, k)) ? 1U << k : 0;
       const Side& own = side(a, k);
       if (!own.collapsed() && has_edge(b, own.edge())) {
         ++edges;
@@ -67,9 +76,11 @@ private:
   [[nodiscard]] std::uint32_t corner(std::size_t patch, std::size_t k) const {
     return topology_.corners[kPatchCorners * patch + k];
   }
-  [[nodiscard]] bool has_corner(std::size_t patch, std::uint32_t which) const {
-    const auto* const first = &topology_.corners[kPatchCorners * patch];
-    return std::find(first, first + kPatchCorners, which) != first + kPatchCorners;
+  /// Without branches, because either is as likely.
+  [[nodiscard]] Mask has_corner(std::size_t patch, std::uint32_t which) const {
+    const auto* const at = &topology_.corners[kPatchCorners * patch];
+    return Mask{at[0] == which} | Mask{at[1] == which} | Mask{at[2] == which} |
+           Mask{at[3] == which};
   }
   [[nodiscard]] bool has_edge(std::size_t patch, std::uint32_t edge) const {
     const auto* const first = &topology_.sides[kPatchEdges * patch];
@@ -236,14 +247,19 @@ void mark_entangled(TopologyData& topology) {
   CrowdedCorners crowded(topology, at);
   for (std::size_t patch = 0; patch < topology.patches(); ++patch) {
     bool marked = neighbours.touches_itself(patch);
+    Mask compared = 0; // corners whose patches have been
     for (std::size_t k = 0; k < kPatchCorners && !marked; ++k) {
       const std::uint32_t corner = topology.corners[kPatchCorners * patch + k];
-      if (!at.is_crowded(corner)) {
-        marked = std::any_of(at.patches.begin() + at.first[corner],
-                             at.patches.begin() + at.first[corner + 1], [&](std::uint32_t other) {
-                               return other != patch && neighbours.entangled(patch, other);
-                             });
+      if (at.is_crowded(corner)) {
+        continue;
       }
+      marked = std::any_of(at.patches.begin() + at.first[corner],
+                           at.patches.begin() + at.first[corner + 1], [&](std::uint32_t other) {
+                             const Mask common = neighbours.common_corners(patch, other);
+                             return other != patch && (common & compared) == 0 &&
+                                    neighbours.entangled(patch, other, common);
+                           });
+      compared |= 1U << k;
     }
     marked = marked || crowded.entangled(patch);
     topology.flags[patch] |= marked ? kEntangled : 0;

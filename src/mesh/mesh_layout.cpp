@@ -20,11 +20,16 @@ void count_segments(const TopologyData& topology, MeshData& mesh) {
   std::vector<std::uint32_t> scratch;
   mesh.segments.resize(topology.edges());
   for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
-    mesh.rates_of(edge, rates);
-    if (topology.sides_of(edge).size() > kManySides) {
-      mesh.crowded_edges.push_back({edge, rates});
+    const auto sides = topology.sides_of(edge);
+    if (sides.size() <= 2) {
+      mesh.segments[edge] = segments_of(mesh.rate(sides.front()), mesh.rate(sides.back()));
+    } else {
+      mesh.rates_of(edge, rates);
+      if (sides.size() > kManySides) {
+        mesh.crowded_edges.push_back({edge, rates});
+      }
+      mesh.segments[edge] = union_segments(rates, scratch);
     }
-    mesh.segments[edge] = union_segments(rates, scratch);
     mesh.most_segments = std::max(mesh.most_segments, mesh.segments[edge]);
   }
 }
