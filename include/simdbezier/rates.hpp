@@ -102,9 +102,9 @@ template <typename S>
 ///           most_segments would be needed; the report names the patch) | out_of_memory. Outputs
 ///           are undefined then. The topology has to be that of these nets: their numbers of
 ///           patches are all that is compared.
-/// Cost:     on AVX-512, 0.4 to 0.7 us a bicubic float patch and twice that in double, and 0.2
-///           to 0.4 us for the certificate; 30 us and more for rational patches, other degrees
-///           and patches with a forced diagonal.
+/// Cost:     on AVX-512, 0.25 to 0.4 us a bicubic float patch and 0.65 us in double, certificate
+///           included; 30 us and more for rational patches, other degrees and patches with a forced
+///           diagonal.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<S>> sets,
                                                      const Topology& topology,
