@@ -1,8 +1,7 @@
 // The formulas of one curve, over V = one register of its samples or a single one.
 //
 // The order of operations is that of a patch's edges (bicubic.hpp, shape/shape_formulas.hpp):
-// Horner's rule in X, derivatives by synthetic division, h * (1 / w), the origin added last, ends
-// replaced.
+// row_series(), h * (1 / w), the origin added last, ends replaced.
 #pragma once
 
 #include "kernels/shape/shape_formulas.hpp"
@@ -63,8 +62,8 @@ public:
 
   template <std::size_t kDepth, typename N>
   SIMDBEZIER_INLINE Series<V> series(N order) const {
-    return horner_series<kDepth>(order, x_,
-                                 [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return chosen(k); });
+    return row_series<kDepth>(order, x_,
+                              [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return chosen(k); });
   }
 
   /// A position from what the polynomials gave.

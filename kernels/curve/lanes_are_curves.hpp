@@ -44,7 +44,7 @@ public:
     const V* const c = value_ + component * channel_;
     repeat<kAcrossStep>([&](std::size_t j) SIMDBEZIER_INLINE_LAMBDA {
       const auto coefficient = [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return c[k]; };
-      result[j] = horner_series<0>(order_, broadcast<V>(x[j]), coefficient).value;
+      result[j] = row_series<0>(order_, broadcast<V>(x[j]), coefficient).value;
     });
     if (origins_) [[unlikely]] {
       repeat<kAcrossStep>([&](std::size_t j) SIMDBEZIER_INLINE_LAMBDA {

@@ -89,7 +89,7 @@ private:
     }
     for (std::size_t a = 0; a <= highest_u(); ++a) {
       if (orders_.highest_v[a] >= 0) {
-        taylor_series(
+        taylor_row(
             order_v, y_, [&](std::size_t l) { return power[l][a]; }, highest_v(a), to[a]);
       }
     }
@@ -106,7 +106,7 @@ private:
   __attribute__((noinline)) void edge(std::size_t channel, std::size_t number, std::size_t order,
                                       V t, std::size_t highest, V* to) const {
     const T* const powers = cell_.edges + channel * shape_.edge_powers() * 4 + number;
-    taylor_series(
+    taylor_row(
         order, t, [&](std::size_t k) { return broadcast<V>(powers[k * 4]); }, highest, to);
   }
   void along_edge_u(std::size_t channel, V* to) const {

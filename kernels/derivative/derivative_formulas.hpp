@@ -20,8 +20,8 @@ using TaylorRow = V[kMostDerivatives];
 template <typename V>
 using TaylorTable = V[kMostDerivatives][kMostDerivatives];
 
-/// to[d] = d-th derivative of sum_k c(k) t^k over d!, d = 0 … highest, for order >= 2. The
-/// operations are those of horner_series(), and so are the bits.
+/// to[d] = d-th derivative of sum_k c(k) t^k over d!, d = 0 … highest, for order >= 2: a column,
+/// with the operations of horner_series() and so its bits.
 template <typename V, typename Coefficient>
 SIMDBEZIER_INLINE void taylor_series(std::size_t order, V t, const Coefficient& c,
                                      std::size_t highest, V* to) {
@@ -39,6 +39,20 @@ SIMDBEZIER_INLINE void taylor_series(std::size_t order, V t, const Coefficient& 
       to[d] = madd(to[d], t, to[d - 1]);
     }
     to[0] = madd(to[0], t, c(order - 1 - step));
+  }
+}
+
+/// The same of a row or an edge: orders up to 2 have the operations of row_series().
+template <typename V, typename Coefficient>
+SIMDBEZIER_INLINE void taylor_row(std::size_t order, V t, const Coefficient& c, std::size_t highest,
+                                  V* to) {
+  taylor_series(order, t, c, highest, to);
+  if (takes_even_odd(order)) {
+    const Series<V> s = even_odd_series<2>(Order<0>(order), t, c);
+    const V low[3] = {s.value, s.first, s.second};
+    for (std::size_t d = 0; d <= highest && d < 3; ++d) {
+      to[d] = low[d];
+    }
   }
 }
 

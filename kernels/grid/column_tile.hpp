@@ -132,7 +132,7 @@ struct ColumnTile {
     } else {
       V k[kOrder];
       shared_edges(c, k);
-      return finish(c, horner(k, column.x, du));
+      return finish(c, row_value(k, RowPoint<V>(column.x), du));
     }
   }
   SIMDBEZIER_INLINE V edge_rows(const Component<T>& c, std::size_t edge) const {
@@ -141,7 +141,7 @@ struct ColumnTile {
     } else {
       V k[kOrder];
       shared_edges(c, k);
-      return finish(c, horner(k, column.x));
+      return finish(c, row_value(k, RowPoint<V>(column.x)));
     }
   }
   SIMDBEZIER_INLINE V edge_rows_second(const Component<T>& c, std::size_t edge) const {
@@ -150,7 +150,7 @@ struct ColumnTile {
     } else {
       V k[kOrder];
       shared_edges(c, k);
-      return horner_second(k, column.x);
+      return row_second(k, RowPoint<V>(column.x));
     }
   }
   /// Their Y.

@@ -1,6 +1,6 @@
 // Small grids (grid/small_grids.hpp): positions with first derivatives or normals.
 //
-// Inner samples and tangents along edges fall out of the positions' Horner schemes. Besides, edges
+// Inner samples and tangents along edges fall out of the positions' schemes. Besides, edges
 // take the patch's derivative across them, and corners the tangents of two edges each.
 #pragma once
 
@@ -19,7 +19,7 @@ struct SmallEnds {
   static constexpr T kHalves[4] = {0, 0, 1, 1};
 
   V by_group = RowGroups<4, V>::spread(kEnds); ///< the first end in groups 0 and 2
-  V by_lane = RowGroups<4, V>::repeat(kEnds);
+  RowPoint<V> by_lane{RowGroups<4, V>::repeat(kEnds)};
   MaskOf<V> first_half = RowGroups<4, V>::spread(kHalves) == broadcast<V>(T(0));
 };
 
@@ -42,18 +42,18 @@ struct SmallJets {
     V slopes;
     split_fours(horner(k, grid.x, slopes), q);
     split_fours(slopes, dq);
-    inner.p = horner(q, grid.y, inner.dv);
-    inner.du = horner(dq, grid.y);
-    const V across_v = horner_slope(q, ends.by_lane);
+    inner.p = row_value(q, grid.y, inner.dv);
+    inner.du = row_value(dq, grid.y);
+    const V across_v = row_slope(q, ends.by_lane);
     split_fours(horner_slope(k, ends.by_group), dq); // of the columns that are edges
-    const V across_u = horner(dq, grid.y);
+    const V across_u = row_value(dq, grid.y);
 
     V e[kOrder];
     load_fours(c.edge, e);
-    border.p = horner(e, grid.along, border.du);
+    border.p = row_value(e, grid.along, border.du);
     border.dv = select_where<V>(grid.edges_v, across_v, border.du);
     corner = repeat_four<V>(c.corner);
-    third = select_where<V>(ends.first_half, across_u, horner_slope(e, ends.by_group));
+    third = select_where<V>(ends.first_half, across_u, row_slope(e, RowPoint<V>(ends.by_group)));
   }
 };
 

@@ -5,8 +5,8 @@
 // would serve a row or two. So a component takes registers of four groups of four lanes:
 //   columns   group g, lane l   power l of Y of the polynomial that inner column g is: Horner in X
 //                               of the coefficients as they lie in memory
-//   inner     group g, lane r   inner column g, inner row r: Horner in Y
-//   border    group s, lane e   inner sample s of edge e: Horner along the edge
+//   inner     group g, lane r   inner column g, inner row r: the row in Y
+//   border    group s, lane e   inner sample s of edge e: along the edge
 // of which one permutation makes 16 consecutive samples, and another one adds corners. The
 // operations of a sample are those of the tiles, and so are its bits. Positions stand here,
 // derivatives in grid/small_grid_jets.hpp.
@@ -55,8 +55,8 @@ struct SmallGrid {
   std::size_t samples; ///< of a patch
   MaskOf<V> edges_v;   ///< lanes of edges v = const
   V x;                 ///< of column g, in all lanes of group g
-  V y;                 ///< of row r, in lane r of all groups
-  V along;             ///< of sample s, in group s: X on edges v = const, Y on u = const
+  RowPoint<V> y;       ///< of row r, in lane r of all groups
+  RowPoint<V> along;   ///< of sample s, in group s: X on edges v = const, Y on u = const
 
   explicit SIMDBEZIER_INLINE SmallGrid(const GridTask<T>& task)
       : rows(task.runs[1].rows), samples(task.nu * (rows + 2)), edges_v(lanes_of_edges_v()),
@@ -95,8 +95,8 @@ __attribute__((noinline)) void sweep_small_positions(const GridTask<T>& shared_t
       load_fours(component.matrix, k);
       load_fours(component.edge, e);
       split_fours(horner(k, grid.x), q);
-      const V inner = horner(q, grid.y);
-      const V border = horner(e, grid.along);
+      const V inner = row_value(q, grid.y);
+      const V border = row_value(e, grid.along);
       const V corner = repeat_four<V>(component.corner);
       T* const to = task.out[detail::kPositionGroup].component[c] + patch * task.patch_step;
       for (std::size_t r = 0; r < kFull; ++r) {

@@ -67,12 +67,7 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
         tile.store_edge(to + at, p, kind, extra.plane(0) + row);
       },
       [&](const T* y, std::size_t at, std::size_t row, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
-        V p;
-        if constexpr (kRows == 1) {
-          p = horner_at(q, y);
-        } else {
-          p = horner(q, RowGroups<kRows, V>::spread(y));
-        }
+        const V p = row_value(q, RowPoint<V>(RowGroups<kRows, V>::spread(y)));
         tile.store(to + at, nu, origin.add_to(p), rows, extra.plane(0) + row);
       });
 }
@@ -106,8 +101,9 @@ struct JetColumns {
   }
   SIMDBEZIER_INLINE Jet<V> interior(V y) const {
     Jet<V> jet;
-    jet.p = horner(q, y, jet.dv);
-    jet.du = horner(dq, y);
+    const RowPoint<V> at(y);
+    jet.p = row_value(q, at, jet.dv);
+    jet.du = row_value(dq, at);
     if constexpr (kAsks) {
       jet.p = origin.add_to(jet.p);
     }
@@ -121,7 +117,7 @@ struct JetColumns {
       c.origins = nullptr;
     }
     Jet<V> jet;
-    jet.dv = horner_slope(q, tile.edge_y(edge));
+    jet.dv = row_slope(q, RowPoint<V>(tile.edge_y(edge)));
     jet.p = tile.edge_rows(c, edge, jet.du);
     return jet;
   }
@@ -185,13 +181,13 @@ SIMDBEZIER_INLINE void sweep_second(const GridTask<ScalarOf<V>>& task,
       piece, first, nu,
       [&](RowKind kind, std::size_t at, std::size_t) SIMDBEZIER_INLINE_LAMBDA {
         const std::size_t edge = edge_of(kind);
-        const V y = tile.edge_y(edge);
+        const RowPoint<V> y(tile.edge_y(edge));
         tile.store_edge_if_wanted(duu, at, tile.edge_rows_second(c, edge), kind);
         tile.store_edge_if_wanted(duv, at, columns.duv(y), kind);
         tile.store_edge_if_wanted(dvv, at, columns.dvv(y), kind);
       },
       [&](const T* y, std::size_t at, std::size_t, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
-        const V row = RowGroups<kRows, V>::spread(y);
+        const RowPoint<V> row(RowGroups<kRows, V>::spread(y));
         tile.store_if_wanted(duu, at, nu, columns.duu(row), rows);
         tile.store_if_wanted(duv, at, nu, columns.duv(row), rows);
         tile.store_if_wanted(dvv, at, nu, columns.dvv(row), rows);

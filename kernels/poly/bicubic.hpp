@@ -1,14 +1,14 @@
 // The formulas of one bicubic component, over V = one register of samples or one sample.
 //
 // Order of operations, on which the bits of every result hang:
-//   q_l(X)  = Horner in X over C[.][l]     once per column, 3 madd (5 with the derivative in X)
-//   S(X,Y)  = Horner in Y over q_l(X)      once per sample, 3 madd
-// Derivatives are synthetic divisions of the same Horner chains, so they reuse its intermediates.
-// Where X (Y) is exactly -1/2 or 1/2 the edge's own cubic takes the place of the column (row).
+//   q_l(X)  = Horner in X over C[.][l]           once per column, 3 madd (5 with the derivative in
+//   X) S(X,Y)  = even and odd part in Y of q_l(X)   once per pair of rows: poly/even_odd.hpp
+// Derivatives reuse the intermediates of either. Where X (Y) is exactly -1/2 or 1/2 the edge's own
+// cubic takes the place of the column (row).
 #pragma once
 
+#include "kernels/poly/even_odd.hpp"
 #include "kernels/simd/fours.hpp"
-#include "kernels/simd/operands.hpp"
 #include "src/storage/patch_storage.hpp"
 #include "src/tables/kernel_table.hpp"
 
@@ -17,7 +17,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 using detail::kEdges;
 using detail::kOrder;
 
-/// c[0] + t c[1] + t^2 c[2] + t^3 c[3]
+/// c[0] + t c[1] + t^2 c[2] + t^3 c[3], for columns.
 template <typename V>
 SIMDBEZIER_INLINE V horner(const V c[kOrder], V t) {
   return madd(madd(madd(c[3], t, c[2]), t, c[1]), t, c[0]);
@@ -30,13 +30,6 @@ SIMDBEZIER_INLINE V horner(const V c[kOrder], V t, V& derivative) {
   const V b0 = madd(b1, t, c[1]);
   derivative = madd(madd(c[3], t, b1), t, b0);
   return madd(b0, t, c[0]);
-}
-
-/// The value at a parameter in memory, which all lanes share.
-template <typename V>
-SIMDBEZIER_INLINE V horner_at(const V c[kOrder], const ScalarOf<V>* t) {
-  const V b1 = madd(broadcast<V>(*t), c[3], c[2]);
-  return madd_by(madd_by(b1, t, c[1]), t, c[0]);
 }
 
 /// The derivative alone.
@@ -186,9 +179,9 @@ struct SecondColumns {
   }
 
   /// Away from the edges v = 0 and 1, where duu comes from the edge: edge_second().
-  SIMDBEZIER_INLINE V duu(V y) const { return horner(ddq, y); }
-  SIMDBEZIER_INLINE V duv(V y) const { return horner_slope(dq, y); }
-  SIMDBEZIER_INLINE V dvv(V y) const { return horner_second(q, y); }
+  SIMDBEZIER_INLINE V duu(const RowPoint<V>& at) const { return row_value(ddq, at); }
+  SIMDBEZIER_INLINE V duv(const RowPoint<V>& at) const { return row_slope(dq, at); }
+  SIMDBEZIER_INLINE V dvv(const RowPoint<V>& at) const { return row_second(q, at); }
 };
 
 /// What positions are relative to, in sets with origins. It is added last, so that far away only
@@ -244,7 +237,7 @@ SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<
                                   std::size_t edge) {
   V k[kOrder];
   edge_cubic(c, edge, k);
-  return finished_edge(c, column, edge, horner(k, column.x));
+  return finished_edge(c, column, edge, row_value(k, RowPoint<V>(column.x)));
 }
 
 template <typename V>
@@ -252,7 +245,7 @@ SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<
                                   std::size_t edge, V& du) {
   V k[kOrder];
   edge_cubic(c, edge, k);
-  return finished_edge(c, column, edge, horner(k, column.x, du));
+  return finished_edge(c, column, edge, row_value(k, RowPoint<V>(column.x), du));
 }
 
 /// d2S/du2 on the edge v = 0 or 1.
@@ -261,7 +254,7 @@ SIMDBEZIER_INLINE V edge_second(const Component<ScalarOf<V>>& c, const Column<V>
                                 std::size_t edge) {
   V k[kOrder];
   edge_cubic(c, edge, k);
-  return horner_second(k, column.x);
+  return row_second(k, RowPoint<V>(column.x));
 }
 
 /// N = du x dv and |N|^2.

@@ -76,16 +76,17 @@ SIMDBEZIER_INLINE void evaluate_first(const ScatteredTask<T>& task, std::size_t 
   T p[3];
   T du[3];
   T dv[3];
+  const RowPoint<T> at(place.y);
   for (std::size_t c = 0; c < 3; ++c) {
     const Component<T> component(task, place.patch, c);
     T q[kOrder];
     T dq[kOrder];
     column_polynomial(component, place.column, q, dq);
-    p[c] = column_origin(component, place.column).add_to(horner(q, place.y, dv[c]));
+    p[c] = column_origin(component, place.column).add_to(row_value(q, at, dv[c]));
     if (place.on_edge) {
       p[c] = edge_position(component, place.column, place.edge, du[c]);
     } else {
-      du[c] = horner(dq, place.y);
+      du[c] = row_value(dq, at);
     }
   }
   store_point(task.out[detail::kPositionGroup], k, p);
@@ -102,14 +103,14 @@ SIMDBEZIER_INLINE void evaluate_second(const ScatteredTask<T>& task, std::size_t
   T duu[3];
   T duv[3];
   T dvv[3];
+  const RowPoint<T> at(place.y);
   for (std::size_t c = 0; c < 3; ++c) {
     const Component<T> component(task, place.patch, c);
     SecondColumns<T> columns;
     columns.build(component, place.column);
-    duu[c] =
-        place.on_edge ? edge_second(component, place.column, place.edge) : columns.duu(place.y);
-    duv[c] = columns.duv(place.y);
-    dvv[c] = columns.dvv(place.y);
+    duu[c] = place.on_edge ? edge_second(component, place.column, place.edge) : columns.duu(at);
+    duv[c] = columns.duv(at);
+    dvv[c] = columns.dvv(at);
   }
   store_point(task.out[detail::kDuuGroup], k, duu);
   store_point(task.out[detail::kDuvGroup], k, duv);

@@ -141,23 +141,24 @@ SIMDBEZIER_INLINE V with_origin(V p, V origin) {
   return p;
 }
 
-/// Horner in Y for one component.
+/// One component, from its columns' polynomials in Y.
 template <bool kOrigins, Outcome kOutcome, typename V>
 SIMDBEZIER_INLINE void finish_component(const Block<V>& block, const Polynomials<kOutcome, V>& q,
                                         std::size_t c, V origin, Tangents<kOutcome, V>& tangents) {
+  const RowPoint<V> at(block.y);
   if constexpr (kOutcome == kPositions) {
     block.store(block.task.out[detail::kPositionGroup].component[c],
-                with_origin<kOrigins>(horner(q.power[0], block.y), origin));
+                with_origin<kOrigins>(row_value(q.power[0], at), origin));
   } else if constexpr (kOutcome != kSecondOrder) {
-    const V p = horner(q.power[0], block.y, tangents.dv[c]);
-    tangents.du[c] = horner(q.power[1], block.y);
+    const V p = row_value(q.power[0], at, tangents.dv[c]);
+    tangents.du[c] = row_value(q.power[1], at);
     block.store_if_wanted(detail::kPositionGroup, c, with_origin<kOrigins>(p, origin));
     block.store_if_wanted(detail::kDuGroup, c, tangents.du[c]);
     block.store_if_wanted(detail::kDvGroup, c, tangents.dv[c]);
   } else {
-    block.store_if_wanted(detail::kDuuGroup, c, horner(q.power[2], block.y));
-    block.store_if_wanted(detail::kDuvGroup, c, horner_slope(q.power[1], block.y));
-    block.store_if_wanted(detail::kDvvGroup, c, horner_second(q.power[0], block.y));
+    block.store_if_wanted(detail::kDuuGroup, c, row_value(q.power[2], at));
+    block.store_if_wanted(detail::kDuvGroup, c, row_slope(q.power[1], at));
+    block.store_if_wanted(detail::kDvvGroup, c, row_second(q.power[0], at));
   }
 }
 

@@ -96,7 +96,7 @@ private:
   SIMDBEZIER_INLINE void positions(const typename P::Slots& slots, typename P::OrderV order, V y,
                                    V p[3]) const {
     const auto value = [&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-      return horner_series<0>(order, y, coefficients(power[slot][0])).value;
+      return row_series<0>(order, y, coefficients(power[slot][0])).value;
     };
     if constexpr (P::kWeighted) {
       const Quotient<V> quotient(value(P::Slots::kWeight));
@@ -110,16 +110,16 @@ private:
 
   static SIMDBEZIER_INLINE Partials<V> partials(typename P::OrderV order, const Powers& p, V y) {
     Partials<V> at;
-    const Series<V> s = horner_series<kDepth>(order, y, coefficients(p[0]));
+    const Series<V> s = row_series<kDepth>(order, y, coefficients(p[0]));
     at.value = s.value;
     if constexpr (kDepth > 0) {
       at.y = s.first;
-      const Series<V> x = horner_series<kDepth - 1>(order, y, coefficients(p[1]));
+      const Series<V> x = row_series<kDepth - 1>(order, y, coefficients(p[1]));
       at.x = x.value;
       if constexpr (kDepth > 1) {
         at.yy = s.second;
         at.xy = x.first;
-        at.xx = horner_series<0>(order, y, coefficients(p[2])).value;
+        at.xx = row_series<0>(order, y, coefficients(p[2])).value;
       }
     }
     return at;

@@ -186,7 +186,7 @@ private:
     const std::size_t at = slots_.channel(slot) * shape_.edge_powers() * 4 + edge;
     const typename P::OrderU order(shape_.order_u());
     Series<V> s =
-        horner_series<kDepth>(order, columns_.local.x, [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+        row_series<kDepth>(order, columns_.local.x, [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
           return chosen(at + 4 * k, &Cell<T>::edges);
         });
     if constexpr (!P::kOneCell) {

@@ -1,6 +1,7 @@
 // Formulas for patches of any degree, over V = one register of samples or one sample.
 //
-// The order of operations is that of bicubic.hpp: Horner's rule in X, then in Y, derivatives by
+// The order of operations is that of bicubic.hpp: Horner's rule in X, then rows in Y, which take
+// even and odd parts where poly/even_odd.hpp says so and Horner's rule elsewhere; derivatives by
 // synthetic division. Where bicubic patches go through here, they get the same bits.
 #pragma once
 
@@ -104,7 +105,7 @@ struct Series {
   }
 };
 
-/// sum_k c(k) t^k, and derivatives up to kDepth, for order >= 2.
+/// sum_k c(k) t^k, and derivatives up to kDepth, for order >= 2: a column.
 template <std::size_t kDepth, typename V, typename N, typename Coefficient>
 SIMDBEZIER_INLINE Series<V> horner_series(N order, V t, const Coefficient& c) {
   const std::size_t degree = order.value() - 1;
@@ -120,8 +121,47 @@ SIMDBEZIER_INLINE Series<V> horner_series(N order, V t, const Coefficient& c) {
   return s;
 }
 
-/// The same for kCount polynomials at once, from coefficients [power][polynomial]. Their sums stay
-/// in registers while the loop runs, however long it is, and one address serves all of them.
+/// The same of a row, an edge or a curve with so many coefficients; `second` is half of it.
+template <std::size_t kDepth, std::size_t kOrder, typename V, typename Coefficient>
+SIMDBEZIER_INLINE Series<V> even_odd_series(V t, const Coefficient& c) {
+  const RowPoint<V> at(t);
+  const EvenOdd<kOrder, V> parts(at, c);
+  Series<V> s;
+  s.value = parts.value(at).sum();
+  if constexpr (kDepth > 0) {
+    s.first = parts.slope(at).sum();
+  }
+  if constexpr (kDepth > 1) {
+    s.second = parts.half_second(at).sum();
+  }
+  return s;
+}
+template <std::size_t kDepth, std::size_t kFixed, typename V, typename Coefficient>
+SIMDBEZIER_INLINE Series<V> even_odd_series(Order<kFixed> order, V t, const Coefficient& c) {
+  if constexpr (kFixed != 0) {
+    return even_odd_series<kDepth, kFixed>(t, c);
+  } else {
+    return order.value() == 4   ? even_odd_series<kDepth, 4>(t, c)
+           : order.value() == 5 ? even_odd_series<kDepth, 5>(t, c)
+                                : even_odd_series<kDepth, 6>(t, c);
+  }
+}
+
+/// The same of any row, edge or curve.
+template <std::size_t kDepth, std::size_t kFixed, typename V, typename Coefficient>
+SIMDBEZIER_INLINE Series<V> row_series(Order<kFixed> order, V t, const Coefficient& c) {
+  if constexpr (kFixed == 0 || takes_even_odd(kFixed)) {
+    if (takes_even_odd(order.value())) {
+      Series<V> s = even_odd_series<kDepth>(order, t, c);
+      s.template finish<kDepth>(order.value() - 1, t);
+      return s;
+    }
+  }
+  return horner_series<kDepth>(order, t, c);
+}
+
+/// horner_series() of kCount polynomials at once, from coefficients [power][polynomial]. Their sums
+/// stay in registers while the loop runs, however long it is, and one address serves all of them.
 template <std::size_t kDepth, std::size_t kCount, typename V, typename N>
 SIMDBEZIER_INLINE void horner_series_abreast(N order, V t, const ScalarOf<V>* coefficients,
                                              Series<V> s[kCount]) {

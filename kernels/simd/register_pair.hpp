@@ -60,6 +60,15 @@ SIMDBEZIER_INLINE RegisterPair<V> operator+(RegisterPair<V> a, RegisterPair<V> b
 }
 
 template <typename V>
+SIMDBEZIER_INLINE RegisterPair<V> operator-(RegisterPair<V> a, RegisterPair<V> b) {
+  return {a.low - b.low, a.high - b.high};
+}
+template <typename V>
+SIMDBEZIER_INLINE RegisterPair<V> operator*(RegisterPair<V> a, RegisterPair<V> b) {
+  return {a.low * b.low, a.high * b.high};
+}
+
+template <typename V>
 SIMDBEZIER_INLINE RegisterPair<V> vector_fma(RegisterPair<V> a, RegisterPair<V> b,
                                              RegisterPair<V> c) {
   return {madd(a.low, b.low, c.low), madd(a.high, b.high, c.high)};
