@@ -29,12 +29,12 @@ struct Bound {
 template <typename T>
 class Certificate {
 public:
-  Certificate(const PatchStorage<T>& storage, std::size_t index, double per_step)
+  Certificate(const PatchStorage<T>& storage, std::size_t index, bool fused)
       : storage_(storage), shape_(storage.shape), index_(index),
         net_(storage.given.net(index * storage.shape.control_values())),
-        u_{shape_.order_u(), shape_.cells_u() == 2, per_step}, v_{shape_.order_v(),
-                                                                  shape_.cells_v() == 2, per_step},
-        per_step_(per_step) {}
+        u_{shape_.order_u(), shape_.cells_u() == 2, fused}, v_{shape_.order_v(),
+                                                               shape_.cells_v() == 2, fused},
+        per_step_(fused ? 1 : 2) {}
 
   [[nodiscard]] Bound component(std::size_t c) const {
     Bound bound;
@@ -64,10 +64,14 @@ private:
 
   [[nodiscard]] std::size_t weight() const { return static_cast<std::size_t>(shape_.components); }
 
+  /// Covers a polynomial's edges v = const as well. Their terms are sums of these; even and odd
+  /// parts round each at most once more than a column does, and every row rounds its constant.
   [[nodiscard]] TermSums matrix(std::size_t cell, std::size_t channel) const {
     const T* const c = storage_.coefficients + index_ * shape_.coefficients() +
                        cell * shape_.cell_coefficients() + channel * shape_.matrix();
-    return {u_, v_, [&](std::size_t k, std::size_t l) { return c[k * shape_.order_v() + l]; }};
+    DirectionRoundings columns = u_;
+    columns.column = true;
+    return {columns, v_, [&](std::size_t k, std::size_t l) { return c[k * shape_.order_v() + l]; }};
   }
   [[nodiscard]] TermSums edge(std::size_t cell, std::size_t channel, std::size_t e) const {
     const T* const c = storage_.edges + index_ * shape_.edges() + cell * shape_.cell_edges() +
@@ -190,8 +194,8 @@ private:
   const NetShape& shape_;
   std::size_t index_;
   GivenNet net_;
-  DirectionRoundings u_;
-  DirectionRoundings v_;
+  DirectionRoundings u_; ///< of edges; columns are rounded otherwise
+  DirectionRoundings v_; ///< of edges and rows
   double per_step_;
 };
 
@@ -215,8 +219,7 @@ ErrorBounds error_bounds(const PatchSet<T>& set, std::size_t patch, Isa isa) noe
   const detail::DefaultFpEnvironment environment;
   const detail::PatchPlace place = set.storage()->place(patch);
   const detail::PatchStorage<T>& storage = set.storage()->buckets[place.bucket];
-  const detail::Certificate<T> certificate(storage, place.index,
-                                           fuses_multiply_add(chosen) ? 1 : 2);
+  const detail::Certificate<T> certificate(storage, place.index, fuses_multiply_add(chosen));
   for (int c = 0; c < storage.shape.components; ++c) {
     const detail::Bound bound = certificate.component(static_cast<std::size_t>(c));
     bounds.position[c] = bound.position;

@@ -1,31 +1,12 @@
 // Running-error sums of packed polynomials, which certificates are made of. All in double.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
+#include "src/certificate/direction_roundings.hpp"
+
 namespace simdbezier::detail {
-
-/// One direction of a polynomial: how often the term of a power is rounded on its way through the
-/// evaluation.
-struct DirectionRoundings {
-  std::size_t order = 1;
-  bool halved = false; ///< there are two cells, whose parameter is rounded, too
-  double per_step = 1; ///< roundings in a multiply-add
-
-  /// Horner's rule: the power k enters at step k of order - 1, the last one with the first product.
-  [[nodiscard]] double value(std::size_t k) const {
-    return per_step * static_cast<double>(std::min(k + 1, order - 1)) +
-           (halved ? static_cast<double>(k) : 0);
-  }
-  /// Its synthetic division, of which the constant is no part.
-  [[nodiscard]] double slope(std::size_t k) const {
-    return k == 0 ? 0
-                  : per_step * static_cast<double>(std::min(k + 1, order - 1)) +
-                        (halved ? static_cast<double>(k - 1) : 0);
-  }
-};
 
 /// Sums over the terms of a polynomial at |X| = |Y| = 1/2, where they are largest.
 struct TermSums {

@@ -5,6 +5,7 @@
 
 #include <simdbezier/error_bounds.hpp>
 
+#include "src/certificate/direction_roundings.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/curve_storage.hpp"
 
@@ -28,7 +29,8 @@ class CurveCertificate {
 public:
   CurveCertificate(const CurveStorage<T>& storage, std::size_t curve, bool fused)
       : shape_(storage.shape), values_(storage.values + curve * storage.shape.values()),
-        net_(storage.given.net(curve * storage.shape.control_values())), per_step_(fused ? 1 : 2) {}
+        net_(storage.given.net(curve * storage.shape.control_values())),
+        roundings_{shape_.order(), shape_.cells() == 2, fused}, per_step_(fused ? 1 : 2) {}
 
   /// Absolute errors of one component, by t.
   [[nodiscard]] ByOrder bounds(std::size_t component) const {
@@ -56,20 +58,17 @@ private:
     return shape_.origins ? static_cast<double>(channel(cell, component)[shape_.origin_at()]) : 0;
   }
 
-  /// Term k of the d-th derivative is k!/(k-d)! a_k 2^-(k-d) at the cell's ends. On its way it is
-  /// rounded min(k+1, n) times in Horner's rule as well as in every synthetic division; once as a
-  /// coefficient; and k times with the parameter of a half.
+  /// Term k of the d-th derivative is k!/(k-d)! a_k 2^-(k-d) at the cell's ends. It is rounded once
+  /// as a coefficient, and on its way.
   [[nodiscard]] PolynomialBounds polynomial(std::size_t cell, std::size_t index) const {
     PolynomialBounds bounds;
     const T* const a = channel(cell, index);
-    for (int k = 0; k <= shape_.degree; ++k) {
-      const double roundings =
-          per_step_ * std::min(k + 1, shape_.degree) + 1 + (shape_.cells() == 2 ? k : 0);
-      double term = std::ldexp(std::fabs(static_cast<double>(a[k])), -k);
-      for (int d = 0; d < 3; ++d) {
+    for (std::size_t k = 0; k < shape_.order(); ++k) {
+      double term = std::ldexp(std::fabs(static_cast<double>(a[k])), -static_cast<int>(k));
+      for (std::size_t d = 0; d < 3 && d <= k; ++d) {
         bounds.size.at[d] += term;
-        bounds.error.at[d] += kUnit * roundings * term;
-        term *= 2.0 * (k - d);
+        bounds.error.at[d] += kUnit * (roundings_.derivative(d, k) + 1) * term;
+        term *= 2 * static_cast<double>(k - d);
       }
     }
     for (double& error : bounds.error.at) {
@@ -129,6 +128,7 @@ private:
   const CurveShape& shape_;
   const T* values_;
   GivenNet net_;
+  DirectionRoundings roundings_;
   int per_step_;
 };
 

@@ -1,5 +1,6 @@
 // The reference for curves: Bernstein sums of differences in double-double, quotients by the rule.
-// Shares nothing with the library, which uses Horner's rule on a centred power basis.
+// Shares nothing with the library, which uses even and odd parts, or Horner's rule, of a centred
+// power basis.
 #pragma once
 
 #include <cmath>

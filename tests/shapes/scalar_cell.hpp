@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "src/storage/patch_storage.hpp"
+#include "tests/support/even_odd.hpp"
 
 namespace simdbezier::tests {
 
@@ -17,7 +19,7 @@ struct Slope {
   T first;
 };
 
-/// Of sum c(k) t^k: Horner's rule and its synthetic division.
+/// Of sum c(k) t^k: Horner's rule and its synthetic division. Columns take it at every degree.
 template <typename T, typename Coefficient>
 Slope<T> horner(bool fma, std::size_t order, T t, const Coefficient& c) {
   const auto madd = [&](T a, T b) { return fma ? std::fma(a, t, b) : a * t + b; };
@@ -27,6 +29,20 @@ Slope<T> horner(bool fma, std::size_t order, T t, const Coefficient& c) {
     s.value = madd(s.value, c(k));
   }
   return s;
+}
+
+/// Rows and edges: the same sum in the order of operations of its degree.
+template <typename T, typename Coefficient>
+Slope<T> row_or_edge(bool fma, std::size_t order, T t, const Coefficient& c) {
+  if (!by_even_and_odd_parts(order - 1)) {
+    return horner(fma, order, t, c);
+  }
+  std::vector<T> all;
+  for (std::size_t k = 0; k < order; ++k) {
+    all.push_back(c(k));
+  }
+  const EvenOddJet<T> jet = even_odd(Rounded<T>{fma}, std::span<const T>(all), t);
+  return {jet.value, jet.slope};
 }
 
 template <typename T>
@@ -92,15 +108,15 @@ private:
       q[l] = horner(fma_, shape_.order_u(), x,
                     [&](std::size_t k) { return matrix[k * shape_.order_v() + l]; });
     }
-    const Slope<T> s = horner(fma_, q.size(), y, [&](std::size_t l) { return q[l].value; });
-    const Slope<T> u = horner(fma_, q.size(), y, [&](std::size_t l) { return q[l].first; });
+    const Slope<T> s = row_or_edge(fma_, q.size(), y, [&](std::size_t l) { return q[l].value; });
+    const Slope<T> u = row_or_edge(fma_, q.size(), y, [&](std::size_t l) { return q[l].first; });
     return {s.value, u.value, s.first};
   }
   [[nodiscard]] Slope<T> edge(std::size_t c, std::size_t e, T t) const {
     const T* const from =
         storage_.edges + cell_ * shape_.cell_edges() + c * shape_.edge_powers() * 4 + e;
-    return horner(fma_, e < 2 ? shape_.order_u() : shape_.order_v(), t,
-                  [&](std::size_t k) { return from[k * 4]; });
+    return row_or_edge(fma_, e < 2 ? shape_.order_u() : shape_.order_v(), t,
+                       [&](std::size_t k) { return from[k * 4]; });
   }
   [[nodiscard]] T origin(std::size_t c, std::size_t at) const {
     return storage_.origins == nullptr

@@ -8,40 +8,34 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include <gtest/gtest.h>
 
 #include "tests/properties/accuracy/judge/bicubic_bounds.hpp"
+#include "tests/properties/accuracy/judge/tracked.hpp"
+#include "tests/support/even_odd.hpp"
 
 namespace simdbezier::tests {
 namespace {
 
-/// A computed value and the bound on its error, in units of u.
-struct Tracked {
-  double value = 0;
-  double error = 0;
-};
+/// A polynomial's value, slope and half second derivative.
+using Jet = EvenOddJet<Tracked>;
+using Cubic = std::array<Tracked, 4>;
 
-/// a*x + c: one rounding with a fused operation, otherwise one more for the product.
-[[nodiscard]] Tracked madd(bool fma, Tracked a, double x, Tracked c) {
-  const double product = a.value * x;
-  const double sum = product + c.value;
-  const double inherited = a.error * std::abs(x) + c.error;
-  return {sum, inherited + std::abs(sum) + (fma ? 0 : std::abs(product))};
+/// Columns: Horner's rule and synthetic division.
+[[nodiscard]] Jet column(bool fma, const Cubic& a, double at) {
+  const TrackedArithmetic in{fma};
+  const Tracked x{at};
+  const Tracked r2 = in.madd(a[3], x, a[2]);
+  const Tracked r1 = in.madd(r2, x, a[1]);
+  const Tracked s1 = in.madd(a[3], x, r2);
+  return {in.madd(r1, x, a[0]), in.madd(s1, x, r1), in.madd(a[3], x, s1)};
 }
 
-/// A polynomial's value, slope and half second derivative by Horner's rule and synthetic division.
-struct ValueSlope {
-  Tracked value;
-  Tracked slope;
-  Tracked half_second;
-};
-
-[[nodiscard]] ValueSlope horner(bool fma, const std::array<Tracked, 4>& a, double x) {
-  const Tracked r2 = madd(fma, a[3], x, a[2]);
-  const Tracked r1 = madd(fma, r2, x, a[1]);
-  const Tracked s1 = madd(fma, a[3], x, r2);
-  return {madd(fma, r1, x, a[0]), madd(fma, s1, x, r1), madd(fma, a[3], x, s1)};
+/// Rows: even and odd parts.
+[[nodiscard]] Jet row(bool fma, const Cubic& a, double y) {
+  return even_odd(TrackedArithmetic{fma}, std::span<const Tracked>(a), Tracked{y});
 }
 
 using Points = std::array<std::array<double, 4>, 4>; // [j][i]
@@ -53,8 +47,8 @@ using Points = std::array<std::array<double, 4>, 4>; // [j][i]
 
 struct Bounds {
   double position = 0;
-  double inner = 0; ///< the derivative by the variable that Horner's rule takes first
-  double outer = 0;
+  double inner = 0; ///< the derivative by the variable of the columns, which come first
+  double outer = 0; ///< and by that of the rows
   double duu = 0;
   double duv = 0;
   double dvv = 0;
@@ -62,33 +56,32 @@ struct Bounds {
 
 /// The running-error bounds at one net and parameter; each coefficient is rounded once.
 [[nodiscard]] Bounds running_errors(bool fma, const Points& points, double x, double y) {
-  std::array<std::array<Tracked, 4>, 4> coefficients; // [k][l], x^k y^l
+  std::array<Cubic, 4> columns; // [l][k], x^k y^l
   std::array<std::array<double, 4>, 4> rows;
   for (std::size_t j = 0; j < 4; ++j) {
     rows[j] = centred_coefficients(points[j]);
   }
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto column = centred_coefficients({rows[0][k], rows[1][k], rows[2][k], rows[3][k]});
+    const auto powers = centred_coefficients({rows[0][k], rows[1][k], rows[2][k], rows[3][k]});
     for (std::size_t l = 0; l < 4; ++l) {
-      coefficients[k][l] = {column[l], std::abs(column[l])};
+      columns[l][k] = {powers[l], std::abs(powers[l])};
     }
   }
-  std::array<Tracked, 4> values;
-  std::array<Tracked, 4> slopes;
-  std::array<Tracked, 4> half_seconds;
+  Cubic values;
+  Cubic slopes;
+  Cubic half_seconds;
   for (std::size_t l = 0; l < 4; ++l) {
-    const ValueSlope row = horner(
-        fma, {coefficients[0][l], coefficients[1][l], coefficients[2][l], coefficients[3][l]}, x);
-    values[l] = row.value;
-    slopes[l] = row.slope;
-    half_seconds[l] = row.half_second;
+    const Jet jet = column(fma, columns[l], x);
+    values[l] = jet.value;
+    slopes[l] = jet.slope;
+    half_seconds[l] = jet.half_second;
   }
-  const ValueSlope outer = horner(fma, values, y);
-  const ValueSlope slope = horner(fma, slopes, y);
+  const Jet outer = row(fma, values, y);
+  const Jet slope = row(fma, slopes, y);
   // dS/du = 2 dS/dx, d2S/du2 = 4 d2S/dx2
-  return {outer.value.error,     2 * slope.value.error,
-          2 * outer.slope.error, 8 * horner(fma, half_seconds, y).value.error,
-          4 * slope.slope.error, 8 * outer.half_second.error};
+  return {outer.value.bound(),     2 * slope.value.bound(),
+          2 * outer.slope.bound(), 8 * row(fma, half_seconds, y).value.bound(),
+          4 * slope.slope.bound(), 8 * outer.half_second.bound()};
 }
 
 /// The net of all values 1 or -1 given by the bits.

@@ -41,6 +41,39 @@ TEST_P(DirectionErrorTest, TableHoldsTheMaximum) {
 
 INSTANTIATE_TEST_SUITE_P(Degrees, DirectionErrorTest, ::testing::Range(1, 16));
 
+class RowErrorTest : public ::testing::TestWithParam<int> {};
+
+TEST_P(RowErrorTest, TableHoldsTheMaximum) {
+  const int degree = GetParam();
+  for (int order = 0; order <= 2; ++order) {
+    const RowError found = largest_row_error(degree, order);
+    const std::string name = "order " + std::to_string(order);
+    expect_tabulated(found.fused, row_error(degree, order, true), (name + ", T fused").c_str());
+    expect_tabulated(found.rounded_twice, row_error(degree, order, false), (name + ", T").c_str());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(EvenAndOddParts, RowErrorTest, ::testing::Range(3, 6));
+
+// Edges are evaluated as rows in either direction. An edge alone has one coefficient's rounding a
+// power, J in all, and a row's own.
+TEST(ShapeBoundsTest, EdgesAreCovered) {
+  for (const bool fma : {true, false}) {
+    for (int along = 1; along <= 15; ++along) {
+      for (int across = 1; across <= 15; ++across) {
+        for (int order = 0; order <= std::min(2, along); ++order) {
+          const double edge = direction_error(along, order).together +
+                              row_error(along, order, fma) + local_parameter_error(along, order);
+          EXPECT_LE(edge, general_bound(along, across, order, 0, fma))
+              << "in u: degree " << along << " by " << across << ", order " << order;
+          EXPECT_LE(edge, general_bound(across, along, 0, order, fma))
+              << "in v: degree " << along << " by " << across << ", order " << order;
+        }
+      }
+    }
+  }
+}
+
 // A curve's formula is the surface's with a constant across: the coefficients as written in the
 // documentation of the scheme.
 TEST(CentredBasisTest, CubicCoefficients) {

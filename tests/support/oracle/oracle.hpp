@@ -4,7 +4,7 @@
 // All weights are positive inside the patch, so each sum is componentwise accurate: the error is
 // below 2^-96 sum |b| B_i B_j for degrees up to 15, which exact_rational.hpp checks on every run.
 // Rational patches: the same sums in homogeneous coordinates, then the quotient rule.
-// Shares nothing with the library, whose scheme is Horner's rule on a centred power basis.
+// Shares nothing with the library, whose scheme is a centred power basis.
 #pragma once
 
 #include <array>

@@ -8,21 +8,20 @@
 namespace simdbezier::tests {
 
 /// |error of P| <= K u max|b|, per component.
-inline constexpr double kPositionBoundFma = 21;   // formula: 20.19
-inline constexpr double kPositionBoundNoFma = 32; // formula: 30.81
+inline constexpr double kPositionBoundFma = 21;   // formula: 20.44
+inline constexpr double kPositionBoundNoFma = 30; // formula: 29.06
 
 /// |error of dS/du, dS/dv| <= D u max|hodograph|, per component.
 inline constexpr double kDerivativeBoundFma = 18;   // formula: 17.33
-inline constexpr double kDerivativeBoundNoFma = 26; // formula: 25.08
+inline constexpr double kDerivativeBoundNoFma = 24; // formula: 23.33
 
 /// |error of d2S/du2, d2S/dudv, d2S/dv2| <= D2 u max|second hodograph|, per component, the second
 /// hodograph being that of the hodograph: 6 (b[i+2] - 2 b[i+1] + b[i]), and 9 times the mixed
 /// differences. A second derivative reads only those coefficients that are linear in it (k >= 2,
-/// or k, l >= 1, or l >= 2), and its chain is the first derivative's with one synthetic division
-/// more and one step less, so it has the same formula. On an edge it is that of a net which does
-/// not change across the edge.
-inline constexpr double kSecondDerivativeBoundFma = 15;   // formula: 14.25
-inline constexpr double kSecondDerivativeBoundNoFma = 21; // formula: 20.00
+/// or k, l >= 1, or l >= 2), so it has a formula of the same kind. On an edge it is that of a net
+/// which does not change across the edge.
+inline constexpr double kSecondDerivativeBoundFma = 15;   // formula: 14.50
+inline constexpr double kSecondDerivativeBoundNoFma = 19; // formula: 18.00
 
 [[nodiscard]] constexpr double position_bound(bool fma) {
   return fma ? kPositionBoundFma : kPositionBoundNoFma;

@@ -9,8 +9,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 
+#include "tests/support/even_odd.hpp"
 #include "tests/support/nets/net.hpp"
 #include "tests/support/oracle/oracle_arithmetic.hpp"
 
@@ -70,13 +72,13 @@ public:
     if (on_u) {
       along_y = edges_[x < 0 ? 2 : 3];
     }
-    const ValueSlope outer = horner(along_y, y);
-    const ValueSlope slope = horner(slope_x, y);
+    const ValueSlope outer = row_or_edge(along_y, y);
+    const ValueSlope slope = row_or_edge(slope_x, y);
     Sample sample{outer.value,     2 * slope.value,
-                  2 * outer.slope, 8 * horner(half_second_x, y).value,
+                  2 * outer.slope, 8 * row_or_edge(half_second_x, y).value,
                   4 * slope.slope, 8 * outer.half_second};
     if (on_v) {
-      const ValueSlope edge = horner(edges_[y < 0 ? 0 : 1], x);
+      const ValueSlope edge = row_or_edge(edges_[y < 0 ? 0 : 1], x);
       sample.position = edge.value;
       sample.du = 2 * edge.slope;
       sample.duu = 8 * edge.half_second;
@@ -88,11 +90,7 @@ public:
   }
 
 private:
-  struct ValueSlope {
-    T value;
-    T slope;
-    T half_second;
-  };
+  using ValueSlope = EvenOddJet<T>;
 
   [[nodiscard]] static T madd(T a, T x, T c) {
     if constexpr (kFused) {
@@ -102,7 +100,7 @@ private:
     }
   }
 
-  /// The last step of a value, where the fault "contracted" sits.
+  /// The last step of a column's value, where the fault "contracted" sits.
   [[nodiscard]] T last(T a, T x, T c) const {
     if (fault_ == Fault::contracted) {
       return kFused ? a * x + c : std::fma(a, x, c);
@@ -115,6 +113,11 @@ private:
     const T r1 = madd(r2, x, a[1]);
     const T s1 = madd(a[3], x, r2);
     return {last(r1, x, a[0]), madd(s1, x, r1), madd(a[3], x, s1)};
+  }
+
+  /// What comes last, and edges, whichever way they run: by even and odd parts.
+  [[nodiscard]] static ValueSlope row_or_edge(const std::array<T, 4>& a, T x) {
+    return even_odd(Rounded<T>{kFused}, std::span<const T>(a), x);
   }
 
   [[nodiscard]] static T to_type(double value) { return static_cast<T>(value); }

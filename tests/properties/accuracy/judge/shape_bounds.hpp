@@ -1,15 +1,16 @@
 // The error bounds of patches of any degrees, in units of the unit roundoff u.
 //
-// K(m,n) = min(S J', J S') + min(R S', Q J') + R' + L + L', the plain ones in u, the primed ones in
+// K(m,n) = min(S J', J S') + min(R S', Q J') + T' + L + L', the plain ones in u, the primed ones in
 // v, all maxima over control values in [-1,1]:
 //   S  sum over the powers of the largest coefficient: each coefficient carries one rounding;
 //   J  the largest sum of the coefficients, all powers at once;
-//   R  the largest sum of the roundings of Horner's rule;
+//   R  the largest sum of the roundings of a column, which takes Horner's rule;
 //   Q  sum over its steps of the largest rounding of each;
+//   T  the largest sum of the roundings of a row: R, or of even and odd parts in degrees 3 to 5;
 //   L  degree/2 where the direction is cut in two: its local parameter is rounded once, which moves
 //      the sample by u/4 of the patch at the most, at the speed of the hodograph.
 // docs/accuracy.md has the proof.
-// Derivatives: the same of synthetic division, per unit of the hodograph's control values;
+// Derivatives: the same of their steps, per unit of the hodograph's control values;
 // second ones per unit of the second hodograph's. Bicubic patches have tighter bounds,
 // maximised over all nets at once (bounds.hpp). shape_bounds_test.cpp computes the table anew.
 #pragma once
@@ -19,6 +20,7 @@
 #include <cstddef>
 
 #include "tests/properties/accuracy/judge/bicubic_bounds.hpp"
+#include "tests/support/even_odd.hpp"
 
 namespace simdbezier::tests {
 
@@ -90,6 +92,25 @@ inline constexpr DirectionError kDirectionErrors[3][15] = {{{2, 1, 1, 2, 1, 2},
   return kDirectionErrors[order][degree - 1];
 }
 
+/// T, by the class.
+struct RowError {
+  double fused = 0;
+  double rounded_twice = 0;
+};
+
+/// Of even and odd parts: [order of the derivative][degree - 3], rounded up.
+inline constexpr RowError kEvenOddErrors[3][3] = {{{4, 5}, {5.75, 7.75}, {7.25, 10.5}},
+                                                  {{3.34, 4.34}, {5.38, 6.38}, {7.28, 9.36}},
+                                                  {{3, 3}, {4.25, 4.75}, {7.75, 8.75}}};
+
+[[nodiscard]] constexpr double row_error(int degree, int order, bool fma) {
+  if (!by_even_and_odd_parts(static_cast<std::size_t>(degree))) {
+    return direction_error(degree, order).steps(fma);
+  }
+  const RowError& error = kEvenOddErrors[order][degree - 3];
+  return fma ? error.fused : error.rounded_twice;
+}
+
 /// L of what is left of a direction after `order` derivatives.
 [[nodiscard]] constexpr double local_parameter_error(int degree, int order) {
   return is_cut(degree) ? (degree - order) / 2.0 : 0;
@@ -104,9 +125,9 @@ inline constexpr DirectionError kDirectionErrors[3][15] = {{{2, 1, 1, 2, 1, 2},
   const DirectionError& u = direction_error(degree_u, order_u);
   const DirectionError& v = direction_error(degree_v, order_v);
   const double coefficients = std::min(u.coefficients * v.together, u.together * v.coefficients);
-  const double rows = std::min(u.steps(fma) * v.coefficients, u.steps_apart(fma) * v.together);
-  return coefficients + rows + v.steps(fma) + local_parameter_error(degree_u, order_u) +
-         local_parameter_error(degree_v, order_v);
+  const double columns = std::min(u.steps(fma) * v.coefficients, u.steps_apart(fma) * v.together);
+  return coefficients + columns + row_error(degree_v, order_v, fma) +
+         local_parameter_error(degree_u, order_u) + local_parameter_error(degree_v, order_v);
 }
 
 /// What the library promises for polynomial patches of these degrees.

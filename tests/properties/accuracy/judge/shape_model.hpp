@@ -7,12 +7,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "tests/properties/accuracy/judge/evaluator.hpp"
 #include "tests/properties/accuracy/judge/model.hpp"
 #include "tests/properties/accuracy/judge/shape_bounds.hpp"
+#include "tests/support/even_odd.hpp"
 #include "tests/support/oracle/oracle.hpp"
 
 namespace simdbezier::tests {
@@ -69,11 +71,11 @@ public:
     if (x == -1 || x == 1) {
       values = edges_[x < 0 ? 2 : 3];
     }
-    const auto [value, y_slope, yy] = horner(values, y);
-    const auto [x_slope, xy, unused] = horner(slopes, y);
-    Sample sample{value, x_slope, y_slope, 2 * horner(seconds, y)[0], xy, 2 * yy};
+    const auto [value, y_slope, yy] = row_or_edge(values, y);
+    const auto [x_slope, xy, unused] = row_or_edge(slopes, y);
+    Sample sample{value, x_slope, y_slope, 2 * row_or_edge(seconds, y)[0], xy, 2 * yy};
     if (y == -1 || y == 1) {
-      const auto edge = horner(edges_[y < 0 ? 0 : 1], x);
+      const auto edge = row_or_edge(edges_[y < 0 ? 0 : 1], x);
       sample.value = edge[0];
       sample.x = edge[1];
       sample.xx = 2 * edge[2];
@@ -93,6 +95,15 @@ private:
       chain[0] = madd(chain[0], x, a[k]);
     }
     return chain;
+  }
+
+  /// The same of what comes last, and of edges: the order of operations follows the degree.
+  [[nodiscard]] static std::array<T, 3> row_or_edge(const Row& a, T x) {
+    if (!by_even_and_odd_parts(a.size() - 1)) {
+      return horner(a, x);
+    }
+    const EvenOddJet<T> jet = even_odd(Rounded<T>{kFused}, std::span<const T>(a), x);
+    return {jet.value, jet.slope, jet.half_second};
   }
 
   [[nodiscard]] static std::vector<DoubleDouble> column(const Values& rows, std::size_t k) {
