@@ -8,10 +8,12 @@
 #include <type_traits>
 
 #include "kernels/pack/pack_formulas.hpp"
+#include "kernels/pack/zero_signs.hpp"
 #include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
+inline constexpr detail::NetShape kBicubic;
 inline constexpr std::size_t kNet = detail::kCoefficients; ///< values of a net, [j][i][component]
 
 /// What coefficients are formed in: wide enough that only the rounding to T counts.
@@ -119,6 +121,7 @@ bool pack_group(const detail::PackTask<T, S>& task, const S* from, std::ptrdiff_
   std::conditional_t<kMoved, MovedLanes, PlainLanes> lanes;
   const Wide squares = read_group<T, S, kMoved>(task, from, stride, lanes);
   NormalFloor<T> normal_floor;
+  TinyEvenCoefficients<T> tiny;
   Wide corners[16];
   for (std::size_t c = 0; c < detail::kComponents; ++c) {
     PackedComponent<W> formed;
@@ -126,6 +129,7 @@ bool pack_group(const detail::PackTask<T, S>& task, const S* from, std::ptrdiff_
     if (to.origins != nullptr) {
       split_origins(formed, c, to.origins);
     }
+    tiny.look_at_edges(kBicubic, formed.edges);
     store_block(formed.matrix, to.coefficients + 16 * c, kNet);
     store_block(formed.edges, to.edges + 16 * c, detail::kEdgeBlock);
     for (std::size_t corner = 0; corner < 4; ++corner) {
@@ -141,6 +145,9 @@ bool pack_group(const detail::PackTask<T, S>& task, const S* from, std::ptrdiff_
     corners[k] = Wide(0.0);
   }
   store_block(corners, to.edges + detail::kCornersAt, detail::kEdgeBlock);
+  if (tiny.any()) [[unlikely]] {
+    keep_edges_from_zero(kBicubic, to.edges, kWideLanes);
+  }
   alignas(64) double floors[kWideLanes];
   store_vector<Wide>(floors, normal_floor.value());
   for (std::size_t p = 0; p < kWideLanes; ++p) {

@@ -10,7 +10,6 @@
 #include "kernels/pack/shape_floor.hpp"
 #include "kernels/pack/shape_pack_formulas.hpp"
 #include "kernels/pack/shape_pack_io.hpp"
-#include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -118,9 +117,10 @@ private:
     BlockWriter<T> matrices(task_.coefficients + first_ * patch_stride +
                                 cell * shape_.cell_coefficients(),
                             patch_stride, count_);
-    BlockWriter<T> edges(task_.edges + first_ * shape_.edges() + cell * shape_.cell_edges(),
-                         shape_.edges(), count_);
+    T* const edge_blocks = task_.edges + first_ * shape_.edges() + cell * shape_.cell_edges();
+    BlockWriter<T> edges(edge_blocks, shape_.edges(), count_);
     Wide corners[kMostChannels * 4];
+    tiny_ = {};
     if (shape_.rational) {
       for (std::size_t k = 0; k < shape_.points(); ++k) {
         cell_weights_[k] = carried<W>(weights_[k]);
@@ -155,6 +155,9 @@ private:
     }
     matrices.finish();
     edges.finish();
+    if (tiny_.any()) {
+      keep_edges_from_zero(shape_, edge_blocks, count_);
+    }
   }
 
   /// Corner (u,v) stands at v * 2 + u; a curve's row is its first and its last one.
@@ -253,7 +256,8 @@ private:
   }
 
   void write_channel(const W* values, const W* edges, BlockWriter<T>& matrices,
-                     BlockWriter<T>& edge_blocks) const {
+                     BlockWriter<T>& edge_blocks) {
+    tiny_.look_at_edges(shape_, edges);
     for (std::size_t k = 0; k < order_u_; ++k) {
       for (std::size_t l = 0; l < order_v_; ++l) {
         matrices.put(to_wide(values[l * order_u_ + k]));
@@ -273,6 +277,7 @@ private:
   CollapsedEdges<detail::NetPackTask<T, S>> collapsed_;
   std::size_t first_ = 0;
   std::size_t count_ = 0;
+  TinyEvenCoefficients<T> tiny_; ///< of a cell
   // About 150 KiB on the stack where registers have eight doubles.
   Wide weights_[kMostPoints];
   Wide points_[kMostPoints];    ///< of one component

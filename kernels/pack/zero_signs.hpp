@@ -1,0 +1,102 @@
+// The sign of zero on edges and curves of degree 3 to 5, whose even part E(X^2) and odd part
+// X O(X^2) are evaluated apart and then added.
+//
+// Reversing an edge turns the signs of X and O, so that both sides add equal numbers, but where O
+// vanishes they may be zeros of different signs. That shows in one case: E is -0, and then one side
+// gets +0 and the other -0. E is -0 where a fused step rounds what is negative and below half the
+// smallest denormal; with a constant of zero that happens for all small X at once, if the even
+// coefficients are tiny. The constant of such edges and curves is therefore packed as the smallest
+// negative denormal: E then stays negative, and the error is that denormal. Both sides know the
+// same even coefficients and decide alike, whatever the odd ones are.
+//
+// It is done for all instruction sets, since a packed set does not know which one evaluates it.
+#pragma once
+
+#include <limits>
+
+#include "kernels/pack/double_double.hpp"
+#include "kernels/simd/extrema.hpp"
+#include "src/storage/even_odd.hpp"
+#include "src/storage/patch_storage.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// From this size on, c2 X^2 (c4 X^4) stays above the denormals for all X but 0 that come from
+/// parameters u of type T, or from uniform grids of up to 2^24 (2^53) intervals: |X| >= 2^-25 for
+/// float and 2^-54 for double.
+template <typename T>
+inline constexpr double kSafeSecond = sizeof(T) == sizeof(float) ? 0x1p-98 : 0x1p-958;
+template <typename T>
+inline constexpr double kSafeFourth = sizeof(T) == sizeof(float) ? 0x1p-48 : 0x1p-850;
+
+/// Of an edge.
+constexpr int degree_along(const detail::NetShape& shape, std::size_t edge) {
+  return edge == detail::kEdgeV0 || edge == detail::kEdgeV1 ? shape.degree_u : shape.degree_v;
+}
+
+/// Which lanes of a group have even coefficients that need a second look.
+template <typename T>
+class TinyEvenCoefficients {
+public:
+  /// The even coefficients of an edge or a curve, as `at(k)` gives them, before they are rounded.
+  template <typename At>
+  SIMDBEZIER_INLINE void look_at(int degree, const At& at) {
+    if (detail::is_even_odd(degree)) {
+      look_at(at(2), kSafeSecond<T>);
+      if (degree > 3) {
+        look_at(at(4), kSafeFourth<T>);
+      }
+    }
+  }
+  /// The edges of one channel, [power][edge].
+  template <typename W>
+  SIMDBEZIER_INLINE void look_at_edges(const detail::NetShape& shape, const W* edges) {
+    for (std::size_t e = 0; e < detail::kEdges; ++e) {
+      look_at(degree_along(shape, e), [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+        return to_wide(edges[k * detail::kEdges + e]);
+      });
+    }
+  }
+  [[nodiscard]] SIMDBEZIER_INLINE bool any() const { return any_of<Wide>(least_ < Wide(0.0)); }
+
+private:
+  /// -safe < c < 0 in three operations: c (c + safe) is negative. The factor keeps what is not zero
+  /// in T from becoming zero here.
+  SIMDBEZIER_INLINE void look_at(Wide c, double safe) {
+    const Wide from_safe = c + Wide(safe);
+    const Wide size = sizeof(T) == sizeof(float) ? c : c * Wide(0x1p1000);
+    least_ = smaller_of<Wide>(size * from_safe, least_);
+  }
+
+  Wide least_ = Wide(0.0);
+};
+
+/// Packed coefficients c[k * step] of one edge or curve, 0 <= k <= degree.
+template <typename T>
+void keep_even_part_from_zero(T* c, std::size_t step, int degree) {
+  if (!detail::is_even_odd(degree) || c[0] != T(0)) {
+    return;
+  }
+  const bool fourth = degree > 3 && c[2 * step] == T(0);
+  const T first = c[(fourth ? 4 : 2) * step]; // the one that decides where X is small
+  const T safe = static_cast<T>(fourth ? kSafeFourth<T> : kSafeSecond<T>);
+  if (first < T(0) && first > -safe) {
+    c[0] = -std::numeric_limits<T>::denorm_min();
+  }
+}
+
+/// The four edges of every channel of one cell, in the blocks of `count` patches.
+template <typename T>
+__attribute__((noinline, cold)) void keep_edges_from_zero(const detail::NetShape& shape, T* blocks,
+                                                          std::size_t count) {
+  for (std::size_t p = 0; p < count; ++p, blocks += shape.edges()) {
+    for (std::size_t c = 0; c < shape.channels(); ++c) {
+      for (std::size_t e = 0; e < detail::kEdges; ++e) {
+        keep_even_part_from_zero(blocks + c * shape.edge_powers() * detail::kEdges + e,
+                                 detail::kEdges, degree_along(shape, e));
+      }
+    }
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
