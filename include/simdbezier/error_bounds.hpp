@@ -18,8 +18,9 @@ struct ErrorBounds {
 
 /// The certificate of one patch, for every sample with u, v in [0,1].
 ///
-/// Formula:     1.01 u sum_kl (e_k + e_l + 1) |C_kl| over the coefficients in centred parameters,
-///              where e_k counts the roundings that term k passes through. Local origins, halves,
+/// Formula:     1.01 u sum_kl (e_k + f_l + 1) |C_kl| over the coefficients in centred parameters,
+///              where e_k counts the roundings that term k passes through as part of a column, and
+///              f_l those of a row. Local origins, halves,
 ///              weights and packing add terms of their own: docs/accuracy.md.
 /// Relative to: the control points less PackOptions::relative_to, as that difference was rounded
 ///              (to double where T and S are float, else to about 2^-104). Where u
@@ -40,7 +41,7 @@ struct CurveErrorBounds {
 };
 
 /// The certificate of one curve, for every sample with t in [0,1]: the same formula in one
-/// direction, 1.01 u sum_k (e_k + 1) |a_k| 2^-k. Returns as above.
+/// direction, 1.01 u sum_k (f_k + 1) |a_k| 2^-k. Returns as above.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API CurveErrorBounds error_bounds(const CurveSet<T>& set,
                                                            std::size_t curve,

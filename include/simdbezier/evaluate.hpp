@@ -8,11 +8,11 @@
 // has the same calls for curves.
 //
 // Constraints that hold for every call
-//   Parameters  u, v in [0,1]; other finite values extrapolate the polynomial. Where a parameter
-//               is nan or infinite, that sample's outputs are nan; its neighbours are untouched.
+//   Parameters  u, v in [0,1]; other finite values extrapolate the polynomial, see Parameters for
+//               how far. Where a parameter is nan or infinite, that sample's outputs are nan; its neighbours are untouched.
 //   Outputs     belong to the caller, may not overlap the inputs or each other, need no alignment
 //               (64 bytes are faster).
-//   Accuracy    bicubic patches: |error| <= 21 u max|P| a component with FMA, 32 u without, at the
+//   Accuracy    bicubic patches: |error| <= 21 u max|P| a component with FMA, 30 u without, at the
 //               centred parameters as rounded (u = 2^-24 float, 2^-53 double); derivatives, other
 //               degrees and weights: docs/accuracy.md, error_bounds().
 //   Watertight  positions on an edge depend only on that edge's control points and are
@@ -25,9 +25,10 @@
 //   Layouts     planes of unit stride are written directly; any other is formed in registers from
 //               planes in the first-level cache. Packed planes, packed triples and vertices without
 //               gaps are the fast ones.
-//   Formula     S = sum_l y^l sum_k C[l][k] x^k by Horner's rule in x, then in y: degree_v fused
-//               multiply-adds a component and sample, 3 for bicubic patches; first derivatives by
-//               synthetic division, 5 more for those. Rational patches by the quotient rule.
+//   Formula     S = sum_l y^l sum_k C[l][k] x^k by Horner's rule in x, then in y by even and odd
+//               parts (degree_v 3, 4, 5: 3 products and 2 sums a component and pair of samples of
+//               bicubic patches) or by Horner's rule (any other: degree_v multiply-adds a sample).
+//               Edges are evaluated as rows are. Rational patches by the quotient rule.
 //   Statuses    ok | null_output | output_too_small | bad_components (Outputs::first_component is
 //               outside of the set's, or a normal or a curvature is asked of a set without exactly
 //               three) | bad_stride | overlapping_outputs | size_overflow | unknown_isa |
