@@ -18,7 +18,7 @@
 namespace simdbezier::tests {
 namespace {
 
-constexpr std::size_t kGridSizes[] = {3, 5, 8, 9, 12, 16, 17, 33};
+constexpr std::size_t kGridSizes[] = {3, 5, 9, 17, 24};
 
 /// What an edge's control values are, in units that shrink from case to case.
 struct TinyEdge {
@@ -156,22 +156,16 @@ protected:
   void run_all(std::initializer_list<int> exponents) {
     for (const TinyEdge& edge : tiny_edges()) {
       for (const int exponent : exponents) {
-        for (const EdgeForm form : {EdgeForm::polynomial, EdgeForm::homogeneous}) {
-          for (const bool origins : {false, true}) {
-            expect_equal_bits<T>(edge, exponent, form, origins);
-          }
-        }
+        expect_equal_bits<T>(edge, exponent, EdgeForm::polynomial, false);
+        expect_equal_bits<T>(edge, exponent, EdgeForm::polynomial, true);
+        expect_equal_bits<T>(edge, exponent, EdgeForm::homogeneous, false);
       }
     }
   }
 };
 
-TEST_P(UnderflowTest, SharedEdgesFloat) {
-  run_all<float>({-100, -110, -125, -130, -140, -143, -145, -146, -147, -148, -149});
-}
-TEST_P(UnderflowTest, SharedEdgesDouble) {
-  run_all<double>({-960, -1000, -1020, -1050, -1065, -1068, -1070, -1072, -1073, -1074});
-}
+TEST_P(UnderflowTest, SharedEdgesFloat) { run_all<float>({-100, -125, -143, -146, -149}); }
+TEST_P(UnderflowTest, SharedEdgesDouble) { run_all<double>({-960, -1020, -1068, -1071, -1074}); }
 
 INSTANTIATE_FOR_EVERY_ISA(UnderflowTest);
 
