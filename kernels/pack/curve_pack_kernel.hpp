@@ -38,7 +38,6 @@ public:
       polygon_[p] = task_.curves.points + curve * task_.curves.curve_stride;
     }
     copy_control_points();
-    tiny_ = {};
     Wide squares(0.0);
     MaskOf<Wide> positive = squares <= squares;
     if (shape_.rational) {
@@ -55,7 +54,7 @@ public:
       squares = squares + pack_component(c, floor);
     }
     put(task_.tangent_floor, 1, 0, floor.value());
-    if (tiny_.any()) {
+    if (detail::is_even_odd(shape_.degree)) {
       keep_from_zero();
     }
     if (shape_.rational) {
@@ -134,7 +133,6 @@ private:
       end_weights_[cell][0] = to_wide(w[0]);
       end_weights_[cell][1] = to_wide(w[order_ - 1]);
       centre(w, 1, order_ - 1);
-      tiny_.look_at(shape_.degree, [&](std::size_t k) { return to_wide(w[k]); });
       for (std::size_t k = 0; k < order_; ++k) {
         put_value(cell, components_, k, to_wide(w[k]));
       }
@@ -186,7 +184,6 @@ private:
       if (shape_.origins) {
         put_value(cell, c, shape_.origin_at(), split_origin(values, cell));
       }
-      tiny_.look_at(shape_.degree, [&](std::size_t k) { return to_wide(values[k]); });
       for (std::size_t k = 0; k < order_; ++k) {
         put_value(cell, c, k, to_wide(values[k]));
       }
@@ -195,7 +192,7 @@ private:
   }
 
   /// See zero_signs.hpp. Curves that it applies to have one cell.
-  __attribute__((noinline, cold)) void keep_from_zero() const {
+  SIMDBEZIER_INLINE void keep_from_zero() const {
     for (std::size_t p = 0; p < count_; ++p) {
       for (std::size_t c = 0; c < shape_.channels(); ++c) {
         keep_even_part_from_zero(task_.values + (first_ + p) * curve_values_ +
@@ -255,7 +252,6 @@ private:
   std::size_t components_;
   std::size_t first_ = 0;
   std::size_t count_ = 0;
-  TinyEvenCoefficients<T> tiny_;
   const S* polygon_[kWideLanes];
   Wide weights_[detail::kMostOrder];
   W cell_weights_[2][detail::kMostOrder]; ///< coefficients

@@ -12,6 +12,7 @@
 // It is done for all instruction sets, since a packed set does not know which one evaluates it.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 
 #include "kernels/pack/double_double.hpp"
@@ -38,13 +39,13 @@ constexpr int degree_along(const detail::NetShape& shape, std::size_t edge) {
 template <typename T>
 class TinyEvenCoefficients {
 public:
-  /// The even coefficients of an edge or a curve, as `at(k)` gives them, before they are rounded.
+  /// The even coefficients of an edge, as `at(k)` gives them, before they are rounded.
   template <typename At>
   SIMDBEZIER_INLINE void look_at(int degree, const At& at) {
     if (detail::is_even_odd(degree)) {
-      look_at(at(2), kSafeSecond<T>);
+      compare(at(2), kSafeSecond<T>);
       if (degree > 3) {
-        look_at(at(4), kSafeFourth<T>);
+        compare(at(4), kSafeFourth<T>);
       }
     }
   }
@@ -57,23 +58,32 @@ public:
       });
     }
   }
-  [[nodiscard]] SIMDBEZIER_INLINE bool any() const { return any_of<Wide>(least_ < Wide(0.0)); }
-
-private:
-  /// -safe < c < 0 in three operations: c (c + safe) is negative. The factor keeps what is not zero
-  /// in T from becoming zero here.
-  SIMDBEZIER_INLINE void look_at(Wide c, double safe) {
-    const Wide from_safe = c + Wide(safe);
-    const Wide size = sizeof(T) == sizeof(float) ? c : c * Wide(0x1p1000);
-    least_ = smaller_of<Wide>(size * from_safe, least_);
+  [[nodiscard]] SIMDBEZIER_INLINE bool any() const {
+    return found_ || any_of<Wide>(least_ < Wide(0.0));
   }
 
-  Wide least_ = Wide(0.0);
+private:
+  /// Whether -safe < c < 0, in as few operations as there are for it.
+  template <typename V>
+  SIMDBEZIER_INLINE void compare(V c, double safe) {
+    if constexpr (kIsScalar<V>) { // as integers, whose units are idle here
+      const auto above_zero = __builtin_bit_cast(std::uint64_t, c) - kNegativeZero - 1;
+      found_ = found_ | (above_zero < __builtin_bit_cast(std::uint64_t, safe) - 1);
+    } else { // c (c + safe) is negative; the factor keeps what is not zero in T from becoming zero
+      const Wide from_safe = c + Wide(safe);
+      const Wide size = sizeof(T) == sizeof(float) ? c : c * Wide(0x1p1000);
+      least_ = smaller_of<Wide>(size * from_safe, least_);
+    }
+  }
+
+  static constexpr std::uint64_t kNegativeZero = std::uint64_t{1} << 63;
+  Wide least_ = Wide(0.0); ///< of registers
+  bool found_ = false;     ///< of single values
 };
 
 /// Packed coefficients c[k * step] of one edge or curve, 0 <= k <= degree.
 template <typename T>
-void keep_even_part_from_zero(T* c, std::size_t step, int degree) {
+SIMDBEZIER_INLINE void keep_even_part_from_zero(T* c, std::size_t step, int degree) {
   if (!detail::is_even_odd(degree) || c[0] != T(0)) {
     return;
   }
