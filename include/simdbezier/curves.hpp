@@ -173,9 +173,9 @@ private:
 
 /// Every curve of a range on one grid.
 ///
-/// In X = t - 1/2, as the edges of patches: by even and odd parts in degrees 3, 4 and 5, otherwise by
-/// Horner's rule and synthetic division, `degree` multiply-adds a component, sample and derivative;
-/// rational curves by the quotient rule.
+/// In X = t - 1/2, as the edges of patches: by even and odd parts in degrees 3, 4 and 5, otherwise
+/// by Horner's rule and synthetic division, `degree` multiply-adds a component, sample and
+/// derivative; rational curves by the quotient rule.
 /// options:   Options::watertight has no effect, ends cost nothing.
 /// Accuracy:  see error_bounds().
 /// Returns ok | null_output | output_too_small | bad_stride | bad_components | overlapping_outputs

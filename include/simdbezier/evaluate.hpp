@@ -9,7 +9,8 @@
 //
 // Constraints that hold for every call
 //   Parameters  u, v in [0,1]; other finite values extrapolate the polynomial, see Parameters for
-//               how far. Where a parameter is nan or infinite, that sample's outputs are nan; its neighbours are untouched.
+//               how far. Where a parameter is nan or infinite, that sample's outputs are nan; its
+//               neighbours are untouched.
 //   Outputs     belong to the caller, may not overlap the inputs or each other, need no alignment
 //               (64 bytes are faster).
 //   Accuracy    bicubic patches: |error| <= 21 u max|P| a component with FMA, 30 u without, at the
