@@ -55,6 +55,11 @@ struct ColumnTile {
   static constexpr bool kBuffered = kExtra;
   using Groups = RowGroups<kRows, V>;
   static constexpr std::size_t kColumns = kLanes<V> / kRows;
+  /// Whether rows and their mirror images are computed together: where both are whole registers of
+  /// their own. Others share cache lines with the rows beside them, and are faster one behind the
+  /// other, but for normals, whose arithmetic counts for more.
+  static constexpr bool kPairs = kRows == 1 && kWhole && !kExtra;
+  static constexpr bool kNormalPairs = kRows == 1 || (kRows == 2 && kWhole && kLanes<V> > 2);
   static constexpr bool kShared = kRows > 1; ///< edges v = const share a register
   static constexpr bool kSingle = kRows == kLanes<V> && kHasFours<V>; ///< all lanes one column
 
@@ -94,6 +99,16 @@ struct ColumnTile {
       }
     }
   }
+  /// kRows rows in reverse order, from the one at `to` back.
+  SIMDBEZIER_INLINE void store_mirrored(T* to, std::size_t step, V value, const T* extra) const {
+    if constexpr (kRows == 1) {
+      store(to, step, value, 1, extra);
+    } else if constexpr (kNormalPairs) {
+      static_assert(!kExtra);
+      store_lanes_from<kColumns, 0>(to, value, columns());
+      store_lanes_from<kColumns, kColumns>(to - step, value, columns());
+    }
+  }
   SIMDBEZIER_INLINE void store_if_wanted(T* plane, std::size_t at, std::size_t step, V value,
                                          std::size_t rows) const {
     if (plane != nullptr) {
@@ -116,6 +131,12 @@ struct ColumnTile {
     }
     if constexpr (kExtra) {
       move_value(to + kColumns, extra);
+    }
+  }
+  SIMDBEZIER_INLINE void store_mirrored_if_wanted(T* plane, std::size_t at, std::size_t step,
+                                                  V value) const {
+    if (plane != nullptr) {
+      store_mirrored(plane + at, step, value, nullptr);
     }
   }
   SIMDBEZIER_INLINE void store_edge_if_wanted(T* plane, std::size_t at, V value,

@@ -252,9 +252,9 @@ void grid_kernel(GridTask<T>& task) {
     return;
   }
   const ColumnSplit<vec<T>> split(task.nu, kUsual<kOutputs>);
-  const std::size_t most = split.column ? kBufferRows : std::size_t{1} << 30;
-  for (RowPieces<T> pieces(task, most); pieces.more();) {
-    const RowPiece<T> piece = pieces.next();
+  RowPowers<T> powers;
+  for (RowPieces<T> pieces(task); pieces.more();) {
+    const RowPiece<T> piece = pieces.next(powers);
     const std::size_t bytes = piece.rows() * task.nu * written_planes(kOutputs) * sizeof(T);
     const std::size_t together = kCachedBytes / bytes + 1;
     for (std::size_t patch = 0; patch < task.patch_count; patch += together) {

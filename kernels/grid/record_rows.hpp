@@ -86,7 +86,7 @@ struct RecordColumn {
     for (std::size_t row = 0; row < piece.middle.rows; row += kLanes<V>) {
       const std::size_t left = piece.middle.rows - row;
       const V y = RowGroups<kLanes<V>, V>::spread(piece.middle.y + row);
-      sweep.interior(y, s);
+      sweep.interior(RowPoint<V>(y), s);
       s.finish();
       store(s.value, middle(row));
       resolve(s, y, limit, row + (piece.lead ? 1 : 0), 0, middle(row),
@@ -155,10 +155,10 @@ struct RecordRows {
     return sweep.tile.edge_y(edge(row));
   }
   SIMDBEZIER_INLINE V compute_middle(const T* y, Samples& s) const {
-    const V row_y = broadcast<V>(*y);
-    sweep.interior(row_y, s);
+    const auto point = RowPowers<T>::template point<1, V>(y);
+    sweep.interior(point, s);
     s.assign();
-    return row_y;
+    return point.y;
   }
   SIMDBEZIER_INLINE void compute_next(Cursor& next, std::size_t row, Samples& s) const {
     if (row == next.next_edge) [[unlikely]] {

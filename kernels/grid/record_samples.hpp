@@ -105,9 +105,9 @@ struct RecordSweep {
       }
     }
   };
-  SIMDBEZIER_INLINE void interior(V y, Samples& s) const {
+  SIMDBEZIER_INLINE void interior(const RowPoint<V>& at, Samples& s) const {
     for (std::size_t c = 0; c < 3; ++c) {
-      s.jet[c] = columns[c].interior(y);
+      s.jet[c] = columns[c].interior(at);
     }
   }
   SIMDBEZIER_INLINE void edge(std::size_t edge, Samples& s) const {

@@ -1,6 +1,10 @@
-// The rows of a grid in pieces that a tile sweeps in one go.
+// The rows of a grid in pieces that a tile sweeps in one go: from both ends towards the middle,
+// where their parameters are mirror images, since rows Y and -Y share most of their arithmetic
+// (poly/even_odd.hpp).
 #pragma once
 
+#include "kernels/poly/even_odd.hpp"
+#include "kernels/simd/repeat.hpp"
 #include "kernels/simd/row_groups.hpp"
 #include "src/storage/patch_storage.hpp"
 #include "src/tables/kernel_table.hpp"
@@ -19,6 +23,54 @@ SIMDBEZIER_INLINE std::size_t edge_of(RowKind kind) {
   return kind == RowKind::edge_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
 }
 
+/// Rows of a piece that are on no edge.
+constexpr std::size_t kMostMiddleRows = 128;
+
+/// Parameters of rows and what RowPoint takes besides, in memory: at constant distances, so that
+/// one address serves all of them.
+template <typename T>
+class RowPowers {
+public:
+  /// y: as RowRun::y.
+  SIMDBEZIER_INLINE const T* fill(const T* y, std::size_t rows) {
+    using V = vec<T>;
+    for (std::size_t k = 0; k < rows; k += kLanes<V>) {
+      const RowPoint<V> at(load_vector<V>(y + k));
+      store_vector(values_ + k, at.y);
+      store_vector(values_ + kPlane + k, at.square);
+      store_vector(values_ + 2 * kPlane + k, at.twice);
+      store_vector(values_ + 3 * kPlane + k, at.twice_square);
+    }
+    return values_;
+  }
+
+  /// Of kRows rows in a register, from the one on whose parameter stands at y. What several rows
+  /// would have to be spread for is computed.
+  template <std::size_t kRows, typename V>
+  static SIMDBEZIER_INLINE RowPoint<V> point(const T* y) {
+    if constexpr (kRows > 1) {
+      return RowPoint<V>(RowGroups<kRows, V>::spread(y));
+    } else {
+      return {broadcast<V>(y[0]), broadcast<V>(y[kPlane]), broadcast<V>(y[2 * kPlane]),
+              broadcast<V>(y[3 * kPlane])};
+    }
+  }
+
+private:
+  static constexpr std::size_t kPlane = kMostMiddleRows + detail::kMaxLanes;
+  alignas(64) T values_[4 * kPlane];
+};
+
+/// Whether the rows are pairs Y and -Y, from both ends on.
+template <typename T>
+SIMDBEZIER_INLINE bool are_mirrored(const T* y, std::size_t rows) {
+  bool mirrored = true;
+  for (std::size_t k = 0; k < rows / 2 && mirrored; ++k) {
+    mirrored = y[k] == -y[rows - 1 - k];
+  }
+  return mirrored;
+}
+
 /// Rows that a tile sweeps in one go: one on an edge, some that are not, one on an edge. A usual
 /// grid is one such piece.
 template <typename T>
@@ -28,7 +80,8 @@ struct RowPiece {
   std::size_t first = 0; ///< row
   bool lead = false;     ///< whether there is a first row on an edge, and which
   RowKind lead_kind = RowKind::edge_v0;
-  RowRun<T> middle{nullptr, 0, RowKind::interior};
+  RowRun<T> middle{nullptr, 0, RowKind::interior}; ///< y: of RowPowers
+  bool mirrored = false;                           ///< the middle is pairs of rows
   bool trail = false;
   RowKind trail_kind = RowKind::edge_v1;
 
@@ -39,7 +92,8 @@ struct RowPiece {
   static SIMDBEZIER_INLINE std::size_t columns(std::size_t nu) { return nu; }
 };
 
-/// A whole grid of kSide x kSide samples, whose first and last rows are edges. Its size known to
+/// A whole grid of kSide x kSide samples, whose first and last rows are edges and whose others are
+/// pairs. Its size known to
 /// the compiler, sweeps are straight code, without counting, tests and addresses: 198 instead of
 /// 389 instructions for the positions of an 8 x 8 grid, 660 instead of 1022 for 17 x 17 (AVX-512).
 template <typename T, std::size_t kSide>
@@ -51,14 +105,11 @@ struct SquarePiece {
   static constexpr std::size_t kMiddle = kSide - 2;
 
   struct Middle {
-    T y[kMiddle + detail::kMaxLanes]; ///< a copy: no store of samples can change it
+    const T* y; ///< of RowPowers
     static constexpr RowKind kind = RowKind::interior;
   } middle;
 
-  /// middle_y: as RowRun::y.
-  explicit SIMDBEZIER_INLINE SquarePiece(const T* middle_y) {
-    __builtin_memcpy(middle.y, middle_y, sizeof(middle.y));
-  }
+  explicit SIMDBEZIER_INLINE SquarePiece(const T* middle_y) : middle{middle_y} {}
   static constexpr std::size_t rows() { return kSide; }
   static constexpr std::size_t columns(std::size_t /*nu*/) { return kSide; }
 
@@ -66,7 +117,8 @@ struct SquarePiece {
   static SIMDBEZIER_INLINE bool is(const RowPiece<T>& piece, std::size_t nu) {
     return nu == kSide && piece.first == 0 && piece.middle.rows == kMiddle && piece.lead &&
            piece.trail && piece.lead_kind == RowKind::edge_v0 &&
-           piece.trail_kind == RowKind::edge_v1 && piece.middle.kind == RowKind::interior;
+           piece.trail_kind == RowKind::edge_v1 && piece.middle.kind == RowKind::interior &&
+           piece.mirrored;
   }
 };
 
@@ -74,14 +126,14 @@ struct SquarePiece {
 template <typename T>
 class RowPieces {
 public:
-  /// most: rows of a piece.
-  SIMDBEZIER_INLINE RowPieces(const GridTask<T>& task, std::size_t most)
-      : run_(task.runs), last_(task.runs + task.run_count), left_(run_->rows), most_(most - 2),
+  explicit SIMDBEZIER_INLINE RowPieces(const GridTask<T>& task)
+      : run_(task.runs), last_(task.runs + task.run_count), left_(run_->rows),
         watertight_(task.watertight) {}
 
   [[nodiscard]] SIMDBEZIER_INLINE bool more() const { return run_ != last_; }
 
-  SIMDBEZIER_INLINE RowPiece<T> next() {
+  /// powers: as long as the piece is used.
+  SIMDBEZIER_INLINE RowPiece<T> next(RowPowers<T>& powers) {
     RowPiece<T> piece;
     piece.first = row_;
     piece.lead = take_edge(piece.lead_kind);
@@ -89,10 +141,12 @@ public:
       piece.middle = {run_->y + (run_->rows - left_), 0, run_->kind};
       const bool outside = run_->kind == RowKind::outside;
       while (more() && !at_edge() && (run_->kind == RowKind::outside) == outside &&
-             piece.middle.rows < most_) {
-        const std::size_t room = most_ - piece.middle.rows;
+             piece.middle.rows < kMostMiddleRows) {
+        const std::size_t room = kMostMiddleRows - piece.middle.rows;
         piece.middle.rows += static_cast<std::uint32_t>(take(left_ < room ? left_ : room));
       }
+      piece.mirrored = are_mirrored(piece.middle.y, piece.middle.rows);
+      piece.middle.y = powers.fill(piece.middle.y, piece.middle.rows);
     }
     piece.trail = take_edge(piece.trail_kind);
     row_ += piece.rows();
@@ -123,75 +177,116 @@ private:
   const RowRun<T>* run_;
   const RowRun<T>* last_;
   std::size_t left_; ///< rows of *run_
-  std::size_t most_; ///< in the middle of a piece
   bool watertight_;
   std::size_t row_ = 0;
 };
 
-/// All rows of a piece, from sample `at` of the planes on: edge(kind, at, row) for edges,
-/// interior(y, at, row, rows) for as many rows as a register holds, kTogether times one behind the
-/// other where there are enough of them.
-template <std::size_t kRows, std::size_t kTogether = 1, typename T, typename Edge,
-          typename Interior>
-SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::size_t nu, Edge edge,
-                                Interior interior) {
-  std::size_t row = 0;
+/// A row in the planes and in its piece.
+struct RowPlace {
+  std::size_t at; ///< its first sample
+  std::size_t row;
+
+  SIMDBEZIER_INLINE RowPlace behind(std::size_t rows, std::size_t nu) const {
+    return {at + rows * nu, row + rows};
+  }
+};
+
+/// How a tile sweeps its rows.
+struct RowOrder {
+  std::size_t rows;     ///< of a register
+  bool pairs;           ///< mirror images are computed together
+  std::size_t together; ///< registers that are computed one behind the other, without a loop
+};
+
+/// All rows of a piece, from sample `at` of the planes on. edge(kind, place) for edges; pair(y,
+/// place, mirrored) for a register of rows from `place` on and their mirror images from `mirrored`
+/// back; interior(y, place, rows) for other rows, at most a register of them.
+template <RowOrder kOrder, typename T, typename Edge, typename Pair, typename Interior>
+SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::size_t nu,
+                                const Edge& edge, const Pair& pair, const Interior& interior) {
+  constexpr std::size_t kRows = kOrder.rows;
+  RowPlace place{at, 0};
   if (piece.lead) {
-    edge(piece.lead_kind, at, row++);
-    at += nu;
+    edge(piece.lead_kind, place);
+    place = place.behind(1, nu);
   }
   const T* y = piece.middle.y;
   std::size_t left = piece.middle.rows;
+  const RowPlace trail = place.behind(left, nu);
+  const auto step = [&](std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
+    place = place.behind(rows, nu);
+    y += rows;
+  };
+  if constexpr (kOrder.pairs) {
+    if (piece.mirrored) {
+      RowPlace mirrored{trail.at - nu, trail.row - 1};
+      for (; left >= 2 * kRows; left -= 2 * kRows) {
+        pair(y, place, mirrored);
+        step(kRows);
+        mirrored.at -= kRows * nu;
+        mirrored.row -= kRows;
+      }
+    }
+  }
+  constexpr std::size_t kTogether = kOrder.together;
   if constexpr (kTogether > 1) {
     for (; left >= kTogether * kRows; left -= kTogether * kRows) {
-#pragma GCC unroll 8
-      for (std::size_t k = 0; k < kTogether; ++k) {
-        interior(y + k * kRows, at + k * kRows * nu, row + k * kRows, kRows);
-      }
-      at += kTogether * kRows * nu;
-      y += kTogether * kRows;
-      row += kTogether * kRows;
+      repeat<kTogether>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+        interior(y + k * kRows, place.behind(k * kRows, nu), kRows);
+      });
+      step(kTogether * kRows);
     }
   }
   for (; left >= kRows; left -= kRows) {
-    interior(y, at, row, kRows);
-    at += kRows * nu;
-    y += kRows;
-    row += kRows;
+    interior(y, place, kRows);
+    step(kRows);
   }
   if (kRows > 1 && left > 0) {
-    interior(y, at, row, left);
-    at += left * nu;
-    row += left;
+    interior(y, place, left);
   }
   if (piece.trail) {
-    edge(piece.trail_kind, at, row);
+    edge(piece.trail_kind, trail);
   }
 }
 
-/// The same, one row behind the other throughout; kTogether = 1 keeps a loop.
-template <std::size_t kRows, std::size_t kTogether = 1, typename T, std::size_t kSide,
-          typename Edge, typename Interior>
+/// The same, one register behind the other throughout; RowOrder::together = 1 keeps a loop.
+template <RowOrder kOrder, typename T, std::size_t kSide, typename Edge, typename Pair,
+          typename Interior>
 SIMDBEZIER_INLINE void for_rows(const SquarePiece<T, kSide>& piece, std::size_t at, std::size_t nu,
-                                Edge edge, Interior interior) {
+                                const Edge& edge, const Pair& pair, const Interior& interior) {
+  constexpr std::size_t kRows = kOrder.rows;
   constexpr std::size_t kMiddle = SquarePiece<T, kSide>::kMiddle;
-  constexpr std::size_t kFull = kMiddle / kRows * kRows;
-  edge(RowKind::edge_v0, at, 0);
-  if constexpr (kTogether > 1) {
-#pragma GCC unroll 32
-    for (std::size_t k = 0; k < kFull; k += kRows) {
-      interior(piece.middle.y + k, at + (1 + k) * nu, 1 + k, kRows);
-    }
+  constexpr std::size_t kPairs = kOrder.pairs ? kMiddle / (2 * kRows) : 0; // registers
+  constexpr std::size_t kSingle = kMiddle - 2 * kPairs * kRows;            // rows
+  constexpr std::size_t kFull = kSingle / kRows;
+  const T* const y = piece.middle.y;
+  const RowPlace first{at + nu, 1};
+  const RowPlace last{at + kMiddle * nu, kMiddle};
+  const auto pair_at = [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+    const std::size_t row = k * kRows;
+    pair(y + row, first.behind(row, nu), RowPlace{last.at - row * nu, last.row - row});
+  };
+  const auto single_at = [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+    const std::size_t row = (kPairs + k) * kRows;
+    interior(y + row, first.behind(row, nu), kRows);
+  };
+  edge(RowKind::edge_v0, RowPlace{at, 0});
+  if constexpr (kOrder.together > 1) {
+    repeat<kPairs>(pair_at);
+    repeat<kFull>(single_at);
   } else {
-    std::size_t to = at + nu;
-    for (std::size_t k = 0; k < kFull; k += kRows, to += kRows * nu) {
-      interior(piece.middle.y + k, to, 1 + k, kRows);
+    for (std::size_t k = 0; k < kPairs; ++k) {
+      pair_at(k);
+    }
+    for (std::size_t k = 0; k < kFull; ++k) {
+      single_at(k);
     }
   }
-  if constexpr (kFull < kMiddle) {
-    interior(piece.middle.y + kFull, at + (1 + kFull) * nu, 1 + kFull, kMiddle - kFull);
+  if constexpr (kFull * kRows < kSingle) {
+    const std::size_t row = (kPairs + kFull) * kRows;
+    interior(y + row, first.behind(row, nu), kSingle - kFull * kRows);
   }
-  edge(RowKind::edge_v1, at + (kSide - 1) * nu, kSide - 1);
+  edge(RowKind::edge_v1, last.behind(1, nu));
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

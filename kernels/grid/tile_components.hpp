@@ -5,8 +5,8 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Rows that a buffered column has room for.
-constexpr std::size_t kBufferRows = 128;
+/// Rows that a buffered column has room for, edges among them.
+constexpr std::size_t kBufferRows = kMostMiddleRows + 2;
 
 /// A column's planes, the k-th one kPlane values behind the first: one address for all of them.
 template <typename T>
@@ -58,17 +58,26 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
       shared = tile.edge_rows(c, 0);
     }
   }
-  for_rows<kRows, kRows == 1 ? 4 : 1>(
+  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
+  constexpr RowOrder kRowOrder{kRows, Tile::kPairs, kRows == 1 ? 4 : 1};
+  for_rows<kRowOrder>(
       piece, 0, nu,
-      [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
+      [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
         const V p = (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared)
                         ? shared
                         : tile.edge_rows(c, edge_of(kind));
-        tile.store_edge(to + at, p, kind, extra.plane(0) + row);
+        tile.store_edge(to + place.at, p, kind, extra.plane(0) + place.row);
       },
-      [&](const T* y, std::size_t at, std::size_t row, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
-        const V p = row_value(q, RowPoint<V>(RowGroups<kRows, V>::spread(y)));
-        tile.store(to + at, nu, origin.add_to(p), rows, extra.plane(0) + row);
+      [&](const T* y, RowPlace place, RowPlace mirrored) SIMDBEZIER_INLINE_LAMBDA {
+        const auto at = RowPowers<T>::template point<kRows, V>(y);
+        const Parts<V> p = value_parts(q, at);
+        tile.store(to + place.at, nu, origin.add_to(p.sum()), kRows, extra.plane(0) + place.row);
+        tile.store_mirrored(to + mirrored.at, nu, origin.add_to(p.difference()),
+                            extra.plane(0) + mirrored.row);
+      },
+      [&](const T* y, RowPlace place, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
+        const V p = row_value(q, RowPowers<T>::template point<kRows, V>(y));
+        tile.store(to + place.at, nu, origin.add_to(p), rows, extra.plane(0) + place.row);
       });
 }
 
@@ -99,15 +108,30 @@ struct JetColumns {
       origin = column_origin(c, tile.column);
     }
   }
-  SIMDBEZIER_INLINE Jet<V> interior(V y) const {
+  SIMDBEZIER_INLINE Jet<V> interior(const RowPoint<V>& at) const {
     Jet<V> jet;
-    const RowPoint<V> at(y);
     jet.p = row_value(q, at, jet.dv);
     jet.du = row_value(dq, at);
     if constexpr (kAsks) {
       jet.p = origin.add_to(jet.p);
     }
     return jet;
+  }
+  /// The same at -y as well.
+  SIMDBEZIER_INLINE void pair(const RowPoint<V>& at, Jet<V>& jet, Jet<V>& mirrored) const {
+    Parts<V> slope;
+    const Parts<V> value = value_parts(q, at, slope);
+    jet.p = value.sum();
+    mirrored.p = value.difference();
+    jet.dv = slope.sum();
+    mirrored.dv = slope.difference();
+    const Parts<V> du = value_parts(dq, at);
+    jet.du = du.sum();
+    mirrored.du = du.difference();
+    if constexpr (kAsks) {
+      jet.p = origin.add_to(jet.p);
+      mirrored.p = origin.add_to(mirrored.p);
+    }
   }
   /// On the edge v = const number `edge`, or on both where they share a register.
   template <typename SomeTile>
@@ -145,21 +169,34 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
       shared = columns.edge(c, tile, 0);
     }
   }
-  for_rows<kRows, Piece::kKnown ? 2 : 1>(
+  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
+  constexpr RowOrder kRowOrder{kRows, Tile::kPairs, Piece::kKnown ? 2 : 1};
+  for_rows<kRowOrder>(
       piece, 0, nu,
-      [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
+      [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
         const Jet<V> jet = (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared)
                                ? shared
                                : columns.edge(c, tile, edge_of(kind));
-        tile.store_edge(to.position + at, jet.p, kind, extra.plane(0) + row);
-        tile.store_edge(to.du + at, jet.du, kind, extra.plane(1) + row);
-        tile.store_edge(to.dv + at, jet.dv, kind, extra.plane(2) + row);
+        tile.store_edge(to.position + place.at, jet.p, kind, extra.plane(0) + place.row);
+        tile.store_edge(to.du + place.at, jet.du, kind, extra.plane(1) + place.row);
+        tile.store_edge(to.dv + place.at, jet.dv, kind, extra.plane(2) + place.row);
       },
-      [&](const T* y, std::size_t at, std::size_t row, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
-        const Jet<V> jet = columns.interior(RowGroups<kRows, V>::spread(y));
-        tile.store(to.position + at, nu, jet.p, rows, extra.plane(0) + row);
-        tile.store(to.du + at, nu, jet.du, rows, extra.plane(1) + row);
-        tile.store(to.dv + at, nu, jet.dv, rows, extra.plane(2) + row);
+      [&](const T* y, RowPlace place, RowPlace mirror) SIMDBEZIER_INLINE_LAMBDA {
+        Jet<V> jet;
+        Jet<V> mirrored;
+        columns.pair(RowPowers<T>::template point<kRows, V>(y), jet, mirrored);
+        tile.store(to.position + place.at, nu, jet.p, kRows, extra.plane(0) + place.row);
+        tile.store(to.du + place.at, nu, jet.du, kRows, extra.plane(1) + place.row);
+        tile.store(to.dv + place.at, nu, jet.dv, kRows, extra.plane(2) + place.row);
+        tile.store_mirrored(to.position + mirror.at, nu, mirrored.p, extra.plane(0) + mirror.row);
+        tile.store_mirrored(to.du + mirror.at, nu, mirrored.du, extra.plane(1) + mirror.row);
+        tile.store_mirrored(to.dv + mirror.at, nu, mirrored.dv, extra.plane(2) + mirror.row);
+      },
+      [&](const T* y, RowPlace place, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
+        const Jet<V> jet = columns.interior(RowPowers<T>::template point<kRows, V>(y));
+        tile.store(to.position + place.at, nu, jet.p, rows, extra.plane(0) + place.row);
+        tile.store(to.du + place.at, nu, jet.du, rows, extra.plane(1) + place.row);
+        tile.store(to.dv + place.at, nu, jet.dv, rows, extra.plane(2) + place.row);
       });
 }
 
@@ -177,20 +214,35 @@ SIMDBEZIER_INLINE void sweep_second(const GridTask<ScalarOf<V>>& task,
   T* const duv = task.out[detail::kDuvGroup].component[component];
   T* const dvv = task.out[detail::kDvvGroup].component[component];
   const std::size_t nu = task.nu;
-  for_rows<kRows>(
+  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
+  constexpr RowOrder kRowOrder{kRows, Tile::kPairs, 1};
+  for_rows<kRowOrder>(
       piece, first, nu,
-      [&](RowKind kind, std::size_t at, std::size_t) SIMDBEZIER_INLINE_LAMBDA {
+      [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
         const std::size_t edge = edge_of(kind);
         const RowPoint<V> y(tile.edge_y(edge));
-        tile.store_edge_if_wanted(duu, at, tile.edge_rows_second(c, edge), kind);
-        tile.store_edge_if_wanted(duv, at, columns.duv(y), kind);
-        tile.store_edge_if_wanted(dvv, at, columns.dvv(y), kind);
+        tile.store_edge_if_wanted(duu, place.at, tile.edge_rows_second(c, edge), kind);
+        tile.store_edge_if_wanted(duv, place.at, columns.duv(y), kind);
+        tile.store_edge_if_wanted(dvv, place.at, columns.dvv(y), kind);
       },
-      [&](const T* y, std::size_t at, std::size_t, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
-        const RowPoint<V> row(RowGroups<kRows, V>::spread(y));
-        tile.store_if_wanted(duu, at, nu, columns.duu(row), rows);
-        tile.store_if_wanted(duv, at, nu, columns.duv(row), rows);
-        tile.store_if_wanted(dvv, at, nu, columns.dvv(row), rows);
+      [&](const T* y, RowPlace place, RowPlace mirrored) SIMDBEZIER_INLINE_LAMBDA {
+        const auto at = RowPowers<T>::template point<kRows, V>(y);
+        const auto put = [&](T* plane, V here, V there) SIMDBEZIER_INLINE_LAMBDA {
+          tile.store_if_wanted(plane, place.at, nu, here, kRows);
+          tile.store_mirrored_if_wanted(plane, mirrored.at, nu, there);
+        };
+        const Parts<V> uu = columns.duu_parts(at);
+        const Parts<V> uv = columns.duv_parts(at);
+        const Parts<V> vv = columns.half_dvv_parts(at);
+        put(duu, uu.sum(), uu.difference());
+        put(duv, uv.sum(), uv.difference());
+        put(dvv, vv.sum() + vv.sum(), vv.difference() + vv.difference());
+      },
+      [&](const T* y, RowPlace place, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
+        const auto at = RowPowers<T>::template point<kRows, V>(y);
+        tile.store_if_wanted(duu, place.at, nu, columns.duu(at), rows);
+        tile.store_if_wanted(duv, place.at, nu, columns.duv(at), rows);
+        tile.store_if_wanted(dvv, place.at, nu, columns.dvv(at), rows);
       });
 }
 

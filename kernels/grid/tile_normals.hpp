@@ -50,39 +50,28 @@ struct NormalSweep {
     }
   }
 
-  SIMDBEZIER_INLINE void interior(const T* y, std::size_t at, std::size_t row, std::size_t rows,
-                                  V floor) const {
-    const V row_y = RowGroups<kRows, V>::spread(y);
-    V du[3];
-    V dv[3];
+  SIMDBEZIER_INLINE void interior(const T* y, RowPlace place, std::size_t rows, V floor) const {
+    const auto at = RowPowers<T>::template point<kRows, V>(y);
+    Tangents tangents;
     for (std::size_t c = 0; c < 3; ++c) {
-      const Jet<V> jet = columns[c].interior(row_y);
-      du[c] = jet.du;
-      dv[c] = jet.dv;
-      if constexpr (kAny) {
-        tile.store_if_wanted(plane(detail::kPositionGroup, c), at, task.nu, jet.p, rows);
-        tile.store_if_wanted(plane(detail::kDuGroup, c), at, task.nu, du[c], rows);
-        tile.store_if_wanted(plane(detail::kDvGroup, c), at, task.nu, dv[c], rows);
-      } else {
-        tile.store(plane(detail::kPositionGroup, c) + at, task.nu, jet.p, rows,
-                   extra.plane(c) + row);
-      }
+      store_jet<false>(c, columns[c].interior(at), place, rows, tangents);
     }
-    if (kAny && !task.out[detail::kNormalGroup].wanted()) {
-      return;
-    }
-    V n[3];
-    const V squared = cross_product(du, dv, n);
-    normalise(n, squared);
+    finish<false>(tangents, y, place, rows, floor);
+  }
+  /// kRows rows and their mirror images.
+  SIMDBEZIER_INLINE void pair(const T* y, RowPlace place, RowPlace mirror, V floor) const {
+    const auto at = RowPowers<T>::template point<kRows, V>(y);
+    Tangents tangents;
+    Tangents mirrored_tangents;
     for (std::size_t c = 0; c < 3; ++c) {
-      tile.store(plane(detail::kNormalGroup, c) + at, task.nu, n[c], rows,
-                 extra.plane(3 + c) + row);
+      Jet<V> jet;
+      Jet<V> mirrored;
+      columns[c].pair(at, jet, mirrored);
+      store_jet<false>(c, jet, place, kRows, tangents);
+      store_jet<true>(c, mirrored, mirror, kRows, mirrored_tangents);
     }
-    if (!all_of<V>(squared > floor)) [[unlikely]] {
-      resolve_normals(shared_task, patch,
-                      Suspects{0, tile.kColumns, tile.active, rows, at, task.nu, status_step},
-                      tile.column.x, row_y, squared, floor);
-    }
+    finish<false>(tangents, y, place, kRows, floor);
+    finish<true>(mirrored_tangents, y, mirror, kRows, floor);
   }
 
   /// On the edge v = const number `edge`, or on both where they share a register.
@@ -122,6 +111,64 @@ struct NormalSweep {
   }
 
 private:
+  /// Of one register of samples.
+  struct Tangents {
+    V du[3];
+    V dv[3];
+  };
+
+  /// One component; kMirrored: rows come from `place` back.
+  template <bool kMirrored>
+  SIMDBEZIER_INLINE void store_jet(std::size_t c, const Jet<V>& jet, RowPlace place,
+                                   std::size_t rows, Tangents& tangents) const {
+    tangents.du[c] = jet.du;
+    tangents.dv[c] = jet.dv;
+    store_rows<kMirrored>(detail::kPositionGroup, c, 0, jet.p, place, rows);
+    if constexpr (kAny) {
+      store_rows<kMirrored>(detail::kDuGroup, c, 0, jet.du, place, rows);
+      store_rows<kMirrored>(detail::kDvGroup, c, 0, jet.dv, place, rows);
+    }
+  }
+
+  /// Normals of rows whose other outputs have been stored.
+  template <bool kMirrored>
+  SIMDBEZIER_INLINE void finish(const Tangents& tangents, const T* y, RowPlace place,
+                                std::size_t rows, V floor) const {
+    if (kAny && !task.out[detail::kNormalGroup].wanted()) {
+      return;
+    }
+    V n[3];
+    const V squared = cross_product(tangents.du, tangents.dv, n);
+    normalise(n, squared);
+    for (std::size_t c = 0; c < 3; ++c) {
+      store_rows<kMirrored>(detail::kNormalGroup, c, 3, n[c], place, rows);
+    }
+    if (!all_of<V>(squared > floor)) [[unlikely]] {
+      const std::size_t row_step = kMirrored ? std::size_t{0} - task.nu : task.nu;
+      const V row_y = RowGroups<kRows, V>::spread(y);
+      resolve_normals(
+          shared_task, patch,
+          Suspects{0, tile.kColumns, tile.active, rows, place.at, row_step, status_step},
+          tile.column.x, kMirrored ? -row_y : row_y, squared, floor);
+    }
+  }
+
+  /// first: plane of the column behind the tile that belongs to component 0.
+  template <bool kMirrored>
+  SIMDBEZIER_INLINE void store_rows(std::size_t group, std::size_t c, std::size_t first, V value,
+                                    RowPlace place, std::size_t rows) const {
+    T* const to = plane(group, c);
+    if (kAny && to == nullptr) {
+      return;
+    }
+    const T* const behind = extra.plane(first + c) + place.row;
+    if constexpr (kMirrored) {
+      tile.store_mirrored(to + place.at, task.nu, value, behind);
+    } else {
+      tile.store(to + place.at, task.nu, value, rows, behind);
+    }
+  }
+
   SIMDBEZIER_INLINE T* plane(std::size_t group, std::size_t c) const {
     return task.out[group].component[c];
   }
@@ -145,17 +192,21 @@ SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task,
       shared = sweep.edge(0);
     }
   }
-  for_rows<kRows>(
+  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
+  constexpr RowOrder kRowOrder{kRows, Tile::kNormalPairs, 1};
+  for_rows<kRowOrder>(
       piece, first, task.nu,
-      [&](RowKind kind, std::size_t at, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
+      [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
         if constexpr (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
-          sweep.store_edge(shared, kind, at, row, floor);
+          sweep.store_edge(shared, kind, place.at, place.row, floor);
         } else {
-          sweep.store_edge(sweep.edge(edge_of(kind)), kind, at, row, floor);
+          sweep.store_edge(sweep.edge(edge_of(kind)), kind, place.at, place.row, floor);
         }
       },
-      [&](const T* y, std::size_t at, std::size_t row, std::size_t rows)
-          SIMDBEZIER_INLINE_LAMBDA { sweep.interior(y, at, row, rows, middle_floor); });
+      [&](const T* y, RowPlace place, RowPlace mirrored)
+          SIMDBEZIER_INLINE_LAMBDA { sweep.pair(y, place, mirrored, middle_floor); },
+      [&](const T* y, RowPlace place, std::size_t rows)
+          SIMDBEZIER_INLINE_LAMBDA { sweep.interior(y, place, rows, middle_floor); });
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -179,8 +179,14 @@ struct SecondColumns {
   }
 
   /// Away from the edges v = 0 and 1, where duu comes from the edge: edge_second().
-  SIMDBEZIER_INLINE V duu(const RowPoint<V>& at) const { return row_value(ddq, at); }
-  SIMDBEZIER_INLINE V duv(const RowPoint<V>& at) const { return row_slope(dq, at); }
+  SIMDBEZIER_INLINE Parts<V> duu_parts(const RowPoint<V>& at) const { return value_parts(ddq, at); }
+  SIMDBEZIER_INLINE Parts<V> duv_parts(const RowPoint<V>& at) const { return slope_parts(dq, at); }
+  /// Half of it, which is doubled last.
+  SIMDBEZIER_INLINE Parts<V> half_dvv_parts(const RowPoint<V>& at) const {
+    return half_second_parts(q, at);
+  }
+  SIMDBEZIER_INLINE V duu(const RowPoint<V>& at) const { return duu_parts(at).sum(); }
+  SIMDBEZIER_INLINE V duv(const RowPoint<V>& at) const { return duv_parts(at).sum(); }
   SIMDBEZIER_INLINE V dvv(const RowPoint<V>& at) const { return row_second(q, at); }
 };
 

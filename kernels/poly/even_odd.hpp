@@ -36,112 +36,113 @@ struct Parts {
   SIMDBEZIER_INLINE V difference() const { return even - odd; }
 };
 
-/// A parameter, or a register of them, with its square.
+/// A parameter, or a register of them, with what the formulas take besides.
 template <typename V>
 struct RowPoint {
   V y;
   V square;
+  V twice;        ///< 2 y
+  V twice_square; ///< 2 y^2
 
-  explicit SIMDBEZIER_INLINE RowPoint(V parameter) : y(parameter), square(parameter * parameter) {}
-  SIMDBEZIER_INLINE V times(V a) const { return y * a; }
-  SIMDBEZIER_INLINE V times_twice(V a) const { return (y + y) * a; }
-  SIMDBEZIER_INLINE V times_thrice(V a) const { return ((y + y) + y) * a; }
-  /// a * Y^2 + c
-  SIMDBEZIER_INLINE V add_square(V a, V c) const { return madd(a, square, c); }
-  SIMDBEZIER_INLINE V add_twice_square(V a, V c) const { return madd(a, square + square, c); }
-  SIMDBEZIER_INLINE V add_four_squares(V a, V c) const {
-    const V twice = square + square;
-    return madd(a, twice + twice, c);
-  }
-  /// a * 4 Y^3 + c
-  SIMDBEZIER_INLINE V add_four_cubes(V a, V c) const {
-    const V twice = square + square;
-    return madd(a, (twice + twice) * y, c);
-  }
+  explicit SIMDBEZIER_INLINE RowPoint(V parameter)
+      : y(parameter), square(y * y), twice(y + y), twice_square(square + square) {}
+  SIMDBEZIER_INLINE RowPoint(V the_y, V the_square, V the_twice, V the_twice_square)
+      : y(the_y), square(the_square), twice(the_twice), twice_square(the_twice_square) {}
 };
 
-/// Both parts of a polynomial with kCoefficients coefficients, and their derivatives by the square.
-/// What is not asked for costs nothing: the compiler drops it.
-template <std::size_t kCoefficients, typename V>
-struct EvenOdd {
+// The parts of polynomials with kCoefficients coefficients c(0), c(1), … Functions, and no object
+// that holds what they share: the compiler finds that by itself, and would keep objects in memory.
+
+/// The even part by Horner's rule in the square; kOdd: the odd one.
+template <std::size_t kCoefficients, bool kOdd, typename V, typename Coefficient>
+SIMDBEZIER_INLINE V part(const Coefficient& c, const RowPoint<V>& at) {
+  constexpr std::size_t kFirst = kOdd ? 1 : 0;
+  if constexpr (kFirst + 4 < kCoefficients) {
+    return madd(madd(c(kFirst + 4), at.square, c(kFirst + 2)), at.square, c(kFirst));
+  } else {
+    return madd(c(kFirst + 2), at.square, c(kFirst));
+  }
+}
+/// Its derivative by the square.
+template <std::size_t kCoefficients, bool kOdd, typename V, typename Coefficient>
+SIMDBEZIER_INLINE V part_slope(const Coefficient& c, const RowPoint<V>& at) {
+  constexpr std::size_t kFirst = kOdd ? 1 : 0;
+  if constexpr (kFirst + 4 < kCoefficients) {
+    return madd(c(kFirst + 4), at.square, madd(c(kFirst + 4), at.square, c(kFirst + 2)));
+  } else {
+    return c(kFirst + 2);
+  }
+}
+
+template <std::size_t kCoefficients, typename V, typename Coefficient>
+SIMDBEZIER_INLINE Parts<V> value_parts_of(const Coefficient& c, const RowPoint<V>& at) {
+  return {part<kCoefficients, false>(c, at), at.y * part<kCoefficients, true>(c, at)};
+}
+template <std::size_t kCoefficients, typename V, typename Coefficient>
+SIMDBEZIER_INLINE Parts<V> slope_parts_of(const Coefficient& c, const RowPoint<V>& at) {
+  return {madd(part_slope<kCoefficients, true>(c, at), at.twice_square,
+               part<kCoefficients, true>(c, at)),
+          at.twice * part_slope<kCoefficients, false>(c, at)};
+}
+/// Of half of the second derivative.
+template <std::size_t kCoefficients, typename V, typename Coefficient>
+SIMDBEZIER_INLINE Parts<V> half_second_parts_of(const Coefficient& c, const RowPoint<V>& at) {
   static_assert(takes_even_odd(kCoefficients));
-  V even;
-  V even_first;
-  V even_second; ///< half of it; of degrees 4 and 5
-  V odd;
-  V odd_first;
-  V odd_second; ///< half of it; of degree 5
+  V even = part_slope<kCoefficients, false>(c, at);
+  V odd = (at.twice + at.y) * part_slope<kCoefficients, true>(c, at);
+  const V four_squares = at.twice_square + at.twice_square;
+  if constexpr (kCoefficients > 4) {
+    even = madd(c(4), four_squares, even);
+  }
+  if constexpr (kCoefficients == 6) {
+    odd = madd(c(5), four_squares * at.y, odd);
+  }
+  return {even, odd};
+}
 
-  /// c(k): coefficient k. Point: RowPoint or another with its operations.
-  template <typename Point, typename Coefficient>
-  SIMDBEZIER_INLINE EvenOdd(const Point& at, const Coefficient& c) {
-    if constexpr (kCoefficients == 4) {
-      even_first = even_second = c(2);
-      even = at.add_square(even_first, c(0));
-    } else {
-      const V b = at.add_square(c(4), c(2));
-      even = at.add_square(b, c(0));
-      even_first = at.add_square(c(4), b);
-      even_second = c(4);
-    }
-    if constexpr (kCoefficients < 6) {
-      odd_first = odd_second = c(3);
-      odd = at.add_square(odd_first, c(1));
-    } else {
-      const V b = at.add_square(c(5), c(3));
-      odd = at.add_square(b, c(1));
-      odd_first = at.add_square(c(5), b);
-      odd_second = c(5);
-    }
-  }
+// Of cubics whose coefficients stand in an array.
 
-  template <typename Point>
-  SIMDBEZIER_INLINE Parts<V> value(const Point& at) const {
-    return {even, at.times(odd)};
-  }
-  template <typename Point>
-  SIMDBEZIER_INLINE Parts<V> slope(const Point& at) const {
-    return {at.add_twice_square(odd_first, odd), at.times_twice(even_first)};
-  }
-  /// Of the second derivative.
-  template <typename Point>
-  SIMDBEZIER_INLINE Parts<V> half_second(const Point& at) const {
-    Parts<V> parts{even_first, at.times_thrice(odd_first)};
-    if constexpr (kCoefficients > 4) {
-      parts.even = at.add_four_squares(even_second, even_first);
-    }
-    if constexpr (kCoefficients == 6) {
-      parts.odd = at.add_four_cubes(odd_second, parts.odd);
-    }
-    return parts;
-  }
-};
-
-/// The parts of a cubic whose coefficients stand in an array.
-template <typename V, typename Point>
-SIMDBEZIER_INLINE EvenOdd<4, V> cubic_parts(const V c[4], const Point& at) {
-  return EvenOdd<4, V>(at, [c](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return c[k]; });
+template <typename V>
+SIMDBEZIER_INLINE Parts<V> value_parts(const V c[4], const RowPoint<V>& at) {
+  return {madd(c[2], at.square, c[0]), at.y * madd(c[3], at.square, c[1])};
+}
+/// The same, and those of the slope.
+template <typename V>
+SIMDBEZIER_INLINE Parts<V> value_parts(const V c[4], const RowPoint<V>& at, Parts<V>& slope) {
+  const V odd = madd(c[3], at.square, c[1]);
+  slope.even = madd(c[3], at.twice_square, odd);
+  slope.odd = at.twice * c[2];
+  return {madd(c[2], at.square, c[0]), at.y * odd};
+}
+template <typename V>
+SIMDBEZIER_INLINE Parts<V> slope_parts(const V c[4], const RowPoint<V>& at) {
+  return {madd(c[3], at.twice_square, madd(c[3], at.square, c[1])), at.twice * c[2]};
+}
+template <typename V>
+SIMDBEZIER_INLINE Parts<V> half_second_parts(const V c[4], const RowPoint<V>& at) {
+  return {c[2], (at.twice + at.y) * c[3]};
 }
 
 /// A cubic row, edge or curve at one parameter.
-template <typename V, typename Point>
-SIMDBEZIER_INLINE V row_value(const V c[4], const Point& at) {
-  return cubic_parts(c, at).value(at).sum();
+template <typename V>
+SIMDBEZIER_INLINE V row_value(const V c[4], const RowPoint<V>& at) {
+  return value_parts(c, at).sum();
 }
 /// The same value, bit for bit, and its derivative.
-template <typename V, typename Point>
-SIMDBEZIER_INLINE V row_value(const V c[4], const Point& at, V& slope) {
-  const EvenOdd<4, V> parts = cubic_parts(c, at);
-  slope = parts.slope(at).sum();
-  return parts.value(at).sum();
+template <typename V>
+SIMDBEZIER_INLINE V row_value(const V c[4], const RowPoint<V>& at, V& slope) {
+  Parts<V> of_slope;
+  const Parts<V> value = value_parts(c, at, of_slope);
+  slope = of_slope.sum();
+  return value.sum();
 }
-template <typename V, typename Point>
-SIMDBEZIER_INLINE V row_slope(const V c[4], const Point& at) {
-  return cubic_parts(c, at).slope(at).sum();
+template <typename V>
+SIMDBEZIER_INLINE V row_slope(const V c[4], const RowPoint<V>& at) {
+  return slope_parts(c, at).sum();
 }
-template <typename V, typename Point>
-SIMDBEZIER_INLINE V row_second(const V c[4], const Point& at) {
-  const V half = cubic_parts(c, at).half_second(at).sum();
+template <typename V>
+SIMDBEZIER_INLINE V row_second(const V c[4], const RowPoint<V>& at) {
+  const V half = half_second_parts(c, at).sum();
   return half + half;
 }
 

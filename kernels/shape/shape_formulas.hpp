@@ -5,9 +5,8 @@
 // synthetic division. Where bicubic patches go through here, they get the same bits.
 #pragma once
 
-#include <utility>
-
 #include "kernels/poly/bicubic.hpp"
+#include "kernels/simd/repeat.hpp"
 #include "src/storage/net_shape.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -29,15 +28,7 @@ private:
   std::size_t order_;
 };
 
-/// f(0), f(1), … f(kCount - 1), each in code of its own, so that arrays can live in registers.
-template <std::size_t kCount, typename F>
-SIMDBEZIER_INLINE void repeat(const F& f) {
-  [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) SIMDBEZIER_INLINE_LAMBDA {
-    (f(kIndex), ...);
-  }
-  (std::make_index_sequence<kCount>());
-}
-/// The same for every coefficient, in a loop where the compiler does not know how many there are.
+/// repeat() for every coefficient, but a loop where the compiler does not know how many there are.
 template <std::size_t kFixed, typename F>
 SIMDBEZIER_INLINE void for_coefficients(Order<kFixed> order, const F& f) {
   if constexpr (kFixed != 0) {
@@ -125,14 +116,13 @@ SIMDBEZIER_INLINE Series<V> horner_series(N order, V t, const Coefficient& c) {
 template <std::size_t kDepth, std::size_t kOrder, typename V, typename Coefficient>
 SIMDBEZIER_INLINE Series<V> even_odd_series(V t, const Coefficient& c) {
   const RowPoint<V> at(t);
-  const EvenOdd<kOrder, V> parts(at, c);
   Series<V> s;
-  s.value = parts.value(at).sum();
+  s.value = value_parts_of<kOrder>(c, at).sum();
   if constexpr (kDepth > 0) {
-    s.first = parts.slope(at).sum();
+    s.first = slope_parts_of<kOrder>(c, at).sum();
   }
   if constexpr (kDepth > 1) {
-    s.second = parts.half_second(at).sum();
+    s.second = half_second_parts_of<kOrder>(c, at).sum();
   }
   return s;
 }
