@@ -58,7 +58,8 @@ struct ColumnTile {
   /// Whether rows and their mirror images are computed together: where both are whole registers of
   /// their own. Others share cache lines with the rows beside them, and are faster one behind the
   /// other, but for normals, whose arithmetic counts for more.
-  static constexpr bool kPairs = kRows == 1 && kWhole && !kExtra;
+  static constexpr bool kPairs =
+      kRows == 1 && kWhole && !kExtra && (kLineWide<V> || kLanes<V> == kLanes<vec<T>>);
   static constexpr bool kNormalPairs = kRows == 1 || (kRows == 2 && kWhole && kLanes<V> > 2);
   static constexpr bool kShared = kRows > 1; ///< edges v = const share a register
   static constexpr bool kSingle = kRows == kLanes<V> && kHasFours<V>; ///< all lanes one column

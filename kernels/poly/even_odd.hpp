@@ -7,7 +7,7 @@
 // as well: p(-Y) is E - Y O bit for bit, as the squares are the same and rounding to nearest is
 // odd.
 //
-// The rule stands in takes_even_odd(), by the degree of the one-dimensional polynomial alone.
+// The rule stands in src/storage/even_odd.hpp, by the degree of the one-dimensional polynomial alone.
 // Columns (a patch's first direction) keep Horner's rule: nothing there is shared. Degrees 1 and 2
 // would gain nothing, and from degree 6 on rows Y and -Y lie in different cells (net_shape.hpp).
 //
@@ -19,11 +19,14 @@
 #pragma once
 
 #include "kernels/simd/operands.hpp"
+#include "src/storage/even_odd.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 /// Whether rows, edges and curves with so many coefficients take these formulas.
-constexpr bool takes_even_odd(std::size_t order) { return order >= 4 && order <= 6; }
+constexpr bool takes_even_odd(std::size_t order) {
+  return detail::is_even_odd(static_cast<int>(order) - 1);
+}
 
 /// What is at Y the sum of two parts, and at -Y their difference. Slopes are even in their odd
 /// part: `even` is what both have in common.
