@@ -58,8 +58,7 @@ struct ColumnTile {
   /// Whether rows and their mirror images are computed together: where both are whole registers of
   /// their own. Others share cache lines with the rows beside them, and are faster one behind the
   /// other, but for normals, whose arithmetic counts for more.
-  static constexpr bool kPairs =
-      kRows == 1 && kWhole && !kExtra && (kLineWide<V> || kLanes<V> == kLanes<vec<T>>);
+  static constexpr bool kPairs = kRows == 1 && kWhole && !kExtra;
   static constexpr bool kNormalPairs = kRows == 1 || (kRows == 2 && kWhole && kLanes<V> > 2);
   static constexpr bool kShared = kRows > 1; ///< edges v = const share a register
   static constexpr bool kSingle = kRows == kLanes<V> && kHasFours<V>; ///< all lanes one column
@@ -103,7 +102,9 @@ struct ColumnTile {
   /// kRows rows in reverse order, from the one at `to` back.
   SIMDBEZIER_INLINE void store_mirrored(T* to, std::size_t step, V value, const T* extra) const {
     if constexpr (kRows == 1) {
+      keep_stores_apart();
       store(to, step, value, 1, extra);
+      keep_stores_apart();
     } else if constexpr (kNormalPairs) {
       static_assert(!kExtra);
       store_lanes_from<kColumns, 0>(to, value, columns());
@@ -185,6 +186,14 @@ struct ColumnTile {
   }
 
 private:
+  /// Both halves of a line must be stored one after the other, or processors take twice as long for
+  /// them; compilers would store a half of a row between those of its mirror image.
+  static SIMDBEZIER_INLINE void keep_stores_apart() {
+    if constexpr (kLanes<V> != kLanes<vec<T>>) {
+      asm volatile("" ::: "memory");
+    }
+  }
+
   /// As `active`; known to the compiler where all exist.
   SIMDBEZIER_INLINE std::size_t columns() const { return kWhole ? kColumns : active; }
 

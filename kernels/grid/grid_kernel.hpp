@@ -197,10 +197,13 @@ SIMDBEZIER_INLINE bool sweep_square_of(std::index_sequence<kSides...>, const Gri
 
 /// The squares that gain by code of their own, 5 to 60 %: 2^k and 2^k + 1, as far as neither stores
 /// (derivatives of 32) nor roots (normals of 16 and more) set the pace.
-template <detail::OutputSet kOutputs>
+/// Straight code of registers of 32 bytes for positions of 32 is slower than a loop of pairs.
+template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_INLINE constexpr auto known_sides() {
-  if constexpr (kOutputs == detail::kPosition) {
+  if constexpr (kOutputs == detail::kPosition && kLineWide<vec<T>>) {
     return std::index_sequence<8, 9, 16, 17, 32, 33>{};
+  } else if constexpr (kOutputs == detail::kPosition) {
+    return std::index_sequence<8, 9, 16, 17>{};
   } else if constexpr (kOutputs == detail::kPositionDerivatives) {
     return std::index_sequence<8, 9, 16, 17, 33>{};
   } else {
@@ -236,7 +239,7 @@ SIMDBEZIER_INLINE void sweep_patches(const GridTask<T>& task, const ColumnSplit<
     }
     if constexpr (kKnowsSquares<kOutputs, T>) {
       if (task.watertight &&
-          sweep_square_of<kOutputs>(known_sides<kOutputs>(), task, piece, patch, end)) {
+          sweep_square_of<kOutputs>(known_sides<kOutputs, T>(), task, piece, patch, end)) {
         return;
       }
     }
