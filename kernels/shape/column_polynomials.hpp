@@ -77,7 +77,16 @@ struct ColumnPolynomials {
       });
     } else {
       slots.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-        store(jet, slot, partials(order, power[slot], y));
+        const Series<V> along_v = row_series<kDepth>(order, y, coefficients(power[slot][0]));
+        jet.position[slot] = along_v.value;
+        jet.dv[slot] = along_v.first;
+        const Series<V> of_slopes = row_series<kDepth - 1>(order, y, coefficients(power[slot][1]));
+        jet.du[slot] = of_slopes.value;
+        if constexpr (kDepth > 1) {
+          jet.dvv[slot] = along_v.second;
+          jet.duv[slot] = of_slopes.first;
+          jet.duu[slot] = row_series<0>(order, y, coefficients(power[slot][2])).value;
+        }
       });
     }
     if (origins != nullptr) {

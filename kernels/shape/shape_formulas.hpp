@@ -98,9 +98,8 @@ struct Series {
 
 /// sum_k c(k) t^k, and derivatives up to kDepth, for order >= 2: a column.
 template <std::size_t kDepth, typename V, typename N, typename Coefficient>
-SIMDBEZIER_INLINE Series<V> horner_series(N order, V t, const Coefficient& c) {
+SIMDBEZIER_INLINE void horner_into(N order, V t, const Coefficient& c, Series<V>& s) {
   const std::size_t degree = order.value() - 1;
-  Series<V> s;
   s.template begin<kDepth>(c(degree), c(degree - 1), t);
   if (degree > 1) {
     s.template add_third<kDepth>(c(degree - 2), t);
@@ -109,45 +108,83 @@ SIMDBEZIER_INLINE Series<V> horner_series(N order, V t, const Coefficient& c) {
     }
   }
   s.template finish<kDepth>(degree, t);
+}
+template <std::size_t kDepth, typename V, typename N, typename Coefficient>
+SIMDBEZIER_INLINE Series<V> horner_series(N order, V t, const Coefficient& c) {
+  Series<V> s;
+  horner_into<kDepth>(order, t, c, s);
   return s;
 }
 
-/// The same of a row, an edge or a curve with so many coefficients; `second` is half of it.
+/// The same of a row, an edge or a curve with kOrder coefficients, by even and odd parts; `second`
+/// is half of it. Single values, where objects would end up in memory.
 template <std::size_t kDepth, std::size_t kOrder, typename V, typename Coefficient>
-SIMDBEZIER_INLINE Series<V> even_odd_series(V t, const Coefficient& c) {
-  const RowPoint<V> at(t);
-  Series<V> s;
-  s.value = value_parts_of<kOrder>(c, at).sum();
+SIMDBEZIER_INLINE void even_odd_series(V t, const Coefficient& c, Series<V>& s) {
+  const V square = t * t;
+  V even_first = c(2);
+  if constexpr (kOrder > 4) {
+    even_first = madd(c(4), square, even_first);
+  }
+  V odd_first = c(3);
+  if constexpr (kOrder > 5) {
+    odd_first = madd(c(5), square, odd_first);
+  }
+  const V odd = madd(odd_first, square, c(1));
+  s.value = madd(even_first, square, c(0)) + t * odd;
   if constexpr (kDepth > 0) {
-    s.first = slope_parts_of<kOrder>(c, at).sum();
+    if constexpr (kOrder > 4) {
+      even_first = madd(c(4), square, even_first);
+    }
+    if constexpr (kOrder > 5) {
+      odd_first = madd(c(5), square, odd_first);
+    }
+    s.first = madd(odd_first, square + square, odd) + (t + t) * even_first;
   }
   if constexpr (kDepth > 1) {
-    s.second = half_second_parts_of<kOrder>(c, at).sum();
+    const V twice = square + square;
+    V half_odd = ((t + t) + t) * odd_first;
+    if constexpr (kOrder > 5) {
+      half_odd = madd(c(5), (twice + twice) * t, half_odd);
+    }
+    if constexpr (kOrder > 4) {
+      even_first = madd(c(4), twice + twice, even_first);
+    }
+    s.second = even_first + half_odd;
   }
-  return s;
 }
+
+/// The same of an order that takes even and odd parts.
 template <std::size_t kDepth, std::size_t kFixed, typename V, typename Coefficient>
-SIMDBEZIER_INLINE Series<V> even_odd_series(Order<kFixed> order, V t, const Coefficient& c) {
+SIMDBEZIER_INLINE void even_odd_series(Order<kFixed> order, V t, const Coefficient& c,
+                                       Series<V>& s) {
   if constexpr (kFixed != 0) {
-    return even_odd_series<kDepth, kFixed>(t, c);
+    even_odd_series<kDepth, kFixed>(t, c, s);
+  } else if (order.value() == 4) {
+    even_odd_series<kDepth, 4>(t, c, s);
+  } else if (order.value() == 5) {
+    even_odd_series<kDepth, 5>(t, c, s);
   } else {
-    return order.value() == 4   ? even_odd_series<kDepth, 4>(t, c)
-           : order.value() == 5 ? even_odd_series<kDepth, 5>(t, c)
-                                : even_odd_series<kDepth, 6>(t, c);
+    even_odd_series<kDepth, 6>(t, c, s);
   }
 }
 
 /// The same of any row, edge or curve.
 template <std::size_t kDepth, std::size_t kFixed, typename V, typename Coefficient>
 SIMDBEZIER_INLINE Series<V> row_series(Order<kFixed> order, V t, const Coefficient& c) {
-  if constexpr (kFixed == 0 || takes_even_odd(kFixed)) {
-    if (takes_even_odd(order.value())) {
-      Series<V> s = even_odd_series<kDepth>(order, t, c);
-      s.template finish<kDepth>(order.value() - 1, t);
-      return s;
+  if constexpr (kFixed != 0 && !takes_even_odd(kFixed)) {
+    return horner_series<kDepth>(order, t, c);
+  } else {
+    Series<V> s;
+    if (kFixed != 0 || takes_even_odd(order.value())) {
+      even_odd_series<kDepth>(order, t, c, s);
+      if constexpr (kDepth > 1) {
+        s.second = s.second + s.second;
+      }
+    } else {
+      horner_into<kDepth>(order, t, c, s);
     }
+    return s;
   }
-  return horner_series<kDepth>(order, t, c);
 }
 
 /// horner_series() of kCount polynomials at once, from coefficients [power][polynomial]. Their sums
