@@ -22,17 +22,43 @@ SIMDBEZIER_INLINE V whole_above(V x) {
   return select_where<V>(below < x, below + broadcast<V>(ScalarOf<V>(1)), below);
 }
 
+/// Three edge terms of a triangle in order, and how far the largest one is above the sum of the
+/// others. Where one of them is far smaller than the rest, differences of their products would have
+/// few right digits; those of neighbours have.
+template <typename V>
+struct SortedTerms {
+  V least;
+  V middle;
+  V largest;
+  V excess;
+
+  SIMDBEZIER_INLINE SortedTerms(V a, V c, V d) {
+    const V low = smaller_of<V>(a, c);
+    const V high = larger_of<V>(a, c);
+    least = smaller_of<V>(low, d);
+    middle = larger_of<V>(low, smaller_of<V>(high, d));
+    largest = larger_of<V>(high, d);
+    excess = (largest - middle) - least;
+  }
+  [[nodiscard]] SIMDBEZIER_INLINE MaskOf<V> obtuse() const {
+    return excess >= broadcast<V>(ScalarOf<V>(0));
+  }
+  /// Twice the products of two less the squares.
+  [[nodiscard]] SIMDBEZIER_INLINE V divisor() const {
+    const V product = (least + least) * (middle + middle);
+    return product - excess * excess;
+  }
+};
+
 /// The largest value of sum l_i l_j q_ij / 2 over a triangle, for three squared edge terms.
 template <typename V>
 SIMDBEZIER_INLINE V triangle_bound(V a, V c, V d) {
   using T = ScalarOf<V>;
-  const V largest = larger_of<V>(larger_of<V>(a, c), d);
-  const V sum = a + c + d;
-  const V products = madd(a, c, madd(c, d, d * a));
-  const V squares = madd(a, a, madd(c, c, d * d));
-  const V divisor = (products + products) - squares;
-  const V inside = divide(a * c * d, larger_of<V>(divisor + divisor, broadcast<V>(kSmallest<T>)));
-  return select_where<V>(largest + largest < sum, inside, largest * broadcast<V>(T(0.125)));
+  const SortedTerms<V> terms(a, c, d);
+  const V divisor = terms.divisor();
+  const V inside = divide(terms.least * terms.middle * terms.largest,
+                          larger_of<V>(divisor + divisor, broadcast<V>(kSmallest<T>)));
+  return select_where<V>(terms.obtuse(), terms.largest * broadcast<V>(T(0.125)), inside);
 }
 
 /// What every zone of cells is bounded by.

@@ -70,14 +70,10 @@ SIMDBEZIER_INLINE ZoneTerms<V> leading_terms(const QuarterNets<V>& nets, const L
 /// Whether triangle_bound() may be at most t, by products instead of a quotient.
 template <typename V>
 SIMDBEZIER_INLINE MaskOf<V> is_triangle_within(V a, V c, V d, V t) {
-  using T = ScalarOf<V>;
-  const V largest = larger_of<V>(larger_of<V>(a, c), d);
-  const V products = madd(a, c, madd(c, d, d * a));
-  const V squares = madd(a, a, madd(c, c, d * d));
-  const V divisor = (products + products) - squares;
-  const MaskOf<V> obtuse = largest + largest >= a + c + d;
-  return (largest * broadcast<V>(T(0.125)) <= t) &
-         (obtuse | (a * c * d <= t * (divisor + divisor)));
+  const SortedTerms<V> terms(a, c, d);
+  const V divisor = terms.divisor();
+  return (terms.largest * broadcast<V>(ScalarOf<V>(0.125)) <= t) &
+         (terms.obtuse() | (terms.least * terms.middle * terms.largest <= t * (divisor + divisor)));
 }
 
 /// The square of a vector along a diagonal, as a quadratic form of the steps.

@@ -9,12 +9,18 @@ namespace simdbezier::detail {
 /// Largest value of (l0 l1 a + l0 l2 b + l1 l2 c) / 2 over the triangle, a, b, c >= 0: s/8 with s
 /// the largest of them where that one is at least half of the sum, else half of the square of a
 /// circumradius.
+///
+/// Where one of them is far smaller than the rest, differences of their products would have few
+/// right digits; those of neighbours in their order have.
 inline double triangle_bound(double a, double b, double c) {
+  const double least = std::min({a, b, c});
   const double largest = std::max({a, b, c});
-  if (2 * largest >= a + b + c) {
+  const double middle = std::max(std::min(a, b), std::min(std::max(a, b), c));
+  const double excess = (largest - middle) - least;
+  if (excess >= 0) {
     return largest / 8;
   }
-  return a * b * c / (4 * (a * b + b * c + c * a) - 2 * (a * a + b * b + c * c));
+  return least * middle * largest / (2 * (4 * least * middle - excess * excess));
 }
 
 /// Parameters of samples are rounded, so that one of n steps may be so many times as long as 1/n.

@@ -1,4 +1,5 @@
 // Bounds of very small and very large models are those of usual ones, times the scale.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -142,6 +143,64 @@ TEST(MeshAttributes, have_as_many_components_as_the_set_has_behind_the_first) {
   EXPECT_EQ(status_of(Vectors<float>::xyz(to.data(), 3), 1), Status::bad_components);
   EXPECT_EQ(status_of(Vectors<float>::pairs(to.data(), 3), 1), Status::ok);
   EXPECT_EQ(status_of(Vectors<float>::pairs(to.data(), 3), 2), Status::bad_components);
+}
+
+/// The largest value of sum l_i l_j q_ij / 2 over a triangle, q being the terms of its edges.
+long double bound_of(long double a, long double b, long double c) {
+  const long double largest = std::max({a, b, c});
+  if (2 * largest >= a + b + c) {
+    return largest / 8;
+  }
+  return a * b * c / (4 * (a * b + b * c + c * a) - 2 * (a * a + b * b + c * c));
+}
+
+/// (u, v, 0) + ratio u^2 a + v^2 c, which has one bound everywhere, with the angle between unit
+/// vectors a and c.
+template <typename T>
+std::vector<T> bent(double ratio, double angle) {
+  constexpr double kLinear[] = {0, 1.0 / 3, 2.0 / 3, 1};
+  constexpr double kSquare[] = {0, 0, 1.0 / 3, 1};
+  std::vector<T> values;
+  for (std::size_t j = 0; j < 4; ++j) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double a = ratio * kSquare[i];
+      values.push_back(static_cast<T>(kLinear[i] + a * std::sin(angle)));
+      values.push_back(static_cast<T>(kLinear[j]));
+      values.push_back(static_cast<T>(kSquare[j] + a * std::cos(angle)));
+    }
+  }
+  return values;
+}
+
+template <typename T>
+double certified_cell(const std::vector<T>& values) {
+  const auto nets = ControlNets<T>::packed(std::span<const T>(values));
+  Topology topology;
+  EXPECT_EQ(find_topology(nets, topology), Status::ok);
+  std::vector<std::uint32_t> one(1, 1);
+  std::vector<std::uint16_t> diagonals(1);
+  std::vector<double> deviation(1);
+  EXPECT_EQ(certify_rates<T>({&nets, 1}, topology, {}, {one, one, diagonals, deviation}).status,
+            Status::ok);
+  return deviation[0];
+}
+
+TEST(MeshScale, certificates_hold_where_a_patch_bends_far_more_one_way) {
+  for (const double ratio : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5}) {
+    for (int k = 0; k <= 60; ++k) {
+      const double angle = 0.05 * k;
+      const std::vector<float> rounded = bent<float>(ratio, angle);
+      const double in_float = certified_cell(rounded);
+      const double in_double = certified_cell(std::vector<double>(rounded.begin(), rounded.end()));
+      EXPECT_GE(in_float, in_double) << ratio << ", angle " << angle;
+      EXPECT_LE(in_float, in_double * 1.0001);
+      const auto a = static_cast<long double>(ratio);
+      const long double d =
+          std::sqrt(1 + a * a + 2 * a * std::cos(static_cast<long double>(angle)));
+      const double exact = certified_cell(bent<double>(ratio, angle));
+      EXPECT_GE(exact, static_cast<double>(2 * bound_of(a, 1, d)) * (1 - 1e-15));
+    }
+  }
 }
 
 } // namespace
