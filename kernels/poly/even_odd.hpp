@@ -7,9 +7,10 @@
 // as well: p(-Y) is E - Y O bit for bit, as the squares are the same and rounding to nearest is
 // odd.
 //
-// The rule stands in src/storage/even_odd.hpp, by the degree of the one-dimensional polynomial alone.
-// Columns (a patch's first direction) keep Horner's rule: nothing there is shared. Degrees 1 and 2
-// would gain nothing, and from degree 6 on rows Y and -Y lie in different cells (net_shape.hpp).
+// The rule stands in src/storage/even_odd.hpp, by the degree of the one-dimensional polynomial
+// alone. Columns (a patch's first direction) keep Horner's rule: nothing there is shared. Degrees 1
+// and 2 would gain nothing, and from degree 6 on rows Y and -Y lie in different cells
+// (net_shape.hpp).
 //
 // Order of operations, on which the bits of every result hang, with Z = Y * Y rounded:
 //   value   E + Y * O, both parts by Horner's rule in Z; the product is rounded before the sum
@@ -53,57 +54,9 @@ struct RowPoint {
       : y(the_y), square(the_square), twice(the_twice), twice_square(the_twice_square) {}
 };
 
-// The parts of polynomials with kCoefficients coefficients c(0), c(1), … Functions, and no object
-// that holds what they share: the compiler finds that by itself, and would keep objects in memory.
-
-/// The even part by Horner's rule in the square; kOdd: the odd one.
-template <std::size_t kCoefficients, bool kOdd, typename V, typename Coefficient>
-SIMDBEZIER_INLINE V part(const Coefficient& c, const RowPoint<V>& at) {
-  constexpr std::size_t kFirst = kOdd ? 1 : 0;
-  if constexpr (kFirst + 4 < kCoefficients) {
-    return madd(madd(c(kFirst + 4), at.square, c(kFirst + 2)), at.square, c(kFirst));
-  } else {
-    return madd(c(kFirst + 2), at.square, c(kFirst));
-  }
-}
-/// Its derivative by the square.
-template <std::size_t kCoefficients, bool kOdd, typename V, typename Coefficient>
-SIMDBEZIER_INLINE V part_slope(const Coefficient& c, const RowPoint<V>& at) {
-  constexpr std::size_t kFirst = kOdd ? 1 : 0;
-  if constexpr (kFirst + 4 < kCoefficients) {
-    return madd(c(kFirst + 4), at.square, madd(c(kFirst + 4), at.square, c(kFirst + 2)));
-  } else {
-    return c(kFirst + 2);
-  }
-}
-
-template <std::size_t kCoefficients, typename V, typename Coefficient>
-SIMDBEZIER_INLINE Parts<V> value_parts_of(const Coefficient& c, const RowPoint<V>& at) {
-  return {part<kCoefficients, false>(c, at), at.y * part<kCoefficients, true>(c, at)};
-}
-template <std::size_t kCoefficients, typename V, typename Coefficient>
-SIMDBEZIER_INLINE Parts<V> slope_parts_of(const Coefficient& c, const RowPoint<V>& at) {
-  return {madd(part_slope<kCoefficients, true>(c, at), at.twice_square,
-               part<kCoefficients, true>(c, at)),
-          at.twice * part_slope<kCoefficients, false>(c, at)};
-}
-/// Of half of the second derivative.
-template <std::size_t kCoefficients, typename V, typename Coefficient>
-SIMDBEZIER_INLINE Parts<V> half_second_parts_of(const Coefficient& c, const RowPoint<V>& at) {
-  static_assert(takes_even_odd(kCoefficients));
-  V even = part_slope<kCoefficients, false>(c, at);
-  V odd = (at.twice + at.y) * part_slope<kCoefficients, true>(c, at);
-  const V four_squares = at.twice_square + at.twice_square;
-  if constexpr (kCoefficients > 4) {
-    even = madd(c(4), four_squares, even);
-  }
-  if constexpr (kCoefficients == 6) {
-    odd = madd(c(5), four_squares * at.y, odd);
-  }
-  return {even, odd};
-}
-
-// Of cubics whose coefficients stand in an array.
+// The parts of cubics whose coefficients stand in an array; those of degrees 4 and 5 are in
+// shape/shape_formulas.hpp. Functions, and no object that holds what they share: the compiler finds
+// that by itself, and would keep objects in memory.
 
 template <typename V>
 SIMDBEZIER_INLINE Parts<V> value_parts(const V c[4], const RowPoint<V>& at) {
