@@ -96,6 +96,30 @@ void register_horner(const std::string& call, const std::string& isa, LimitKerne
       ->Unit(benchmark::kMicrosecond);
 }
 
+/// The library's rows, from registers: a pair of them at a time.
+template <typename T>
+void register_pairs(const std::string& isa, LimitKernels<T> kernels) {
+  auto run = [pairs_store = kernels.pairs_store](benchmark::State& state) {
+    constexpr std::size_t kCount = kHornerBytes / sizeof(T);
+    T* const out = reinterpret_cast<T*>(output_buffer());
+    if (out == nullptr) {
+      return fail_row(state, "no memory for the output");
+    }
+    const T inputs[5] = {T(0.5), 1, 2, 4, 8};
+    std::fill_n(out, kCount, T(0));
+    pairs_store(out, kCount, inputs);
+    for (std::size_t k = 0; k < kCount; ++k) {
+      if (out[k] != T(k < kCount / 2 ? 4 : 0)) { // 1 +- 2/2 + 4/4 +- 8/8
+        return fail_row(state, "wrong value of the polynomial");
+      }
+    }
+    time_calls(state, 1, static_cast<double>(kCount) / 3, static_cast<double>(kHornerBytes),
+               [&] { pairs_store(out, kCount, inputs); });
+  };
+  benchmark::RegisterBenchmark(("limit/pairs_store/" + type_name<T>() + "/" + isa).c_str(), run)
+      ->Unit(benchmark::kMicrosecond);
+}
+
 template <typename T>
 void register_arithmetic(const std::string& isa, LimitKernels<T> fused, LimitKernels<T> separate) {
   register_multiply_add(isa, fused);
@@ -103,6 +127,7 @@ void register_arithmetic(const std::string& isa, LimitKernels<T> fused, LimitKer
     register_horner("horner_store", isa, fused, degree);
   }
   register_horner("horner_store_muladd", isa, separate, 3);
+  register_pairs(isa, fused);
 }
 
 /// A call fills `all` bytes, which the threads share, `behind` bytes from a line's start on.

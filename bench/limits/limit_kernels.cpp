@@ -135,6 +135,32 @@ void horner_store(T* out, std::size_t count, const T* inputs) {
   }
 }
 
+/// Pairs of rows as the library computes them: two multiply-adds, a product, a sum and a
+/// difference. The parameter and its square come from memory, since they change from row to row.
+template <typename T>
+void pairs_store(T* out, std::size_t count, const T* inputs) {
+  using V = RegisterOf<T>;
+  constexpr std::size_t kStride = kLanes<T>;
+  V c[4];
+  for (int k = 0; k < 4; ++k) {
+    c[k] = broadcast<V>(inputs[1 + k]);
+    hide(c[k]);
+  }
+  T parameter = inputs[0];
+  T square = parameter * parameter;
+  T* mirrored = out + count / 2;
+  for (T* const end = mirrored; out != end; out += kStride, mirrored += kStride) {
+    reload(parameter);
+    reload(square);
+    const V z = broadcast<V>(square);
+    const V even = c[2] * z + c[0];
+    V odd = broadcast<V>(parameter) * (c[3] * z + c[1]);
+    hide(odd); // rounded before the sum
+    *reinterpret_cast<V*>(out) = even + odd;
+    *reinterpret_cast<V*>(mirrored) = even - odd;
+  }
+}
+
 } // namespace
 
 LimitKernels<float> limits(float);
@@ -149,7 +175,8 @@ LimitKernels<T> limits_of() {
   return {multiply_add<T>,
           {{horner_store<T, 2, kFirst>, horner_store<T, 2, kSecond>},
            {horner_store<T, 3, kFirst>, horner_store<T, 3, kSecond>},
-           {horner_store<T, 4, kFirst>, horner_store<T, 4, kSecond>}}};
+           {horner_store<T, 4, kFirst>, horner_store<T, 4, kSecond>}},
+          pairs_store<T>};
 }
 LimitKernels<float> limits(float) { return limits_of<float>(); }
 LimitKernels<double> limits(double) { return limits_of<double>(); }
