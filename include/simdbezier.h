@@ -1,6 +1,6 @@
-// simdbezier for C (C99) and whatever can call it: many Bézier patches at many parameters in one
-// call. Each function names the C++ function that it runs, whose header says what is computed, how
-// exactly, and what it costs; the rules below are what the C form adds.
+// simdbezier for C (C99) and every language that can call C: many Bézier patches at many parameters
+// in one call. Each function names the C++ function that it runs, whose header says what is
+// computed, how accurately, and at what cost; the rules below are what the C form adds.
 //
 //     simdbezier_nets nets = simdbezier_packed_nets_f32(points, 48 * patches, 3, 3, 3, 0);
 //     simdbezier_patch_set *set = NULL;
@@ -17,14 +17,13 @@
 //              argument was at fault. Nothing prints, aborts or lets an exception through, and on
 //              an error nothing has been written.
 //   Structs    begin with struct_size, which the caller sets to sizeof. They may grow at their end:
-//              a caller that was compiled for a smaller one goes on working, and one that was
-//              compiled for a larger one does as long as what this library does not know is zero.
-//              Zero is every member's usual value, so `simdbezier_options options =
-//              {.struct_size = sizeof options}`
-//              is complete. Small structs without a struct_size never change. The elements of an
-//              array of structs all have the struct_size of the first.
-//   Pointers   come with the number of elements that are behind them, and a call that would go
-//              beyond is refused. Pointers to options may be null: all members zero.
+//              a program that was compiled for a smaller struct goes on working, and so does one
+//              that was compiled for a larger struct, as long as the members that this library
+//              does not know are zero. Zero is every member's usual value: a struct of which only
+//              struct_size is set is complete. Small structs without a struct_size never change.
+//              The elements of an array of structs all have the struct_size of the first.
+//   Pointers   come with the number of elements that they point to, and a call that would go
+//              beyond is refused. A null pointer to options means that all members are zero.
 //   Strides    count elements, not bytes.
 //   Numbers    are float or double: a struct says which by its `scalar`. The functions ending in
 //              _f32 and _f64 below fill in structs, so that the compiler checks the pointers.

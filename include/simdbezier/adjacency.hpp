@@ -17,7 +17,7 @@ enum class EdgeKind : std::uint8_t {
   boundary,     ///< no other edge has these control points
   shared,       ///< exactly one other has
   non_manifold, ///< more than one other has
-  collapsed     ///< all control points are one; never matched with another edge
+  collapsed     ///< all control points are equal; never matched with another edge
 };
 
 /// What one edge of one patch is.
@@ -32,17 +32,17 @@ struct EdgeLink {
 /// Finds every edge's counterpart.
 ///
 /// sets:        any number of views; their degrees may differ, and an edge of degree 3 of a 3 x 5
-///              patch may match one of a 7 x 3 patch. Patches are numbered through, view after
-///              view.
-/// edges:       4 values a patch, [4 * patch + PatchEdge], apart from the memory from the first to
-///              the last value of each view: gaps between strided nets count, as they do wherever
-///              an output is compared with an input. shared: the other edge.
-///              non_manifold: the next one of the same points, in order of patch and edge, from
-///              the last to the first. boundary, collapsed: edge, reversed and patch are 0.
+///              patch may match one of a 7 x 3 patch. Patches are numbered consecutively, view
+///              after view.
+/// edges:       4 values a patch, [4 * patch + PatchEdge]. They may not overlap the memory from the
+///              first to the last value of any view; gaps between strided nets belong to it. A
+///              shared edge gets the other one. A non_manifold edge gets the next one with the same
+///              points, in order of patch and edge, and the last gets the first. For boundary and
+///              collapsed edges, edge, reversed and patch are 0.
 /// Match:       equal degree, components and form of weights, and bit-equal control points, weights
-///              included, in the same or the opposite order; -0 counts as +0, nan as its bits.
+///              included, in the same or the opposite order; -0 equals +0, nan is compared by bits.
 ///              These are the edges along which evaluation is watertight. Collapsed: all points are
-///              equal, whatever their weights; homogeneous ones are divided for that.
+///              equal, whatever their weights; homogeneous points are divided before comparing.
 /// Allocation:  about 30 bytes an edge. Threads: Options::threads, for hashing; other options have
 ///              no meaning. Determinism: the result is a function of the input.
 /// Returns:     ok | null_input | input_too_small | null_output | output_too_small | bad_degree |

@@ -4,9 +4,9 @@
 // A direction's values c_0 … c_n in another basis and its control points b_0 … b_n are linear
 // images of each other, so a net changes basis by P' = A P B^T, one matrix a direction. The
 // matrices are exact (integers over one denominator a row). Nets of float are carried in double and
-// rounded once at the end; double ones are rounded sum by sum. The result is exact wherever the
-// sums are: for integer control points of moderate size in every direction without a denominator,
-// and with one where it divides.
+// rounded once at the end; nets of double are rounded after every sum. The result is exact wherever
+// these sums are: for integer control points of moderate size, if a direction has no denominator or
+// the denominator divides the sum.
 //
 // What nets.hpp says about outputs, faults, bits, zeros, threads and statuses holds here as well.
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace simdbezier {
 
-/// What the values of a "net" stand for, in each direction.
+/// What the values of a "net" stand for in each direction, and which denominators conversions have.
 enum class Basis : std::uint8_t {
   power, ///< sum_k c_k u^k; any degree. To Bézier: c over binomials; from it: no denominator
   centred_power, ///< sum_k c_k (2u-1)^k; any degree. From Bézier: over 2^degree
@@ -31,12 +31,12 @@ enum class Basis : std::uint8_t {
 /// Degrees:  those of `out` and of the input are equal; Hermite, Catmull-Rom and B-spline are 3 x 3
 ///           (else bad_degree).
 /// Weights:  power bases take homogeneous nets (a numerator and a denominator polynomial, of any
-///           sign) and B-splines both forms (NURBS pieces), all others none: else bad_weight.
+///           sign), B-splines take both forms (NURBS pieces), all others none; else bad_weight.
 /// Edges:    neighbouring pieces of one B-spline or Catmull-Rom net get bit-equal control points
 ///           along their common edge.
 /// Errors:   those of the sums, but relative to the largest value of either basis: powers of u
-///           amplify what has been rounded by up to 3^degree a direction (round trips of 15 x 15
-///           keep nothing in float), centred powers by about 2^(degree/2), the others by small
+///           amplify rounding errors by up to 3^degree a direction (a round trip of a 15 x 15 patch
+///           keeps no digit in float), centred powers by about 2^(degree/2), the others by small
 ///           constants.
 /// Source:   Farin, chapters 5, 7 and 8; J. D. Foley et al., Computer Graphics, 2nd ed., 11.2.
 template <typename T>
@@ -44,7 +44,7 @@ template <typename T>
                                                  const std::type_identity_t<MutableNets<T>>& out,
                                                  const Options& options = {}) noexcept;
 
-/// The values in another basis, of surfaces given by Bézier control points: the inverse.
+/// The inverse: the values in another basis, of surfaces given by Bézier control points.
 /// Weights:  power bases take homogeneous nets, all others none.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport from_bezier(Basis basis, const ControlNets<T>& nets,
@@ -67,7 +67,7 @@ struct SplineMesh {
   bool periodic_u = false; ///< column `columns` is column 0 again
   bool periodic_v = false;
 
-  /// Pieces in each direction: three less than control points where open.
+  /// Pieces in each direction: three fewer than control points where open.
   [[nodiscard]] constexpr std::size_t patches_u() const noexcept {
     return periodic_u ? columns : columns < 3 ? 0 : columns - 3;
   }

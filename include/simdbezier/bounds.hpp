@@ -1,9 +1,9 @@
 // Certified boxes and flatness of control nets: what culling, intersection and adaptive subdivision
-// ask for. Each bound holds for the exact surface of the control points as given, whatever rounds.
+// ask for. Each bound holds for the exact surface of the given control points, roundings included.
 //
 // For every call
 //   Nets        S = float or double, any degrees and components; values finite, weights positive.
-//   Outputs     packed arrays of the caller's, one row a patch; they may not overlap the nets or
+//   Outputs     the caller's packed arrays, one row a patch; they may not overlap the nets or
 //               each other. Component c of patch p stands at [p * components + c].
 //   Bits        equal on all instruction sets, for any number of threads and place in the batch.
 //   Threads     Options::threads, isa and executed are honoured. Allocation: scratch per thread.
@@ -50,10 +50,10 @@ template <typename T>
 
 /// An upper bound on max |S(u,v) - L(u,v)| over the patch, Euclidean over all components, where
 /// L is the bilinear patch of the four corner points with the same parameters; one value a patch.
-/// Below a tolerance, two triangles with an error of their own do for the patch.
+/// Where it is below a tolerance, two triangles can replace the patch, up to their distance from L.
 ///
 /// Formula:  max |P_ij - L(i/m, j/n)|; rational nets likewise at degree (m+1, n+1). The proof, and
-///           how rounding is counted, are in docs/accuracy.md. 0 where all control points are one,
+///           how rounding is counted, are in docs/accuracy.md. 0 where all points are equal,
 ///           and infinite where the weights come near the ends of the number range or the
 ///           differences overflow.
 /// out:      count values.

@@ -171,12 +171,12 @@ private:
       &CurveOutputs::position, &CurveOutputs::d1, &CurveOutputs::d2, &CurveOutputs::tangent};
 };
 
-/// Every curve of a range on one grid.
+/// Evaluates every curve of a range on one grid.
 ///
-/// In X = t - 1/2, as the edges of patches: by even and odd parts in degrees 3, 4 and 5, otherwise
-/// by Horner's rule and synthetic division, `degree` multiply-adds a component, sample and
-/// derivative; rational curves by the quotient rule.
-/// options:   Options::watertight has no effect, ends cost nothing.
+/// Formula:   in X = t - 1/2, like the edges of patches: even and odd parts in degrees 3, 4 and 5,
+///            otherwise Horner's rule and synthetic division, `degree` multiply-adds a component,
+///            sample and derivative; the quotient rule for rational curves.
+/// options:   Options::watertight has no effect, since exact ends cost nothing.
 /// Accuracy:  see error_bounds().
 /// Returns ok | null_output | output_too_small | bad_stride | bad_components | overlapping_outputs
 /// | bad_grid | bad_patch_range | size_overflow | unknown_isa | unsupported_isa | out_of_memory. On
@@ -186,8 +186,8 @@ template <typename T>
                                              const CurveOutputs<T>& out,
                                              const Options& options = {}) noexcept;
 
-/// Every curve of a range on its own uniform parameters: the values of the call above on each curve
-/// alone, bit for bit. Work is divided between threads by samples. Outputs count as overlapping
+/// Evaluates every curve of a range on its own uniform parameters, with the bits of the call above
+/// on each curve alone. Work is divided between threads by samples. Outputs count as overlapping
 /// where their whole ranges do.
 /// Allocation: 8 bytes a curve and scratch per thread, a call.
 /// Returns, besides those of the call above, unequal_lengths | bad_offsets.
@@ -196,8 +196,8 @@ template <typename T>
                                              const CurveOutputs<T>& out,
                                              const Options& options = {}) noexcept;
 
-/// Single samples, in the grid's own order of operations: where the centred parameters are equal,
-/// the bits are. Runs of samples of one curve are fast ones. Streaming stores are used with
+/// Evaluates single samples, in the grid's own order of operations: where the centred parameters
+/// are equal, the bits are. Runs of samples of one curve are fast. Streaming stores are used with
 /// Destination::memory only.
 /// Returns, besides those of the first call (without bad_grid, bad_patch_range), unequal_lengths |
 /// null_input | bad_patch_index.

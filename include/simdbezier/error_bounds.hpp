@@ -20,11 +20,11 @@ struct ErrorBounds {
 ///
 /// Formula:     1.01 u sum_kl (e_k + f_l + 1) |C_kl| over the coefficients in centred parameters,
 ///              where e_k counts the roundings that term k passes through as part of a column, and
-///              f_l those of a row. Local origins, halves,
-///              weights and packing add terms of their own: docs/accuracy.md.
+///              f_l those of a row. Local origins, halves, weights and packing add terms of their
+///              own: docs/accuracy.md.
 /// Relative to: the control points less PackOptions::relative_to, as that difference was rounded
-///              (to double where T and S are float, else to about 2^-104). Where u
-///              is given instead of x = 2u-1, its rounding moves the sample by at most u_T/2 in x.
+///              (to double where T and S are float, else to about 2^-104). Where u is given
+///              instead of x = 2u-1, its rounding moves the sample by at most u_T/2 in x.
 /// isa:         decides between the FMA and the other class; automatic as in resolve_isa().
 /// Returns all zero for a patch outside of the set, and infinities where `isa` cannot be resolved,
 /// or where the weights leave nothing to divide by.

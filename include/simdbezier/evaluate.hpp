@@ -1,4 +1,4 @@
-// evaluate(set, where, out, options): a set's patches at samples, into memory of the caller's.
+// evaluate(set, where, out, options) evaluates a set's patches into the caller's memory.
 //
 //   where     Grid, PatchGrids or Samples (samples.hpp)
 //   out       Outputs (outputs.hpp), or a list of them: results.hpp returns std::vectors
@@ -12,7 +12,7 @@
 //               how far. Where a parameter is nan or infinite, that sample's outputs are nan; its
 //               neighbours are untouched.
 //   Outputs     belong to the caller, may not overlap the inputs or each other, need no alignment
-//               (64 bytes are faster).
+//               (64-byte alignment is faster).
 //   Accuracy    bicubic patches: |error| <= 21 u max|P| a component with FMA, 30 u without, at the
 //               centred parameters as rounded (u = 2^-24 float, 2^-53 double); derivatives, other
 //               degrees and weights: docs/accuracy.md, error_bounds().
@@ -24,9 +24,9 @@
 //   Bits        equal for any thread count, batch size, place in the batch, layout, alignment and
 //               compiler, and for all instruction sets of one class (see Isa).
 //   Allocation  scratch per thread and per call only, none per sample. Nothing throws.
-//   Layouts     planes of unit stride are written directly; any other is formed in registers from
-//               planes in the first-level cache. Packed planes, packed triples and vertices without
-//               gaps are the fast ones.
+//   Layouts     planes of unit stride are written directly; any other layout is formed in registers
+//               from planes in the first-level cache. Packed planes, packed triples and vertices
+//               without gaps are the fast ones.
 //   Formula     S = sum_l y^l sum_k C[l][k] x^k by Horner's rule in x, then in y by even and odd
 //               parts (degree_v 3, 4, 5: 3 products and 2 sums a component and pair of samples of
 //               bicubic patches) or by Horner's rule (any other: degree_v multiply-adds a sample).
@@ -45,16 +45,16 @@
 
 namespace simdbezier {
 
-/// Every patch of a range on one grid.
+/// Evaluates every patch of a range on one grid.
 /// Returns, besides the statuses above, bad_grid | bad_patch_range.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const PatchSet<T>& set, const Grid<T>& grid,
                                              const Outputs<T>& out,
                                              const Options& options = {}) noexcept;
 
-/// Every patch of a range on its own grid. Values are those of the call above on each patch alone,
-/// bit for bit. Work is divided between threads by samples, a dense patch's rows among several of
-/// them. Outputs count as overlapping where their whole ranges do, from index 0 to the last sample.
+/// Evaluates every patch of a range on its own grid, with the bits of the call above on each patch
+/// alone. Work is divided between threads by samples, so that several threads share a dense patch's
+/// rows. Outputs count as overlapping where their whole ranges do, from index 0 to the last sample.
 /// Allocation: 8 bytes a patch and scratch per thread, a call.
 /// Returns, besides the statuses above, unequal_lengths | bad_grid | bad_offsets | bad_patch_range.
 template <typename T>
@@ -62,8 +62,8 @@ template <typename T>
                                              const Outputs<T>& out,
                                              const Options& options = {}) noexcept;
 
-/// Single samples, in the grid's own order of operations: where the centred parameters are equal,
-/// the bits are. Returns, besides the statuses above, unequal_lengths | null_input |
+/// Evaluates single samples, in the grid's own order of operations: where the centred parameters
+/// are equal, the bits are. Returns, besides the statuses above, unequal_lengths | null_input |
 /// bad_patch_index.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const PatchSet<T>& set, const Samples<T>& samples,

@@ -5,7 +5,7 @@
 //     evaluate_mesh(set, layout, outputs);   write_triangles(layout, triangles);
 //
 // mesh.hpp has all of it in one call. What evaluate.hpp says about outputs, bits, allocation,
-// layouts and threads holds here; a vertex has the index that triangles use.
+// layouts and threads holds here; a vertex's index is the one that triangles use.
 #pragma once
 
 #include <cstdint>
@@ -22,31 +22,31 @@ struct MeshOutputs {
   Vectors<T> position;
   /// Merged over all patches that have the vertex; see evaluate_mesh().
   Vectors<T> normal;
-  /// u as x and v as y, z null: of the lowest patch that has the vertex.
+  /// u as x and v as y, z null, on the lowest patch that has the vertex.
   Vectors<T> parameters;
   /// The number of that patch.
   Values<std::uint32_t> patch;
 };
 
-/// The vertices of the patches of a range, as far as they are these patches' own (lay_out_mesh()).
+/// Evaluates the vertices that the patches of a range own; lay_out_mesh() says which these are.
 ///
 /// set:      the patches that the layout's topology was made of, in the same order. A set of
 ///           patches with three components.
 /// out:      index 0 is MeshLayout::first_vertex() of the first patch of the range.
 /// patches:  all of them, or some: large meshes can be written piece by piece.
-/// Position: on an edge and in a corner that of the lowest patch there, which is that of all others
-///           bit for bit where their control points are equal.
+/// Position: on an edge and in a corner, that of the lowest patch there. Where control points are
+///           equal, all others have the same position bit for bit.
 /// Normal:   the sum of the unit normals of all patches that have the vertex, in ascending order of
 ///           patch and side or corner, divided by its length. Patches that the topology turned
 ///           count with their normals reversed; zero normals add nothing; patches whose normals
 ///           disagree with the first one's along the edge, and are not turned, are left out. The
-///           first normal stays where the sum is shorter than 0.001 of the number of normals. Edges
-///           of more than two sides take all of them.
+///           first normal stays where the sum is shorter than 0.001 of the number of normals. On
+///           edges of more than two sides, all sides count.
 /// Creases:  split_creases() makes a layout in which such vertices are several.
 /// Returns:  ok | null_output | output_too_small | bad_components (not three) | bad_stride |
-///           overlapping_outputs | unequal_lengths (the set has not as many patches as the layout)
-///           | bad_patch_range | size_overflow | unknown_isa | unsupported_isa | out_of_memory. On
-///           an error nothing has been written.
+///           overlapping_outputs | unequal_lengths (set and layout differ in their number of
+///           patches) | bad_patch_range | size_overflow | unknown_isa | unsupported_isa |
+///           out_of_memory. On an error nothing has been written.
 /// Allocation: scratch per thread, which grows with the most vertices on one patch's boundary.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_mesh(const PatchSet<T>& set, const MeshLayout& layout,
@@ -68,8 +68,8 @@ template <typename T>
 /// Gives the vertices on edges and in corners more than one number where the patches' normals
 /// differ too much to be merged. Triangles and positions stay as they are.
 ///
-/// angle:    in radians: along an edge a side joins the first group of sides before it with all of
-///           whose normals its own encloses less than the angle; in a corner, patches join their
+/// angle:    in radians. Along an edge, a side joins the first group of earlier sides whose normals
+///           all differ from its own by less than the angle; in a corner, patches join their
 ///           neighbours across edges by the same rule. Sides that are points keep one vertex, and
 ///           patches whose normals disagree (see evaluate_mesh()) never join. 0: patches share no
 ///           vertices. Pi and more: only disagreeing ones are split.

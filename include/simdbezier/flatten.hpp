@@ -1,4 +1,4 @@
-// Curves as polylines that stay within a distance of them.
+// Curves as polylines that stay within a tolerance of them.
 //
 //     choose_polylines(curves, {.tolerance = 1e-3}, points, deviation);   sizes first
 //     evaluate(set, CurveGrids{.n = points}, out);                        then points
@@ -42,8 +42,8 @@ template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status position_errors(const CurveSet<T>& set,
                                                     std::span<double> out) noexcept;
 
-/// The least points at uniform parameters with which every curve is within its tolerance of its
-/// polyline, both ways: 2 or more, as CurveGrids::n takes them.
+/// The fewest uniform parameters with which every curve is within its tolerance of its polyline,
+/// and the polyline of the curve: 2 or more points, as CurveGrids::n takes them.
 ///
 /// Formula:    n segments deviate by at most max |C''| / (8 n^2), which is theorem 1 of
 ///             docs/tessellation.md for one parameter; max |C''| is at most degree (degree - 1)

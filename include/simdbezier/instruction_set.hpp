@@ -6,7 +6,7 @@
 namespace simdbezier {
 
 /// The instruction sets that kernels are compiled for. Results are bit-equal inside a class:
-/// avx2, avx512 and neon64 fuse multiply and add; scalar and sse2 round after each.
+/// avx2, avx512 and neon64 fuse multiply and add; scalar and sse2 round after each operation.
 enum class Isa : std::uint8_t {
   automatic, ///< SIMDBEZIER_ISA where it is set, otherwise the widest that the machine has
   scalar,

@@ -55,7 +55,7 @@ template <typename S>
                                               Values<double> points,
                                               const Options& options = {}) noexcept;
 
-/// The same of S(., v0): curves of degree degree_u.
+/// The same for S(., v0): curves of degree degree_u.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API PackReport iso_v(const ControlNets<S>& nets, double v0,
                                               Values<double> points,
@@ -77,7 +77,7 @@ template <typename T, typename S>
 /// The same of every patch of a set, from the control points that it keeps as they were given; the
 /// curves are packed with the PackOptions::relative_to of the set.
 ///
-/// patches:    of one shape; nothing else is left of the nets, so none of them need to exist still.
+/// patches:    of one shape. The nets that they were packed from need not exist any more.
 /// options:    relative_to is ignored; local_origin is not taken from the set.
 /// Numerics:   the call above on the nets themselves. At 0 and 1 a set packed with the same
 ///             local_origin gives the bits of its edges. Where some nets had Cartesian and some

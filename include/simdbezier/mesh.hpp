@@ -3,9 +3,9 @@
 //     const auto mesh = tessellate<float>(nets, {.tolerance = 1e-3});
 //     if (mesh) { use(mesh.positions, mesh.triangles, mesh.deviation); }
 //
-// For who wants a mesh and nothing more. plan_mesh() stops before vertices are computed: its layout
-// goes to the calls of evaluate_mesh.hpp and mesh_primitives.hpp, piece by piece where a mesh is
-// larger than memory.
+// This is for those who want a mesh and nothing more. plan_mesh() stops before vertices are
+// computed: its layout goes to the calls of evaluate_mesh.hpp and mesh_primitives.hpp, piece by
+// piece where a mesh is larger than memory.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct MeshOptions {
   /// the box of all control points. Where both are given, the smaller one counts.
   double tolerance = std::numeric_limits<double>::infinity();
   double relative_tolerance = std::numeric_limits<double>::infinity();
-  /// Absolute ones, one for each of the patches given, besides those above; or empty.
+  /// Absolute tolerances, one for each of the patches given, besides those above; or empty.
   std::span<const double> tolerances = {};
   /// The most pixels that the mesh may be off in a picture, besides what is above; needs a camera.
   double pixels = std::numeric_limits<double>::infinity();
@@ -59,16 +59,16 @@ struct MeshOptions {
   Isa isa = Isa::automatic;
 };
 
-/// A mesh that is laid out, and not evaluated yet.
+/// A mesh that is laid out but not evaluated yet.
 template <typename T>
 struct MeshPlan {
   Status status;
-  /// The patch at fault; where the fault is none of a single patch, 0.
+  /// The patch at fault; 0 where the fault is not that of a single patch.
   std::size_t fault_patch = 0;
   PatchSet<T> set;
+  /// Of all patches given, also of repeated ones that were left out.
   TopologyCounts counts;
-  /// Of the patches of the set; as they were given, where repeated ones were left out.
-  Topology topology;
+  Topology topology; ///< of the patches of the set
   MeshLayout layout;
   /// The number of each patch of the set among those given. Empty: the same numbers.
   std::vector<std::uint32_t> patches;
@@ -105,8 +105,7 @@ struct Mesh {
 /// Packs, joins edges, chooses rates, and numbers vertices.
 ///
 /// nets:     any views with three components, see find_topology(). They are read only here.
-/// Returns:  in MeshPlan::status, what pack(), find_topology(), choose_rates() (or
-/// certify_rates()),
+/// Returns:  in MeshPlan::status, what pack(), find_topology(), choose_rates() or certify_rates(),
 ///           lay_out_mesh() and split_creases() return; bad_tolerance also where nothing says how
 ///           fine the mesh is to be, bad_grid where a grid has fewer than 2 samples or where
 ///           tolerances are given as well.

@@ -61,9 +61,9 @@ private:
 
 /// Raises rates of 1 where a mesh would be degenerate: two triangles on the same three vertices, an
 /// edge of the mesh with more than two triangles, a cell that two corners want to be cut
-/// differently. Rates stay as they are everywhere else: among others of patches that repeat an
-/// earlier one, whose triangles coincide with its own, and of patches with two neighbouring sides
-/// that are one edge, which cells do not help. Patches whose four sides are one point get 3 x 3
+/// differently. All other rates stay, also those of patches that repeat an earlier one, whose
+/// triangles coincide with its own, and of patches of which two neighbouring sides are one edge,
+/// since more cells would not help these. Patches whose four sides are one point get 3 x 3
 /// cells.
 ///
 /// nu, nv:   one value a patch.
@@ -77,9 +77,9 @@ private:
 /// Numbers the vertices of the mesh in which patch p has nu[p] x nv[p] cells.
 ///
 /// An edge carries the union of the parameters i/n of all of its sides, so that no neighbour's rate
-/// can leave a gap. Vertices are numbered patch by patch: the corners that it owns, inner points of
-/// edges that it owns (v0, v1, u0, u1, in the direction of the owner's parameter), then its inner
-/// points row by row. The owner is the lowest patch of those that share; within it, the first edge.
+/// can leave a gap. Vertices are numbered patch by patch: the corners that the patch owns, inner
+/// points of edges that it owns (v0, v1, u0, u1, in the direction of its parameter), then its inner
+/// points row by row. The lowest of the patches that share a vertex owns it, on its first edge.
 ///
 /// layout:     replaced on ok, left as it was otherwise.
 /// Allocation: about 40 bytes a patch and 8 an edge. Determinism: a function of its input alone.

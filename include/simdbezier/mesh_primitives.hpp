@@ -2,9 +2,9 @@
 //
 // For every call
 //   Index        std::uint32_t or std::uint16_t; its largest value is no vertex.
-//   Order        patch after patch, as their numbers; within a patch row by row.
+//   Order        patch after patch in ascending order; within a patch row by row.
 //   Orientation  counter-clockwise about du x dv; the other way round on patches that the topology
-//                turned. What a side that is a point leaves without area is not among them.
+//                turned. Triangles without area, beside a side that is a point, are left out.
 //   Returns      ok | null_output | output_too_small (a span is shorter than the size that the mesh
 //                needs) | size_overflow (more vertices than Index has numbers) | out_of_memory |
 //                unknown_isa and unsupported_isa (of triangles, as resolve_isa()).
@@ -42,7 +42,7 @@ struct PolygonSize {
                                                  int threads = 0, SetRange patches = {}) noexcept;
 
 /// Writes a quad for every cell of four vertices, triangles for all others. The certificate holds
-/// for those who cut quads between their first and third vertex.
+/// if quads are cut from their first to their third vertex.
 ///
 /// indices: the vertices of all polygons. sizes: 3 or 4, one value a polygon. patches: all of them,
 ///          or some, as for write_triangles().

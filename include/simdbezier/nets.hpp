@@ -24,9 +24,9 @@
 //   Threads     Options::threads, isa and executed are honoured; its other members have no meaning.
 //   Allocation  scratch per thread, none per patch. Nothing throws.
 //   Statuses    ok | null_input | input_too_small | null_output | output_too_small | bad_degree |
-//   bad_components | bad_weight |
-//               bad_stride | bad_patch_range (counts differ) | overlapping_outputs |
-//               non_finite_input | size_overflow | unknown_isa | unsupported_isa | out_of_memory.
+//               bad_components | bad_weight | bad_stride | bad_patch_range (counts differ) |
+//               overlapping_outputs | non_finite_input | size_overflow | unknown_isa |
+//               unsupported_isa | out_of_memory.
 //   Source      G. Farin, Curves and Surfaces for CAGD, 5th ed., chapters 4 to 6 and 14.
 #pragma once
 
@@ -43,8 +43,8 @@ namespace simdbezier {
 /// all, `point` is -1.
 using NetReport = PackReport;
 
-/// Memory of the caller's for control nets; the members mean what they mean in ControlNets, which
-/// it turns into for the next call.
+/// The caller's memory for control nets. Its members mean what they mean in ControlNets, to which
+/// it converts, so that one operation's output is the next one's input.
 template <typename S>
 struct MutableNets {
   S* points = nullptr; ///< may be null only when count is 0
@@ -59,7 +59,7 @@ struct MutableNets {
   Weights weights = Weights::none;
   std::span<S> memory = {}; ///< as in ControlNets (else output_too_small)
 
-  /// As ControlNets::packed(); of a span, the memory of `count` nets.
+  /// As ControlNets::packed(); a span is the memory of `count` nets.
   [[nodiscard]] static constexpr MutableNets packed(S* points, std::size_t count, int degree_u,
                                                     int degree_v, int components = 3,
                                                     Weights weights = Weights::none) noexcept {
@@ -166,9 +166,9 @@ struct SubPatch {
 ///
 /// Formula:    control point i is the blossom at u0 (degree - i times) and u1 (i times): the mean
 ///             of both orders of inserting them, so that neither end is favoured. Pieces that meet
-///             at one parameter get bit-equal points there, and [0, u] is what split_u() gives, but
-///             for u = 1: a whole direction is copied, while split_u() takes cartesian points to
-///             homogeneous ones and back.
+///             at one parameter get bit-equal points there, and [0, u] is what split_u() gives. The
+///             exception is u = 1, where a whole direction is copied, while split_u() takes
+///             cartesian points to homogeneous ones and back.
 /// Parameters, errors: as split_u(). Cost: O(degree^2) of split_u(); directions that are taken
 ///             whole cost nothing.
 template <typename T>

@@ -19,8 +19,8 @@ enum class Destination : std::uint8_t {
 
 /// How a call runs. The defaults are what most callers want.
 struct Options {
-  /// 0: OpenMP's default (a build with other threads: one a core); 1: the calling thread alone;
-  /// most: 16 or two a core.
+  /// 0: OpenMP's default (in builds without OpenMP: one thread a core); 1: the calling thread
+  /// alone; at most 16 or two a core, whichever is more.
   ///
   /// 1 enters no OpenMP region and never starts a thread: such a call always returns, with a
   /// status. Otherwise OpenMP's runtime starts the threads that its pool lacks. Where the system

@@ -90,8 +90,8 @@ struct PackOptions {
 /// nets:       S = float or double, see ControlNets; the memory may be freed after the call. Many
 ///             patches of a few shapes are best given as few ControlNets: up to 8 patches of one
 ///             cost as much as one.
-/// set:        replaced on ok, left as it was otherwise. Patches are numbered through all nets in
-///             their order.
+/// set:        replaced on ok, left as it was otherwise. Patches are numbered consecutively
+///             through all nets.
 /// options:    see PackOptions; a relative_to that is not finite is non_finite_input. Its members
 ///             beyond the components are ignored.
 /// Numerics:   T and S float: formed in double, else in double-double; rounded once to T. Results

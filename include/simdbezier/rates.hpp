@@ -27,21 +27,21 @@ struct RateOptions {
   /// over the number of segments.
   double longest_edge = std::numeric_limits<double>::infinity();
   /// No row or column of cells turns its normal by more than about this angle, in radians, from one
-  /// point to the next: what normals of the control net turn over the number of segments.
+  /// point to the next: the total turn of the control net's normals over the number of segments.
   double normal_angle = std::numeric_limits<double>::infinity();
   std::uint32_t most_segments = kMostSegments;
   int threads = 0; ///< as in Options
 };
 
-/// What a picture is taken with: a point in the direction d, one unit away, is seen focal_length
-/// pixels across per unit off the axis.
+/// A pinhole camera: a point that is one unit away along the direction and x units off that axis
+/// is seen x focal_length pixels from the middle of the picture.
 struct Camera {
   std::array<double, 3> eye = {0, 0, 0};
   std::array<double, 3> direction = {0, 0, -1}; ///< of any length but zero
   double focal_length = 1000;                   ///< in pixels: height / (2 tan(angle of view / 2))
   double width = 1920;                          ///< of the picture, in pixels
   double height = 1080;
-  double nearest = 1e-3; ///< nothing closer than this is drawn, measured along the direction
+  double nearest = 1e-3; ///< nothing closer than this along the direction is drawn
 };
 
 /// Where choosing rates stopped.
@@ -72,7 +72,7 @@ template <typename T>
 ///           least Camera::nearest, and f the secant of the angle between the axis and the corners
 ///           of the picture. Patches that lie in front of Camera::nearest altogether, and are not
 ///           seen, get the diagonal of their control points' box.
-/// out:      one value a patch, patches numbered through all views.
+/// out:      one value a patch, in the order of all views.
 /// Returns:  ok | null_input | bad_degree | bad_components | bad_stride | bad_tolerance (pixels, or
 ///           a member of the camera, that is not above zero and finite) | output_too_small.
 template <typename S>
@@ -80,9 +80,9 @@ template <typename S>
                                                      const Camera& camera, double pixels,
                                                      std::span<double> out) noexcept;
 
-/// The least cells of every patch, and their diagonals, so that its triangles are within its
-/// tolerance of it. Each patch's rates depend on its own control points and tolerance, and on where
-/// its topology forces a diagonal; rates of 1 are raised where the mesh would be degenerate
+/// Finds the fewest cells of every patch, and their diagonals, with which its triangles are within
+/// its tolerance. A patch's rates depend on its own control points and tolerance, and on where its
+/// topology forces a diagonal; rates of 1 are raised where the mesh would be degenerate
 /// (separate_vertices()).
 ///
 /// Bound:    of a triangle with edges p_i - p_j in parameters, max |S - T| <= the largest value of
@@ -111,7 +111,7 @@ template <typename S>
                                                      const RateOptions& options,
                                                      const CertifiedRates& out) noexcept;
 
-/// The certificate of rates that are given: the best diagonals, and what the bound is.
+/// The certificate of given rates: the best diagonals, and the bound that they have.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<S>> sets,
                                                       const Topology& topology,

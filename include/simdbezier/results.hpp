@@ -1,10 +1,10 @@
-// evaluate(set, where, {Output::position, …}): results in std::vectors, made to measure.
+// evaluate(set, where, {Output::position, …}): results in std::vectors of the right size.
 //
 //     const auto samples = evaluate(set, Grid<float>::uniform(17, 17), {Output::position});
 //     if (samples) { use(samples.position[k][0]); }
 //
-// For who wants results and nothing more. The calls of evaluate.hpp write to memory that is there
-// already, in any layout; these allocate anew every time, which costs more than most evaluations.
+// These are for those who want results and nothing more: they allocate anew every time, which costs
+// more than most evaluations. The calls of evaluate.hpp write to existing memory in any layout.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ struct SurfaceSamples {
 
 namespace detail {
 
-/// Room for `count` samples, and where it is. May throw what std::vector throws.
+/// Makes room for `count` samples, and says where it is. May throw what std::vector throws.
 template <typename T>
 Outputs<T> make_room(SurfaceSamples<T>& samples, const OutputSelection& wanted, std::size_t count) {
   Outputs<T> out;

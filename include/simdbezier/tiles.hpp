@@ -85,8 +85,8 @@ template <typename T>
                                                    std::type_identity_t<TileFunction<T>> function,
                                                    const Options& options = {}) noexcept;
 
-/// The samples of the largest tile that evaluate_tiles() will hand out; 0 where it will refuse what
-/// it is given.
+/// The number of samples of the largest tile that evaluate_tiles() will hand out; 0 where it will
+/// refuse its input.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API std::size_t largest_tile(const PatchSet<T>& set, const Grid<T>& grid,
                                                       const TileFormat& format) noexcept;

@@ -1,4 +1,4 @@
-// How the patches of a model hang together: which edges and corners are one.
+// How the patches of a model are connected: which edges and corners they share.
 #pragma once
 
 #include <cstddef>
@@ -22,10 +22,10 @@ struct TopologyData;
 struct TopologyCounts {
   std::size_t patches = 0;
   std::size_t edges = 0;              ///< without collapsed ones
-  std::size_t open_edges = 0;         ///< of one side
-  std::size_t non_manifold_edges = 0; ///< of more than two sides
+  std::size_t open_edges = 0;         ///< edges of one side
+  std::size_t non_manifold_edges = 0; ///< edges of more than two sides
   std::size_t collapsed_sides = 0;    ///< sides that are a point
-  std::size_t corners = 0;            ///< corners that are different
+  std::size_t corners = 0;            ///< different corners
   /// Patches with all control points of an earlier one, whichever way round.
   std::size_t repeated_patches = 0;
   /// Edges of two sides along which the patches' normals disagree, as the patches are given.
@@ -40,11 +40,11 @@ struct TopologyOptions {
   /// A side whose control points all lie within this distance of its first one counts as a point.
   /// 0: where they are equal.
   double point_size = 0;
-  /// Turns patches, so that the normals of neighbours agree: those that disagree with the lowest
-  /// patch that they hang together with. Without it, all stay as they are given.
+  /// Turns patches so that the normals of neighbours agree: those that disagree with the lowest
+  /// patch of their connected part. Without it, all stay as they are given.
   bool orient = false;
-  /// Turns all patches, after that: triangles run the other way round, and normals point to the
-  /// other side.
+  /// Then turns all patches: triangles run the other way round, and normals point to the other
+  /// side.
   bool flip = false;
   /// Open sides whose control points are within this distance of each other's, one by one in either
   /// direction, become one edge (weights have to be equal): a mesh has the points of the lowest of
@@ -53,7 +53,7 @@ struct TopologyOptions {
   int threads = 0; ///< as in Options
 };
 
-/// Which edges and corners of a set of patches are one. Immutable; copies share it.
+/// Which edges and corners the patches of a set share. Immutable; copies share the data.
 class Topology {
 public:
   Topology() noexcept = default;

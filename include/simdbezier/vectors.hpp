@@ -1,4 +1,4 @@
-// Memory of the caller's that results go to: vectors in any layout, and single values.
+// The caller's memory for results: vectors in any layout, and single values.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace simdbezier {
 
-/// The capacity of memory that is given by a pointer: the call trusts it.
+/// The capacity of memory that is given by a pointer alone: the call trusts that it suffices.
 inline constexpr std::size_t kTrusted = static_cast<std::size_t>(-1);
 
 /// Where one vector-valued output goes: component c of sample k is c-th pointer [k * stride],
@@ -66,7 +66,7 @@ struct Vectors {
     return pairs_of;
   }
 
-  /// Also where a span is empty, and the call has to say so.
+  /// True for an empty span as well, since the call has to refuse it.
   [[nodiscard]] constexpr bool wanted() const noexcept {
     return x != nullptr || y != nullptr || z != nullptr || capacity != kTrusted;
   }

@@ -59,7 +59,7 @@ struct QuantisationBox {
 
 /// The box of all control points, for one of the two formats.
 /// Returns: ok | null_input | bad_degree | bad_components | bad_stride | non_finite_input |
-///          bad_tolerance (another format, or all points are one).
+///          bad_tolerance (another format, or all points are equal).
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status quantisation_box(std::span<const ControlNets<S>> sets,
                                                      VertexFormat format,

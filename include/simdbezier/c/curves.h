@@ -58,7 +58,7 @@ typedef struct simdbezier_curve_outputs {
   int32_t first_component;
 } simdbezier_curve_outputs;
 
-// evaluate() of curves. Return what it does, and null_input | bad_struct_size | bad_scalar |
+// evaluate() of curves. They return its statuses and null_input | bad_struct_size | bad_scalar |
 // bad_value | input_too_small (fewer t than n).
 SIMDBEZIER_API simdbezier_status simdbezier_evaluate_curve_grid(const simdbezier_curve_set* set,
                                                                 const simdbezier_curve_grid* grid,

@@ -100,7 +100,7 @@ typedef struct simdbezier_outputs {
 } simdbezier_outputs;
 
 // evaluate() on one grid, on a grid for each patch, and at single samples. Null options: all zero.
-// Return what evaluate() does, and null_input | bad_struct_size | bad_scalar | bad_value |
+// They return its statuses and null_input | bad_struct_size | bad_scalar | bad_value |
 // input_too_small (fewer u or v than nu or nv).
 SIMDBEZIER_API simdbezier_status simdbezier_evaluate_grid(const simdbezier_patch_set* set,
                                                           const simdbezier_grid* grid,
@@ -114,8 +114,8 @@ SIMDBEZIER_API simdbezier_status simdbezier_evaluate_samples(const simdbezier_pa
                                                              const simdbezier_outputs* out,
                                                              const simdbezier_options* options);
 
-// sample_count(): the samples that a call has; 0 where it will refuse what it is given, which
-// simdbezier_last_fault() does not explain.
+// sample_count(): the number of samples of a call; 0 where that call will refuse its input, which
+// simdbezier_last_fault() then does not explain.
 SIMDBEZIER_API size_t simdbezier_grid_sample_count(const simdbezier_patch_set* set,
                                                    const simdbezier_grid* grid);
 SIMDBEZIER_API size_t simdbezier_patch_grids_sample_count(const simdbezier_patch_set* set,

@@ -65,8 +65,8 @@ typedef struct simdbezier_mesh_outputs {
   size_t patch_length;
 } simdbezier_mesh_outputs;
 
-// evaluate_mesh(), evaluate_mesh_attributes(): of the patches from first_patch on, all of them
-// where patch_count is 0.
+// evaluate_mesh(), evaluate_mesh_attributes(): for patch_count patches from first_patch on, 0 being
+// all of them.
 SIMDBEZIER_API simdbezier_status simdbezier_evaluate_mesh(const simdbezier_patch_set* set,
                                                           const simdbezier_mesh_layout* layout,
                                                           const simdbezier_mesh_outputs* out,
@@ -113,7 +113,7 @@ typedef struct simdbezier_mesh_options {
 
 typedef struct simdbezier_mesh simdbezier_mesh;
 
-// What a mesh consists of. The arrays belong to the mesh; those that it has not are null.
+// What a mesh consists of. The arrays belong to the mesh; those that it lacks are null.
 typedef struct simdbezier_mesh_arrays {
   size_t struct_size;
   simdbezier_scalar scalar; // of positions, normals and parameters
