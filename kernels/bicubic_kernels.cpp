@@ -7,7 +7,7 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-// Of the other objects of this instruction set.
+// The tables of this instruction set's other objects.
 extern const detail::ShapeTable<float> shape_table_f32;
 extern const detail::ShapeTable<double> shape_table_f64;
 extern const detail::CurveTable<float> curve_table_f32;

@@ -1,5 +1,5 @@
 // A register of samples that lie alike: in one cell of one patch, all of them inside, or all on the
-// same edge or corner. No lane so needs another formula than its neighbours.
+// same edge or corner. One formula therefore serves all lanes.
 #pragma once
 
 #include "kernels/derivative/derivative_formulas.hpp"
@@ -38,7 +38,7 @@ public:
     }
   }
 
-  /// All that orders ask for, of one component.
+  /// The derivatives of one component that the orders ask for.
   void evaluate(std::size_t component, TaylorTable<V>& to) const {
     merged_table(component, to);
     if (shape_.rational) {
@@ -76,7 +76,7 @@ private:
     return side_v_ == kLowEnd ? detail::kEdgeV0 : detail::kEdgeV1;
   }
 
-  /// The patch's own, whatever the sides are.
+  /// From the patch's own coefficients, whatever the sides are.
   __attribute__((noinline)) void table(std::size_t channel, TaylorTable<V>& to) const {
     const T* const matrix = cell_.coefficients + channel * shape_.matrix();
     const std::size_t order_v = shape_.order_v();
@@ -95,7 +95,7 @@ private:
     }
   }
 
-  /// The same, but what does not depend on u comes from an edge u = const if they are on one.
+  /// The same, but for samples on an edge u = const, what does not depend on u comes from the edge.
   void merged_table(std::size_t channel, TaylorTable<V>& to) const {
     table(channel, to);
     if (side_u_ != kInside && orders_.highest_v[0] >= 0) {
@@ -161,7 +161,7 @@ private:
   SIMDBEZIER_INLINE T corner_u(std::size_t channel) const {
     return cell_.edges[shape_.corners_at() + channel * 4 + edge_u() - detail::kEdgeU0];
   }
-  /// Of the edge u = const, if they are on one.
+  /// The origin of the edge u = const, if the samples are on one.
   SIMDBEZIER_INLINE V origin_u(std::size_t component) const {
     return origin(component, side_u_ == kInside ? 0 : detail::kEdgeOriginsAt + edge_u());
   }

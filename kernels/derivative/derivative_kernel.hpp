@@ -15,7 +15,7 @@ struct AlikeSamples {
   T y[kLanes<vec<T>>];
 };
 
-/// One parameter of one sample: in which cell of its direction, where there.
+/// One parameter of one sample: its cell in that direction, and its place in the cell.
 template <typename T>
 struct LocalParameter {
   std::size_t cell = 0;

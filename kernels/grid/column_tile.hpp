@@ -56,8 +56,8 @@ struct ColumnTile {
   using Groups = RowGroups<kRows, V>;
   static constexpr std::size_t kColumns = kLanes<V> / kRows;
   /// Whether rows and their mirror images are computed together: where both are whole registers of
-  /// their own. Others share cache lines with the rows beside them, and are faster one behind the
-  /// other, but for normals, whose arithmetic counts for more.
+  /// their own. Others share cache lines with the rows beside them and are faster one behind the
+  /// other, except with normals, whose arithmetic outweighs that.
   static constexpr bool kPairs = kRows == 1 && kWhole && !kExtra;
   static constexpr bool kNormalPairs = kRows == 1 || (kRows == 2 && kWhole && kLanes<V> > 2);
   static constexpr bool kShared = kRows > 1; ///< edges v = const share a register
@@ -176,7 +176,7 @@ struct ColumnTile {
       return row_second(k, RowPoint<V>(column.x));
     }
   }
-  /// Their Y.
+  /// The Y of these edges.
   static SIMDBEZIER_INLINE V edge_y(std::size_t edge) {
     constexpr T kBoth[2] = {T(-0.5), T(0.5)};
     if constexpr (kShared) {

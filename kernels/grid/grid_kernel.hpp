@@ -37,8 +37,8 @@ struct ColumnSplit {
   }
 };
 
-/// Whether two registers of columns are swept as one: half of the rows' counting, and no line is
-/// come to twice. There must be registers for their polynomials: 8 of 16 or 32, 16 of 32.
+/// Whether two registers of columns are swept as one, which counts rows half as often and writes to
+/// no cache line twice. Their polynomials take 8 of 16 or 32 registers, or 16 of 32.
 template <detail::OutputSet kOutputs, typename T>
 constexpr bool kSweepsTwice = (kOutputs == detail::kPosition && sizeof(T) * kLanes<vec<T>> >= 32) ||
                               (kOutputs == detail::kPositionDerivatives && kLineWide<vec<T>>);
@@ -87,7 +87,7 @@ SIMDBEZIER_INLINE void sweep_rest(const Sweeper& tiles, std::size_t first, std::
   }
 }
 
-/// All tiles of patches [patch, end), of tasks of which nothing is known and of rarer outputs:
+/// All tiles of patches [patch, end), for tasks of which nothing is known and for rarer outputs:
 /// whole registers and a masked one.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_INLINE void sweep_registers(const GridTask<T>& task, const RowPiece<T>& piece,
@@ -195,9 +195,9 @@ SIMDBEZIER_INLINE bool sweep_square_of(std::index_sequence<kSides...>, const Gri
   return (sweep(std::integral_constant<std::size_t, kSides>{}) || ...);
 }
 
-/// The squares that gain by code of their own, 5 to 60 %: 2^k and 2^k + 1, as far as neither stores
-/// (derivatives of 32) nor roots (normals of 16 and more) set the pace.
-/// Straight code of registers of 32 bytes for positions of 32 is slower than a loop of pairs.
+/// The squares that gain 5 to 60 % by code of their own: sides of 2^k and 2^k + 1, where neither
+/// stores (derivatives of side 32) nor roots (normals of 16 and more) set the pace. With registers
+/// of 32 bytes, straight code for positions of side 32 is slower than a loop of pairs.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_INLINE constexpr auto known_sides() {
   if constexpr (kOutputs == detail::kPosition && kLineWide<vec<T>>) {
@@ -216,7 +216,7 @@ template <detail::OutputSet kOutputs, typename T>
 constexpr bool kKnowsSquares = kUsual<kOutputs> && (kLanes<vec<T>> * sizeof(T) >= 32);
 
 /// Patches [patch, end) on the rows of a piece. Registers of 64 bytes have tiles for either kind of
-/// edges; short ones ask, since twice the code is too much for what it gains.
+/// edges; shorter ones ask at run time, since twice the code would be too much for what it gains.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_INLINE void sweep_patches(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
                                      const RowPiece<T>& piece, std::size_t patch, std::size_t end) {

@@ -114,13 +114,13 @@ SIMDBEZIER_INLINE void sweep_component_patches(const GridTask<T>& task, const Pi
   }
 }
 
-/// Rarer outputs do with whole registers and masked ones: code is not free either.
+/// Rarer outputs have tiles of whole and masked registers only, since code has a cost as well.
 template <detail::OutputSet kOutputs>
 constexpr bool kUsual = kOutputs == detail::kPosition || kOutputs == detail::kPositionNormal ||
                         kOutputs == detail::kPositionDerivatives;
 
-/// One tile of consecutive patches. A function of its own, or what other tiles keep in registers
-/// would be in the way.
+/// One tile of consecutive patches. It is a function of its own because values that other tiles
+/// keep in registers would leave it too few.
 template <detail::OutputSet kOutputs, Known kKnown, typename SomeTile, typename Piece, typename T>
 __attribute__((noinline)) void sweep_tile(const GridTask<T>& shared_task, const Piece& shared_piece,
                                           std::size_t first_column, std::size_t columns,

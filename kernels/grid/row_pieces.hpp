@@ -44,8 +44,8 @@ public:
     return values_;
   }
 
-  /// Of kRows rows in a register, from the one on whose parameter stands at y. What several rows
-  /// would have to be spread for is computed.
+  /// For a register of kRows rows, the first of which has its parameter at y. With several rows,
+  /// powers are computed anew, since stored ones would have to be spread over the lanes.
   template <std::size_t kRows, typename V>
   static SIMDBEZIER_INLINE RowPoint<V> point(const T* y) {
     if constexpr (kRows > 1) {
@@ -93,9 +93,9 @@ struct RowPiece {
 };
 
 /// A whole grid of kSide x kSide samples, whose first and last rows are edges and whose others are
-/// pairs. Its size known to
-/// the compiler, sweeps are straight code, without counting, tests and addresses: 198 instead of
-/// 389 instructions for the positions of an 8 x 8 grid, 660 instead of 1022 for 17 x 17 (AVX-512).
+/// pairs. The compiler knows its size, so that sweeps are straight code, without counting, tests
+/// and addresses: 198 instead of 389 instructions for the positions of an 8 x 8 grid, 660 instead
+/// of 1022 for 17 x 17 (AVX-512).
 template <typename T, std::size_t kSide>
 struct SquarePiece {
   static constexpr bool kKnown = true;
@@ -132,7 +132,7 @@ public:
 
   [[nodiscard]] SIMDBEZIER_INLINE bool more() const { return run_ != last_; }
 
-  /// powers: as long as the piece is used.
+  /// powers: has to live as long as the piece is used.
   SIMDBEZIER_INLINE RowPiece<T> next(RowPowers<T>& powers) {
     RowPiece<T> piece;
     piece.first = row_;

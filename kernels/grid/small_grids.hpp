@@ -1,13 +1,13 @@
 // Watertight grids of 3 x 3 to 6 x 6 samples that end at the patch's edges, in one piece, of sets
 // without origins.
 //
-// Most of their samples are on the border, and all preparations of a tile (grid/column_tile.hpp)
-// would serve a row or two. So a component takes registers of four groups of four lanes:
+// Most of their samples are on the border, and what a tile prepares (grid/column_tile.hpp) would
+// serve only a row or two. A component therefore takes registers of four groups of four lanes:
 //   columns   group g, lane l   power l of Y of the polynomial that inner column g is: Horner in X
 //                               of the coefficients as they lie in memory
 //   inner     group g, lane r   inner column g, inner row r: the row in Y
 //   border    group s, lane e   inner sample s of edge e: along the edge
-// of which one permutation makes 16 consecutive samples, and another one adds corners. The
+// One permutation makes 16 consecutive samples of these, and another one adds corners. The
 // operations of a sample are those of the tiles, and so are its bits. Positions stand here,
 // derivatives in grid/small_grid_jets.hpp.
 #pragma once

@@ -88,7 +88,7 @@ SIMDBEZIER_INLINE void blossoms(ScalarOf<V>* line, ScalarOf<V>* temp, std::size_
 }
 
 /// The piece of all lines from one parameter to the other, in place. Which of the two is inserted
-/// first makes a difference in the last bits, so that both orders are taken and their mean.
+/// first makes a difference in the last bits, so the result is the mean of both orders.
 /// line: room for two lines; temp: for one.
 template <typename V>
 SIMDBEZIER_INLINE void segment_axis(ScalarOf<V>* net, ScalarOf<V>* line, ScalarOf<V>* temp,

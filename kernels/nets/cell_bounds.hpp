@@ -114,7 +114,7 @@ struct DiagonalSquares {
   }
 };
 
-/// Terms of all but the diagonals, and roots of theirs, which are squares until then.
+/// The terms of edges along u and v, and the roots of the diagonals' terms, so far squares.
 template <typename V>
 SIMDBEZIER_INLINE void finish_terms(const QuarterNets<V>& nets, const CellSteps<V>& step,
                                     const SecondTerms<V>& doubt, ZoneTerms<V>& terms) {
@@ -126,7 +126,7 @@ SIMDBEZIER_INLINE void finish_terms(const QuarterNets<V>& nets, const CellSteps<
   }
 }
 
-/// Vectors that several quarters have are looked at once.
+/// Vectors that several quarters have in common are looked at once.
 template <typename V>
 SIMDBEZIER_INLINE ZoneTerms<V> zone_terms(const QuarterNets<V>& nets, const LaneCells<V>& cells,
                                           const SecondTerms<V>& doubt) {

@@ -87,7 +87,7 @@ public:
     mixed_v_ = rising ? dot(of.vv, of.uv) : zero - dot(of.vv, of.uv);
   }
 
-  /// Less than it by what may have been rounded, which is small beside the sum of the squares.
+  /// A lower bound on it: less by the roundings, which are small beside the sum of the squares.
   [[nodiscard]] SIMDBEZIER_INLINE V at_least(const CellSteps<V>& step) const {
     using T = ScalarOf<V>;
     const V two_uv = step.uv + step.uv;
@@ -109,9 +109,9 @@ private:
   V mixed_v_;
 };
 
-/// Whether the bound of cells can at all be at most t: what it would be, but for rounding, if each
-/// quarter had its leading vectors only. In zones across the middle, terms of both halves come
-/// together, which have no smaller bound than each of them.
+/// Whether the bound of cells can be at most t at all, judged by what it would be, without
+/// rounding, if each quarter had its leading vectors only. Zones across the middle combine the
+/// terms of both halves, so their bound is no smaller than that of either half.
 template <typename V>
 class CellScreen {
 public:

@@ -55,7 +55,7 @@ SIMDBEZIER_INLINE void gather_points(const detail::NetView<const ScalarOf<V>>& i
   }
 }
 
-/// Opens a range that was rounded by up to u of its values, and this itself.
+/// Opens a range whose values were rounded by up to u of themselves, and for its own rounding.
 template <typename V>
 SIMDBEZIER_INLINE Range<V> opened(const Range<V>& range) {
   using T = ScalarOf<V>;

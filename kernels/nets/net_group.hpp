@@ -86,7 +86,7 @@ SIMDBEZIER_INLINE void project(ScalarOf<V>* group, std::size_t points, std::size
 }
 
 /// Patches [first, first + count), count <= lanes; lanes without a patch repeat the last one.
-/// Adding +0 turns -0 into +0, so that edges which differ in the sign of a zero only keep together.
+/// Adding +0 turns -0 into +0, so that edges that differ only in the sign of a zero stay equal.
 template <typename V, typename S>
 SIMDBEZIER_INLINE void read_group(const detail::NetView<const S>& nets, std::size_t first,
                                   std::size_t count, ScalarOf<V>* group) {
@@ -164,8 +164,8 @@ SIMDBEZIER_INLINE EdgeView<S> edge_of(const detail::NetView<S>& nets, std::size_
                             nets.order_v, nets.row_stride};
 }
 
-/// Where all points of an edge of the input are one, those of the result's are that one as well,
-/// whatever the weights.
+/// Where all points of an edge of the input are equal, those of the result's edge are the same
+/// point, whatever the weights.
 template <typename S>
 SIMDBEZIER_INLINE void restore_collapsed_edge(const detail::NetView<const S>& in,
                                               const detail::NetView<S>& out, std::size_t patch,

@@ -1,5 +1,5 @@
 // Linear maps of both directions of a net: degree elevation, derivatives, other bases. In double,
-// whatever the nets are made of: sums of float nets are all but exact, and rounded once.
+// whatever the nets are made of: sums of float nets are then nearly exact, and rounded once.
 #pragma once
 
 #include "kernels/nets/net_group.hpp"
@@ -12,7 +12,7 @@ SIMDBEZIER_INLINE Wide mapped_value(const detail::LinearMap::Row& row, bool keep
                                     const double* in, std::size_t block) {
   const detail::LinearMap::Pair& front = row.pair[0];
   const Wide first = value_of<Wide>(in, (front.entry_a != 0 ? front.a : front.b) * block);
-  // By comparisons that are false for nan on every instruction set, which != is not in xsimd.
+  // These comparisons are false for nan on every instruction set; != is not in xsimd.
   MaskOf<Wide> same = Wide(0.0) <= Wide(0.0);
   Wide sum(0.0);
   for (std::size_t q = 0; q < row.pairs; ++q) {

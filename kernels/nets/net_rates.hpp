@@ -40,12 +40,12 @@ SIMDBEZIER_INLINE LaneCells<V> filip_cells(const RateGroup<V>& group, V t, V mos
   return {select_where<V>(first, by_u.nu, by_v.nu), select_where<V>(first, by_u.nv, by_v.nv)};
 }
 
-/// Cells that may do, from a bound's proportion to a tolerance, next to each other in about the
-/// order of their number; the fewest of them that hold are looked for.
+/// Candidates for the fewest cells that hold: neighbours of those that a bound's proportion to the
+/// tolerance gives, in about the order of their number.
 template <typename V>
 class CellCandidates {
 public:
-  /// best: cells that hold. centre: for which the bound of cells like them is in proportion.
+  /// best: cells that hold. centre: those that a bound's proportion to the tolerance gives.
   SIMDBEZIER_INLINE CellCandidates(const CellScreen<V>& screen, const LaneCells<V>& centre,
                                    const LaneCells<V>& best, V most) {
     using T = ScalarOf<V>;
@@ -106,12 +106,12 @@ struct CertifiedCells {
   V diagonals;
 };
 
-/// The fewest cells next to those for which the bound of an even pair is in proportion. What
-/// Filip's bound gives always holds.
+/// The fewest cells near those that the bound of an even pair of rates, in proportion to the
+/// tolerance, asks for. What Filip's bound gives always holds.
 ///
-/// Few cells need to be looked at as a whole: most of those that do not hold are known by the
-/// vectors that set the even pair's bound, and every lane has candidates of its own, so that lanes
-/// do not wait for each other's.
+/// Few cells need all vectors looked at: the vectors that set the even pair's bound show of most
+/// cells that they do not hold. Every lane has candidates of its own, so that lanes do not wait for
+/// each other's.
 template <typename V>
 SIMDBEZIER_INLINE CertifiedCells<V> choose_cells(const RateScratch<V>& scratch,
                                                  const RateGroup<V>& group, V t, V most) {
@@ -144,7 +144,7 @@ SIMDBEZIER_INLINE CertifiedCells<V> choose_cells(const RateScratch<V>& scratch,
   }
 }
 
-/// Reads a group of patches; what it says is per lane.
+/// Reads a group of patches; its results are one a lane.
 template <typename T>
 SIMDBEZIER_INLINE RateGroup<vec<T>> read_rate_group(const detail::RateTask<T>& task,
                                                     std::size_t first, std::size_t count,

@@ -92,7 +92,7 @@ SIMDBEZIER_INLINE void split_origins(PackedComponent<W>& formed, std::size_t c, 
                    static_cast<std::ptrdiff_t>(detail::kOriginBlock));
 }
 
-/// The control points as given, but for -0.
+/// The control points as given, with +0 for -0.
 template <typename S>
 SIMDBEZIER_INLINE void keep_points(const S* from, std::ptrdiff_t stride, S* to) {
   for (std::size_t p = 0; p < kWideLanes; ++p) {

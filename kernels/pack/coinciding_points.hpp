@@ -1,4 +1,4 @@
-// Whether control points are all one, decided exactly from the values that were given.
+// Whether all control points are one point, decided exactly from the values that were given.
 #pragma once
 
 #include <cmath>

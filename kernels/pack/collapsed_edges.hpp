@@ -5,8 +5,8 @@
 // difference of two equal products, each rounded: noise instead of zero, and with it curvatures.
 // It is therefore packed around its point, as sets with local origins are: numerators that are
 // zero. An edge u = const keeps its weights, by which kernels divide derivatives across it as well.
-// An edge v = const without an origin is the point with a weight of 1: of those, kernels take
-// derivatives along it only, so they need not know.
+// An edge v = const without an origin is the point with a weight of 1: from such edges, kernels
+// take only the point and derivatives along it, so they need not know that it is a point.
 #pragma once
 
 #include <type_traits>
@@ -85,7 +85,7 @@ private:
                         shape.channels(), task_.nets.weights);
   }
 
-  /// In every cell that has a part of it.
+  /// Packs the edge in every cell that has a part of it.
   __attribute__((noinline, cold)) void pack_edge(std::size_t patch, std::size_t edge) const {
     const detail::NetShape& shape = task_.shape;
     const Side side(edge);

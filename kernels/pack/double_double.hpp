@@ -32,8 +32,8 @@ SIMDBEZIER_INLINE DoubleDouble renormalised(DoubleDouble high, Wide low) {
   return {rounded, tail - (rounded - high.high)};
 }
 
-// What a sum is carried in: the first argument says so. Values that are single doubles (low parts
-// zero) need no renormalisation: the sum is already the rounded one.
+// The first argument is of the type that a sum is carried in. Values that are single doubles (low
+// parts zero) need no renormalisation: the sum is already the rounded one.
 template <typename W>
 SIMDBEZIER_INLINE W sum_of(Wide a, Wide b) {
   if constexpr (sizeof(W) == sizeof(Wide)) {

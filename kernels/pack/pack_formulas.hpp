@@ -84,8 +84,8 @@ SIMDBEZIER_INLINE Wide normal_floor(Wide hodograph_u, Wide hodograph_v) {
   const MaskOf<Wide> in_range = (u >= lowest * lowest) & (u <= highest * highest) &
                                 (v >= lowest * lowest) & (v <= highest * highest) & (uv >= lowest) &
                                 (uv <= highest);
-  // As kKernelError of the second look, in one compare: |N| > 2^-7 of the hodographs' powers of
-  // two, which are up to four times smaller than the hodographs' product.
+  // The test of the second look (kKernelError) in one comparison: |N| > 2^-7 of the hodographs'
+  // powers of two, which are up to four times smaller than the hodographs' product.
   const Wide floor = uv * uv * Wide(kSingle ? 0x1p-14 : 0x1p-40);
   return select_where<Wide>(in_range, floor, Wide(std::numeric_limits<double>::infinity()));
 }

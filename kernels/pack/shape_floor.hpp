@@ -10,7 +10,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// Polynomial, one floor for the patch: |du| <= m max|P[j][i+1] - P[j][i]|, and du's error is some
 /// u times that.
 ///
-/// Rational, two sizes, E_u w^2 and E_v w^2, because errors hang on the weight at the sample. With
+/// Rational, two sizes, E_u w^2 and E_v w^2, because errors depend on the sample's weight. With
 /// h = w (P - O), which the kernels form beside w, and
 ///     w du = h_u - S w_u,  S = h / w,
 /// let R >= |P - O|, and so >= |S|, since S is in the hull; W the largest weight; over neighbours

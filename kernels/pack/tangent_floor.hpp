@@ -10,8 +10,8 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// errors are relative to, the kernel's own tangent is good.
 ///
 /// Polynomial, the square of that: errors of C' are some u times its largest control value.
-/// Rational, the part of it that does not hang on the sample; over w^2, squared, it is the floor.
-/// As of patches (pack/shape_floor.hpp), errors are some u times
+/// Rational, the part of it that does not depend on the sample; over w^2, squared, it is the floor.
+/// As with patches (pack/shape_floor.hpp), errors are some u times
 ///     n (D + 4 B R) W / w^2:
 /// R >= |P - O|, W the largest weight, D and B the largest max(w,w') |P' - P| and |w' - w| of
 /// neighbours.

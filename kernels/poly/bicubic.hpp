@@ -1,8 +1,8 @@
 // The formulas of one bicubic component, over V = one register of samples or one sample.
 //
-// Order of operations, on which the bits of every result hang:
-//   q_l(X)  = Horner in X over C[.][l]           once per column, 3 madd (5 with the derivative in
-//   X) S(X,Y)  = even and odd part in Y of q_l(X)   once per pair of rows: poly/even_odd.hpp
+// The bits of every result depend on this order of operations:
+//   q_l(X) = Horner in X over C[.][l]           once per column: 3 madd, 5 with the derivative
+//   S(X,Y) = even and odd part in Y of q_l(X)   once per pair of rows: poly/even_odd.hpp
 // Derivatives reuse the intermediates of either. Where X (Y) is exactly -1/2 or 1/2 the edge's own
 // cubic takes the place of the column (row).
 #pragma once

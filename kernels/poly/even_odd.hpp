@@ -12,7 +12,7 @@
 // and 2 would gain nothing, and from degree 6 on rows Y and -Y lie in different cells
 // (net_shape.hpp).
 //
-// Order of operations, on which the bits of every result hang, with Z = Y * Y rounded:
+// The bits of every result depend on this order of operations, with Z = Y * Y rounded:
 //   value   E + Y * O, both parts by Horner's rule in Z; the product is rounded before the sum
 //   slope   (O + 2 Z O') + 2 Y * E', where ' is by Z
 //   half of the second derivative   (E' + 4 Z E''/2) + 3 Y * O' (+ 4 Z Y O''/2, degree 5)
@@ -29,8 +29,8 @@ constexpr bool takes_even_odd(std::size_t order) {
   return detail::is_even_odd(static_cast<int>(order) - 1);
 }
 
-/// What is at Y the sum of two parts, and at -Y their difference. Slopes are even in their odd
-/// part: `even` is what both have in common.
+/// The two parts of a value that is their sum at Y and their difference at -Y. A slope's parts swap
+/// roles, since the odd part has an even slope: `even` is the part that both rows have in common.
 template <typename V>
 struct Parts {
   V even;

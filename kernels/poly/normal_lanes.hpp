@@ -20,7 +20,7 @@ struct Suspects {
   std::size_t value_step = 1; ///< values from one sample's normal to the next
 };
 
-/// Every normal takes a second look.
+/// A floor with which every normal takes a second look.
 template <typename V>
 SIMDBEZIER_INLINE V no_floor() {
   return broadcast<V>(static_cast<ScalarOf<V>>(__builtin_inf()));

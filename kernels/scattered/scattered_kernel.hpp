@@ -68,9 +68,9 @@ __attribute__((noinline)) void evaluate_rest(const ScatteredTask<T>& task, std::
 template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename T>
 void evaluate_block(const ScatteredTask<T>& task);
 
-/// kPrefetch: the set is not in a cache. Code of its own for each: asking for lines that are there
-/// costs a third of the speed, and the question whether to ask, up to a tenth. Sets with origins
-/// are asked for in any case.
+/// kPrefetch: the set is not in a cache. Both cases have code of their own: to prefetch lines that
+/// are in the cache costs a third of the speed, and to ask at run time up to a tenth. Sets with
+/// origins are always prefetched.
 template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename V>
 SIMDBEZIER_INLINE void evaluate_samples(const ScatteredTask<ScalarOf<V>>& task) {
   constexpr std::size_t kWide = kOutcome == kPositions ? 2 : 1; // registers for a long run

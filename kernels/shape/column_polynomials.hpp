@@ -6,10 +6,10 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// How samples are computed: derivatives up to kHighest; with weights; if the compiler knows them,
-/// or else 0: the components at once (one of any number, or all three) and the orders (of a patch
-/// that is one cell). Sweeps run along v, so the order in u matters only where there is little else
-/// to do.
+/// How samples are computed: derivatives up to kHighest, with or without weights, and what the
+/// compiler knows (else 0): how many components go at once (one of any number, or all three), and
+/// the orders of a patch that is one cell. Sweeps run along v, so the order in u matters only where
+/// there is little else to do.
 template <std::size_t kHighest, bool kRational, std::size_t kComponents, std::size_t kU,
           std::size_t kV>
 struct ShapePlan {
@@ -25,7 +25,7 @@ struct ShapePlan {
   using AnyDegree = ShapePlan<kHighest, kRational, kComponents, 0, 0>;
   static_assert(kOneCell || !kKnown);
 
-  /// What follows from the plan is a constant.
+  /// The same shape, with constants for what the plan says.
   static SIMDBEZIER_INLINE NetShape shape(NetShape of_set) {
     of_set.rational = kRational;
     if constexpr (kComponents == 3) {

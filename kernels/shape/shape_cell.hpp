@@ -10,7 +10,7 @@ using detail::NetShape;
 /// Columns of a patch: where in which cell they are.
 template <typename V>
 struct CellColumns {
-  Column<V> local; ///< in there, and which are on its edges
+  Column<V> local; ///< places in the cell, and which of them are on its edges
   MaskOf<V> low;   ///< in the cell of lower u
   bool any_low;
   bool any_high;

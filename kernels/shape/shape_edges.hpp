@@ -1,4 +1,4 @@
-// What edges and origins give to a register of columns of a patch: nothing that depends on the
+// What edges and origins contribute to a register of columns of a patch. None of it depends on the
 // degree in v.
 //
 // On an edge u = const, position, dv and dvv come from the edge, du and duv from the patch; on an

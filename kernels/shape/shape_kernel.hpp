@@ -44,7 +44,7 @@ SIMDBEZIER_INLINE void with_order_v(const NetShape& shape, const Run& run) {
   }
 }
 
-/// Positions of common degrees, for which the compiler knows everything. Whether it has run.
+/// Positions of common degrees, for which the compiler knows everything. Returns whether it ran.
 template <typename Run>
 SIMDBEZIER_INLINE bool with_common_degrees(const NetShape& shape, const Run& run) {
   switch (shape.degree_u * 16 + shape.degree_v) {

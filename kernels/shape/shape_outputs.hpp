@@ -90,7 +90,7 @@ SIMDBEZIER_INLINE void store_group(const SampleTask<ScalarOf<V>>& task, detail::
   });
 }
 
-/// Those of samples that turn out to have no normal, or a limit only, become nan afterwards.
+/// Curvatures become nan afterwards where a sample has no normal, or only a limit of one.
 template <typename P, typename V>
 SIMDBEZIER_INLINE void store_curvatures(const SampleTask<ScalarOf<V>>& task,
                                         const SampleRange<V>& range, const SampleJet<V>& jet) {

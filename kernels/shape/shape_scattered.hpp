@@ -33,9 +33,9 @@ SIMDBEZIER_INLINE void keep_lanes(MaskOf<V> yes, const SampleJet<V>& other, Samp
   }
 }
 
-/// Samples of one patch in one row of cells, at the local y and at x, which `columns` are. edge:
-/// the edge v = const of the cells that all of them are on; kEdges where it is none. Out of line:
-/// it is large, and there are several ways to it.
+/// Samples of one patch in one row of cells, at the local y and at x, of which `columns` are made.
+/// edge: the edge v = const of the cells that all of them are on; kEdges where it is none. It is
+/// out of line because it is large and has several callers.
 template <typename P, typename V>
 __attribute__((noinline)) void evaluate_row(const ScatteredTask<ScalarOf<V>>& task,
                                             const NetShape& shape, std::size_t patch,
@@ -79,10 +79,10 @@ SIMDBEZIER_INLINE V sample_floor(const ScatteredTask<ScalarOf<V>>& task,
   return floor_inside(range.y, floor_inside(range.x, floor));
 }
 
-/// Samples [k, k + count) of one patch, at most a register of them; the rest of it repeats the
-/// last. Returns which of them cannot be told from samples off the edges v = const here: those that
-/// are on one of their cells, and those that are not finite. alone: count is 1, and the sample is
-/// what it is.
+/// Samples [k, k + count) of one patch, at most a register of them; further lanes repeat the last.
+/// Returns those that need a call of their own: samples on an edge v = const of their cell, and
+/// samples that are not finite. alone: this is that call, and count is 1. A register has one
+/// formula, which is that of samples off these edges unless it is called for a sample alone.
 template <typename P, typename T>
 __attribute__((noinline)) std::uint32_t evaluate_together(const ScatteredTask<T>& task,
                                                           const NetShape& shape, std::size_t k,

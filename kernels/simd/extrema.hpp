@@ -1,6 +1,6 @@
-// Smaller and larger of two values. Which zero of two comes back depends on the machine, and what
-// comes back where one is nan: b where a is, except on NEON, where nan stays. For callers to whom
-// neither matters.
+// Smaller and larger of two values, for callers to whom two things do not matter that depend on the
+// machine: which of two zeros comes back, and what comes back where one value is nan (b where a is
+// nan, except on NEON, where nan stays).
 #pragma once
 
 #include "kernels/simd/vector.hpp"

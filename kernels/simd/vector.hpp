@@ -37,9 +37,9 @@ inline constexpr bool kFused = true;
 inline constexpr bool kFused = false;
 #endif
 
-/// Whether this is one of the instruction sets that hardly any machine is left to. They are there
-/// to be right everywhere, and get one kernel for each purpose: no code of its own for a size, a
-/// degree or an arrangement that another kernel can do as well.
+/// Whether this is one of the instruction sets that hardly any machine depends on. They are there
+/// to be right everywhere, and get one kernel for each purpose: no special code for a size, a
+/// degree or an arrangement that another kernel can handle as well.
 #if defined(SIMDBEZIER_KERNELS_SCALAR) || defined(SIMDBEZIER_KERNELS_SSE2)
 inline constexpr bool kCompact = true;
 #else
@@ -146,7 +146,7 @@ SIMDBEZIER_INLINE V madd(V a, V b, V c) {
   }
 }
 
-/// a * b - c, as madd. (xsimd 8.1 negates by subtracting from +0, which turns +0 into +0.)
+/// a * b - c, as madd. (xsimd 8.1 negates by subtracting from +0, which does not make -0 of +0.)
 template <typename V>
 SIMDBEZIER_INLINE V msub(V a, V b, V c) {
   if constexpr (!kFused) {
