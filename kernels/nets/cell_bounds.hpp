@@ -24,7 +24,7 @@ SIMDBEZIER_INLINE V whole_above(V x) {
 
 /// Three edge terms of a triangle in order, and how far the largest one is above the sum of the
 /// others. Where one of them is far smaller than the rest, differences of their products would have
-/// few right digits; those of neighbours have.
+/// few correct digits; differences of neighbours keep theirs.
 template <typename V>
 struct SortedTerms {
   V least;

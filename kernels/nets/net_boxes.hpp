@@ -1,4 +1,4 @@
-// Boxes and flatness of groups of nets; the proofs are in bounds.hpp.
+// Boxes of groups of nets; the proofs are in docs/accuracy.md.
 #pragma once
 
 #include <limits>
@@ -121,7 +121,7 @@ void add_pieces(Pieces<V>& pieces, ScalarOf<V>* net, int levels) {
   }
 }
 
-/// The bound of bounds.hpp on what rounding did to a component's hull.
+/// The bound of docs/accuracy.md on what rounding did to a component's hull.
 template <typename V>
 SIMDBEZIER_INLINE V hull_margin(const Range<V>& control, const Range<V>& moved, V weight_low,
                                 V weight_high, bool rational, ScalarOf<V> means) {

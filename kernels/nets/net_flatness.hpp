@@ -1,5 +1,5 @@
-// Distance to the bilinear patch of the corners; the proof is in bounds.hpp. Nothing is fused: the
-// bound has the same bits on all instruction sets.
+// Distance to the bilinear patch of the corners; docs/accuracy.md has the proof. Nothing is fused:
+// the bound has the same bits on all instruction sets.
 #pragma once
 
 #include "kernels/nets/net_boxes.hpp"
@@ -56,7 +56,7 @@ SIMDBEZIER_INLINE V polynomial_distance(const MovedNet<V>& net) {
   return worst;
 }
 
-/// N_kl / w_kl of bounds.hpp, its squared length over extent^2.
+/// N_kl / w_kl of docs/accuracy.md: its squared length over extent^2.
 template <typename V>
 SIMDBEZIER_INLINE V rational_control_distance(const MovedNet<V>& net, std::size_t k,
                                               std::size_t l) {
