@@ -52,7 +52,7 @@ inline void require(bool holds, simdbezier_status otherwise, const Path& path) {
   }
 }
 
-/// Refuses the call where the C++ function did; path_of(status) names the argument.
+/// Refuses the call if the C++ function refused it; path_of(status) names the argument.
 template <typename PathOf>
 void require_ok(Status status, PathOf path_of) {
   if (!status) {
@@ -82,7 +82,7 @@ simdbezier_status answer(const char* function, Body body) noexcept {
   }
 }
 
-/// The body of a function that returns a size and explains nothing: 0 where it is refused.
+/// The body of a function that returns a size instead of a status: 0 where it is refused.
 template <typename Body>
 std::size_t size_or_zero(Body body) noexcept {
   try {

@@ -28,7 +28,7 @@ MeshOutputs<T> outputs_of(const simdbezier_mesh_outputs* given) {
   return out;
 }
 
-/// Of how many patches a set is, and not of where it is asked about.
+/// unequal_lengths is about the number of patches in the set, not about the range asked for.
 Path blamed_in_mesh(Status status) {
   switch (status.code()) {
   case Status::unequal_lengths:

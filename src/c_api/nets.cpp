@@ -53,7 +53,7 @@ MutableNets<T> output_of(const simdbezier_mutable_nets* out, const Path& path) {
   return nets_of<T>(read(out, path), path);
 }
 
-/// The operations from nets to nets that take no more.
+/// The operations from nets to nets that take no further arguments.
 template <typename Call>
 simdbezier_status operate(const char* function, const simdbezier_nets* nets,
                           const simdbezier_mutable_nets* out, const simdbezier_options* options,

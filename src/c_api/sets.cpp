@@ -36,7 +36,7 @@ void copy(const double (&from)[N], double (&to)[N]) {
   std::copy_n(from, N, to);
 }
 
-/// A number that a handle knows; 0 of null.
+/// A number that is asked of a handle; 0 for a null handle.
 template <typename Handle, typename Ask>
 auto ask(const Handle* handle, Ask question) noexcept
     -> decltype(std::visit(question, handle->of)) {

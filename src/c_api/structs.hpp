@@ -1,4 +1,4 @@
-// Structs of the caller's that carry their size, and numbers that stand for names and types.
+// The caller's structs, which carry their size, and numbers that stand for names and types.
 #pragma once
 
 #include <algorithm>
@@ -14,15 +14,15 @@ namespace simdbezier::c_api {
 template <typename S>
 inline constexpr std::size_t kFirstSize = sizeof(S);
 
-/// No struct will ever be as large; more is a struct_size that was never set.
+/// No struct will ever be larger; a larger struct_size is one that was never set.
 inline constexpr std::size_t kMostSize = 4096;
 
 inline bool is_size(std::size_t size, std::size_t least) noexcept {
   return size >= least && size <= kMostSize;
 }
 
-/// The caller's struct in the size that is known here. Members that its compiler did not know are
-/// zero; those that are not known here have to be.
+/// The caller's struct in the size that is known here. Members that the caller did not know become
+/// zero; members that are not known here have to be zero.
 template <typename S>
 S read(const S* given, const Path& path) {
   static_assert(std::is_trivially_copyable_v<S>);
@@ -39,7 +39,7 @@ S read(const S* given, const Path& path) {
   return known;
 }
 
-/// The same of options: null stands for a struct of zeros.
+/// The same for options: null stands for a struct of zeros.
 template <typename S>
 S read_options(const S* given, const Path& path) {
   return given == nullptr ? S{} : read(given, path);
@@ -78,7 +78,7 @@ void write(S* result, S known) noexcept {
   }
 }
 
-/// A number of the caller's that stands for one of `count` names.
+/// The caller's number for one of `count` names.
 template <typename Enum>
 Enum choice(std::int32_t value, std::int32_t count, const Path& path) {
   require(value >= 0 && value < count, SIMDBEZIER_BAD_VALUE, path);
@@ -89,7 +89,7 @@ template <typename T>
 inline constexpr simdbezier_scalar kScalar =
     std::is_same_v<T, float> ? SIMDBEZIER_F32 : SIMDBEZIER_F64;
 
-/// body.operator()<T>() for the type of that name.
+/// Calls body.operator()<T>() with the type that a number names.
 template <typename Body>
 auto with_scalar(simdbezier_scalar scalar, const Path& path, Body body) {
   require(scalar == SIMDBEZIER_F32 || scalar == SIMDBEZIER_F64, SIMDBEZIER_BAD_SCALAR, path);
@@ -102,7 +102,7 @@ void require_scalar(simdbezier_scalar scalar, const Path& path) {
   require(scalar == kScalar<T>, SIMDBEZIER_BAD_SCALAR, path / "scalar");
 }
 
-/// A span of the caller's; null with a length is refused.
+/// The caller's span; a null pointer with a length is refused.
 template <typename V>
 std::span<V> span_of(V* first, std::size_t length, const Path& path) {
   require(first != nullptr || length == 0,

@@ -21,7 +21,7 @@ inline constexpr std::int32_t kIsas = 6;
 
 inline Isa isa_of(simdbezier_isa isa, const Path& path) { return choice<Isa>(isa, kIsas, path); }
 
-/// Options, and the way back of the kernel's name.
+/// Options, and the name of the kernel that ran, handed back to the caller.
 class CallOptions {
 public:
   explicit CallOptions(const simdbezier_options* given) : given_(read_options(given, kOptions)) {
@@ -64,7 +64,7 @@ inline Parameters parameters_of(simdbezier_parameters parameters, const Path& pa
   return choice<Parameters>(parameters, 2, path / "parameters");
 }
 
-/// Where the first value of nets or curves stands; what is null or ends before it is refused.
+/// The address of the first value of nets or curves; memory that is null or too short is refused.
 template <typename S, typename Struct>
 auto first_value(const Struct& given, const Path& path) {
   constexpr bool kInput = std::is_const_v<std::remove_pointer_t<decltype(given.points)>>;

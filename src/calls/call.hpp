@@ -10,8 +10,8 @@
 //   std::size_t scratch_bytes()   that each of them needs
 //   Isa run(worker, begin, end, scratch)
 //
-// The first two may refuse, and nothing has been written by then; nothing after them can fail but
-// an allocation, before the first thread starts.
+// The first two may refuse the call, before anything has been written. After them only an
+// allocation can fail, before the first thread starts.
 #pragma once
 
 #include <algorithm>
@@ -65,7 +65,7 @@ struct Components {
   }
 };
 
-/// Patches or curves [first, first + count) of a set of `size`; false where it has no such ones.
+/// Patches or curves [first, first + count) of a set of `size`; false where the set lacks them.
 [[nodiscard]] inline bool resolve_range(const SetRange& range, std::size_t size, std::size_t& first,
                                         std::size_t& count) noexcept {
   const std::size_t rest = size - range.first;

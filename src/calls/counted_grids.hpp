@@ -1,4 +1,4 @@
-// Grids of which every patch or curve has its own: sizes, places, parameters and shares of work.
+// Grids of each patch's or curve's own: their sizes, places, parameters and shares of work.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ public:
       : nu_(grids.n), given_offset_(grids.offset), rows_of_one_(true),
         equal_lengths_(matches(grids.offset)) {}
 
-  /// Before anything else is asked for.
+  /// Counts the samples; to be called before anything else.
   /// ok | null_input | unequal_lengths | bad_grid | bad_offsets | size_overflow | out_of_memory
   [[nodiscard]] Status count() noexcept;
 

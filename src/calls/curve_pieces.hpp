@@ -31,7 +31,7 @@ template <typename T>
   return {out, samples, out.wants_vectors() ? destination : Destination::cache};
 }
 
-/// Fills what tasks of all kinds have in common, for curves from `first` on and samples from
+/// Fills in what tasks of all kinds have in common, for curves from `first` on and samples from
 /// `sample` on.
 template <typename T>
 void fill_arrays(CurveArrays<T>& task, const CurveStorage<T>& curves, std::size_t first,

@@ -12,9 +12,9 @@ namespace {
 /// Samples from which on planes amortise staging.
 constexpr std::size_t kLongRow = 32;
 
-/// Whether kernels are to write rows straight to where they belong, as they can positions of three
-/// components and nothing else. Planes that need no staging and hold whole registers are swept
-/// faster one by one.
+/// Whether kernels are to write rows straight to where they belong, which they can only do with
+/// positions of three components. Planes that need no staging and hold whole registers are faster
+/// one by one.
 template <typename T>
 bool goes_in_rows(const CurveShape& shape, const OutputPlan<T>& outputs,
                   const KernelTable<T>& table, std::size_t n) noexcept {

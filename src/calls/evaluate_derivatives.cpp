@@ -50,7 +50,7 @@ Status check_derivatives(Derivatives<T> wanted, std::size_t samples, std::size_t
   return Status::ok;
 }
 
-/// Polynomials need the orders asked for; quotients all lower ones as well.
+/// Polynomials need the orders asked for; quotients need all lower ones as well.
 template <typename T>
 DerivativeOrders orders_of(Derivatives<T> wanted, bool rational) noexcept {
   DerivativeOrders orders;

@@ -1,4 +1,4 @@
-// The call for patches with grids of their own: work divided by samples, rows as its grain.
+// The call for patches with grids of their own: work is divided by samples, in whole rows.
 #include <algorithm>
 
 #include <simdbezier/evaluate.hpp>

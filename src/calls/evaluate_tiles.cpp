@@ -1,4 +1,5 @@
-// The tiles call: as the grid call, but into each thread's own memory, and then to the caller.
+// The tiles call: it runs as the grid call, but into each thread's own memory, which then goes to
+// the caller's function.
 #include <algorithm>
 
 #include <simdbezier/tiles.hpp>

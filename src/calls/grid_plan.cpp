@@ -17,7 +17,7 @@ void fill_parameters(const T* given, std::size_t count, Parameters parameters, T
     out[i] =
         given == nullptr ? uniform_parameter<T>(i, count - 1) : half_centred(given[i], parameters);
   }
-  // Lanes behind the last column or row repeat it, so that they trigger nothing that it does not.
+  // Lanes behind the last column or row repeat it, so that they need nothing that it does not need.
   std::fill_n(out + count, kMaxLanes, out[count - 1]);
 }
 

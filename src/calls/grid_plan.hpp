@@ -13,7 +13,7 @@
 
 namespace simdbezier::detail {
 
-/// x_i = (2i - N) / N of N intervals, halved, by one correctly rounded division, so that
+/// Half of x_i = (2i - N) / N for N intervals, by one correctly rounded division, so that
 /// x_i = -x_{N-i} exactly.
 template <typename T>
 T uniform_parameter(std::size_t i, std::size_t intervals) noexcept {
@@ -35,8 +35,8 @@ public:
     return nu <= kInline && nv <= kInline;
   }
 
-  /// Checks the grid and fills the plan. Returns ok | bad_grid | size_overflow | out_of_memory; the
-  /// last not where `memory` has room for memory_values() of the grid.
+  /// Checks the grid and fills the plan. Returns ok | bad_grid | size_overflow | out_of_memory (not
+  /// if `memory` has room for the grid's memory_values()).
   [[nodiscard]] Status build(const Grid<T>& grid, T* memory = nullptr) noexcept;
   [[nodiscard]] static std::size_t memory_values(std::size_t nu, std::size_t nv) noexcept;
 

@@ -99,8 +99,8 @@ PackReport iso_of_nets(const ControlNets<S>& nets, Across direction, double t, C
   return pack_formed(task, nets.count, form, curves, options);
 }
 
-/// The nets that a set keeps, S as they were given: of one shape, in one form or in both, which are
-/// two buckets.
+/// The nets that a set keeps, in the type S in which they were given. They have one shape; weights
+/// of both forms make two buckets.
 template <typename T, typename S>
 PackReport iso_of_given(const SetStorage<T>& set, Across direction, double t, CurveSet<T>& curves,
                         const PackOptions& options) {

@@ -51,9 +51,9 @@ struct PatchKernels {
         choice(out, request.components, request.table->compact), watertight(options.watertight),
         first_component(request.components.first) {}
 
-  /// What they put where it belongs by themselves, on grids of `nu` columns or more: all of it
-  /// where one kernel knows all of its outputs, and all patches are bicubic. streamed: past the
-  /// caches, too.
+  /// What kernels write to its final place by themselves, on grids of `nu` columns or more: all of
+  /// it where one kernel knows all outputs, and all patches are bicubic. streamed: past the caches
+  /// as well.
   [[nodiscard]] DirectRows direct_rows(std::size_t nu, bool streamed) const noexcept {
     const bool bicubic =
         !choice.any_shape && set->places == nullptr && set->buckets[0].shape.is_bicubic();

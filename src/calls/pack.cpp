@@ -106,7 +106,7 @@ PackReport pack_runs(std::span<const ControlNets<S>> nets, std::span<const PackR
 /// normals of its patch would not pass. Lane by lane, so that none waits for the one before.
 template <typename T>
 T common_floor(const T* floors, std::size_t count) {
-  constexpr T kRange = 256; // patches of one to four times a size
+  constexpr T kRange = 256; // sizes of patches that differ by a factor of up to four
   T highest[kMaxLanes] = {};
   T lowest[kMaxLanes];
   std::fill_n(lowest, kMaxLanes, std::numeric_limits<T>::infinity());

@@ -24,7 +24,7 @@ inline Status packing_isa(const PackOptions& options, Isa& isa) noexcept {
   return Status::ok;
 }
 
-/// A relative_to that is finite where points have components.
+/// Checks that relative_to is finite in the components that points have.
 inline PackReport check_relative_to(const PackOptions& options, int components) noexcept {
   for (int c = 0; c < std::min(components, 3); ++c) {
     if (!std::isfinite(options.relative_to[c])) {
@@ -34,15 +34,15 @@ inline PackReport check_relative_to(const PackOptions& options, int components) 
   return {};
 }
 
-/// With what packing begins: whether the options are sound for points of so many components, and
+/// The first step of packing: whether the options are sound for points of so many components, and
 /// which instruction set packs.
 inline PackReport resolve_packing(const PackOptions& options, int components, Isa& isa) noexcept {
   const PackReport moved = check_relative_to(options, components);
   return moved ? PackReport{packing_isa(options, isa)} : moved;
 }
 
-/// Packs [begin, end) up to the first fault. pack(begin, end) calls a kernel, which only knows a
-/// bound on the squares; what it finds doubtful, inspect(k) looks at.
+/// Packs [begin, end) up to the first fault. pack(begin, end) calls a kernel, which only compares
+/// squares with a bound; inspect(k) decides about patches that it finds doubtful.
 template <typename Pack, typename Inspect>
 PackReport pack_and_inspect(std::size_t begin, std::size_t end, const Pack& pack,
                             const Inspect& inspect) {
@@ -69,7 +69,7 @@ GivenPoints given_form(Weights weights, const PackOptions& options) noexcept {
   return given;
 }
 
-/// Where a pack call keeps them, in memory of its own.
+/// Where a pack call keeps its control points, in memory of its own.
 template <typename S>
 S* writable_points(const GivenPoints& given) noexcept {
   return static_cast<S*>(const_cast<void*>(given.values));

@@ -49,8 +49,8 @@ public:
         curvature[k] = outputs.out().curvature_at(k, sample);
       }
     }
-    /// The same piece from a sample of it on, by patches that are staged together no longer; its
-    /// planes are formed in `memory`.
+    /// The rest of the piece from one of its samples on, for patches that are no longer staged
+    /// together; its planes are formed in `memory`.
     [[nodiscard]] Target from(std::size_t sample, Planes<T> (&memory)[kGroups]) const noexcept {
       Target rest = *this;
       for (std::size_t g = 0; g < kGroups; ++g) {

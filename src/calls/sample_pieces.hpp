@@ -12,7 +12,7 @@
 
 namespace simdbezier::detail {
 
-/// ok | null_input | bad_patch_index, of as many parameters as indices.
+/// ok | null_input | bad_patch_index; there are as many parameters as indices.
 template <typename T>
 [[nodiscard]] Status check_samples(std::span<const std::uint32_t> index, bool parameters,
                                    std::size_t set_size, const KernelTable<T>& table) noexcept {
@@ -26,7 +26,7 @@ template <typename T>
   return highest < set_size ? Status::ok : Status::bad_patch_index;
 }
 
-/// Of patches.
+/// The same for the parameters and indices of patches.
 template <typename T>
 [[nodiscard]] Status check_samples(const PatchSet<T>& set, const Samples<T>& samples,
                                    const KernelTable<T>& table) noexcept {
@@ -39,8 +39,8 @@ template <typename T>
   return samples.u.size() != samples.patch.size() || samples.v.size() != samples.patch.size();
 }
 
-/// Samples that a kernel evaluates at a time. Fewer where it stages its outputs, which then stay in
-/// the first-level cache; otherwise so many that preparing a task does not show.
+/// Samples that a kernel evaluates at a time: where outputs are staged, few enough for the
+/// first-level cache, otherwise so many that the time to prepare a task does not count.
 struct SamplePieces {
   std::size_t length;
   std::size_t count;
@@ -49,7 +49,7 @@ struct SamplePieces {
       : length(staged ? 512 : 2048), count(samples / length + (samples % length != 0 ? 1 : 0)) {}
 };
 
-/// Results in samples' order seldom fill lines one after the other: past the caches on demand only.
+/// Results in the order of samples seldom fill whole lines, so stores bypass caches on demand only.
 constexpr Destination sample_destination(Destination wanted) noexcept {
   return wanted == Destination::memory ? Destination::memory : Destination::cache;
 }

@@ -13,7 +13,7 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-/// Samples that no memory has room for.
+/// A number of samples that no memory has room for.
 constexpr std::size_t kTooMany = std::numeric_limits<std::size_t>::max();
 
 constexpr std::size_t addressable(std::size_t samples) noexcept {

@@ -39,8 +39,8 @@ public:
   [[nodiscard]] Bound component(std::size_t c) const {
     Bound bound;
     for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
-      // A polynomial's edges have no terms that its matrix has not; a quotient's, around an origin
-      // of their own, may have. Those that are zero, as around points, are exact.
+      // A polynomial's edges have no terms beyond those of its matrix; a quotient's edges, around
+      // an origin of their own, may have some. Terms of zero, as around points, are exact.
       bound.include(shape_.rational ? quotient(cell, c, matrix(cell, c), matrix(cell, weight()), 0)
                                     : polynomial(cell, c));
       for (std::size_t e = 0; shape_.rational && e < kEdges; ++e) {
@@ -64,8 +64,8 @@ private:
 
   [[nodiscard]] std::size_t weight() const { return static_cast<std::size_t>(shape_.components); }
 
-  /// Covers a polynomial's edges v = const as well. Their terms are sums of these; even and odd
-  /// parts round each at most once more than a column does, and every row rounds its constant.
+  /// This covers a polynomial's edges v = const as well. Their terms are sums of these; even and
+  /// odd parts round each at most once more than a column does, and every row rounds its constant.
   [[nodiscard]] TermSums matrix(std::size_t cell, std::size_t channel) const {
     const T* const c = storage_.coefficients + index_ * shape_.coefficients() +
                        cell * shape_.cell_coefficients() + channel * shape_.matrix();
@@ -95,9 +95,9 @@ private:
                : net_.coordinate(point, shape_.channels(), channel);
   }
 
-  /// What coefficients miss from the start, in all terms together: they are sums of up to 2^(m+n)
-  /// control values in double where T is float and in double-double else, rounded at every one of
-  /// about 2 (m + n) levels. Only products and halvings do not come out exact there.
+  /// The error of the packed coefficients, for all terms together: they are sums of up to 2^(m+n)
+  /// control values, in double where T is float and else in double-double, rounded at each of about
+  /// 2 (m + n) levels. Only products and halvings are inexact there.
   [[nodiscard]] double carried(double largest) const {
     const int degrees = shape_.degree_u + shape_.degree_v;
     const double unit = sizeof(T) == sizeof(float) ? 0x1p-53 : 0x1p-104;

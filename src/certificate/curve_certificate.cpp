@@ -105,7 +105,7 @@ private:
     const double by_inverse = w.error.at[0] / divisor + 2 * kUnit;
     ByOrder error;
     const double position = 1.01 * (h.error.at[0] / divisor + most * by_inverse);
-    // Where two halves meet, a point is stored that three roundings made out of h and w.
+    // Where two halves meet, a point is stored that h and w gave by three roundings.
     const double last = shape_.cells() == 2 ? 3 : 1;
     error.at[0] = position + last * kUnit * (std::fabs(o) + most);
 

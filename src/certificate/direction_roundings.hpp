@@ -1,5 +1,5 @@
-// How often the term of each power is rounded on its way through the evaluation of one direction,
-// which certificates multiply it by. docs/accuracy.md has the counts' proof.
+// How often the term of each power is rounded in the evaluation of one direction: certificates
+// multiply terms by these counts, whose proof is in docs/accuracy.md.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace simdbezier::detail {
 
-/// By even and odd parts, rounded up where roundings reach a part of a term only: [with or without
-/// fused operations][order of the derivative][degree - 3][power].
+/// The counts of even and odd parts, the higher one where roundings reach only a part of a term:
+/// [with or without fused operations][order of the derivative][degree - 3][power].
 inline constexpr unsigned char kEvenOddRoundings[2][3][3][6] = {
     {{{2, 3, 4, 5}, {2, 3, 5, 5, 7}, {2, 3, 5, 6, 7, 8}},
      {{0, 3, 2, 5}, {0, 3, 4, 5, 6}, {0, 3, 4, 6, 6, 8}},
@@ -29,7 +29,7 @@ struct DirectionRoundings {
   [[nodiscard]] constexpr double value(std::size_t k) const { return derivative(0, k); }
   [[nodiscard]] constexpr double slope(std::size_t k) const { return derivative(1, k); }
 
-  /// Of the term k (k - 1) … c_k t^(k - taken); those that the derivative has not count nothing.
+  /// Of the term k (k - 1) … c_k t^(k - taken); terms that vanish in the derivative count nothing.
   [[nodiscard]] constexpr double derivative(std::size_t taken, std::size_t k) const {
     if (k < taken) {
       return 0;

@@ -18,7 +18,7 @@ struct Bounded {
 /// The arithmetic of such numbers. A number whose error is zero is exact; an exact zero thus comes
 /// from zero factors and equal terms only, and certifies that the true number is zero.
 ///
-/// Every rounding is taken for twice as large as it can be, which makes up for those of the bounds
+/// Every rounding counts as twice as large as it can be, which covers the roundings of the bounds
 /// themselves. Where something overflows, values or bounds are infinite or nan, which certifies
 /// nothing.
 class BoundedField {
@@ -89,7 +89,7 @@ public:
 
 private:
   static constexpr double kUnit = 0x1p-52;
-  /// Smaller products may have lost digits; so large that the bounds above it have none to lose.
+  /// Smaller products may have lost digits; bounds of larger ones have none to lose.
   static constexpr double kSmallest = 0x1p-900;
 
   [[nodiscard]] static double inverse_power(double size) {

@@ -44,12 +44,12 @@ public:
       }
     }
   }
-  /// Digits of what place() makes of them.
+  /// Digits of the coordinates that place() returns.
   [[nodiscard]] int digits(const DigitRange& points, const DigitRange& weights) const {
     return points.digits() + (rational() ? weights.digits() + 1 : 0);
   }
 
-  /// What place() multiplies numerators by besides.
+  /// The additional factor by which place() multiplies numerators.
   [[nodiscard]] double numerator_factor(std::size_t origin) const {
     return weights_ == Weights::homogeneous ? weight_[origin] : 1;
   }

@@ -75,11 +75,12 @@ inline void take(const Bounded vector[3], LeadingTerm& term) {
   }
 }
 
-/// What regular directions are known to: samples close to where they vanish are many, and exact
-/// ones of high degrees take a millisecond. Bounds exceed errors by far.
+/// The accuracy of regular directions: there are many samples close to where they vanish, and exact
+/// decisions of high degrees take a millisecond each. Bounds exceed errors by far.
 inline constexpr double kRegularTolerance = 0x1p-16;
 
-/// In doubles; false where rounding errors leave it open. Order `lowest` is the regular case.
+/// Decides in doubles; false where rounding errors leave it open. Order `lowest` is the regular
+/// case.
 template <typename Series>
 bool find_in_doubles(Series& series, int lowest, int highest, double tolerance, LeadingTerm& term) {
   for (int order = lowest; order <= highest; ++order) {
@@ -100,7 +101,7 @@ bool find_in_doubles(Series& series, int lowest, int highest, double tolerance, 
   return true;
 }
 
-/// Exactly. make(field) gives the series modulo a prime.
+/// Decides exactly. make(field) gives the series modulo a prime.
 ///
 /// One prime after the other tells which coefficients are not zero; its remainders of the lowest
 /// such one are kept until their product says what it is. Where a later prime finds a lower one,
@@ -157,8 +158,8 @@ __attribute__((noinline)) bool find_quickly(const Question& question, int lowest
 
 /// make(field) gives the polynomial's coefficients in the arithmetic of a field: coefficient(k,
 /// vector) is called for k = lowest, lowest + 1, …. tolerance: of the vector's components, relative
-/// to the largest. Question: has field(), the doubles to begin with, digits(), and may have
-/// is_zero(), which tells in less time than all coefficients take that they are zero.
+/// to the largest. Question has field(), the doubles to begin with, and digits(). It may have
+/// is_zero(), which finds faster than from all coefficients that they are zero.
 template <typename Question, typename Make>
 LeadingTerm leading_term(const Question& question, int lowest, int highest, double tolerance,
                          const Make& make) {

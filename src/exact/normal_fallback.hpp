@@ -11,9 +11,10 @@ namespace simdbezier::detail {
 /// line from the sample to the patch's middle (src/exact/normal_series.hpp); which one that is,
 /// doubles with error bounds tell in most cases, and arithmetic modulo primes in the others
 /// (src/exact/leading_term.hpp). The first coefficient is SampleStatus::regular, a later one limit;
-/// where all are zero, so is the normal: degenerate. So it is outside of the patch where numbers
-/// would have more than 100 000 binary digits, or where the weight of a rational patch is too close
-/// to zero for its sign to be known. Where a parameter is not finite, the normal is nan.
+/// where all are zero, so is the normal: degenerate. Outside of the patch, samples are degenerate,
+/// too, where numbers would have more than 100 000 binary digits, or where a rational patch's
+/// weight is too close to zero for its sign to be known. Where a parameter is not finite, the
+/// normal is nan.
 template <typename T>
 SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept;
 

@@ -27,7 +27,7 @@ public:
   [[nodiscard]] const LineParameter& v() const { return v_; }
 
   [[nodiscard]] bool inside() const { return std::fabs(u_.x) <= 0.5 && std::fabs(v_.x) <= 0.5; }
-  /// The control point that is nearest in parameters: where an edge is a point, that one.
+  /// The control point that is nearest in parameters; beside an edge that is a point, that point.
   [[nodiscard]] std::size_t nearest() const {
     return nearest(v_.x, degree_v_) * (degree_u_ + 1) + nearest(u_.x, degree_u_);
   }
@@ -110,8 +110,8 @@ private:
     const ExactPoints& points_;
     typename Field::Value first_[4];
   };
-  /// Whether no point is beside the line through the first one and point `far`: by the cross
-  /// products' components, each judged by beside().
+  /// Whether no point lies beside the line through the first one and point `far`: beside() judges
+  /// each component of the cross products.
   template <typename Field, typename Beside>
   [[nodiscard]] bool on_line(const Field& field, std::size_t far, std::size_t count,
                              const Beside& beside) const {
@@ -189,7 +189,7 @@ public:
     }
   }
 
-  /// Of the sample, once coefficient 0 has been asked for; rational patches only.
+  /// The sample's weight, once coefficient 0 has been asked for; rational patches only.
   [[nodiscard]] const Value& weight() const { return point_[0][3]; }
 
 private:

@@ -40,7 +40,7 @@ constexpr bool is_prime(std::uint32_t n) {
   return true;
 }
 
-/// Of an odd number, or 2^31.
+/// The next prime below an odd number or 2^31.
 constexpr std::uint32_t prime_below(std::uint32_t n) {
   n -= n % 2 == 0 ? 1 : 2;
   while (!is_prime(n)) {
@@ -49,7 +49,7 @@ constexpr std::uint32_t prime_below(std::uint32_t n) {
   return n;
 }
 
-/// What bicubic patches and single precision need.
+/// As many primes as bicubic patches in single precision need.
 constexpr auto kFirstPrimes = [] {
   std::array<std::uint32_t, 48> primes{};
   std::uint32_t last = std::uint32_t{1} << 31;

@@ -1,7 +1,7 @@
 // Arithmetic modulo a prime: the same polynomials as in double, without any error.
 //
 // An integer below the product of some primes is known from its remainders (the Chinese remainder
-// theorem): it is zero where all of them are. So exact decisions take no long numbers and no
+// theorem): it is zero where all of them are. Exact decisions therefore need no long numbers and no
 // memory, only as many passes as there are primes.
 // Source: D. E. Knuth, The Art of Computer Programming, vol. 2, 4.3.2; P. L. Montgomery, "Modular
 // Multiplication Without Trial Division", Mathematics of Computation 44 (1985).

@@ -98,7 +98,7 @@ public:
       }
     }
   }
-  /// Of the sample; rational curves only.
+  /// The sample's weight; rational curves only.
   [[nodiscard]] const Value& weight() const { return point_[0][3]; }
 
 private:
@@ -125,7 +125,7 @@ private:
   Value slope_[kMostTerms][4];
 };
 
-/// The question how a curve bends: two tangents' worth of factors.
+/// The question how a curve bends: it has the factors of two tangents.
 class BendQuestion {
 public:
   explicit BendQuestion(const TangentQuestion& tangent) : tangent_(tangent) {}

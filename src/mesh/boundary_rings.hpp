@@ -1,7 +1,6 @@
-// The boundaries of patches of like rates, which are evaluated together: a call of a kernel for
-// every side would take most of the time of small patches. Sides are asked for by the patches that
-// own their edges, and those after each other ask for patches after each other, so that blocks are
-// kept for a while.
+// The boundaries of patches with equal rates, which are evaluated together: a kernel call for every
+// side would take most of the time of small patches. A side is asked for by the patch that owns its
+// edge. Consecutive patches ask for sides of consecutive patches, so blocks are kept for a while.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +14,7 @@
 
 namespace simdbezier::detail {
 
-/// One thread's.
+/// One thread's blocks of boundaries.
 template <typename T>
 class BoundaryRings {
 public:
@@ -120,8 +119,8 @@ private:
     }
   }
 
-  /// Null where the patch is not like those beside it, or where blocks are not asked for often
-  /// enough to be worth it.
+  /// Null where the patch is not like those beside it, or where blocks are asked for too seldom to
+  /// pay.
   const Block* block_of(std::size_t patch) noexcept {
     ++asked_;
     const std::size_t number = patch / kBlockPatches;

@@ -1,6 +1,6 @@
-// The samples that corners and edges of a mesh are made of: one for every vertex there, or one for
-// every patch that has it, where normals are merged. Edges are rows and columns for the grid
-// kernels.
+// The samples that corners and edges of a mesh are made of: one for every vertex there, or, where
+// normals are merged, one for every patch that has the vertex. Edges are rows and columns for the
+// grid kernels.
 #pragma once
 
 #include <algorithm>

@@ -40,11 +40,11 @@ struct VertexTarget {
   std::size_t parameters_first = 0;
 };
 
-/// Which of the patches that have a vertex its position is of: the lowest of all, or the lowest of
-/// those that have this very vertex, where it is split.
+/// Which of the patches at a vertex gives its position: the lowest of all, or, where the vertex is
+/// split, the lowest of those that have this very one.
 enum class ValuesOf : std::uint8_t { owner, own_patch };
 
-/// One thread's.
+/// One thread's boundary vertices on their way to memory.
 template <typename T>
 class BoundaryStore {
 public:
@@ -58,7 +58,7 @@ public:
         scratch_(reinterpret_cast<std::uint32_t*>(
             memory + whole_lines(mesh.most_boundary_samples * sizeof(Member)))) {}
 
-  /// What the vertices of an entry are, from planes of all samples.
+  /// Forms the vertices of an entry from planes of all samples.
   void store(const BoundaryEntry& entry, const Planes<T>& positions, const Planes<T>& normals,
              const VertexTarget<T>& to) noexcept {
     list_members(entry);

@@ -1,5 +1,5 @@
-// The numbers of cells side by side, some cells at a time: in each place stands a vertex below or
-// above, some steps away from the first one.
+// The vertex numbers of cells side by side, some cells at a time. Each place holds a vertex of the
+// row below or above, some steps away from the first one.
 #pragma once
 
 #include <cstddef>

@@ -28,8 +28,8 @@ private:
 };
 
 /// One half of a cell, whose legs may have further vertices: the triangle at the corner, then a
-/// strip between the legs that advances on the one that is behind. None of these triangles has a
-/// larger bound on its distance from the surface than the whole half (docs/tessellation.md).
+/// strip between the legs that advances along the leg that is behind. No triangle has a larger
+/// bound on its distance from the surface than the whole half (docs/tessellation.md).
 ///
 /// x, y: counter-clockwise around the corner.
 template <typename Sink>
@@ -181,7 +181,7 @@ public:
     }
   }
 
-  /// Columns [0, width) of all rows, then the next ones, so that neighbours follow each other soon.
+  /// Columns [0, width) of all rows, then the next ones, so that neighbours are written soon.
   template <typename Sink>
   void cut_in_bands(std::uint32_t width, Sink& sink) const {
     for (std::uint32_t begin = 0; begin < nu_; begin += width) {

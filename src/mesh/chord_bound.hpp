@@ -11,7 +11,7 @@ namespace simdbezier::detail {
 /// circumradius.
 ///
 /// Where one of them is far smaller than the rest, differences of their products would have few
-/// right digits; those of neighbours in their order have.
+/// correct digits; differences of sorted neighbours keep theirs.
 inline double triangle_bound(double a, double b, double c) {
   const double least = std::min({a, b, c});
   const double largest = std::max({a, b, c});
@@ -23,7 +23,7 @@ inline double triangle_bound(double a, double b, double c) {
   return least * middle * largest / (2 * (4 * least * middle - excess * excess));
 }
 
-/// Parameters of samples are rounded, so that one of n steps may be so many times as long as 1/n.
+/// Parameters of samples are rounded: one of n steps may be longer than 1/n by this factor.
 inline double step_slack(double n) { return 1 + 4 * 0x1p-24 * n; }
 
 /// Bounds on second derivatives over a part of a patch, by parameters of the whole patch.

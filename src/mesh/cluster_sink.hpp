@@ -60,7 +60,7 @@ private:
     ++size_.triangles;
     ++cluster_.triangles;
   }
-  /// The cluster's own number of a vertex; those that came last are asked for first.
+  /// The cluster's own number of a vertex; the search begins with those that came last.
   std::uint8_t number(std::uint32_t vertex) {
     for (std::uint32_t k = cluster_.vertices; k-- > 0;) {
       if (vertices_[k] == vertex) {

@@ -1,5 +1,5 @@
-// Positions and normals in the corners of patches. A corner is asked for by each of its patches,
-// and those after each other ask for patches after each other, so that whole blocks are evaluated
+// Positions and normals in the corners of patches. A corner is asked for by each of its patches.
+// Consecutive patches ask for corners of consecutive patches, so that whole blocks are evaluated
 // and kept for a while.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace simdbezier::detail {
 
-/// One thread's.
+/// One thread's cache.
 template <typename T>
 class CornerCache {
 public:

@@ -31,7 +31,7 @@ struct CreaseGroups {
     }
     side_groups.resize(values);
   }
-  /// Edges on which all sides share all vertices are whole.
+  /// Marks edges on which all sides share all vertices as whole.
   void close(const TopologyData& topology, const MeshData& mesh) {
     for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
       bool whole = true;

@@ -137,7 +137,7 @@ bool VectorPatch::read(const ControlNets<S>& nets, std::size_t patch) {
       largest_weight = std::max(largest_weight, to.x[3]);
     }
   }
-  // Second derivatives do not change where the patch is moved: around its middle, values are
+  // Moving a patch does not change its second derivatives, and around its middle values are
   // smallest.
   largest = 0;
   for (std::size_t c = 0; c < 3; ++c) {

@@ -81,8 +81,8 @@ struct VectorPatch {
   VectorNet net;
   bool rational = false;
   double largest = 0; ///< of all values, for rounding
-  /// Values are so many powers of two smaller than those given: the largest is between 1 and 2, so
-  /// that squares are numbers as well.
+  /// Values are those given over two to this power: the largest is between 1 and 2, so that squares
+  /// neither overflow nor vanish.
   int exponent = 0;
 
   /// Reads a patch: false where a value is not finite, or a weight not positive.
@@ -97,7 +97,7 @@ struct SecondNets {
   VectorNet vv;
 };
 
-/// Of a net of any degrees: empty nets where a derivative vanishes.
+/// The second derivatives of a net of any degrees: empty nets where a derivative vanishes.
 void form_second_nets(const VectorNet& net, SecondNets& to);
 
 /// The part of a net over [begin, 1] or over [0, end] in one direction, by de Casteljau's

@@ -52,9 +52,9 @@ inline void include_rate(EdgeRates& rates, std::uint32_t rate) {
   }
 }
 
-/// Passes all fractions in ascending order, equal ones at once: visit(place, index), index being an
-/// array that says which fraction of each rate comes next, and how many segments have been passed.
-/// Returns the number of segments.
+/// Passes all fractions in ascending order, equal ones at once: visit(place, next, k) after `place`
+/// segments, where next[i] is the numerator that rate i has come to, and next[k] / rates[k] is the
+/// fraction. Returns the number of segments.
 ///
 /// next: memory for as many values as rates.
 namespace unions {

@@ -7,7 +7,7 @@
 namespace simdbezier::detail {
 namespace {
 
-/// Patches at corners with no more of them are compared one by one.
+/// Patches at corners with at most so many of them are compared one by one.
 constexpr std::size_t kMostCompared = 64;
 
 /// Which of the four corners, or sides, of a patch: a bit each.
@@ -17,7 +17,7 @@ class Neighbours {
 public:
   explicit Neighbours(const TopologyData& topology) : topology_(topology) {}
 
-  /// Whether the patch has a corner twice that no side of it joins in a point, or an edge twice.
+  /// Whether the patch has an edge twice, or a corner twice that no side joins by being a point.
   [[nodiscard]] bool touches_itself(std::size_t patch) const {
     for (std::size_t a = 0; a < 4; ++a) {
       for (std::size_t b = a + 1; b < 4; ++b) {
@@ -40,7 +40,7 @@ public:
     }
     return corners;
   }
-  /// Whether two patches share more than one corner, or one edge and its ends.
+  /// Whether two patches share more than one corner, or than one edge with its ends.
   [[nodiscard]] bool entangled(std::size_t a, std::size_t b, Mask corners) const {
     if ((corners & (corners - 1)) == 0) {
       return false; // an edge would have two of them
@@ -131,8 +131,8 @@ struct CornerPatches {
   }
 };
 
-/// Which patches meet those with which they share crowded corners only: all are counted, instead of
-/// compared.
+/// Which patches are entangled with those with which they share crowded corners only: neighbours
+/// are counted instead of compared.
 class CrowdedCorners {
 public:
   CrowdedCorners(const TopologyData& topology, const CornerPatches& at)

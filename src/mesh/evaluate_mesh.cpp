@@ -82,7 +82,7 @@ private:
   std::size_t delivery_bytes_ = 0;
 };
 
-/// Values of single components, each of which may stand anywhere.
+/// The values of single components, each in memory of its own.
 template <typename T>
 struct SinglePlanes {
   Vectors<T> plane[kGroups];

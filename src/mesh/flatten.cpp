@@ -80,8 +80,8 @@ private:
   [[nodiscard]] double weighted(std::size_t i, std::size_t c) const {
     return weight_[i] * point_[i][c];
   }
-  /// So many powers of two smaller that the largest value is between 1 and 2: squares are numbers
-  /// then.
+  /// Divides by the power of two that brings the largest value between 1 and 2, so that squares
+  /// neither overflow nor vanish.
   void scale() {
     double largest = 0;
     for (std::size_t i = 0; i < points_; ++i) {
@@ -199,7 +199,7 @@ Status position_errors(const CurveSet<T>& set, std::span<double> out) noexcept {
   }
   for (std::size_t curve = 0; curve < set.size(); ++curve) {
     double square = 0;
-    double norm = 0; // where squares are no numbers of any use
+    double norm = 0; // taken where squares overflow or vanish
     for (const double error : error_bounds(set, curve).position) {
       square += error * error;
       norm = std::hypot(norm, error);

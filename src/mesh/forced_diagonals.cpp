@@ -39,8 +39,8 @@ struct CornerSides {
         end_v(k % kPatchCorners / 2) {}
 };
 
-/// Whether the corner's two sides are one edge, or two of an other patch: two patches that cut such
-/// a corner off have the same triangle. Repetitions of a patch always have, and do not count.
+/// Whether the corner's two sides are one edge, or two edges of another patch: two patches that cut
+/// such a corner off have the same triangle. Repeated patches always do, and do not count.
 bool is_pillow(const TopologyData& topology, const DistinctSides& distinct, std::size_t k) {
   const CornerSides at(k);
   const auto edge_end = [&](std::size_t side, std::size_t end) {

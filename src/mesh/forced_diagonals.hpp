@@ -1,4 +1,4 @@
-// Where cells at a patch's corners and edges cannot be cut, or be as few, as one would like.
+// Where cells at a patch's corners and edges must be cut in one way, or must be more than one.
 #pragma once
 
 #include "src/mesh/net_corners.hpp"

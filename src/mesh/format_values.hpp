@@ -19,7 +19,7 @@ inline std::uint16_t to_half(float value) noexcept {
   if (magnitude > 0x7f800000U) {
     return static_cast<std::uint16_t>(sign | 0x7e00U); // nan
   }
-  if (magnitude >= 0x477ff000U) { // what rounds to 2^16 and more
+  if (magnitude >= 0x477ff000U) { // rounds to 2^16 or more
     return static_cast<std::uint16_t>(sign | 0x7c00U);
   }
   if (magnitude < 0x38800000U) { // below 2^-14: a multiple of 2^-24, rounded by the addition

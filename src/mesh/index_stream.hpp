@@ -1,9 +1,9 @@
 // Vertex numbers on their way to the caller's memory: put together in the first-level cache, and
 // passed on in whole lines.
 //
-// Lines leave some time after they were written, while the next ones are: streaming stores leave
-// the processor slowly and in order, and a load of what was stored just before would wait for all
-// of them (src/tables/drain_queue.hpp).
+// Lines are passed on some time after they were written, while the next ones are being written:
+// streaming stores leave the processor slowly and in order, and a load of what was stored just
+// before would wait for all of them (src/tables/drain_queue.hpp).
 #pragma once
 
 #include <algorithm>
@@ -19,9 +19,9 @@ namespace simdbezier::detail {
 template <typename Index>
 class IndexStream {
 public:
-  /// What can be asked of make_room().
+  /// The most numbers that make_room() makes room for.
   static constexpr std::size_t kMostNumbers = 1024;
-  /// So many numbers more may be written behind those that are counted, to be overwritten.
+  /// So many more numbers may be written behind those that count; they will be overwritten.
   static constexpr std::size_t kSlack = 64;
 
   IndexStream(const KernelTable<float>& table, Index* to, bool streaming) noexcept
@@ -109,7 +109,7 @@ private:
   const KernelTable<float>& table_;
   bool streaming_;
   Index* to_;          ///< where buffer_[0] belongs
-  std::size_t passed_; ///< numbers of the buffer that are in place, those of others among them
+  std::size_t passed_; ///< numbers of the buffer that are in place, others' numbers included
   Index* waiting_;     ///< what was written at the last turn
   Index* cursor_;
   DrainQueue<float> queue_;

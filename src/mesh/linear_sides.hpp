@@ -11,7 +11,7 @@ namespace simdbezier::detail {
 
 /// A side whose inner vertices have numbers one after the other.
 struct LinearSide {
-  std::uint32_t zero = 0; ///< the number of point 0, if it were not a corner
+  std::uint32_t zero = 0; ///< the number that point 0 would have if it were not a corner
   std::uint32_t step = 0; ///< 1 or -1
   std::uint32_t segments = 0;
   std::uint32_t end[2] = {0, 0};         ///< the corners
@@ -25,7 +25,7 @@ class LinearSides {
 public:
   explicit LinearSides(const MeshData& mesh) : mesh_(mesh), topology_(*mesh.topology.data()) {}
 
-  /// False where the patch is none of the usual ones.
+  /// False where the patch is not a usual one.
   bool move_to(std::size_t patch) {
     const auto usual = [](std::uint32_t rate) { return rate >= 2 && rate <= UnionPlaces::kMost; };
     if (!usual(mesh_.nu[patch]) || !usual(mesh_.nv[patch])) {

@@ -65,7 +65,7 @@ public:
       first_[c] = sum_[c] = sign * Block::load(normals.component[c] + at);
     }
   }
-  /// Those of one more.
+  /// Adds those of one more patch.
   void add(const Planes<T>& normals, std::size_t at, bool reversed) noexcept {
     const T sign = reversed ? T(-1) : T(1);
     for (std::size_t c = 0; c < 3; ++c) {

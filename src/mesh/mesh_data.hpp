@@ -29,13 +29,13 @@ struct MeshData {
   std::vector<std::size_t> side_first;
   std::vector<std::uint32_t> side_vertices;
   std::uint32_t most_segments = 0; ///< of one edge
-  /// Of edges with many sides, each of which would look at all the others.
+  /// The rates of edges with many sides, each of which would otherwise look at all the others.
   struct CrowdedEdge {
     std::size_t edge;
     EdgeRates rates;
   };
   std::vector<CrowdedEdge> crowded_edges; ///< ascending
-  // Of a patch's own corners and edges, what scratch has to have room for:
+  // What scratch has to have room for, over the corners and edges of one patch's own:
   std::size_t most_boundary_vertices = 0;
   std::size_t most_boundary_samples = 0; ///< a vertex counts once for every patch that has it
   std::size_t most_sides = 1;            ///< of one edge

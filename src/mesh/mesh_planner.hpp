@@ -59,7 +59,7 @@ public:
 
 private:
   [[nodiscard]] bool is_uniform() const { return options_.nu != 0 || options_.nv != 0; }
-  /// By the number that the patch was given with.
+  /// Names the patch by its number among those given.
   Status fault_at(std::size_t patch, Status status) {
     plan_.fault_patch = patch < plan_.patches.size() ? plan_.patches[patch] : patch;
     return status;
@@ -158,7 +158,7 @@ private:
 
   /// The smallest of what is asked of each patch; far more than its size where nothing is.
   Status find_tolerances(RateOptions& how) {
-    // What a share of nothing is, no mesh could keep to.
+    // A share of a diagonal of 0 would be a tolerance of 0, which no mesh could keep.
     const double relative = plan_.diagonal > 0 ? options_.relative_tolerance * plan_.diagonal
                                                : std::numeric_limits<double>::infinity();
     const double all = plan_.diagonal > 0 ? 1e3 * plan_.diagonal : 1;

@@ -109,7 +109,7 @@ template <typename S>
 bool NetCorners<S>::side_within(std::size_t side, double distance) const {
   SideNet net;
   read_side(side, net);
-  // Of both ends, so that the sides of an edge agree whichever way they run.
+  // Both ends count, so that the sides of an edge agree whichever way they run.
   return net.reach(net.points.front()) <= distance && net.reach(net.points.back()) <= distance;
 }
 
@@ -119,7 +119,7 @@ bool NetCorners<S>::sides_leave_together(std::size_t patch, std::size_t corner) 
   Point3 a = leaves(*at.nets, at.patch, corner, true);
   Point3 b = leaves(*at.nets, at.patch, corner, false);
   const auto is_usual = [](const Point3& d) { return dot(d, d) > 0x1p-200 && dot(d, d) < 0x1p200; };
-  if (!is_usual(a) || !is_usual(b)) { // products of squares would not be numbers of any use
+  if (!is_usual(a) || !is_usual(b)) { // products of squares would overflow or vanish
     int exponent = 0;
     a = scaled_to_one(a, exponent);
     b = scaled_to_one(b, exponent);
@@ -154,8 +154,8 @@ bool NetCorners<S>::same(std::size_t a, std::size_t b) const noexcept {
 
 namespace {
 
-/// Of patches with the same four edges, ascending. Those that are the same have the same lowest
-/// control point; patches that are points, of which there may be many, seldom do otherwise.
+/// Marks repetitions among patches with the same four edges, ascending. Equal patches have the same
+/// lowest control point, and of different ones, among them many points, few do.
 template <typename S>
 void mark_repeated_of(const NetCorners<S>& nets, std::span<const std::uint32_t> group,
                       TopologyData& topology) {

@@ -1,4 +1,4 @@
-// What a topology asks of control points besides which edges are equal.
+// What a topology needs to know of control points beyond which edges are equal.
 #pragma once
 
 #include <array>
@@ -31,14 +31,14 @@ struct SideNet {
   }
 };
 
-/// The control points of all views in space, patches numbered through.
+/// The control points of all views in space, with patches numbered consecutively.
 template <typename S>
 class NetCorners {
 public:
   explicit NetCorners(std::span<const ControlNets<S>> sets);
 
   void read_side(std::size_t side, SideNet& to) const;
-  /// Of corner 4 * patch + corner.
+  /// The control point of corner 4 * patch + corner.
   [[nodiscard]] Point3 corner_point(std::size_t corner) const noexcept;
 
   /// Whether all control points of a side lie within a distance of both of its ends.

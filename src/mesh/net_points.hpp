@@ -23,8 +23,8 @@ inline double dot(const Point3& a, const Point3& b) noexcept {
   return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2];
 }
 
-/// By a power of two, so that its largest value is between 1 and 2; vectors of no finite length and
-/// those of 0 stay as they are.
+/// Scaled by a power of two, so that its largest value is between 1 and 2; vectors of 0 and those
+/// that are not finite stay as they are.
 inline Point3 scaled_to_one(const Point3& a, int& exponent) noexcept {
   const double largest = std::max({std::fabs(a.x[0]), std::fabs(a.x[1]), std::fabs(a.x[2])});
   exponent = 0;
@@ -36,7 +36,7 @@ inline Point3 scaled_to_one(const Point3& a, int& exponent) noexcept {
           std::scalbn(a.x[2], -exponent)};
 }
 
-/// The length of a vector; squares of very small or large ones would not be numbers of any use.
+/// The length of a vector, scaled where squares of very small or large values vanish or overflow.
 inline double length(const Point3& a) noexcept {
   const double square = dot(a, a);
   if (square > 0x1p-900 && square < 0x1p900) {
@@ -69,7 +69,7 @@ Point3 point_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t i,
   return point;
 }
 
-/// All of a patch.
+/// Calls visit for all control points of a patch.
 template <typename S, typename Visit>
 void for_points(const ControlNets<S>& nets, std::size_t patch, const Visit& visit) {
   for (std::ptrdiff_t j = 0; j <= nets.degree_v; ++j) {
@@ -92,7 +92,7 @@ public:
   [[nodiscard]] double middle(std::size_t c) const noexcept {
     return low_[c] + (high_[c] - low_[c]) / 2;
   }
-  /// Of the axes; nan where a value is.
+  /// The longest side of the box; nan where a value is nan.
   [[nodiscard]] double longest() const noexcept {
     return std::max({high_[0] - low_[0], high_[1] - low_[1], high_[2] - low_[2]});
   }

@@ -1,8 +1,8 @@
 // See patch_bound.hpp: how far the normals of a control net turn.
 //
-// In every cell of the net, the products of its sides are the normals of the surface that the net
-// would be if it were of degree 1. They are passed along rows, and along columns, and the angles
-// between each and the next one are added up.
+// In every cell of the net, the cross products of its sides are the normals that the surface would
+// have if each cell were a bilinear patch. The angles between each normal and the next one are
+// added up along rows, and along columns.
 #include <cmath>
 
 #include "src/mesh/patch_bound.hpp"

@@ -6,8 +6,8 @@
 namespace simdbezier::detail {
 namespace {
 
-/// Every patch that hangs together with an earlier one agrees with it if both are turned as
-/// `turned` says; false where some edge then still disagrees.
+/// Finds which patches to turn so that each agrees with the earlier ones of its connected part;
+/// false where some edge then still disagrees.
 bool turn_all(const TopologyData& topology, std::vector<bool>& turned) {
   std::vector<bool> known(topology.patches());
   std::vector<std::uint32_t> open;
@@ -54,7 +54,7 @@ void for_disagreeing(const TopologyData& topology, const Visit& visit) {
   }
 }
 
-/// Of the corners that are joined with one, those that no row of agreeing edges leads to.
+/// Marks those of joined corners to which no row of agreeing edges leads from the lowest one.
 void mark_corners_apart(std::uint32_t lowest, TopologyData& topology) {
   std::vector<std::uint32_t> reached = {lowest};
   for (std::size_t k = 0; k < reached.size(); ++k) {

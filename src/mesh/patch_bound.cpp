@@ -9,7 +9,7 @@
 namespace simdbezier::detail {
 namespace {
 
-/// Everything that rounds here but the second differences.
+/// All roundings here except those of second differences.
 constexpr double kRounding = 1 + 1e-12;
 
 /// Roundings of a second difference and of what it is formed from, in units of the largest value.
@@ -258,7 +258,7 @@ CellCounts PatchBound::choose(double t, std::uint32_t most) const {
   if (best.product() == 1 && bound(best) <= t) {
     return best;
   }
-  // Rates next to those for which the bound is in proportion with that of an even pair.
+  // Rates near those that the bound of an even pair, in proportion to the tolerance, asks for.
   const CellCounts even{std::max(2U, best.nu & ~1U), std::max(2U, best.nv & ~1U)};
   const double scale = std::min(1.0, std::sqrt(bound(even) / t));
   const auto centre_u = static_cast<std::int64_t>(even.nu * scale);

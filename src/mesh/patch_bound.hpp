@@ -20,20 +20,20 @@ public:
   /// The bound for rates; diagonals: those that it holds for, where wanted.
   [[nodiscard]] double bound(const CellCounts& cells, std::uint16_t* diagonals = nullptr) const;
 
-  /// The bound where all diagonals run from (0,0) to (1,1), whatever else would be better.
+  /// The bound where all diagonals run from (0,0) to (1,1), even if others would be better.
   [[nodiscard]] double rising_bound(const CellCounts& cells) const;
 
-  /// The least cells whose bound is at most t > 0; more than `most` a direction where there are
+  /// The fewest cells whose bound is at most t > 0; more than `most` in a direction where there are
   /// none.
   [[nodiscard]] CellCounts choose(double t, std::uint32_t most) const;
 
-  /// The most that rows and columns of control points measure in u and in v.
+  /// The longest rows and columns of control points, in u and in v.
   [[nodiscard]] std::array<double, 2> lengths() const;
   /// The most that normals of the control net turn along its rows and columns.
   [[nodiscard]] std::array<double, 2> normal_turns() const;
 
 private:
-  /// Of the four quarters, number 2 * (half of v) + (half of u): a bit each.
+  /// A bit for each of the four quarters, which have the numbers 2 * (half of v) + (half of u).
   using QuarterSet = unsigned;
   static constexpr QuarterSet kAll = 15;
   /// Quarters, halves, all: what a zone of cells lies in.

@@ -17,8 +17,8 @@ struct Chain {
   std::uint32_t segments; ///< 0 on a side that is a point
 };
 
-/// Points of a row that are neither its first nor its last one, where their numbers follow each
-/// other: number `zero` + i * step for point i.
+/// The inner points of a row, if their numbers follow each other: point i has number
+/// `zero` + i * step.
 struct PointRow {
   std::uint32_t zero = 0;
   std::uint32_t step = 0; ///< 0: they do not
@@ -40,7 +40,7 @@ public:
     }
   }
 
-  /// The own points of a side, where it has no others.
+  /// The points of a side that has only its own ones.
   [[nodiscard]] const PointRow& row(std::size_t side) const { return lines_[side].row; }
   /// The vertex of own point i of a side.
   [[nodiscard]] std::uint32_t vertex(std::size_t side, std::uint32_t i) const {

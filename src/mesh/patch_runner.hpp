@@ -1,4 +1,5 @@
-// Grid kernels on small pieces of single patches: what a task says about the set is written once.
+// Grid kernels on small pieces of single patches: the part of a task that is about the set is
+// written once.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +30,7 @@ struct PieceTarget {
   DrainQueue<T>* drain = nullptr;
 };
 
-/// One thread's.
+/// One thread's task.
 template <typename T>
 class PatchRunner {
 public:
@@ -54,8 +55,8 @@ public:
     return count;
   }
 
-  /// Where neither positions nor normals are wanted, kernels have nothing to do, and do not all
-  /// take a task without outputs.
+  /// Runs no kernel where neither positions nor normals are wanted: not all kernels accept a task
+  /// without outputs.
   void run(std::size_t patch, std::size_t count, const PieceParameters<T>& piece,
            const PieceTarget<T>& to) noexcept {
     if (to.position.component[0] == nullptr && to.normal.component[0] == nullptr) {

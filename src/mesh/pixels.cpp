@@ -13,7 +13,7 @@ namespace {
 
 bool is_positive(double value) { return value > 0 && std::isfinite(value); }
 
-/// The camera's axis, and what distances are seen as.
+/// The camera's axis, and the size in pixels at which distances are seen.
 class View {
 public:
   explicit View(const Camera& camera) : camera_(camera) {

@@ -70,7 +70,7 @@ private:
 };
 
 /// Quads where cells have four vertices, triangles elsewhere. A quad begins at an end of its cell's
-/// diagonal, so that those who cut it between its first and third vertex get the certified mesh.
+/// diagonal, so that cutting it from its first to its third vertex gives the certified mesh.
 template <typename Index>
 class PolygonSink {
 public:
@@ -105,8 +105,8 @@ private:
 /// run the same way are one strip:
 ///
 ///     a0 - a1 - a2        a0 b0 a1 b1 a2 b2: triangles a0 b0 a1, a1 b0 b1, a1 b1 a2, …
-///     |  / |  / |         Falling diagonals want the other way round, which a vertex given twice
-///     b0 - b1 - b2        makes of it: b0 b0 a0 b1 a1 b2 a2.
+///     |  / |  / |         Falling diagonals need the opposite orientation, which repeating a
+///     b0 - b1 - b2        vertex gives: b0 b0 a0 b1 a1 b2 a2.
 template <typename Index>
 class StripSink {
 public:

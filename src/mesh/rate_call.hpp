@@ -17,7 +17,7 @@
 
 namespace simdbezier::detail {
 
-/// Rates so that no segment has more than `most` of what is measured in u and in v.
+/// Raises rates until no segment has more than `most` of what is measured in u and in v.
 inline CellCounts at_least(const CellCounts& cells, const std::array<double, 2>& measured,
                            double most) {
   const auto segments = [&](std::uint32_t n, double all) {
@@ -27,7 +27,7 @@ inline CellCounts at_least(const CellCounts& cells, const std::array<double, 2>&
   return {segments(cells.nu, measured[0]), segments(cells.nv, measured[1])};
 }
 
-/// One call: bicubic polynomial patches go to a kernel, and what it leaves to PatchBound.
+/// One call: bicubic polynomial patches go to a kernel, and all that it leaves goes to PatchBound.
 template <typename S>
 class RateCall {
 public:
@@ -101,7 +101,7 @@ public:
     return report;
   }
 
-  /// Of rates that the caller gave, for nets that nobody has looked at.
+  /// Certifies the caller's rates, for nets that have not been checked yet.
   RateReport certify_given() {
     for (std::size_t patch = 0; patch < out_.nu.size(); ++patch) {
       const auto is_rate = [](std::uint32_t n) { return n >= 1 && n <= kMostSegments; };

@@ -90,7 +90,7 @@ RateReport choose_rates(std::span<const ControlNets<S>> sets, const Topology& to
   }
   detail::RateCall<S> call(sets, topology, options, out);
   RateReport report = call.choose();
-  // Raising rates of one patch can bring it next to another in the same way, or its bound up.
+  // Raising the rates of one patch can make its edges coincide with others, or raise its bound.
   bool settled = true;
   for (bool changed = true; report && changed;) {
     std::size_t raised = 0;

@@ -1,9 +1,9 @@
 // The triangles of usual patches: rates from 2 to 63, and sides whose vertices follow each other.
 // The order is that of CellCutter, which cuts all other patches, and the cells in their corners.
 //
-// Nothing is looked up, and little is decided, for a cell: inner cells are written in registers,
-// and of a cell at a side, whose triangles are a fan, two are written before it is known whether
-// the second is there. What follows overwrites it.
+// Cells need no look-ups and few branches: inner cells are written in registers, and for a cell at
+// a side, whose triangles are a fan, two triangles are written before it is known whether there is
+// a second. If there is none, what follows overwrites it.
 #pragma once
 
 #include <bit>
@@ -17,7 +17,7 @@ namespace simdbezier::detail {
 /// A leg of a cell in a corner of the patch, from the corner on.
 struct CornerLeg {
   std::uint32_t corner;
-  std::uint32_t zero; ///< the number of the corner, if it were no corner
+  std::uint32_t zero; ///< the number that the corner would have as a point of the row
   std::uint32_t step;
   std::uint32_t segments;
 
@@ -61,7 +61,7 @@ public:
     }
     to_ += std::size_t{3} * n;
   }
-  /// The same where the second leg is one.
+  /// The same where the second leg is a chain.
   void fan_of_second(std::uint32_t first, std::uint32_t step, std::uint32_t n, std::uint32_t apex) {
     put(0, first, apex, first + step);
     put(1, apex, first + 2 * step, first + step);

@@ -1,4 +1,4 @@
-// Rates so small that edges of the mesh would coincide; see mesh_layout.hpp.
+// Raises rates so small that edges of the mesh would coincide; see mesh_layout.hpp.
 #include <algorithm>
 #include <new>
 #include <vector>
@@ -22,7 +22,7 @@ public:
     raise_torn_cells();
     raise_between_points();
     raise_loops();
-    // More cells take vertices apart; what a few rounds do not take apart never will be.
+    // More cells take vertices apart; what a few rounds do not separate, no round will.
     constexpr int kRounds = 6;
     for (int round = 0; round < kRounds && raise_coinciding(); ++round) {
     }
@@ -81,7 +81,7 @@ private:
     }
   }
 
-  /// Edges that end where they begin without being points: as one segment they would be no line.
+  /// Edges that end where they begin without being points: a single segment would have no length.
   void raise_loops() {
     for (const std::uint32_t side : data_.loops) {
       raise(side / kPatchEdges, runs_in_u(side), 2);
@@ -104,7 +104,7 @@ private:
     }
     MeshData mesh;
     if (!any || build_layout(topology_, {nu_, nv_, {}}, mesh) != Status::ok) {
-      return edges; // of nothing, or too many vertices, which is for the layout to say
+      return edges; // nothing, or too many vertices, which the layout will report
     }
     PatchBoundary boundary(mesh);
     PatchEdges own(mesh, boundary);
@@ -133,8 +133,8 @@ private:
     return false;
   }
 
-  /// Raises both rates of all patches with edges that coincide, where that helps; whether there
-  /// were any.
+  /// Raises both rates of all patches with edges that coincide, where that helps; returns whether
+  /// there were any.
   bool raise_coinciding() {
     doubtful_.clear();
     std::vector<MeshEdge> edges = edges_in_doubt();
@@ -155,8 +155,8 @@ private:
     return !doubtful_.empty();
   }
 
-  /// Of edges that join the same two vertices. Those of a patch and of its repetitions lie in one
-  /// place, whatever their numbers, so that only edges of one patch are compared among these.
+  /// Adds the edges that join the same two vertices. Edges of a patch and of its repetitions lie in
+  /// one place, whatever their numbers, so among these only edges of one patch are compared.
   void add_coinciding(std::span<MeshEdge> same) {
     const auto model = [&](const MeshEdge& edge) { return data_.original_of(edge.patch); };
     const auto differs_from_first = [&](const auto& value) {

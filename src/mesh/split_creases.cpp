@@ -1,4 +1,4 @@
-// See evaluate_mesh.hpp: which vertices are several.
+// See evaluate_mesh.hpp: which vertices are split into several.
 #include <new>
 
 #include <simdbezier/evaluate_mesh.hpp>
@@ -11,7 +11,7 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-/// Units are patches: each thread looks at the corners and edges that its own ones own.
+/// Units are patches: each thread looks at the corners and edges that its patches own.
 template <typename T>
 class CreaseWork {
 public:

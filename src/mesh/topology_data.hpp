@@ -124,8 +124,8 @@ struct TopologyData {
   [[nodiscard]] bool is_turned(std::size_t patch) const noexcept {
     return (flags[patch] & kTurned) != 0;
   }
-  /// Whether the normals of two sides of one edge disagree, as far as patches are not turned: they
-  /// agree where the boundaries, passed counter-clockwise, run against each other.
+  /// Whether the normals of two sides of one edge disagree before patches are turned: they agree
+  /// where the boundaries, passed counter-clockwise, run against each other.
   [[nodiscard]] bool disagree(std::size_t a, std::size_t b) const noexcept {
     const bool along = sides[a].reversed() == sides[b].reversed();
     const bool given = along == (counter_clockwise_along(a) == counter_clockwise_along(b));

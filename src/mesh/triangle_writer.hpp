@@ -7,7 +7,7 @@
 
 namespace simdbezier::detail {
 
-/// One thread.
+/// One thread's triangles.
 template <typename Index>
 class TriangleWriter {
 public:
@@ -41,7 +41,7 @@ private:
   }
 
   /// Where neighbouring sides of a patch are one edge, cells between them have fewer triangles than
-  /// were counted: the last vertex in place of what is missing.
+  /// were counted: the last vertex fills the places of missing ones.
   Index* fill(Index* to, const Index* end) {
     while (stream_.place_of(to) < end) {
       std::fill_n(to, 3, static_cast<Index>(mesh_.vertices - 1));

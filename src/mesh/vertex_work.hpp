@@ -77,7 +77,7 @@ public:
                  take(scratch, BoundarySamples<T>::bytes(mesh_, sizes.wishes))),
         store_(mesh_, task.values, take(scratch, BoundaryStore<T>::bytes(mesh_))) {}
 
-  /// Whatever begins at vertices [begin, end): boundaries and rows.
+  /// Computes the boundaries and rows that begin at vertices [begin, end).
   Isa run(std::size_t begin, std::size_t end) noexcept {
     for (std::size_t patch = patch_of(begin); patch < mesh_.patches(); ++patch) {
       const std::size_t first = mesh_.first_vertex(patch);
@@ -132,7 +132,7 @@ private:
     return before >= columns * rows ? rows : (before + columns - 1) / columns;
   }
 
-  /// Passes on what there is where `count` vertices more would not fit; begins a chunk.
+  /// Passes on the chunk if `count` more vertices would not fit, and begins another one.
   void make_room(std::size_t vertex, std::size_t count) noexcept {
     if (filled_ > 0 && filled_ + count > sizes_.chunk) {
       pass_on();

@@ -41,7 +41,7 @@ Status for_cells(const MeshLayout& layout, int threads, const Visit& visit) noex
   return for_cells(layout, 0, layout.data()->patches(), threads, visit);
 }
 
-/// Sizes of patches, summed up: sizes[k] is what stands before the k-th of them, the last one all.
+/// The running sums of patches' sizes: sizes[k] is what stands before the k-th, the last one all.
 template <typename Size, typename Count, typename Add>
 Status sum_sizes(const MeshLayout& layout, const PatchRange& patches, int threads,
                  std::vector<Size>& sizes, const Count& count, const Add& add) {

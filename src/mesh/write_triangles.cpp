@@ -14,7 +14,7 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-/// Whether numbers go past the caches: half of the last one, because the caller has other data.
+/// Whether numbers go past the caches: beyond half of the last one, since callers have other data.
 bool streams_to(Destination destination, std::size_t bytes, int threads) noexcept {
   return destination == Destination::memory ||
          (destination == Destination::automatic && bytes > last_level_cache() / 2 &&

@@ -54,7 +54,7 @@ public:
     return true;
   }
 
-  /// All points are one, whatever their weights.
+  /// Whether all points are equal, whatever their weights.
   [[nodiscard]] bool collapsed() const noexcept {
     const std::ptrdiff_t components = weights_ == Weights::none ? channels_ : channels_ - 1;
     for (std::ptrdiff_t k = 1; k <= degree_; ++k) {

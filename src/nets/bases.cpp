@@ -17,7 +17,7 @@ bool is_power(Basis basis) noexcept {
   return basis == Basis::power || basis == Basis::centred_power;
 }
 
-/// ok | bad_degree | bad_weight, of nets that can be read.
+/// ok | bad_degree | bad_weight, for nets that can be read.
 template <typename T>
 Status check_basis(Basis basis, const ControlNets<T>& nets, bool to_bezier) noexcept {
   if (!is_power(basis) && (nets.degree_u != 3 || nets.degree_v != 3)) {
@@ -93,7 +93,7 @@ SplineMesh<T> unrolled(const SplineMesh<T>& mesh, std::vector<T>& points) {
   return open;
 }
 
-/// Faults of an open mesh. Every patch is asked only where a value is at fault at all.
+/// Faults of an open mesh. Patches are searched one by one only if some value is at fault.
 template <typename T>
 NetReport find_mesh_fault(const SplineMesh<T>& mesh) noexcept {
   bool sound = true;

@@ -44,7 +44,7 @@ NetReport run_boxes(const ControlNets<T>& nets, int levels, const Boxes<T>& out,
                       (1 + 2 * static_cast<std::size_t>(levels)) * net, options);
 }
 
-/// Rounded up, in any rounding mode of the caller's to the same value.
+/// Rounded up, to the same value in any rounding mode that the caller may have set.
 template <typename T>
 T root_of_components(int components) noexcept {
   const DefaultFpEnvironment environment;

@@ -19,8 +19,8 @@ std::int64_t binomial(int n, int k) noexcept {
   return value;
 }
 
-/// Rows are given by their entries; terms pair up from both ends, which keeps rows that mirror each
-/// other mirrored in their order of additions, too.
+/// Rows are given by their entries; terms are paired from both ends, so that rows that mirror each
+/// other have mirrored orders of additions as well.
 template <typename Entry>
 void set_folded_row(LinearMap::Row& row, int degree, std::int64_t factor, std::int64_t divisor,
                     Entry entry) noexcept {
@@ -149,8 +149,8 @@ LinearMap bezier_to_catmull_rom() noexcept {
   return map;
 }
 
-/// The outer points first: the last one of a piece and the first one of the next are then the same
-/// sum of the same three points.
+/// Outer points are added first: the last point of a piece and the first point of the next are then
+/// the same sum of the same three points.
 LinearMap b_spline_to_bezier() noexcept {
   LinearMap map = sized(3);
   set_row(map.row[0], {{0, 2, 1, 1}, {1, 1, 4, 0}}, 1, 6);

@@ -29,9 +29,9 @@ constexpr NetReport argument_fault(Status status) noexcept { return {status, 0, 
 template <typename S>
 Status check_input(const ControlNets<S>& nets) noexcept;
 
-/// Whether a view can be written: ok | null_output | bad_stride | size_overflow |
-/// output_too_small, as well as
-/// bad_patch_range, bad_degree and bad_components where it is not what the operation writes.
+/// Whether a view can be written: ok | null_output | bad_stride | size_overflow | output_too_small,
+/// as well as bad_patch_range, bad_degree and bad_components where the view is not what the
+/// operation writes.
 template <typename S>
 Status check_output(const MutableNets<S>& out, const ControlNets<S>& nets, int degree_u,
                     int degree_v) noexcept;
@@ -40,8 +40,8 @@ Status check_output(const MutableNets<S>& out, const ControlNets<S>& nets, int d
 template <typename S>
 Status check_apart(const ControlNets<S>& a, const ControlNets<S>& b) noexcept;
 
-/// ok | overlapping_outputs, where the range meets the memory of the view, gaps included: so are
-/// inputs of grids compared with outputs.
+/// ok | overlapping_outputs where the range meets the memory of the view, gaps included, which is
+/// how inputs of grids are compared with outputs as well.
 template <typename S>
 Status check_apart(const ControlNets<S>& nets, const MemoryRange& range) noexcept;
 
@@ -63,7 +63,7 @@ Status check_array(const ControlNets<S>& nets, const Values<T>& array, std::size
   return check_apart(nets, MemoryRange(array.first, count * sizeof(T)));
 }
 
-/// check_input, check_output and check_apart of all.
+/// check_input, check_output and check_apart of all views.
 template <typename S>
 Status check_nets(const ControlNets<S>& nets, std::initializer_list<const MutableNets<S>*> out,
                   int degree_u, int degree_v) noexcept;

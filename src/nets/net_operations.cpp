@@ -80,8 +80,8 @@ NetReport run_map(const ControlNets<T>& nets, const MutableNets<T>& out, const L
   return compute_nets(nets, &NetTable<T>::map, task, 3 * most.control_values(), options);
 }
 
-/// Values from one place to another, in the order of `nets`, which is `original` seen another way;
-/// nothing to compute.
+/// Copies values, without any arithmetic, in the order of `nets`, a view of `original` in another
+/// order.
 template <typename T>
 NetReport run_copy(const ControlNets<T>& original, const ControlNets<T>& nets,
                    const MutableNets<T>& out, const Options& options) noexcept {

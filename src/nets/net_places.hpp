@@ -26,7 +26,7 @@ struct Lattice {
 template <typename S>
 bool lattice_of(const ControlNets<S>& nets, Lattice& lattice) noexcept;
 
-/// Whether all places are within memory that is known; a null span is not.
+/// Whether all places are within the memory given; a null span stands for unknown memory.
 template <typename S>
 bool lies_in(const Lattice& lattice, std::size_t count, std::span<const S> memory) noexcept {
   if (count == 0 || (memory.data() == nullptr && memory.empty())) {

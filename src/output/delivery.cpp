@@ -9,7 +9,7 @@ namespace {
 
 /// What a kernel writes and a drain reads at once stays in a first-level cache.
 constexpr std::size_t kStagingBytes = std::size_t{20} << 10;
-/// Streaming hides the second-level cache behind memory; long chunks save starts and ends.
+/// Streaming hides the second-level cache behind memory; long chunks have fewer starts and ends.
 constexpr std::size_t kStreamingBytes = std::size_t{160} << 10;
 
 /// Pieces that kernels write directly; bounds only how much one thread takes of a huge grid.

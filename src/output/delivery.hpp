@@ -1,10 +1,10 @@
 // One thread's way from staged planes to the caller's memory, chunk by chunk.
 //
-// Kernels write planes of unit stride, and where OutputPlan::arrange() says so records.
-// Where the caller wants other records, or stores that bypass the caches, they write into staging
-// instead, and a drain forms the caller's bytes from there in whole cache lines. Samples that do
-// not fill a line wait in front of the next chunk's planes. When streaming there are two stagings:
-// one chunk is passed on while the next one is computed.
+// Kernels write planes of unit stride, and records where OutputPlan::arrange() says so. Where the
+// caller wants other records, or stores that bypass the caches, they write into staging memory
+// instead, from which a drain forms the caller's bytes in whole cache lines. Samples that do not
+// fill a line wait in front of the next chunk's planes. Streaming takes two staging areas: one
+// chunk is passed on while the next one is computed.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ public:
   /// Where the kernel is to put a chunk whose first sample has the caller's index `sample`: kGroups
   /// of planes, null where not wanted, until end().
   const Planes<T>* begin(std::size_t sample) noexcept;
-  /// Those of the chunk after it, where all of them are staged.
+  /// The planes of the chunk after it, where all planes are staged.
   [[nodiscard]] const Planes<T>* next() const noexcept { return planes_[1 - buffer_]; }
   /// What the kernel passes on meanwhile; null where there is nothing to overlap.
   [[nodiscard]] DrainQueue<T>* queue() noexcept {

@@ -54,7 +54,7 @@ struct OutputList {
     }
     note_wishes();
   }
-  /// Vectors alone, of which null ones are none.
+  /// Vectors alone, without those that are null.
   OutputList(const Vectors<T>* first, const Vectors<T>* second) noexcept
       : vectors{first, second}, vector_count(second == nullptr ? 1 : 2), curvature{},
         curvature_count(0), status(nullptr) {
@@ -80,7 +80,7 @@ struct OutputList {
   }
 
 private:
-  /// wanted(), without branches: small calls feel them.
+  /// Notes what wanted() says, without branches, since small calls feel them.
   void note_wishes() noexcept {
     static_assert(kTrusted == ~std::size_t(0));
     const auto bits = [](const auto* pointer) { return reinterpret_cast<std::uintptr_t>(pointer); };

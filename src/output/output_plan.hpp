@@ -24,7 +24,7 @@ struct StreamShape {
   [[nodiscard]] std::size_t records_to_line(std::size_t record) const noexcept;
 };
 
-/// What the kernels of a call can put where it belongs by themselves, besides planes with plain
+/// What the kernels of a call can write to its final place themselves, besides planes with plain
 /// stores: all outputs at once, in rows of `row` samples or more.
 struct DirectRows {
   std::size_t row = 0; ///< 0: nothing
@@ -43,13 +43,13 @@ public:
   [[nodiscard]] const OutputList<T>& out() const noexcept { return out_; }
   [[nodiscard]] bool staged() const noexcept { return staged_planes_ > 0; }
   [[nodiscard]] bool streaming() const noexcept { return streaming_; }
-  /// Gives staging up where kernels can do without it; and streaming, if that was not asked for,
-  /// where it needs staging that does not pay with so many threads.
+  /// Gives up staging where kernels can do without it. Gives up streaming that the caller did not
+  /// ask for, where it needs staging that does not pay with so many threads.
   void arrange(const DirectRows& rows, int threads) noexcept;
-  /// Values from one sample to the next where they do: 1 planes; 3 triples of each group, more one
-  /// vertex of all groups, both counted from a group's first component.
+  /// Values from one sample to the next where kernels write directly: 1 for planes, 3 for triples
+  /// of each group, more for one vertex of all groups, counted from a group's first component.
   [[nodiscard]] std::size_t record() const noexcept { return record_; }
-  /// Gives staging up: kernels know the outputs' layout themselves.
+  /// Gives up staging: kernels know the outputs' layout themselves.
   void write_directly() noexcept;
   [[nodiscard]] std::size_t staged_planes() const noexcept { return staged_planes_; }
   /// Components of each vector.

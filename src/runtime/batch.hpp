@@ -37,7 +37,7 @@ private:
 };
 
 /// Calls body once per worker 0..threads-1 with its share of 0..units-1, in the library's
-/// floating-point environment. One thread: on the caller's, without an OpenMP region.
+/// floating-point environment. One thread is the caller's own, without an OpenMP region.
 void for_blocks(std::size_t units, int threads, BlockBody body) noexcept;
 
 /// Runs an evaluate call: `Isa work(worker, begin, end, unsigned char* scratch)` on every thread's

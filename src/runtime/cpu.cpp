@@ -79,10 +79,10 @@ const CacheSizes& cache_sizes() noexcept {
 std::size_t last_level_cache() noexcept { return cache_sizes().last; }
 std::size_t second_level_cache() noexcept { return cache_sizes().second; }
 
-// Intel's cores stream through the few buffers that first-level misses need as well, staging's
-// among them: arithmetic, copy and memory add up, and plain stores to memory are 1.1 to 1.9 times
-// as fast (docs/experiments.md). They take memory's bandwidth twice, though, which a
-// few threads do not use up.
+// Intel's cores stream through the few buffers that first-level misses need as well, also those of
+// staging: the times of arithmetic, copy and memory add up, and plain stores to memory are 1.1 to
+// 1.9 times as fast (docs/experiments.md). They take memory's bandwidth twice, though, which a few
+// threads do not use up.
 bool staged_streaming_pays([[maybe_unused]] int threads) noexcept {
 #if defined(__x86_64__)
   constexpr int kFew = 4;

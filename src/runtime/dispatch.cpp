@@ -69,7 +69,7 @@ struct Resolution {
   Isa isa;
 };
 
-/// Of an empty SIMDBEZIER_ISA, too.
+/// Also for an empty SIMDBEZIER_ISA.
 Resolution resolve_automatic() noexcept {
   const char* const wish = std::getenv("SIMDBEZIER_ISA");
   const std::optional<Isa> isa =

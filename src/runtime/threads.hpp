@@ -4,8 +4,8 @@
 
 namespace simdbezier::detail {
 
-/// What a call gets that names no number of threads: 1 where it is made by one of several threads
-/// that run together.
+/// The threads of a call that does not say how many: 1 where the caller is one of several threads
+/// of a parallel region.
 int default_threads() noexcept;
 
 /// More than these gain nothing, and the system may refuse them.
@@ -19,7 +19,7 @@ struct ThreadBody {
 };
 
 /// Calls body(0, n) … body(n - 1, n), each once, on threads of their own as far as the system
-/// grants them. n is `threads`, or fewer: who runs OpenMP decides. threads: 2 or more.
+/// grants them. n is `threads`, or fewer where OpenMP's runtime decides so. threads: 2 or more.
 void run_on_threads(int threads, ThreadBody body) noexcept;
 
 } // namespace simdbezier::detail

@@ -47,7 +47,7 @@ struct CurveStorage {
   std::unique_ptr<void, FreeAligned> memory;
   T* values = nullptr;        ///< count * shape.values(), 64-byte aligned
   GivenPoints given;          ///< count * shape.control_values(); read where a tangent vanishes
-  T* tangent_floor = nullptr; ///< count; see TangentFloor (pack/curve_pack_kernel.hpp)
+  T* tangent_floor = nullptr; ///< count; see TangentFloor (pack/tangent_floor.hpp)
 };
 
 } // namespace simdbezier::detail

@@ -1,7 +1,7 @@
-// Control points as they were given: what samples that deserve a second look are decided from.
+// Control points as they were given, from which samples that need a second look are decided.
 //
-// In the caller's own type, homogeneous where they were given so, and not moved by
-// PackOptions::relative_to: any of these would round. Only -0 has become +0.
+// They are kept in the caller's own type, homogeneous where they were given so, and not moved by
+// PackOptions::relative_to, since any change would round. Only -0 has become +0.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct GivenPoints;
 /// The points of one patch, [j][i][channel], or of one curve, [i][channel]; the weight comes last.
 struct GivenNet {
   const void* values;
-  const GivenPoints* all; ///< that it is one of
+  const GivenPoints* all; ///< the points that it is a part of
 
   [[nodiscard]] double value(std::size_t k) const;
   /// Component `c` of a point in Cartesian form and relative to the set's origin, in double;
@@ -24,7 +24,7 @@ struct GivenNet {
   [[nodiscard]] double coordinate(std::size_t point, std::size_t channels, std::size_t c) const;
 };
 
-/// Those of all patches of a bucket, or of all curves of a set.
+/// The points of all patches of a bucket, or of all curves of a set.
 struct GivenPoints {
   const void* values = nullptr;
   bool in_double = false;

@@ -1,4 +1,4 @@
-// What kernels that pack only suspect: the first fault of one patch.
+// The first fault of one patch, found with certainty where a packing kernel only suspects one.
 #pragma once
 
 #include <cmath>

@@ -2,9 +2,9 @@
 //
 // A direction of degree 6 or more is cut in two at its middle: every half is expanded around its
 // own centre, which keeps the power basis as accurate as de Casteljau's algorithm up to degree 15.
-// A patch so consists of 1, 2 or 4 cells, and a cell is packed and evaluated like a patch of its
-// own on half of the parameter range, edges and corners included. The edges between cells depend on
-// what both cells share, so that no seam can open.
+// A patch thus consists of 1, 2 or 4 cells, and a cell is packed and evaluated like a patch of its
+// own on half of the parameter range, edges and corners included. The edges between cells depend
+// only on what both cells share, so that no seam can open.
 #pragma once
 
 #include <algorithm>

@@ -60,7 +60,7 @@ struct PatchStorage {
   /// count * shape.floors(): |du x dv|^2 above it needs no second look; with weights, what that
   /// floor is made of at a sample (pack/shape_floor.hpp).
   T* normal_floor = nullptr;
-  /// No bicubic patch has a higher one; infinity where they differ much.
+  /// No bicubic patch has a higher floor; infinity where floors differ much.
   T common_floor = std::numeric_limits<T>::infinity();
 
   [[nodiscard]] PatchArrays<T> arrays(std::size_t patch) const noexcept {

@@ -15,15 +15,15 @@
 namespace simdbezier::detail {
 namespace {
 
-/// Random samples of a large set would otherwise wait for address translations as well. Not for
-/// small ones, which a processor's tables cover.
+/// Random samples of a large set would otherwise wait for address translations as well. Small sets
+/// do without, since a processor's tables cover them.
 void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
   constexpr std::size_t kWorthwhile = std::size_t{4} << 20;
   constexpr std::size_t kPage = 4096;
   if (bytes >= kWorthwhile) {
     const std::size_t skipped = -reinterpret_cast<std::uintptr_t>(memory) % kPage;
-    // Advice: whatever comes of it, the memory is good, and errno remains the caller's.
+    // This is advice: the memory is good even if it fails, and errno remains the caller's.
     const int before = errno;
     (void)madvise(static_cast<unsigned char*>(memory) + skipped, (bytes - skipped) / kPage * kPage,
                   MADV_HUGEPAGE);
@@ -124,7 +124,7 @@ Status lay_out(std::span<const ControlNets<S>> nets, const PackOptions& options,
     bucket.count += count;
     storage.count += count;
   }
-  if (storage.buckets.empty()) { // a set without patches has one without patches
+  if (storage.buckets.empty()) { // a set without patches has one empty bucket
     bucket_of(nets.empty() ? ControlNets<S>{} : nets.front(), options, storage);
   }
   for (PatchStorage<T>& bucket : storage.buckets) {

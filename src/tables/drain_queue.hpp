@@ -17,9 +17,9 @@ inline constexpr std::size_t kDrainBurst = 32 * kDrainStep<T>;
 
 inline constexpr std::size_t kMostMembers = 3 * kGroups;
 
-// Streaming stores leave the processor's store queue slowly, and in order. A load that wants two
-// recent stores at once has to wait for all that stand before them, hundreds of cycles: what is
-// written for each chunk is therefore read in the same pieces, or was written one chunk earlier.
+// Streaming stores leave the processor's store queue slowly, and in order. A load that needs two
+// recent stores has to wait for all stores before them, hundreds of cycles: what is written for
+// each chunk is therefore read in the same pieces, or was written one chunk earlier.
 
 /// One output stream: planes of staged samples that become consecutive records.
 template <typename T>
@@ -33,7 +33,7 @@ struct DrainStream {
   std::size_t steps;     ///< of kDrainStep records each
 };
 
-/// Streams, passed on one after the other: bursts to one place suit write buffers.
+/// Streams that are passed on one after the other, since bursts to one place suit write buffers.
 template <typename T>
 struct DrainQueue {
   DrainStream<T> stream[kMostMembers];

@@ -216,8 +216,8 @@ template <typename T>
 struct KernelTable {
   Isa isa;
   std::size_t lanes;
-  /// Nothing but one kernel for each purpose: bicubic patches take the kernels of any shape, and
-  /// the table has none of their own (null); curves are not written as rows.
+  /// There is only one kernel for each purpose: bicubic patches take the kernels of any shape, and
+  /// those of their own are null; curves are not written as rows.
   bool compact;
   bool puts_records; ///< whether usual outputs' grid kernels put records together
   void (*grid[kOutputSets])(GridTask<T>& task);

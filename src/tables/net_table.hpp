@@ -29,8 +29,8 @@ struct NetView {
   bool packed;    ///< the values of a net lie side by side, in the order of a group
 };
 
-/// Which control points of a result are points of the input, in one direction: these are copied
-/// where nets are cartesian, since (w P) / w is not always P.
+/// Which control points of a result are points of the input, in one direction. Cartesian nets have
+/// these copied, since (w P) / w is not always P.
 struct KeptPoints {
   bool all = false;   ///< the direction was not touched
   bool first = false; ///< point 0 is point 0
@@ -86,7 +86,7 @@ struct LinearMap {
   Row row[kMostOrder];
   std::size_t rows = 0;
   bool identity = false;
-  bool keeps_constants = false; ///< rows sum to 1: where all terms of a row are equal, so is it
+  bool keeps_constants = false; ///< rows sum to 1: of equal values comes that value
 };
 
 /// Maps both directions, in double. Scratch: three nets of the larger order in each direction.

@@ -8,7 +8,7 @@ namespace simdbezier::detail {
 /// Rates of a patch whose numbers are too large or too small for the kernel.
 inline constexpr std::uint32_t kUndecided = 0xffffffff;
 
-/// Certifies rates, those that are given or those that it chooses, for bicubic polynomial nets of
+/// Certifies rates, given ones or those that the kernel chooses, for bicubic polynomial nets of
 /// three components. Scratch: kRateValues values.
 template <typename T>
 struct RateTask {
