@@ -40,8 +40,8 @@ struct GlbParts {
 /// All of a file but its binary chunk.
 [[nodiscard]] std::uint64_t glb_frame_bytes(const MeshContents& contents);
 
-/// The format wants the smallest box around the vertices in front of them, where it is filled in at
-/// the end. What goes to a pipe or device waits in a temporary file for that.
+/// The format wants the smallest box around the vertices before the vertices themselves; it is
+/// filled in at the end. What goes to a pipe or device waits in a temporary file until then.
 class GlbFile {
 public:
   /// Throws Failure where the file cannot be begun.

@@ -18,7 +18,7 @@ public:
   /// What compressed bytes begin with, and text never does.
   static constexpr std::string_view kMagic = "\x1f\x8b";
   static constexpr std::size_t kRoom = std::size_t{1} << 16;
-  /// At any place of the input, no more has been unpacked than this, and so many times its bytes.
+  /// At any place of the input, more than this may be unpacked only up to so many times its bytes.
   static constexpr std::uint64_t kAlwaysUnpacked = std::uint64_t{1} << 24;
   static constexpr std::uint64_t kMostTimes = 100;
 

@@ -17,7 +17,7 @@ public:
   MeshSource& operator=(const MeshSource&) = delete;
 
   [[nodiscard]] virtual MeshContents contents() const = 0;
-  /// Hands all vertices and faces to the writer; `seconds` and the bar's patches go on.
+  /// Hands all vertices and faces to the writer, adds to `seconds`, and moves the bar.
   virtual void write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& progress) = 0;
 };
 

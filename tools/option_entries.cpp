@@ -19,7 +19,7 @@ void add_resolution(Entries& entries) {
   entries.insert(
       entries.end(),
       {{"--tolerance", "D", distance,
-        "The farthest that triangles may be from the surface, and back, certified", command},
+        "The certified largest distance between triangles and surface", command},
        {"--relative", "S", "a share above 0",
         "The same as a share of the diagonal of the box of all control points", command},
        {"--pixels", "N", "a number above 0", "The same in pixels of a picture that --camera takes",
@@ -28,9 +28,10 @@ void add_resolution(Entries& entries) {
         "Where a picture is taken from, and the middle of what it shows", command},
        {"--view-angle", "DEG", "degrees above 0 and below 180",
         "The picture's angle from bottom to top (default 45)", command},
-       {"--picture", "WxH", "WxH, each from 1 to 65536", "Its pixels (default 1920x1080)", command},
+       {"--picture", "WxH", "WxH, each from 1 to 65536",
+        "The picture's size in pixels (default 1920x1080)", command},
        {"--angle", "DEG", "degrees above 0 and at most 180",
-        "The most that normals turn from a vertex to the next, about", command}});
+        "About the largest angle between normals of neighbouring vertices", command}});
 }
 
 // What a mesh consists of.
@@ -43,14 +44,14 @@ void add_mesh(Entries& entries) {
        {"--snap", "D", "a distance above 0", "Joins open edges that are this near to each other",
         command},
        {"--crease", "DEG", "degrees from 0 to 180",
-        "Patches whose normals enclose so much where they meet do not share normals there",
+        "Patches whose normals differ by this much where they meet do not share normals there",
         command},
        {"--orient", "", "", "Turns patches so that neighbours agree on the outside", command},
        {"--flip", "", "", "Turns all triangles and normals around", command},
        {"--quads", "", "", "Quads where cells have four vertices (.obj and .ply)", command},
        {"--no-normals", "", "", "Positions only", command},
-       {"--quantise", "BITS", "16 or 8", "Positions in 16 bits and normals in so many (.glb)",
-        command},
+       {"--quantise", "BITS", "16 or 8",
+        "Stores positions in 16 bits and normals in this many (.glb)", command},
        {"--stats", "FORM", "text or json",
         "What was written, how long it took, and its certified deviation: text on stderr (the "
         "default) or JSON on standard output",
@@ -61,19 +62,18 @@ Entries make_entries() {
   const std::string all = " tessellate evaluate info ";
   const std::string both = " tessellate evaluate ";
   const std::string side = std::to_string(kMostPerDirection);
-  Entries entries = {{"IN", "IN", "builtin:teapot, the name of a file or - for standard input",
-                      "Patches (" + patch_format_names(".") + ", compressed by gzip or not)", all},
-                     {"-o", "OUT",
-                      "a name that ends in " + mesh_format_names(".") + ", or - with --to",
-                      "Output, required", " tessellate "},
-                     {"--to", "NAME", mesh_format_names(""),
-                      "Format of OUT, which otherwise its name tells", " tessellate "},
-                     {"-o", "OUT", "a name that ends in .csv, or - for standard output",
-                      "Output, required", " evaluate "},
-                     {"--format", "NAME", patch_format_names(""),
-                      "Format of IN, which otherwise its name tells", all},
-                     {"--grid", "N|NUxNV", "N or NUxNV, each from 2 to " + side,
-                      "Samples of every patch (default 16)", both}};
+  Entries entries = {
+      {"IN", "IN", "builtin:teapot, the name of a file or - for standard input",
+       "Patches (" + patch_format_names(".") + ", compressed by gzip or not)", all},
+      {"-o", "OUT", "a name that ends in " + mesh_format_names(".") + ", or - with --to",
+       "Output, required", " tessellate "},
+      {"--to", "NAME", mesh_format_names(""), "Format of OUT, otherwise told by its name",
+       " tessellate "},
+      {"-o", "OUT", "a name that ends in .csv, or - for standard output", "Output, required",
+       " evaluate "},
+      {"--format", "NAME", patch_format_names(""), "Format of IN, otherwise told by its name", all},
+      {"--grid", "N|NUxNV", "N or NUxNV, each from 2 to " + side,
+       "Samples of every patch (default 16)", both}};
   add_resolution(entries);
   add_mesh(entries);
   const Entries rest = {

@@ -32,7 +32,7 @@ RecordLayout records(FieldType position, FieldType normal, FieldType uv, FieldTy
   return layout;
 }
 
-// Rounds to the nearest integer of the range, which the value is within but for rounding.
+// Rounds to the nearest integer of the range; the value leaves it by rounding errors at most.
 template <typename Stored, typename T>
 Stored to_normalised(T number) {
   const auto value = static_cast<double>(number);

@@ -29,7 +29,7 @@ struct RecordLayout {
   Field uv;
   Field patch;
   std::size_t size = 0;
-  bool unit_normals = false; ///< zero is none
+  bool unit_normals = false; ///< zero normals are replaced
   bool operator==(const RecordLayout&) const = default;
 };
 
@@ -44,7 +44,7 @@ template <typename T>
 /// The box whose corners quantised positions count from, and its largest side.
 struct QuantisedSpace {
   std::array<double, 3> low = {};
-  double extent = 1; ///< what 65535 stands for, in every direction, so that normals keep theirs
+  double extent = 1; ///< what 65535 stands for, in all directions, so that normals are not turned
 };
 [[nodiscard]] QuantisedSpace quantised_space(const MeshBox& box);
 

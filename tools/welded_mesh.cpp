@@ -246,7 +246,7 @@ std::span<const std::uint32_t> WeldedMesh<T>::faces(const Block& block) {
                                        {block.first, block.count}));
   std::size_t kept = 0;
   for (std::size_t k = 0; k < corners_.size(); k += 3) {
-    if (corners_[k] != corners_[k + 1]) { // and not a place for a triangle that is not there
+    if (corners_[k] != corners_[k + 1]) { // equal ones fill the place of a missing triangle
       std::copy_n(&corners_[k], 3, &corners_[kept]);
       kept += 3;
     }
