@@ -130,7 +130,7 @@ struct TightBoxes {
       }
       const double below = low - static_cast<double>(job.results[k]);
       const double above = static_cast<double>(job.results[k + 3 * kPatches]) - high;
-      // The samples are inside, but for their own rounding, and the box is little larger.
+      // The samples are inside, up to their own rounding, and the box is little larger.
       if (!(std::min(below, above) >= -1e-12 &&
             std::max(below, above) <= 0.1 * (high - low) + 0.02)) {
         return "box " + std::to_string(k) + " is off";

@@ -1,13 +1,12 @@
 // tessellate/position_normal/<type>/<isa>/<nu>x<nv>/memory/threads:<t>/part:<part>: meshes of a
 // sheet of patches that share edges, with merged normals and 32-bit triangles.
 //
-//   16x16          uniform: every patch has 15 x 15 cells. mesh: vertices and triangles.
-//   8x8            adaptive, 7 x 7 cells in the mean. mesh: rates, layout, vertices, triangles;
-//   all:
-//                  edges that are one, too; grids: evaluate() on the grids of the same rates.
+//   16x16   uniform: every patch has 15 x 15 cells. mesh: vertices and triangles.
+//   8x8     adaptive, 7 x 7 cells in the mean. mesh: rates, layout, vertices, triangles; all: the
+//           topology as well; grids: evaluate() on the grids of the same rates.
 //
-// plain/8x8: a scalar tessellator without a library, with one grid for all of some patches, to the
-// same tolerance; items are triangles.
+// plain/8x8: a scalar tessellator without a library, on some of the patches, all with one grid, to
+// the same tolerance; items are triangles.
 //
 // Items are samples: vertices of meshes, samples of grids, patches of rates, topology and layout.
 // Bytes are those of the output.

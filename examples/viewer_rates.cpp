@@ -1,5 +1,5 @@
-// A viewer's loop: for every frame, each patch gets the cells that half a pixel asks for from where
-// the camera is, and all of them one mesh without gaps. Edges are joined once, memory only grows.
+// A viewer's loop: in every frame, each patch gets the fewest cells that are off by half a pixel at
+// most, and all patches make one mesh without gaps. Edges are joined once; memory only grows.
 #include <algorithm>
 #include <array>
 #include <cstdio>

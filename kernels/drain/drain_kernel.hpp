@@ -113,8 +113,8 @@ SIMDBEZIER_INLINE void drain_steps(const DrainStream<T>& s, std::size_t steps) {
   }
 }
 
-/// Passes on what `owed` values pay for. Out of line: the registers of a kernel's rows then wait in
-/// the first-level cache, which is cheaper than keeping some free for this.
+/// Passes on as many values as are owed. It is out of line, so that the registers of a kernel's
+/// rows wait in the first-level cache meanwhile, which is cheaper than keeping some free for this.
 template <typename T>
 __attribute__((noinline)) void drain_owed(DrainQueue<T>& queue) {
   while (queue.current < queue.streams) {

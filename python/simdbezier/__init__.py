@@ -27,8 +27,8 @@ A mesh stays within a tolerance of the surface, and says how far it is at most:
 >>> mesh.positions.shape, mesh.triangles.shape, mesh.deviation < 1e-3
 ((6, 3), (4, 3), True)
 
-What is computed, how exactly, and in which threads, is that of the C++ library; while it computes,
-other Python threads run.
+Results, accuracy and threads are those of the C++ library. While it computes, other Python threads
+run.
 """
 
 from ._core import (
