@@ -4,7 +4,7 @@
 // 128-bit lane of one sample. The samples of a register form kQuad groups; group g has the samples
 // g, kQuad + g, 2 kQuad + g, …, one in each lane. Horner's rule in X runs on groups (X broadcast
 // within lanes); transposing the groups within lanes then puts the samples, in their order, side by
-// side for Horner's rule in Y. No permutation but those of the loads crosses lanes.
+// side for the rows in Y. No permutation but those of the loads crosses lanes.
 #pragma once
 
 #include "kernels/scattered/scattered_block.hpp"
