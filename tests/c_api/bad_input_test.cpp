@@ -16,7 +16,7 @@ struct Case {
 
 void ignore(const simdbezier_tile* /*tile*/, void* /*context*/) {}
 
-// Lambdas in brackets spoil the world and return what the call answers.
+// Each lambda spoils one argument and returns the call's status.
 const Case kCases[] = {
     // Nothing where something is needed.
     {SIMDBEZIER_NULL_INPUT, "nets",

@@ -1,4 +1,4 @@
-// All that calls of the C API need, right at first: a test spoils one thing.
+// The arguments of all calls of the C API, valid at first; a test spoils one of them.
 #pragma once
 
 #include <limits>

@@ -61,7 +61,7 @@ TEST(CTopologyOptions, AreThoseOfCpp) {
       found.push_back(expected.is_turned(p) ? 1 : 0);
     }
     EXPECT_EQ(std::count(different.begin(), different.end(), found), 0) << one.name;
-    different.push_back(found); // or the option could not be missed
+    different.push_back(found); // otherwise nothing would show that the option was lost
     simdbezier_topology_free(topology);
   }
 }

@@ -34,7 +34,7 @@ public:
     }
     return out;
   }
-  /// Values that differ from those of `all`, of the groups that both hold.
+  /// The number of values that differ from those of `all`, in the groups that both hold.
   std::size_t different_from(const Planes<T>& all) const {
     std::size_t different = 0;
     for (std::size_t plane = 0; plane < 12; ++plane) {

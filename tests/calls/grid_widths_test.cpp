@@ -34,7 +34,8 @@ public:
     }
     return out;
   }
-  /// Values that are not those of `expected` in the groups asked for, or not poison elsewhere.
+  /// The number of values that differ from `expected` in the groups asked for, or from the poison
+  /// elsewhere.
   std::size_t wrong(GuardedPlanes& expected, unsigned groups) {
     std::size_t wrong = 0;
     for (std::size_t p = 0; p < 3 * kGroups; ++p) {
@@ -95,7 +96,7 @@ protected:
       }
     }
   }
-  /// Some of which kernels know the size of.
+  /// Square grids, the size of some of which the kernels know.
   void squares() {
     for (std::size_t side = 2; side <= 66; ++side) {
       const std::vector<T> x = centred_parameters<T>(side);

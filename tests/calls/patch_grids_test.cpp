@@ -128,7 +128,7 @@ protected:
     }
   }
 
-  /// One patch that several threads have to share, among many that none needs to.
+  /// One patch that several threads have to share, among many small ones.
   template <typename T>
   void dense_patch() {
     const PatchSet<T> set = packed<T>(mixed_nets(60));

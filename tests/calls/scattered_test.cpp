@@ -1,4 +1,4 @@
-// Scattered samples in any company: a call for many gives each the bits of a call for it alone.
+// Scattered samples among others: a call for many gives each the bits of a call for it alone.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -197,8 +197,8 @@ protected:
     }
   }
 
-  /// One patch is larger than the others, whose normals ought not to notice. Some samples, one in a
-  /// register at the most, are about poles, where normals take a second look or nearly do.
+  /// One patch is larger than the others, whose normals must not change by that. Some samples, at
+  /// most one in a register, are near poles, where normals take a second look or nearly do.
   void check_company_of(std::size_t large, double scale) {
     Random random(13);
     std::vector<Net> nets;

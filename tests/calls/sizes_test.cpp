@@ -37,7 +37,8 @@ const std::size_t kGaps[kPatches] = {3, 30, 60};
   return set;
 }
 
-/// Memory for one output, as long as it is asked to be, in the middle of more that stays as it is.
+/// Memory for one output, of exactly the length asked for, between guards that must stay as they
+/// are.
 struct Room {
   static constexpr float kUntouched = -777;
   static constexpr auto kNoStatus = static_cast<SampleStatus>(77);

@@ -90,7 +90,7 @@ protected:
     }
   }
 
-  /// A status without normals: what the grid call says then.
+  /// A status without normals is the one that the grid call gives.
   template <typename T>
   void status_alone() {
     const PatchSet<T> set = packed<T>(mixed_nets(5));

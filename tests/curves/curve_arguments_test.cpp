@@ -92,7 +92,7 @@ TEST_F(CurveArguments, RangesAndIndices) {
 }
 
 TEST_F(CurveArguments, Counts) {
-  refuse(Status::ok, CurveGrids{}, results_.outputs()); // of no curves
+  refuse(Status::ok, CurveGrids{}, results_.outputs()); // no curves
   refuse(Status::null_input, CurveGrids{{static_cast<std::uint32_t*>(nullptr), 3}},
          results_.outputs());
   const std::uint32_t n[] = {4, 1, 4};
@@ -182,7 +182,7 @@ TEST(CurvePacking, RefusesWhatItCannotPack) {
   two.at(8, 0, 3) = -2;
   refused(two, {Status::bad_weight, 8, 0, 3}, as_it_is);
 
-  // A weight that is positive in double and nothing in float.
+  // A weight that is positive in double and zero in float.
   auto tiny = random_curves<double>(2, 3, 3, 5, 1);
   tiny.at(1, 2, 3) = 1e-60;
   const PackReport report = pack(tiny.view(), set);

@@ -106,7 +106,7 @@ TEST(IsoPoints, RefuseBadInput) {
   EXPECT_EQ(parameter.point, -1);
 }
 
-/// Of the points that the set keeps, which are the nets' own.
+/// From the points that the set keeps, which are the nets' own.
 template <typename T>
 void expect_iso_of_set(const NetBatch<T>& nets, bool along_v, double t) {
   PatchSet<T> patches;

@@ -1,8 +1,8 @@
 // Derivatives of rational patches that have a side which is one point: on all four sides, with all
 // forms of weights, by every call, around every origin, against the oracle and the certificate.
 //
-// What collapsed_edges_test.cpp asks is exact but says nothing about derivatives across such a
-// side, and random nets have none.
+// The checks of collapsed_edges_test.cpp are exact but say nothing about derivatives across such a
+// side, and random nets have no such sides.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

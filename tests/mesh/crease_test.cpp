@@ -1,4 +1,4 @@
-// Vertices that are several where patches meet at an angle.
+// Vertices that are split into several where patches meet at an angle.
 #include <cmath>
 #include <limits>
 #include <map>
@@ -92,7 +92,7 @@ TEST(Creases, of_no_angle_leave_patches_alone) {
   for (const MeshModel& model : mesh_models()) {
     if (model.name.starts_with("ball") || model.name.starts_with("torus 1") ||
         model.name.starts_with("torus 2")) {
-      continue; // points keep one vertex; patches that are their own neighbours
+      continue; // points keep one vertex, and some patches are their own neighbours
     }
     SCOPED_TRACE(model.name);
     EvaluatedMesh<float> mesh(model, 5, 11);

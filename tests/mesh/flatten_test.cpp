@@ -1,4 +1,4 @@
-// Polylines against curves that are evaluated by formulas of the test's own.
+// Polylines against curves that the test evaluates by formulas of its own.
 #include <array>
 #include <cmath>
 #include <limits>

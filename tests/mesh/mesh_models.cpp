@@ -32,7 +32,7 @@ std::vector<PatchPoints> from_net(int columns, int rows,
 
 constexpr double kTurn = 6.283185307179586;
 
-/// Net points (k, l) of a torus of c x r patches. The same numbers for both ends.
+/// Net points (k, l) of a torus of c x r patches. Both ends are computed from the same numbers.
 MeshModel torus(int columns, int rows) {
   const auto net = [=](int k, int l) {
     const double a = kTurn * (k % (3 * columns)) / (3 * columns);
@@ -56,8 +56,8 @@ MeshModel ball(int columns, int rows) {
           from_net(columns, rows, net), 2, 0};
 }
 
-/// The six faces of a cube, moved outwards inside. Points that faces share are the same because
-/// they are formed from the same coordinates.
+/// The six faces of a cube, whose inner points are moved outwards. Points that faces share are the
+/// same because they are formed from the same coordinates.
 MeshModel cube() {
   MeshModel model{"cube", {}, 2, 0};
   for (std::size_t axis = 0; axis < 3; ++axis) {

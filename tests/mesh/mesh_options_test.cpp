@@ -66,8 +66,8 @@ TEST(MeshOptions, options_are_followed) {
   EXPECT_EQ(split.triangles.size(), usual.triangles.size());
 }
 
-/// Of a square that is turned about its middle: the longest edge, and the largest angle between
-/// neighbouring vertices' normals along rows and columns of vertices.
+/// Along rows no edge is longer than asked for, and along columns neighbouring normals enclose no
+/// angle much larger than asked for.
 TEST(MeshOptions, edges_and_angles_are_as_short_as_asked_for) {
   for (const MeshModel& model : mesh_models()) {
     if (!model.name.starts_with("torus 4") && model.name != "sheet") {

@@ -9,7 +9,7 @@
 
 namespace simdbezier::tests {
 
-/// Control points in general position, but for sides that are joined or points.
+/// Control points in general position, except on sides that are joined or points.
 struct RandomGluing {
   std::size_t patches = 0;
   std::vector<double> values; ///< bicubic, packed

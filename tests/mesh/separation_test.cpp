@@ -42,7 +42,7 @@ SeparatedMesh mesh_of(const MeshModel& model, std::uint32_t rate_u, std::uint32_
   return {ControlNets<double>::packed(std::span<const double>(values)), rate_u, rate_v};
 }
 
-/// A second sheet on what is a surface already takes nothing apart and needs no cells.
+/// A second sheet on a surface that is one already: nothing is separated, and no cells are needed.
 TEST(Separation, gives_repeated_patches_the_rates_of_the_first) {
   for (const MeshModel& model : mesh_models()) {
     if (model.repeated) {

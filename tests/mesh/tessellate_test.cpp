@@ -148,7 +148,7 @@ TEST(TessellateData, is_closed_where_the_data_is_and_as_close_as_certified) {
   }
 }
 
-/// SIMDBEZIER_MESH_PATCHES: how many patches the sheet has, about.
+/// SIMDBEZIER_MESH_PATCHES: about how many patches the sheet has.
 TEST(Tessellate, of_ten_thousand_random_patches_is_one_sheet) {
   const char* const wish = std::getenv("SIMDBEZIER_MESH_PATCHES");
   const int side =

@@ -80,7 +80,8 @@ TYPED_TEST(VertexCalls, have_the_same_bits_for_any_threads_destination_and_instr
   }
 }
 
-/// Of patches that kernels of their own evaluate, and of those of any degrees and weights.
+/// For bicubic patches, which have kernels of their own, and for patches of any degrees and
+/// weights.
 TYPED_TEST(VertexCalls, give_parameters_and_patches_alone_for_patches_of_any_shape) {
   using T = TypeParam;
   struct Shape {

@@ -58,7 +58,7 @@ TEST(NetBounds, TightBoxesConverge) {
   }
 }
 
-// A bilinear patch is flat but for the margin, whatever its degree and place; a bulge is not.
+// A bilinear patch is flat up to the margin, whatever its degree and place; a bulge is not.
 TEST(NetBounds, FlatnessIsSharp) {
   Batch<double> batch({5, 4, 3, Weights::none}, 1);
   for (int j = 0; j <= 4; ++j) {

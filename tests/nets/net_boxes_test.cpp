@@ -18,8 +18,8 @@ struct BoundFamily {
   std::function<Batch<T>(Shape)> make;
 };
 
-/// Evenly spaced points, as rounded: what is computed finds them flat to the last bit, which they
-/// are not.
+/// Evenly spaced points, which are rounded: in computed arithmetic they are flat to the last bit,
+/// while exactly they are not.
 template <typename T>
 Batch<T> even_batch(Shape shape) {
   Batch<T> batch(shape, kCount);

@@ -31,8 +31,8 @@ double largest_error(const Batch<T>& batch, const Batch<T>& result, const Ration
   return largest;
 }
 
-/// 2 u for cartesian weights, and as much again for what the division makes of a numerator that is
-/// as wrong as its denominator.
+/// 2 u for cartesian weights, and as much again for a division whose numerator is as wrong as its
+/// denominator.
 double rational_slack(const Shape& shape, double bound) {
   return shape.weights == Weights::none ? bound : 2 * bound + 4;
 }
@@ -98,7 +98,7 @@ TYPED_TEST(NetExactness, Elevation) {
   }
 }
 
-// Integers, halved: no product or sum needs more bits than there are.
+// Integers that are halved: no product or sum needs more bits than the type has.
 TYPED_TEST(NetExactness, HalvesOfIntegersAreExact) {
   using T = TypeParam;
   for (const Shape& shape : all_shapes()) {

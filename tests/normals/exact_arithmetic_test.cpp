@@ -1,4 +1,4 @@
-// The arithmetic behind exact decisions (kernels/exact), against GMP.
+// The arithmetic behind exact decisions (src/exact), against GMP.
 #include <bit>
 #include <cmath>
 #include <cstdint>

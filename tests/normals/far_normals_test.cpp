@@ -55,8 +55,8 @@ std::vector<FarCase> far_cases() {
   return cases;
 }
 
-/// A dish; some float steps across, so that only S tells its points apart. Where its parameter
-/// lines are nearly parallel, that is true of what makes its normals.
+/// A dish of some float steps across, so that only its points in S are different. Where parameter
+/// lines are nearly parallel, the differences that make its normals are as small.
 template <typename S>
 Net far_net(const FarCase& c, Random& random) {
   const double size = c.size * kFloatStep;
@@ -75,7 +75,7 @@ Net far_net(const FarCase& c, Random& random) {
 
 class FarNormals : public IsaTest {
 protected:
-  /// By kernels, which are good for well-conditioned normals, or by a second look in double. (What
+  /// Normals by kernels, which are good where conditioning is, or by a second look in double. (What
   /// kernels decide in between may be 0.02 degree off.)
   static bool is_decided(double kappa) {
     return kappa > 0 && (kappa < 16 || (kappa > 0x1p11 && kappa < 0x1p16));

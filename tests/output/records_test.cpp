@@ -1,6 +1,6 @@
 // Grids in rows of at least a register as records, which kernels put together by themselves: stored
-// anywhere, or streamed where rows are whole registers and records begin on a cache line. The bits
-// of planes in the cache, the statuses too, and not one element touched that is no output.
+// anywhere, or streamed where rows are whole registers and records begin on a cache line. They have
+// the bits and statuses of planes in the cache, and no element is touched that is no output.
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -170,7 +170,7 @@ protected:
   }
 
 private:
-  bool with_status_ = true; ///< in turns
+  bool with_status_ = true; ///< in every other call
   std::ptrdiff_t unusual_ = 0;
 };
 

@@ -23,7 +23,7 @@ struct Case {
   const char* name;
   Net (*make)(Random&);
   PackOptions options;
-  double most; ///< of |error| / (u max|b|), b as packed; the figure to beat is 21 (32 without FMA)
+  double most; ///< of |error| / (u max|b|), b as packed; published bounds: 21 (30 without FMA)
 };
 
 PackOptions with_local_origin() {

@@ -19,7 +19,7 @@ struct EdgeView {
 
 /// A patch and the same one with u, v or both reversed, or with u and v exchanged: every edge of
 /// every cell has the same bits, odd powers up to their sign where it runs the other way. (With u
-/// and v exchanged those of the patch have; what lies inside of it is halved in another order.)
+/// and v exchanged only the patch's own edges do: those inside are halved in another order.)
 template <typename T>
 class Turned {
 public:

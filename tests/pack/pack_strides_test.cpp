@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::ptrdiff_t kMax = std::numeric_limits<std::ptrdiff_t>::max();
 constexpr std::ptrdiff_t kMin = std::numeric_limits<std::ptrdiff_t>::min();
-/// Twice any of them cannot be addressed, in bytes.
+/// Twice any of these strides cannot be addressed, in bytes.
 constexpr std::ptrdiff_t kBad[] = {kMax,     kMin,     kMax - 1, kMin + 1, kMax / 2, kMin / 2,
                                    kMax / 3, kMax / 4, kMin / 4, kMax / 8, kMin / 8};
 

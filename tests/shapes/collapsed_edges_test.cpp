@@ -1,4 +1,4 @@
-// Sides of rational patches that are points: everything along them is exactly what it should be.
+// Sides of rational patches that are points: positions and derivatives along them are exact.
 #include <cmath>
 #include <functional>
 
@@ -177,7 +177,7 @@ TEST_P(CollapsedEdgeTest, LeavesNeighboursAlone) {
   }
 }
 
-// Far from the origin, double points may be one as float and still have a derivative.
+// Far from the origin, double points may be equal as floats and still have a derivative.
 TEST_P(CollapsedEdgeTest, PointsThatOnlyRoundToOneAreNotOne) {
   Random random(83);
   Net net = dish_with_pole({2, 2}, 0, random);

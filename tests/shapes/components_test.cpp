@@ -64,7 +64,8 @@ protected:
     expect("scattered", by_scattered, reference);
   }
 
-  /// Values that differ in the first `present` components, and places beyond that were written.
+  /// The number of values that differ in the first `present` components, and of places beyond that
+  /// were written.
   template <typename T>
   [[nodiscard]] static std::size_t differing(const Planes<T>& here, const Planes<T>& reference,
                                              std::size_t present) {
@@ -181,7 +182,7 @@ TEST_F(RefusalTest, NormalsAndCurvaturesOutsideOfSpace) {
     expect_tiles_refused(components, Status::bad_components, {.outputs = {Output::normal}});
     expect_tiles_refused(components, Status::bad_components, {.outputs = {Output::curvature}});
   }
-  // Part of a point in space is none.
+  // A part of a point in space is not a point in space.
   expect_refused(3, Status::bad_components,
                  [](Planes<float>& p, Outputs<float>& out, CallOptions& options) {
                    options.first_component = 1;

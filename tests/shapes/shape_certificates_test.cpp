@@ -1,5 +1,5 @@
 // Certificates of patches of any shape: packed coefficients are evaluated here as the library's
-// contract says (Horner in X, then in Y, a half's own parameter, one reciprocal), in T and without
+// contract says (columns in X, rows in Y, a half's own parameter, one reciprocal), in T and without
 // its kernels, and compared with exact rational surfaces. Kernels are judged by the accuracy suite.
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
-// One line for all that a call can be told: how it runs, on which part of a set, with which
-// components. Tables of cases want it in one place; the library has it in three.
+// All that a call can be told in one struct: how it runs, on which part of a set, with which
+// components. Tables of cases need it in one place; the library has it in three.
 #pragma once
 
 #include <algorithm>

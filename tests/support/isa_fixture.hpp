@@ -48,7 +48,7 @@ protected:
     run(options, [&](const How& forced) { return evaluate(set, grids, out, forced); });
   }
 
-  /// call(options): an evaluate call with these options, but for the instruction set.
+  /// call(options): an evaluate call with these options, except for the instruction set.
   template <typename How = CallOptions, typename Call>
   void run(How options, const Call& call) {
     Isa executed = Isa::automatic;

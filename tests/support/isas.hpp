@@ -1,4 +1,4 @@
-// What builds and machines have of the instruction sets.
+// Which instruction sets builds and machines have.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,8 @@ inline constexpr Isa kEveryIsa[] = {Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx5
   return std::ranges::count(available_isas(), isa) > 0;
 }
 
-/// One that calls refuse; there is one, as no machine has both AVX-512 and NEON.
+/// An instruction set that calls refuse. There always is one, since no machine has both AVX-512 and
+/// NEON.
 [[nodiscard]] inline Isa absent_isa() { return *std::ranges::find_if_not(kEveryIsa, is_available); }
 
 /// Whether one that is available belongs to the class of results.

@@ -85,7 +85,7 @@ TEST_P(DataFileTest, IsTessellatedWithItsCornersInPlace) {
   }
 }
 
-// Judges rows of positions by the bound of contract 2, at the centred parameters as rounded.
+// Judges rows of positions by the published bound, at the centred parameters as rounded.
 template <typename T>
 void expect_accurate(const ParsedCsv& csv, std::vector<Net> nets, double bound) {
   for (Net& net : nets) {

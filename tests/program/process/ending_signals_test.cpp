@@ -1,4 +1,4 @@
-// Whatever ends the program, no temporary file stays, and who waits for it sees what ended it.
+// Whatever ends the program, no temporary file stays, and its parent process sees what ended it.
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
@@ -85,7 +85,7 @@ TEST(Signals, ThatWereIgnoredStayIgnored) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"out.csv"});
 }
 
-// The moment at which a file is there and nobody has said so yet.
+// The moment at which a file exists but is not registered as created yet.
 TEST(Signals, RightAfterTheFileWasCreatedLeaveNothing) {
   const TemporaryFolder folder;
   const Outcome outcome = run({"tessellate", "builtin:teapot", "-o", folder.path("out.ply")},

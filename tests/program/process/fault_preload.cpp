@@ -1,5 +1,5 @@
-// What the system may answer and hardly ever does. Loaded in front of the C library; the fault that
-// SIMDBEZIER_TEST_FAULT names happens, everything else is as it was.
+// Answers that the system may give and hardly ever gives. This is loaded in front of the C library:
+// the fault that SIMDBEZIER_TEST_FAULT names happens, everything else is as it was.
 #include <cerrno>
 #include <csignal>
 #include <cstdarg>

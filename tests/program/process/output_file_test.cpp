@@ -173,7 +173,7 @@ TEST(OutputFile, KeepsOwnerAndGroup) {
   EXPECT_EQ(status.st_gid, 23456U);
 }
 
-// By whatever names the same file goes.
+// The same file under any of its names.
 TEST(OutputFile, IsNoInput) {
   const TemporaryFolder folder;
   const std::string samples = folder.write("s.csv", "patch,u,v\n0,0.5,0.5\n");

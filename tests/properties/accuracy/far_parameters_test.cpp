@@ -1,5 +1,5 @@
-// Parameters far outside of the patch: good up to the magnitudes that samples.hpp names, and beyond
-// them normals still are vectors.
+// Parameters far outside of the patch: results are numbers up to the magnitudes that samples.hpp
+// names, and beyond them normals are still unit vectors or zero.
 #include <cmath>
 #include <initializer_list>
 #include <vector>

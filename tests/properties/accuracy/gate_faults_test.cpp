@@ -1,5 +1,5 @@
-// Each kind of fault is seen by the check that is there for it; and without a fault a plain scalar
-// copy of the scheme has the library's bits, so the order of evaluation is what is documented.
+// Each kind of fault is seen by the check that is there for it. Without a fault, a plain scalar
+// copy of the scheme has the library's bits, so the order of evaluation is the documented one.
 #include <string>
 
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@
 
 namespace simdbezier::tests {
 
-/// Angles in degrees. Limits are exact but for the rounding of the result; regular directions carry
+/// Angles in degrees. Limits are exact up to the rounding of the result; regular directions carry
 /// what the quick tests let pass (gate G6 of docs/accuracy.md), and tangents of curves what sums of
 /// weights lose where these are light: kernels sum relative to the largest one.
 struct AllowedAngles {

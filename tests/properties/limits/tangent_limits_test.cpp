@@ -154,7 +154,7 @@ TEST_P(TangentLimits, KnownCurves) {
     const auto set = packed_curves<double, double>(Curves(&curve, 1), {.isa = isa()});
     judge_scattered(set, Curves(&curve, 1), tally);
   };
-  add(2, 2, 1e-4, 1, -1); // the issue's
+  add(2, 2, 1e-4, 1, -1);
   add(4, 4, 0.01, 1, -1);
   add(7, 7, 0.1, 1, -1);
   add(5, 5, 1e-4, 1, -15.0 / 16); // t = 1/32

@@ -10,16 +10,16 @@
 namespace simdbezier::tests {
 namespace {
 
-/// Of iso-curves, whose control points carry 2 (degree + 1) roundings of their own, relative to the
-/// points as given, and one of T; differences of them do not get smaller. The parameters of
-/// mirrored ones are rounded, too.
+/// The bounds of iso-curves, whose control points carry 2 (degree + 1) roundings of their own,
+/// relative to the points as given, and one of T; their differences carry no less. The parameters
+/// of mirrored ones are rounded as well.
 [[nodiscard]] double iso_bound(const MetaNet& net, std::size_t order, double largest) {
   const int degree = std::max(net.degree_u, net.degree_v);
   return (2 * degree + 6) * std::pow(2.0 * degree, static_cast<double>(order)) * largest;
 }
 
-/// Of one batch: the certificate where there is one, else the bound of positions per unit of that
-/// derivative's own control values, which is larger than the derivative's.
+/// The bounds of one batch: the certificate where there is one, else the bound of positions per
+/// unit of the derivative's control values, which is larger than the derivative's own.
 [[nodiscard]] double bound_of(const Comparison& what, const MetaBatch& batch, std::size_t net,
                               std::size_t a, std::size_t b, std::size_t c) {
   if (a + b <= 1 && !is_iso_call(what.call)) {

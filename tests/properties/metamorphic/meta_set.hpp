@@ -32,7 +32,7 @@ struct MetaBounds {
 class MetaSet {
 public:
   virtual ~MetaSet() = default;
-  /// `sheet` is written; `options` is passed on but for its first component and threads.
+  /// `sheet` is written; `options` is passed on except for its first component and threads.
   [[nodiscard]] virtual Status evaluate(Call call, std::size_t nu, std::size_t nv,
                                         const CallOptions& options, Sheet& sheet) const = 0;
   [[nodiscard]] virtual MetaBounds bounds(std::size_t net, Isa isa) const = 0;

@@ -15,8 +15,8 @@ namespace simdbezier::tests {
 namespace {
 
 /// A file and how many pairs of edges it holds that are equal bit for bit and not collapsed, also
-/// in float (shared SOURCES.md counts sides, so twice as many). Fewer pairs: the test looks past
-/// the model.
+/// in float (the data's SOURCES.md counts sides, so twice as many). With fewer pairs the test
+/// would miss a part of the model.
 struct DataCase {
   const char* file;
   std::size_t least_pairs;

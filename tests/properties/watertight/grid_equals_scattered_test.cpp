@@ -17,7 +17,7 @@ struct GridCase {
   std::size_t nv;
 };
 
-// Around every lane count, the kernels' special widths, and plain odd ones.
+// Widths around every lane count, the kernels' special widths, and some odd ones.
 constexpr GridCase kGridCases[] = {
     {2, 2},   {3, 5},  {4, 4},  {5, 5},  {7, 3},   {8, 8},   {9, 9},   {10, 6}, {15, 4}, {16, 16},
     {17, 17}, {18, 5}, {23, 7}, {24, 3}, {31, 2},  {32, 32}, {33, 33}, {34, 2}, {40, 3}, {47, 5},

@@ -2,7 +2,7 @@
 // weights, corners are control points, and cells of a patch that was cut meet without a gap.
 //
 // SIMDBEZIER_WATERTIGHT_SAMPLES sets the edge samples per type and instruction set, as in
-// watertight_test.cpp.
+// bicubic_edges_test.cpp.
 #include <cstdlib>
 #include <string>
 

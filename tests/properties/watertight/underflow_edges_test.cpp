@@ -1,5 +1,5 @@
 // Shared edges so small that their even parts underflow: every placement and a curve give the same
-// bits, the signs of zeros included (docs/accuracy.md, "Watertight edges").
+// bits, the signs of zeros included (docs/accuracy.md, "Zeros on edges that underflow").
 //
 // An edge's even part is then below the smallest denormal and rounds to -0 in the FMA class. Where
 // the odd part vanishes, too, nothing but the constant of the packed edge decides about the sign.
@@ -52,7 +52,7 @@ template <typename T>
 
 class UnderflowTest : public CurveTest {
 protected:
-  /// One patch in each placement, all else random.
+  /// One patch in each placement; all other points are random.
   [[nodiscard]] static std::vector<Net> placed(const std::vector<double>& values, EdgeForm form,
                                                Random& random) {
     ShapedEdge edge;
@@ -133,7 +133,8 @@ protected:
     }
   }
 
-  /// The first patch is nothing but the edge; no denormal is lost to the cure.
+  /// The first patch has no points but the edge's: its certificate still holds although the edge's
+  /// constant was replaced by a denormal.
   template <typename T, typename At>
   void expect_certified(const PatchSet<T>& set, const std::vector<double>& values, std::size_t n,
                         const At& at, const char* name) {

@@ -1,6 +1,6 @@
-// The program with the system against it: the n-th of some system calls fails, moves less than it
-// was asked to, or returns just before a signal. Done by tracing the process, so that calls which
-// libraries make for themselves count like any other.
+// The program in a system that fails: the n-th of some system calls fails, moves less than it was
+// asked to, or returns just before a signal. The process is traced, so that calls that libraries
+// make for themselves count like any other.
 #pragma once
 
 #include <string>

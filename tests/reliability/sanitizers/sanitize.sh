@@ -4,7 +4,7 @@
 #     sanitize.sh [address | thread]     one of them; both where none is named
 #
 # address  addresses and undefined behaviour, library, kernels, program and the whole test suite,
-#          but for tests of other builds (same_bits_*, installed_tree).
+#          except tests of other builds (same_bits_*, installed_tree).
 # thread   who touches what from which thread. By clang with LLVM's OpenMP runtime, whose tool
 #          (archer) tells the sanitizer where threads wait for each other: libgomp does not, and
 #          every region would be a false alarm. Stores of more than 16 bytes are not watched, so

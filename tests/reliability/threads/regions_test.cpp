@@ -1,5 +1,5 @@
-// Calls from inside a parallel region of the caller's own: no threads beyond the caller's, and
-// results as ever.
+// Calls from inside of the caller's parallel region start no further threads, and results are as
+// ever.
 #include <atomic>
 #include <cstddef>
 #include <thread>
@@ -79,7 +79,8 @@ TEST_F(Regions, GridsAndPatchGridsAreRight) {
   }));
 }
 
-// Outside of a region the same call may have threads: one worker above is no accident.
+// Outside of a region the same call may have several threads, so that one worker above is no
+// accident.
 TEST_F(Regions, OutsideThereAreSeveralWorkers) {
   const TileFormat format = tile_format(kP, false, TileLayout::planes, n);
   TileCollector<float> collector(kP, format, 0, kPatches, n, n);

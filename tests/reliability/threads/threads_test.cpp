@@ -26,7 +26,8 @@ const SharedSet& shared() {
   return all;
 }
 
-/// Each: values that differ from the reference after one call with this many threads.
+/// Each function returns how many values differ from the reference after a call with this many
+/// threads.
 std::size_t grid_errors(int threads) {
   return shared().grid_errors({.threads = threads, .destination = Destination::memory});
 }

@@ -4,7 +4,6 @@
 #include "tests/support/nets/degenerate_nets.hpp"
 
 namespace simdbezier::tests {
-// -------------------------------------------------------------------
 
 /// The first row of any net.
 [[nodiscard]] inline Net any_curve(int degree, Random& random) {

@@ -235,8 +235,7 @@ inline constexpr SingularRow kSingularRows[] = {
      }},
 };
 
-// --- sides
-// -----------------------------------------------------------------------------------------
+// --- sides --------------------------------------------------------------------------------------
 
 [[nodiscard]] inline SingularNet transposed(const SingularNet& from) {
   return {transposed(from.net), from.y, from.x};

@@ -68,8 +68,8 @@ template <typename T>
   return homogeneous(std::move(net));
 }
 
-/// Scaled as a whole or in a component, moved, or turned in space: what vanished does so still, but
-/// for points that rounding moves.
+/// Scaled as a whole or in a component, moved, or turned in space: what vanished still does, except
+/// where rounding moves points.
 [[nodiscard]] inline Net placed(Net net, Random& random) {
   switch (random.below(6)) {
   case 0: {

@@ -1,7 +1,7 @@
 // The error bounds that results are judged by, in units of the unit roundoff u.
 //
 // Each is a certified maximum of the scheme's first-order running-error formula over all control
-// nets and parameters (docs/accuracy.md), rounded up; bounds_test.cpp maximises the
+// nets and parameters (docs/accuracy.md), rounded up; bicubic_bounds_test.cpp maximises the
 // formulas again, over all extreme nets, and compares.
 #pragma once
 
@@ -57,13 +57,13 @@ template <typename T>
 inline constexpr double kCurvatureRange = sizeof(T) == 4 ? 0x1p24 : 0x1p240;
 
 /// G6: what a normal may miss its limit by, in degrees, where the cross product vanishes to first
-/// order (stage 2 of the recipe) and where it does to higher order or nearly so (stage 3).
+/// order, and where it vanishes to higher order or nearly so.
 inline constexpr double kLimitDegrees = 1e-3;
 inline constexpr double kDegenerateDegrees = 0.02;
 
-/// What any normal may be off by, in degrees: the quick test |du x dv| > 2^-10 leaves conditioning
-/// up to 2^14, whose errors of at most 2 u kappa come to 0.1 degree in float; beyond that the
-/// library must have noticed.
+/// What any normal may be off by, in degrees: the quick test |du x dv| > 2^-10 passes conditioning
+/// up to 2^14, whose errors of at most 2 u kappa come to 0.1 degree in float; worse samples must
+/// have taken the second look.
 inline constexpr double kPlainDegrees = 0.1;
 
 /// G5: RMS error at most so many times that of the best scalar de Casteljau; more where a direction

@@ -1,7 +1,7 @@
 // The library's scheme once more in plain scalar code, with faults that can be switched on.
 //
 // Without a fault it must give the library's bits: that pins the one order of evaluation that
-// reproducibility hangs on (docs/architecture.md). With a fault it shows that the checks of this
+// reproducibility rests on (docs/architecture.md). With a fault it shows that the checks of this
 // suite see what they are for. It is judged like any evaluator and never used as a reference.
 #pragma once
 

@@ -12,7 +12,8 @@
 // docs/accuracy.md has the proof.
 // Derivatives: the same of their steps, per unit of the hodograph's control values;
 // second ones per unit of the second hodograph's. Bicubic patches have tighter bounds,
-// maximised over all nets at once (bounds.hpp). shape_bounds_test.cpp computes the table anew.
+// maximised over all nets at once (bicubic_bounds.hpp). shape_bounds_test.cpp computes the table
+// anew.
 #pragma once
 
 #include <algorithm>

@@ -50,8 +50,7 @@ void require_direction(const tools::MeshDirection& direction, int degree) {
           "the points of a mesh are not those of its patches");
 }
 
-/// Follows the runs through the file: what they take of its points or its vertices stands one after
-/// the other and leaves nothing out.
+/// Follows the runs through the file: their points or vertices follow each other without a gap.
 class RunsInSequence {
 public:
   explicit RunsInSequence(const PatchFile& file) : file_(file) {}
@@ -144,7 +143,7 @@ std::string as_bv(const PatchFile& file) {
   return text;
 }
 
-/// Whether .bv takes the patches: it divides by weights, which Cartesian ones need not survive.
+/// Whether the patches can be written as .bv: it divides by weights, and quotients may overflow.
 bool fits_bv(const PatchFile& file) {
   for (std::size_t p = 0; p < file.count; ++p) {
     const PatchRun& run = file.run_of(p);
@@ -177,7 +176,7 @@ void require_round_trip(const PatchFile& file) {
   }
 }
 
-/// What the corner (iu, iv) of a patch has to be in T, but for two roundings.
+/// What the corner (iu, iv) of a patch has to be in T, up to two roundings.
 template <typename T>
 bool is_corner(const PatchFile& file, std::size_t patch, bool u1, bool v1, const T* position) {
   const PatchRun& run = file.run_of(patch);

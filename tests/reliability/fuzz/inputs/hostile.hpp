@@ -1,4 +1,4 @@
-// Arguments that no caller means, and what has to come of them.
+// Arguments that make no sense, and what calls have to do with them.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What has to come of outputs that lie anywhere in a block.
+// What calls have to do with outputs that lie anywhere in a block.
 #pragma once
 
 #include <cstddef>

@@ -19,7 +19,7 @@
 namespace simdbezier::fuzz {
 namespace {
 
-/// Curves as nets of degree_v 1, both rows of which they are, so that patches' tools serve.
+/// Curves as nets of degree_v 1 with two equal rows, so that the tools for patches can be used.
 template <typename S>
 [[nodiscard]] Nets<S> doubled(const Nets<S>& curves) {
   Nets<S> nets = curves;

@@ -33,7 +33,7 @@ struct SampleList {
   std::vector<T> y;
 };
 
-/// What can be seen of a set: all components of positions and first derivatives.
+/// What evaluation shows of a set: all components of positions and first derivatives.
 template <typename T>
 std::vector<T> appearance(const PatchSet<T>& set) {
   const SampleList<T> samples(set.size());

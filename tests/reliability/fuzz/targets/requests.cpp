@@ -1,5 +1,5 @@
-// Evaluate calls with arguments that no caller means: what cannot be done is refused and nothing is
-// written; what can be done is, however strange, and nothing else is touched.
+// Evaluate calls with arguments that make no sense: what cannot be done is refused and nothing is
+// written; what can be done is done, however strange, and nothing else is touched.
 #include <algorithm>
 #include <cstdint>
 #include <span>
@@ -109,7 +109,7 @@ private:
     }
     return call_samples_;
   }
-  /// Of counts; beyond all memory it may be too small.
+  /// The number of samples of counts; beyond all memory it may be too small.
   static Wide product(Wide a, Wide b) {
     return a > kLastOffset || b > kLastOffset ? std::max(a, b) : a * b;
   }
