@@ -9,7 +9,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::DerivativeTask;
 
-/// Where in a cell, along one direction.
+/// The place of a sample in a cell, along one direction.
 enum Side : std::size_t { kInside, kLowEnd, kHighEnd, kSides };
 
 template <typename T>
@@ -157,7 +157,7 @@ private:
     return point_u_ ? broadcast<V>(corner_u(component))
                     : origin(component, detail::kRelativeOriginsAt + edge_u() - detail::kEdgeU0);
   }
-  /// On an edge u = const: the corner where it begins; of the weight, its mark.
+  /// The corner where an edge u = const begins; for the weight's channel, the edge's mark.
   SIMDBEZIER_INLINE T corner_u(std::size_t channel) const {
     return cell_.edges[shape_.corners_at() + channel * 4 + edge_u() - detail::kEdgeU0];
   }
@@ -174,7 +174,7 @@ private:
   bool point_u_ = false; ///< on an edge u = const that is packed around its point
   V x_;
   V y_;
-  // Of rational patches: the weight, and the one along the edge v = const if they are on one.
+  // For rational patches: the weight, and that along an edge v = const if the samples are on one.
   TaylorTable<V> minus_w_;
   TaylorRow<V> minus_w_v_;
   V inverse_;

@@ -7,7 +7,7 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Of the groups that kernels put together, those of kOutputs, as in a record.
+/// The groups of kOutputs that kernels put together, in the order of a record.
 template <detail::OutputSet kOutputs>
 struct RecordGroups {
   static constexpr bool kNormals = kOutputs == detail::kPositionNormal;
@@ -15,7 +15,7 @@ struct RecordGroups {
   static constexpr detail::Group kGroup[3] = {
       detail::kPositionGroup, kNormals ? detail::kNormalGroup : detail::kDuGroup, detail::kDvGroup};
 
-  /// Of each group; a loop, whose index is no constant, would keep their addresses in memory.
+  /// Calls f for each group. A loop, whose index is no constant, would keep addresses in memory.
   template <typename F>
   static SIMDBEZIER_INLINE void for_each(const F& f) {
     for_each_index(f, std::make_index_sequence<kCount>{});
@@ -83,7 +83,7 @@ struct RecordSweep {
     V value[3 * Groups::kCount];
     V squared;
 
-    /// All values but for the length of normals.
+    /// All values, except that normals do not have unit length yet.
     SIMDBEZIER_INLINE void assign() {
       for (std::size_t c = 0; c < 3; ++c) {
         value[c] = jet[c].p;

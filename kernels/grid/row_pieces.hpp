@@ -88,7 +88,7 @@ struct RowPiece {
   [[nodiscard]] SIMDBEZIER_INLINE std::size_t rows() const {
     return std::size_t{middle.rows} + (lead ? 1 : 0) + (trail ? 1 : 0);
   }
-  /// Of the grid, where its task says nu.
+  /// The columns of a grid whose task says nu; SquarePiece knows them.
   static SIMDBEZIER_INLINE std::size_t columns(std::size_t nu) { return nu; }
 };
 

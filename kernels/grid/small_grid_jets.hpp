@@ -103,7 +103,7 @@ struct SmallSamples {
   }
 };
 
-/// With positions go normals, or else du and dv.
+/// Positions with normals, or with du and dv.
 template <bool kNormals, typename T>
 __attribute__((noinline)) void sweep_small_jets(const GridTask<T>& shared_task) {
   using V = vec<T>;

@@ -66,14 +66,14 @@ private:
   std::uint8_t codes_[16 * kRegisters] = {};
 };
 
-/// Of one size.
+/// The tables of one size.
 struct SmallGridTables {
   SmallGridSources position;
   SmallGridSources du;
   SmallGridSources dv;
 };
 
-/// Of all sizes.
+/// The tables of all sizes.
 class SmallGridSizes {
 public:
   constexpr SmallGridSizes() {

@@ -27,8 +27,8 @@ struct ColumnBuffer {
   SIMDBEZIER_INLINE T* first(std::size_t k, const Piece& piece) {
     return values + k * ColumnPlanes<T>::kPlane + (piece.lead ? detail::kMaxLanes - 1 : 0);
   }
-  /// To read from: values, not the registers that they came from, which would have to be taken
-  /// apart.
+  /// The planes to read single values from. Without own_address(), compilers would take them out of
+  /// the registers that they came from, which costs more.
   template <typename Piece>
   SIMDBEZIER_INLINE ColumnPlanes<T> planes(const Piece& piece) {
     return {own_address(first(0, piece))};

@@ -111,7 +111,7 @@ struct NormalSweep {
   }
 
 private:
-  /// Of one register of samples.
+  /// The tangents of one register of samples.
   struct Tangents {
     V du[3];
     V dv[3];

@@ -13,7 +13,7 @@ struct SecondVectors {
   SpaceVector<V> uv;
   SpaceVector<V> vv;
 
-  /// Those with `mask` become others.
+  /// The lanes of `mask` get the vectors of `by`.
   SIMDBEZIER_INLINE void replace(MaskOf<V> mask, const SecondVectors& by) {
     const auto choose = [&](SpaceVector<V>& old,
                             const SpaceVector<V>& other) SIMDBEZIER_INLINE_LAMBDA {

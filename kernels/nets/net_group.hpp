@@ -53,7 +53,7 @@ SIMDBEZIER_INLINE void for_each_value(const detail::NetView<S>& nets, std::size_
   }
 }
 
-/// How many of the values go in blocks: of whole groups of packed nets, all but a few.
+/// How many values are moved in blocks: in whole groups of packed nets, all except a few.
 template <typename V, typename S>
 SIMDBEZIER_INLINE std::size_t values_in_blocks(const detail::NetView<S>& nets, std::size_t count) {
   if constexpr (kBlock < V >> 0) {

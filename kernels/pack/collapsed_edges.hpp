@@ -25,7 +25,7 @@ class CollapsedEdges {
 public:
   explicit CollapsedEdges(const Task& task) : task_(task), wanted_(task.shape.rational) {}
 
-  /// Of patches [first, first + count), whose control points have been stored.
+  /// Finds those of patches [first, first + count), whose control points have been stored.
   void find(std::size_t first, std::size_t count) {
     first_ = first;
     count_ = count;

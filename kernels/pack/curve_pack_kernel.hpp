@@ -74,7 +74,7 @@ private:
     return load_vector<Wide>(lanes);
   }
 
-  /// To place `at` of every curve's `stride` values, rounded; -0 becomes +0.
+  /// Stores a value, rounded, at place `at` of every curve's `stride` values; -0 becomes +0.
   SIMDBEZIER_INLINE void put(T* array, std::size_t stride, std::size_t at, Wide value) const {
     alignas(64) double lanes[kWideLanes];
     store_vector<Wide>(lanes, value);
@@ -83,7 +83,7 @@ private:
       *to = static_cast<T>(lanes[p]) + T(0);
     }
   }
-  /// As they were given.
+  /// Copies the control points as they were given.
   void copy_control_points() const {
     S* to = task_.control_points + first_ * shape_.control_values();
     for (std::size_t p = 0; p < count_; ++p) {
@@ -202,8 +202,8 @@ private:
     }
   }
 
-  /// Rational curves whose control points are all one, packed as such with a weight of 1: as
-  /// collapsed edges of patches are (pack/collapsed_edges.hpp), and for the same reason.
+  /// Rational curves whose control points are all equal are packed as that point with a weight of
+  /// 1, like collapsed edges of patches (pack/collapsed_edges.hpp), and for the same reason.
   void pack_collapsed() const {
     for (std::size_t p = 0; p < count_; ++p) {
       const S* const given = task_.control_points + (first_ + p) * shape_.control_values();

@@ -76,7 +76,7 @@ SIMDBEZIER_INLINE DoubleDouble tripled(DoubleDouble a, double power) {
   return scaled(tripled(a), power);
 }
 
-/// a * b, exact but for 2^-106 of it where both halves have all of their bits; odd in a and in b.
+/// a * b, exact up to 2^-106 of it where both halves have all of their bits; odd in a and in b.
 SIMDBEZIER_INLINE DoubleDouble two_product(Wide a, Wide b) {
   const Wide a0 = leading_bits(a);
   const Wide b0 = leading_bits(b);

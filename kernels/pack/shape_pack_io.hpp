@@ -39,7 +39,7 @@ public:
     }
   }
 
-  /// All values of the first `count` patches, as they were given but for the sign of zeros.
+  /// All values of the first `count` patches, as they were given except for the sign of zeros.
   void copy(std::size_t count, S* to) const {
     const ControlNets<S>& nets = task_.nets;
     const std::size_t values = order_u_ * order_v_ * task_.shape.channels();

@@ -30,7 +30,7 @@ inline constexpr double kSafeSecond = sizeof(T) == sizeof(float) ? 0x1p-98 : 0x1
 template <typename T>
 inline constexpr double kSafeFourth = sizeof(T) == sizeof(float) ? 0x1p-48 : 0x1p-850;
 
-/// Of an edge.
+/// The degree of an edge.
 constexpr int degree_along(const detail::NetShape& shape, std::size_t edge) {
   return edge == detail::kEdgeV0 || edge == detail::kEdgeV1 ? shape.degree_u : shape.degree_v;
 }

@@ -92,7 +92,7 @@ struct Component {
     return after;
   }
 
-  /// Of the patch, and from kEdgeOriginsAt on of its edges; for sets with origins only.
+  /// The origins of the patch and, from kEdgeOriginsAt on, of its edges; for sets with origins.
   SIMDBEZIER_INLINE const T* origin() const { return origins + origin_at; }
 };
 

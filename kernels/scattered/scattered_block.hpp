@@ -1,6 +1,6 @@
-// One register of scattered samples: from parameters to outputs, whatever way the columns'
-// polynomials come about (scattered/patch_runs.hpp: samples of one patch;
-// scattered/mixed_patches.hpp: of any).
+// One register of scattered samples: from parameters to outputs, in whichever way the columns'
+// polynomials are computed (scattered/patch_runs.hpp: for samples of one patch;
+// scattered/mixed_patches.hpp: of any patches).
 //
 // Registers run the interior's formula. Samples on edges and others that it does not fit are rare:
 // they are found by one comparison and evaluated again, one by one.
@@ -186,7 +186,7 @@ __attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf
   }
 }
 
-/// As above for outputs that are no normals: outside of the patch the formula holds, too.
+/// As above for outputs without normals: for these the formula holds outside of the patch as well.
 template <bool kSecond, typename V>
 __attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf<V>>& task,
                                                     std::size_t first, V x, V y) {

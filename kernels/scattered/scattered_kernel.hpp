@@ -6,8 +6,8 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// 0 where there is none. Here because vectors of unsigned integers have a maximum in the wider
-/// instruction sets only.
+/// The largest index, 0 where there is none. It is a kernel because only the wider instruction sets
+/// have a maximum of unsigned integers.
 inline std::uint32_t highest_index(const std::uint32_t* index, std::size_t count) {
   std::uint32_t highest = 0;
   for (std::size_t k = 0; k < count; ++k) {

@@ -38,7 +38,7 @@ public:
   SIMDBEZIER_INLINE const ColumnPolynomials<P, V>& polynomials() const { return polynomials_; }
   SIMDBEZIER_INLINE const typename P::Slots& slots() const { return slots_; }
   SIMDBEZIER_INLINE typename P::OrderV order_v() const { return order_v_; }
-  /// Of the set, or of edges that are points; null where there are none.
+  /// The origins of the set, or of edges that are points; null where there are none.
   SIMDBEZIER_INLINE const ColumnOrigins<V>* origins() const { return origins_; }
 
   /// Samples at the local y, off the edges v = const.

@@ -48,7 +48,7 @@ public:
     }
   }
 
-  /// Where there are origins or points.
+  /// Finds origins; to be called where there are origins or points.
   SIMDBEZIER_INLINE void find_origins(ColumnOrigins<V>& found) const {
     ShapeEdges<typename P::AnyDegree, V>::all_origins(shape_, x_, watertight_, first_component_,
                                                       row_.low.edges, row_.low.origins,
@@ -146,8 +146,8 @@ private:
           on_edge ? replaced(zero, at + detail::kRelativeOriginsAt, &Cell<T>::origins) : zero;
     }
   }
-  /// Of lanes on edges u = const that are points, in sets without origins: their numerators are
-  /// zero, and their points stand in the corners. To all others, -0 adds nothing.
+  /// The points of lanes on edges u = const that are points, in sets without origins: numerators
+  /// are zero there, and points stand in the corners. Other lanes get -0, which adds nothing.
   SIMDBEZIER_INLINE void find_point(std::size_t slot, ColumnOrigins<V>& found) const {
     const V zero = broadcast<V>(T(0));
     const std::size_t corners = shape_.corners_at();

@@ -16,7 +16,7 @@ SIMDBEZIER_INLINE V repeat_four(const ScalarOf<V>* values) {
   return RowGroups<kLanes<V> / 4, V>::repeat(values);
 }
 
-/// Four times four values that lie one behind the other.
+/// Four groups of four values that follow each other in memory.
 template <typename V>
 SIMDBEZIER_INLINE void load_fours(const ScalarOf<V>* values, V four[4]) {
   for (std::size_t i = 0; i < 4; ++i) {

@@ -66,7 +66,7 @@ public:
   /// Passes on all that is left of the batch before the one being written.
   SIMDBEZIER_INLINE void pass_all() { pass_on(lines_); }
 
-  /// After the last turn().
+  /// Passes on all that is left; to be called after the last turn().
   SIMDBEZIER_INLINE void finish() {
     pass_all();
     put_part(rest_);

@@ -16,7 +16,7 @@ struct RegisterPair {
 
   RegisterPair() = default;
   SIMDBEZIER_INLINE RegisterPair(V first, V second) : low(first), high(second) {}
-  /// In all lanes.
+  /// The value in all lanes.
   explicit SIMDBEZIER_INLINE RegisterPair(ScalarOf<V> value)
       : low(broadcast<V>(value)), high(low) {}
 
