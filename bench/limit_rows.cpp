@@ -45,7 +45,7 @@ void register_multiply_add(const std::string& isa, LimitKernels<T> kernels) {
       ->Unit(benchmark::kMicrosecond);
 }
 
-/// Of a thousand short calls.
+/// The time of the fastest of a thousand short calls.
 template <typename Call>
 double least_seconds(Call call) {
   using Clock = std::chrono::steady_clock;

@@ -48,9 +48,9 @@ public:
   GlbFile(const std::string& path, const MeshContents& contents, const GlbParts& parts);
 
   void vertices(std::span<const std::byte> records);
-  /// After all vertices.
+  /// To be called after all vertices.
   void indices(std::span<const std::uint32_t> corners);
-  /// After all indices; what is missing now is the file's name.
+  /// To be called after all indices; only the file's name is missing then.
   void complete();
   void commit() { file_.commit(); }
 

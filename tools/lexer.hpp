@@ -73,7 +73,7 @@ private:
   /// Whether the next token is in memory as a whole. It has been read then, and otherwise nothing
   /// of it.
   bool is_in_memory();
-  /// Of the word that `rest` begins with; finds its value where it is a number.
+  /// The length of the word that `rest` begins with; finds its value where it is a number.
   std::size_t word_length(std::string_view rest);
   [[nodiscard]] bool ends_word(char c) const noexcept {
     return ends_word_[static_cast<unsigned char>(c)];

@@ -6,7 +6,7 @@
 
 namespace simdbezier::tools {
 
-/// Of all control points, in Cartesian coordinates; -0 counts as 0, as in the library.
+/// The box of all control points, in Cartesian coordinates; -0 counts as 0, as in the library.
 [[nodiscard]] MeshBox box_of(const PatchFile& file);
 
 /// The length of its diagonal.

@@ -27,7 +27,7 @@ std::string header(const MeshContents& mesh) {
   return text;
 }
 
-// By the right-hand rule, of unit length; zero where there is no area.
+// The normal by the right-hand rule, of unit length; zero where there is no area.
 Position facet_normal(const std::array<Position, 3>& corners) {
   std::array<std::array<double, 3>, 2> side;
   for (std::size_t c = 0; c < 3; ++c) {

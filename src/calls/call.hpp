@@ -121,7 +121,7 @@ struct Given {
          !__builtin_mul_overflow(samples, count, &samples);
 }
 
-/// As check_outputs(), of patches.
+/// As check_outputs(), for patches.
 template <typename T>
 [[nodiscard]] Status check_patch_outputs(const OutputList<T>& out, std::size_t samples,
                                          const Components& components,

@@ -13,7 +13,7 @@
 
 namespace simdbezier::detail {
 
-/// As check_outputs(), of curves.
+/// As check_outputs(), for curves.
 template <typename T>
 [[nodiscard]] Status check_curve_outputs(const OutputList<T>& out, std::size_t samples,
                                          const Components& components,

@@ -231,7 +231,7 @@ public:
             shape_,
             function_};
   }
-  /// After check().
+  /// The most samples of a tile, known after check().
   [[nodiscard]] std::size_t samples() const noexcept { return shape_.samples; }
 
 private:

@@ -86,7 +86,7 @@ public:
       }
     }
   }
-  /// After all threads have finished.
+  /// To be asked when all threads have finished.
   [[nodiscard]] const PackReport& report() const noexcept { return lowest_; }
 
 private:

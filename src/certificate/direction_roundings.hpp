@@ -29,7 +29,7 @@ struct DirectionRoundings {
   [[nodiscard]] constexpr double value(std::size_t k) const { return derivative(0, k); }
   [[nodiscard]] constexpr double slope(std::size_t k) const { return derivative(1, k); }
 
-  /// Of the term k (k - 1) … c_k t^(k - taken); terms that vanish in the derivative count nothing.
+  /// The count of the term k (k - 1) … c_k t^(k - taken); 0 where it vanishes in the derivative.
   [[nodiscard]] constexpr double derivative(std::size_t taken, std::size_t k) const {
     if (k < taken) {
       return 0;

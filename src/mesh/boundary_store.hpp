@@ -1,4 +1,4 @@
-// From samples on boundaries to the vertices that they make.
+// From samples on boundaries to the vertices that are made of them.
 #pragma once
 
 #include <cstddef>

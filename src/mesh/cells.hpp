@@ -133,7 +133,7 @@ public:
     }
     return (diagonals_ >> (3 * zone(j, nv_) + zone(i, nu_)) & 1) != 0;
   }
-  /// Where cells of another zone begin, or the last cell stands, behind an inner cell.
+  /// The first cell after an inner cell i that is in another zone or is the last cell.
   [[nodiscard]] std::uint32_t end_of_zone(std::uint32_t i) const {
     const std::uint32_t middle = nu_ / 2;
     const std::uint32_t end = i < middle ? middle : nu_ % 2 != 0 && i == middle ? middle + 1 : nu_;

@@ -11,7 +11,7 @@
 
 namespace simdbezier::detail {
 
-/// To the nearest half-precision number, ties to even.
+/// The bits of the nearest half-precision number, ties to even.
 inline std::uint16_t to_half(float value) noexcept {
   const auto bits = std::bit_cast<std::uint32_t>(value);
   const std::uint32_t sign = bits >> 16 & 0x8000U;

@@ -48,7 +48,7 @@ public:
     }
     return cursor_;
   }
-  /// After the last number.
+  /// To be called after the last number.
   void finish(Index* end) noexcept {
     pass_lines(end);
     put_part(end);

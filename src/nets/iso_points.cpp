@@ -45,7 +45,7 @@ void interpolate(const IsoTask<S>& task, std::size_t patch, double* points) {
   }
 }
 
-/// At 0 and 1 a boundary, whose points are copied: products with weights would round.
+/// The curve at 0 or 1 is a boundary, whose points are copied, since products with weights round.
 template <typename S>
 void copy_boundary(const IsoTask<S>& task, std::size_t patch, double* points) {
   const S* const first = task.net(patch) + (task.t == 1 ? task.degree * task.across : 0);

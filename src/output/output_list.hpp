@@ -64,7 +64,7 @@ struct OutputList {
   [[nodiscard]] bool wants(std::size_t vector) const noexcept {
     return (wanted_ >> vector & 1U) != 0;
   }
-  /// Of patches; as OutputSelection has it.
+  /// Whether an output of patches is wanted, as OutputSelection has it.
   [[nodiscard]] bool holds(Output output) const noexcept {
     return output == Output::curvature ? wants_curvature_ : wants(static_cast<std::size_t>(output));
   }

@@ -24,8 +24,8 @@ struct RateTask {
   double* deviations;       ///< -1 where undecided
 };
 
-/// Of scratch, as NetTable's other kernels count them: points, and the nets of four quarters side
-/// by side.
+/// Values of scratch, as NetTable's other kernels count them: points, and the nets of four quarters
+/// side by side.
 inline constexpr std::size_t kRateValues = 3 * 16 + 9 * 7 * 7 + 4 * 3;
 
 } // namespace simdbezier::detail
