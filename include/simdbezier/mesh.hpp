@@ -41,7 +41,7 @@ struct MeshOptions {
   std::uint32_t nu = 0;
   std::uint32_t nv = 0;
 
-  bool orient = false; ///< see TopologyOptions, as the four below
+  bool orient = false; ///< see TopologyOptions, as for the three below
   bool flip = false;
   double point_size = 0;
   double snap = 0;
