@@ -55,7 +55,7 @@ SIMDBEZIER_INLINE void gather_points(const detail::NetView<const ScalarOf<V>>& i
   }
 }
 
-/// Opens a range whose values were rounded by up to u of themselves, and for its own rounding.
+/// Opens a range by the rounding of its values, up to u of each, and by that of this very step.
 template <typename V>
 SIMDBEZIER_INLINE Range<V> opened(const Range<V>& range) {
   using T = ScalarOf<V>;

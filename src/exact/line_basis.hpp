@@ -28,7 +28,7 @@ struct LineParameter {
 
 /// The coefficients in tau of all Bernstein polynomials of degree n and of degree n - 1:
 ///     B_i = binomial(n,i) (1/2 - x - tau d)^(n-i) (1/2 + x + tau d)^i,
-/// by their recurrence. At the ends of the range, one of its factors is zero, as are most of them.
+/// by their recurrence. At the ends of the range one of its factors is zero, and so are most B_i.
 template <typename Field>
 class LineBasis {
   using Value = typename Field::Value;
