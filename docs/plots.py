@@ -4,8 +4,8 @@
     docs/plots.py build/accuracy.json     # written by ./run accuracy
 
 error_by_offset.svg  the library's own errors, from the suite's report
-error_by_degree.svg  the scheme at other degrees, on curves: computed here in double arithmetic
-                     (no FMA) against exact rationals, from a fixed seed
+error_by_degree.svg  bases at other degrees, on curves by Horner's rule: computed here in double
+                     arithmetic (no FMA) against exact rationals, from a fixed seed
 """
 import json
 import math
@@ -96,7 +96,7 @@ def de_casteljau(points, u):
 
 def errors_by_degree(degrees, curves=40, samples=25):
     """Largest |error| / (u max|b|) over random control points, for each scheme."""
-    schemes = {"centred Horner (ours)": [], "Horner in powers of u": [], "de Casteljau": []}
+    schemes = {"centred powers (ours)": [], "Horner in powers of u": [], "de Casteljau": []}
     generator = random.Random(7)
     for n in degrees:
         worst = dict.fromkeys(schemes, 0.0)
