@@ -9,7 +9,7 @@
 
 namespace simdbezier::detail {
 
-/// The counts of even and odd parts, the higher one where roundings reach only a part of a term:
+/// The counts of even and odd parts, rounded up where roundings reach only a part of a term:
 /// [with or without fused operations][order of the derivative][degree - 3][power].
 inline constexpr unsigned char kEvenOddRoundings[2][3][3][6] = {
     {{{2, 3, 4, 5}, {2, 3, 5, 5, 7}, {2, 3, 5, 6, 7, 8}},

@@ -155,7 +155,7 @@ bool NetCorners<S>::same(std::size_t a, std::size_t b) const noexcept {
 namespace {
 
 /// Marks repetitions among patches with the same four edges, ascending. Equal patches have the same
-/// lowest control point, and of different ones, among them many points, few do.
+/// lowest control point; different ones, also the many that may be points, seldom do.
 template <typename S>
 void mark_repeated_of(const NetCorners<S>& nets, std::span<const std::uint32_t> group,
                       TopologyData& topology) {
