@@ -174,7 +174,7 @@ TEST_P(CurveBits, PackingDoesNotDependOnTheInstructionSet) {
 
 INSTANTIATE_FOR_EVERY_ISA(CurveBits);
 
-/// Of all instruction sets that fuse, and of all that do not.
+/// The bits of all instruction sets that fuse agree, and those of all that do not.
 TEST(CurveClasses, InstructionSetsOfAClassAgree) {
   for (const Kind& kind : kKinds) {
     PackOptions options;

@@ -185,7 +185,7 @@ TEST_P(CurveTangents, AreUnitVectorsAlongTheDerivative) {
         double squared = 0;
         double length = 0;
         for (std::size_t c = 0; c < 3; ++c) {
-          // As the parameter is rounded when it is centred.
+          // The library rounds the parameter in the same way when it centres it.
           const auto centred = static_cast<double>(t[k % t.size()] - 0.5F);
           exact[c] = oracle_curve(batch, k / t.size(), c, centred).d[1].to_double();
           squared += exact[c] * exact[c];

@@ -70,7 +70,7 @@ using ScalarNet = std::vector<std::vector<DoubleDouble>>;
   return de_casteljau(column, v);
 }
 
-/// Of a polynomial, orders 0 … most_u and 0 … most_v.
+/// The derivatives of a polynomial, of orders 0 … most_u and 0 … most_v.
 [[nodiscard]] inline DerivativeOracle polynomial_derivatives(ScalarNet net, int most_u, int most_v,
                                                              DoubleDouble u, DoubleDouble v) {
   DerivativeOracle result;
@@ -140,7 +140,7 @@ template <typename S>
   return net;
 }
 
-/// Of one component, at centred parameters.
+/// The derivatives of one component, at centred parameters.
 template <typename S>
 [[nodiscard]] DerivativeOracle exact_derivatives(const std::vector<S>& values, const ShapeCase& c,
                                                  std::size_t patch, std::size_t component,

@@ -33,7 +33,7 @@ struct Answer {
   SampleStatus status;
 };
 
-/// As PatchStorage has them.
+/// The control values in the order of PatchStorage.
 template <typename T>
 std::vector<T> control_values(const Surface& surface) {
   std::vector<T> values;

@@ -165,7 +165,7 @@ TEST_P(RationalNormalTest, OrdinaryPatchesPass) {
       }
     }
   }
-  // Of the sphere's octant, the row of samples on its pole does not.
+  // Of the sphere's octant, all samples pass except the row on its pole.
   constexpr double kButOneRow = 1 - 1.0 / kN;
   for (const bool origins : {false, true}) {
     EXPECT_DOUBLE_EQ(passing(torus(0, 1), origins), kButOneRow);

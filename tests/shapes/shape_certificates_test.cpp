@@ -206,7 +206,7 @@ TEST(ShapeCertificates, hold_around_local_origins) {
 }
 TEST(ShapeCertificates, hold_far_from_the_origin) { expect_certified<float>(false, 1e5, 4); }
 
-/// At the ends of a set's life: what has no certificate.
+/// What has no certificate: components that are not there, and patches outside of the set.
 TEST(ShapeCertificates, components_that_are_not_there_have_none) {
   const RandomNets<float> nets({4, 6, 5, Weights::cartesian}, 2, 3);
   PatchSet<float> set;

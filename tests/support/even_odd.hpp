@@ -9,7 +9,8 @@
 
 namespace simdbezier::tests {
 
-/// Whether rows, edges and curves of a degree are evaluated so. All else is by Horner's rule.
+/// Whether rows, edges and curves of a degree are evaluated by even and odd parts; all others take
+/// Horner's rule.
 [[nodiscard]] constexpr bool by_even_and_odd_parts(std::size_t degree) {
   return degree >= 3 && degree <= 5;
 }
@@ -35,7 +36,7 @@ struct EvenOddJet {
   Value half_second;
 };
 
-/// Of sum c[k] t^k, with 4 to 6 coefficients.
+/// The value and derivatives of sum c[k] t^k, with 4 to 6 coefficients.
 template <typename Arithmetic, typename Value>
 [[nodiscard]] EvenOddJet<Value> even_odd(const Arithmetic& in, std::span<const Value> c, Value t) {
   const bool quartic = c.size() > 4;

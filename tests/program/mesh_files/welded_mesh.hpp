@@ -22,7 +22,7 @@ namespace simdbezier::tests {
 /// The same, read back from a PLY file.
 [[nodiscard]] ReadMesh welded(const std::string& in, const std::vector<std::string>& options = {});
 
-/// Of a mesh of triangles.
+/// The census of a mesh of triangles.
 [[nodiscard]] TriangleCensus census_of(const ReadMesh& mesh);
 
 } // namespace simdbezier::tests

@@ -39,7 +39,7 @@ struct Comparison {
 /// What the derivative of orders (a, b) is multiplied with.
 [[nodiscard]] double sign_and_scale(Relation relation, std::size_t a, std::size_t b);
 
-/// Of both batches, in the measure of the first: [a][b][component].
+/// The errors that both batches may have together, in the measure of the first: [a][b][component].
 struct AllowedErrors {
   double of[kOrders][kOrders][kMostComponents] = {};
 };

@@ -9,7 +9,7 @@
 namespace simdbezier::tests {
 namespace {
 
-/// Of nets with origins.
+/// Where nets with origins lie.
 constexpr std::array<double, 3> kAway{8, -16, 24};
 constexpr double kUnit = 0x1p-10;
 
@@ -108,7 +108,7 @@ void copy_point(MetaNet& net, int j, int i, int from_j, int from_i) {
   }
 }
 
-/// At v = 0; sides are laid by turning.
+/// Makes a net degenerate at v = 0; other sides follow by turning the net.
 void degenerate_at_v0(MetaNet& net, Kind kind) {
   switch (kind) {
   case Kind::regular:

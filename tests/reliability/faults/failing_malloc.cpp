@@ -41,7 +41,7 @@ int counted_main(int argc, char** argv, char** environment) {
   return program_main(argc, argv, environment);
 }
 
-// In order of digits by hand: formatting could allocate.
+// Writes the digits by hand, because formatting could allocate.
 __attribute__((destructor)) void end() {
   const char* const path = std::getenv("SIMDBEZIER_ALLOCATIONS");
   const int file = path != nullptr ? open(path, O_WRONLY | O_CREAT | O_TRUNC, 0600) : -1;

@@ -51,7 +51,7 @@ struct NetScales {
   Vector3 dvv{};
 };
 
-/// Of a polynomial net.
+/// The scales of a polynomial net.
 [[nodiscard]] NetScales scales_of(const Net& net);
 
 /// How a net was packed and evaluated.

@@ -34,7 +34,7 @@ using Families = std::map<std::string, std::set<std::string>>;
   return families;
 }
 
-/// Those of all plug-ins that have any.
+/// The families that all plug-ins have, as far as they have any.
 [[nodiscard]] std::set<std::string> compared(const Report& report, const std::string& type,
                                              Quantity quantity) {
   const Families all = families_of(report, type, quantity);

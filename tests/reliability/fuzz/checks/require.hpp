@@ -25,7 +25,7 @@ inline void require(bool condition, std::string_view what) {
   }
 }
 
-/// With a message that costs something to make.
+/// The same with a message that takes time to make.
 template <typename F>
 requires requires(F& message) { std::string(message()); }
 void require(bool condition, F&& message) {

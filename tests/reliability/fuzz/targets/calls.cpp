@@ -42,7 +42,7 @@ public:
   }
 
 private:
-  /// Time should go into many inputs.
+  /// Limits the size of a call: time should go into many inputs, not into large ones.
   void limit_patches() {
     constexpr std::size_t kMostSamples = 1200;
     options_.patch_count =
