@@ -172,7 +172,7 @@ SIMDBEZIER_INLINE void finish_samples(const Task& task, const CurveShape& shape,
     weight.first = kDepth > 0 ? negated(weight.first) : zero;
     weight.second = kDepth > 1 ? negated(weight.second) : zero;
   }
-  const Quotient<V> quotient(weight.value);
+  const Quotient<V> quotient = Quotient<V>::by(weight.value);
   CurveJet<V> jet;
   for_slots<kKnownOrder != 0>([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
     const std::size_t component = task.first_component + slot;

@@ -119,13 +119,13 @@ private:
   void prepare_weight() {
     const auto weight = static_cast<std::size_t>(shape_.components);
     merged_table(weight, minus_w_);
-    inverse_ = Quotient<V>(minus_w_[0][0]).inverse;
+    inverse_ = Quotient<V>::by(minus_w_[0][0]).inverse;
     for (std::size_t a = 0; a <= highest_u(); ++a) {
       negate(minus_w_[a], highest_v(a));
     }
     if (side_v_ != kInside) {
       along_edge_v(weight, minus_w_v_);
-      inverse_v_ = Quotient<V>(minus_w_v_[0]).inverse;
+      inverse_v_ = Quotient<V>::by(minus_w_v_[0]).inverse;
       negate(minus_w_v_, highest_u());
     }
   }

@@ -49,7 +49,7 @@ SIMDBEZIER_INLINE void taylor_row(std::size_t order, V t, const Coefficient& c, 
   taylor_series(order, t, c, highest, to);
   if (takes_even_odd(order)) {
     Series<V> s;
-    even_odd_series<2>(Order<0>(order), t, c, s);
+    even_odd_rows<2, 1>(Order<0>(order), &t, c, &s);
     const V low[3] = {s.value, s.first, s.second};
     for (std::size_t d = 0; d <= highest && d < 3; ++d) {
       to[d] = low[d];

@@ -62,36 +62,25 @@ struct ColumnPolynomials {
     });
   }
 
-  /// origins: null where there are none.
-  SIMDBEZIER_INLINE void evaluate(const typename P::Slots& slots, typename P::OrderV order, V y,
-                                  const ColumnOrigins<V>* origins, SampleJet<V>& jet) const {
-    if constexpr (kDepth == 0) {
-      positions(slots, order, y, jet.position);
-    } else if constexpr (P::kWeighted) {
-      Partials<V> weight = partials(order, power[P::Slots::kWeight], y);
-      negate_slopes(weight);
-      const Quotient<V> quotient(weight.value);
-      jet.inverse_weight = quotient.inverse;
-      slots.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-        divide_slot(quotient, partials(order, power[slot], y), weight, origins, slot, jet);
-      });
+  /// kRows rows at once. origins: null where there are none.
+  template <std::size_t kRows>
+  SIMDBEZIER_INLINE void evaluate(const typename P::Slots& slots, typename P::OrderV order,
+                                  const V* y, const ColumnOrigins<V>* origins,
+                                  SampleJet<V>* jet) const {
+    if constexpr (P::kWeighted) {
+      quotients<kRows>(slots, order, y, origins, jet);
     } else {
       slots.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-        const Series<V> along_v = row_series<kDepth>(order, y, coefficients(power[slot][0]));
-        jet.position[slot] = along_v.value;
-        jet.dv[slot] = along_v.first;
-        const Series<V> of_slopes = row_series<kDepth - 1>(order, y, coefficients(power[slot][1]));
-        jet.du[slot] = of_slopes.value;
-        if constexpr (kDepth > 1) {
-          jet.dvv[slot] = along_v.second;
-          jet.duv[slot] = of_slopes.first;
-          jet.duu[slot] = row_series<0>(order, y, coefficients(power[slot][2])).value;
-        }
+        Partials<V> at[kRows];
+        partials<kRows>(order, power[slot], y, at);
+        repeat<kRows>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA { store(jet[r], slot, at[r]); });
       });
     }
     if (origins != nullptr) {
       slots.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-        jet.position[slot] = jet.position[slot] + origins->position[slot];
+        repeat<kRows>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+          jet[r].position[slot] = jet[r].position[slot] + origins->position[slot];
+        });
       });
     }
   }
@@ -101,37 +90,59 @@ private:
     return [c](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return c[k]; };
   }
 
-  /// Nothing but values, so that no compiler keeps room for the rest of a jet.
-  SIMDBEZIER_INLINE void positions(const typename P::Slots& slots, typename P::OrderV order, V y,
-                                   V p[3]) const {
-    const auto value = [&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-      return row_series<0>(order, y, coefficients(power[slot][0])).value;
-    };
-    if constexpr (P::kWeighted) {
-      const Quotient<V> quotient(value(P::Slots::kWeight));
-      slots.for_components([&](std::size_t slot)
-                               SIMDBEZIER_INLINE_LAMBDA { p[slot] = quotient.value(value(slot)); });
-    } else {
-      slots.for_components([&](std::size_t slot)
-                               SIMDBEZIER_INLINE_LAMBDA { p[slot] = value(slot); });
-    }
+  template <std::size_t kRows>
+  SIMDBEZIER_INLINE void quotients(const typename P::Slots& slots, typename P::OrderV order,
+                                   const V* y, const ColumnOrigins<V>* origins,
+                                   SampleJet<V>* jet) const {
+    Partials<V> weight[kRows];
+    partials<kRows>(order, power[P::Slots::kWeight], y, weight);
+    repeat<kRows>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+      negate_slopes(weight[r]);
+      jet[r].inverse_weight = Quotient<V>::by(weight[r].value).inverse;
+    });
+    slots.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
+      Partials<V> at[kRows];
+      partials<kRows>(order, power[slot], y, at);
+      repeat<kRows>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+        divide_slot(at[r], weight[r], origins, slot, jet[r]);
+      });
+    });
   }
 
-  static SIMDBEZIER_INLINE Partials<V> partials(typename P::OrderV order, const Powers& p, V y) {
-    Partials<V> at;
-    const Series<V> s = row_series<kDepth>(order, y, coefficients(p[0]));
-    at.value = s.value;
-    if constexpr (kDepth > 0) {
-      at.y = s.first;
-      const Series<V> x = row_series<kDepth - 1>(order, y, coefficients(p[1]));
-      at.x = x.value;
-      if constexpr (kDepth > 1) {
-        at.yy = s.second;
-        at.xy = x.first;
-        at.xx = row_series<0>(order, y, coefficients(p[2])).value;
+  template <std::size_t kRows>
+  static SIMDBEZIER_INLINE void partials(typename P::OrderV order, const Powers& p, const V* y,
+                                         Partials<V>* at) {
+    const auto each = [](const auto& f) SIMDBEZIER_INLINE_LAMBDA { repeat<kRows>(f); };
+    if constexpr (kRows > 1 && kDepth > 1) { // even and odd parts fill the registers by themselves
+      if (takes_even_odd(order.value())) {
+        each([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA { partials<1>(order, p, y + r, at + r); });
+        return;
       }
     }
-    return at;
+    Series<V> s[kRows];
+    rows_series<kDepth, kRows>(order, y, coefficients(p[0]), s);
+    each([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+      at[r].value = s[r].value;
+      if constexpr (kDepth > 0) {
+        at[r].y = s[r].first;
+      }
+      if constexpr (kDepth > 1) {
+        at[r].yy = s[r].second;
+      }
+    });
+    if constexpr (kDepth > 0) {
+      rows_series<kDepth - 1, kRows>(order, y, coefficients(p[1]), s);
+      each([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+        at[r].x = s[r].value;
+        if constexpr (kDepth > 1) {
+          at[r].xy = s[r].first;
+        }
+      });
+    }
+    if constexpr (kDepth > 1) {
+      rows_series<0, kRows>(order, y, coefficients(p[2]), s);
+      each([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA { at[r].xx = s[r].value; });
+    }
   }
 
   static SIMDBEZIER_INLINE void store(SampleJet<V>& jet, std::size_t slot, const Partials<V>& at) {
@@ -147,9 +158,10 @@ private:
     }
   }
 
-  SIMDBEZIER_INLINE void divide_slot(const Quotient<V>& q, const Partials<V>& h,
-                                     const Partials<V>& w, const ColumnOrigins<V>* origins,
-                                     std::size_t slot, SampleJet<V>& jet) const {
+  SIMDBEZIER_INLINE void divide_slot(const Partials<V>& h, const Partials<V>& w,
+                                     const ColumnOrigins<V>* origins, std::size_t slot,
+                                     SampleJet<V>& jet) const {
+    const Quotient<V> q{jet.inverse_weight};
     Partials<V> at;
     at.value = q.value(h.value);
     if constexpr (kDepth > 0) {

@@ -33,7 +33,7 @@ SIMDBEZIER_INLINE void sweep_rows(const GridTask<T>& task, const ShapeColumns<P,
   range.active = kFull ? kLanes<V> : range.active;
   const auto evaluate = [&](T y, SampleJet<V>& jet) SIMDBEZIER_INLINE_LAMBDA {
     range.y = broadcast<V>(y);
-    polynomials.evaluate(columns.slots(), columns.order_v(), range.y, origins, jet);
+    polynomials.template evaluate<1>(columns.slots(), columns.order_v(), &range.y, origins, &jet);
   };
   for (std::size_t r = 0; r < task.run_count; ++r) {
     const RowRun<T> run = task.runs[r];
@@ -76,9 +76,9 @@ sweep_positions(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
       }
     } else {
       for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
+        const V y = broadcast<V>(run.y[j]);
         SampleJet<V> jet;
-        polynomials.evaluate(columns.slots(), columns.order_v(), broadcast<V>(run.y[j]), origins,
-                             jet);
+        polynomials.template evaluate<1>(columns.slots(), columns.order_v(), &y, origins, &jet);
         store_sample<P>(task, range, jet);
       }
     }

@@ -1,6 +1,8 @@
 // From the packed values of a patch to a register of its columns, as polynomials in the local Y.
 #pragma once
 
+#include <algorithm>
+
 #include "kernels/shape/column_polynomials.hpp"
 #include "kernels/shape/shape_edges.hpp"
 
@@ -11,6 +13,9 @@ class ShapeColumns {
   using T = ScalarOf<V>;
   using Powers = typename ColumnPolynomials<P, V>::Powers;
   static constexpr std::size_t kDepth = P::kDepth;
+  /// Powers at once where the compiler does not know how many there are: enough to hide the
+  /// latency of Horner's rule, few enough for 16 registers.
+  static constexpr std::size_t kAbreast = 4;
 
 public:
   using Edges = ShapeEdges<P, V>;
@@ -28,9 +33,11 @@ public:
       origins_ = &room;
     }
     slots_.for_channels([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-      build_slot(any_low() ? row.low : row.high, slot, polynomials_.power[slot]);
       if (any_low() && any_high()) {
-        merge_slot(row.high, slot);
+        build_slot<true>(row.low, row.high, slot, polynomials_.power[slot]);
+      } else {
+        const Cell<T>& cell = any_low() ? row.low : row.high;
+        build_slot<false>(cell, cell, slot, polynomials_.power[slot]);
       }
     });
   }
@@ -41,40 +48,78 @@ public:
   /// The origins of the set, or of edges that are points; null where there are none.
   SIMDBEZIER_INLINE const ColumnOrigins<V>* origins() const { return origins_; }
 
-  /// Samples at the local y, off the edges v = const.
-  SIMDBEZIER_INLINE void evaluate(V y, SampleJet<V>& jet) const {
-    polynomials_.evaluate(slots_, order_v_, y, origins_, jet);
+  /// Samples at kRows local y, off the edges v = const.
+  template <std::size_t kRows>
+  SIMDBEZIER_INLINE void evaluate(const V* y, SampleJet<V>* jet) const {
+    polynomials_.template evaluate<kRows>(slots_, order_v_, y, origins_, jet);
     if (!P::kOneCell && shape_.cells_v() == 2) {
-      scale_v(jet);
+      for (std::size_t r = 0; r < kRows; ++r) {
+        scale_v(jet[r]);
+      }
     }
   }
 
 private:
-  SIMDBEZIER_INLINE void build_slot(const Cell<T>& cell, std::size_t slot, Powers& to) const {
-    const T* const matrix = cell.coefficients + slots_.channel(slot) * shape_.matrix();
-    const V x = columns_.local.x;
-    if constexpr (P::kKnown) {
-      constexpr std::size_t kV = P::OrderV::kMost;
-      Series<V> s[kV];
-      horner_series_abreast<kDepth, kV>(order_u_, x, matrix, s);
-      repeat<kV>([&](std::size_t l) SIMDBEZIER_INLINE_LAMBDA { put_power(s[l], l, to); });
-    } else {
-      const std::size_t order_v = order_v_.value();
-      for (std::size_t l = 0; l < order_v; ++l) {
-        const auto coefficient = [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-          return broadcast<V>(matrix[k * order_v + l]);
-        };
-        Series<V> s = horner_series<kDepth>(order_u_, x, coefficient);
-        put_power(s, l, to);
-      }
-    }
+  /// kMixed: some lanes are in the low cell, and some in the high one; else all are in `low`.
+  template <bool kMixed>
+  SIMDBEZIER_INLINE void build_slot(const Cell<T>& low, const Cell<T>& high, std::size_t slot,
+                                    Powers& to) const {
+    const std::size_t first = slots_.channel(slot) * shape_.matrix();
+    const T* const matrix = low.coefficients + first;
+    const std::ptrdiff_t to_high = high.coefficients - low.coefficients;
+    const auto load = [&](const T* c) SIMDBEZIER_INLINE_LAMBDA {
+      return chosen<kMixed>(broadcast<V>(c[0]),
+                            [&]() SIMDBEZIER_INLINE_LAMBDA { return broadcast<V>(c[to_high]); });
+    };
+    build_all_powers(matrix, load, to);
     if (columns_.local.on_edge) {
-      const T* const edges =
-          cell.edges + slots_.channel(slot) * shape_.edge_powers() * 4 + detail::kEdgeU0;
+      const std::size_t edges = slots_.channel(slot) * shape_.edge_powers() * 4 + detail::kEdgeU0;
       for_coefficients(order_v_, [&](std::size_t l) SIMDBEZIER_INLINE_LAMBDA {
-        to[0][l] = columns_.local.edges.replace(to[0][l], edges + l * 4);
+        const auto on_edge = [&](const Cell<T>& cell) SIMDBEZIER_INLINE_LAMBDA {
+          return columns_.local.edges.replace(to[0][l], cell.edges + edges + l * 4);
+        };
+        to[0][l] =
+            chosen<kMixed>(on_edge(low), [&]() SIMDBEZIER_INLINE_LAMBDA { return on_edge(high); });
       });
     }
+  }
+
+  /// Of each lane's own cell.
+  template <bool kMixed, typename High>
+  SIMDBEZIER_INLINE V chosen(V low, const High& high) const {
+    if constexpr (kMixed) {
+      return select_where<V>(columns_.low, low, high());
+    } else {
+      return low;
+    }
+  }
+
+  template <typename Load>
+  SIMDBEZIER_INLINE void build_all_powers(const T* matrix, const Load& load, Powers& to) const {
+    if constexpr (P::kKnown) {
+      build_powers<P::OrderV::kMost>(matrix, 0, load, to);
+    } else {
+      const std::size_t order_v = order_v_.value();
+      if (order_v < kAbreast) {
+        for (std::size_t l = 0; l < order_v; ++l) {
+          build_powers<1>(matrix, l, load, to);
+        }
+      } else { // the last ones may be computed twice
+        for (std::size_t l = 0; l < order_v; l += kAbreast) {
+          build_powers<kAbreast>(matrix, std::min(l, order_v - kAbreast), load, to);
+        }
+      }
+    }
+  }
+
+  /// The powers [first, first + kCount) of Y.
+  template <std::size_t kCount, typename Load>
+  SIMDBEZIER_INLINE void build_powers(const T* matrix, std::size_t first, const Load& load,
+                                      Powers& to) const {
+    Series<V> s[kCount];
+    horner_series_abreast<kDepth, kCount>(order_u_, columns_.local.x, matrix + first,
+                                          order_v_.value(), load, s);
+    repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA { put_power(s[i], first + i, to); });
   }
 
   SIMDBEZIER_INLINE void put_power(Series<V>& s, std::size_t l, Powers& to) const {
@@ -87,18 +132,6 @@ private:
     }
     if constexpr (kDepth > 1) {
       to[2][l] = s.second;
-    }
-  }
-
-  /// As build_slot(), for the lanes of the higher cell only. Rare, and only with loops.
-  SIMDBEZIER_INLINE void merge_slot(const Cell<T>& cell, std::size_t slot) {
-    Powers high;
-    build_slot(cell, slot, high);
-    Powers& power = polynomials_.power[slot];
-    for (std::size_t d = 0; d <= kDepth; ++d) {
-      for_coefficients(order_v_, [&](std::size_t l) SIMDBEZIER_INLINE_LAMBDA {
-        power[d][l] = select_where<V>(columns_.low, power[d][l], high[d][l]);
-      });
     }
   }
 

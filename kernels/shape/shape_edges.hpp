@@ -110,7 +110,7 @@ private:
     } else {
       weight.value = columns_.local.x; // not used
     }
-    const Quotient<V> quotient(weight.value);
+    const Quotient<V> quotient = Quotient<V>::by(weight.value);
     slots_.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
       Series<V> at = edge_series(slot, edge);
       if constexpr (P::kWeighted) {

@@ -96,24 +96,24 @@ struct Series {
   }
 };
 
-/// sum_k c(k) t^k, and derivatives up to kDepth, for order >= 2: a column.
-template <std::size_t kDepth, typename V, typename N, typename Coefficient>
-SIMDBEZIER_INLINE void horner_into(N order, V t, const Coefficient& c, Series<V>& s) {
+/// sum_k c(k) t^k, and derivatives up to kDepth, for order >= 2, at kCount parameters at once,
+/// which share the loads of coefficients and hide each other's latency.
+template <std::size_t kDepth, std::size_t kCount, typename V, typename N, typename Coefficient>
+SIMDBEZIER_INLINE void horner_rows(N order, const V* t, const Coefficient& c, Series<V>* s) {
   const std::size_t degree = order.value() - 1;
-  s.template begin<kDepth>(c(degree), c(degree - 1), t);
+  const auto each = [](const auto& step) SIMDBEZIER_INLINE_LAMBDA { repeat<kCount>(step); };
+  each([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+    s[i].template begin<kDepth>(c(degree), c(degree - 1), t[i]);
+  });
   if (degree > 1) {
-    s.template add_third<kDepth>(c(degree - 2), t);
+    each([&](std::size_t i)
+             SIMDBEZIER_INLINE_LAMBDA { s[i].template add_third<kDepth>(c(degree - 2), t[i]); });
     for (std::size_t k = degree - 2; k-- > 0;) {
-      s.template add<kDepth>(c(k), t);
+      const V next = c(k);
+      each([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA { s[i].template add<kDepth>(next, t[i]); });
     }
   }
-  s.template finish<kDepth>(degree, t);
-}
-template <std::size_t kDepth, typename V, typename N, typename Coefficient>
-SIMDBEZIER_INLINE Series<V> horner_series(N order, V t, const Coefficient& c) {
-  Series<V> s;
-  horner_into<kDepth>(order, t, c, s);
-  return s;
+  each([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA { s[i].template finish<kDepth>(degree, t[i]); });
 }
 
 /// The same of a row, an edge or a curve with kOrder coefficients, by even and odd parts; `second`
@@ -153,60 +153,72 @@ SIMDBEZIER_INLINE void even_odd_series(V t, const Coefficient& c, Series<V>& s) 
   }
 }
 
-/// The same of an order that takes even and odd parts.
-template <std::size_t kDepth, std::size_t kFixed, typename V, typename Coefficient>
-SIMDBEZIER_INLINE void even_odd_series(Order<kFixed> order, V t, const Coefficient& c,
-                                       Series<V>& s) {
+/// The same of an order that takes even and odd parts, at kCount parameters at once.
+template <std::size_t kDepth, std::size_t kCount, std::size_t kFixed, typename V,
+          typename Coefficient>
+SIMDBEZIER_INLINE void even_odd_rows(Order<kFixed> order, const V* t, const Coefficient& c,
+                                     Series<V>* s) {
+  const auto each = [&]<std::size_t kOrder>() SIMDBEZIER_INLINE_LAMBDA {
+    repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+      even_odd_series<kDepth, kOrder>(t[i], c, s[i]);
+    });
+  };
   if constexpr (kFixed != 0) {
-    even_odd_series<kDepth, kFixed>(t, c, s);
+    each.template operator()<kFixed>();
   } else if (order.value() == 4) {
-    even_odd_series<kDepth, 4>(t, c, s);
+    each.template operator()<4>();
   } else if (order.value() == 5) {
-    even_odd_series<kDepth, 5>(t, c, s);
+    each.template operator()<5>();
   } else {
-    even_odd_series<kDepth, 6>(t, c, s);
+    each.template operator()<6>();
   }
 }
 
-/// The same of any row, edge or curve.
+/// The same of any row, edge or curve, at kCount parameters at once.
+template <std::size_t kDepth, std::size_t kCount, std::size_t kFixed, typename V,
+          typename Coefficient>
+SIMDBEZIER_INLINE void rows_series(Order<kFixed> order, const V* t, const Coefficient& c,
+                                   Series<V>* s) {
+  if constexpr (kFixed != 0 && !takes_even_odd(kFixed)) {
+    horner_rows<kDepth, kCount>(order, t, c, s);
+  } else if (kFixed != 0 || takes_even_odd(order.value())) {
+    even_odd_rows<kDepth, kCount>(order, t, c, s);
+    if constexpr (kDepth > 1) {
+      repeat<kCount>([&](std::size_t i)
+                         SIMDBEZIER_INLINE_LAMBDA { s[i].second = s[i].second + s[i].second; });
+    }
+  } else {
+    horner_rows<kDepth, kCount>(order, t, c, s);
+  }
+}
 template <std::size_t kDepth, std::size_t kFixed, typename V, typename Coefficient>
 SIMDBEZIER_INLINE Series<V> row_series(Order<kFixed> order, V t, const Coefficient& c) {
-  if constexpr (kFixed != 0 && !takes_even_odd(kFixed)) {
-    return horner_series<kDepth>(order, t, c);
-  } else {
-    Series<V> s;
-    if (kFixed != 0 || takes_even_odd(order.value())) {
-      even_odd_series<kDepth>(order, t, c, s);
-      if constexpr (kDepth > 1) {
-        s.second = s.second + s.second;
-      }
-    } else {
-      horner_into<kDepth>(order, t, c, s);
-    }
-    return s;
-  }
+  Series<V> s;
+  rows_series<kDepth, 1>(order, &t, c, &s);
+  return s;
 }
 
-/// horner_series() of kCount polynomials at once, from coefficients [power][polynomial]. Their sums
-/// stay in registers while the loop runs, however long it is, and one address serves all of them.
-template <std::size_t kDepth, std::size_t kCount, typename V, typename N>
+/// The same of kCount polynomials at one parameter: columns, whose coefficients stand in memory as
+/// [power][polynomial], with `step` from one power to the next; load: from an address to a
+/// register. Their sums stay in registers while the loop runs, however long it is, and one address
+/// serves all of them.
+template <std::size_t kDepth, std::size_t kCount, typename V, typename N, typename Load>
 SIMDBEZIER_INLINE void horner_series_abreast(N order, V t, const ScalarOf<V>* coefficients,
-                                             Series<V> s[kCount]) {
+                                             std::size_t step, const Load& load, Series<V>* s) {
   const std::size_t degree = order.value() - 1;
-  const ScalarOf<V>* c = coefficients + (degree - 1) * kCount;
+  const ScalarOf<V>* c = coefficients + (degree - 1) * step;
   repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
-    s[i].template begin<kDepth>(broadcast<V>(c[kCount + i]), broadcast<V>(c[i]), t);
+    s[i].template begin<kDepth>(load(c + step + i), load(c + i), t);
   });
   if (degree > 1) {
-    c -= kCount;
+    c -= step;
     repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
-      s[i].template add_third<kDepth>(broadcast<V>(c[i]), t);
+      s[i].template add_third<kDepth>(load(c + i), t);
     });
     for (std::size_t k = degree - 2; k-- > 0;) {
-      c -= kCount;
-      repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
-        s[i].template add<kDepth>(broadcast<V>(c[i]), t);
-      });
+      c -= step;
+      repeat<kCount>([&](std::size_t i)
+                         SIMDBEZIER_INLINE_LAMBDA { s[i].template add<kDepth>(load(c + i), t); });
     }
   }
   repeat<kCount>([&](std::size_t i)
@@ -253,7 +265,7 @@ template <typename V>
 struct Quotient {
   V inverse; ///< 1 / w
 
-  explicit SIMDBEZIER_INLINE Quotient(V w) : inverse(divide(broadcast<V>(ScalarOf<V>(1)), w)) {}
+  static SIMDBEZIER_INLINE Quotient by(V w) { return {divide(broadcast<V>(ScalarOf<V>(1)), w)}; }
   SIMDBEZIER_INLINE V value(V h) const { return h * inverse; }
   SIMDBEZIER_INLINE V first(V h_x, V s, V minus_w_x) const {
     return madd(s, minus_w_x, h_x) * inverse;
@@ -278,56 +290,6 @@ SIMDBEZIER_INLINE V negated(V a) {
 template <typename V>
 SIMDBEZIER_INLINE V dot(const V a[3], const V b[3]) {
   return madd(a[0], b[0], madd(a[1], b[1], a[2] * b[2]));
-}
-
-/// A vector over a power of two of about its size, so that products stay in range; `inverse` is one
-/// over that power. Nothing is rounded.
-template <typename V>
-struct ScaledTangent {
-  V inverse;
-  V value[3];
-
-  explicit SIMDBEZIER_INLINE ScaledTangent(const V tangent[3]) {
-    V size = broadcast<V>(ScalarOf<V>(0));
-    for (std::size_t c = 0; c < 3; ++c) {
-      const V power = power_of_two_below(tangent[c]);
-      size = select_where<V>(power > size, power, size);
-    }
-    inverse = divide(broadcast<V>(ScalarOf<V>(1)), size);
-    for (std::size_t c = 0; c < 3; ++c) {
-      value[c] = tangent[c] * inverse;
-    }
-  }
-};
-
-/// Gaussian, mean, smaller and larger principal curvature; see Curvatures.
-template <typename V>
-SIMDBEZIER_INLINE void curvatures(const SampleJet<V>& jet, V out[detail::kCurvatures]) {
-  const ScaledTangent<V> du(jet.du);
-  const ScaledTangent<V> dv(jet.dv);
-  V n[3];
-  const V area2 = cross_product(du.value, dv.value, n); // EG - F^2, without its cancellation
-  normalise(n, area2);
-  const V inverse_area2 = divide(broadcast<V>(ScalarOf<V>(1)), area2);
-  const V l = dot(jet.duu, n) * du.inverse * du.inverse;
-  const V m = dot(jet.duv, n) * du.inverse * dv.inverse;
-  const V k = dot(jet.dvv, n) * dv.inverse * dv.inverse;
-  const V e = dot(du.value, du.value);
-  const V f = dot(du.value, dv.value);
-  const V g = dot(dv.value, dv.value);
-  const V half = broadcast<V>(ScalarOf<V>(0.5));
-  const V zero = broadcast<V>(ScalarOf<V>(0));
-  // Adding zero makes a plane's curvatures +0 and changes nothing else.
-  const V gaussian = madd(msub(l, k, m * m), inverse_area2, zero);
-  const V twice_f_m = (f + f) * m;
-  const V mean = madd(half * (madd(e, k, g * l) - twice_f_m), inverse_area2, zero);
-  const V discriminant = msub(mean, mean, gaussian);
-  // Rounding makes it negative at umbilics; nan stays nan.
-  const V spread = square_root(select_where<V>(discriminant < zero, zero, discriminant));
-  out[0] = gaussian;
-  out[1] = mean;
-  out[2] = mean - spread;
-  out[3] = mean + spread;
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/poly/normal_lanes.hpp"
+#include "kernels/shape/curvatures.hpp"
 #include "kernels/shape/shape_columns.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

@@ -11,8 +11,8 @@ using detail::GridTask;
 using detail::RowKind;
 using detail::RowRun;
 
-/// A register of columns of one patch, through all rows. One function for each step: loops over
-/// unknown numbers of powers have them in memory anyway.
+/// A register of columns of one patch, through all rows, a few at a time. One function for each
+/// step: loops over unknown numbers of powers have them in memory anyway.
 template <typename P, typename T>
 class ColumnSweep {
   using V = vec<T>;
@@ -39,38 +39,72 @@ public:
       const typename Columns::Edges edges(shape, x_, range_.x, task_.watertight,
                                           task_.first_component, row);
       build_columns(columns_, row, edges, origins_);
-      range_.at = first_at_;
+      std::size_t at = first_at_;
       for (std::size_t r = 0; r < task_.run_count; ++r) {
         const RowRun<T> run = task_.runs[r];
-        range_.floor = run.kind == RowKind::outside ? no_floor<V>() : floor_;
-        for (std::size_t j = 0; j < run.rows; ++j, range_.at += task_.nu) {
+        for (std::size_t j = 0; j < run.rows; ++j, at += task_.nu) {
           const T y = run.y[j];
-          if (cells == 1) {
-            put(y, y, edges);
-          } else if ((y < T(0)) == (cell == 0)) {
-            put(y, cell_parameter(y), edges);
+          if (cells == 1 || (y < T(0)) == (cell == 0)) {
+            add({y, cells == 1 ? y : cell_parameter(y), at, run.kind == RowKind::outside}, edges);
           }
         }
       }
+      put_waiting(edges);
     }
   }
 
 private:
-  __attribute__((noinline)) void put(T y, T local, const typename Columns::Edges& edges) {
-    const std::size_t edge = task_.watertight ? edge_of_cell(local) : kEdges;
-    range_.y = broadcast<V>(y);
-    SampleJet<V> jet;
-    if (P::kDepth > 0 || edge == kEdges) {
-      columns_.evaluate(broadcast<V>(local), jet);
+  struct Row {
+    T y;
+    T local; ///< y in its cell
+    std::size_t at;
+    bool outside;
+  };
+  /// Rows that are evaluated together, as many as hide the latency of Horner's rule; fewer where
+  /// sums of second derivatives fill the registers.
+  static constexpr std::size_t kRows = sizeof(V) == 64 ? (P::kDepth < 2 ? 4 : 2) : 4 >> P::kDepth;
+
+  SIMDBEZIER_INLINE void add(const Row& row, const typename Columns::Edges& edges) {
+    if (P::kDepth == 0 && edge_of(row) < kEdges) { // nothing there comes from the columns
+      SampleJet<V> jet;
+      put(row, edges, jet);
+      return;
     }
-    if (edge < kEdges) {
+    rows_[waiting_++] = row;
+    if (waiting_ == kRows) {
+      put_waiting(edges);
+    }
+  }
+
+  /// What is evaluated beyond the rows that wait is rows before, which are not stored again.
+  __attribute__((noinline)) void put_waiting(const typename Columns::Edges& edges) {
+    V local[kRows];
+    repeat<kRows>([&](std::size_t r)
+                      SIMDBEZIER_INLINE_LAMBDA { local[r] = broadcast<V>(rows_[r].local); });
+    SampleJet<V> jet[kRows];
+    columns_.template evaluate<kRows>(local, jet);
+    for (std::size_t r = 0; r < waiting_; ++r) {
+      put(rows_[r], edges, jet[r]);
+    }
+    waiting_ = 0;
+  }
+
+  SIMDBEZIER_INLINE void put(const Row& row, const typename Columns::Edges& edges,
+                             SampleJet<V>& jet) {
+    if (const std::size_t edge = edge_of(row); edge < kEdges) {
       edges.replace_row(edge, jet);
     }
+    range_.at = row.at;
+    range_.y = broadcast<V>(row.y);
+    range_.floor = row.outside ? no_floor<V>() : floor_;
     if constexpr (P::kDepth == 0) { // little else is done
       store_sample<P>(task_, range_, jet);
     } else {
       store_shared<P>(task_, range_, jet);
     }
+  }
+  SIMDBEZIER_INLINE std::size_t edge_of(const Row& row) const {
+    return task_.watertight ? edge_of_cell(row.local) : kEdges;
   }
 
   const GridTask<T>& task_;
@@ -80,6 +114,8 @@ private:
   SampleRange<V> range_;
   V floor_; ///< of rows that are not outside
   std::size_t first_at_;
+  Row rows_[kRows] = {};
+  std::size_t waiting_ = 0;
 };
 
 template <typename P, typename T>

@@ -48,7 +48,7 @@ __attribute__((noinline)) void evaluate_row(const ScatteredTask<ScalarOf<V>>& ta
   ShapeColumns<P, V> polynomials(shape, columns, task.first_component);
   ColumnOrigins<V> origins;
   build_columns(polynomials, cells, edges, origins);
-  polynomials.evaluate(y, jet);
+  polynomials.template evaluate<1>(&y, &jet);
   if (edge < kEdges) [[unlikely]] {
     edges.replace_row(edge, jet);
   }

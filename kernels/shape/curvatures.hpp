@@ -1,0 +1,58 @@
+// Curvatures of a register of samples, from their first and second derivatives.
+#pragma once
+
+#include "kernels/shape/shape_formulas.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// A vector over a power of two of about its size, so that products stay in range; `inverse` is one
+/// over that power. Nothing is rounded.
+template <typename V>
+struct ScaledTangent {
+  V inverse;
+  V value[3];
+
+  explicit SIMDBEZIER_INLINE ScaledTangent(const V tangent[3]) {
+    V size = broadcast<V>(ScalarOf<V>(0));
+    for (std::size_t c = 0; c < 3; ++c) {
+      const V power = power_of_two_below(tangent[c]);
+      size = select_where<V>(power > size, power, size);
+    }
+    inverse = divide(broadcast<V>(ScalarOf<V>(1)), size);
+    for (std::size_t c = 0; c < 3; ++c) {
+      value[c] = tangent[c] * inverse;
+    }
+  }
+};
+
+/// Gaussian, mean, smaller and larger principal curvature; see Curvatures.
+template <typename V>
+SIMDBEZIER_INLINE void curvatures(const SampleJet<V>& jet, V out[detail::kCurvatures]) {
+  const ScaledTangent<V> du(jet.du);
+  const ScaledTangent<V> dv(jet.dv);
+  V n[3];
+  const V area2 = cross_product(du.value, dv.value, n); // EG - F^2, without its cancellation
+  normalise(n, area2);
+  const V inverse_area2 = divide(broadcast<V>(ScalarOf<V>(1)), area2);
+  const V l = dot(jet.duu, n) * du.inverse * du.inverse;
+  const V m = dot(jet.duv, n) * du.inverse * dv.inverse;
+  const V k = dot(jet.dvv, n) * dv.inverse * dv.inverse;
+  const V e = dot(du.value, du.value);
+  const V f = dot(du.value, dv.value);
+  const V g = dot(dv.value, dv.value);
+  const V half = broadcast<V>(ScalarOf<V>(0.5));
+  const V zero = broadcast<V>(ScalarOf<V>(0));
+  // Adding zero makes a plane's curvatures +0 and changes nothing else.
+  const V gaussian = madd(msub(l, k, m * m), inverse_area2, zero);
+  const V twice_f_m = (f + f) * m;
+  const V mean = madd(half * (madd(e, k, g * l) - twice_f_m), inverse_area2, zero);
+  const V discriminant = msub(mean, mean, gaussian);
+  // Rounding makes it negative at umbilics; nan stays nan.
+  const V spread = square_root(select_where<V>(discriminant < zero, zero, discriminant));
+  out[0] = gaussian;
+  out[1] = mean;
+  out[2] = mean - spread;
+  out[3] = mean + spread;
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
