@@ -5,6 +5,21 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
+/// 1 / x for x = power_of_two_below(…), without a division: flipping the exponent's bits gives 2 /
+/// x, for 0 and infinity as well.
+template <typename V>
+SIMDBEZIER_INLINE V inverse_of_power_of_two(V x) {
+  using T = ScalarOf<V>;
+  if constexpr (!kIsScalar<V>) {
+    return (x ^ V(static_cast<T>(__builtin_inf()))) * V(T(0.5));
+  } else if constexpr (sizeof(V) == sizeof(float)) {
+    return __builtin_bit_cast(float, __builtin_bit_cast(unsigned, x) ^ 0xffU << 23) * 0.5F;
+  } else {
+    return __builtin_bit_cast(double, __builtin_bit_cast(unsigned long long, x) ^ 0x7ffULL << 52) *
+           0.5;
+  }
+}
+
 /// A vector over a power of two of about its size, so that products stay in range; `inverse` is one
 /// over that power. Nothing is rounded.
 template <typename V>
@@ -18,7 +33,7 @@ struct ScaledTangent {
       const V power = power_of_two_below(tangent[c]);
       size = select_where<V>(power > size, power, size);
     }
-    inverse = divide(broadcast<V>(ScalarOf<V>(1)), size);
+    inverse = inverse_of_power_of_two(size);
     for (std::size_t c = 0; c < 3; ++c) {
       value[c] = tangent[c] * inverse;
     }
