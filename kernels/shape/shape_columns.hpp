@@ -42,6 +42,30 @@ public:
     });
   }
 
+  /// build() of one sample (V = T) off the edges of its cell, in a set without origins: lanes are
+  /// powers of Y. Reads up to a register behind the last coefficient, where the edges stand.
+  SIMDBEZIER_INLINE void build_across(const Cell<T>& cell) {
+    using Lanes = vec<T>;
+    const Lanes x = broadcast<Lanes>(columns_.local.x);
+    const auto load = [](const T* c) SIMDBEZIER_INLINE_LAMBDA { return load_vector<Lanes>(c); };
+    slots_.for_channels([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
+      const T* const matrix = cell.coefficients + slots_.channel(slot) * shape_.matrix();
+      for (std::size_t l = 0; l < order_v_.value(); l += kLanes<Lanes>) {
+        Series<Lanes> s;
+        horner_series_abreast<kDepth, 1>(order_u_, x, matrix + l, order_v_.value(), load, &s);
+        scale_by_cells<kDepth>(s, shape_.cells_u());
+        Powers& power = polynomials_.power[slot];
+        store_vector(power[0] + l, s.value);
+        if constexpr (kDepth > 0) {
+          store_vector(power[1] + l, s.first);
+        }
+        if constexpr (kDepth > 1) {
+          store_vector(power[2] + l, s.second);
+        }
+      }
+    });
+  }
+
   SIMDBEZIER_INLINE const ColumnPolynomials<P, V>& polynomials() const { return polynomials_; }
   SIMDBEZIER_INLINE const typename P::Slots& slots() const { return slots_; }
   SIMDBEZIER_INLINE typename P::OrderV order_v() const { return order_v_; }
