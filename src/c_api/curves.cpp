@@ -57,7 +57,8 @@ CurveSamples<T> where_of(const simdbezier_curve_samples* given) {
 }
 
 template <typename T>
-Path blamed_output(const CurveOutputs<T>& out, Status status, std::size_t samples, int components) {
+Path blamed_output(const CurveOutputs<T>& out, Status status, std::size_t samples,
+                   std::int64_t components) {
   for (std::size_t k = 0; k < kCurveVectorOutputs; ++k) {
     if (is_at_fault(out[static_cast<CurveOutput>(k)], status, samples, components)) {
       return kOut / kNames[k];
@@ -84,7 +85,7 @@ simdbezier_status evaluate_at(const char* function, const simdbezier_curve_set* 
         const Path blamed = blamed_in_call(status, path);
         return blamed.root == kOut.root && blamed.member == nullptr
                    ? blamed_output(to, status, sample_count(curves, where),
-                                   curves.components() - to.first_component)
+                                   std::int64_t{curves.components()} - to.first_component)
                    : blamed;
       });
     });

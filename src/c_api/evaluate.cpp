@@ -86,7 +86,8 @@ Path blamed_values(const Outputs<T>& out, std::size_t samples) {
 }
 
 template <typename T>
-Path blamed_output(const Outputs<T>& out, Status status, std::size_t samples, int components) {
+Path blamed_output(const Outputs<T>& out, Status status, std::size_t samples,
+                   std::int64_t components) {
   for (std::size_t k = 0; k < kVectorOutputs; ++k) {
     if (is_at_fault(out[static_cast<Output>(k)], status, samples, components)) {
       return kOut / kNames[k];
@@ -109,7 +110,7 @@ simdbezier_status evaluate_at(const char* function, const simdbezier_patch_set* 
         const Path blamed = blamed_in_call(status, path);
         return blamed.root == kOut.root && blamed.member == nullptr
                    ? blamed_output(to, status, sample_count(patches, where),
-                                   patches.components() - to.first_component)
+                                   std::int64_t{patches.components()} - to.first_component)
                    : blamed;
       });
     });

@@ -2,6 +2,7 @@
 // null pointers, lengths, types, numbers that stand for names.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <simdbezier/control_curves.hpp>
@@ -209,7 +210,8 @@ inline SetRange range_of(std::size_t first, std::size_t count) {
 
 /// One vector output of a call, where it is wanted, that a status is about.
 template <typename T>
-bool is_at_fault(const Vectors<T>& vectors, Status status, std::size_t samples, int components) {
+bool is_at_fault(const Vectors<T>& vectors, Status status, std::size_t samples,
+                 std::int64_t components) {
   if (!vectors.wanted()) {
     return false;
   }

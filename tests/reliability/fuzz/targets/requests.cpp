@@ -171,7 +171,7 @@ private:
   }
 
   [[nodiscard]] bool planes_missing() {
-    const int left = scene_.components() - options_.first_component;
+    const std::int64_t left = std::int64_t{scene_.components()} - options_.first_component;
     for (const Vectors<T>* const group : groups_of(out_)) {
       if (group->wanted() && (group->x == nullptr || (group->y == nullptr) != (left < 2) ||
                               (group->z == nullptr) != (left < 3))) {
