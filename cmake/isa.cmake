@@ -67,6 +67,12 @@ endfunction()
 # Compiles the kernels once per instruction set, appends the objects to `target` and lists
 # them for src/runtime/dispatch.cpp in isa_list.inc.
 function(simdbezier_add_isa_kernels target)
+  # Nets have many loops, few of them hot, and are moved value by value where they are not packed:
+  # vectorised, and unrolled as far as sweeps need it, these were a third more code and no faster.
+  # Below 100 g++ leaves transposes in memory (kernels/simd/squares.hpp).
+  set_property(SOURCE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../kernels/net_kernels.cpp
+               APPEND PROPERTY COMPILE_OPTIONS
+               "$<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;--param=max-completely-peeled-insns=100>")
   set(entries "")
   foreach(row IN LISTS SIMDBEZIER_ISA_TABLE)
     string(REPLACE "|" ";" fields "${row};")
