@@ -7,12 +7,21 @@
 
 namespace simdbezier {
 
-/// Where the outputs should end up. Streaming stores bypass the caches: a third faster to memory,
-/// much slower for whoever reads the result at once. They take effect where the output consists of
-/// packed planes, packed triples or vertices without gaps; any alignment of T will do.
+/// Where the outputs should end up. Streaming stores bypass the caches: up to four times as fast to
+/// memory, depending on the machine, and much slower for whoever reads the result at once. They
+/// take effect where the output consists of packed planes, packed triples or vertices without gaps;
+/// any alignment of T will do.
+///
+/// automatic is cache for outputs of up to half of the last-level cache, and for scattered samples.
+/// Beyond that the call takes what is faster on this machine: the first large call of its kind
+/// (instruction set, shape, size of the grid, outputs and their layout, threads) evaluates some
+/// megabytes of its output in both ways, which takes a few milliseconds at most, and the process
+/// keeps the answer. One thread decides; others that come meanwhile stream. Without the sizes that
+/// a measurement needs (four times its blocks) a call streams. The answer never changes a bit.
+/// SIMDBEZIER_DESTINATION=cache or =memory in the environment, read once per process, decides for
+/// all large calls instead; any other word is as none.
 enum class Destination : std::uint8_t {
-  automatic, ///< memory where a grid call writes more than half of the last-level cache and gains
-             ///< by it (docs/performance.md), else cache; scattered samples always the latter
+  automatic, ///< decided by the output's size, and beyond the caches by measurement
   cache,     ///< plain stores
   memory     ///< streaming stores, completed before the call returns
 };

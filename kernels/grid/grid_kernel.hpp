@@ -43,6 +43,13 @@ template <detail::OutputSet kOutputs, typename T>
 constexpr bool kSweepsTwice = (kOutputs == detail::kPosition && sizeof(T) * kLanes<vec<T>> >= 32) ||
                               (kOutputs == detail::kPositionDerivatives && kLineWide<vec<T>>);
 
+/// Where two registers are streamed together: they are one line, or two that lie side by side, of
+/// which memory takes each second one at half of its rate.
+template <detail::OutputSet kOutputs, typename T>
+constexpr bool kStreamsPairs =
+    kLineWide<RegisterPair<vec<T>>> ? kOutputs == detail::kPosition
+                                    : kLineWide<vec<T>>&& kSweepsTwice<kOutputs, T>;
+
 /// Bytes of samples that stay in the first-level cache while one tile follows the other.
 constexpr std::size_t kCachedBytes = 12288;
 
@@ -96,6 +103,11 @@ SIMDBEZIER_INLINE void sweep_registers(const GridTask<T>& task, const RowPiece<T
   constexpr std::size_t kL = kLanes<V>;
   const TileSweeper<kOutputs, Known::nothing, T> tiles{task, piece, patch, end};
   std::size_t first = 0;
+  if constexpr (kStreamsPairs<kOutputs, T>) {
+    for (; task.streaming && first + 2 * kL <= task.nu; first += 2 * kL) {
+      tiles.template sweep<ColumnTile<1, true, false, RegisterPair<V>, true>>(first, 2 * kL);
+    }
+  }
   for (; first + kL <= task.nu; first += kL) {
     if constexpr (kLineWide<V> && kUsual<kOutputs>) {
       if (task.streaming) {

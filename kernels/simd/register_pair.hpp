@@ -4,6 +4,7 @@
 // twice, and the first-level cache may have passed it on in between.
 #pragma once
 
+#include "kernels/simd/interleave.hpp"
 #include "kernels/simd/lanes.hpp"
 #include "kernels/simd/operands.hpp"
 
@@ -47,6 +48,14 @@ template <typename V>
 SIMDBEZIER_INLINE void masked_store(ScalarOf<V>* to, RegisterPair<V> value, std::size_t n) {
   store_vector(to, value.low);
   masked_store(to + kLanes<V>, value.high, n - kLanes<V>);
+}
+
+/// One half right after the other: a line, or two of them.
+template <typename V>
+SIMDBEZIER_INLINE void store_streaming(ScalarOf<V>* to, RegisterPair<V> value) {
+  using Part = LinePart<ScalarOf<V>>;
+  store_any<true>(to, __builtin_bit_cast(Part, value.low));
+  store_any<true>(to + kLanes<V>, __builtin_bit_cast(Part, value.high));
 }
 
 template <typename V>

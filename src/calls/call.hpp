@@ -3,7 +3,8 @@
 //   Status resolve()        what is asked for: instruction set, components, range of the set
 //   Status check()          everything that a caller can get wrong
 //   bool empty()            nothing is to be done, so that there may not even be a set
-//   auto plan()             the work: which kernels, which pieces, how outputs are delivered
+//   auto plan()             the work: which kernels, which pieces, how outputs are delivered;
+//                           plan(Destination) where that is a choice (calls/destined_call.hpp)
 //
 // and the work's
 //   std::size_t units()           what threads share
@@ -20,6 +21,7 @@
 #include <simdbezier/options.hpp>
 #include <simdbezier/samples.hpp>
 
+#include "src/calls/destined_call.hpp"
 #include "src/output/output_list.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/dispatch.hpp"
@@ -34,11 +36,12 @@ Status make_call(Call&& call, const Options& options) noexcept {
   if (const Status status = call.check(); !status || call.empty()) {
     return status;
   }
-  const auto work = call.plan();
-  return run_blocks(work.units(), options, work.scratch_bytes(),
-                    [&](int worker, std::size_t begin, std::size_t end, unsigned char* scratch) {
-                      return work.run(worker, begin, end, scratch);
-                    });
+  if constexpr (HasDestination<Call>) {
+    return run_to_destination(call, options);
+  } else {
+    const auto work = call.plan();
+    return run_work(AnyWork(work), options);
+  }
 }
 
 /// The components that a call evaluates.
@@ -113,6 +116,20 @@ struct Given {
       : set(patches), where(samples), out(outputs), first_component(outputs.first_component),
         options(how) {}
 };
+
+/// What a call on patches needs to know to choose a destination.
+template <typename T, typename Where>
+[[nodiscard]] CallKind kind_of_patches(CallName name, const Given<T, PatchSet<T>, Where>& in,
+                                       const Request<T>& request) noexcept {
+  const SetStorage<T>& set = *in.set.storage();
+  const NetShape& shape = set.buckets[0].shape;
+  return kind_of_outputs(name, in.out, *request.table)
+      .add(set.buckets.size())
+      .add(shape.order_u())
+      .add(shape.order_v())
+      .add(shape.channels())
+      .add(in.options.watertight ? 1 : 0);
+}
 
 /// nu x nv samples of each of `count` patches; false where there are more than can be counted.
 [[nodiscard]] inline bool multiply_samples(std::size_t nu, std::size_t nv, std::size_t count,

@@ -26,9 +26,19 @@ template <typename T>
 
 /// How the vectors of a call are delivered; curvatures are always written directly.
 template <typename T>
-[[nodiscard]] OutputPlan<T> plan_outputs(const OutputList<T>& out, std::size_t samples,
+[[nodiscard]] OutputPlan<T> plan_outputs(const OutputList<T>& out,
                                          Destination destination) noexcept {
-  return {out, samples, out.wants_vectors() ? destination : Destination::cache};
+  return {out, out.wants_vectors() ? destination : Destination::cache};
+}
+
+/// What a call on curves needs to know to choose a destination.
+template <typename T, typename Where>
+[[nodiscard]] CallKind kind_of_curves(CallName name, const Given<T, CurveSet<T>, Where>& in,
+                                      const Request<T>& request) noexcept {
+  const CurveShape& shape = in.set.storage()->shape;
+  return kind_of_outputs(name, in.out, *request.table)
+      .add(static_cast<std::uint64_t>(shape.degree))
+      .add(shape.values());
 }
 
 /// Fills in what tasks of all kinds have in common, for curves from `first` on and samples from

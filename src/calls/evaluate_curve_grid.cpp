@@ -35,15 +35,16 @@ template <typename T>
 class CurveGridWork {
 public:
   CurveGridWork(const CurveStorage<T>& curves, const Request<T>& request, const GridPlan<T>& plan,
-                const OutputList<T>& out, const Options& options) noexcept
+                const OutputList<T>& out, Destination destination) noexcept
       : first_curve_(request.first), curves_(request.count), plan_(plan),
-        outputs_(plan_outputs(out, plan.nu() * curves_, options.destination)),
-        kernels_{curves, *request.table, request.components.first, 0} {
+        outputs_(plan_outputs(out, destination)), kernels_{curves, *request.table,
+                                                           request.components.first, 0} {
     const std::size_t n = plan.nu();
     const bool one_pass = out.wants(kCurvePosition) && !out.wants(kCurveD1) &&
                           !out.wants(kCurveD2) && !out.wants_curvature();
-    outputs_.arrange({.row = one_pass ? n : 0, .lanes = kernels_.table.lanes, .streamed = true},
-                     thread_count(options.threads, curves_));
+    outputs_.put_directly({.row = one_pass ? n : 0,
+                           .lanes = kernels_.table.lanes,
+                           .streamed = kernels_.table.lanes * sizeof(T) == 64});
     kernels_.rows = goes_in_rows(curves.shape, outputs_, kernels_.table, n);
     if (kernels_.rows) {
       outputs_.write_directly();
@@ -53,6 +54,7 @@ public:
   }
 
   [[nodiscard]] std::size_t units() const noexcept { return curves_ * strips_; }
+  [[nodiscard]] std::size_t grain() const noexcept { return strips_; }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return kernels_.delivery_bytes(outputs_);
   }
@@ -106,8 +108,14 @@ public:
     return usable ? plan_.build(one_row(in_.where)) : usable;
   }
   [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
-  [[nodiscard]] CurveGridWork<T> plan() const noexcept {
-    return {*in_.set.storage(), request_, plan_, in_.out, in_.options};
+  [[nodiscard]] CurveGridWork<T> plan(Destination destination) const noexcept {
+    return {*in_.set.storage(), request_, plan_, in_.out, destination};
+  }
+  [[nodiscard]] std::size_t written() const noexcept {
+    return written_bytes(in_.out, plan_.nu() * request_.count);
+  }
+  [[nodiscard]] CallKind kind() const noexcept {
+    return kind_of_curves(CallName::curve_grid, in_, request_).add(plan_.nu());
   }
 
 private:

@@ -16,15 +16,15 @@ class CurveGridsWork {
 public:
   CurveGridsWork(const CurveStorage<T>& curves, const Request<T>& request,
                  const CountedGrids& grids, const OutputList<T>& out,
-                 const Options& options) noexcept
+                 Destination destination) noexcept
       : first_curve_(request.first), grids_(grids),
-        outputs_(plan_outputs(out, grids.total(), options.destination)),
-        kernels_{curves, *request.table, request.components.first, 0} {
-    outputs_.arrange({}, thread_count(options.threads, grids.total()));
+        outputs_(plan_outputs(out, destination)), kernels_{curves, *request.table,
+                                                           request.components.first, 0} {
     kernels_.chunk_samples = Delivery<T>::chunk_samples(outputs_);
   }
 
   [[nodiscard]] std::size_t units() const noexcept { return grids_.total(); }
+  [[nodiscard]] std::size_t grain() const noexcept { return 1; }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return kernels_.delivery_bytes(outputs_) + PlanCache<T>::memory_bytes(grids_);
   }
@@ -91,8 +91,14 @@ public:
                    : counted;
   }
   [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
-  [[nodiscard]] CurveGridsWork<T> plan() const noexcept {
-    return {*in_.set.storage(), request_, counted_, in_.out, in_.options};
+  [[nodiscard]] CurveGridsWork<T> plan(Destination destination) const noexcept {
+    return {*in_.set.storage(), request_, counted_, in_.out, destination};
+  }
+  [[nodiscard]] std::size_t written() const noexcept {
+    return written_bytes(in_.out, counted_.total());
+  }
+  [[nodiscard]] CallKind kind() const noexcept {
+    return kind_of_curves(CallName::curve_grids, in_, request_);
   }
 
 private:

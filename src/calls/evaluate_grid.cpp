@@ -15,24 +15,18 @@ template <typename T>
 class GridWork {
 public:
   GridWork(const SetStorage<T>& set, const Request<T>& request, const GridPlan<T>& plan,
-           const OutputList<T>& out, const Options& options) noexcept
+           const OutputList<T>& out, const Options& options, Destination destination) noexcept
       : kernels_(set, request, out, options), first_patch_(request.first), patches_(request.count),
-        plan_(plan), outputs_(out, plan.nu() * plan.nv() * patches_, options.destination) {
-    outputs_.arrange(kernels_.direct_rows(plan.nu(), true),
-                     thread_count(options.threads, patches_));
-    const std::size_t samples = Delivery<T>::chunk_samples(outputs_);
-    strip_rows_ = std::clamp<std::size_t>(samples / plan.nu(), 1, plan.nv());
-    strips_ = (plan.nv() + strip_rows_ - 1) / strip_rows_;
-    const std::size_t patch_samples = plan.nu() * plan.nv();
-    together_ = strips_ > 1         ? 1
-                : outputs_.staged() ? std::max<std::size_t>(samples / patch_samples, 1)
-                                    : ~std::size_t(0);
-    chunk_samples_ = strips_ > 1 ? strip_rows_ * plan.nu() : together_ * patch_samples;
+        plan_(plan), outputs_(out, destination) {
+    outputs_.put_directly(kernels_.direct_rows(plan.nu(), true));
+    divide(Delivery<T>::chunk_samples(outputs_));
+    chunk_samples_ = (strips_ > 1 ? strip_rows_ : together_ * plan.nv()) * plan.nu();
     delivery_bytes_ = whole_lines(
         Delivery<T>::scratch_bytes(outputs_.staged_planes(), outputs_.streaming(), chunk_samples_));
   }
 
   [[nodiscard]] std::size_t units() const noexcept { return patches_ * strips_; }
+  [[nodiscard]] std::size_t grain() const noexcept { return strips_; }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return delivery_bytes_ + PieceEvaluator<T>::scratch_bytes(strip_rows_);
   }
@@ -43,21 +37,39 @@ public:
                                 scratch == nullptr ? nullptr : scratch + delivery_bytes_);
     Delivery<T> delivery(outputs_, *kernels_.table, chunk_samples_, scratch);
     for (std::size_t unit = begin; unit < end;) {
-      const std::size_t patch = unit / strips_;
-      const std::size_t first_row = unit % strips_ * strip_rows_;
-      const std::size_t patches = std::min(together_, end - unit);
-      const GridPiece piece{first_patch_ + patch, patches, first_row,
-                            std::min(plan_.nv(), first_row + strip_rows_)};
-      const std::size_t sample = (patch * plan_.nv() + first_row) * plan_.nu();
-      evaluator.run(plan_, piece, {outputs_, delivery, sample});
-      delivery.end(patches * (piece.last_row - piece.first_row) * plan_.nu());
-      unit += patches;
+      const GridPiece piece = piece_at(unit, end);
+      const std::size_t after = unit + piece.patches;
+      const GridPiece next = after < end ? piece_at(after, end) : piece;
+      const std::size_t sample = (unit / strips_ * plan_.nv() + piece.first_row) * plan_.nu();
+      evaluator.run(plan_, piece, {outputs_, delivery, sample}, &next);
+      delivery.end(piece.patches * (piece.last_row - piece.first_row) * plan_.nu());
+      unit = after;
     }
     delivery.finish();
     return evaluator.executed();
   }
 
 private:
+  /// Strips of equal size, or whole patches, of about `samples` samples. Chunks that are streamed
+  /// may have a quarter more: a second strip for a few rows would cost as much as many.
+  void divide(std::size_t samples) noexcept {
+    const std::size_t patch_samples = plan_.nu() * plan_.nv();
+    const bool rounds = outputs_.staged() && outputs_.streaming();
+    const std::size_t rows = std::clamp<std::size_t>(samples / plan_.nu(), 1, plan_.nv());
+    strips_ = std::max<std::size_t>((plan_.nv() + rows - 1 - (rounds ? rows / 4 : 0)) / rows, 1);
+    strip_rows_ = (plan_.nv() + strips_ - 1) / strips_;
+    strips_ = (plan_.nv() + strip_rows_ - 1) / strip_rows_;
+    together_ = !outputs_.staged() ? ~std::size_t(0)
+                                   : (samples + (rounds ? patch_samples / 4 : 0)) / patch_samples;
+    together_ = strips_ > 1 ? 1 : std::max<std::size_t>(together_, 1);
+  }
+
+  [[nodiscard]] GridPiece piece_at(std::size_t unit, std::size_t end) const noexcept {
+    const std::size_t first_row = unit % strips_ * strip_rows_;
+    return {first_patch_ + unit / strips_, std::min(together_, end - unit), first_row,
+            std::min(plan_.nv(), first_row + strip_rows_)};
+  }
+
   PatchKernels<T> kernels_;
   std::size_t first_patch_;
   std::size_t patches_;
@@ -91,8 +103,14 @@ public:
     return usable ? plan_.build(in_.where) : usable;
   }
   [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
-  [[nodiscard]] GridWork<T> plan() const noexcept {
-    return {*in_.set.storage(), request_, plan_, in_.out, in_.options};
+  [[nodiscard]] GridWork<T> plan(Destination destination) const noexcept {
+    return {*in_.set.storage(), request_, plan_, in_.out, in_.options, destination};
+  }
+  [[nodiscard]] std::size_t written() const noexcept {
+    return written_bytes(in_.out, plan_.nu() * plan_.nv() * request_.count);
+  }
+  [[nodiscard]] CallKind kind() const noexcept {
+    return kind_of_patches(CallName::grid, in_, request_).add(plan_.nu()).add(plan_.nv());
   }
 
 private:

@@ -19,11 +19,10 @@ template <typename T>
 class PatchGridsWork {
 public:
   PatchGridsWork(const SetStorage<T>& set, const Request<T>& request, const CountedGrids& grids,
-                 const OutputList<T>& out, const Options& options) noexcept
+                 const OutputList<T>& out, const Options& options, Destination destination) noexcept
       : kernels_(set, request, out, options), first_patch_(request.first), grids_(grids),
-        outputs_(out, grids.total(), options.destination) {
-    outputs_.arrange(kernels_.direct_rows(grids.least_nu(), false),
-                     thread_count(options.threads, grids.total()));
+        outputs_(out, destination) {
+    outputs_.put_directly(kernels_.direct_rows(grids.least_nu(), false));
     piece_samples_ = Delivery<T>::chunk_samples(outputs_);
     chunk_samples_ = std::max(piece_samples_, grids.most_nu());
     delivery_bytes_ = whole_lines(
@@ -32,6 +31,7 @@ public:
   }
 
   [[nodiscard]] std::size_t units() const noexcept { return grids_.total(); }
+  [[nodiscard]] std::size_t grain() const noexcept { return 1; }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return delivery_bytes_ + plan_bytes_ + PieceEvaluator<T>::scratch_bytes(kMostRows);
   }
@@ -50,10 +50,12 @@ public:
       };
       const GridPlan<T>& plan = plans.find(nu, nv);
       for (std::size_t row = rows_before(begin), last = rows_before(end); row < last;) {
-        const std::size_t rows =
-            std::min({last - row, std::max<std::size_t>(piece_samples_ / nu, 1), kMostRows});
-        evaluator.run(plan, {first_patch_ + k, 1, row, row + rows},
-                      {outputs_, delivery, grids_.offset(k) + row * nu});
+        const std::size_t most = std::min(std::max<std::size_t>(piece_samples_ / nu, 1), kMostRows);
+        const std::size_t rows = std::min(last - row, most);
+        const GridPiece piece{first_patch_ + k, 1, row, row + rows};
+        const GridPiece next = piece_after(piece, k, last, most);
+        evaluator.run(plan, piece, {outputs_, delivery, grids_.offset(k) + row * nu},
+                      next == piece ? nullptr : &next);
         delivery.end(rows * nu);
         row += rows;
       }
@@ -63,6 +65,19 @@ public:
   }
 
 private:
+  /// The next rows of patch k, of which there are `last`, or the first ones of the patch behind it
+  /// where its grid is the same; otherwise the piece itself.
+  [[nodiscard]] GridPiece piece_after(const GridPiece& piece, std::size_t k, std::size_t last,
+                                      std::size_t most) const noexcept {
+    const std::size_t row = piece.last_row;
+    if (row < last) {
+      return {piece.patch, 1, row, std::min(row + most, last)};
+    }
+    const bool alike = k + 1 < grids_.size() && grids_.nu(k + 1) == grids_.nu(k) &&
+                       grids_.nv(k + 1) == grids_.nv(k);
+    return alike ? GridPiece{piece.patch + 1, 1, 0, std::min(most, grids_.nv(k))} : piece;
+  }
+
   PatchKernels<T> kernels_;
   std::size_t first_patch_;
   const CountedGrids& grids_;
@@ -91,8 +106,14 @@ public:
                    : counted;
   }
   [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
-  [[nodiscard]] PatchGridsWork<T> plan() const noexcept {
-    return {*in_.set.storage(), request_, counted_, in_.out, in_.options};
+  [[nodiscard]] PatchGridsWork<T> plan(Destination destination) const noexcept {
+    return {*in_.set.storage(), request_, counted_, in_.out, in_.options, destination};
+  }
+  [[nodiscard]] std::size_t written() const noexcept {
+    return written_bytes(in_.out, counted_.total());
+  }
+  [[nodiscard]] CallKind kind() const noexcept {
+    return kind_of_patches(CallName::patch_grids, in_, request_);
   }
 
 private:

@@ -158,8 +158,8 @@ public:
     const Outputs<T> places =
         TileMemory<T>(format_, request_.components.dimension, shape_.samples).place(scratch);
     const OutputList<T> out(places);
-    OutputPlan<T> outputs(out, shape_.samples, Destination::cache);
-    outputs.arrange(kernels_.direct_rows(plan_.nu(), false), 1);
+    OutputPlan<T> outputs(out, Destination::cache);
+    outputs.put_directly(kernels_.direct_rows(plan_.nu(), false));
     Delivery<T> delivery(outputs, *kernels_.table, shape_.samples, scratch + tile_bytes_);
     PieceEvaluator<T> evaluator(kernels_, shape_.rows, scratch + tile_bytes_ + staging_bytes_);
     for (std::size_t unit = begin; unit < end;) {
@@ -173,7 +173,7 @@ public:
       tile.row_count = piece.last_row - first_row;
       tile.samples = patches * tile.row_count * tile.nu;
       tile.out = places;
-      evaluator.run(plan_, piece, {outputs, delivery, 0});
+      evaluator.run(plan_, piece, {outputs, delivery, 0}, nullptr);
       delivery.end(tile.samples);
       delivery.finish();
       function_(tile);

@@ -58,10 +58,17 @@ struct PatchKernels {
     const bool bicubic =
         !choice.any_shape && set->places == nullptr && set->buckets[0].shape.is_bicubic();
     const bool one_pass = !choice.second && choice.outputs != kAnyOutputs;
+    const bool records = table->puts_records && watertight && set->buckets[0].origins == nullptr;
+    // Kernels stream whole lines: registers, or positions two registers at a time, but those not
+    // where rows are an even number of lines. Memory takes each second line at half of its rate.
+    const std::size_t bytes = table->lanes * sizeof(T);
+    const bool pairs = 2 * bytes == 64 && choice.outputs == kPosition && !table->compact &&
+                       nu * sizeof(T) / 64 % 2 == 1;
     return {.row = bicubic && one_pass ? nu : 0,
             .lanes = table->lanes,
-            .streamed = streamed,
-            .records = table->puts_records && watertight && set->buckets[0].origins == nullptr};
+            .streamed = streamed && (bytes == 64 || pairs),
+            .records = records,
+            .streamed_records = streamed && records && bytes == 64};
   }
 
   void run(GridTask<T>& task) const noexcept {

@@ -27,24 +27,44 @@ void prefill_status(const GridTask<T>& task, SampleStatus* status) noexcept {
 
 template <typename T>
 std::size_t PieceEvaluator<T>::scratch_bytes(std::size_t rows) noexcept {
-  return rows > kInlineRows ? rows * sizeof(RowRun<T>) : 0;
+  return rows > kInlineRows ? 2 * rows * sizeof(RowRun<T>) : 0;
 }
 
 template <typename T>
 PieceEvaluator<T>::PieceEvaluator(const PatchKernels<T>& kernels, std::size_t rows,
                                   void* scratch) noexcept
-    : kernels_(kernels),
-      runs_(rows > kInlineRows ? static_cast<RowRun<T>*>(scratch) : inline_runs_) {}
+    : kernels_(kernels) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    prepared_[k].runs =
+        rows > kInlineRows ? static_cast<RowRun<T>*>(scratch) + k * rows : inline_runs_[k];
+  }
+}
 
 template <typename T>
-void PieceEvaluator<T>::fill(GridTask<T>& task, const PatchStorage<T>& set, const GridPlan<T>& plan,
-                             const GridPiece& piece, const Target& to) const noexcept {
+void PieceEvaluator<T>::Prepared::find_rows(const GridPlan<T>& where,
+                                            const GridPiece& rows) noexcept {
+  if (plan != &where || generation != where.generation() || first_row != rows.first_row ||
+      last_row != rows.last_row) {
+    plan = &where;
+    generation = where.generation();
+    first_row = rows.first_row;
+    last_row = rows.last_row;
+    run_count = where.fill_runs(first_row, last_row, runs);
+    ahead = false;
+  }
+}
+
+template <typename T>
+void PieceEvaluator<T>::fill(Prepared& prepared, const PatchStorage<T>& set,
+                             const GridPlan<T>& plan, const GridPiece& piece,
+                             const Target& to) const noexcept {
+  GridTask<T>& task = prepared.task;
   static_cast<PatchArrays<T>&>(task) = set.arrays(piece.patch);
   task.patch_count = piece.patches;
   task.x = plan.x();
   task.nu = plan.nu();
-  task.runs = runs_;
-  task.run_count = run_count_;
+  task.runs = prepared.runs;
+  task.run_count = prepared.run_count;
   for (std::size_t g = 0; g < kGroups; ++g) {
     task.out[g] = to.planes[g];
   }
@@ -62,21 +82,13 @@ void PieceEvaluator<T>::fill(GridTask<T>& task, const PatchStorage<T>& set, cons
 }
 
 template <typename T>
-void PieceEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece,
-                            const Target& to) noexcept {
-  if (plan_ != &plan || generation_ != plan.generation() || first_row_ != piece.first_row ||
-      last_row_ != piece.last_row) {
-    plan_ = &plan;
-    generation_ = plan.generation();
-    first_row_ = piece.first_row;
-    last_row_ = piece.last_row;
-    run_count_ = plan.fill_runs(first_row_, last_row_, runs_);
-    guessed_ = false;
-  }
+void PieceEvaluator<T>::run(const GridPlan<T>& plan, const GridPiece& piece, const Target& to,
+                            const GridPiece* next) noexcept {
+  prepared_[turn_].find_rows(plan, piece);
   if (kernels_.set->places != nullptr) {
     run_mixed(plan, piece, to);
   } else {
-    run_bucket(kernels_.set->buckets[0], plan, piece, to);
+    run_bucket(kernels_.set->buckets[0], plan, piece, to, next);
   }
 }
 
@@ -95,34 +107,37 @@ void PieceEvaluator<T>::run_mixed(const GridPlan<T>& plan, const GridPiece& piec
     Planes<T> planes[kGroups];
     const Target part = to.from(k * patch_samples, planes);
     run_bucket(kernels_.set->buckets[places[k].bucket], plan,
-               {places[k].index, last - k, piece.first_row, piece.last_row}, part);
+               {places[k].index, last - k, piece.first_row, piece.last_row}, part, nullptr);
     k = last;
   }
 }
 
 template <typename T>
 void PieceEvaluator<T>::run_bucket(const PatchStorage<T>& bucket, const GridPlan<T>& plan,
-                                   const GridPiece& piece, const Target& to) noexcept {
-  GridTask<T>& task = task_[turn_];
-  if (!guessed_ || !(guess_ == piece) || to.status != nullptr || kernels_.choice.any_shape) {
-    fill(task, bucket, plan, piece, to);
+                                   const GridPiece& piece, const Target& to,
+                                   const GridPiece* next) noexcept {
+  Prepared& now = prepared_[turn_];
+  if (!now.ahead || !(now.piece == piece) || to.status != nullptr || kernels_.choice.any_shape) {
+    fill(now, bucket, plan, piece, to);
   }
-  guessed_ = to.drain != nullptr && to.next != nullptr;
-  if (guessed_) {
-    guess_ = piece;
-    guess_.patch += piece.patches;
-    Target next = to;
-    next.planes = to.next;
+  now.ahead = false;
+  if (to.drain != nullptr && to.next != nullptr && next != nullptr) {
     turn_ = 1 - turn_;
-    fill(task_[turn_], bucket, plan, guess_, next);
+    Prepared& later = prepared_[turn_];
+    later.find_rows(plan, *next);
+    Target after = to;
+    after.planes = to.next;
+    fill(later, bucket, plan, *next, after);
+    later.ahead = true;
+    later.piece = *next;
   }
   if (to.status != nullptr) {
     for (std::size_t p = 0; p < piece.patches; ++p) {
-      prefill_status(task, to.status + p * task.patch_step);
+      prefill_status(now.task, to.status + p * now.task.patch_step);
     }
   }
-  kernels_.run(task);
-  executed_ = task.executed;
+  kernels_.run(now.task);
+  executed_ = now.task.executed;
 }
 
 template class PieceEvaluator<float>;

@@ -19,8 +19,8 @@ struct GridPiece {
   friend bool operator==(const GridPiece&, const GridPiece&) = default;
 };
 
-/// One thread's evaluator. Remembers the rows of the last piece, which most often are those of the
-/// next one.
+/// One thread's evaluator. Remembers the rows of the last pieces, which most often are those of the
+/// next ones.
 template <typename T>
 class PieceEvaluator {
 public:
@@ -36,7 +36,7 @@ public:
     SampleStatus* status = nullptr;    ///< may be null
     T* curvature[kCurvatures] = {};    ///< may be null
     DrainQueue<T>* drain = nullptr;    ///< may be null
-    bool streaming = false;            ///< see OutputPlan::arrange()
+    bool streaming = false;            ///< see OutputPlan::put_directly()
     const Planes<T>* next = nullptr;   ///< with a drain: the planes of the piece after this one
     std::size_t record = 1;            ///< see GridTask
 
@@ -70,7 +70,9 @@ public:
       return rest;
     }
   };
-  void run(const GridPlan<T>& plan, const GridPiece& piece, const Target& to) noexcept;
+  /// next: the piece after this one on the same plan, as far as the caller knows; null otherwise.
+  void run(const GridPlan<T>& plan, const GridPiece& piece, const Target& to,
+           const GridPiece* next) noexcept;
 
   /// The instruction set of the kernels that ran.
   [[nodiscard]] Isa executed() const noexcept { return executed_; }
@@ -78,28 +80,34 @@ public:
 private:
   static constexpr std::size_t kInlineRows = 128;
 
+  /// A task is copied in large pieces by the kernels, so with streaming stores it is written one
+  /// piece ahead (see src/tables/drain_queue.hpp).
+  struct Prepared {
+    GridTask<T> task{};
+    RowRun<T>* runs = nullptr;
+    std::size_t run_count = 0;
+    const GridPlan<T>* plan = nullptr; ///< of runs, with the three below
+    std::uint32_t generation = 0;
+    std::size_t first_row = 0;
+    std::size_t last_row = 0;
+    bool ahead = false; ///< the task is that of `piece`
+    GridPiece piece{};
+
+    void find_rows(const GridPlan<T>& where, const GridPiece& rows) noexcept;
+  };
+
   /// bucket, piece.patch: where the piece's patches are stored.
-  void fill(GridTask<T>& task, const PatchStorage<T>& bucket, const GridPlan<T>& plan,
+  void fill(Prepared& prepared, const PatchStorage<T>& bucket, const GridPlan<T>& plan,
             const GridPiece& piece, const Target& to) const noexcept;
   void run_bucket(const PatchStorage<T>& bucket, const GridPlan<T>& plan, const GridPiece& piece,
-                  const Target& to) noexcept;
+                  const Target& to, const GridPiece* next) noexcept;
   void run_mixed(const GridPlan<T>& plan, const GridPiece& piece, const Target& to) noexcept;
 
   const PatchKernels<T>& kernels_;
-  RowRun<T>* runs_;
-  std::size_t run_count_ = 0;
-  const GridPlan<T>* plan_ = nullptr; ///< of runs_, with the three below
-  std::uint32_t generation_ = 0;
-  std::size_t first_row_ = 0;
-  std::size_t last_row_ = 0;
   Isa executed_ = Isa::automatic;
-  // A task is copied in large pieces by the kernels, so with streaming stores it is written one
-  // piece ahead, as a guess (see src/tables/drain_queue.hpp).
-  GridTask<T> task_[2] = {};
+  Prepared prepared_[2];
   std::size_t turn_ = 0;
-  bool guessed_ = false;
-  GridPiece guess_{};
-  RowRun<T> inline_runs_[kInlineRows];
+  RowRun<T> inline_runs_[2][kInlineRows];
 };
 
 } // namespace simdbezier::detail

@@ -42,14 +42,13 @@ template <typename T>
 class MeshWork {
 public:
   MeshWork(const PatchKernels<T>& kernels, const OutputList<T>& out, const VertexTask<T>& task,
-           const ParameterOutputs<T>& parameters, const Options& options) noexcept
-      : outputs_(out, task.last_vertex - task.first_vertex, options.destination), task_(task),
-        parameters_(parameters), kernels_(kernels), sizes_(task, 0) {
+           const ParameterOutputs<T>& parameters, Destination destination) noexcept
+      : outputs_(out, destination), task_(task), parameters_(parameters), kernels_(kernels),
+        sizes_(task, 0) {
     task_.kernels = &kernels_;
     const auto& nu = task.mesh->nu;
-    outputs_.arrange(kernels_.direct_rows(*std::min_element(nu.begin(), nu.end()) - 1, false),
-                     thread_count(options.threads, units()));
-    sizes_ = VertexSizes<T>(task_, std::min(Delivery<T>::chunk_samples(outputs_), kMostChunk));
+    outputs_.put_directly(kernels_.direct_rows(*std::min_element(nu.begin(), nu.end()) - 1, false));
+    sizes_ = VertexSizes<T>(task_, std::min(chunk(), kMostChunk));
     delivery_bytes_ = whole_lines(
         Delivery<T>::scratch_bytes(outputs_.staged_planes(), outputs_.streaming(), sizes_.chunk));
   }
@@ -59,6 +58,7 @@ public:
   [[nodiscard]] std::size_t units() const noexcept {
     return task_.last_vertex - task_.first_vertex;
   }
+  [[nodiscard]] std::size_t grain() const noexcept { return 1; }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return delivery_bytes_ + VertexWorker<T, DeliverySink<T>>::scratch_bytes(task_, sizes_);
   }
@@ -71,6 +71,13 @@ public:
   }
 
 private:
+  /// Boundaries gain more by long chunks than samples by staging in the first-level cache.
+  [[nodiscard]] std::size_t chunk() const noexcept {
+    constexpr std::size_t kStreamed = (std::size_t{160} << 10) / sizeof(T);
+    return outputs_.streaming() && outputs_.staged() ? kStreamed / outputs_.staged_planes()
+                                                     : Delivery<T>::chunk_samples(outputs_);
+  }
+
   /// Boundaries of so many vertices stay in a cache until their samples are evaluated.
   static constexpr std::size_t kMostChunk = 8192;
 
@@ -185,7 +192,14 @@ public:
     return in_.attributes.check(in_.vectors, vertices);
   }
   [[nodiscard]] bool empty() const noexcept { return last_vertex() == first_vertex(); }
-  [[nodiscard]] MeshWork<T> plan() const noexcept {
+  [[nodiscard]] std::size_t written() const noexcept {
+    return written_bytes(out_, last_vertex() - first_vertex());
+  }
+  [[nodiscard]] CallKind kind() const noexcept {
+    return kind_of_outputs(CallName::mesh, out_, *request_.table)
+        .add(static_cast<std::uint64_t>(in_.values));
+  }
+  [[nodiscard]] MeshWork<T> plan(Destination destination) const noexcept {
     VertexTask<T> task{};
     task.mesh = in_.layout.data();
     task.dimension = out_.holds(Output::position) ? request_.components.dimension : 0;
@@ -194,7 +208,7 @@ public:
     task.first_vertex = first_vertex();
     task.last_vertex = last_vertex();
     return MeshWork<T>({*in_.set.storage(), request_, out_, in_.options}, out_, task,
-                       in_.attributes.outputs(), in_.options);
+                       in_.attributes.outputs(), destination);
   }
 
 private:

@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 
+#include "src/calls/destined_call.hpp"
 #include "src/mesh/primitive_call.hpp"
 #include "src/mesh/triangle_writer.hpp"
 #include "src/runtime/batch.hpp"
@@ -14,11 +15,10 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-/// Whether numbers go past the caches: beyond half of the last one, since callers have other data.
-bool streams_to(Destination destination, std::size_t bytes, int threads) noexcept {
-  return destination == Destination::memory ||
-         (destination == Destination::automatic && bytes > last_level_cache() / 2 &&
-          staged_streaming_pays(thread_count(threads, bytes)));
+/// Whether numbers go past the caches.
+bool streams_to(Destination destination, std::size_t bytes) noexcept {
+  return (destination == Destination::automatic ? unmeasured_destination(bytes) : destination) ==
+         Destination::memory;
 }
 
 /// Threads share triangles, not patches, whose rates may differ much.
@@ -69,9 +69,9 @@ Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, int
   if (const Status runs = resolve_isa(Isa::automatic, isa); !runs) {
     return runs;
   }
-  return detail::write_all_triangles(
-      *layout.data(), detail::kernel_table<float>(isa), range, triangles.data(), threads,
-      detail::streams_to(destination, needed * sizeof(Index), threads));
+  return detail::write_all_triangles(*layout.data(), detail::kernel_table<float>(isa), range,
+                                     triangles.data(), threads,
+                                     detail::streams_to(destination, needed * sizeof(Index)));
 }
 
 template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint32_t>, int,

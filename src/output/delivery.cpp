@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <cstring>
 
+#include "src/runtime/dispatch.hpp"
+
 namespace simdbezier::detail {
 namespace {
 
 /// What a kernel writes and a drain reads at once stays in a first-level cache.
 constexpr std::size_t kStagingBytes = std::size_t{20} << 10;
-/// Streaming hides the second-level cache behind memory; long chunks have fewer starts and ends.
-constexpr std::size_t kStreamingBytes = std::size_t{160} << 10;
+/// Three such chunks are a first-level cache, so that two stay in there: streaming stores take the
+/// buffers that its misses need, and the stores and loads of staging would wait for them.
+std::size_t streaming_bytes() noexcept { return first_level_cache() / 3; }
 
 /// Pieces that kernels write directly; bounds only how much one thread takes of a huge grid.
 constexpr std::size_t kDirectSamples = 65536;
@@ -30,7 +33,7 @@ std::size_t Delivery<T>::chunk_samples(const OutputPlan<T>& plan) noexcept {
   if (!plan.staged()) {
     return kDirectSamples;
   }
-  const std::size_t bytes = plan.streaming() ? kStreamingBytes : kStagingBytes;
+  const std::size_t bytes = plan.streaming() ? streaming_bytes() : kStagingBytes;
   return bytes / sizeof(T) / plan.staged_planes();
 }
 

@@ -6,8 +6,6 @@
 #include <cstdlib>
 #include <functional>
 
-#include "src/runtime/dispatch.hpp"
-
 namespace simdbezier::detail {
 namespace {
 
@@ -38,32 +36,15 @@ std::size_t StreamShape<T>::records_to_line(std::size_t record) const noexcept {
 }
 
 template <typename T>
-OutputPlan<T>::OutputPlan(const OutputList<T>& out, std::size_t samples,
-                          Destination destination) noexcept
-    : out_(out), automatic_(destination == Destination::automatic) {
-  std::size_t components = 0;
+OutputPlan<T>::OutputPlan(const OutputList<T>& out, Destination destination) noexcept
+    : out_(out), streaming_(destination == Destination::memory) {
   for (std::size_t g = 0; g < out.vector_count; ++g) {
     if (out.wants(g)) {
       dimension_ = dimension_of(*out.vectors[g]);
-      components += dimension_;
+      vector_values_ += dimension_;
     }
   }
-  vector_values_ = components;
-  components += components == 0 ? kCurvatures : 0;
-  // Half of the cache: the consumer has other data, too.
-  streaming_ = destination == Destination::memory ||
-               (automatic_ && samples > last_level_cache() / 2 / sizeof(T) / components);
   stage();
-}
-
-template <typename T>
-void OutputPlan<T>::arrange(const DirectRows& rows, int threads) noexcept {
-  put_directly(rows);
-  if (automatic_ && streaming_ && staged() && !staged_streaming_pays(threads)) {
-    streaming_ = false;
-    stage();
-    put_directly(rows);
-  }
 }
 
 /// What is not written directly: everything where stores are to bypass the caches, records
@@ -82,10 +63,13 @@ void OutputPlan<T>::stage() noexcept {
 template <typename T>
 void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
   const std::size_t record = stream_[0].members;
-  const bool lines = rows.streamed && rows.lanes * sizeof(T) == 64 && rows.row % rows.lanes == 0;
-  const bool registers = rows.records && staged_planes_ == vector_values_;
-  bool possible = staged() && rows.row >= rows.lanes && (streaming_ ? lines : registers) &&
-                  (record == 1 || (rows.records && (record == 3 || record == staged_planes_)));
+  const std::size_t line = 64 / sizeof(T);
+  const bool known = record == 1 || record == 3 || record == staged_planes_;
+  const bool all = staged_planes_ == vector_values_;
+  const bool streams =
+      (record == 1 ? rows.streamed : rows.streamed_records) && rows.row % line == 0;
+  const bool stores = rows.records && all;
+  bool possible = staged() && rows.row >= rows.lanes && known && (streaming_ ? streams : stores);
   for (std::size_t k = 0; possible && k < streams_; ++k) {
     const StreamShape<T>& shape = stream_[k];
     possible = shape.members == record && shape.stride == static_cast<std::ptrdiff_t>(record) &&

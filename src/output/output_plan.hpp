@@ -29,23 +29,23 @@ struct StreamShape {
 struct DirectRows {
   std::size_t row = 0; ///< 0: nothing
   std::size_t lanes = 1;
-  bool streamed = false; ///< planes, and records too, past the caches: whole lines, whole registers
-  bool records = false;  ///< triples of each group, or one vertex of all
+  bool streamed = false;         ///< planes past the caches: whole lines
+  bool records = false;          ///< triples of each group, or one vertex of all
+  bool streamed_records = false; ///< likewise, past the caches
 };
 
 /// How the outputs of one call are delivered.
 template <typename T>
 class OutputPlan {
 public:
-  /// out: checked, and alive as long as the plan.
-  OutputPlan(const OutputList<T>& out, std::size_t samples, Destination destination) noexcept;
+  /// out: checked, and alive as long as the plan. destination: not automatic.
+  OutputPlan(const OutputList<T>& out, Destination destination) noexcept;
 
   [[nodiscard]] const OutputList<T>& out() const noexcept { return out_; }
   [[nodiscard]] bool staged() const noexcept { return staged_planes_ > 0; }
   [[nodiscard]] bool streaming() const noexcept { return streaming_; }
-  /// Gives up staging where kernels can do without it. Gives up streaming that the caller did not
-  /// ask for, where it needs staging that does not pay with so many threads.
-  void arrange(const DirectRows& rows, int threads) noexcept;
+  /// Gives up staging where kernels can do without it.
+  void put_directly(const DirectRows& rows) noexcept;
   /// Values from one sample to the next where kernels write directly: 1 for planes, 3 for triples
   /// of each group, more for one vertex of all groups, counted from a group's first component.
   [[nodiscard]] std::size_t record() const noexcept { return record_; }
@@ -66,14 +66,12 @@ public:
   [[nodiscard]] const StreamShape<T>& stream(std::size_t k) const noexcept { return stream_[k]; }
 
 private:
-  void put_directly(const DirectRows& rows) noexcept;
   void stage() noexcept;
   void add_streams() noexcept;
 
   const OutputList<T>& out_;
   std::size_t dimension_ = 3;
-  bool automatic_; ///< whether to stream was left to the call
-  bool streaming_ = false;
+  bool streaming_;
   std::size_t vector_values_ = 0; ///< of one sample
   std::size_t staged_planes_ = 0;
   std::size_t record_ = 1;

@@ -40,32 +40,56 @@ private:
 /// floating-point environment. One thread is the caller's own, without an OpenMP region.
 void for_blocks(std::size_t units, int threads, BlockBody body) noexcept;
 
-/// Runs an evaluate call: `Isa work(worker, begin, end, unsigned char* scratch)` on every thread's
-/// share of the units, each with `scratch_bytes` of its own from a cache line of its own, and
-/// reports the instruction set that ran. Returns ok | out_of_memory, before anything is written.
-template <typename Work>
-Status run_blocks(std::size_t units, const Options& options, std::size_t scratch_bytes,
-                  const Work& work) noexcept {
-  const int threads = thread_count(options.threads, units);
-  const std::size_t bytes = whole_lines(scratch_bytes);
-  std::unique_ptr<void, FreeAligned> scratch;
-  if (bytes > 0) {
-    scratch.reset(::operator new (bytes* static_cast<std::size_t>(threads), std::align_val_t{64},
-                                  std::nothrow));
-    if (scratch == nullptr) {
-      return Status::out_of_memory;
+/// Scratch of a call's threads, each from a cache line of its own.
+class ThreadScratch {
+public:
+  /// False where there is no memory. bytes: of one thread; 0 needs none.
+  [[nodiscard]] bool allocate(std::size_t bytes, int threads) noexcept {
+    bytes_ = whole_lines(bytes);
+    if (bytes_ > 0) {
+      memory_.reset(::operator new (bytes_* static_cast<std::size_t>(threads), std::align_val_t{64},
+                                    std::nothrow));
     }
+    return bytes_ == 0 || memory_ != nullptr;
   }
+  /// Null where none is needed.
+  [[nodiscard]] unsigned char* of(int worker) const noexcept {
+    auto* const first = static_cast<unsigned char*>(memory_.get());
+    return first == nullptr ? nullptr : first + static_cast<std::size_t>(worker) * bytes_;
+  }
+
+private:
+  std::unique_ptr<void, FreeAligned> memory_;
+  std::size_t bytes_ = 0;
+};
+
+/// Runs units [begin, end) of an evaluate call: `Isa work(worker, begin, end, unsigned char*
+/// scratch)` on every thread's share of them. Returns the instruction set that ran.
+template <typename Work>
+Isa run_units(std::size_t begin, std::size_t end, int threads, const ThreadScratch& scratch,
+              const Work& work) noexcept {
   Isa executed = Isa::automatic;
-  auto body = [&](int worker, std::size_t begin, std::size_t end) {
-    auto* const own = static_cast<unsigned char*>(scratch.get());
-    const std::size_t offset = static_cast<std::size_t>(worker) * bytes;
-    const Isa ran = work(worker, begin, end, own == nullptr ? nullptr : own + offset);
+  auto body = [&](int worker, std::size_t first, std::size_t last) {
+    const Isa ran = work(worker, begin + first, begin + last, scratch.of(worker));
     if (worker == 0) {
       executed = ran;
     }
   };
-  for_blocks(units, threads, BlockBody(body));
+  for_blocks(end - begin, threads, BlockBody(body));
+  return executed;
+}
+
+/// Runs all units of an evaluate call, each thread with `scratch_bytes` of its own, and reports the
+/// instruction set that ran. Returns ok | out_of_memory, before anything is written.
+template <typename Work>
+Status run_blocks(std::size_t units, const Options& options, std::size_t scratch_bytes,
+                  const Work& work) noexcept {
+  const int threads = thread_count(options.threads, units);
+  ThreadScratch scratch;
+  if (!scratch.allocate(scratch_bytes, threads)) {
+    return Status::out_of_memory;
+  }
+  const Isa executed = run_units(0, units, threads, scratch, work);
   if (options.executed != nullptr) {
     *options.executed = executed;
   }

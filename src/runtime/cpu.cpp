@@ -33,6 +33,7 @@ bool cpu_supports(Isa isa) noexcept {
 namespace {
 
 struct CacheSizes {
+  std::size_t first = std::size_t{32} << 10;
   std::size_t second = std::size_t{512} << 10;
   std::size_t last = std::size_t{8} << 20;
 
@@ -58,6 +59,10 @@ struct CacheSizes {
       const std::size_t bytes =
           ((b >> 22U) + 1UL) * (((b >> 12U) & 0x3ffU) + 1UL) * ((b & 0xfffU) + 1UL) * (c + 1UL);
       const unsigned level = (a >> 5U) & 7U;
+      constexpr unsigned kData = 1;
+      if (level == 1 && (a & 0x1fU) == kData) {
+        first = bytes;
+      }
       if (level == 2) {
         second = bytes;
       }
@@ -77,20 +82,7 @@ const CacheSizes& cache_sizes() noexcept {
 } // namespace
 
 std::size_t last_level_cache() noexcept { return cache_sizes().last; }
+std::size_t first_level_cache() noexcept { return cache_sizes().first; }
 std::size_t second_level_cache() noexcept { return cache_sizes().second; }
-
-// Intel's cores stream through the few buffers that first-level misses need as well, also those of
-// staging: the times of arithmetic, copy and memory add up, and plain stores to memory are 1.1 to
-// 1.9 times as fast (docs/experiments.md). They take memory's bandwidth twice, though, which a few
-// threads do not use up.
-bool staged_streaming_pays([[maybe_unused]] int threads) noexcept {
-#if defined(__x86_64__)
-  constexpr int kFew = 4;
-  static const bool intel = __builtin_cpu_is("intel") != 0;
-  return !intel || threads > kFew;
-#else
-  return true;
-#endif
-}
 
 } // namespace simdbezier::detail

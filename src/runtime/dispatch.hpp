@@ -14,10 +14,8 @@ bool cpu_supports(Isa isa) noexcept;
 std::size_t last_level_cache() noexcept;
 /// Bytes of the second-level cache, likewise; 512 KiB.
 std::size_t second_level_cache() noexcept;
-
-/// Whether `threads` threads together gain by streaming stores where the kernels' results have to
-/// be staged for that.
-bool staged_streaming_pays(int threads) noexcept;
+/// Bytes of the first-level cache for data; 32 KiB.
+std::size_t first_level_cache() noexcept;
 
 /// The table of an instruction set that available_isas() lists.
 template <typename T>

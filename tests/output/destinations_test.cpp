@@ -221,38 +221,6 @@ protected:
       }
     }
   }
-
-  /// A call that outgrows the last-level cache chooses its stores itself.
-  template <typename T>
-  void automatic_threshold() {
-    constexpr std::size_t kRepeated = 8;
-    constexpr std::size_t kRepeats = 650;
-    constexpr std::size_t n = 33;
-    const std::vector<Net> some = mixed_nets(kRepeated);
-    std::vector<Net> nets;
-    for (std::size_t k = 0; k < kRepeats * kRepeated; ++k) {
-      nets.push_back(some[k % kRepeated]);
-    }
-    const Grid<T> samples = Grid<T>::uniform(n, n);
-    const std::size_t chunk = 3 * kRepeated * n * n;
-    std::vector<T> expected(chunk);
-    Outputs<T> out;
-    out.position = Vectors<T>::xyz(expected.data());
-    grid(packed<T>(some), samples, out, {.threads = 1, .destination = Destination::cache});
-    std::vector<T> found(kRepeats * chunk); // 68 MB of floats
-    out.position = Vectors<T>::xyz(found.data());
-    const PatchSet<T> set = packed<T>(nets);
-    for (const int threads : {2, 6}) { // few or more of them: some machines choose differently
-      std::fill(found.begin(), found.end(), T(-7));
-      grid(set, samples, out, {.threads = threads});
-      std::size_t different = 0;
-      for (std::size_t r = 0; r < kRepeats; ++r) {
-        different +=
-            std::memcmp(found.data() + r * chunk, expected.data(), chunk * sizeof(T)) == 0 ? 0 : 1;
-      }
-      EXPECT_EQ(different, 0U) << "of " << kRepeats << " chunks, threads: " << threads;
-    }
-  }
 };
 
 TEST_P(DestinationTest, PlanesAtEveryAlignmentF32) { planes_at_every_alignment<float>(); }
@@ -265,7 +233,6 @@ TEST_P(DestinationTest, ManyPatchesF32) { many_patches<float>(); }
 TEST_P(DestinationTest, ManyPatchesF64) { many_patches<double>(); }
 TEST_P(DestinationTest, GivenParametersF32) { given_parameters<float>(); }
 TEST_P(DestinationTest, GivenParametersF64) { given_parameters<double>(); }
-TEST_P(DestinationTest, AutomaticThresholdF32) { automatic_threshold<float>(); }
 INSTANTIATE_FOR_EVERY_ISA(DestinationTest);
 
 } // namespace

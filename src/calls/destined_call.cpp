@@ -1,0 +1,107 @@
+// See src/calls/destined_call.hpp.
+#include "src/calls/destined_call.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "src/runtime/batch.hpp"
+#include "src/runtime/dispatch.hpp"
+
+namespace simdbezier::detail {
+namespace {
+
+/// Measurements of each way, and the part of a call that all of them may take.
+constexpr std::size_t kMeasurements = 4;
+constexpr std::size_t kMostOfCall = 4;
+
+/// Plain stores leave some of their work behind: lines that the caches write back later.
+constexpr double kUnseen = 1.05;
+
+/// One call's work in both ways, a part of it at a time.
+class BothWays {
+public:
+  BothWays(const AnyWork& plain, const AnyWork& streaming, int threads) noexcept
+      : plain_(plain), streaming_(streaming), threads_(threads) {}
+
+  [[nodiscard]] bool allocate() noexcept {
+    return scratch_.allocate(std::max(plain_.scratch_bytes, streaming_.scratch_bytes), threads_);
+  }
+  /// Patches or samples [begin, end).
+  Isa run(Destination way, std::size_t begin, std::size_t end) const noexcept {
+    const AnyWork& work = way == Destination::cache ? plain_ : streaming_;
+    return run_units(begin * work.grain, end * work.grain, threads_, scratch_, work);
+  }
+  /// Evaluates the first 2 * kMeasurements * block patches or samples; returns the faster way.
+  [[nodiscard]] Destination measure(std::size_t block) const noexcept {
+    // Pages are there afterwards, and lines are in no cache, as those are that come later.
+    run(Destination::memory, 0, 2 * kMeasurements * block);
+    constexpr Destination kWays[] = {Destination::cache, Destination::memory};
+    double best[] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+    for (std::size_t k = 0; k < 2 * kMeasurements; ++k) {
+      const auto start = std::chrono::steady_clock::now();
+      run(kWays[k % 2], k * block, (k + 1) * block);
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+      best[k % 2] = std::min(best[k % 2], took.count());
+    }
+    return best[0] * kUnseen < best[1] ? Destination::cache : Destination::memory;
+  }
+
+private:
+  const AnyWork& plain_;
+  const AnyWork& streaming_;
+  int threads_;
+  ThreadScratch scratch_;
+};
+
+/// Half of the last cache: the consumer has other data, too.
+bool exceeds_caches(std::size_t bytes) noexcept { return bytes > last_level_cache() / 2; }
+
+} // namespace
+
+Status run_work(const AnyWork& work, const Options& options) noexcept {
+  return run_blocks(work.units, options, work.scratch_bytes, work);
+}
+
+Destination unmeasured_destination(std::size_t bytes) noexcept {
+  const Destination wish = environment_destination();
+  return !exceeds_caches(bytes)           ? Destination::cache
+         : wish == Destination::automatic ? Destination::memory
+                                          : wish;
+}
+
+bool is_measured(std::size_t bytes) noexcept {
+  return exceeds_caches(bytes) && environment_destination() == Destination::automatic;
+}
+
+CallKind with_threads(CallKind kind, const Options& options) noexcept {
+  const int threads = thread_count(options.threads, std::numeric_limits<std::size_t>::max());
+  return kind.add(static_cast<std::uint64_t>(threads));
+}
+
+Status run_and_decide(const AnyWork& plain, const AnyWork& streaming, const CallKind& kind,
+                      std::size_t bytes, const Options& options) noexcept {
+  const std::size_t items = plain.units / plain.grain;
+  const int threads = thread_count(options.threads, items);
+  // A block is half of what the second-level caches of all threads hold.
+  const std::size_t blocks = bytes / (second_level_cache() / 2) + 1;
+  // Rows that are whole lines together begin on a line in every thread's share of it.
+  const std::size_t step = items / blocks < 16 ? 1 : 16;
+  const std::size_t block = items / blocks / step * step * static_cast<std::size_t>(threads);
+  const std::size_t measured = 2 * kMeasurements * block;
+  BothWays both(plain, streaming, threads);
+  const bool ready = both.allocate();
+  if (!ready || block == 0 || measured > items / kMostOfCall) {
+    destination_notes().decide(kind, Destination::automatic);
+    return ready ? run_work(streaming, options) : Status::out_of_memory;
+  }
+  const Destination faster = both.measure(block);
+  destination_notes().decide(kind, faster);
+  const Isa executed = both.run(faster, measured, items);
+  if (options.executed != nullptr) {
+    *options.executed = executed;
+  }
+  return Status::ok;
+}
+
+} // namespace simdbezier::detail

@@ -1,0 +1,130 @@
+// Calls that can write through the caches or past them. Besides what every call has (call.hpp):
+//
+//   auto plan(Destination)          the work, with the destination decided: cache or memory
+//   std::size_t written() const     bytes
+//   CallKind kind() const           what decides which stores are faster
+//
+// and the work's
+//   std::size_t grain()             units of a patch or sample, which both ways have in common
+//
+// Which way is faster depends on the machine, on what the kernels can put where it belongs by
+// themselves, on the width of rows and on the number of threads; no rule foretells it. The first
+// large call of each kind therefore evaluates its first samples in both ways, and the faster one is
+// kept. Both give the same bits, so that it does not matter who decides what.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <simdbezier/options.hpp>
+#include <simdbezier/status.hpp>
+
+#include "src/output/output_list.hpp"
+#include "src/runtime/destination.hpp"
+
+namespace simdbezier::detail {
+
+template <typename Call>
+concept HasDestination = requires(const Call& call) {
+  call.plan(Destination::cache);
+  call.written();
+  call.kind();
+};
+
+/// Bytes of the vectors of `samples` samples.
+template <typename T>
+[[nodiscard]] std::size_t written_bytes(const OutputList<T>& out, std::size_t samples) noexcept {
+  std::size_t values = 0;
+  for (std::size_t g = 0; g < out.vector_count; ++g) {
+    if (out.wants(g)) {
+      const Vectors<T>& v = *out.vectors[g];
+      values += v.z != nullptr ? 3U : v.y != nullptr ? 2U : 1U;
+    }
+  }
+  return samples * values * sizeof(T);
+}
+
+enum class CallName : std::uint8_t { grid, patch_grids, curve_grid, curve_grids, mesh };
+
+/// What calls of all names have: instruction set, type and layout of the outputs.
+template <typename T>
+[[nodiscard]] CallKind kind_of_outputs(CallName name, const OutputList<T>& out,
+                                       const KernelTable<T>& table) noexcept {
+  CallKind kind;
+  kind.add(static_cast<std::uint64_t>(name)).add(static_cast<std::uint64_t>(table.isa));
+  kind.add(sizeof(T)).add(out.wants_curvature() ? 1 : 0);
+  for (std::size_t g = 0; g < out.vector_count; ++g) {
+    if (out.wants(g)) {
+      const Vectors<T>& v = *out.vectors[g];
+      kind.add(g).add(static_cast<std::uint64_t>(v.stride)).add(v.y == v.x + 1 ? 1 : 0);
+      kind.add(reinterpret_cast<std::uintptr_t>(v.x) % 64);
+    }
+  }
+  return kind;
+}
+
+/// A call's work, whatever its type.
+struct AnyWork {
+  const void* work;
+  Isa (*run)(const void* work, int worker, std::size_t begin, std::size_t end,
+             unsigned char* scratch);
+  std::size_t units;
+  std::size_t grain;
+  std::size_t scratch_bytes;
+
+  template <typename Work>
+  explicit AnyWork(const Work& of, std::size_t units_of_patch = 1) noexcept
+      : work(&of), run([](const void* self, int worker, std::size_t begin, std::size_t end,
+                          unsigned char* scratch) {
+          return static_cast<const Work*>(self)->run(worker, begin, end, scratch);
+        }),
+        units(of.units()), grain(units_of_patch), scratch_bytes(of.scratch_bytes()) {}
+
+  Isa operator()(int worker, std::size_t begin, std::size_t end,
+                 unsigned char* scratch) const noexcept {
+    return run(work, worker, begin, end, scratch);
+  }
+};
+
+/// Returns ok | out_of_memory, before anything is written.
+[[nodiscard]] Status run_work(const AnyWork& work, const Options& options) noexcept;
+
+/// What automatic means for `bytes` bytes where nothing has been measured.
+[[nodiscard]] Destination unmeasured_destination(std::size_t bytes) noexcept;
+
+/// Whether a measurement, and nothing else, is to decide about so many bytes.
+[[nodiscard]] bool is_measured(std::size_t bytes) noexcept;
+
+/// The same work in both ways, of a call that has claimed its kind. Returns ok | out_of_memory,
+/// before anything is written.
+[[nodiscard]] Status run_and_decide(const AnyWork& plain, const AnyWork& streaming,
+                                    const CallKind& kind, std::size_t bytes,
+                                    const Options& options) noexcept;
+
+/// Adds the number of threads, on which bandwidth depends.
+[[nodiscard]] CallKind with_threads(CallKind kind, const Options& options) noexcept;
+
+/// Runs a checked call.
+template <typename Call>
+Status run_to_destination(const Call& call, const Options& options) noexcept {
+  Destination destination = options.destination;
+  if (destination == Destination::automatic) {
+    const std::size_t bytes = call.written();
+    destination = unmeasured_destination(bytes);
+    if (is_measured(bytes)) {
+      const CallKind kind = with_threads(call.kind(), options);
+      const DestinationNotes::Answer answer = destination_notes().ask(kind);
+      if (answer.claimed) {
+        const auto plain = call.plan(Destination::cache);
+        const auto streaming = call.plan(Destination::memory);
+        return run_and_decide(AnyWork(plain, plain.grain()), AnyWork(streaming, streaming.grain()),
+                              kind, bytes, options);
+      }
+      destination = answer.destination == Destination::automatic ? destination : answer.destination;
+    }
+  }
+  const auto work = call.plan(destination);
+  return run_work(AnyWork(work), options);
+}
+
+} // namespace simdbezier::detail

@@ -1,0 +1,82 @@
+// Calls that write more than the caches hold decide by themselves whether to stream: the first one
+// of its kind stores in both ways, those after it in the faster one. The bits are those of plain
+// stores.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "src/runtime/dispatch.hpp"
+#include "tests/support/call_options.hpp"
+#include "tests/support/evaluation.hpp"
+#include "tests/support/isa_fixture.hpp"
+#include "tests/support/nets/generators.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+constexpr std::size_t kSide = 33;
+constexpr std::size_t kRepeated = 8; ///< patches, again and again
+constexpr std::size_t kChunk = 3 * kRepeated * kSide * kSide;
+/// Machines with larger caches than this would need more memory than a test should take.
+constexpr std::size_t kMostBytes = std::size_t{600} << 20;
+
+class LargeCalls : public IsaTest {
+protected:
+  /// call(set, out, options) on as many patches as outgrow the caches.
+  using Call =
+      std::function<void(const PatchSet<float>&, const Outputs<float>&, const CallOptions&)>;
+  void check(const Call& call) {
+    const std::size_t bytes = detail::last_level_cache() / 2;
+    if (bytes > kMostBytes) {
+      GTEST_SKIP() << "caches of " << bytes << " bytes";
+    }
+    const std::size_t repeats = bytes / (kChunk * sizeof(float)) + 1;
+    const std::vector<Net> some = mixed_nets(kRepeated);
+    std::vector<Net> nets;
+    for (std::size_t k = 0; k < repeats * kRepeated; ++k) {
+      nets.push_back(some[k % kRepeated]);
+    }
+    std::vector<float> expected(kChunk);
+    Outputs<float> out;
+    out.position = Vectors<float>::xyz(expected.data());
+    call(packed<float>(some), out, {.threads = 1, .destination = Destination::cache});
+    const PatchSet<float> set = packed<float>(nets);
+    std::vector<float> found(repeats * kChunk);
+    out.position = Vectors<float>::xyz(found.data());
+    for (const int threads : {1, 1, 2, 6}) { // the second one keeps what the first one found
+      std::fill(found.begin(), found.end(), -7.0F);
+      call(set, out, {.threads = threads});
+      std::size_t different = 0;
+      for (std::size_t r = 0; r < repeats; ++r) {
+        different +=
+            std::memcmp(found.data() + r * kChunk, expected.data(), kChunk * sizeof(float)) != 0;
+      }
+      EXPECT_EQ(different, 0U) << "of " << repeats << " chunks, threads: " << threads;
+    }
+  }
+};
+
+TEST_P(LargeCalls, OnOneGrid) {
+  check([this](const PatchSet<float>& set, const Outputs<float>& out, const CallOptions& options) {
+    grid(set, Grid<float>::uniform(kSide, kSide), out, options);
+  });
+}
+
+TEST_P(LargeCalls, OnGridsOfTheirOwn) {
+  check([this](const PatchSet<float>& set, const Outputs<float>& out, const CallOptions& options) {
+    const std::vector<std::uint32_t> side(set.size(), kSide);
+    PatchGrids grids;
+    grids.nu = grids.nv = side;
+    patch_grids(set, grids, out, options);
+  });
+}
+
+INSTANTIATE_FOR_EVERY_ISA(LargeCalls);
+
+} // namespace
+} // namespace simdbezier::tests

@@ -1,0 +1,102 @@
+// What calls with Destination::automatic find out: each kind of call is decided once, by one
+// thread, and never mixed up with another.
+#include "src/runtime/destination.hpp"
+
+#include <atomic>
+#include <barrier>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace simdbezier::detail {
+namespace {
+
+CallKind kind(std::uint64_t k) { return CallKind().add(k).add(17); }
+Destination decision(std::uint64_t k) {
+  return k % 3 == 0 ? Destination::memory : Destination::cache;
+}
+
+TEST(DestinationNotes, one_of_many_threads_decides) {
+  constexpr std::uint64_t kKinds = 100;
+  constexpr int kRounds = 100;
+  constexpr int kThreads = 4;
+  DestinationNotes notes[kRounds];
+  std::atomic<int> claims = 0;
+  std::atomic<int> wrong = 0;
+  std::barrier start(kThreads);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < kThreads; ++t) {
+    threads.emplace_back([&] {
+      for (DestinationNotes& round : notes) {
+        start.arrive_and_wait();
+        for (std::uint64_t k = 0; k < kKinds; ++k) {
+          const DestinationNotes::Answer answer = round.ask(kind(k));
+          if (answer.claimed) {
+            ++claims;
+            wrong += answer.destination != Destination::automatic;
+            round.decide(kind(k), decision(k));
+          } else {
+            wrong +=
+                answer.destination != Destination::automatic && answer.destination != decision(k);
+          }
+        }
+      }
+    });
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(claims, kRounds * static_cast<int>(kKinds));
+  for (std::uint64_t k = 0; k < kKinds; ++k) {
+    const DestinationNotes::Answer answer = notes[0].ask(kind(k));
+    EXPECT_FALSE(answer.claimed) << k;
+    EXPECT_EQ(answer.destination, decision(k)) << k;
+  }
+}
+
+TEST(DestinationNotes, nobody_else_measures_meanwhile) {
+  DestinationNotes notes;
+  EXPECT_TRUE(notes.ask(kind(1)).claimed);
+  for (int k = 0; k < 3; ++k) {
+    const DestinationNotes::Answer answer = notes.ask(kind(1));
+    EXPECT_FALSE(answer.claimed);
+    EXPECT_EQ(answer.destination, Destination::automatic);
+  }
+}
+
+TEST(DestinationNotes, a_claim_can_be_given_back) {
+  DestinationNotes notes;
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_TRUE(notes.ask(kind(1)).claimed);
+    notes.decide(kind(1), Destination::automatic);
+  }
+  EXPECT_TRUE(notes.ask(kind(1)).claimed);
+  notes.decide(kind(1), Destination::memory);
+  EXPECT_EQ(notes.ask(kind(1)).destination, Destination::memory);
+}
+
+TEST(DestinationNotes, too_many_kinds_are_left_undecided) {
+  constexpr std::uint64_t kKinds = 20 * DestinationNotes::kSlots;
+  DestinationNotes notes;
+  std::vector<bool> decided(kKinds);
+  std::size_t count = 0;
+  for (std::uint64_t k = 0; k < kKinds; ++k) {
+    decided[k] = notes.ask(kind(k)).claimed;
+    if (decided[k]) {
+      notes.decide(kind(k), decision(k));
+      ++count;
+    }
+  }
+  EXPECT_GT(count, DestinationNotes::kSlots / 2);
+  EXPECT_LE(count, DestinationNotes::kSlots);
+  for (std::uint64_t k = 0; k < kKinds; ++k) {
+    EXPECT_EQ(notes.ask(kind(k)).destination, decided[k] ? decision(k) : Destination::automatic)
+        << k;
+  }
+}
+
+} // namespace
+} // namespace simdbezier::detail
