@@ -5,6 +5,7 @@
 
 #include "kernels/curve/lanes_are_curves.hpp"
 #include "kernels/curve/lanes_are_samples.hpp"
+#include "kernels/curve/lines_of_curves.hpp"
 #include "kernels/simd/line_ring.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -46,9 +47,14 @@ struct RowRings {
   }
 };
 
+/// What is in the lanes: samples, curves, or otherwise so many curves a register, by lines, which
+/// need no rings.
+inline constexpr std::size_t kAlong = 0;
+inline constexpr std::size_t kAcross = ~std::size_t(0);
+
 /// Curves [begin, end) to rows, `batch` at a time; rings: passed on meanwhile, null where there are
 /// none. A function of its own, because it is large and there are several ways to it.
-template <std::size_t kKnownOrder, bool kAcross, bool kTriples, typename T>
+template <std::size_t kKnownOrder, std::size_t kWay, bool kTriples, typename T>
 __attribute__((noinline)) void
 fill_rows(const CurveTask<T>& shared_task, std::size_t begin, std::size_t end, std::size_t batch,
           const CurveRows<kTriples, T>& shared_rows, bool streaming, RowRings<kTriples, T>* rings) {
@@ -67,7 +73,9 @@ fill_rows(const CurveTask<T>& shared_task, std::size_t begin, std::size_t end, s
       ring_state.pass_on();
     }
   };
-  if constexpr (kAcross) {
+  if constexpr (kWay != kAlong && kWay != kAcross) {
+    fill_lines<kWay>(task, shape, begin, end, rows, streaming);
+  } else if constexpr (kWay == kAcross) {
     fill_across<kKnownOrder>(task, shape, begin, end, rows, pass_on);
   } else if (streams) {
     fill_along<kKnownOrder>(task, shape, begin, end, rows, false, pass_on);
@@ -83,31 +91,41 @@ fill_rows(const CurveTask<T>& shared_task, std::size_t begin, std::size_t end, s
   }
 }
 
-/// fill_rows() for some degrees and directions of lanes.
+/// fill_rows() for some degrees and ways.
 template <bool kTriples, typename T>
-using FillRows = void (*)(const CurveTask<T>& task, std::size_t begin, std::size_t end,
-                          std::size_t batch, const CurveRows<kTriples, T>& rows, bool streaming,
-                          RowRings<kTriples, T>* rings);
+struct RowFiller {
+  void (*fill)(const CurveTask<T>& task, std::size_t begin, std::size_t end, std::size_t batch,
+               const CurveRows<kTriples, T>& rows, bool streaming, RowRings<kTriples, T>* rings);
+  std::size_t step;    ///< samples of each component between two calls of step()
+  bool across = false; ///< whole registers of curves
+  bool lines = false;  ///< by lines
+};
+template <std::size_t kKnownOrder, std::size_t kWay, bool kTriples, typename T>
+constexpr RowFiller<kTriples, T> row_filler() {
+  return {fill_rows<kKnownOrder, kWay, kTriples, T>,
+          kLanes<vec<T>> * (kWay == kAcross ? kAcrossStep : 1), kWay == kAcross,
+          kWay != kAlong && kWay != kAcross};
+}
 
-/// Straight to the caller's memory. across: lanes are curves.
+/// Straight to the caller's memory.
 template <bool kTriples, typename T>
 SIMDBEZIER_INLINE void write_rows(const CurveTask<T>& task, const CurveRows<kTriples, T>& out,
-                                  bool across, FillRows<kTriples, T> fill, T* memory) {
+                                  const RowFiller<kTriples, T>& way, T* memory) {
   constexpr std::size_t kAll = kLanes<vec<T>>;
   const std::size_t row = out.row(task.n);
   const std::size_t count = task.curve_count;
-  if (!across) {
+  if (!way.across) {
     const std::size_t batch = std::max<std::size_t>(kRowBatch<T> / (3 * task.n), 1);
-    return fill(task, 0, count, batch, out, task.streaming, nullptr);
+    return way.fill(task, 0, count, batch, out, task.streaming, nullptr);
   }
   const std::size_t whole = count / kAll * kAll;
-  fill(task, 0, whole, whole, out, false, nullptr);
+  way.fill(task, 0, whole, whole, out, false, nullptr);
   if (whole < count) {
     CurveRows<kTriples, T> rows;
     for (std::size_t k = 0; k < out.kStreams; ++k) {
       rows.first[k] = memory + k * kAll * row;
     }
-    fill(task, whole, count, count, rows, false, nullptr);
+    way.fill(task, whole, count, count, rows, false, nullptr);
     for (std::size_t k = 0; k < out.kStreams; ++k) {
       __builtin_memcpy(out.first[k] + whole * row, rows.first[k],
                        (count - whole) * row * sizeof(T));
@@ -118,21 +136,20 @@ SIMDBEZIER_INLINE void write_rows(const CurveTask<T>& task, const CurveRows<kTri
 /// By way of rings, past the caches.
 template <bool kTriples, typename T>
 SIMDBEZIER_INLINE void stream_rows(const CurveTask<T>& task, const CurveRows<kTriples, T>& out,
-                                   bool across, FillRows<kTriples, T> fill, T* memory) {
+                                   const RowFiller<kTriples, T>& way, T* memory) {
   const std::size_t row = out.row(task.n);
   const std::size_t groups = kRowBatch<T> / (3 * task.n * kLineCurves<T>);
   const std::size_t batch = std::max<std::size_t>(groups, 1) * kLineCurves<T>;
   RowRings<kTriples, T> rings;
   // What a step computes, in lines.
-  const std::size_t values = 3 * kLanes<vec<T>> * (across ? kAcrossStep : 1);
-  rings.lines_per_step = (values * sizeof(T) + 63) / 64;
+  rings.lines_per_step = (3 * way.step * sizeof(T) + 63) / 64;
   for (std::size_t k = 0; k < out.kStreams; ++k) {
     rings.ring[k].start(memory, batch * row, out.first[k]);
     memory += LineRing<T>::room(batch * row);
   }
   for (std::size_t begin = 0; begin < task.curve_count; begin += batch) {
     const std::size_t end = std::min(begin + batch, task.curve_count);
-    fill(task, begin, end, batch, rings.batch(), false, &rings);
+    way.fill(task, begin, end, batch, rings.batch(), false, &rings);
     for (LineRing<T>& r : rings.ring) {
       r.pass_all();
       r.turn((end - begin) * row);
@@ -143,45 +160,55 @@ SIMDBEZIER_INLINE void stream_rows(const CurveTask<T>& task, const CurveRows<kTr
   }
 }
 
-/// Whether every register of samples is whole lines of triples.
-template <typename T>
-SIMDBEZIER_INLINE bool are_whole_lines(const CurveTask<T>& task) {
-  return task.triples != nullptr && kLineWide<vec<T>> && task.n % kLanes<vec<T>> == 0 &&
-         reinterpret_cast<std::uintptr_t>(task.triples) % 64 == 0;
+/// Which way rows are filled: short ones of cubics by lines where that pays, with stores that stay
+/// in the caches for triples alone; other rows of fewer samples than a register with curves in its
+/// lanes. aligned: all streams begin on a line.
+template <bool kTriples, typename T>
+SIMDBEZIER_INLINE RowFiller<kTriples, T> choose_filler(const CurveTask<T>& task, bool aligned) {
+  constexpr std::size_t kAll = kLanes<vec<T>>;
+  const bool cubic = task.shape->degree == 3;
+  if constexpr (kAll * sizeof(T) >= 32) {
+    constexpr std::size_t kLeast = kTriples ? 2 : kLeastCurves<T>;
+    const bool pays = task.streaming ? aligned : kTriples;
+    const std::size_t curves =
+        cubic && !task.shape->origins && pays ? curves_in_register<T>(task.n) : 0;
+    if constexpr (kMostCurves < T >> kLeast) {
+      if (curves == 2 * kLeast) {
+        return row_filler<4, 2 * kLeast, kTriples, T>();
+      }
+    }
+    if constexpr (kMostCurves<T> >= kLeast) {
+      if (curves == kLeast) {
+        return row_filler<4, kLeast, kTriples, T>();
+      }
+    }
+  }
+  if constexpr (kAll > detail::kLeastRow) {
+    if (task.n < kAll) {
+      return cubic ? row_filler<4, kAcross, kTriples, T>() : row_filler<0, kAcross, kTriples, T>();
+    }
+  }
+  return cubic ? row_filler<4, kAlong, kTriples, T>() : row_filler<0, kAlong, kTriples, T>();
 }
 
 template <bool kTriples, typename T>
-__attribute__((noinline)) void evaluate_rows(const CurveTask<T>& task, bool across,
-                                             FillRows<kTriples, T> fill) {
+__attribute__((noinline)) void evaluate_rows(const CurveTask<T>& task) {
   CurveRows<kTriples, T> out;
-  if constexpr (kTriples) {
-    out.first[0] = task.triples;
-  } else {
-    for (std::size_t c = 0; c < 3; ++c) {
-      out.first[c] = task.out[detail::kCurvePosition].component[c];
-    }
+  bool aligned = true;
+  for (std::size_t k = 0; k < out.kStreams; ++k) {
+    out.first[k] = kTriples ? task.triples : task.out[detail::kCurvePosition].component[k];
+    aligned = aligned && reinterpret_cast<std::uintptr_t>(out.first[k]) % 64 == 0;
   }
+  const RowFiller<kTriples, T> way = choose_filler<kTriples>(task, aligned);
+  const bool whole_lines = way.lines || (kTriples && aligned && !way.across && kLineWide<vec<T>> &&
+                                         task.n % kLanes<vec<T>> == 0);
   static_assert(kRowBatch<T> <= 3 * detail::kMostRow * kLineCurves<T>);
   alignas(64) T memory[kRowMemory<T>];
-  if (task.streaming && (across || !are_whole_lines(task))) {
-    stream_rows(task, out, across, fill, memory);
+  if (task.streaming && !whole_lines) {
+    stream_rows(task, out, way, memory);
   } else {
-    write_rows(task, out, across, fill, memory);
+    write_rows(task, out, way, memory);
   }
-}
-
-/// Rows of fewer samples than a register have curves in its lanes.
-template <bool kTriples, typename T>
-SIMDBEZIER_INLINE void evaluate_rows(const CurveTask<T>& task) {
-  const bool cubic = task.shape->degree == 3;
-  if constexpr ((kLanes<vec<T>>) > detail::kLeastRow) {
-    if (task.n < kLanes<vec<T>>) {
-      return evaluate_rows<kTriples, T>(
-          task, true, cubic ? fill_rows<4, true, kTriples, T> : fill_rows<0, true, kTriples, T>);
-    }
-  }
-  evaluate_rows<kTriples, T>(
-      task, false, cubic ? fill_rows<4, false, kTriples, T> : fill_rows<0, false, kTriples, T>);
 }
 
 template <typename T>
