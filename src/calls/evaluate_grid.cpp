@@ -51,16 +51,16 @@ public:
 
 private:
   /// Strips of equal size, or whole patches, of about `samples` samples. Chunks that are streamed
-  /// may have a quarter more: a second strip for a few rows would cost as much as many.
+  /// may have half as many again, since a strip of a few rows costs as much as one of many.
   void divide(std::size_t samples) noexcept {
     const std::size_t patch_samples = plan_.nu() * plan_.nv();
     const bool rounds = outputs_.staged() && outputs_.streaming();
     const std::size_t rows = std::clamp<std::size_t>(samples / plan_.nu(), 1, plan_.nv());
-    strips_ = std::max<std::size_t>((plan_.nv() + rows - 1 - (rounds ? rows / 4 : 0)) / rows, 1);
+    strips_ = std::max<std::size_t>((plan_.nv() + (rounds ? rows / 2 : rows - 1)) / rows, 1);
     strip_rows_ = (plan_.nv() + strips_ - 1) / strips_;
     strips_ = (plan_.nv() + strip_rows_ - 1) / strip_rows_;
     together_ = !outputs_.staged() ? ~std::size_t(0)
-                                   : (samples + (rounds ? patch_samples / 4 : 0)) / patch_samples;
+                                   : (samples + (rounds ? patch_samples / 2 : 0)) / patch_samples;
     together_ = strips_ > 1 ? 1 : std::max<std::size_t>(together_, 1);
   }
 

@@ -11,9 +11,9 @@ namespace {
 
 /// What a kernel writes and a drain reads at once stays in a first-level cache.
 constexpr std::size_t kStagingBytes = std::size_t{20} << 10;
-/// Three such chunks are a first-level cache, so that two stay in there: streaming stores take the
-/// buffers that its misses need, and the stores and loads of staging would wait for them.
-std::size_t streaming_bytes() noexcept { return first_level_cache() / 3; }
+/// Two such chunks, and half as much again, stay in the first-level cache: streaming stores take
+/// the buffers that its misses need, and the stores and loads of staging would wait for them.
+std::size_t streaming_bytes() noexcept { return first_level_cache() / 4; }
 
 /// Pieces that kernels write directly; bounds only how much one thread takes of a huge grid.
 constexpr std::size_t kDirectSamples = 65536;
