@@ -1,6 +1,6 @@
 // Positions of curves straight to the caller's layout: planes or x y z triples, through the caches
-// or past them, at any place in memory. Values are read in order without a pause, so hardware
-// fetches them ahead; prefetches gain nothing.
+// or past them, at any place in memory. Cubics whose rows are a part of a line leave as whole lines
+// from registers, the others by way of rings in the first-level cache where they are streamed.
 #pragma once
 
 #include "kernels/curve/lanes_are_curves.hpp"

@@ -8,6 +8,11 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::CurveTask;
 
+/// How far ahead curves are asked for: streaming stores take the buffers that loads from memory
+/// need, so that hardware, which follows the values by itself, comes too late.
+template <typename T>
+inline constexpr std::size_t kValuesAhead = 2048 / sizeof(T);
+
 /// One stream of triples, or three of planes; curve k's row begins k * row(n) values later.
 template <bool kTriples, typename T>
 struct CurveRows {

@@ -132,6 +132,9 @@ SIMDBEZIER_INLINE void fill_across(const CurveTask<T>& task, const CurveShape& s
       from = padded;
       stride = values;
     }
+    if (task.prefetch) {
+      prefetch_values(from + kValuesAhead<T>, kLanes<V> * stride);
+    }
     const Columns curves(shape, from, stride);
     fill_columns(curves, task.x, task.n, rows.at((first - begin) * rows.row(task.n)), step);
   }

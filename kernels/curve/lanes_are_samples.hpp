@@ -24,7 +24,11 @@ SIMDBEZIER_INLINE void sweep_rows(const CurveTask<T>& task, const CurveShape& sh
   const std::size_t row = rows.row(task.n);
   const T* values = task.values + begin * stride;
   std::size_t at = rows.row(first);
+  const bool prefetch = task.prefetch && first == 0;
   for (std::size_t curve = begin; curve < end; ++curve, values += stride, at += row) {
+    if (prefetch) {
+      prefetch_values(values + kValuesAhead<T>, stride);
+    }
     V value[3];
     repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
       const CurveChannel<V, false> channel(shape, values, task.first_component + c, points);

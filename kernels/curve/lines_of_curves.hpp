@@ -139,7 +139,6 @@ SIMDBEZIER_INLINE void fill_lines(const CurveTask<T>& task, const CurveShape& sh
                                   bool streaming) {
   constexpr std::size_t kValues = (kTriples ? 3 : 1) * kLineSamples<T>; // of each stream
   constexpr std::size_t kCubic = 3 * 6;
-  constexpr std::size_t kAhead = 2048 / sizeof(T);
   constexpr std::size_t kMostStride = kMostComponents * 6;
   const std::size_t stride = shape.values();
   const CurveLines<kCurves, kTriples, T> lines(task.x, task.n, stride);
@@ -161,7 +160,7 @@ SIMDBEZIER_INLINE void fill_lines(const CurveTask<T>& task, const CurveShape& sh
       }
     }
     if (task.prefetch) {
-      prefetch_values(from + kAhead, together * stride);
+      prefetch_values(from + kValuesAhead<T>, together * stride);
     }
     lines.put(from, to, streaming && left >= together);
     if (left < together) [[unlikely]] {
