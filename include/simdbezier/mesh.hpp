@@ -11,7 +11,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -28,15 +27,15 @@ namespace simdbezier {
 struct MeshOptions {
   /// The largest distance of the surface from the mesh: absolute, or as a share of the diagonal of
   /// the box of all control points. Where both are given, the smaller one counts.
-  double tolerance = std::numeric_limits<double>::infinity();
-  double relative_tolerance = std::numeric_limits<double>::infinity();
+  double tolerance = kUnlimited;
+  double relative_tolerance = kUnlimited;
   /// Absolute tolerances, one for each of the patches given, besides those above; or empty.
   std::span<const double> tolerances = {};
   /// The most pixels that the mesh may be off in a picture, besides what is above; needs a camera.
-  double pixels = std::numeric_limits<double>::infinity();
+  double pixels = kUnlimited;
   Camera camera = {};
-  double longest_edge = std::numeric_limits<double>::infinity(); ///< see RateOptions
-  double normal_angle = std::numeric_limits<double>::infinity(); ///< likewise
+  double longest_edge = kUnlimited; ///< see RateOptions
+  double normal_angle = kUnlimited; ///< likewise
   /// Every patch gets nu x nv samples, 2 or more each, instead of what tolerances ask for.
   std::uint32_t nu = 0;
   std::uint32_t nv = 0;
@@ -49,7 +48,7 @@ struct MeshOptions {
   bool drop_repeated = false;
   /// In radians: see split_creases(); infinity: all normals are merged. 0: patches share no
   /// vertices.
-  double crease_angle = std::numeric_limits<double>::infinity();
+  double crease_angle = kUnlimited;
 
   bool normals = true;
   bool parameters = false;    ///< u, v and the patch's number for every vertex

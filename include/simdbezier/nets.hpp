@@ -92,6 +92,17 @@ struct MutableNets {
   }
 };
 
+namespace detail {
+
+// Roundings of UnitParameter. They are in the library because a caller's -Ofast would make t of
+// 1 - (1 - t), and a product with 1 / n of i / n: results would have other bits.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API T one_less(T t) noexcept;
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API T quotient(int i, int n) noexcept;
+
+} // namespace detail
+
 /// A parameter t together with its complement 1 - t. Both enter into the arithmetic, and whoever
 /// wants mirrored results to have equal bits gives mirrored pairs.
 template <typename T>
@@ -99,12 +110,12 @@ class UnitParameter {
 public:
   /// t, and 1 - t, rounded as the caller's arithmetic rounds: exact for 1/2 <= t <= 1 and all
   /// multiples of 2^-24 (double: 2^-53).
-  constexpr UnitParameter(T t) noexcept : t_(t), complement_(T(1) - t) {} // NOLINT: implicit
+  constexpr UnitParameter(T t) noexcept : t_(t), complement_(one_less(t)) {} // NOLINT: implicit
   /// Counted from the other end: the complement is c, and t = 1 - c rounded.
-  [[nodiscard]] static constexpr UnitParameter from_end(T c) noexcept { return {T(1) - c, c}; }
+  [[nodiscard]] static constexpr UnitParameter from_end(T c) noexcept { return {one_less(c), c}; }
   /// i / n and (n - i) / n, each rounded once; n > 0.
   [[nodiscard]] static constexpr UnitParameter fraction(int i, int n) noexcept {
-    return {static_cast<T>(i) / static_cast<T>(n), static_cast<T>(n - i) / static_cast<T>(n)};
+    return {quotient(i, n), quotient(n - i, n)};
   }
 
   [[nodiscard]] constexpr T t() const noexcept { return t_; }
@@ -114,6 +125,15 @@ public:
 
 private:
   constexpr UnitParameter(T t, T complement) noexcept : t_(t), complement_(complement) {}
+
+  static constexpr T one_less(T t) noexcept {
+    return std::is_constant_evaluated() ? T(1) - t : detail::one_less(t);
+  }
+  static constexpr T quotient(int i, int n) noexcept {
+    return std::is_constant_evaluated() ? static_cast<T>(i) / static_cast<T>(n)
+                                        : detail::quotient<T>(i, n);
+  }
+
   T t_;
   T complement_;
 };

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include <simdbezier/control_nets.hpp>
@@ -13,6 +13,9 @@
 #include <simdbezier/topology.hpp>
 
 namespace simdbezier {
+
+/// Infinity: nothing is asked for. By its bits, because clang's -ffast-math knows no infinity.
+inline constexpr double kUnlimited = std::bit_cast<double>(std::uint64_t{0x7ff} << 52);
 
 /// How close a mesh is to be.
 struct RateOptions {
@@ -25,10 +28,10 @@ struct RateOptions {
   std::span<const double> errors = {};
   /// No row or column of cells has a longer edge than about this: the length of control polygons
   /// over the number of segments.
-  double longest_edge = std::numeric_limits<double>::infinity();
+  double longest_edge = kUnlimited;
   /// No row or column of cells turns its normal by more than about this angle, in radians, from one
   /// point to the next: the total turn of the control net's normals over the number of segments.
-  double normal_angle = std::numeric_limits<double>::infinity();
+  double normal_angle = kUnlimited;
   std::uint32_t most_segments = kMostSegments;
   int threads = 0; ///< as in Options
 };
