@@ -12,6 +12,7 @@
 #include "src/calls/pack_request.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/dispatch.hpp"
+#include "src/runtime/fp_environment.hpp"
 #include "src/storage/net_faults.hpp"
 #include "src/storage/set_layout.hpp"
 
@@ -175,6 +176,7 @@ PackReport pack(std::span<const ControlNets<S>> nets, PatchSet<T>& set,
   }
   report = detail::pack_runs<T, S>(nets, runs, options, isa, *storage);
   if (report) {
+    const detail::DefaultFpEnvironment environment; // for denormal floors
     for (detail::PatchStorage<T>& bucket : storage->buckets) {
       if (bucket.shape.is_bicubic()) {
         bucket.common_floor = detail::common_floor(bucket.normal_floor, bucket.count);

@@ -9,6 +9,7 @@
 #include "src/mesh/net_points.hpp"
 #include "src/mesh/vertex_work.hpp"
 #include "src/nets/net_call.hpp"
+#include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -174,6 +175,7 @@ Status quantisation_box(std::span<const ControlNets<S>> sets, VertexFormat forma
   if (format != VertexFormat::unorm16 && format != VertexFormat::snorm16) {
     return Status::bad_tolerance;
   }
+  const detail::DefaultFpEnvironment environment;
   detail::PointBox points;
   bool finite = true;
   for (const ControlNets<S>& nets : sets) {

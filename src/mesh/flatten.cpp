@@ -11,6 +11,7 @@
 
 #include "src/calls/curve_input.hpp"
 #include "src/mesh/chord_bound.hpp"
+#include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -197,6 +198,7 @@ Status position_errors(const CurveSet<T>& set, std::span<double> out) noexcept {
   if (out.size() < set.size()) {
     return Status::output_too_small;
   }
+  const detail::DefaultFpEnvironment environment;
   for (std::size_t curve = 0; curve < set.size(); ++curve) {
     double square = 0;
     double norm = 0; // taken where squares overflow or vanish
@@ -222,6 +224,7 @@ FlattenReport choose_polylines(const ControlCurves<S>& curves, const FlattenOpti
       !status) {
     return {status};
   }
+  const detail::DefaultFpEnvironment environment;
   detail::CurveBound bound;
   for (std::size_t curve = 0; curve < curves.count; ++curve) {
     if (const Status status = bound.read(curves, curve); !status) {
@@ -248,6 +251,7 @@ FlattenReport choose_polylines(const ControlCurves<S>& curves, const FlattenOpti
 template <typename T, typename S>
 Polylines<T> flatten(const ControlCurves<S>& curves, double tolerance,
                      const Options& options) noexcept {
+  const detail::DefaultFpEnvironment environment;
   Polylines<T> lines;
   try {
     lines.status = detail::flatten_into(curves, tolerance, options, lines);

@@ -6,6 +6,7 @@
 
 #include "src/mesh/net_points.hpp"
 #include "src/nets/net_call.hpp"
+#include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -65,6 +66,7 @@ private:
 template <typename S>
 Status pixel_tolerances(std::span<const ControlNets<S>> sets, const Camera& camera, double pixels,
                         std::span<double> out) noexcept {
+  const detail::DefaultFpEnvironment environment;
   const detail::View view(camera);
   if (!view.is_sound() || !detail::is_positive(pixels)) {
     return Status::bad_tolerance;

@@ -8,6 +8,7 @@
 
 #include "src/mesh/net_points.hpp"
 #include "src/mesh/rate_call.hpp"
+#include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -50,6 +51,7 @@ Status position_errors(const PatchSet<T>& set, std::span<double> out) noexcept {
   if (out.size() < set.size()) {
     return Status::output_too_small;
   }
+  const detail::DefaultFpEnvironment environment;
   for (std::size_t patch = 0; patch < set.size(); ++patch) {
     const auto& error = error_bounds(set, patch).position;
     out[patch] = detail::length({error[0], error[1], error[2]}) * (1 + 0x1p-40);
@@ -63,6 +65,7 @@ template <typename S>
 RateReport certify_rates(std::span<const ControlNets<S>> sets, const Topology& topology,
                          std::span<const double> errors, const CertifiedRates& rates,
                          int threads) noexcept try {
+  const detail::DefaultFpEnvironment environment;
   const RateReport checked = detail::check(sets, topology, errors, rates);
   if (!checked || rates.nu.empty()) {
     return checked;
@@ -78,6 +81,7 @@ RateReport certify_rates(std::span<const ControlNets<S>> sets, const Topology& t
 template <typename S>
 RateReport choose_rates(std::span<const ControlNets<S>> sets, const Topology& topology,
                         const RateOptions& options, const CertifiedRates& out) noexcept try {
+  const detail::DefaultFpEnvironment environment;
   const RateReport checked = detail::check(sets, topology, options.errors, out);
   if (!checked || out.nu.empty()) {
     return checked;

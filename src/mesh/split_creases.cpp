@@ -6,6 +6,7 @@
 #include "src/calls/call.hpp"
 #include "src/mesh/crease_groups.hpp"
 #include "src/mesh/layout_builder.hpp"
+#include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -100,6 +101,7 @@ Status split_vertices(const PatchSet<T>& set, const MeshData& whole, double angl
 template <typename T>
 Status split_creases(const PatchSet<T>& set, const MeshLayout& layout, double angle,
                      MeshLayout& split, const Options& options) noexcept try {
+  const detail::DefaultFpEnvironment environment;
   if (!(angle >= 0)) {
     return Status::bad_tolerance;
   }

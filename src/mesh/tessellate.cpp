@@ -8,6 +8,7 @@
 #include <simdbezier/mesh_primitives.hpp>
 
 #include "src/mesh/mesh_planner.hpp"
+#include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -98,6 +99,7 @@ Result attempt(const Step& step) noexcept {
 
 template <typename T, typename S>
 MeshPlan<T> plan_mesh(std::span<const ControlNets<S>> nets, const MeshOptions& options) noexcept {
+  const detail::DefaultFpEnvironment environment;
   return detail::attempt<MeshPlan<T>>(
       [&](MeshPlan<T>& plan) { return detail::MeshPlanner<T, S>(nets, options, plan).run(); });
 }

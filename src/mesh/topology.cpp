@@ -14,6 +14,7 @@
 #include "src/mesh/orientation.hpp"
 #include "src/mesh/snapping.hpp"
 #include "src/mesh/topology_data.hpp"
+#include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -185,6 +186,7 @@ Status check(std::span<const ControlNets<S>> sets, const TopologyOptions& option
 template <typename S>
 Status find_topology(std::span<const ControlNets<S>> sets, Topology& topology,
                      const TopologyOptions& options) noexcept try {
+  const detail::DefaultFpEnvironment environment;
   const Status status = detail::check(sets, options);
   if (status != Status::ok) {
     return status;

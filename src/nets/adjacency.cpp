@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/nets/net_call.hpp"
+#include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -259,6 +260,7 @@ Status find_adjacency(std::span<const ControlNets<S>> sets, Values<EdgeLink> edg
   if (status != Status::ok) {
     return status;
   }
+  const detail::DefaultFpEnvironment environment;
   const detail::EdgeSoup<S> soup(sets);
   if (soup.size() == 0) {
     return Status::ok;
