@@ -1,0 +1,25 @@
+# See CMakeLists.txt beside this file.
+include(${CMAKE_CURRENT_LIST_DIR}/../../support/run.cmake)
+
+# lines_of(PROGRAM FLAG VARIABLE): what it prints behind the line that says how it was compiled.
+function(lines_of program flag variable)
+  run(${program})
+  string(REGEX MATCHALL "[^\n]+" lines "${output}")
+  list(POP_FRONT lines compiled)
+  if(NOT compiled STREQUAL "compiled with ${flag}")
+    message(FATAL_ERROR "${program}: expected ${flag}, found: ${compiled}")
+  endif()
+  set(${variable} "${lines}" PARENT_SCOPE)
+endfunction()
+
+lines_of(${PLAIN} -O0 plain)
+lines_of(${FAST} -Ofast fast)
+list(LENGTH plain count)
+if(count LESS 60)
+  message(FATAL_ERROR "only ${count} calls: ${plain}")
+endif()
+foreach(expected found IN ZIP_LISTS plain fast)
+  if(NOT expected STREQUAL found)
+    message(SEND_ERROR "with -O0:    ${expected}\nwith -Ofast: ${found}")
+  endif()
+endforeach()
