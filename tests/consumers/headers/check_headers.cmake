@@ -1,5 +1,7 @@
 # See CMakeLists.txt beside this file.
+cmake_minimum_required(VERSION 3.21) # IN_LIST
 include(${CMAKE_CURRENT_LIST_DIR}/../../support/run.cmake)
+list(GET COMPILERS 0 CXX)
 set(warnings -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -fsyntax-only -I${INCLUDE})
 
 # expect_compiles(COMPILER LANGUAGE STANDARD HEADER)
@@ -18,12 +20,17 @@ foreach(header IN LISTS headers)
   expect_compiles(${CXX} cpp c++20 ${header})
 endforeach()
 
-foreach(compiler IN LISTS CXX OTHER)
-  if(compiler AND EXISTS ${compiler})
-    foreach(standard IN ITEMS c++20 c++2b)
-      expect_compiles(${compiler} cpp ${standard} simdbezier/simdbezier.hpp)
-    endforeach()
+# Compilers that are one file count once.
+set(seen "")
+foreach(compiler IN LISTS COMPILERS)
+  file(REAL_PATH ${compiler} file)
+  if(file IN_LIST seen)
+    continue()
   endif()
+  list(APPEND seen ${file})
+  foreach(standard IN ITEMS c++20 c++2b)
+    run(${compiler} -std=${standard} ${warnings} ${CONSUMER})
+  endforeach()
 endforeach()
 
 if(EXISTS ${INCLUDE}/simdbezier.h)
