@@ -33,20 +33,28 @@ set(tools_section graphics)
 set(python_section python)
 set(runtime_what "the shared library")
 set(dev_what "headers, and what CMake and pkg-config need")
-set(tools_what "the program that tessellates, evaluates and describes files of patches")
+set(tools_what "the program that tessellates, evaluates and describes files")
 set(python_what "the module for Python, on numpy arrays")
 set(dev_depends "${runtime_package} (= ${PROJECT_VERSION})")
+# dpkg-shlibdeps finds the library in the build folder, where it belongs to no package.
+set(tools_depends "")
+if(simdbezier_type STREQUAL "SHARED_LIBRARY")
+  set(tools_depends "${runtime_package} (>= ${PROJECT_VERSION})")
+endif()
+set(python_depends ${tools_depends})
 if(SIMDBEZIER_BUILD_PYTHON) # extension modules are made for one version
   string(REPLACE "." ";" version ${SIMDBEZIER_MODULE_PYTHON_VERSION})
   list(GET version 1 minor)
   math(EXPR minor "${minor} + 1")
-  set(python_depends "python3 (>= ${SIMDBEZIER_MODULE_PYTHON_VERSION}), python3 (<< 3.${minor}), python3-numpy")
+  list(APPEND python_depends "python3 (>= ${SIMDBEZIER_MODULE_PYTHON_VERSION})"
+       "python3 (<< 3.${minor})" python3-numpy)
 endif()
+list(JOIN python_depends ", " python_depends)
 set(long_description
     "Control points go in; positions, derivatives, normals or closed meshes of
- triangles come out. Vector kernels are chosen when a program runs. Error
- bounds are published, edges are watertight, and results depend neither on
- threads nor on the machine.")
+triangles come out. Vector kernels are chosen when a program runs. Error
+bounds are published, edges are watertight, and results depend neither on
+threads nor on the machine.")
 
 # Triggers' file as Debian wants it, and each package's copyright and changelog.
 file(WRITE ${CMAKE_BINARY_DIR}/package/triggers "activate-noawait ldconfig\n")
@@ -63,7 +71,7 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${${component}_section})
   set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS "${${component}_depends}")
   set(CPACK_DEBIAN_${upper}_DESCRIPTION
-      "evaluates many Bezier patches at once: ${${component}_what}\n${long_description}")
+      "${long_description}\nThis package has ${${component}_what}.")
   file(WRITE ${CMAKE_BINARY_DIR}/package/${component}/changelog
        "simdbezier (${PROJECT_VERSION}) unstable; urgency=medium\n\n"
        "  * See CHANGELOG.md of the sources.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")

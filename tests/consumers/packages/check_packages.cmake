@@ -1,37 +1,100 @@
 # See CMakeLists.txt beside this file.
 include(${CMAKE_CURRENT_LIST_DIR}/../../support/run.cmake)
 file(REMOVE_RECURSE ${WORK})
-file(MAKE_DIRECTORY ${WORK})
+set(root ${WORK}/root)
+set(state ${root}/var/lib/dpkg)
 
+# Make them.
 get_filename_component(cmake_folder ${CMAKE_COMMAND} DIRECTORY)
 find_program(cpack cpack HINTS ${cmake_folder} REQUIRED)
 run(${cpack} -G DEB --config ${BUILD}/CPackConfig.cmake -B ${WORK}/packages)
 file(GLOB packages ${WORK}/packages/*.deb)
-foreach(name IN ITEMS libsimdbezier libsimdbezier-dev simdbezier-tools)
+set(names libsimdbezier libsimdbezier-dev simdbezier-tools)
+if(PYTHON)
+  list(APPEND names python3-simdbezier)
+endif()
+foreach(name IN LISTS names)
   if(NOT packages MATCHES "/${name}[0-9.]*_${VERSION}")
     message(FATAL_ERROR "no package ${name} among ${packages}")
   endif()
 endforeach()
-
 find_program(lintian lintian)
+if(lintian)
+  run(${lintian} --fail-on error ${packages})
+endif()
+
+# dpkg with a root of its own, whose other packages are said to be
+# those of this machine, so that what is depended upon has to be there. No root's rights are needed;
+# the packages' scripts find an ldconfig that only leaves a mark.
+set(ENV{PATH} ${WORK}/bin:$ENV{PATH}:/usr/sbin:/sbin)
+set(dpkg dpkg --root=${root} --log=${WORK}/dpkg.log --force-not-root --force-script-chrootless)
+file(WRITE ${WORK}/bin/ldconfig "#!/bin/sh\necho asked >>${WORK}/ldconfig.log\n")
+file(CHMOD ${WORK}/bin/ldconfig PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
+file(MAKE_DIRECTORY ${state}/info ${state}/updates ${state}/triggers)
+foreach(file status arch)
+  if(EXISTS /var/lib/dpkg/${file})
+    file(COPY /var/lib/dpkg/${file} DESTINATION ${state})
+  endif()
+endforeach()
 foreach(package IN LISTS packages)
-  if(lintian)
-    execute_process(COMMAND ${lintian} --fail-on error ${package} RESULT_VARIABLE result
-                    OUTPUT_VARIABLE said ERROR_VARIABLE said)
-    if(NOT result EQUAL 0)
-      message(FATAL_ERROR "lintian, of ${package}:\n${said}")
+  if(NOT package MATCHES "/libsimdbezier[0-9]")
+    execute_process(COMMAND ${dpkg} --install ${package} RESULT_VARIABLE result ERROR_VARIABLE errors
+                    OUTPUT_QUIET)
+    if(result EQUAL 0 OR NOT errors MATCHES "depends on libsimdbezier[0-9]")
+      message(FATAL_ERROR "${package} without the library: ${result}\n${errors}")
     endif()
   endif()
-  run(dpkg-deb -x ${package} ${WORK}/root)
 endforeach()
+run(${dpkg} --install ${packages})
+if(NOT EXISTS ${WORK}/ldconfig.log)
+  message(FATAL_ERROR "the loader's cache was not renewed")
+endif()
+
+# expect_output(FILE COMMAND…)
+function(expect_output file)
+  run(${ARGN})
+  file(READ ${EXAMPLES_EXPECTED}/${file} expected)
+  if(NOT output STREQUAL expected)
+    message(FATAL_ERROR "${ARGN} printed\n${output}instead of\n${expected}")
+  endif()
+endfunction()
 
 # The root is not where the system looks for libraries, so the loader is told.
-set(ENV{LD_LIBRARY_PATH} ${WORK}/root/usr/${LIBDIR})
-run(${WORK}/root/usr/bin/simdbezier tessellate builtin:teapot --grid 4 -o ${WORK}/teapot.ply)
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/consumer -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX}
-    -DCMAKE_PREFIX_PATH=${WORK}/root/usr)
+set(ENV{LD_LIBRARY_PATH} ${root}/usr/${LIBDIR})
+run(${root}/usr/bin/simdbezier tessellate builtin:teapot --grid 4 -o ${WORK}/teapot.ply)
+
+# C++ by CMake and by pkg-config, C by pkg-config.
+run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/consumer -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX}
+    -DCMAKE_PREFIX_PATH=${root}/usr)
 run(${CMAKE_COMMAND} --build ${WORK}/consumer)
 run(${WORK}/consumer/consumer)
 if(NOT output MATCHES "corner 0 0 0")
   message(FATAL_ERROR "the consumer printed: ${output}")
+endif()
+find_program(pkg_config pkg-config REQUIRED)
+set(ENV{PKG_CONFIG_PATH} ${root}/usr/${LIBDIR}/pkgconfig)
+run(${pkg_config} --cflags --libs simdbezier)
+separate_arguments(flags UNIX_COMMAND "${output}")
+run(${CXX} -std=c++20 ${EXAMPLES}/curve_tangent.cpp ${flags} -o ${WORK}/curve_tangent)
+expect_output(curve_tangent.txt ${WORK}/curve_tangent)
+run(${CC} -std=c99 ${EXAMPLES}/grid_from_c.c ${flags} -o ${WORK}/grid_from_c)
+expect_output(grid_from_c.txt ${WORK}/grid_from_c)
+
+# Python: the page's example, with the module of the package.
+if(PYTHON)
+  set(ENV{PYTHONPATH} ${root}/usr/lib/python3/dist-packages)
+  run(${PYTHON} -B -c "import simdbezier
+print(simdbezier.__file__)")
+  if(NOT output MATCHES "^${root}/")
+    message(FATAL_ERROR "the module is ${output}")
+  endif()
+  run(${PYTHON} -B ${RUN_PAGE} ${PAGE} WORKING_DIRECTORY ${WORK})
+endif()
+
+# Removed, they leave nothing behind.
+list(TRANSFORM packages REPLACE ".*/([^_]*)_.*" "\\1")
+run(${dpkg} --purge ${packages})
+file(GLOB_RECURSE left ${root}/usr/*)
+if(left)
+  message(FATAL_ERROR "left behind: ${left}")
 endif()
