@@ -4,6 +4,8 @@ It needs nothing but Python's own library, so that `pip install .` works without
 library is linked statically: the wheel needs a C++ and an OpenMP runtime of the system, no more.
 
     CMAKE_ARGS="-DSIMDBEZIER_ISAS=avx2" pip install .      passes arguments to CMake
+    SIMDBEZIER_WHEEL_BUILD=build pip install .             takes the module of a build folder that is
+                                                           there, and its library where it is shared
 """
 import base64
 import hashlib
@@ -48,15 +50,38 @@ def run(*command):
     subprocess.run([str(word) for word in command], check=True)
 
 
-def install_package(build, prefix):
-    """Configures, builds and installs the module, and nothing else, below a prefix."""
+def install(build, prefix, component):
+    run('cmake', '--install', build, '--prefix', prefix, '--component', component, '--strip')
+
+
+def configure(build):
     run('cmake', '-S', ROOT, '-B', build, '-DCMAKE_BUILD_TYPE=Release', '-DBUILD_SHARED_LIBS=OFF',
         '-DSIMDBEZIER_BUILD_PYTHON=ON', '-DSIMDBEZIER_BUILD_TOOLS=OFF',
         f'-DPython_EXECUTABLE={sys.executable}', '-DSIMDBEZIER_PYTHON_DIR=.',
         *shlex.split(os.environ.get('CMAKE_ARGS', '')))
+
+
+def package_files(build, scratch):
+    """Builds and installs the module: a dict from names in the wheel to what they hold."""
+    if not (build / 'CMakeCache.txt').exists():
+        configure(build)
     run('cmake', '--build', build, '--target', 'simdbezier_python', '--parallel',
         os.cpu_count() or 1)
-    run('cmake', '--install', build, '--prefix', prefix, '--component', 'python', '--strip')
+    install(build, scratch / 'module', 'python')
+    modules = list((scratch / 'module').rglob('simdbezier/_core*'))
+    suffix = sysconfig.get_config_var('EXT_SUFFIX')
+    if len(modules) != 1 or modules[0].name != f'_core{suffix}':
+        sys.exit(f'{build} has no module for this Python: expected _core{suffix}, found '
+                 f'{[module.name for module in modules]}')
+    folder = modules[0].parent
+    files = {f'simdbezier/{path.name}': path.read_bytes() for path in sorted(folder.iterdir())
+             if path.is_file()}
+    # The module looks beside itself first. Of a static library nothing is installed.
+    install(build, scratch / 'runtime', 'runtime')
+    for library in (scratch / 'runtime').rglob('libsimdbezier.so.*'):
+        if library.is_symlink(): # the name that the module asks for
+            files[f'simdbezier/{library.name}'] = library.read_bytes()
+    return files
 
 
 def record_line(name, data):
@@ -70,10 +95,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     name = f'simdbezier-{version()}-{tag()}.whl'
     with tempfile.TemporaryDirectory() as scratch:
         build = pathlib.Path(os.environ.get('SIMDBEZIER_WHEEL_BUILD', f'{scratch}/build'))
-        prefix = pathlib.Path(scratch, 'prefix')
-        install_package(build, prefix)
-        files = {path.relative_to(prefix).as_posix(): path.read_bytes()
-                 for path in sorted(prefix.rglob('*')) if path.is_file()}
+        files = package_files(build, pathlib.Path(scratch))
     files[f'{info}/METADATA'] = metadata().encode()
     files[f'{info}/LICENSE'] = (ROOT / 'LICENSE').read_bytes()
     files[f'{info}/WHEEL'] = (f'Wheel-Version: 1.0\nGenerator: simdbezier {version()}\n'
@@ -83,7 +105,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     with zipfile.ZipFile(pathlib.Path(wheel_directory, name), 'w', zipfile.ZIP_DEFLATED) as wheel:
         for path, data in files.items():
             entry = zipfile.ZipInfo(path)
-            entry.external_attr = (0o755 if path.endswith('.so') else 0o644) << 16
+            entry.external_attr = (0o755 if '.so' in path else 0o644) << 16
             entry.compress_type = zipfile.ZIP_DEFLATED
             wheel.writestr(entry, data)
     return name
