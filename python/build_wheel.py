@@ -89,6 +89,23 @@ def record_line(name, data):
     return f'{name},sha256={digest},{len(data)}\n'
 
 
+def information():
+    """What a wheel says about itself: a dict from names in its folder to what they hold."""
+    return {'METADATA': metadata().encode(),
+            'LICENSE': (ROOT / 'LICENSE').read_bytes(),
+            'WHEEL': (f'Wheel-Version: 1.0\nGenerator: simdbezier {version()}\n'
+                      f'Root-Is-Purelib: false\nTag: {tag()}\n').encode()}
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """The hook that spares pip a build where it only wants to know what it will get."""
+    folder = pathlib.Path(metadata_directory, f'simdbezier-{version()}.dist-info')
+    folder.mkdir()
+    for name, data in information().items():
+        (folder / name).write_bytes(data)
+    return folder.name
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """The hook that pip calls; returns the wheel's name."""
     info = f'simdbezier-{version()}.dist-info'
@@ -96,10 +113,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     with tempfile.TemporaryDirectory() as scratch:
         build = pathlib.Path(os.environ.get('SIMDBEZIER_WHEEL_BUILD', f'{scratch}/build'))
         files = package_files(build, pathlib.Path(scratch))
-    files[f'{info}/METADATA'] = metadata().encode()
-    files[f'{info}/LICENSE'] = (ROOT / 'LICENSE').read_bytes()
-    files[f'{info}/WHEEL'] = (f'Wheel-Version: 1.0\nGenerator: simdbezier {version()}\n'
-                              f'Root-Is-Purelib: false\nTag: {tag()}\n').encode()
+    files.update({f'{info}/{name}': data for name, data in information().items()})
     record = ''.join(record_line(path, data) for path, data in files.items())
     files[f'{info}/RECORD'] = f'{record}{info}/RECORD,,\n'.encode()
     with zipfile.ZipFile(pathlib.Path(wheel_directory, name), 'w', zipfile.ZIP_DEFLATED) as wheel:
