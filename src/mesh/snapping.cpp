@@ -69,7 +69,9 @@ public:
         open_.push_back(open);
       }
     }
-    std::stable_sort(open_.begin(), open_.end());
+    std::sort(open_.begin(), open_.end(), [](const OpenSide& a, const OpenSide& b) {
+      return a.cell != b.cell ? a.cell < b.cell : a.side < b.side;
+    });
   }
 
   /// All pairs that match, the closest first.
