@@ -80,15 +80,14 @@ expect_output(curve_tangent.txt ${WORK}/curve_tangent)
 run(${CC} -std=c99 ${EXAMPLES}/grid_from_c.c ${flags} -o ${WORK}/grid_from_c)
 expect_output(grid_from_c.txt ${WORK}/grid_from_c)
 
-# Python: the page's example, with the module of the package.
+# Python, with the module of the package.
 if(PYTHON)
   set(ENV{PYTHONPATH} ${root}/usr/lib/python3/dist-packages)
-  run(${PYTHON} -B -c "import simdbezier
-print(simdbezier.__file__)")
+  run(${PYTHON} -B -c "import simdbezier\nprint(simdbezier.__file__)")
   if(NOT output MATCHES "^${root}/")
     message(FATAL_ERROR "the module is ${output}")
   endif()
-  run(${PYTHON} -B ${RUN_PAGE} ${PAGE} WORKING_DIRECTORY ${WORK})
+  expect_output(grid_from_c.txt ${PYTHON} -B ${EXAMPLES}/python/grid_from_python.py)
 endif()
 
 # Removed, they leave nothing behind.
