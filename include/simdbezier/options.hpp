@@ -16,8 +16,8 @@ namespace simdbezier {
 /// Beyond that the call takes what is faster on this machine: the first large call of its kind
 /// (instruction set, shape, size of the grid, outputs and their layout, threads) evaluates some
 /// megabytes of its output in both ways, which takes a few milliseconds at most, and the process
-/// keeps the answer. One thread decides; others that come meanwhile stream. Without the sizes that
-/// a measurement needs (four times its blocks) a call streams. The answer never changes a bit.
+/// keeps the answer. One thread decides; others that come meanwhile stream, and so do calls that
+/// would be a measurement by more than a quarter. The answer never changes a bit.
 /// SIMDBEZIER_DESTINATION=cache or =memory in the environment, read once per process, decides for
 /// all large calls instead; any other word is as none.
 enum class Destination : std::uint8_t {

@@ -1,11 +1,11 @@
 // Calls that can write through the caches or past them. Besides what every call has (call.hpp):
 //
 //   auto plan(Destination)          the work, with the destination decided: cache or memory
-//   std::size_t written() const     bytes
-//   CallKind kind() const           what decides which stores are faster
+//   std::size_t written() const     how many bytes it writes
+//   CallKind kind() const           what calls have in common that the same stores suit
 //
 // and the work's
-//   std::size_t grain()             units of a patch or sample, which both ways have in common
+//   std::size_t grain()             units of a patch or sample; these are the same both ways
 //
 // Which way is faster depends on the machine, on what the kernels can put where it belongs by
 // themselves, on the width of rows and on the number of threads; no rule foretells it. The first

@@ -1,7 +1,7 @@
 // One thread's way from staged planes to the caller's memory, chunk by chunk.
 //
-// Kernels write planes of unit stride, and records where OutputPlan::put_directly() says so. Where the
-// caller wants other records, or stores that bypass the caches, they write into staging memory
+// Kernels write planes of unit stride, and records where OutputPlan::put_directly() says so. Where
+// the caller wants other records, or stores that bypass the caches, they write into staging memory
 // instead, from which a drain forms the caller's bytes in whole cache lines. Samples that do not
 // fill a line wait in front of the next chunk's planes. Streaming takes two staging areas: one
 // chunk is passed on while the next one is computed.
