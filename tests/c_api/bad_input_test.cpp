@@ -5,7 +5,7 @@
 
 #include "tests/c_api/c_world.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::bad_input_test {
 namespace {
 
 struct Case {
@@ -260,4 +260,4 @@ TEST(CBadInput, IsRefusedByName) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::bad_input_test

@@ -1,7 +1,7 @@
 // Curves through simdbezier.h give the bits of the C++ calls.
 #include "tests/c_api/c_values.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::curves_test {
 namespace {
 
 /// Five rational patches of degree 4 x 2, for curves that lie on them.
@@ -113,4 +113,4 @@ TYPED_TEST(CCurves, OfIsoCurves) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::curves_test

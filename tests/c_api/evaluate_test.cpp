@@ -1,7 +1,7 @@
 // Evaluations through simdbezier.h give the bits of the C++ calls.
 #include "tests/c_api/c_values.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::evaluate_test {
 namespace {
 
 template <typename T>
@@ -275,4 +275,4 @@ TYPED_TEST(CEvaluation, TellsWhichKernelRan) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::evaluate_test

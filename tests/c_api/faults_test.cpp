@@ -1,7 +1,7 @@
 // How simdbezier.h describes faults, how its structs grow, and its statuses.
 #include "tests/c_api/c_world.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::faults_test {
 namespace {
 
 TEST(CFaults, AreDescribedInOneLine) {
@@ -81,4 +81,4 @@ TEST(CStatuses, AreThoseOfCppAndThreeMore) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::faults_test

@@ -1,7 +1,7 @@
 // Meshes through simdbezier.h: the values of the C++ calls.
 #include "tests/c_api/c_model.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::meshes_test {
 namespace {
 
 using Scalars = ::testing::Types<float, double>;
@@ -193,4 +193,4 @@ TYPED_TEST(CMesh, MeetsACamera) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::meshes_test

@@ -1,7 +1,7 @@
 // Models through simdbezier.h: the values of the C++ calls.
 #include "tests/c_api/c_model.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::models_test {
 namespace {
 
 using Scalars = ::testing::Types<float, double>;
@@ -32,4 +32,4 @@ TYPED_TEST(CModel, HasEdges) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::models_test

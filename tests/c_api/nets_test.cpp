@@ -3,7 +3,7 @@
 
 #include "tests/c_api/c_values.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::nets_test {
 namespace {
 
 template <typename T>
@@ -149,4 +149,4 @@ TYPED_TEST(CNets, HaveBounds) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::nets_test

@@ -3,7 +3,7 @@
 
 #include "tests/c_api/c_values.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::options_test {
 namespace {
 
 /// Two patches side by side, the second one reversed and 0.01 away; and far from them two on top of
@@ -163,4 +163,4 @@ TEST(CMeshOptions, AreThoseOfCpp) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::options_test

@@ -11,7 +11,7 @@
 #include "tests/calls/grid_cases.hpp"
 #include "tests/support/isa_fixture.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::grid_sizes_test {
 namespace {
 
 /// Planes in heap blocks of exactly their size, so that sanitizers see one element too many.
@@ -139,4 +139,4 @@ TEST_P(EverySizeF32, large_grids) { large(); }
 TEST_P(EverySizeF64, large_grids) { large(); }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::grid_sizes_test

@@ -14,7 +14,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/workload.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::patch_grids_test {
 namespace {
 
 constexpr int kThreads[] = {1, 2, 5};
@@ -287,4 +287,4 @@ TEST(PatchGridsOfNothing, IsOk) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::patch_grids_test

@@ -13,7 +13,7 @@
 #include "tests/support/evaluation.hpp"
 #include "tests/support/nets/generators.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::results_test {
 namespace {
 
 constexpr std::size_t kPatches = 3;
@@ -130,4 +130,4 @@ TEST(Results, hold_what_was_asked_for_or_nothing) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::results_test

@@ -13,7 +13,7 @@
 #include "tests/support/nets/generators.hpp"
 #include "tests/support/random.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::scattered_test {
 namespace {
 
 constexpr std::size_t kPatches = 24;
@@ -273,4 +273,4 @@ TEST(ScatteredIndices, one_bad_index_is_found_anywhere) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::scattered_test

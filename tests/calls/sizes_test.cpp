@@ -13,7 +13,7 @@
 #include "tests/support/evaluation.hpp"
 #include "tests/support/nets/generators.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::sizes_test {
 namespace {
 
 constexpr std::size_t kPatches = 3;
@@ -237,4 +237,4 @@ TEST(LargestTile, is_the_largest_that_comes) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::sizes_test

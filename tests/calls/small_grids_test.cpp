@@ -13,7 +13,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/nets/generators.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::small_grids_test {
 namespace {
 
 /// How one direction's centred parameters lie.
@@ -138,4 +138,4 @@ TEST_P(SmallGridsF32, open) { sizes({}, false); }
 TEST_P(SmallGridsF64, open) { sizes({}, false); }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::small_grids_test

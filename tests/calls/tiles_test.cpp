@@ -11,7 +11,7 @@
 #include "tests/support/nets/generators.hpp"
 #include "tests/support/tile_collector.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::tiles_test {
 namespace {
 
 constexpr TileLayout kLayouts[] = {TileLayout::planes, TileLayout::xyz, TileLayout::interleaved};
@@ -258,4 +258,4 @@ TEST(TileErrors, NoPatchesHaveNoTiles) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::tiles_test

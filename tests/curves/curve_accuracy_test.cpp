@@ -4,7 +4,7 @@
 #include "tests/curves/curve_results.hpp"
 #include "tests/support/call_options.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::curve_accuracy_test {
 namespace {
 
 struct Kind {
@@ -137,4 +137,4 @@ TEST_P(CurveAccuracy, HomogeneousAndCartesianPointsAgree) {
 INSTANTIATE_FOR_EVERY_ISA(CurveAccuracy);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::curve_accuracy_test

@@ -5,7 +5,7 @@
 #include "tests/support/call_options.hpp"
 #include "tests/support/isas.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::curve_arguments_test {
 namespace {
 
 constexpr std::size_t kCurves = 3;
@@ -248,4 +248,4 @@ TEST(CurveBoundsOf, UnknownCurvesAndInstructionSets) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::curve_arguments_test

@@ -5,7 +5,7 @@
 #include "tests/curves/curve_results.hpp"
 #include "tests/support/call_options.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::curve_bits_test {
 namespace {
 
 struct Kind {
@@ -228,4 +228,4 @@ TEST(CurveStrips, LongCurvesAreCutWithoutATrace) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::curve_bits_test

@@ -4,7 +4,7 @@
 #include "tests/curves/curve_results.hpp"
 #include "tests/support/call_options.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::curve_layouts_test {
 namespace {
 
 constexpr std::size_t kCurves = 37;
@@ -206,4 +206,4 @@ TEST_P(CurveLayouts, ScatteredSamplesInAnyCompany) {
 INSTANTIATE_FOR_EVERY_ISA(CurveLayouts);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::curve_layouts_test

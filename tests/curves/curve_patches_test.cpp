@@ -2,7 +2,7 @@
 #include "tests/curves/curve_results.hpp"
 #include "tests/curves/iso_batch.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::curve_patches_test {
 namespace {
 
 constexpr PatchEdge kBoundaries[] = {PatchEdge::v0, PatchEdge::v1, PatchEdge::u0, PatchEdge::u1};
@@ -135,4 +135,4 @@ TEST_P(CurvesOnPatches, IsoCurvesOfAllShapes) {
 INSTANTIATE_FOR_EVERY_ISA(CurvesOnPatches);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::curve_patches_test

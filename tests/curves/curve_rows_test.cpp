@@ -5,7 +5,7 @@
 #include "tests/curves/curve_results.hpp"
 #include "tests/support/call_options.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::curve_rows_test {
 namespace {
 
 /// A batch of positions alone.
@@ -105,4 +105,4 @@ TEST_P(CurveRows, TakeParametersInAnyOrder) {
 INSTANTIATE_FOR_EVERY_ISA(CurveRows);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::curve_rows_test

@@ -3,7 +3,7 @@
 
 #include "tests/curves/curve_results.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::curve_tangents_test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -231,4 +231,4 @@ TEST_P(CurveTangents, ParametersThatAreNotFiniteGiveNan) {
 INSTANTIATE_FOR_EVERY_ISA(CurveTangents);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::curve_tangents_test

@@ -5,7 +5,7 @@
 #include "tests/curves/curve_results.hpp"
 #include "tests/curves/iso_batch.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::iso_points_test {
 namespace {
 
 /// Both orders: a point of the iso-curve's control polygon is one of the net's rows.
@@ -170,4 +170,4 @@ TEST(IsoOfSets, RefuseBadInput) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::iso_points_test

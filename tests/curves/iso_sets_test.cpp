@@ -9,7 +9,7 @@
 
 #include "tests/support/nets/shape_nets.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::iso_sets_test {
 namespace {
 
 constexpr std::size_t kN = 5;
@@ -105,4 +105,4 @@ TEST(IsoSets, of_several_shapes_are_refused) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::iso_sets_test

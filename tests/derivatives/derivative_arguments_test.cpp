@@ -8,7 +8,7 @@
 #include "tests/support/call_options.hpp"
 #include "tests/support/isas.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::derivative_arguments_test {
 namespace {
 
 constexpr float kUntouched = -777;
@@ -123,4 +123,4 @@ TEST_F(DerivativeArguments, a_set_without_patches) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::derivative_arguments_test

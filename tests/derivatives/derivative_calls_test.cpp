@@ -11,7 +11,7 @@
 #include "tests/support/call_options.hpp"
 #include "tests/support/isas.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::derivative_calls_test {
 namespace {
 
 const std::vector<OrderPair> kOrders = {{0, 0}, {3, 1}, {0, 4}, {2, 2}, {15, 0}, {6, 7}};
@@ -172,4 +172,4 @@ TEST_P(DerivativeCalls, parameters_that_are_not_finite) {
 INSTANTIATE_FOR_EVERY_ISA(DerivativeCalls);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::derivative_calls_test

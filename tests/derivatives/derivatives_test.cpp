@@ -9,7 +9,7 @@
 #include "tests/derivatives/derivative_oracle.hpp"
 #include "tests/support/call_options.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::derivatives_test {
 namespace {
 
 // Accuracy ---------------------------------------------------------------------------------------
@@ -271,4 +271,4 @@ TEST_P(DerivativeEdges, both_sides_agree_on_what_runs_along_the_edge) {
 INSTANTIATE_FOR_EVERY_ISA(DerivativeEdges);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::derivatives_test

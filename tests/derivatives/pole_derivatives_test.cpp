@@ -18,7 +18,7 @@
 #include "tests/derivatives/pole_nets.hpp"
 #include "tests/support/evaluation.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::pole_derivatives_test {
 namespace {
 
 constexpr ShapeCase kShapes[] = {
@@ -232,4 +232,4 @@ TEST_P(PoleDerivatives, are_those_of_the_surface) {
 INSTANTIATE_FOR_EVERY_ISA(PoleDerivatives);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::pole_derivatives_test

@@ -13,7 +13,7 @@
 #include "tests/support/evaluation.hpp"
 #include "tests/support/isa_fixture.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::pole_points_test {
 namespace {
 
 constexpr ShapeCase kShapes[] = {{2, 2, 3, Weights::homogeneous},
@@ -206,4 +206,4 @@ TEST(PoleCurves, are_points_exactly_or_not_at_all) {
 INSTANTIATE_FOR_EVERY_ISA(PolePoints);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::pole_points_test

@@ -11,7 +11,7 @@
 #include "tests/mesh/evaluated_mesh.hpp"
 #include "tests/mesh/mesh_oracle.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::crease_test {
 namespace {
 
 /// A roof of planes: patch k of an x-z polyline, each one over y from 0 to 3.
@@ -171,4 +171,4 @@ TEST(Creases, bad_input_is_a_status) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::crease_test

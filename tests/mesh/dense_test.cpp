@@ -1,12 +1,12 @@
 // Certificates of fine meshes, by dense samples of some patches of each model.
-#include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "tests/mesh/dense_deviation.hpp"
+#include "tests/support/long_form.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::dense_test {
 namespace {
 
 struct DenseCase {
@@ -19,12 +19,9 @@ constexpr DenseCase kCases[] = {{"teapot.bpt", 1e-6},    {"gumbo.bez", 1e-6},
                                 {"pawn2.bez.gz", 1e-6},  {"teacup.bez", 1e-6},
                                 {"bigguy.bez.gz", 1e-5}, {"car4.bez.gz", 1e-5}};
 
-/// SIMDBEZIER_DENSE_PATCHES: how many patches of each model are sampled, at all tolerances; without
-/// it, one at the coarsest.
-std::size_t dense_patches() {
-  const char* const wish = std::getenv("SIMDBEZIER_DENSE_PATCHES");
-  return wish == nullptr ? 0 : static_cast<std::size_t>(std::strtoull(wish, nullptr, 10));
-}
+/// How many patches of each model are sampled, at all tolerances; in the short form one at the
+/// coarsest.
+std::size_t dense_patches() { return by_form<std::size_t>(0, 8); }
 
 template <typename T>
 class DenseMeshes : public ::testing::Test {};
@@ -88,4 +85,4 @@ TYPED_TEST(DenseMeshes, are_as_close_as_certified) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::dense_test

@@ -9,7 +9,7 @@
 #include "tests/mesh/mesh_oracle.hpp"
 #include "tests/support/isa_fixture.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::evaluate_mesh_test {
 namespace {
 
 template <typename T>
@@ -268,4 +268,4 @@ TEST(MeshTriangles, are_counter_clockwise_about_the_normals) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::evaluate_mesh_test

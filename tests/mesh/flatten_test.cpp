@@ -9,7 +9,7 @@
 
 #include <simdbezier/flatten.hpp>
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::flatten_test {
 namespace {
 
 struct TestCurve {
@@ -175,4 +175,4 @@ TEST(FlattenSizes, bad_input_is_a_status) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::flatten_test

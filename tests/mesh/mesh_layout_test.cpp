@@ -11,7 +11,7 @@
 #include "tests/mesh/random_gluing.hpp"
 #include "tests/mesh/triangle_census.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::mesh_layout_test {
 namespace {
 
 struct Rates {
@@ -230,4 +230,4 @@ TEST(MeshLayout, empty_models_have_empty_meshes) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::mesh_layout_test

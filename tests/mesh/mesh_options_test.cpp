@@ -9,7 +9,7 @@
 #include "tests/mesh/mesh_models.hpp"
 #include "tests/mesh/mesh_oracle.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::mesh_options_test {
 namespace {
 
 std::vector<double> sheet_values() {
@@ -237,4 +237,4 @@ TEST(MeshOptions, refuses_bad_nets) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::mesh_options_test

@@ -9,7 +9,7 @@
 
 #include "tests/mesh/mesh_models.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::mesh_primitives_test {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -218,4 +218,4 @@ TEST(MeshPrimitives, large_patches_fill_their_clusters) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::mesh_primitives_test

@@ -13,7 +13,7 @@
 
 #include "tests/mesh/mesh_oracle.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::rates_test {
 namespace {
 
 /// One patch: values x y z (w) of its control points, u fastest.
@@ -293,4 +293,4 @@ TEST(Rates, bad_input_is_a_status) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::rates_test

@@ -9,7 +9,7 @@
 #include <simdbezier/flatten.hpp>
 #include <simdbezier/mesh.hpp>
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::scale_test {
 namespace {
 
 constexpr int kExponents[] = {-900, -565, -300, 300, 665, 900};
@@ -204,4 +204,4 @@ TEST(MeshScale, certificates_hold_where_a_patch_bends_far_more_one_way) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::scale_test

@@ -10,7 +10,7 @@
 #include "tests/mesh/mesh_models.hpp"
 #include "tests/mesh/triangle_census.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::separation_test {
 namespace {
 
 using Point = std::array<double, 3>;
@@ -175,4 +175,4 @@ TEST(Separation, finds_what_coincides_between_corners_of_many_patches) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::separation_test

@@ -11,7 +11,7 @@
 #include "tests/mesh/mesh_oracle.hpp"
 #include "tests/mesh/triangle_census.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::snapping_test {
 namespace {
 
 /// Every control point moved by up to `most` in each direction, so that no side matches exactly.
@@ -146,4 +146,4 @@ TEST(Snapping, bad_input_is_a_status) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::snapping_test

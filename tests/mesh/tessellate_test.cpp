@@ -1,7 +1,6 @@
 // tessellate() on models and on real data: closed where they are, oriented, without triangles that
 // have no area, and as close to the surface as certified, by dense samples.
 #include <cmath>
-#include <cstdlib>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -10,9 +9,10 @@
 
 #include "tests/mesh/dense_deviation.hpp"
 #include "tests/mesh/triangle_census.hpp"
+#include "tests/support/long_form.hpp"
 #include "tests/support/nets/data_files.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::tessellate_test {
 namespace {
 
 struct Model {
@@ -148,12 +148,8 @@ TEST(TessellateData, is_closed_where_the_data_is_and_as_close_as_certified) {
   }
 }
 
-/// SIMDBEZIER_MESH_PATCHES: about how many patches the sheet has.
 TEST(Tessellate, of_ten_thousand_random_patches_is_one_sheet) {
-  const char* const wish = std::getenv("SIMDBEZIER_MESH_PATCHES");
-  const int side =
-      wish == nullptr ? 100 : static_cast<int>(std::lround(std::sqrt(std::atof(wish))));
-  ASSERT_GT(side, 0);
+  const int side = by_form(100, 316); // 10^5 patches
   const Model model = random_sheet(side, side, 1);
   const std::vector<double> values = model.values();
   const auto nets = ControlNets<double>::packed(values.data(), model.patches.size(), 3, 3);
@@ -251,4 +247,4 @@ TEST(Tessellate, of_a_side_that_is_a_loop_has_no_triangle_without_area) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::tessellate_test

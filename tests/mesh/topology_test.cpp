@@ -7,7 +7,7 @@
 
 #include "tests/mesh/mesh_models.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::topology_test {
 namespace {
 
 struct Expected {
@@ -130,4 +130,4 @@ TEST(TopologyTest, bad_input_is_a_status) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::topology_test

@@ -13,7 +13,7 @@
 #include "tests/mesh/mesh_oracle.hpp"
 #include "tests/support/isas.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::vertex_formats_test {
 namespace {
 
 MeshModel ball() {
@@ -259,4 +259,4 @@ TEST(VertexFormats, bad_input_is_a_status) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::vertex_formats_test

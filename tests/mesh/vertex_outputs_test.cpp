@@ -8,7 +8,7 @@
 #include "tests/mesh/evaluated_mesh.hpp"
 #include "tests/support/isas.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::vertex_outputs_test {
 namespace {
 
 MeshModel model_named(const std::string& name) {
@@ -273,4 +273,4 @@ TYPED_TEST(VertexCalls, refuse_bad_input) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::vertex_outputs_test

@@ -9,7 +9,7 @@
 #include "tests/nets/net_batches.hpp"
 #include "tests/support/nets/data_files.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::adjacency_test {
 namespace {
 
 /// An edge's points in its own direction, a key for comparing; equal values compare equal, so -0 is
@@ -267,4 +267,4 @@ TEST(Adjacency, BadInput) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::adjacency_test

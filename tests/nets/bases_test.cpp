@@ -4,7 +4,7 @@
 
 #include "tests/nets/net_batches.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::bases_test {
 namespace {
 
 /// The basis functions' values, from their definitions.
@@ -297,4 +297,4 @@ TEST(Meshes, BadInput) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::bases_test

@@ -8,7 +8,7 @@
 #include "tests/nets/net_operations_list.hpp"
 #include "tests/support/isas.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::net_arguments_test {
 namespace {
 
 constexpr Shape kPlain{3, 2, 3, Weights::none};
@@ -238,4 +238,4 @@ TEST(NetArguments, InstructionSets) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::net_arguments_test

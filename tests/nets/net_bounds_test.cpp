@@ -7,7 +7,7 @@
 
 #include "tests/nets/net_batches.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::net_bounds_test {
 namespace {
 
 constexpr std::size_t kCount = 4;
@@ -147,4 +147,4 @@ TEST(NetBounds, BadInput) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::net_bounds_test

@@ -7,7 +7,7 @@
 #include "tests/nets/net_batches.hpp"
 #include "tests/support/isa_fixture.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::net_boxes_test {
 namespace {
 
 constexpr std::size_t kCount = 4;
@@ -172,4 +172,4 @@ TEST_P(NetBoundsTest, FlatnessBoundsTheDistanceDouble) { flatness_bounds<double>
 INSTANTIATE_FOR_EVERY_ISA(NetBoundsTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::net_boxes_test

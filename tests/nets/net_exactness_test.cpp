@@ -3,7 +3,7 @@
 
 #include "tests/nets/net_batches.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::net_exactness_test {
 namespace {
 
 constexpr std::size_t kCount = 3;
@@ -175,4 +175,4 @@ TYPED_TEST(NetExactness, Extrapolation) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::net_exactness_test

@@ -6,7 +6,7 @@
 #include "tests/support/environment.hpp"
 #include "tests/support/isa_fixture.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::net_sameness_test {
 namespace {
 
 constexpr std::size_t kCount = 37; // two groups of the widest register and five patches
@@ -145,4 +145,4 @@ TEST(NetLayouts, InterleavedOutputs) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::net_sameness_test

@@ -4,7 +4,7 @@
 
 #include "tests/nets/net_batches.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::net_symmetry_test {
 namespace {
 
 constexpr std::size_t kCount = 21;
@@ -261,4 +261,4 @@ TYPED_TEST(NetSymmetry, CollapsedEdgesStayCollapsed) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::net_symmetry_test

@@ -10,7 +10,7 @@
 #include "tests/support/nets/shaped_nets.hpp"
 #include "tests/support/oracle/oracle_curvature.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::curvature_test {
 namespace {
 
 constexpr std::size_t kNu = 9;
@@ -158,4 +158,4 @@ TEST_P(CurvatureTest, EveryPlaneIsOptional) {
 INSTANTIATE_FOR_EVERY_ISA(CurvatureTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::curvature_test

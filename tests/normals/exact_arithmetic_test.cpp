@@ -14,7 +14,7 @@
 #include "src/exact/prime_field.hpp"
 #include "tests/support/random.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::exact_arithmetic_test {
 namespace {
 
 using detail::Bounded;
@@ -255,4 +255,4 @@ TEST(ExactArithmetic, both_ways_find_the_same_term) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::exact_arithmetic_test

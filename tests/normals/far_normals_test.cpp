@@ -15,7 +15,7 @@
 #include "tests/support/nets/shaped_nets.hpp"
 #include "tests/support/oracle/oracle.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::far_normals_test {
 namespace {
 
 constexpr int kN = 5;
@@ -134,4 +134,4 @@ TEST_P(FarNormals, of_homogeneous_floats) {
 INSTANTIATE_FOR_EVERY_ISA(FarNormals);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::far_normals_test

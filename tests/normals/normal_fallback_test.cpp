@@ -12,7 +12,7 @@
 #include "tests/normals/fallback_surface.hpp"
 #include "tests/support/random.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::normal_fallback_test {
 namespace {
 
 /// A bicubic cap whose edge v = 0 is a pole.
@@ -233,4 +233,4 @@ TEST(NormalFallback, points_and_lines_have_none) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::normal_fallback_test

@@ -12,7 +12,7 @@
 #include "tests/support/nets/shaped_nets.hpp"
 #include "tests/support/oracle/oracle.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::rational_normals_test {
 namespace {
 
 constexpr int kN = 17;
@@ -230,4 +230,4 @@ TEST_P(RationalNormalTest, ExtremeScales) {
 INSTANTIATE_FOR_EVERY_ISA(RationalNormalTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::rational_normals_test

@@ -14,7 +14,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/workload.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::fences_test {
 namespace {
 
 enum class Fence : std::uint8_t { before, behind };
@@ -262,4 +262,4 @@ TEST_P(FenceTest, GapsMayBeWrittenMeanwhile) {
 INSTANTIATE_FOR_EVERY_ISA(FenceTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::fences_test

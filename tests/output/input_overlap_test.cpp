@@ -8,7 +8,7 @@
 #include "tests/output/arena.hpp"
 #include "tests/support/call_options.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::input_overlap_test {
 namespace {
 
 /// Three planes, the last of which begins at that place.
@@ -77,4 +77,4 @@ TEST(OverlapWithInputs, SizesAndOffsetsOfPatchGrids) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::input_overlap_test

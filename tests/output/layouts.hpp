@@ -1,6 +1,7 @@
 // Output layouts that a caller may choose, and the memory that goes with them.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -96,7 +97,7 @@ inline constexpr PlaneCase kPlaneCases[] = {
   return (count * stride + 15) / 16 * 16 + 16 + 32; // room for the shift, and 128 bytes
 }
 [[nodiscard]] inline std::size_t plane_elements(const PlaneCase& layout, std::size_t count) {
-  return 3 * kVectorGroups * plane_pitch(layout, count);
+  return 3 * static_cast<std::size_t>(std::popcount(layout.groups)) * plane_pitch(layout, count);
 }
 
 template <typename T>

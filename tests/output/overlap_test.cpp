@@ -11,7 +11,7 @@
 #include "tests/output/arena.hpp"
 #include "tests/support/call_options.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::overlap_test {
 namespace {
 
 struct OverlapCase {
@@ -197,4 +197,4 @@ TEST(Overlap, OneSample) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::overlap_test

@@ -14,9 +14,10 @@
 #include "tests/support/call_options.hpp"
 #include "tests/support/canvas.hpp"
 #include "tests/support/isa_fixture.hpp"
+#include "tests/support/long_form.hpp"
 #include "tests/support/nets/generators.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::records_test {
 namespace {
 
 /// Arrays of records: position x y z, du a b c, dv d e f, normal n o p.
@@ -101,12 +102,18 @@ protected:
     const std::vector<Net> nets = mixed_nets(17);
     const PatchSet<T> sets[] = {packed<T>(nets), packed<T>(nets, {.local_origin = true})};
     std::size_t turn = 0;
+    std::size_t number = 0;
     for (const Size size : kSizes) {
       if (size.nv < 2) {
         continue;
       }
+      std::size_t place = ++number;
       for (const std::string& layout : kLayouts) {
+        ++place;
         for (std::size_t scheme = 0; scheme < 4; ++scheme, ++turn) {
+          if (!in_form(place + scheme, 4)) {
+            continue;
+          }
           CallOptions options{.threads = turn % 5 == 3 ? 3 : 1,
                               .watertight = scheme < 2,
                               .destination = Destination::memory,
@@ -127,7 +134,9 @@ protected:
   void given_parameters() {
     const PatchSet<T> set = packed<T>(mixed_nets(8));
     Random random(5);
+    std::size_t number = 0;
     for (const Size size : kSizes) {
+      std::size_t place = ++number;
       std::vector<T> x(size.nu);
       std::vector<T> y(size.nv);
       for (std::vector<T>* const all : {&x, &y}) {
@@ -138,8 +147,12 @@ protected:
       x[size.nu / 2] = std::numeric_limits<T>::quiet_NaN();
       const Grid<T> samples{size.nu, size.nv, x.data(), y.data(), Parameters::centred};
       for (const std::string& layout : kLayouts) {
+        ++place; // the next layout begins with the next choice
         for (const bool watertight : {true, false}) {
           for (const Destination destination : {Destination::memory, Destination::cache}) {
+            if (!in_form(++place, 4)) {
+              continue;
+            }
             check(set, samples, layout, 0,
                   {.threads = 1,
                    .watertight = watertight,
@@ -156,15 +169,25 @@ protected:
   template <typename T>
   void long_calls() {
     const PatchSet<T> set = packed<T>(mixed_nets(70));
+    struct Call {
+      Size size;
+      std::size_t shift;
+      int threads;
+      std::size_t patches;
+    };
+    constexpr Call kCalls[] = {
+        {{32, 32}, 0, 2, 70}, {{33, 32}, 1, 2, 70}, {{16, 4500}, 0, 1, 2}, {{17, 4500}, 0, 1, 2}};
+    std::size_t place = 0;
     for (const std::string& layout : kLayouts) {
       for (const Destination destination : {Destination::memory, Destination::cache}) {
-        const CallOptions options{.threads = 2, .destination = destination};
-        check(set, Grid<T>::uniform(32, 32), layout, 0, options);
-        check(set, Grid<T>::uniform(33, 32), layout, 1, options);
-        check(set, Grid<T>::uniform(16, 4500), layout, 0,
-              {.threads = 1, .destination = destination, .patch_count = 2});
-        check(set, Grid<T>::uniform(17, 4500), layout, 0,
-              {.threads = 1, .destination = destination, .patch_count = 2});
+        for (const Call& call : kCalls) {
+          ++place;
+          if (in_form(place + place / 8, 4)) {
+            check(
+                set, Grid<T>::uniform(call.size.nu, call.size.nv), layout, call.shift,
+                {.threads = call.threads, .destination = destination, .patch_count = call.patches});
+          }
+        }
       }
     }
   }
@@ -183,4 +206,4 @@ TEST_P(RecordTest, LongCallsF64) { long_calls<double>(); }
 INSTANTIATE_FOR_EVERY_ISA(RecordTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::records_test

@@ -10,7 +10,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/workload.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::scattered_destinations_test {
 namespace {
 
 constexpr std::size_t kPatches = 23;
@@ -60,4 +60,4 @@ TEST_P(ScatteredDestinationTest, LayoutsF64) { layouts<double>(); }
 INSTANTIATE_FOR_EVERY_ISA(ScatteredDestinationTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::scattered_destinations_test

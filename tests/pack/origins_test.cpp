@@ -14,7 +14,7 @@
 #include "tests/support/nets/generators.hpp"
 #include "tests/support/oracle/oracle.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::origins_test {
 namespace {
 
 constexpr std::size_t kSamples = 8; // a direction, all uniform, ends included
@@ -184,4 +184,4 @@ TEST(PackOptionsTest, an_origin_that_is_not_finite_is_refused) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::origins_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/nets/shape_nets.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::pack_bits_test {
 namespace {
 
 std::vector<ShapeCase> some_shapes() {
@@ -117,4 +117,4 @@ TEST(PackBits, bicubic_patches_get_the_same_bits_from_both_kernels) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::pack_bits_test

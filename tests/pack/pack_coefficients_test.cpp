@@ -16,7 +16,7 @@
 #include "tests/support/oracle/exact_rational.hpp"
 #include "tests/support/random.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::pack_coefficients_test {
 namespace {
 
 constexpr std::size_t kNet = detail::kCoefficients;
@@ -154,4 +154,4 @@ TEST(PackKernel, the_lowest_fault_is_reported_and_the_set_kept) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::pack_coefficients_test

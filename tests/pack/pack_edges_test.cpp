@@ -7,7 +7,7 @@
 
 #include "tests/support/nets/shape_nets.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::pack_edges_test {
 namespace {
 
 /// Where edge `e` of `cell` stands in a patch that was turned, and how.
@@ -207,4 +207,4 @@ TEST(PackEdges, cells_share_their_edges) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::pack_edges_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/nets/shape_nets.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::pack_sets_test {
 namespace {
 
 template <typename T>
@@ -208,4 +208,4 @@ TEST(PackSets, the_lowest_fault_is_reported_with_its_place) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::pack_sets_test

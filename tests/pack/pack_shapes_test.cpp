@@ -11,7 +11,7 @@
 #include "tests/support/nets/shape_nets.hpp"
 #include "tests/support/oracle/exact_polynomials.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::pack_shapes_test {
 namespace {
 
 /// How many times the size of its values each coefficient can be: of a cell, it is formed from the
@@ -272,4 +272,4 @@ TEST(PackShapes, all_values_relative_to_a_point_are_rounded_once) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::pack_shapes_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/nets/shape_nets.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::pack_strides_test {
 namespace {
 
 constexpr std::ptrdiff_t kMax = std::numeric_limits<std::ptrdiff_t>::max();
@@ -175,4 +175,4 @@ TEST(PackStrides, of_curves_likewise) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::pack_strides_test

@@ -10,7 +10,7 @@
 #include "src/runtime/dispatch.hpp"
 #include "tests/support/isas.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::dispatch_test {
 namespace {
 
 TEST(Dispatch, names_round_trip) {
@@ -81,4 +81,4 @@ TEST(Dispatch, every_status_has_a_text_of_its_own) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::dispatch_test

@@ -8,7 +8,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/workload.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::fp_environment_test {
 namespace {
 
 struct EnvironmentCase {
@@ -115,4 +115,4 @@ TEST(EnvironmentCounterproof, ModesTakeEffect) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::fp_environment_test

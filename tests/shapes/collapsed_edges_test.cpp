@@ -9,7 +9,7 @@
 #include "tests/support/nets/generators.hpp"
 #include "tests/support/nets/shaped_nets.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::collapsed_edges_test {
 namespace {
 
 constexpr std::size_t kN = 9;
@@ -199,4 +199,4 @@ TEST_P(CollapsedEdgeTest, PointsThatOnlyRoundToOneAreNotOne) {
 INSTANTIATE_FOR_EVERY_ISA(CollapsedEdgeTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::collapsed_edges_test

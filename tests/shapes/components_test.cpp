@@ -10,7 +10,7 @@
 #include "tests/support/nets/component_nets.hpp"
 #include "tests/support/nets/generators.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::components_test {
 namespace {
 
 constexpr std::size_t kPatches = 5;
@@ -243,4 +243,4 @@ TEST_F(RefusalTest, PatchesOutsideOfAMixedSet) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::components_test

@@ -9,7 +9,7 @@
 #include "tests/support/nets/component_nets.hpp"
 #include "tests/support/nets/generators.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::nan_parameters_test {
 namespace {
 
 constexpr Degrees kDegrees[] = {{1, 1}, {1, 2},  {2, 1},  {2, 2},  {1, 3}, {3, 1},
@@ -74,4 +74,4 @@ TEST_P(NanParametersTest, make_all_outputs_nan) {
 INSTANTIATE_FOR_EVERY_ISA(NanParametersTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::nan_parameters_test

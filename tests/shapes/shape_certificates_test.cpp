@@ -18,7 +18,7 @@
 #include "tests/support/nets/shape_nets.hpp"
 #include "tests/support/oracle/exact_polynomials.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::shape_certificates_test {
 namespace {
 
 /// The exact surface of a net whose weights are given beside Cartesian points.
@@ -237,4 +237,4 @@ TEST(ShapeCertificates, mixed_sets_find_every_patch) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::shape_certificates_test

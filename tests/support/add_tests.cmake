@@ -9,7 +9,9 @@ function(simdbezier_add_tests program prefix)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "SOURCES;LIBRARIES")
   add_executable(${program} ${arg_SOURCES})
   target_link_libraries(${program} PRIVATE simdbezier_test_support simdbezier_private_flags
-                                           ${arg_LIBRARIES} GTest::gtest_main)
+                                           simdbezier_oracle ${arg_LIBRARIES} GTest::gtest_main)
+  set_target_properties(${program} PROPERTIES UNITY_BUILD ON
+                                              UNITY_BUILD_BATCH_SIZE ${SIMDBEZIER_TEST_BATCH})
   # Precompiled headers demand the same flags.
   if(TARGET simdbezier_test_headers AND "simdbezier::simdbezier" IN_LIST arg_LIBRARIES
      AND NOT "OpenMP::OpenMP_CXX" IN_LIST arg_LIBRARIES)

@@ -2,6 +2,7 @@
 // results where outputs lie, the poison it was filled with everywhere else.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstring>
@@ -96,6 +97,10 @@ public:
       for (std::size_t c = 0; c < 3; ++c) {
         T* to = expected_.data() + (planes[c] - values_.data());
         const T* const from = reference.plane(plane_group(g), c);
+        if (group.stride == 1) {
+          std::copy_n(from, count, to);
+          continue;
+        }
         for (std::size_t k = 0; k < count; ++k) {
           to[static_cast<std::ptrdiff_t>(k) * group.stride] = from[k];
         }

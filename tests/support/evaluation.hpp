@@ -166,14 +166,8 @@ private:
 /// How many values and statuses of two results differ in their bits.
 template <typename T>
 [[nodiscard]] std::size_t differing_values(const Planes<T>& a, const Planes<T>& b) {
-  std::size_t different = 0;
-  for (std::size_t k = 0; k < a.values().size(); ++k) {
-    different += same_bits(a.values()[k], b.values()[k]) ? 0 : 1;
-  }
-  for (std::size_t k = 0; k < a.count(); ++k) {
-    different += a.status()[k] == b.status()[k] ? 0 : 1;
-  }
-  return different;
+  return differing_bits(a.values().data(), b.values().data(), a.values().size()) +
+         differing_bits(a.status().data(), b.status().data(), a.count());
 }
 
 /// Scattered parameters in the three arrays that the call takes.

@@ -1,12 +1,14 @@
 // FNV-1a (64 bit) over the bits of results: equal hashes are how equal bits are reported.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <span>
 #include <string>
+#include <type_traits>
 
 namespace simdbezier::tests {
 
@@ -52,7 +54,23 @@ private:
 /// True where two values have the same bits, or are both NaN.
 template <typename T>
 [[nodiscard]] bool same_bits(T a, T b) {
-  return std::memcmp(&a, &b, sizeof a) == 0 || (a != a && b != b);
+  using Bits = std::conditional_t<
+      sizeof(T) == 8, std::uint64_t,
+      std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint8_t>>; // floats, statuses
+  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b) || (a != a && b != b);
+}
+
+/// How many values of two arrays have other bits. One comparison of memory where all are the same.
+template <typename T>
+[[nodiscard]] std::size_t differing_bits(const T* a, const T* b, std::size_t count) {
+  if (count == 0 || std::memcmp(a, b, count * sizeof(T)) == 0) {
+    return 0;
+  }
+  std::size_t different = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    different += same_bits(a[k], b[k]) ? 0 : 1;
+  }
+  return different;
 }
 
 } // namespace simdbezier::tests

@@ -66,16 +66,14 @@ public:
     }
     for (std::size_t g = 0; g < kVectorGroups; ++g) {
       for (std::size_t c = 0; holds(groups_, g) && c < 3; ++c) {
-        const T* const a = found_.plane(plane_group(g), c);
-        const T* const b = reference.plane(plane_group(g), c) + first_ * nu_ * nv_;
-        for (std::size_t k = 0; k < arrivals_.size(); ++k) {
-          different += same_bits(a[k], b[k]) ? 0 : 1;
-        }
+        different += differing_bits(found_.plane(plane_group(g), c),
+                                    reference.plane(plane_group(g), c) + first_ * nu_ * nv_,
+                                    arrivals_.size());
       }
     }
-    for (std::size_t k = 0; format_.outputs.holds(Output::status) && k < arrivals_.size(); ++k) {
-      const bool same = found_.status()[k] == reference.status()[first_ * nu_ * nv_ + k];
-      different += same ? 0 : 1;
+    if (format_.outputs.holds(Output::status)) {
+      different += differing_bits(found_.status().data(),
+                                  reference.status().data() + first_ * nu_ * nv_, arrivals_.size());
     }
     return different;
   }

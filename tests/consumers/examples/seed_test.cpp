@@ -18,7 +18,7 @@
 #include "examples/seed/subdivision.hpp"
 #include "tests/support/random.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::seed_test {
 namespace {
 
 using seed::Point;
@@ -241,4 +241,4 @@ TEST(SeedAlgorithms, KnownValues) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::seed_test

@@ -8,7 +8,7 @@
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::any_shape_test {
 namespace {
 
 class AnyShapeTest : public ::testing::TestWithParam<const char*> {};
@@ -150,4 +150,4 @@ TEST(AnyShape, SinglePrecisionNamesWhatItCannotHold) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::any_shape_test

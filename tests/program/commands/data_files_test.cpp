@@ -14,7 +14,7 @@
 #include "tests/support/nets/data_files.hpp"
 #include "tests/support/oracle/oracle.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::data_files_test {
 namespace {
 
 constexpr const char* kNoData = "the shared data files are not here";
@@ -189,4 +189,4 @@ TEST(DataFiles, CompressedFilesAreRead) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::data_files_test

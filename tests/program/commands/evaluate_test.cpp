@@ -13,7 +13,7 @@
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::evaluate_test {
 namespace {
 
 std::string evaluate(std::vector<std::string> arguments, const std::string& input = {}) {
@@ -284,4 +284,4 @@ TEST(Evaluate, RefusesADirectoryOfSamples) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::evaluate_test

@@ -9,7 +9,7 @@
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::info_shapes_test {
 namespace {
 
 std::string info(const std::string& in, bool json) {
@@ -151,4 +151,4 @@ TEST(EdgeCounts, CollapsedEdgesMayHaveWeights) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::info_shapes_test

@@ -9,7 +9,7 @@
 #include "tests/program/process/program.hpp"
 #include "tests/support/nets/net_shapes.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::info_test {
 namespace {
 
 // The number that follows "key": in JSON text; -1 where there is none.
@@ -128,4 +128,4 @@ TEST(Info, KnowsClosedAndCollapsedEdges) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::info_test

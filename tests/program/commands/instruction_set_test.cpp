@@ -10,7 +10,7 @@
 #include "tests/program/process/program.hpp"
 #include "tests/support/isas.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::instruction_set_test {
 namespace {
 
 constexpr std::size_t kSide = 9;
@@ -103,4 +103,4 @@ TEST(InstructionSet, UnknownOrUnavailableIsBadUsage) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::instruction_set_test

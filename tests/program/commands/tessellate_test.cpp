@@ -8,7 +8,7 @@
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::tessellate_test {
 namespace {
 
 ParsedMesh tessellate(const std::string& in, const std::string& extension,
@@ -190,4 +190,4 @@ TEST(Tessellate, ThreadsDoNotChangeTheFile) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::tessellate_test

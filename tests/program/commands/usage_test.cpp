@@ -6,7 +6,7 @@
 
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::usage_test {
 namespace {
 
 struct BadUsage {
@@ -290,4 +290,4 @@ TEST(Usage, AnswersThatCannotBeWrittenAreFailures) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::usage_test

@@ -9,7 +9,7 @@
 #include "tests/program/formats/format_files.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::counts_test {
 namespace {
 
 using tools::Count;
@@ -102,4 +102,4 @@ INSTANTIATE_TEST_SUITE_P(All, HugeFileTest, ::testing::ValuesIn(huge_files()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::counts_test

@@ -6,7 +6,7 @@
 #include "tests/program/formats/format_files.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::format_faults_test {
 namespace {
 
 /// A sample file with one part of it replaced, or a text of its own where there is no part.
@@ -299,4 +299,4 @@ TEST(FormatFaults, EndTheProgram) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::format_faults_test

@@ -7,7 +7,7 @@
 #include "tests/program/formats/format_files.hpp"
 #include "tests/program/formats/sample_nets.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::free_form_test {
 namespace {
 
 /// The x coordinates of a patch, which in these tests are numbers of points.
@@ -179,4 +179,4 @@ TEST(Obj, JoinsContinuedLines) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::free_form_test

@@ -11,7 +11,7 @@
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::gzip_test {
 namespace {
 
 // A whole gzip file.
@@ -190,4 +190,4 @@ TEST(Gzip, NamesAreJudgedWithoutTheirExtension) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::gzip_test

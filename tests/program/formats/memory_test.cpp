@@ -7,7 +7,7 @@
 #include "tests/program/formats/format_files.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::memory_test {
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -183,4 +183,4 @@ INSTANTIATE_TEST_SUITE_P(All, MemoryTest, ::testing::ValuesIn(kDense),
                          [](const auto& test) { return std::string(test.param.format); });
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::memory_test

@@ -7,7 +7,7 @@
 
 #include "tests/program/formats/format_files.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::obj_statements_test {
 namespace {
 
 std::string with_reference(const std::string& reference) {
@@ -64,4 +64,4 @@ TEST(Weights, WhoseQuotientsOverflowAreRefused) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::obj_statements_test

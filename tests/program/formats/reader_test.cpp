@@ -8,7 +8,7 @@
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::reader_test {
 namespace {
 
 // Two patches as a file, with `separator` between numbers and `row_end` after every point.
@@ -282,4 +282,4 @@ TEST(Reader, KeepsOneLineWhenAFileNameHasMore) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::reader_test

@@ -8,7 +8,7 @@
 #include "tests/program/formats/format_files.hpp"
 #include "tools/rib_requests.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::rib_requests_test {
 namespace {
 
 const std::string kPatch = "Patch \"bilinear\" \"P\" [0 0 0 1 0 0 0 1 0 1 1 0]\n";
@@ -122,4 +122,4 @@ TEST(RibRequest, IsInOneListOnly) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::rib_requests_test

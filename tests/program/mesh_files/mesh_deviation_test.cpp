@@ -8,7 +8,7 @@
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/mesh_files/welded_mesh.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::mesh_deviation_test {
 namespace {
 
 using Point = std::array<double, 3>;
@@ -109,4 +109,4 @@ TEST(MeshDeviation, CamerasWantMoreWhereTheyAreNear) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::mesh_deviation_test

@@ -10,7 +10,7 @@
 #include "tests/program/mesh_files/mesh_readers.hpp"
 #include "tests/program/mesh_files/sample_mesh.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::mesh_file_test {
 namespace {
 
 using tools::MeshFormat;
@@ -297,4 +297,4 @@ TEST(MeshFormatOf, GoesByTheExtension) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::mesh_file_test

@@ -6,7 +6,7 @@
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/mesh_files/welded_mesh.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::mesh_options_test {
 namespace {
 
 struct Refused {
@@ -166,4 +166,4 @@ TEST(RefusedMeshOptions, StandardOutputWithoutAFormat) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::mesh_options_test

@@ -9,7 +9,7 @@
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/mesh_files/welded_mesh.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::mesh_output_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -215,4 +215,4 @@ TEST(MeshMemory, DoesNotGrowWithTheMesh) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::mesh_output_test

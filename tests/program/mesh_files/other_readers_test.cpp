@@ -14,7 +14,7 @@
 #include "tests/program/mesh_files/sample_mesh.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::other_readers_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -262,4 +262,4 @@ TEST(Assimp, LoadsTheTeapot) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::other_readers_test

@@ -20,7 +20,7 @@
 #include "tests/program/mesh_files/sample_mesh.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::refused_mesh_test {
 namespace {
 
 using tools::MeshContents;
@@ -289,4 +289,4 @@ TEST(MeshOutput, FailsOnASmallDisk) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::refused_mesh_test

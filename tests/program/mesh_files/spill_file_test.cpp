@@ -12,7 +12,7 @@
 
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::spill_file_test {
 namespace {
 
 using tools::SpillFile;
@@ -90,4 +90,4 @@ TEST(SpillFile, FailsWhereThereIsNoRoom) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::spill_file_test

@@ -15,7 +15,7 @@
 #include "tests/program/mesh_files/sample_mesh.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::split_glb_test {
 namespace {
 
 using tools::VertexStorage;
@@ -156,4 +156,4 @@ TEST(SplitGlbFiles, WantVerticesInOrder) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::split_glb_test

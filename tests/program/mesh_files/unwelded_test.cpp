@@ -5,7 +5,7 @@
 #include "tests/program/mesh_files/mesh_readers.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::unwelded_test {
 namespace {
 
 std::string tessellated(const std::string& in, const std::string& extension,
@@ -82,4 +82,4 @@ TEST(UnweldedMesh, IsOneMeshInAllFormats) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::unwelded_test

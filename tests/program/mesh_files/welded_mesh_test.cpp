@@ -10,7 +10,7 @@
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/mesh_files/welded_mesh.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::welded_mesh_test {
 namespace {
 
 using Point = std::array<double, 3>;
@@ -230,4 +230,4 @@ TEST(WeldedMesh, IsQuantisedWithinItsDeviation) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::welded_mesh_test

@@ -10,7 +10,7 @@
 
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::ending_signals_test {
 namespace {
 
 // A program that has begun its output and waits for more samples.
@@ -133,4 +133,4 @@ TEST(Signals, LeaveNothingUnderLongNames) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::ending_signals_test

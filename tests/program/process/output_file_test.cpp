@@ -11,7 +11,7 @@
 #include "tests/program/formats/format_files.hpp"
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::output_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -248,4 +248,4 @@ TEST(OutputFile, GoesAwayWhenTheProgramIsTerminated) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::output_file_test

@@ -10,7 +10,7 @@
 
 #include "tests/program/process/program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::progress_test {
 namespace {
 
 constexpr const char* kCleared = "\r\x1b[K";
@@ -112,4 +112,4 @@ TEST(Progress, IsNotShownAmongData) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::progress_test

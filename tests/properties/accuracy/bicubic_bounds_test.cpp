@@ -16,7 +16,7 @@
 #include "tests/properties/accuracy/judge/tracked.hpp"
 #include "tests/support/even_odd.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::bicubic_bounds_test {
 namespace {
 
 /// A polynomial's value, slope and half second derivative.
@@ -193,4 +193,4 @@ INSTANTIATE_TEST_SUITE_P(Classes, BoundTest,
                          [](const auto& row) { return std::string(row.param.name); });
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::bicubic_bounds_test

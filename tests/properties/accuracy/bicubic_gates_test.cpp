@@ -12,7 +12,7 @@
 #include "tests/properties/accuracy/judge/scalar_evaluators.hpp"
 #include "tests/support/isa_fixture.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::bicubic_gates_test {
 namespace {
 
 constexpr std::size_t kNets = 76; // all scales of "scaled" in steps, all grades of "graded"
@@ -95,4 +95,4 @@ TEST_P(AccuracyTest, EveryFamilyDouble) { expect_gates<double>(); }
 INSTANTIATE_FOR_EVERY_ISA(AccuracyTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::bicubic_gates_test

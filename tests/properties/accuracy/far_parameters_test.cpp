@@ -11,7 +11,7 @@
 #include "tests/support/nets/generators.hpp"
 #include "tests/support/nets/shaped_nets.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::far_parameters_test {
 namespace {
 
 constexpr Degrees kShapes[] = {{3, 3}, {4, 4}, {5, 5}, {2, 4}, {3, 5}, {5, 1}, {7, 3}};
@@ -85,4 +85,4 @@ TEST_P(FarParametersTest, NormalsDouble) { expect_normals<double>({511, 513, 102
 INSTANTIATE_FOR_EVERY_ISA(FarParametersTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::far_parameters_test

@@ -12,7 +12,7 @@
 #include "tests/support/evaluation.hpp"
 #include "tests/support/isa_fixture.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::gate_faults_test {
 namespace {
 
 /// The model as an evaluator of positions and tangents.
@@ -168,4 +168,4 @@ TEST(FaultTest, RmsGateSeesCoefficientsInFloat) { expect_coefficients_in_type_se
 TEST(FaultTest, RmsGateSeesCoefficientsInDouble) { expect_coefficients_in_type_seen<double>(); }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::gate_faults_test

@@ -10,7 +10,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/nets/shape_families.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::identities_test {
 namespace {
 
 constexpr int kCount = 13;
@@ -207,4 +207,4 @@ TEST_P(IdentityTest, AffineMaps) {
 INSTANTIATE_FOR_EVERY_ISA(IdentityTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::identities_test

@@ -11,7 +11,7 @@
 #include "tests/support/evaluation.hpp"
 #include "tests/support/isa_fixture.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::normal_gates_test {
 namespace {
 
 /// A smooth dish over the unit square, not symmetric in anything.
@@ -267,4 +267,4 @@ TEST_P(NormalTest, TeapotPoles) {
 INSTANTIATE_FOR_EVERY_ISA(NormalTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::normal_gates_test

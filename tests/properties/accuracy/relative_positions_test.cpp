@@ -9,7 +9,7 @@
 #include "tests/support/nets/generators.hpp"
 #include "tests/support/oracle/oracle.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::relative_positions_test {
 namespace {
 
 struct RelativeCase {
@@ -81,4 +81,4 @@ TEST_P(RelativeTest, KeepsDigitsDouble) {
 INSTANTIATE_FOR_EVERY_ISA(RelativeTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::relative_positions_test

@@ -10,7 +10,7 @@
 #include "tests/properties/accuracy/judge/tracked.hpp"
 #include "tests/support/even_odd.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::roundings_test {
 namespace {
 
 /// k! / (k - order)!: what the power k becomes in a derivative at 1.
@@ -35,7 +35,7 @@ namespace {
 TEST(RoundingsTest, EvenAndOddPartsAreCounted) {
   for (const bool fma : {false, true}) {
     for (std::size_t degree = 3; degree <= 5; ++degree) {
-      const detail::DirectionRoundings roundings{degree + 1, false, fma};
+      const simdbezier::detail::DirectionRoundings roundings{degree + 1, false, fma};
       for (std::size_t order = 0; order <= 2; ++order) {
         for (std::size_t k = 0; k <= degree; ++k) {
           const double steps = k < order ? 0 : std::ceil(counted(fma, degree, order, k) - 1e-9);
@@ -53,9 +53,9 @@ TEST(RoundingsTest, ColumnsAndRowsCoverEdges) {
   for (const bool fma : {false, true}) {
     for (std::size_t degree_u = 1; degree_u <= 15; ++degree_u) {
       for (std::size_t degree_v = 1; degree_v <= 15; ++degree_v) {
-        const detail::DirectionRoundings edge{degree_u + 1, degree_u > 5, fma};
-        const detail::DirectionRoundings column{degree_u + 1, degree_u > 5, fma, true};
-        const detail::DirectionRoundings row{degree_v + 1, degree_v > 5, fma};
+        const simdbezier::detail::DirectionRoundings edge{degree_u + 1, degree_u > 5, fma};
+        const simdbezier::detail::DirectionRoundings column{degree_u + 1, degree_u > 5, fma, true};
+        const simdbezier::detail::DirectionRoundings row{degree_v + 1, degree_v > 5, fma};
         for (std::size_t order = 0; order <= 1; ++order) {
           for (std::size_t k = order; k <= degree_u; ++k) {
             EXPECT_LE(edge.derivative(order, k), column.derivative(order, k) + row.value(0))
@@ -68,4 +68,4 @@ TEST(RoundingsTest, ColumnsAndRowsCoverEdges) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::roundings_test

@@ -9,7 +9,7 @@
 #include "tests/properties/accuracy/bounds_text.hpp"
 #include "tests/properties/accuracy/judge/direction_errors.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::shape_bounds_test {
 namespace {
 
 struct DirectionCase {
@@ -103,4 +103,4 @@ TEST(ShapeBoundsTest, DocumentationHasTheTable) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::shape_bounds_test

@@ -15,7 +15,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/nets/shape_families.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::shape_gates_test {
 namespace {
 
 constexpr std::size_t kNets = 8;
@@ -81,4 +81,4 @@ TEST_P(ShapesTest, SmallErrorsDouble) { expect_small_errors<double>(); }
 INSTANTIATE_FOR_EVERY_ISA(ShapesTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::shape_gates_test

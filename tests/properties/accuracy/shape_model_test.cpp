@@ -10,7 +10,7 @@
 #include "tests/properties/accuracy/judge/shape_model.hpp"
 #include "tests/support/nets/shape_families.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::shape_model_test {
 namespace {
 
 constexpr std::size_t kNets = 10;
@@ -59,4 +59,4 @@ TEST(ShapeModelFault, BoundsSeeAMissingCut) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::shape_model_test

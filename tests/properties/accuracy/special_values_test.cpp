@@ -9,7 +9,7 @@
 #include "tests/support/evaluation.hpp"
 #include "tests/support/isa_fixture.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::special_values_test {
 namespace {
 
 template <typename T>
@@ -275,4 +275,4 @@ TEST_P(SpecialValuesTest, NoNegativeZerosDouble) { expect_no_negative_zeros<doub
 INSTANTIATE_FOR_EVERY_ISA(SpecialValuesTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::special_values_test

@@ -7,7 +7,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/workload.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::batch_bits_test {
 namespace {
 
 constexpr std::size_t kPatches = 70;
@@ -142,4 +142,4 @@ TEST_P(BatchTest, LargeOutputsFloat) {
 INSTANTIATE_FOR_EVERY_ISA(BatchTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::batch_bits_test

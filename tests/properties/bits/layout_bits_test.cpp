@@ -7,7 +7,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/workload.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::layout_bits_test {
 namespace {
 
 constexpr std::size_t kPatches = 19;
@@ -242,4 +242,4 @@ TEST_P(LayoutTest, LanesDouble) { expect_equal_lanes<double>(); }
 INSTANTIATE_FOR_EVERY_ISA(LayoutTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::layout_bits_test

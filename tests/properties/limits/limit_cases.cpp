@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <sstream>
 #include <tuple>
 
+#include "tests/support/long_form.hpp"
 #include "tests/support/nets/degenerate_curves.hpp"
 #include "tests/support/nets/generators.hpp"
 #include "tests/support/nets/net_forms.hpp"
@@ -208,10 +208,7 @@ std::vector<LimitNet> limit_curves(LimitTypes types, std::size_t count, std::uin
 
 bool same_limit_shape(const LimitNet& a, const LimitNet& b) { return shape_key(a) == shape_key(b); }
 
-std::size_t limit_net_count() {
-  const char* const given = std::getenv("SIMDBEZIER_LIMIT_NETS");
-  return given == nullptr ? 60 : std::strtoul(given, nullptr, 10);
-}
+std::size_t limit_net_count() { return by_form<std::size_t>(60, 10'000); }
 
 std::string described(const LimitNet& net, const LimitSample& sample) {
   std::ostringstream text;

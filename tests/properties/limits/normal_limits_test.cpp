@@ -1,6 +1,5 @@
 // Normals, their statuses and curvatures where du x dv vanishes, against exact Taylor coefficients:
 // every call, type, form of weights and choice of origins on every instruction set.
-// SIMDBEZIER_LIMIT_NETS is the number of nets of each type.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -13,7 +12,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/oracle/oracle_arithmetic.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::normal_limits_test {
 namespace {
 
 constexpr std::size_t kGridOfNet = kLimitGrid * kLimitGrid;
@@ -184,4 +183,4 @@ TEST_P(NormalLimits, FloatFromDouble) { judge<float, double>("float from double"
 INSTANTIATE_FOR_EVERY_ISA(NormalLimits);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::normal_limits_test

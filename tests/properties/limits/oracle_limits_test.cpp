@@ -6,7 +6,7 @@
 #include "tests/properties/limits/limit_cases.hpp"
 #include "tests/support/oracle/exact_rational.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::oracle_limits_test {
 namespace {
 
 TEST(LimitOracle, KnowsWhatIsKnown) {
@@ -130,4 +130,4 @@ TEST_F(FinitePull, GivesTheSame) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::oracle_limits_test

@@ -7,7 +7,7 @@
 #include "tests/support/evaluation.hpp"
 #include "tests/support/isa_fixture.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::tangent_limits_test {
 namespace {
 
 using Curves = std::span<const LimitNet>; ///< of one shape
@@ -200,4 +200,4 @@ TEST_P(TangentLimits, LightAndFarLines) {
 INSTANTIATE_FOR_EVERY_ISA(TangentLimits);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::tangent_limits_test

@@ -1,13 +1,12 @@
 // What must hold between the results of two nets of which one is made of the other, for every call,
 // shape, output, side, kind of degeneracy, choice of origins and type: a table without holes.
-#include <cstdlib>
-
 #include <gtest/gtest.h>
 
 #include "tests/properties/metamorphic/comparison.hpp"
 #include "tests/support/isa_fixture.hpp"
+#include "tests/support/long_form.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::metamorphic_test {
 namespace {
 
 template <typename Axis, std::size_t count>
@@ -185,14 +184,14 @@ TEST_P(Metamorphic, OneWrongValueIsNoticed) {
 }
 
 /// The widest instruction set of each class, for the others have their bits
-/// (tests/properties/bits); all of them where SIMDBEZIER_EVERY_ISA is in the environment.
+/// (tests/properties/bits); all of them in the long form.
 [[nodiscard]] std::vector<Isa> tested_isas() {
   const std::span<const Isa> available = available_isas();
   std::vector<Isa> tested;
   for (std::size_t k = 0; k < available.size(); ++k) {
     const bool widest = k + 1 == available.size() ||
                         fuses_multiply_add(available[k]) != fuses_multiply_add(available[k + 1]);
-    if (widest || std::getenv("SIMDBEZIER_EVERY_ISA") != nullptr) {
+    if (widest || long_form()) {
       tested.push_back(available[k]);
     }
   }
@@ -201,4 +200,4 @@ TEST_P(Metamorphic, OneWrongValueIsNoticed) {
 INSTANTIATE_TEST_SUITE_P(Isa, Metamorphic, ::testing::ValuesIn(tested_isas()), isa_test_name);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::metamorphic_test

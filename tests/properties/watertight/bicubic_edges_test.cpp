@@ -1,8 +1,4 @@
 // Positions along shared edges are bit-equal from both sides, and grids agree with scattered calls.
-//
-// SIMDBEZIER_WATERTIGHT_SAMPLES sets the edge samples per type and instruction set (the default
-// is for ctest; `./run accuracy` asks for 10^7).
-#include <cstdlib>
 #include <string>
 #include <type_traits>
 
@@ -11,14 +7,15 @@
 #include "tests/properties/watertight/shared_edges.hpp"
 #include "tests/support/evaluation.hpp"
 #include "tests/support/isa_fixture.hpp"
+#include "tests/support/long_form.hpp"
 #include "tests/support/nets/generators.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::bicubic_edges_test {
 namespace {
 
+/// Edge samples per type and instruction set.
 [[nodiscard]] std::size_t edge_samples_wanted() {
-  const char* text = std::getenv("SIMDBEZIER_WATERTIGHT_SAMPLES");
-  return text != nullptr ? static_cast<std::size_t>(std::strtoull(text, nullptr, 10)) : 400'000;
+  return by_form<std::size_t>(100'000, 10'000'000);
 }
 
 /// The grid of a set of an EdgeBatch: `along` samples on the shared edge, `across` the other way.
@@ -163,4 +160,4 @@ TEST_P(WatertightTest, ComparisonSeesOpenEdges) {
 INSTANTIATE_FOR_EVERY_ISA(WatertightTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::bicubic_edges_test

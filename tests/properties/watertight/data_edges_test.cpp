@@ -11,7 +11,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/nets/data_files.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::data_edges_test {
 namespace {
 
 /// A file and how many pairs of edges it holds that are equal bit for bit and not collapsed, also
@@ -130,4 +130,4 @@ TEST_P(DataEdgesTest, ExactDouble) {
 INSTANTIATE_FOR_EVERY_ISA(DataEdgesTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::data_edges_test

@@ -9,7 +9,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/nets/generators.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::edge_derivatives_test {
 namespace {
 
 constexpr std::size_t kRounds = 24;
@@ -106,4 +106,4 @@ TEST_P(EdgeDerivativeTest, ComparisonSeesOpenEdges) {
 INSTANTIATE_FOR_EVERY_ISA(EdgeDerivativeTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::edge_derivatives_test

@@ -9,7 +9,7 @@
 #include "tests/support/isas.hpp"
 #include "tests/support/nets/generators.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::grid_equals_scattered_test {
 namespace {
 
 struct GridCase {
@@ -119,4 +119,4 @@ TEST(ClassCounterproof, ClassesDiffer) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::grid_equals_scattered_test

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/properties/watertight/shared_edges.hpp"
+#include "tests/support/long_form.hpp"
 #include "tests/support/nets/shaped_nets.hpp"
 
 namespace simdbezier::tests {
@@ -108,12 +109,16 @@ struct ShapedEdgeBatch {
   }
 };
 
-/// One pair in each of the 64 combinations of placements.
+/// One pair in each of the 64 combinations of placements; in a quarter of them in the short form,
+/// another one for each degree.
 [[nodiscard]] inline ShapedEdgeBatch make_shaped_edge_batch(const ShapedEdgeRule& rule,
                                                             Random& random) {
   ShapedEdgeBatch batch;
   for (int a = 0; a < kPlacements; ++a) {
     for (int b = 0; b < kPlacements; ++b) {
+      if (!in_form(static_cast<std::size_t>(a + b + rule.degree), 4)) {
+        continue;
+      }
       ShapedEdge edge = make_shaped_edge(rule, random);
       const ShapedPlaced first = batch.add(edge, placement(a), rule, random);
       flip_some_zeros(edge, random);

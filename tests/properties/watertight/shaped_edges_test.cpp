@@ -1,9 +1,5 @@
 // Positions along shared edges are bit-equal from both sides whatever the patches' degrees and
 // weights, corners are control points, and cells of a patch that was cut meet without a gap.
-//
-// SIMDBEZIER_WATERTIGHT_SAMPLES sets the edge samples per type and instruction set, as in
-// bicubic_edges_test.cpp.
-#include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -11,15 +7,14 @@
 #include "tests/properties/watertight/shaped_edges.hpp"
 #include "tests/support/evaluation.hpp"
 #include "tests/support/isa_fixture.hpp"
+#include "tests/support/long_form.hpp"
 #include "tests/support/nets/generators.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::shaped_edges_test {
 namespace {
 
-[[nodiscard]] std::size_t edge_samples_wanted() {
-  const char* text = std::getenv("SIMDBEZIER_WATERTIGHT_SAMPLES");
-  return text != nullptr ? static_cast<std::size_t>(std::strtoull(text, nullptr, 10)) : 100'000;
-}
+/// Edge samples per type and instruction set.
+[[nodiscard]] std::size_t edge_samples_wanted() { return by_form<std::size_t>(25'000, 10'000'000); }
 
 /// How a batch is packed and evaluated.
 struct EdgeSetup {
@@ -165,7 +160,7 @@ TEST_P(ShapedEdgesTest, LocalOriginsDouble) { expect_watertight<double>({.local_
 // The counterproof: with watertight edges off this very comparison finds the gaps.
 TEST_P(ShapedEdgesTest, ComparisonSeesOpenEdges) {
   for (const EdgeForm form : kEdgeForms) {
-    const Tally tally = run<float>(20'000, form, {{}, {.threads = 1, .watertight = false}});
+    const Tally tally = run<float>(5'000, form, {{}, {.threads = 1, .watertight = false}});
     EXPECT_GT(tally.different, tally.samples / 4);
     EXPECT_GT(tally.different_slopes, tally.samples / 4);
     EXPECT_GT(tally.wrong_corners, 0U);
@@ -233,4 +228,4 @@ TEST_P(ShapedEdgesTest, SeamsLocalOriginsDouble) {
 INSTANTIATE_FOR_EVERY_ISA(ShapedEdgesTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::shaped_edges_test

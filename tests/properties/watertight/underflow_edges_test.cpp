@@ -15,7 +15,7 @@
 #include "tests/properties/watertight/shaped_edges.hpp"
 #include "tests/support/evaluation.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::underflow_edges_test {
 namespace {
 
 constexpr std::size_t kGridSizes[] = {3, 5, 9, 17, 24};
@@ -171,4 +171,4 @@ TEST_P(UnderflowTest, SharedEdgesDouble) { run_all<double>({-960, -1020, -1068, 
 INSTANTIATE_FOR_EVERY_ISA(UnderflowTest);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::underflow_edges_test

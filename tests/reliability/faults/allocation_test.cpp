@@ -25,7 +25,7 @@ madvise(void* /*memory*/, std::size_t /*bytes*/, int /*advice*/) noexcept {
 }
 #endif
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::allocation_test {
 namespace {
 
 constexpr std::size_t kPatches = 3;
@@ -146,4 +146,4 @@ TEST(Advice, LeavesErrnoAlone) {
 #endif
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::allocation_test

@@ -5,7 +5,7 @@
 #include "tests/reliability/faults/counted_allocations.hpp"
 #include "tests/reliability/faults/library_calls.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::library_memory_test {
 namespace {
 
 class LibraryMemory : public ::testing::TestWithParam<Call> {
@@ -51,4 +51,4 @@ TEST_P(LibraryMemory, EachAllocationFailsOnce) {
 INSTANTIATE_TEST_SUITE_P(Calls, LibraryMemory, ::testing::ValuesIn(all_calls()));
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::library_memory_test

@@ -5,7 +5,7 @@
 
 #include "tests/reliability/faults/program_job.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::program_memory_test {
 namespace {
 
 using Environment = std::vector<std::pair<std::string, std::string>>;
@@ -56,4 +56,4 @@ INSTANTIATE_TEST_SUITE_P(Jobs, ProgramMemory, ::testing::ValuesIn(job_pointers()
                          [](const auto& each) { return std::string(each.param->name); });
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::program_memory_test

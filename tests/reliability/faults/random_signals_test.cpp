@@ -14,7 +14,7 @@
 #include "tests/reliability/faults/program_job.hpp"
 #include "tests/support/random.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::random_signals_test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -84,4 +84,4 @@ TEST(Signals, AtRandomTimesLeaveNothing) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::random_signals_test

@@ -11,7 +11,7 @@
 #include "tests/reliability/faults/program_job.hpp"
 #include "tests/reliability/faults/traced_program.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::system_calls_test {
 namespace {
 
 constexpr int kShortTransfer = -1; ///< instead of an error
@@ -112,4 +112,4 @@ INSTANTIATE_TEST_SUITE_P(Jobs, SystemCalls, ::testing::ValuesIn(job_pointers()),
                          [](const auto& each) { return std::string(each.param->name); });
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::system_calls_test

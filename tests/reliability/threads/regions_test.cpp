@@ -11,7 +11,7 @@
 #include "tests/reliability/threads/shared_set.hpp"
 #include "tests/support/tile_collector.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::regions_test {
 namespace {
 
 constexpr std::size_t kPatches = 40;
@@ -91,4 +91,4 @@ TEST_F(Regions, OutsideThereAreSeveralWorkers) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::regions_test

@@ -16,7 +16,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/nets/generators.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::streaming_order_test {
 namespace {
 
 enum class Kind : std::uint8_t { other, streaming_store, fence };
@@ -186,4 +186,4 @@ TEST_P(StreamingOrder, AFenceFollowsTheLastStore) {
 INSTANTIATE_FOR_EVERY_ISA(StreamingOrder);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::streaming_order_test

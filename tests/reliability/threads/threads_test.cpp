@@ -14,7 +14,7 @@
 
 #include "tests/reliability/threads/shared_set.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::threads_test {
 namespace {
 
 constexpr std::size_t kPatches = 24;
@@ -165,4 +165,4 @@ INSTANTIATE_TEST_SUITE_P(Calls, Threads, ::testing::ValuesIn(kWork),
                          [](const auto& each) { return std::string(each.param.name); });
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::threads_test

@@ -45,22 +45,7 @@ struct OracleNormal {
   double relative_size = 0; ///< |du x dv| / (|Hu| |Hv|)
 };
 
-[[nodiscard]] inline std::vector<DoubleDouble> bernstein_weights(int degree, OracleParameter at) {
-  std::vector<DoubleDouble> weights(static_cast<std::size_t>(degree) + 1, DoubleDouble(1.0));
-  DoubleDouble power = 1.0;
-  double binomial = 1;
-  for (int i = 0; i <= degree; ++i) {
-    weights[static_cast<std::size_t>(i)] = power * binomial;
-    power = power * at.t;
-    binomial = binomial * (degree - i) / (i + 1); // exact: C(n,i) * (n-i) is a multiple of i+1
-  }
-  power = 1.0;
-  for (int i = degree; i >= 0; --i) {
-    weights[static_cast<std::size_t>(i)] = weights[static_cast<std::size_t>(i)] * power;
-    power = power * at.complement;
-  }
-  return weights;
-}
+[[nodiscard]] std::vector<DoubleDouble> bernstein_weights(int degree, OracleParameter at);
 
 /// The order of differentiation in each direction.
 struct Derivative {
@@ -79,35 +64,13 @@ inline constexpr std::size_t kWeightChannel = 3;
                                                : DoubleDouble(net.at(j, i)[c]);
 }
 
-/// A control value of the hodograph of that order: differences of control values times falling
-/// factorials of the degrees. Single differences are exact, further ones up to 2^-106.
-[[nodiscard]] inline DoubleDouble hodograph_value(const Net& net, int j, int i, std::size_t c,
-                                                  Derivative order) {
-  if (order.v > 0) {
-    const Derivative less{order.u, order.v - 1};
-    return (hodograph_value(net, j + 1, i, c, less) - hodograph_value(net, j, i, c, less)) *
-           static_cast<double>(net.degree_v - less.v);
-  }
-  if (order.u > 0) {
-    const Derivative less{order.u - 1, 0};
-    return (hodograph_value(net, j, i + 1, c, less) - hodograph_value(net, j, i, c, less)) *
-           static_cast<double>(net.degree_u - less.u);
-  }
-  return channel_value(net, j, i, c);
-}
+/// The control values of one channel's hodograph of that order, rows in v: differences of control
+/// values times falling factorials of the degrees. Single differences are exact, further ones up to
+/// 2^-106.
+[[nodiscard]] std::vector<DoubleDouble> hodograph(const Net& net, std::size_t c, Derivative order);
 
-/// The largest of them in one channel: what errors of that derivative are relative to.
-[[nodiscard]] inline double largest_hodograph(const Net& net, std::size_t component,
-                                              Derivative order) {
-  double largest = 0;
-  for (int j = 0; j <= net.degree_v - order.v; ++j) {
-    for (int i = 0; i <= net.degree_u - order.u; ++i) {
-      largest =
-          std::max(largest, std::abs(hodograph_value(net, j, i, component, order).to_double()));
-    }
-  }
-  return largest;
-}
+/// The largest of them: what errors of that derivative are relative to.
+[[nodiscard]] double largest_hodograph(const Net& net, std::size_t component, Derivative order);
 /// In the three components of a polynomial net.
 [[nodiscard]] inline Vector3 largest_hodographs(const Net& net, Derivative order) {
   return {largest_hodograph(net, 0, order), largest_hodograph(net, 1, order),
@@ -115,25 +78,8 @@ inline constexpr std::size_t kWeightChannel = 3;
 }
 
 /// One derivative of all channels; the weight's is 0 where the net has none.
-[[nodiscard]] inline std::array<DoubleDouble, 4>
-channel_derivatives(const Net& net, OracleParameter u, OracleParameter v, Derivative order) {
-  std::array<DoubleDouble, 4> sum;
-  if (order.u > net.degree_u || order.v > net.degree_v) {
-    return sum;
-  }
-  const auto weights_u = bernstein_weights(net.degree_u - order.u, u);
-  const auto weights_v = bernstein_weights(net.degree_v - order.v, v);
-  for (std::size_t c = 0; c < (net.is_rational() ? 4U : 3U); ++c) {
-    for (int j = 0; j <= net.degree_v - order.v; ++j) {
-      DoubleDouble row;
-      for (int i = 0; i <= net.degree_u - order.u; ++i) {
-        row = row + hodograph_value(net, j, i, c, order) * weights_u[static_cast<std::size_t>(i)];
-      }
-      sum[c] = sum[c] + row * weights_v[static_cast<std::size_t>(j)];
-    }
-  }
-  return sum;
-}
+[[nodiscard]] std::array<DoubleDouble, 4> channel_derivatives(const Net& net, OracleParameter u,
+                                                              OracleParameter v, Derivative order);
 
 /// One derivative of a polynomial net, or of a rational one in homogeneous coordinates.
 [[nodiscard]] inline Vector3dd oracle_derivative(const Net& net, OracleParameter u,
@@ -142,37 +88,9 @@ channel_derivatives(const Net& net, OracleParameter u, OracleParameter v, Deriva
   return {all[0], all[1], all[2]};
 }
 
-/// The quotient rule: h = w S, differentiated and solved for the highest derivative of S.
-[[nodiscard]] inline OracleSample rational_sample(const Net& net, OracleParameter u,
-                                                  OracleParameter v) {
-  const auto h = channel_derivatives(net, u, v, {0, 0});
-  const auto h_u = channel_derivatives(net, u, v, {1, 0});
-  const auto h_v = channel_derivatives(net, u, v, {0, 1});
-  const auto h_uu = channel_derivatives(net, u, v, {2, 0});
-  const auto h_uv = channel_derivatives(net, u, v, {1, 1});
-  const auto h_vv = channel_derivatives(net, u, v, {0, 2});
-  constexpr std::size_t w = kWeightChannel;
-  OracleSample s;
-  for (std::size_t c = 0; c < 3; ++c) {
-    s.position[c] = h[c] / h[w];
-    s.du[c] = (h_u[c] - s.position[c] * h_u[w]) / h[w];
-    s.dv[c] = (h_v[c] - s.position[c] * h_v[w]) / h[w];
-    s.duu[c] = (h_uu[c] - s.du[c] * h_u[w] * 2.0 - s.position[c] * h_uu[w]) / h[w];
-    s.duv[c] = (h_uv[c] - s.du[c] * h_v[w] - s.dv[c] * h_u[w] - s.position[c] * h_uv[w]) / h[w];
-    s.dvv[c] = (h_vv[c] - s.dv[c] * h_v[w] * 2.0 - s.position[c] * h_vv[w]) / h[w];
-  }
-  return s;
-}
-
-[[nodiscard]] inline OracleSample oracle_sample(const Net& net, OracleParameter u,
-                                                OracleParameter v) {
-  if (net.is_rational()) {
-    return rational_sample(net, u, v);
-  }
-  return {oracle_derivative(net, u, v, {0, 0}), oracle_derivative(net, u, v, {1, 0}),
-          oracle_derivative(net, u, v, {0, 1}), oracle_derivative(net, u, v, {2, 0}),
-          oracle_derivative(net, u, v, {1, 1}), oracle_derivative(net, u, v, {0, 2})};
-}
+/// All of one sample. Rational patches by the quotient rule: h = w S, differentiated and solved for
+/// the highest derivative of S.
+[[nodiscard]] OracleSample oracle_sample(const Net& net, OracleParameter u, OracleParameter v);
 
 [[nodiscard]] inline OracleSample oracle_sample(const Net& net, double x, double y) {
   return oracle_sample(net, OracleParameter::centred(x), OracleParameter::centred(y));

@@ -11,7 +11,7 @@
 #include "tests/support/oracle/oracle.hpp"
 #include "tests/support/oracle/oracle_curvature.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::oracle_test {
 namespace {
 
 struct OracleCase {
@@ -233,4 +233,4 @@ TEST(OracleNormalTest, LimitAtThePoleOfACap) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::oracle_test
