@@ -20,7 +20,7 @@ protected:
     const PatchSet<T> set = packed<T>(mixed_nets(kPatches));
     std::size_t number = 0;
     for (const auto& [nu, nv] : kWorkGrids) {
-      ++number;
+      std::size_t place = ++number;
       const Grid<T> samples = Grid<T>::uniform(nu, nv);
       const Planes<T> reference = by_grid(set, samples, {.threads = 1});
       const auto expect = [&](const char* call, int threads, const Planes<T>& planes) {
@@ -28,7 +28,7 @@ protected:
             << call << ", " << threads << " threads, grid " << samples.nu << " x " << samples.nv;
       };
       for (const int threads : kThreadCounts) {
-        std::size_t sum = number + static_cast<std::size_t>(threads);
+        std::size_t sum = ++place;
         for (const Destination destination :
              {Destination::automatic, Destination::cache, Destination::memory}) {
           const CallOptions options{.threads = threads, .destination = destination};
