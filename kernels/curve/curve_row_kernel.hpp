@@ -172,7 +172,7 @@ SIMDBEZIER_INLINE RowFiller<kTriples, T> choose_filler(const CurveTask<T>& task,
     const bool pays = task.streaming ? aligned : kTriples;
     const std::size_t curves =
         cubic && !task.shape->origins && pays ? curves_in_register<T>(task.n) : 0;
-    if constexpr (kMostCurves < T >> kLeast) {
+    if constexpr ((kMostCurves<T>) > kLeast) {
       if (curves == 2 * kLeast) {
         return row_filler<4, 2 * kLeast, kTriples, T>();
       }

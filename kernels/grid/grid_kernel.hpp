@@ -47,8 +47,7 @@ constexpr bool kSweepsTwice = (kOutputs == detail::kPosition && sizeof(T) * kLan
 /// which memory takes each second one at half of its rate.
 template <detail::OutputSet kOutputs, typename T>
 constexpr bool kStreamsPairs =
-    kLineWide<RegisterPair<vec<T>>> ? kOutputs == detail::kPosition
-                                    : kLineWide<vec<T>>&& kSweepsTwice<kOutputs, T>;
+    kLineWide<RegisterPair<vec<T>>> ? kOutputs == detail::kPosition : kSweepsTwice<kOutputs, T>;
 
 /// Bytes of samples that stay in the first-level cache while one tile follows the other.
 constexpr std::size_t kCachedBytes = 12288;

@@ -44,28 +44,26 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
                                       const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                       std::size_t nu, ScalarOf<V>* to,
                                       ColumnPlanes<ScalarOf<V>> extra) {
+  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
   V q[kOrder];
-  if constexpr (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kSingle) {
+  if constexpr (Tile::kSingle) {
     single_column_polynomial(c, tile.column, q);
   } else {
     column_polynomial(c, tile.column, q);
   }
   const LocalOrigin<V> origin = column_origin(c, tile.column);
   V shared = tile.column.x; // not used
-  if constexpr (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
+  if constexpr (Tile::kShared) {
     if (tile.watertight) {
       shared = tile.edge_rows(c, 0);
     }
   }
-  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   constexpr RowOrder kRowOrder{kRows, Tile::kPairs, kRows == 1 ? 4 : 1};
   for_rows<kRowOrder>(
       piece, 0, nu,
       [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-        const V p = (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared)
-                        ? shared
-                        : tile.edge_rows(c, edge_of(kind));
+        const V p = Tile::kShared ? shared : tile.edge_rows(c, edge_of(kind));
         tile.store_edge(to + place.at, p, kind, extra.plane(0) + place.row);
       },
       [&](const T* y, RowPlace place, RowPlace mirrored) SIMDBEZIER_INLINE_LAMBDA {
@@ -160,23 +158,21 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
                                          const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                          std::size_t nu, const JetPlanes<ScalarOf<V>>& to,
                                          ColumnPlanes<ScalarOf<V>> extra) {
+  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
   JetColumns<V> columns;
   columns.build(c, tile);
   Jet<V> shared;
-  if constexpr (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
+  if constexpr (Tile::kShared) {
     if (tile.watertight) {
       shared = columns.edge(c, tile, 0);
     }
   }
-  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   constexpr RowOrder kRowOrder{kRows, Tile::kPairs, Piece::kKnown ? 2 : 1};
   for_rows<kRowOrder>(
       piece, 0, nu,
       [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-        const Jet<V> jet = (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared)
-                               ? shared
-                               : columns.edge(c, tile, edge_of(kind));
+        const Jet<V> jet = Tile::kShared ? shared : columns.edge(c, tile, edge_of(kind));
         tile.store_edge(to.position + place.at, jet.p, kind, extra.plane(0) + place.row);
         tile.store_edge(to.du + place.at, jet.du, kind, extra.plane(1) + place.row);
         tile.store_edge(to.dv + place.at, jet.dv, kind, extra.plane(2) + place.row);
@@ -207,6 +203,7 @@ SIMDBEZIER_INLINE void sweep_second(const GridTask<ScalarOf<V>>& task,
                                     const Component<ScalarOf<V>>& c,
                                     const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                     std::size_t component, std::size_t first) {
+  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
   SecondColumns<V> columns;
   columns.build(c, tile.column);
@@ -214,7 +211,6 @@ SIMDBEZIER_INLINE void sweep_second(const GridTask<ScalarOf<V>>& task,
   T* const duv = task.out[detail::kDuvGroup].component[component];
   T* const dvv = task.out[detail::kDvvGroup].component[component];
   const std::size_t nu = task.nu;
-  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   constexpr RowOrder kRowOrder{kRows, Tile::kPairs, 1};
   for_rows<kRowOrder>(
       piece, first, nu,

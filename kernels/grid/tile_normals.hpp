@@ -181,23 +181,23 @@ SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task,
                                      const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                      std::size_t patch, std::size_t first, std::size_t status_step,
                                      ColumnPlanes<ScalarOf<V>> extra) {
+  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
   const NormalSweep<kRows, kWhole, kExtra, kAny, kAsks, V, kStreams> sweep(
       task, shared_task, tile, patch, status_step, extra);
   const V floor = floor_inside(tile.column.x, broadcast<V>(task.normal_floor[patch]));
   const V middle_floor = piece.middle.kind == RowKind::outside ? no_floor<V>() : floor;
   NormalSamples<V> shared;
-  if constexpr (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
+  if constexpr (Tile::kShared) {
     if (tile.watertight) {
       shared = sweep.edge(0);
     }
   }
-  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   constexpr RowOrder kRowOrder{kRows, Tile::kNormalPairs, 1};
   for_rows<kRowOrder>(
       piece, first, task.nu,
       [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-        if constexpr (ColumnTile<kRows, kWhole, kExtra, V, kStreams>::kShared) {
+        if constexpr (Tile::kShared) {
           sweep.store_edge(shared, kind, place.at, place.row, floor);
         } else {
           sweep.store_edge(sweep.edge(edge_of(kind)), kind, place.at, place.row, floor);

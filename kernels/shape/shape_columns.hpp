@@ -53,15 +53,9 @@ public:
       for (std::size_t l = 0; l < order_v_.value(); l += kLanes<Lanes>) {
         Series<Lanes> s;
         horner_series_abreast<kDepth, 1>(order_u_, x, matrix + l, order_v_.value(), load, &s);
-        scale_by_cells<kDepth>(s, shape_.cells_u());
         Powers& power = polynomials_.power[slot];
-        store_vector(power[0] + l, s.value);
-        if constexpr (kDepth > 0) {
-          store_vector(power[1] + l, s.first);
-        }
-        if constexpr (kDepth > 1) {
-          store_vector(power[2] + l, s.second);
-        }
+        put_series(s, [&](std::size_t derivative, Lanes value)
+                          SIMDBEZIER_INLINE_LAMBDA { store_vector(power[derivative] + l, value); });
       }
     });
   }
@@ -143,19 +137,24 @@ private:
     Series<V> s[kCount];
     horner_series_abreast<kDepth, kCount>(order_u_, columns_.local.x, matrix + first,
                                           order_v_.value(), load, s);
-    repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA { put_power(s[i], first + i, to); });
+    repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+      put_series(s[i], [&](std::size_t derivative, V value)
+                           SIMDBEZIER_INLINE_LAMBDA { to[derivative][first + i] = value; });
+    });
   }
 
-  SIMDBEZIER_INLINE void put_power(Series<V>& s, std::size_t l, Powers& to) const {
+  /// put(derivative, value) for each power's value and derivatives by u.
+  template <typename W, typename Put>
+  SIMDBEZIER_INLINE void put_series(Series<W>& s, const Put& put) const {
     if constexpr (!P::kOneCell) {
       scale_by_cells<kDepth>(s, shape_.cells_u());
     }
-    to[0][l] = s.value;
+    put(0, s.value);
     if constexpr (kDepth > 0) {
-      to[1][l] = s.first;
+      put(1, s.first);
     }
     if constexpr (kDepth > 1) {
-      to[2][l] = s.second;
+      put(2, s.second);
     }
   }
 

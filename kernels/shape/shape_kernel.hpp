@@ -96,6 +96,7 @@ SIMDBEZIER_INLINE void with_grid_plan(const Task& task, const Run& run) {
 /// Calls run.operator()<kDepth, kRational>().
 template <typename Task, typename Run>
 SIMDBEZIER_INLINE void with_depth(const Task& task, const Run& run) {
+  constexpr std::size_t kFirst = kCompact ? 2 : 1; // depth for first derivatives
   const auto with_weights = [&]<std::size_t kDepth>() SIMDBEZIER_INLINE_LAMBDA {
     task.shape->rational ? run.template operator()<kDepth, true>()
                          : run.template operator()<kDepth, false>();
@@ -104,7 +105,7 @@ SIMDBEZIER_INLINE void with_depth(const Task& task, const Run& run) {
   case 0:
     return with_weights.template operator()<0>();
   case 1:
-    return with_weights.template operator() < kCompact ? 2 : 1 > ();
+    return with_weights.template operator()<kFirst>();
   default:
     return with_weights.template operator()<2>();
   }
