@@ -33,6 +33,8 @@ public:
   [[nodiscard]] std::array<double, 2> normal_turns() const;
 
 private:
+  /// All roundings of a bound except those of second differences.
+  static constexpr double kRounding = 1 + 1e-12;
   /// A bit for each of the four quarters, which have the numbers 2 * (half of v) + (half of u).
   using QuarterSet = unsigned;
   static constexpr QuarterSet kAll = 15;
@@ -48,6 +50,7 @@ private:
   }
   [[nodiscard]] double zone_bound(QuarterSet quarters, const CellCounts& cells, bool falling) const;
   [[nodiscard]] double corner_bound(std::size_t corner, const CellCounts& cells) const;
+  /// The same by Filip's bound alone, which is coarser and has a formula for the counts.
   [[nodiscard]] CellCounts filip(double t, std::uint32_t most) const;
   /// A bound in the patch's own scale as one in space, rounded up.
   [[nodiscard]] double in_space(double bound) const;

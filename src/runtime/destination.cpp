@@ -30,11 +30,11 @@ DestinationNotes::Answer DestinationNotes::ask(const CallKind& kind) noexcept {
   static_assert(state_of(Destination::automatic) == 0 && state_of(Destination::memory) < kClaimed);
   const std::uint64_t name = kind.value() & ~kStates;
   for (std::size_t k = 0; k < kProbes; ++k) {
-    std::atomic<std::uint64_t>& slot = slot_[(kind.value() / (kStates + 1) + k) % kSlots];
-    std::uint64_t seen = slot.load(std::memory_order_relaxed);
+    std::atomic<std::uint64_t>& place = slot(kind, k);
+    std::uint64_t seen = place.load(std::memory_order_relaxed);
     // Empty, or of this kind and given back: nobody else may have taken it meanwhile.
     if ((seen == 0 || seen == name) &&
-        slot.compare_exchange_strong(seen, name | kClaimed, std::memory_order_relaxed)) {
+        place.compare_exchange_strong(seen, name | kClaimed, std::memory_order_relaxed)) {
       return {Destination::automatic, true};
     }
     if ((seen & ~kStates) == name) {
@@ -47,10 +47,10 @@ DestinationNotes::Answer DestinationNotes::ask(const CallKind& kind) noexcept {
 
 void DestinationNotes::decide(const CallKind& kind, Destination destination) noexcept {
   const std::uint64_t name = kind.value() & ~kStates;
-  for (std::atomic<std::uint64_t>& slot : slot_) {
+  for (std::size_t k = 0; k < kProbes; ++k) {
     std::uint64_t claimed = name | kClaimed;
-    if (slot.compare_exchange_strong(claimed, name | state_of(destination),
-                                     std::memory_order_relaxed)) {
+    if (slot(kind, k).compare_exchange_strong(claimed, name | state_of(destination),
+                                              std::memory_order_relaxed)) {
       return;
     }
   }

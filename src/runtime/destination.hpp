@@ -48,6 +48,11 @@ private:
   static constexpr std::uint64_t kStates = 3;
   static constexpr std::uint64_t kClaimed = 3;
 
+  /// The k-th of the kProbes slots in which a kind may be.
+  [[nodiscard]] std::atomic<std::uint64_t>& slot(const CallKind& kind, std::size_t k) noexcept {
+    return slot_[(kind.value() / (kStates + 1) + k) % kSlots];
+  }
+
   std::atomic<std::uint64_t> slot_[kSlots] = {};
 };
 
