@@ -16,7 +16,7 @@
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/nets/generators.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::large_calls_test {
 namespace {
 
 constexpr std::size_t kSide = 33;
@@ -79,4 +79,4 @@ TEST_P(LargeCalls, OnGridsOfTheirOwn) {
 INSTANTIATE_FOR_EVERY_ISA(LargeCalls);
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::large_calls_test

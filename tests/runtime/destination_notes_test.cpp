@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace simdbezier::detail {
+namespace simdbezier::detail::destination_notes_test {
 namespace {
 
 CallKind kind(std::uint64_t k) { return CallKind().add(k).add(17); }
@@ -99,4 +99,4 @@ TEST(DestinationNotes, too_many_kinds_are_left_undecided) {
 }
 
 } // namespace
-} // namespace simdbezier::detail
+} // namespace simdbezier::detail::destination_notes_test

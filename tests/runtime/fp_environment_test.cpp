@@ -11,18 +11,6 @@
 namespace simdbezier::tests::fp_environment_test {
 namespace {
 
-struct EnvironmentCase {
-  const char* name;
-  int rounding;
-  bool flush;
-};
-
-constexpr EnvironmentCase kEnvironments[] = {{"upward", FE_UPWARD, false},
-                                             {"downward", FE_DOWNWARD, false},
-                                             {"toward_zero", FE_TOWARDZERO, false},
-                                             {"flush", FE_TONEAREST, true},
-                                             {"upward_flush", FE_UPWARD, true}};
-
 /// Nets whose coefficients and results are partly subnormal, beside ordinary ones.
 template <typename T>
 [[nodiscard]] std::vector<Net> delicate_nets() {

@@ -1,6 +1,5 @@
 // Calls that compute in the caller's thread what they plan with: for models of ordinary and of
 // denormal size, the caller's rounding mode and flush-to-zero neither change the bits nor get lost.
-#include <cfenv>
 #include <functional>
 #include <string>
 
@@ -10,18 +9,8 @@
 #include "tests/support/hash.hpp"
 #include "tests/support/workload.hpp"
 
-namespace simdbezier::tests {
+namespace simdbezier::tests::models_environment_test {
 namespace {
-
-struct EnvironmentCase {
-  const char* name;
-  int rounding;
-  bool flush;
-};
-constexpr EnvironmentCase kEnvironments[] = {{"upward", FE_UPWARD, false},
-                                             {"downward", FE_DOWNWARD, false},
-                                             {"toward_zero", FE_TOWARDZERO, false},
-                                             {"flush", FE_TONEAREST, true}};
 
 /// A model and what is made of it before the environment changes.
 struct Model {
@@ -145,4 +134,4 @@ TEST(ModelsEnvironment, CallsAreIndependent) {
 }
 
 } // namespace
-} // namespace simdbezier::tests
+} // namespace simdbezier::tests::models_environment_test

@@ -27,6 +27,20 @@ include(\"${PROJECT_SOURCE_DIR}/tests/support/list_suites.cmake\")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${list})
 endfunction()
 
+# Sets RESULT to whether the Python that the module is built for can import all MODULES; says that
+# WHAT is not tested where it cannot.
+function(simdbezier_can_import result what)
+  list(JOIN ARGN ", " modules)
+  execute_process(COMMAND ${SIMDBEZIER_MODULE_PYTHON} -c "import ${modules}"
+                  RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
+  if(missing)
+    message(STATUS "one of ${modules} is absent: ${what} is not tested")
+    set(${result} FALSE PARENT_SCOPE)
+  else()
+    set(${result} TRUE PARENT_SCOPE)
+  endif()
+endfunction()
+
 # At the end of a folder's CMakeLists.txt: its label for tests that are no GoogleTest suites.
 function(simdbezier_label_tests)
   get_property(tests DIRECTORY PROPERTY TESTS)

@@ -10,6 +10,18 @@
 
 namespace simdbezier::tests {
 
+/// An environment that a caller may have set.
+struct EnvironmentCase {
+  const char* name;
+  int rounding;
+  bool flush;
+};
+inline constexpr EnvironmentCase kEnvironments[] = {{"upward", FE_UPWARD, false},
+                                                    {"downward", FE_DOWNWARD, false},
+                                                    {"toward_zero", FE_TOWARDZERO, false},
+                                                    {"flush", FE_TONEAREST, true},
+                                                    {"upward_flush", FE_UPWARD, true}};
+
 /// The control register that holds rounding mode, FTZ and DAZ (x86: MXCSR, aarch64: FPCR).
 [[nodiscard]] inline std::uint64_t control_register() {
 #if defined(__SSE__)

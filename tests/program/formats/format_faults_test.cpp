@@ -43,14 +43,11 @@ std::vector<Fault> bv_faults() {
       {"Polyhedron", "bv", "8\n2 1", "1\n3 1",
        ":17: expected kind 4, 5 or 8 (tensor-product patches), found kind 1 (polyhedron)"},
       {"Triangle", "bv", "8\n2 1", "3\n1",
-       ":17: expected kind 4, 5 or 8 (tensor-product patches), "
-       "found kind 3 (triangular patch)"},
+       ":17: expected kind 4, 5 or 8 (tensor-product patches), found kind 3 (triangular patch)"},
       {"PnTriangle", "bv", "8\n2 1", "9\n1 1",
-       ":17: expected kind 4, 5 or 8 (tensor-product "
-       "patches), found kind 9 (PN triangle)"},
+       ":17: expected kind 4, 5 or 8 (tensor-product patches), found kind 9 (PN triangle)"},
       {"PnQuad", "bv", "8\n2 1", "10\n1 1 1 1",
-       ":17: expected kind 4, 5 or 8 (tensor-product "
-       "patches), found kind 10 (PN quad)"},
+       ":17: expected kind 4, 5 or 8 (tensor-product patches), found kind 10 (PN quad)"},
       {"UnknownKind", "bv", "8\n2 1", "7\n2 1",
        ":17: expected kind 4, 5 or 8 (tensor-product patches), found kind 7"},
       {"WordForKind", "bv", "8\n2 1", "rational\n2 1",

@@ -1,6 +1,7 @@
 // What calls have to do with outputs that lie anywhere in a block.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,6 +18,11 @@ struct Member {
 
 /// What is known of a request before it is made.
 enum class Expectation : std::uint8_t { anything, success, failure, untried };
+
+/// The product of two counts of samples. Beyond all memory it may be too small, but stays beyond.
+[[nodiscard]] inline Wide sample_product(Wide a, Wide b) {
+  return a > kLastOffset || b > kLastOffset ? std::max(a, b) : a * b;
+}
 
 /// Statuses begin at one of the first elements of a block of their own.
 inline constexpr std::size_t kStatusPlaces = 20;

@@ -53,6 +53,7 @@ public:
 private:
   static constexpr std::size_t kElements = 900;
   static constexpr T kUntouched = T(-7.7e7);
+  static constexpr auto kAllPatches = static_cast<std::size_t>(-1);
   static constexpr auto kNoStatus = static_cast<SampleStatus>(77);
   enum class Call : std::uint8_t { grid, scattered, patch_grids };
 
@@ -105,21 +106,16 @@ private:
       return static_cast<Wide>(listed_);
     }
     if (call_ == Call::grid) {
-      return product(product(nu_, nv_), patch_count());
+      return sample_product(sample_product(nu_, nv_), patch_count());
     }
     return call_samples_;
-  }
-  /// The number of samples of counts; beyond all memory it may be too small.
-  static Wide product(Wide a, Wide b) {
-    return a > kLastOffset || b > kLastOffset ? std::max(a, b) : a * b;
   }
   [[nodiscard]] Wide patch_count() const {
     if (call_ == Call::patch_grids) {
       return static_cast<Wide>(patch_.size());
     }
     const std::size_t rest = options_.first_patch > patches_ ? 0 : patches_ - options_.first_patch;
-    return static_cast<Wide>(
-        options_.patch_count == static_cast<std::size_t>(-1) ? rest : options_.patch_count);
+    return static_cast<Wide>(options_.patch_count == kAllPatches ? rest : options_.patch_count);
   }
 
   /// A third of the requests are sound; the others have strides, places and planes by chance.
@@ -182,12 +178,10 @@ private:
   }
 
   [[nodiscard]] bool sound_patches() const {
-    if (call_ == Call::patch_grids) {
-      return options_.first_patch <= patches_ && patch_.size() <= patches_ - options_.first_patch;
-    }
-    return options_.first_patch <= patches_ &&
-           (options_.patch_count == static_cast<std::size_t>(-1) ||
-            options_.patch_count <= patches_ - options_.first_patch);
+    const bool counted = call_ == Call::patch_grids;
+    const std::size_t count = counted ? patch_.size() : options_.patch_count;
+    const bool all = !counted && count == kAllPatches;
+    return options_.first_patch <= patches_ && (all || count <= patches_ - options_.first_patch);
   }
 
   Expectation expect() {
