@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
   register_pack_rows();
   register_curve_rows();
   register_peer_rows();
+  register_mesh_peer_rows();
   register_plugin_rows(plugins);
   register_limit_rows();
   benchmark::RunSpecifiedBenchmarks();

@@ -95,6 +95,10 @@ struct MeshStages {
 inline constexpr std::size_t kColumns = 192;
 inline constexpr std::size_t kRows = 128;
 
+/// As many patches are enough for tessellators that take their time: the first rows of the sheet.
+inline constexpr std::size_t kPeerRows = 16;
+inline constexpr std::size_t kPeerPatches = kPeerRows * kColumns;
+
 /// A sheet whose waves grow from one side to the other.
 template <typename T>
 std::vector<T> sheet_nets() {
@@ -149,6 +153,18 @@ std::shared_ptr<MeshStages<T>> make_stages(bool adaptive) {
     s.samples_v.push_back(s.nv[p] + 1);
   }
   return s.make_room() ? stages : nullptr;
+}
+
+/// Those of the last kind that was asked for: one at a time, since they take much memory.
+template <typename T>
+const std::shared_ptr<MeshStages<T>>& shared_stages(bool adaptive) {
+  static std::shared_ptr<MeshStages<T>> stages[2];
+  auto& wanted = stages[adaptive ? 1 : 0];
+  if (wanted == nullptr) {
+    stages[adaptive ? 0 : 1] = nullptr;
+    wanted = make_stages<T>(adaptive);
+  }
+  return wanted;
 }
 
 } // namespace simdbezier_bench

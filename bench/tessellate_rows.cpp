@@ -6,7 +6,7 @@
 //           topology as well; grids: evaluate() on the grids of the same rates.
 //
 // plain/8x8: a scalar tessellator without a library, on some of the patches, all with one grid, to
-// the same tolerance; items are triangles.
+// the same tolerance; items are triangles. peers/mesh_peer_rows.cpp has another library's.
 //
 // Items are samples: vertices of meshes, samples of grids, patches of rates, topology and layout.
 // Bytes are those of the output.
@@ -26,17 +26,6 @@ namespace simdbezier_bench {
 namespace {
 
 using simdbezier::Isa;
-
-template <typename T>
-const std::shared_ptr<MeshStages<T>>& shared_stages(bool adaptive) {
-  static std::shared_ptr<MeshStages<T>> stages[2];
-  auto& wanted = stages[adaptive ? 1 : 0];
-  if (wanted == nullptr) {
-    stages[adaptive ? 0 : 1] = nullptr; // one at a time: they take much memory
-    wanted = make_stages<T>(adaptive);
-  }
-  return wanted;
-}
 
 /// One part of the work: which stages run, in their order.
 template <typename T>
@@ -156,14 +145,12 @@ void add_meshes(Isa isa) {
 /// plain: what one writes without a library, on some rows of the sheet, to the tolerance of 8x8.
 class PlainRow {
 public:
-  static constexpr std::size_t kPatches = 16 * kColumns;
-
   PlainRow()
       : stages_(shared_stages<float>(true)),
         plain_(stages_ == nullptr ? std::span<const PlainTessellator::Point>()
                                   : std::span(reinterpret_cast<const PlainTessellator::Point*>(
                                                   stages_->nets.data()),
-                                              16 * kPatches)) {}
+                                              16 * kPeerPatches)) {}
   void operator()() { plain_.run(stages_->tolerance); }
   std::string check() {
     if (stages_ == nullptr) {
@@ -171,7 +158,7 @@ public:
     }
     (*this)();
     const std::size_t rate = plain_.rate(stages_->tolerance);
-    const std::size_t joined = (kColumns * rate + 1) * (16 * rate + 1);
+    const std::size_t joined = (kColumns * rate + 1) * (kPeerRows * rate + 1);
     return plain_.vertices() >= joined ? std::string() : "vertices are missing";
   }
   [[nodiscard]] double items() const { return static_cast<double>(plain_.triangles()); }

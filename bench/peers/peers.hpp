@@ -1,8 +1,11 @@
 // Other libraries on the library's own grids: each prepares its objects outside of the clock and
-// returns the call that is timed, which fills job.out. Only those that were found are linked.
+// returns the call that is timed, which fills job.out. Meshes likewise. Only those that were found
+// are linked.
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <span>
 
 #include "bench/job.hpp"
 
@@ -16,6 +19,24 @@ std::function<void()> prepare_opensubdiv(const GridJob<float>& job, const float*
 std::function<void()> prepare_opencascade(const GridJob<double>& job,
                                           const double* nets);                      // triples
 std::function<void()> prepare_sisl(const GridJob<double>& job, const double* nets); // triples
+
+struct MeshCounts {
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+};
+
+/// A tessellator of another library, for bicubic patches whose common edges it knows.
+class PeerMesher {
+public:
+  virtual ~PeerMesher() = default;
+  /// Makes all triangles anew, with at most this distance from the patches.
+  virtual void run(double tolerance) = 0;
+  /// Of the last run; takes its time.
+  [[nodiscard]] virtual MeshCounts counts() const = 0;
+};
+
+/// `nets`: control points [patch][j][i][xyz].
+std::unique_ptr<PeerMesher> make_opencascade_mesher(std::span<const double> nets);
 
 // Eigen is compiled once per instruction set, as the baselines are; planes.
 #define SIMDBEZIER_BENCH_DECLARE_EIGEN(isa)                                                        \
