@@ -206,19 +206,14 @@ SIMDBEZIER_INLINE bool sweep_square_of(std::index_sequence<kSides...>, const Gri
   return (sweep(std::integral_constant<std::size_t, kSides>{}) || ...);
 }
 
-/// The squares that gain 5 to 60 % by code of their own: sides of 2^k and 2^k + 1, where neither
-/// stores (derivatives of side 32) nor roots (normals of 16 and more) set the pace. With registers
-/// of 32 bytes, straight code for positions of side 32 is slower than a loop of pairs.
+/// The squares that gain by code of their own: short ones, of sides 2^k and 2^k + 1, where roots
+/// (normals of 16) do not set the pace. Straight code for sides of 32 and 33 is slower than a loop.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_INLINE constexpr auto known_sides() {
-  if constexpr (kOutputs == detail::kPosition && kLineWide<vec<T>>) {
-    return std::index_sequence<8, 9, 16, 17, 32, 33>{};
-  } else if constexpr (kOutputs == detail::kPosition) {
-    return std::index_sequence<8, 9, 16, 17>{};
-  } else if constexpr (kOutputs == detail::kPositionDerivatives) {
-    return std::index_sequence<8, 9, 16, 17, 33>{};
-  } else {
+  if constexpr (kOutputs == detail::kPositionNormal) {
     return std::index_sequence<8, 9, 17>{};
+  } else {
+    return std::index_sequence<8, 9, 16, 17>{};
   }
 }
 

@@ -138,10 +138,6 @@ private:
       }
       line.row = {zero, rate == segments ? step : 0};
     }
-    if (rate == segments) {
-      std::iota(line.places.begin(), line.places.end(), 0U);
-      return;
-    }
     if (segments == rate) { // all points of the edge are its own
       std::iota(line.places.begin(), line.places.end(), 0U);
       return;
