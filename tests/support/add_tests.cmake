@@ -20,6 +20,7 @@ function(simdbezier_add_tests program prefix)
   set(list ${CMAKE_CURRENT_BINARY_DIR}/${program}_suites.cmake)
   file(GENERATE OUTPUT ${list}
        CONTENT "set(program \"$<TARGET_FILE:${program}>\")
+set(emulator \"${CMAKE_CROSSCOMPILING_EMULATOR}\")
 set(prefix \"${prefix}\")
 set(label \"${SIMDBEZIER_TEST_LABEL}\")
 include(\"${PROJECT_SOURCE_DIR}/tests/support/list_suites.cmake\")

@@ -1,10 +1,11 @@
-# Read by ctest, with `program`, `prefix` and `label` set (add_tests.cmake): asks the program.
+# Read by ctest, with `program`, `emulator` (or nothing), `prefix` and `label` set (add_tests.cmake):
+# asks the program.
 if(NOT EXISTS ${program})
   get_filename_component(name ${program} NAME)
   add_test(${name}_NOT_BUILT ${program})
   return()
 endif()
-execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE listing
+execute_process(COMMAND ${emulator} ${program} --gtest_list_tests OUTPUT_VARIABLE listing
                 RESULT_VARIABLE result ERROR_VARIABLE errors)
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "${program} --gtest_list_tests: ${result}\n${errors}")
@@ -37,7 +38,7 @@ set(cost_faults.Jobs/SystemCalls 10)
 # Tests run side by side: threads that spin while they wait would take the cores from the others.
 foreach(suite IN LISTS suites)
   string(REGEX REPLACE "^\n|\\.$" "" suite "${suite}")
-  add_test("${prefix}${suite}" ${program} "--gtest_filter=${suite}.*")
+  add_test("${prefix}${suite}" ${emulator} ${program} "--gtest_filter=${suite}.*")
   set_tests_properties("${prefix}${suite}" PROPERTIES ENVIRONMENT OMP_WAIT_POLICY=passive
                                                      LABELS "${label}")
   if(DEFINED cost_${prefix}${suite})
