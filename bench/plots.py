@@ -121,7 +121,9 @@ def roofline(rows, path):
                       transform_rotates_text=True, fontsize=8)
     shown = set()
     for name, n, rate in grids(rows):
-        if n in (16, 32) and name.who in COLOURS and name.who != "de_casteljau":
+        # Of curvatures, roots and divisions are most of the work.
+        if (n in (16, 32) and name.who in COLOURS and name.who != "de_casteljau"
+                and name.outputs in MARKERS):
             shown |= {name.outputs, name.who}
             work = multiply_adds(name.outputs, n)
             filled = name.place == "cache"
