@@ -14,8 +14,9 @@
 //     simdbezier_patch_set_free(set);
 //
 //   Statuses   Every function that can fail returns one. simdbezier_last_fault() then says which
-//              argument was at fault. Nothing prints, aborts or lets an exception through, and on
-//              an error nothing has been written.
+//              argument was at fault. Nothing prints, aborts or lets an exception through. On an
+//              error nothing has been written, except by functions that choose or certify rates
+//              and polylines, whose outputs are undefined then.
 //   Structs    begin with struct_size, which the caller sets to sizeof. They may grow at their end:
 //              a program that was compiled for a smaller struct goes on working, and so does one
 //              that was compiled for a larger struct, as long as the members that this library

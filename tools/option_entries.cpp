@@ -73,7 +73,8 @@ Entries make_entries() {
        " evaluate "},
       {"--format", "NAME", patch_format_names(""), "Format of IN, otherwise told by its name", all},
       {"--grid", "N|NUxNV", "N or NUxNV, each from 2 to " + side,
-       "Samples of every patch (default 16)", both}};
+       "Samples of every patch (default 16); at most 4097 a direction in one mesh without gaps",
+       both}};
   add_resolution(entries);
   add_mesh(entries);
   const Entries rest = {

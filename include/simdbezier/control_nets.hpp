@@ -29,7 +29,8 @@ enum class Weights : std::uint8_t {
 ///
 /// Component c of point P[j][i] of patch p is
 ///     points[p * patch_stride + j * row_stride + i * point_stride + c * component_stride]
-/// with all strides in elements of S; the weight stands where component `components` would. The
+/// with all strides in elements of S; the weight stands where component `components` would. Strides
+/// may be negative; those of rows, points and components are not 0 (else bad_stride). The
 /// default describes bicubic x y z triples, packed, patch after patch, which is the order of `.bez`
 /// and `.bpt` files; packed() describes other degrees and components. The memory is read during
 /// calls only.

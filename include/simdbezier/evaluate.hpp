@@ -31,6 +31,7 @@
 //               parts (degree_v 3, 4, 5: 3 products and 2 sums a component and pair of samples of
 //               bicubic patches) or by Horner's rule (any other: degree_v multiply-adds a sample).
 //               Edges are evaluated as rows are. Rational patches by the quotient rule.
+//   Source      docs/accuracy.md has the proofs, and names the papers that they stand on.
 //   Statuses    ok | null_output | output_too_small | bad_components (Outputs::first_component is
 //               outside of the set's, or a normal or a curvature is asked of a set without exactly
 //               three) | bad_stride | overlapping_outputs | size_overflow | unknown_isa |

@@ -48,6 +48,7 @@ struct MeshOutputs {
 ///           patches) | bad_patch_range | size_overflow | unknown_isa | unsupported_isa |
 ///           out_of_memory. On an error nothing has been written.
 /// Allocation: scratch per thread, which grows with the most vertices on one patch's boundary.
+/// Cost:     a vertex takes as long as two to six samples of a grid (docs/experiments.md).
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_mesh(const PatchSet<T>& set, const MeshLayout& layout,
                                                   const MeshOutputs<T>& out,

@@ -23,7 +23,8 @@
 
 namespace simdbezier {
 
-/// What a mesh is to be like. How fine it is has to be said by a tolerance or by a grid.
+/// What a mesh is to be like. How fine it is has to be said: by a tolerance, by pixels, by a
+/// longest edge, by an angle between normals, or by a grid.
 struct MeshOptions {
   /// The largest distance of the surface from the mesh: absolute, or as a share of the diagonal of
   /// the box of all control points. Where both are given, the smaller one counts.
@@ -113,7 +114,8 @@ template <typename T, typename S>
                                     const MeshOptions& options) noexcept;
 
 /// Plans and evaluates.
-/// Returns: in Mesh::status, as plan_mesh(); size_overflow also where vertices exceed 2^32 - 2.
+/// Threads: MeshOptions::threads. Neither they nor the instruction set within a class change a bit.
+/// Returns: in Mesh::status, as plan_mesh(); size_overflow also where vertices exceed 2^32 - 1.
 template <typename T, typename S>
 [[nodiscard]] Mesh<T> tessellate(std::span<const ControlNets<S>> nets,
                                  const MeshOptions& options) noexcept;

@@ -20,7 +20,7 @@ struct MeshData;
 inline constexpr std::uint32_t kMostSegments = 4096;
 
 /// Segments of every patch in u and in v, 1 to kMostSegments, and how its cells are cut: see
-/// CellDiagonals. Both spans of rates have one value a patch.
+/// Zone. Both spans of rates have one value a patch.
 struct PatchRates {
   std::span<const std::uint32_t> nu;
   std::span<const std::uint32_t> nv;
@@ -84,7 +84,7 @@ private:
 /// layout:     replaced on ok, left as it was otherwise.
 /// Allocation: about 40 bytes a patch and 8 an edge. Determinism: a function of its input alone.
 /// Returns:    ok | bad_rates (not one value a patch, or outside of 1 to kMostSegments) |
-///             size_overflow (2^32 - 1 vertices and more) | out_of_memory.
+///             size_overflow (2^32 vertices and more) | out_of_memory.
 [[nodiscard]] SIMDBEZIER_API Status lay_out_mesh(const Topology& topology, const PatchRates& rates,
                                                  MeshLayout& layout) noexcept;
 

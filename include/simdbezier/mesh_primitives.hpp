@@ -26,7 +26,8 @@ namespace simdbezier {
 ///
 /// patches: all of them, or some: the first number is that of MeshLayout::first_triangle() of the
 ///          first patch. Returns bad_patch_range where the layout has no such patches.
-/// destination: as in Options; any alignment of Index will do.
+/// destination: automatic streams where the numbers take more than half of the last-level cache,
+///          without a measurement; SIMDBEZIER_DESTINATION counts. Any alignment of Index will do.
 template <typename Index>
 [[nodiscard]] SIMDBEZIER_API Status
 write_triangles(const MeshLayout& layout, std::span<Index> triangles, int threads = 0,

@@ -16,10 +16,10 @@ namespace simdbezier {
 /// Beyond that the call takes what is faster on this machine: the first large call of its kind
 /// (instruction set, shape, size of the grid, outputs and their layout, threads) evaluates some
 /// megabytes of its output in both ways, which takes a few milliseconds at most, and the process
-/// keeps the answer. One thread decides; others that come meanwhile stream, and so do calls that
-/// would be a measurement by more than a quarter. The answer never changes a bit.
+/// keeps the answer. One thread decides. Calls that come meanwhile stream, and so do calls of which
+/// measuring would be more than a quarter. The answer never changes a bit.
 /// SIMDBEZIER_DESTINATION=cache or =memory in the environment, read once per process, decides for
-/// all large calls instead; any other word is as none.
+/// all large calls instead; any other word counts as none.
 enum class Destination : std::uint8_t {
   automatic, ///< decided by the output's size, and beyond the caches by measurement
   cache,     ///< plain stores
@@ -28,8 +28,9 @@ enum class Destination : std::uint8_t {
 
 /// How a call runs. The defaults are what most callers want.
 struct Options {
-  /// 0: OpenMP's default (in builds without OpenMP: one thread a core); 1: the calling thread
-  /// alone; at most 16 or two a core, whichever is more.
+  /// 0: OpenMP's default, and the calling thread alone inside of a parallel region (in builds
+  /// without OpenMP: one thread a core); 1: the calling thread alone; at most 16, two a core or
+  /// OpenMP's default, whichever is most.
   ///
   /// 1 enters no OpenMP region and never starts a thread: such a call always returns, with a
   /// status. Otherwise OpenMP's runtime starts the threads that its pool lacks. Where the system

@@ -76,8 +76,9 @@ template <typename T>
 ///           of the picture. Patches that lie in front of Camera::nearest altogether, and are not
 ///           seen, get the diagonal of their control points' box.
 /// out:      one value a patch, in the order of all views.
-/// Returns:  ok | null_input | bad_degree | bad_components | bad_stride | bad_tolerance (pixels, or
-///           a member of the camera, that is not above zero and finite) | output_too_small.
+/// Returns:  ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
+///           size_overflow | bad_tolerance (pixels, or a member of the camera, that is not above
+///           zero and finite) | output_too_small.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status pixel_tolerances(std::span<const ControlNets<S>> sets,
                                                      const Camera& camera, double pixels,
@@ -99,12 +100,15 @@ template <typename S>
 /// Source:   D. Filip, R. Magedson, R. Markot, "Surface Algorithms Using Bounds on Derivatives",
 ///           CAGD 3 (1986), whose bound has the triangle inequality instead of the diagonal's own
 ///           derivative.
-/// Returns:  ok | null_input | bad_degree | bad_components | bad_stride | non_finite_input |
-///           bad_weight | bad_rates (spans that are not one value a patch) | bad_tolerance (not
-///           above zero, or not above the patch's error, or an error below 0 or nan, or more than
-///           most_segments would be needed; the report names the patch) | out_of_memory. Outputs
-///           are undefined then. The topology has to be that of these nets: their numbers of
-///           patches are all that is compared.
+/// Threads:  RateOptions::threads; rates do not depend on them. Allocation: some bytes a patch, and
+///           scratch per thread. Outputs may not overlap the inputs, which is not checked.
+/// Returns:  ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
+///           size_overflow | non_finite_input | bad_weight | unknown_isa | unsupported_isa |
+///           bad_rates (spans that are not one value a patch) | bad_tolerance (not above zero, or
+///           not above the patch's error, or an error below 0 or nan, or more than most_segments
+///           would be needed; the report names the patch) | out_of_memory. Outputs are undefined
+///           on an error. The topology has to be that of these nets: their numbers of patches are
+///           all that is compared.
 /// Cost:     on AVX-512, 0.25 to 0.4 us a bicubic float patch and 0.65 us in double, certificate
 ///           included; 30 us and more for rational patches, other degrees and patches with a forced
 ///           diagonal.
@@ -115,6 +119,11 @@ template <typename S>
                                                      const CertifiedRates& out) noexcept;
 
 /// The certificate of given rates: the best diagonals, and the bound that they have.
+///
+/// rates:    nu and nv are read, from 1 to kMostSegments; diagonals and deviation are written.
+/// errors:   one value a patch, or empty. threads: as in Options.
+/// Returns:  as choose_rates(); bad_rates also for rates outside of that range. Outputs are
+///           undefined on an error.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<S>> sets,
                                                       const Topology& topology,
@@ -126,9 +135,10 @@ template <typename S>
 /// evaluate() numbers its samples, whose diagonals all run from (0,0) to (1,1).
 ///
 /// deviation: one value a patch, `errors` included, which has as many or none.
-/// Returns:   ok | null_input | bad_degree | bad_components | bad_stride | non_finite_input |
-///            bad_weight | bad_rates (outside of 1 to kMostGridCells, or spans that are not one
-///            value a patch) | out_of_memory. Cost: 30 us and more a patch.
+/// Returns:   ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
+///            size_overflow | non_finite_input | bad_weight | bad_rates (outside of 1 to
+///            kMostGridCells, or spans that are not one value a patch) | out_of_memory. Cost: 30 us
+///            and more a patch.
 inline constexpr std::uint32_t kMostGridCells = std::uint32_t{1} << 20;
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<S>> sets,

@@ -72,8 +72,9 @@ struct Samples {
   Parameters parameters = Parameters::unit;
 };
 
-/// The number of samples of a call, for which every output needs room. 0 where the call will refuse
-/// its input; the largest std::size_t where there are more than memory can address.
+/// The number of samples of a call, for which every output needs room. 0 where patches outside of
+/// the set are asked for, or where PatchGrids are refused; the largest std::size_t where there are
+/// more than memory can address.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API std::size_t sample_count(const PatchSet<T>& set,
                                                       const Grid<T>& grid) noexcept;

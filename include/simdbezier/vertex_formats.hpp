@@ -58,8 +58,9 @@ struct QuantisationBox {
 };
 
 /// The box of all control points, for one of the two formats.
-/// Returns: ok | null_input | bad_degree | bad_components | bad_stride | non_finite_input |
-///          bad_tolerance (another format, or all points are equal).
+/// Returns: ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
+///          size_overflow | non_finite_input | bad_tolerance (another format, or all points are
+///          equal).
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status quantisation_box(std::span<const ControlNets<S>> sets,
                                                      VertexFormat format,

@@ -114,8 +114,8 @@ SIMDBEZIER_API simdbezier_status simdbezier_evaluate_samples(const simdbezier_pa
                                                              const simdbezier_outputs* out,
                                                              const simdbezier_options* options);
 
-// sample_count(): the number of samples of a call; 0 where that call will refuse its input, which
-// simdbezier_last_fault() then does not explain.
+// sample_count(): the number of samples of a call; 0 where patches outside of the set are asked
+// for, or where grids of patches are refused, which simdbezier_last_fault() then does not explain.
 SIMDBEZIER_API size_t simdbezier_grid_sample_count(const simdbezier_patch_set* set,
                                                    const simdbezier_grid* grid);
 SIMDBEZIER_API size_t simdbezier_patch_grids_sample_count(const simdbezier_patch_set* set,

@@ -83,7 +83,8 @@ SIMDBEZIER_API simdbezier_status simdbezier_split_creases(const simdbezier_patch
                                                           const simdbezier_options* options,
                                                           simdbezier_mesh_layout** split);
 
-// MeshOptions. How fine the mesh is has to be said by a tolerance, by pixels or by a grid.
+// MeshOptions. How fine the mesh is has to be said: by a tolerance, by pixels, by a longest edge,
+// by an angle between normals, or by a grid.
 typedef struct simdbezier_mesh_options {
   size_t struct_size;
   double tolerance;          // 0: none, as below
