@@ -57,7 +57,8 @@ template <typename T>
 /// alone. Work is divided between threads by samples, so that several threads share a dense patch's
 /// rows. Outputs count as overlapping where their whole ranges do, from index 0 to the last sample.
 /// Allocation: 8 bytes a patch and scratch per thread, a call.
-/// Returns, besides the statuses above, unequal_lengths | bad_grid | bad_offsets | bad_patch_range.
+/// Returns, besides the statuses above, null_input | unequal_lengths | bad_grid | bad_offsets |
+/// bad_patch_range.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const PatchSet<T>& set, const PatchGrids& grids,
                                              const Outputs<T>& out,

@@ -79,9 +79,10 @@ template <typename T, typename S>
 ///
 /// patches:    of one shape. The nets that they were packed from need not exist any more.
 /// options:    relative_to is ignored; local_origin is not taken from the set.
-/// Numerics:   the call above on the nets themselves. At 0 and 1 a set packed with the same
-///             local_origin gives the bits of its edges. Where some nets had Cartesian and some
-///             homogeneous weights, the points are formed and then divided by their weights.
+/// Numerics:   the call above on the nets themselves. At 0 and 1 a set of double that was packed
+///             with the same local_origin gives the bits of its edges, and one of float gives them
+///             but for their rounding. Where some nets had Cartesian and some homogeneous weights,
+///             the points are formed and then divided by their weights.
 /// Allocation: (degree + 1) (components + 1 with weights) doubles a patch during the call, and the
 ///             curves.
 /// Returns:    ok | bad_degree (patches of several shapes) | non_finite_input (u0) |

@@ -60,13 +60,26 @@ class TileFunction {
 public:
   template <TileCallable<T> F>
   TileFunction(F&& function) noexcept // NOLINT: implicit on purpose
-      : context_(const_cast<void*>(static_cast<const void*>(std::addressof(function)))),
-        call_([](void* context, const Tile<T>& tile) {
-          (*static_cast<std::remove_reference_t<F>*>(context))(tile);
+      : context_(address_of(function)), call_([](void* context, const Tile<T>& tile) {
+          using Function = std::remove_reference_t<F>;
+          if constexpr (std::is_function_v<Function>) {
+            (*reinterpret_cast<Function*>(context))(tile);
+          } else {
+            (*static_cast<Function*>(context))(tile);
+          }
         }) {}
   void operator()(const Tile<T>& tile) const { call_(context_, tile); }
 
 private:
+  template <typename F>
+  static void* address_of(F& function) noexcept {
+    if constexpr (std::is_function_v<F>) {
+      return reinterpret_cast<void*>(&function);
+    } else {
+      return const_cast<void*>(static_cast<const void*>(std::addressof(function)));
+    }
+  }
+
   void* context_;
   void (*call_)(void*, const Tile<T>&);
 };

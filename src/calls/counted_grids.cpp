@@ -9,7 +9,8 @@ Status CountedGrids::count() noexcept {
   if (!equal_lengths_) {
     return Status::unequal_lengths;
   }
-  if (size() > 0 && (nu_.data() == nullptr || (!rows_of_one_ && nv_.data() == nullptr))) {
+  if (size() > 0 && (nu_.data() == nullptr || (!rows_of_one_ && nv_.data() == nullptr) ||
+                     (!given_offset_.empty() && given_offset_.data() == nullptr))) {
     return Status::null_input;
   }
   if (size() >= static_cast<std::size_t>(-1) / sizeof(std::size_t)) {

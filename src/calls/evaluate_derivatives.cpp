@@ -28,7 +28,7 @@ template <typename T, std::size_t kInputs>
 Status check_derivatives(Derivatives<T> wanted, std::size_t samples, std::size_t dimension,
                          MemoryRange (&inputs)[kInputs]) noexcept {
   inputs[0] = wanted;
-  if (wanted.empty()) {
+  if (wanted.empty() || wanted.data() == nullptr) {
     return Status::null_output;
   }
   for (const PartialDerivative<T>& d : wanted) {

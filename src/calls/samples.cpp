@@ -48,8 +48,10 @@ std::size_t samples_of(CountedGrids grids, std::size_t first, std::size_t set_si
 
 template <typename T>
 T to_centred(double u) noexcept {
-  const detail::DefaultFpEnvironment environment;
-  return static_cast<T>(std::fma(2.0, u, -1.0));
+  T centred = 0;
+  detail::in_default_environment(
+      [&]() noexcept { centred = static_cast<T>(std::fma(2.0, u, -1.0)); });
+  return centred;
 }
 
 template <typename T>

@@ -232,11 +232,13 @@ ErrorBounds error_bounds(const PatchSet<T>& set, std::size_t patch, Isa isa) noe
 template <typename T>
 double largest_position_bound(const PatchSet<T>& set, Isa isa) noexcept {
   double largest = 0;
-  for (std::size_t patch = 0; patch < set.size(); ++patch) {
-    const ErrorBounds bounds = error_bounds(set, patch, isa);
-    largest = std::max(largest,
-                       *std::max_element(std::begin(bounds.position), std::end(bounds.position)));
-  }
+  detail::in_default_environment([&]() noexcept { // bounds may be denormal
+    for (std::size_t patch = 0; patch < set.size(); ++patch) {
+      const ErrorBounds bounds = error_bounds(set, patch, isa);
+      largest = std::max(largest,
+                         *std::max_element(std::begin(bounds.position), std::end(bounds.position)));
+    }
+  });
   return largest;
 }
 

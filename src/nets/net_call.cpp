@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "src/nets/net_places.hpp"
+#include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -216,7 +217,12 @@ NetReport find_fault(const ControlNets<S>& nets, int threads, bool signed_weight
   };
   const std::size_t units = lane_groups(nets.count);
   for_blocks(units, thread_count(threads, units), BlockBody(body));
-  return first == kNone ? NetReport{} : fault_of(nets, first, signed_weights);
+  NetReport report;
+  if (first != kNone) {
+    in_default_environment( // weights may be denormal
+        [&]() noexcept { report = fault_of(nets, first, signed_weights); });
+  }
+  return report;
 }
 
 #define SIMDBEZIER_INSTANTIATE(S)                                                                  \

@@ -1,6 +1,7 @@
 // Work cut into blocks, one contiguous block a thread.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -16,7 +17,7 @@ namespace simdbezier::detail {
 constexpr std::size_t whole_lines(std::size_t bytes) noexcept { return (bytes + 63) / 64 * 64; }
 
 /// How many threads to use for `units` pieces of work: `requested`, or OpenMP's default where it
-/// is 0 or negative; 1 inside a parallel region of the caller; never more than there are units.
+/// is 0 or negative, which is 1 inside a parallel region of the caller; never more than units.
 int thread_count(int requested, std::size_t units) noexcept;
 
 /// A borrowed callable `void(int worker, std::size_t begin, std::size_t end) noexcept`.
@@ -46,9 +47,12 @@ public:
   /// False where there is no memory. bytes: of one thread; 0 needs none.
   [[nodiscard]] bool allocate(std::size_t bytes, int threads) noexcept {
     bytes_ = whole_lines(bytes);
+    std::size_t all = 0;
+    if (__builtin_mul_overflow(bytes_, static_cast<std::size_t>(threads), &all)) {
+      return false;
+    }
     if (bytes_ > 0) {
-      memory_.reset(::operator new (bytes_* static_cast<std::size_t>(threads), std::align_val_t{64},
-                                    std::nothrow));
+      memory_.reset(::operator new (all, std::align_val_t{64}, std::nothrow));
     }
     return bytes_ == 0 || memory_ != nullptr;
   }
@@ -68,11 +72,12 @@ private:
 template <typename Work>
 Isa run_units(std::size_t begin, std::size_t end, int threads, const ThreadScratch& scratch,
               const Work& work) noexcept {
-  Isa executed = Isa::automatic;
+  // All that run a kernel run the same one, and a short share may have nothing for it.
+  std::atomic<Isa> executed = Isa::automatic;
   auto body = [&](int worker, std::size_t first, std::size_t last) {
     const Isa ran = work(worker, begin + first, begin + last, scratch.of(worker));
-    if (worker == 0) {
-      executed = ran;
+    if (ran != Isa::automatic) {
+      executed.store(ran, std::memory_order_relaxed);
     }
   };
   for_blocks(end - begin, threads, BlockBody(body));

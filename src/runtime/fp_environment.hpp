@@ -39,4 +39,16 @@ private:
 };
 #endif
 
+/// Runs work() in the library's environment. The compiler does not know that arithmetic depends on
+/// it, and may move what is inlined to either side of its change: this is no place to inline.
+template <typename Work>
+__attribute__((noinline)) void run_apart(const Work& work) noexcept {
+  work();
+}
+template <typename Work>
+void in_default_environment(const Work& work) noexcept {
+  const DefaultFpEnvironment environment;
+  run_apart(work);
+}
+
 } // namespace simdbezier::detail

@@ -95,6 +95,9 @@ void place_patches(std::span<const PackRun> runs, SetStorage<T>& storage) {
 template <typename S>
 PackReport check_nets(std::span<const ControlNets<S>> nets) noexcept {
   std::size_t patch = 0;
+  if (!nets.empty() && nets.data() == nullptr) {
+    return {Status::null_input, 0};
+  }
   for (const ControlNets<S>& entry : nets) {
     Status status = check_input(entry);
     if (status == Status::ok && entry.components != nets.front().components) {

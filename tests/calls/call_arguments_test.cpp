@@ -150,6 +150,19 @@ TEST_F(Arguments, scattered) {
   expect_untouched();
 }
 
+TEST_F(Arguments, spans_of_nothing_with_a_length) {
+  const std::uint32_t rates[] = {4, 4, 4};
+  const std::span<const std::size_t> offsets(static_cast<std::size_t*>(nullptr), kPatches);
+  EXPECT_EQ(evaluate(set_, PatchGrids{rates, rates, offsets}, outputs()), Status::null_input);
+  const std::span<const PartialDerivative<float>> wanted(
+      static_cast<PartialDerivative<float>*>(nullptr), 2);
+  EXPECT_EQ(evaluate_derivatives(set_, Grid<float>::uniform(4, 4), {wanted}), Status::null_output);
+  const std::span<const ControlNets<float>> nets(static_cast<ControlNets<float>*>(nullptr), 2);
+  PatchSet<float> packed;
+  EXPECT_EQ(pack(nets, packed).status, Status::null_input);
+  expect_untouched();
+}
+
 TEST_F(Arguments, instruction_sets_of_other_builds_and_machines) {
   refuse_grid(Status::unsupported_isa, Grid<float>::uniform(4, 4), outputs(),
               {.isa = tests::absent_isa()});

@@ -244,6 +244,19 @@ TEST(TileErrors, HandOutNoTile) {
   }
 }
 
+std::size_t tiles_of_function = 0;
+void count_tile(const Tile<double>&) { ++tiles_of_function; }
+
+TEST(TileFunction, BorrowsFunctionsToo) {
+  const PatchSet<double> set = packed<double>(mixed_nets(3));
+  const TileFormat positions;
+  tiles_of_function = 0;
+  EXPECT_EQ(evaluate_tiles(set, Grid<double>::uniform(4, 4), positions, count_tile,
+                           CallOptions{.threads = 1}),
+            Status::ok);
+  EXPECT_GT(tiles_of_function, 0U);
+}
+
 TEST(TileErrors, NoPatchesHaveNoTiles) {
   std::size_t calls = 0;
   const auto count = [&](const Tile<double>&) { ++calls; };

@@ -56,6 +56,24 @@ TEST(SIMDBEZIER_BACK_END, calls_within_a_call_have_one_thread) {
   EXPECT_EQ(thread_count(0, 1000000), default_threads());
 }
 
+/// The first share may have nothing for a kernel.
+TEST(SIMDBEZIER_BACK_END, any_thread_says_which_kernel_ran) {
+  ThreadScratch scratch;
+  const auto last = [](int, std::size_t, std::size_t end, unsigned char*) {
+    return end == 100 ? Isa::sse2 : Isa::automatic;
+  };
+  for (const int threads : {1, 2, 4}) {
+    EXPECT_EQ(run_units(0, 100, threads, scratch, last), Isa::sse2) << threads;
+  }
+}
+
+TEST(SIMDBEZIER_BACK_END, scratch_beyond_all_memory_is_refused) {
+  for (const int threads : {8, 16}) {
+    ThreadScratch scratch;
+    EXPECT_FALSE(scratch.allocate(std::size_t{3} << 60, threads)) << threads;
+  }
+}
+
 TEST(SIMDBEZIER_BACK_END, more_threads_than_are_of_use_are_not_started) {
   EXPECT_LE(thread_count(1 << 20, 1 << 20), most_threads());
 }

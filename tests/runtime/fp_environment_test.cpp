@@ -1,6 +1,10 @@
 // The caller's rounding mode and flush-to-zero neither change the bits nor get lost.
+#include <bit>
 #include <cfenv>
+#include <cstdint>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -84,6 +88,43 @@ TEST_P(EnvironmentTest, GridDouble) { expect_independent_grids<double>(); }
 TEST_P(EnvironmentTest, ScatteredFloat) { expect_independent_samples<float>(); }
 TEST_P(EnvironmentTest, ScatteredDouble) { expect_independent_samples<double>(); }
 INSTANTIATE_FOR_EVERY_ISA(EnvironmentTest);
+
+/// What is computed outside of the loops over patches.
+TEST(EnvironmentOfSmallFunctions, IsTheLibrarys) {
+  const std::vector<Net> nets = delicate_nets<double>();
+  const PatchSet<double> set = packed<double>(nets);
+  std::vector<double> points = packed_points<double>(nets);
+  std::vector<float> weighted(64, 1.0F);
+  weighted[4 * 3 + 3] = 0x1p-140F; // a weight that is no fault, before a value that is one
+  weighted[4 * 10] = std::numeric_limits<float>::quiet_NaN();
+  const auto faulty = ControlNets<float>::packed(weighted.data(), 1, 3, 3, 3, Weights::cartesian);
+  std::vector<float> reversed(weighted.size());
+  const auto results = [&] {
+    std::vector<double> all;
+    for (int k = 0; k < 1000; ++k) {
+      all.push_back(static_cast<double>(to_centred<float>(k / 999.0)));
+    }
+    all.push_back(largest_position_bound(set));
+    const auto to = MutableNets<float>::packed(reversed.data(), 1, 3, 3, 3, Weights::cartesian);
+    const NetReport report = reverse_u(faulty, to);
+    all.push_back(report.status == Status::non_finite_input ? 1 : 0);
+    all.push_back(static_cast<double>(report.point));
+    return all;
+  };
+  const std::vector<double> expected = results();
+  for (const EnvironmentCase& test : kEnvironments) {
+    std::vector<double> found;
+    {
+      const ScopedEnvironment environment(test.rounding, test.flush);
+      found = results();
+    }
+    EXPECT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_EQ(std::bit_cast<std::uint64_t>(found[k]), std::bit_cast<std::uint64_t>(expected[k]))
+          << test.name << ", " << k;
+    }
+  }
+}
 
 // The counterproof: the environments really do what their names say, in this thread.
 TEST(EnvironmentCounterproof, ModesTakeEffect) {
