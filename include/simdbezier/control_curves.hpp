@@ -31,8 +31,10 @@ struct ControlCurves {
   [[nodiscard]] static constexpr ControlCurves packed(const S* points, std::size_t count,
                                                       int degree, int components = 3,
                                                       Weights weights = Weights::none) noexcept {
-    const std::ptrdiff_t point = components + (weights == Weights::none ? 0 : 1);
-    return {points, count, degree, (degree + 1) * point, point, 1, components, weights, {}};
+    const std::ptrdiff_t point = std::ptrdiff_t{components} + (weights == Weights::none ? 0 : 1);
+    const std::ptrdiff_t curve =
+        (std::ptrdiff_t{degree} + 1) * point; // no int: any degree may come
+    return {points, count, degree, curve, point, 1, components, weights, {}};
   }
   /// As many curves as there are points for. An incomplete one counts, so that calls refuse it.
   [[nodiscard]] static constexpr ControlCurves packed(std::span<const S> points, int degree = 3,

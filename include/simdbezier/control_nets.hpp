@@ -53,10 +53,13 @@ struct ControlNets {
   [[nodiscard]] static constexpr ControlNets packed(const S* points, std::size_t count,
                                                     int degree_u, int degree_v, int components = 3,
                                                     Weights weights = Weights::none) noexcept {
-    const std::ptrdiff_t point = components + (weights == Weights::none ? 0 : 1);
-    const std::ptrdiff_t row = (degree_u + 1) * point;
-    return {points, count,      degree_u, degree_v, (degree_v + 1) * row, row, point,
-            1,      components, weights,  {}};
+    const auto wide = [](int value) { return static_cast<std::size_t>(value); }; // never overflows
+    const std::size_t point = wide(components) + (weights == Weights::none ? 0 : 1);
+    const std::size_t row = (wide(degree_u) + 1) * point;
+    const auto stride = [](std::size_t values) { return static_cast<std::ptrdiff_t>(values); };
+    return {points,      count,         degree_u, degree_v,   stride((wide(degree_v) + 1) * row),
+            stride(row), stride(point), 1,        components, weights,
+            {}};
   }
   /// As many nets as there are points for. An incomplete one counts, so that calls refuse it.
   [[nodiscard]] static constexpr ControlNets packed(std::span<const S> points, int degree_u = 3,

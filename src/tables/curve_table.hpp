@@ -53,7 +53,7 @@ inline constexpr std::size_t kMostRow = 64;
 template <typename T>
 struct CurveTask : CurveArrays<T> {
   std::size_t curve_count;
-  const T* x; ///< n half-centred parameters, then kMaxLanes more that repeat the last one
+  const T* x; ///< n half-centred parameters, then at least kMaxLanes more values to read
   std::size_t n;
   bool rows;            ///< positions of three components, in the caller's own layout
   T* triples;           ///< of rows: packed x y z take the place of out[kCurvePosition]
