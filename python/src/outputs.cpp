@@ -2,6 +2,7 @@
 #include "python/src/outputs.hpp"
 
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 
 #include <pybind11/stl.h>
@@ -61,6 +62,30 @@ std::pair<std::uintptr_t, std::uintptr_t> extent(const py::array& array) {
     (reach < 0 ? low : high) += static_cast<std::uintptr_t>(reach);
   }
   return {low, high};
+}
+
+/// Whether every stride exceeds what the smaller ones span, so that no two values share one place.
+bool nests(const py::array& array) {
+  struct Direction {
+    py::ssize_t stride;
+    py::ssize_t last; // the highest index
+  };
+  std::vector<Direction> directions;
+  for (py::ssize_t k = 0; k < array.ndim(); ++k) {
+    directions.push_back({std::abs(array.strides(k)), array.shape(k) - 1});
+  }
+  std::sort(directions.begin(), directions.end(),
+            [](const Direction& a, const Direction& b) { return a.stride < b.stride; });
+  py::ssize_t span = array.itemsize();
+  for (const Direction& direction : directions) {
+    if (direction.last > 0) {
+      if (direction.stride < span) {
+        return false;
+      }
+      span += direction.stride * direction.last;
+    }
+  }
+  return true;
 }
 
 } // namespace
@@ -131,6 +156,9 @@ py::array output_array(const std::string& name, const py::object& out, const py:
 
 std::ptrdiff_t sample_stride(const py::array& array, std::size_t samples,
                              const std::string& argument) {
+  if (array.size() > 0 && !nests(array)) {
+    throw_value_error(argument, "its strides let two values share one place");
+  }
   std::ptrdiff_t stride = 0; // of the last dimension that has more than one sample
   std::ptrdiff_t next = 0;   // what that of the one before has to be
   for (auto k = static_cast<py::ssize_t>(samples) - 1; k >= 0; --k) {

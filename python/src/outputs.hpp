@@ -37,7 +37,7 @@ wanted_outputs(const OutputNames& known, const py::object& outputs, const py::ob
                                      const py::dtype& dtype, const std::vector<py::ssize_t>& shape);
 
 /// How far apart samples lie, in elements, the array having `samples` dimensions of them. They have
-/// to be evenly spaced.
+/// to be evenly spaced, and no two values of the array may share one place.
 [[nodiscard]] std::ptrdiff_t sample_stride(const py::array& array, std::size_t samples,
                                            const std::string& argument);
 

@@ -1,12 +1,14 @@
 """Bad input: a TypeError or ValueError whose text begins with the argument, and nothing written."""
 import numpy as np
 import pytest
+from numpy.lib.stride_tricks import as_strided
 
 import simdbezier
 
 POINTS = np.random.default_rng(1).random((2, 4, 4, 3)).astype(np.float32)
 PATCHES = simdbezier.PatchSet(POINTS)
 CURVES = simdbezier.CurveSet(POINTS[:, 0])
+SIX = simdbezier.PatchSet(np.tile(POINTS, 2))
 SHAPE = (2, 3, 5, 3)
 
 
@@ -22,6 +24,12 @@ def read_only():
 
 def grid(**out):
     return PATCHES.evaluate_grid(5, 3, outputs=(), out=out)
+
+
+def strided(shape, strides, dtype=np.float32):
+    """An array of memory that ends with its last value."""
+    values = sum((count - 1) * stride for count, stride in zip(shape, strides)) + 4
+    return as_strided(np.full(values, 7, np.uint8).view(dtype), shape, strides)
 
 
 def two_in_one(second):
@@ -101,6 +109,24 @@ CASES = [
     (ValueError, "out['position']", lambda: grid(position=fresh((2, 3, 9, 3))[:, :, :5])),
     (ValueError, "out['mean']", lambda: grid(mean=fresh((2, 3, 10))[..., ::2])),
     (ValueError, "out['normal']", lambda: two_in_one(2)),
+    # Memory in which two values share one place.
+    (ValueError, "out['position']",
+     lambda: PATCHES.evaluate_grid(500, 3, (), {'position': strided((2, 3, 500, 3), (36, 12, 0, 4))})),
+    (ValueError, "out['position']", lambda: grid(position=strided(SHAPE, (0, 0, 0, 4)))),
+    (ValueError, "out['position']", lambda: grid(position=strided(SHAPE, (180, 60, 12, 0)))),
+    (ValueError, "out['position']", lambda: grid(position=strided(SHAPE, (0, 60, 12, 4)))),
+    (ValueError, "out['position']", lambda: grid(position=strided(SHAPE, (120, 40, 8, 4)))),
+    (ValueError, "out['mean']", lambda: grid(mean=strided(SHAPE[:3], (0, 0, 0)))),
+    (ValueError, "out['status']",
+     lambda: grid(position=fresh(), status=strided(SHAPE[:3], (0, 0, 0), np.uint8))),
+    (ValueError, "out['position']", lambda: PATCHES.evaluate(
+        0, *np.ones((2, 9), 'f4'), (), {'position': strided((9, 3), (0, 4))})),
+    (ValueError, "out['position']",
+     lambda: CURVES.evaluate_grid(9, (), {'position': strided((2, 9, 3), (0, 0, 4))})),
+    (ValueError, "out['position']",
+     lambda: SIX.evaluate_grid(5, 3, (), {'position': strided((2, 3, 5, 6), (180, 60, 12, 4))})),
+    (ValueError, "out['position']", lambda: simdbezier.CurveSet(np.ones((2, 4, 6), 'f4')).
+     evaluate_grid(9, (), {'position': strided((2, 9, 6), (108, 12, 4))})),
     # Meshes and nets.
     (TypeError, 'tolerance', lambda: simdbezier.tessellate(POINTS)),
     (ValueError, 'tolerance', lambda: simdbezier.tessellate(POINTS, tolerance=0)),
