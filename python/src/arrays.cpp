@@ -177,6 +177,8 @@ std::string dtype_name(const py::array& array) {
   return py::str(py::object(array.dtype())).cast<std::string>();
 }
 
+bool is_aligned(const py::array& array) { return array.attr("flags").attr("aligned").cast<bool>(); }
+
 py::array float_array(const py::object& values, py::ssize_t dimensions,
                       const std::string& argument) {
   py::array array = any_array(values, argument);
@@ -196,10 +198,12 @@ std::vector<std::ptrdiff_t> element_strides(py::array& array) {
     return array.shape(k) > 1 &&
            (array.strides(k) == 0 || array.strides(k) % array.itemsize() != 0);
   };
+  bool usable = is_aligned(array);
   for (py::ssize_t k = 0; k < array.ndim(); ++k) {
-    if (strange(k)) {
-      array = array.attr("copy")();
-    }
+    usable = usable && !strange(k);
+  }
+  if (!usable) {
+    array = array.attr("copy")();
   }
   std::vector<std::ptrdiff_t> strides(static_cast<std::size_t>(array.ndim()));
   // Where there is one element only, or none, any stride will do: that of a packed array.

@@ -30,12 +30,16 @@ template <typename T>
   return py::isinstance<py::array_t<T>>(array);
 }
 
+/// Whether all values lie where their type may lie, which views of bytes need not do.
+[[nodiscard]] bool is_aligned(const py::array& array);
+
 /// An array of float or double with this many dimensions: the object itself where it is one, else
 /// numpy's copy of it (lists, integers).
 [[nodiscard]] py::array float_array(const py::object& values, py::ssize_t dimensions,
                                     const std::string& argument);
 
-/// Strides in elements. Copies an array first that has others, or has elements in common.
+/// Strides in elements. Copies an array first that has others, has elements in common, or is not
+/// aligned.
 [[nodiscard]] std::vector<std::ptrdiff_t> element_strides(py::array& array);
 
 /// The type that a set is to have: `dtype`, or else that of the points.
@@ -61,7 +65,9 @@ using AnyPointViews = std::variant<PointViews<float, View>, PointViews<double, V
 /// `values` as a contiguous array of V with one dimension; the object itself where it is one.
 template <typename V>
 [[nodiscard]] py::array_t<V> contiguous(const py::object& values, const std::string& argument) {
-  auto array = py::array_t<V, py::array::c_style | py::array::forcecast>::ensure(values);
+  constexpr int kAsCalls =
+      py::array::c_style | py::array::forcecast | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
+  auto array = py::array_t<V, kAsCalls>::ensure(values);
   if (!array) {
     throw py::error_already_set();
   }

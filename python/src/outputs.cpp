@@ -151,6 +151,9 @@ py::array output_array(const std::string& name, const py::object& out, const py:
       throw_value_error(argument, "its strides are no multiples of its items");
     }
   }
+  if (!is_aligned(array)) {
+    throw_value_error(argument, "is not aligned");
+  }
   return array;
 }
 

@@ -8,6 +8,7 @@ import simdbezier
 POINTS = np.random.default_rng(1).random((2, 4, 4, 3)).astype(np.float32)
 PATCHES = simdbezier.PatchSet(POINTS)
 CURVES = simdbezier.CurveSet(POINTS[:, 0])
+DOUBLES = simdbezier.CurveSet(POINTS[:, 0], dtype=np.float64)
 SIX = simdbezier.PatchSet(np.tile(POINTS, 2))
 SHAPE = (2, 3, 5, 3)
 
@@ -24,6 +25,12 @@ def read_only():
 
 def grid(**out):
     return PATCHES.evaluate_grid(5, 3, outputs=(), out=out)
+
+
+def misaligned(shape, dtype=np.float32):
+    """An array that begins two bytes behind where its type may begin."""
+    size = int(np.prod(shape)) * np.dtype(dtype).itemsize
+    return np.full(size + 64, 7, np.uint8)[2:][:size].view(dtype).reshape(shape)
 
 
 def strided(shape, strides, dtype=np.float32):
@@ -109,6 +116,12 @@ CASES = [
     (ValueError, "out['position']", lambda: grid(position=fresh((2, 3, 9, 3))[:, :, :5])),
     (ValueError, "out['mean']", lambda: grid(mean=fresh((2, 3, 10))[..., ::2])),
     (ValueError, "out['normal']", lambda: two_in_one(2)),
+    (ValueError, "out['position']: is not aligned", lambda: grid(position=misaligned(SHAPE))),
+    (ValueError, "out['mean']: is not aligned", lambda: grid(mean=misaligned(SHAPE[:3]))),
+    (ValueError, "out['position']: is not aligned", lambda: PATCHES.evaluate(
+        0, *np.ones((2, 9), 'f4'), (), {'position': misaligned((9, 3))})),
+    (ValueError, "out['d2']: is not aligned",
+     lambda: DOUBLES.evaluate_grid(9, (), {'d2': misaligned((2, 9, 3), np.float64)})),
     # Memory in which two values share one place.
     (ValueError, "out['position']",
      lambda: PATCHES.evaluate_grid(500, 3, (), {'position': strided((2, 3, 500, 3), (36, 12, 0, 4))})),

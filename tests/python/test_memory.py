@@ -71,6 +71,9 @@ def views(points):
     wide[..., 1:6:2] = points
     yield wide[..., 1:6:2]
     yield points[::-1, ::-1, ::-1, ::-1].copy()[::-1, ::-1, ::-1, ::-1]
+    not_aligned = np.empty(points.nbytes + 2, np.uint8)[2:].view(points.dtype).reshape(points.shape)
+    not_aligned[...] = points
+    yield not_aligned
 
 
 def test_control_points_have_any_strides(points):
