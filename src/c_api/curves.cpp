@@ -36,9 +36,10 @@ CurveOutputs<T> outputs_of(const simdbezier_curve_outputs* given) {
 template <typename T>
 CurveGrid<T> where_of(const simdbezier_curve_grid* given) {
   const simdbezier_curve_grid known = read(given, kGrid);
-  return {known.n,
-          grid_parameters<T>(known.t, known.t_length, known.n, known.scalar, kGrid, "t_length"),
-          parameters_of(known.parameters, kGrid), range_of(known.first_curve, known.curve_count)};
+  return {
+      known.n,
+      grid_parameters<T>(known.t, known.t_length, known.n, known.scalar, kGrid, {"t", "t_length"}),
+      parameters_of(known.parameters, kGrid), range_of(known.first_curve, known.curve_count)};
 }
 
 template <typename T>

@@ -44,12 +44,13 @@ Outputs<T> outputs_of(const simdbezier_outputs* given) {
 template <typename T>
 Grid<T> where_of(const simdbezier_grid* given) {
   const simdbezier_grid known = read(given, kGrid);
-  return {known.nu,
-          known.nv,
-          grid_parameters<T>(known.u, known.u_length, known.nu, known.scalar, kGrid, "u_length"),
-          grid_parameters<T>(known.v, known.v_length, known.nv, known.scalar, kGrid, "v_length"),
-          parameters_of(known.parameters, kGrid),
-          range_of(known.first_patch, known.patch_count)};
+  return {
+      known.nu,
+      known.nv,
+      grid_parameters<T>(known.u, known.u_length, known.nu, known.scalar, kGrid, {"u", "u_length"}),
+      grid_parameters<T>(known.v, known.v_length, known.nv, known.scalar, kGrid, {"v", "v_length"}),
+      parameters_of(known.parameters, kGrid),
+      range_of(known.first_patch, known.patch_count)};
 }
 
 template <typename T>

@@ -109,6 +109,8 @@ const char* simdbezier_status_text(simdbezier_status status) {
     return "a number type is neither float nor double, or not that of the others";
   case SIMDBEZIER_BAD_VALUE:
     return "a number stands for no name of its enumeration";
+  case SIMDBEZIER_BAD_ALIGNMENT:
+    return "memory is not aligned to the numbers in it";
   default: // the C++ texts are literals, which end in a zero
     return to_string(static_cast<Status::Code>(status < 0 || status > 255 ? 255 : status)).data();
   }

@@ -123,7 +123,7 @@ SplineMesh<T> mesh_of(const simdbezier_spline_mesh& given, const Path& path) {
     left -= fits ? counts[k] * stride : 0;
   }
   require(fits, SIMDBEZIER_INPUT_TOO_SMALL, path / "length");
-  return {static_cast<const T*>(given.points),
+  return {numbers_at<T>(given.points, path / "points"),
           given.rows,
           given.columns,
           given.row_stride,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <type_traits>
 
@@ -100,6 +101,16 @@ auto with_scalar(simdbezier_scalar scalar, const Path& path, Body body) {
 template <typename T>
 void require_scalar(simdbezier_scalar scalar, const Path& path) {
   require(scalar == kScalar<T>, SIMDBEZIER_BAD_SCALAR, path / "scalar");
+}
+
+/// The caller's memory of numbers of type T, refused where such numbers cannot lie: some ways to
+/// memory crash there.
+template <typename T, typename Void>
+auto numbers_at(Void* memory, const Path& path) {
+  require(reinterpret_cast<std::uintptr_t>(memory) % alignof(T) == 0, SIMDBEZIER_BAD_ALIGNMENT,
+          path);
+  using Number = std::conditional_t<std::is_const_v<Void>, const T, T>;
+  return static_cast<Number*>(memory);
 }
 
 /// The caller's span; a null pointer with a length is refused.

@@ -80,7 +80,7 @@ auto first_value(const Struct& given, const Path& path) {
   require(given.length > 0, kTooSmall, path / "length");
   require(given.first >= 0 && static_cast<std::size_t>(given.first) < given.length, kTooSmall,
           path / "first");
-  auto* const points = static_cast<Value*>(given.points);
+  Value* const points = numbers_at<S>(given.points, path / "points");
   return std::pair<Value*, std::span<Value>>(points + given.first, {points, given.length});
 }
 
@@ -158,8 +158,8 @@ Vectors<T> vectors_of(const simdbezier_vectors& given, const Path& path) {
   require(given.x != nullptr, SIMDBEZIER_NULL_OUTPUT, path / "x");
   require_scalar<T>(given.scalar, path);
   require(given.stride > 0, SIMDBEZIER_BAD_STRIDE, path / "stride");
-  return {static_cast<T*>(given.x), static_cast<T*>(given.y), static_cast<T*>(given.z),
-          given.stride, given.capacity};
+  return {numbers_at<T>(given.x, path / "x"), numbers_at<T>(given.y, path / "y"),
+          numbers_at<T>(given.z, path / "z"), given.stride, given.capacity};
 }
 
 template <typename T>
@@ -169,7 +169,7 @@ Values<T> values_of(const simdbezier_values& given, const Path& path) {
   }
   require(given.first != nullptr, SIMDBEZIER_NULL_OUTPUT, path / "first");
   require_scalar<T>(given.scalar, path);
-  return std::span<T>(static_cast<T*>(given.first), given.length);
+  return std::span<T>(numbers_at<T>(given.first, path / "first"), given.length);
 }
 
 /// SIMDBEZIER_SAMPLE_… and SampleStatus are the same bytes.
@@ -182,17 +182,23 @@ inline Values<SampleStatus> sample_statuses(std::uint8_t* first, std::size_t len
   return std::span(reinterpret_cast<SampleStatus*>(first), length);
 }
 
+/// What members of a struct of parameters are called.
+struct ParameterNames {
+  const char* values;
+  const char* length;
+};
+
 /// `count` parameters of a grid; null: uniform ones.
 template <typename T>
 const T* grid_parameters(const void* first, std::size_t length, std::size_t count,
-                         simdbezier_scalar scalar, const Path& path, const char* member) {
+                         simdbezier_scalar scalar, const Path& path, const ParameterNames& names) {
   if (first == nullptr) {
-    require(length == 0, SIMDBEZIER_NULL_INPUT, path / member);
+    require(length == 0, SIMDBEZIER_NULL_INPUT, path / names.length);
     return nullptr;
   }
   require_scalar<T>(scalar, path);
-  require(length >= count, SIMDBEZIER_INPUT_TOO_SMALL, path / member);
-  return static_cast<const T*>(first);
+  require(length >= count, SIMDBEZIER_INPUT_TOO_SMALL, path / names.length);
+  return numbers_at<T>(first, path / names.values);
 }
 
 /// The parameters of single samples.
@@ -201,7 +207,7 @@ std::span<const T> sample_parameters(const void* first, std::size_t length,
                                      simdbezier_scalar scalar, const Path& path,
                                      const char* member) {
   require_scalar<T>(scalar, path);
-  return span_of(static_cast<const T*>(first), length, path / member);
+  return span_of(numbers_at<T>(first, path / member), length, path / member);
 }
 
 inline SetRange range_of(std::size_t first, std::size_t count) {

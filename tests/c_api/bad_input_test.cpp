@@ -16,6 +16,10 @@ struct Case {
 
 void ignore(const simdbezier_tile* /*tile*/, void* /*context*/) {}
 
+/// Moves an address by half a float.
+void between(void*& address) { address = static_cast<char*>(address) + 2; }
+void between(const void*& address) { address = static_cast<const char*>(address) + 2; }
+
 // Each lambda spoils one argument and returns the call's status.
 const Case kCases[] = {
     // Nothing where something is needed.
@@ -140,6 +144,34 @@ const Case kCases[] = {
      [](World& w) {
        w.curves.curve_stride = -12;
        return simdbezier_pack_curves(&w.curves, SIMDBEZIER_F32, nullptr, &w.made_curves);
+     }},
+
+    // Memory between two numbers.
+    {SIMDBEZIER_BAD_ALIGNMENT, "out->position.x",
+     [](World& w) { return between(w.out.position.x), w.evaluate(); }},
+    {SIMDBEZIER_BAD_ALIGNMENT, "out->position.z",
+     [](World& w) { return between(w.out.position.z), w.evaluate_samples(); }},
+    {SIMDBEZIER_BAD_ALIGNMENT, "out->position.y",
+     [](World& w) { return between(w.curve_out.position.y), w.evaluate_curves(); }},
+    {SIMDBEZIER_BAD_ALIGNMENT, "derivatives[0].out.x",
+     [](World& w) { return between(w.derivative.out.x), w.differentiate(); }},
+    {SIMDBEZIER_BAD_ALIGNMENT, "out->mean.first",
+     [](World& w) {
+       w.out.mean = simdbezier_values_f32(w.room.data(), 18);
+       return between(w.out.mean.first), w.evaluate();
+     }},
+    {SIMDBEZIER_BAD_ALIGNMENT, "low->points",
+     [](World& w) { return between(w.low.points), w.split(); }},
+    {SIMDBEZIER_BAD_ALIGNMENT, "nets[0].points",
+     [](World& w) { return between(w.nets.points), w.pack(); }},
+    {SIMDBEZIER_BAD_ALIGNMENT, "samples->v",
+     [](World& w) { return between(w.samples.v), w.evaluate_samples(); }},
+    {SIMDBEZIER_BAD_ALIGNMENT, "grid->u",
+     [](World& w) {
+       w.grid.u = w.parameters;
+       w.grid.u_length = 3;
+       w.grid.scalar = SIMDBEZIER_F32;
+       return between(w.grid.u), w.evaluate();
      }},
 
     // Types and names.

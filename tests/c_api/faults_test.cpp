@@ -63,7 +63,7 @@ TEST(CStructs, GrowAtTheirEnd) {
   EXPECT_EQ(result.shape.struct_size, sizeof result);
 }
 
-TEST(CStatuses, AreThoseOfCppAndThreeMore) {
+TEST(CStatuses, AreThoseOfCppAndFourMore) {
   // A Status that has no name in types.h shows here.
   int codes = 0;
   while (to_string(static_cast<Status::Code>(codes)) != "unknown status") {
@@ -71,8 +71,8 @@ TEST(CStatuses, AreThoseOfCppAndThreeMore) {
     ++codes;
   }
   EXPECT_EQ(codes, SIMDBEZIER_NOT_ORIENTABLE + 1);
-  for (const simdbezier_status status :
-       {SIMDBEZIER_BAD_STRUCT_SIZE, SIMDBEZIER_BAD_SCALAR, SIMDBEZIER_BAD_VALUE}) {
+  for (const simdbezier_status status : {SIMDBEZIER_BAD_STRUCT_SIZE, SIMDBEZIER_BAD_SCALAR,
+                                         SIMDBEZIER_BAD_VALUE, SIMDBEZIER_BAD_ALIGNMENT}) {
     EXPECT_STRNE(simdbezier_status_text(status), "unknown status");
   }
   for (const simdbezier_status status : {-1, 99, 256, 1000}) {

@@ -59,7 +59,7 @@ typedef struct simdbezier_curve_outputs {
 } simdbezier_curve_outputs;
 
 // evaluate() of curves. They return its statuses and null_input | bad_struct_size | bad_scalar |
-// bad_value | input_too_small (fewer t than n).
+// bad_value | bad_alignment | input_too_small (fewer t than n).
 SIMDBEZIER_API simdbezier_status simdbezier_evaluate_curve_grid(const simdbezier_curve_set* set,
                                                                 const simdbezier_curve_grid* grid,
                                                                 const simdbezier_curve_outputs* out,

@@ -101,7 +101,7 @@ typedef struct simdbezier_outputs {
 
 // evaluate() on one grid, on a grid for each patch, and at single samples. Null options: all zero.
 // They return its statuses and null_input | bad_struct_size | bad_scalar | bad_value |
-// input_too_small (fewer u or v than nu or nv).
+// bad_alignment | input_too_small (fewer u or v than nu or nv).
 SIMDBEZIER_API simdbezier_status simdbezier_evaluate_grid(const simdbezier_patch_set* set,
                                                           const simdbezier_grid* grid,
                                                           const simdbezier_outputs* out,

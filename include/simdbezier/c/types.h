@@ -45,7 +45,8 @@ enum {
   SIMDBEZIER_NOT_ORIENTABLE,
   SIMDBEZIER_BAD_STRUCT_SIZE = 100, // a wrong struct_size, or unknown members that are not zero
   SIMDBEZIER_BAD_SCALAR,            // neither float nor double, or not what the others are
-  SIMDBEZIER_BAD_VALUE              // a number that stands for no name of its enumeration
+  SIMDBEZIER_BAD_VALUE,             // a number that stands for no name of its enumeration
+  SIMDBEZIER_BAD_ALIGNMENT          // memory that is not aligned to the numbers in it
 };
 
 // One line of English; never null, static lifetime.
@@ -71,6 +72,7 @@ SIMDBEZIER_API const char* simdbezier_last_message(void);
 // "0.1.0": of the library that runs; SIMDBEZIER_VERSION_MAJOR … are those of the header.
 SIMDBEZIER_API const char* simdbezier_version(void);
 
+// The type of the numbers behind void pointers, which are aligned to it.
 typedef int32_t simdbezier_scalar;
 enum { SIMDBEZIER_F32 = 1, SIMDBEZIER_F64 = 2 };
 
