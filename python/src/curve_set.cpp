@@ -50,7 +50,7 @@ public:
           require_addressable(sample_count(set, grid), set.components(), "n");
           return evaluate_at(
               set, grid, {static_cast<py::ssize_t>(set.size()), static_cast<py::ssize_t>(count)},
-              outputs, out, threads);
+              outputs, out, {}, threads);
         },
         set_);
   }
@@ -69,7 +69,7 @@ public:
                                            std::to_string(curves.size()));
           }
           return evaluate_at(set, CurveSamples<T>{span_of(curves), span_of(ts)}, {ts.size()},
-                             outputs, out, threads);
+                             outputs, out, {{"curve", curves}, {"t", ts}}, threads);
         },
         set_);
   }
@@ -111,15 +111,16 @@ private:
   template <typename T, typename Where>
   static py::dict evaluate_at(const CurveSet<T>& set, const Where& where,
                               const std::vector<py::ssize_t>& samples, const py::object& outputs,
-                              const py::object& out, int threads) {
+                              const py::object& out, const NamedArrays& inputs, int threads) {
     const int components = set.components();
-    for (const std::string& name : wanted_outputs(kOutputs, outputs, out)) {
+    const std::vector<std::string> wanted = wanted_outputs(kOutputs, outputs, out);
+    for (const std::string& name : wanted) {
       if (components != 2 && components != 3 && (name == "tangent" || name == "curvature")) {
         throw_value_error("outputs", "'" + name + "' needs two or three components, the set has " +
                                          std::to_string(components));
       }
     }
-    const OutputArrays<T> arrays(kOutputs, outputs, out, samples, components);
+    const OutputArrays<T> arrays(kOutputs, wanted, out, samples, components, inputs);
     Options options;
     options.threads = threads;
     Status status;

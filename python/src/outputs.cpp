@@ -53,15 +53,60 @@ std::string shape_text(const std::vector<py::ssize_t>& shape) {
   return py::repr(py::tuple(py::cast(shape))).cast<std::string>();
 }
 
-/// From the first byte of an array to behind its last.
-std::pair<std::uintptr_t, std::uintptr_t> extent(const py::array& array) {
-  auto low = reinterpret_cast<std::uintptr_t>(array.data());
-  std::uintptr_t high = low + static_cast<std::uintptr_t>(array.itemsize());
-  for (py::ssize_t k = 0; k < array.ndim(); ++k) {
-    const py::ssize_t reach = (array.shape(k) - 1) * array.strides(k);
-    (reach < 0 ? low : high) += static_cast<std::uintptr_t>(reach);
+/// One component of an output, or a whole input: the bytes from its first to behind its last, and
+/// how far apart its samples lie, 0 where there is only one.
+struct Column {
+  std::uintptr_t low;
+  std::uintptr_t high;
+  std::uintptr_t first;
+  py::ssize_t stride;
+
+  [[nodiscard]] bool meets(const Column& other) const {
+    return low < other.high && other.low < high;
   }
-  return {low, high};
+  /// Members of one vertex lie between each other, and share nothing.
+  [[nodiscard]] bool collides(const Column& other) const {
+    const auto distance = static_cast<py::ssize_t>(other.first - first);
+    return meets(other) && (stride != other.stride || stride == 0 || distance % stride == 0);
+  }
+};
+
+/// The component of an array that begins at an address, `samples` being its dimensions in front of
+/// the components.
+Column column_at(std::uintptr_t first, const py::array& array, std::size_t samples) {
+  Column column{first, first + static_cast<std::uintptr_t>(array.itemsize()), first, 0};
+  for (py::ssize_t k = 0; k < static_cast<py::ssize_t>(samples); ++k) {
+    if (array.shape(k) > 1) {
+      const py::ssize_t reach = (array.shape(k) - 1) * array.strides(k);
+      (reach < 0 ? column.low : column.high) += static_cast<std::uintptr_t>(reach);
+      column.stride = array.strides(k); // that of the last such dimension stays
+    }
+  }
+  return column;
+}
+
+/// All components of an array; none of an empty one.
+std::vector<Column> columns_of(const py::array& array, std::size_t samples) {
+  std::vector<Column> columns;
+  const bool vectors = array.ndim() > static_cast<py::ssize_t>(samples);
+  const py::ssize_t last = array.ndim() - 1;
+  const py::ssize_t components = array.size() == 0 ? 0 : vectors ? array.shape(last) : 1;
+  const auto first = reinterpret_cast<std::uintptr_t>(array.data());
+  for (py::ssize_t c = 0; c < components; ++c) {
+    const py::ssize_t offset = vectors ? c * array.strides(last) : 0;
+    columns.push_back(column_at(first + static_cast<std::uintptr_t>(offset), array, samples));
+  }
+  return columns;
+}
+
+/// Whether together(a, b) holds for any column of one array and any of the other.
+template <typename Together>
+bool any_pair(const std::vector<Column>& some, const std::vector<Column>& others,
+              Together together) {
+  return std::any_of(some.begin(), some.end(), [&](const Column& a) {
+    return std::any_of(others.begin(), others.end(),
+                       [&](const Column& b) { return together(a, b); });
+  });
 }
 
 /// Whether every stride exceeds what the smaller ones span, so that no two values share one place.
@@ -181,21 +226,24 @@ std::ptrdiff_t sample_stride(const py::array& array, std::size_t samples,
   return stride == 0 ? (vectors ? array.shape(last) : 1) : stride / array.itemsize();
 }
 
-void refuse_overlaps(const std::vector<std::pair<std::string, py::array>>& arrays) {
-  for (std::size_t i = 0; i < arrays.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const auto [low, high] = extent(arrays[i].second);
-      const auto [other_low, other_high] = extent(arrays[j].second);
-      const bool empty = arrays[i].second.size() == 0 || arrays[j].second.size() == 0;
-      // Members of one vertex lie between each other, and share nothing.
-      if (!empty && low < other_high && other_low < high &&
-          py::module_::import("numpy")
-              .attr("shares_memory")(arrays[i].second, arrays[j].second)
-              .cast<bool>()) {
-        throw_value_error("out['" + arrays[i].first + "']",
-                          "overlaps out['" + arrays[j].first + "']");
+void refuse_overlaps(const NamedArrays& outputs, std::size_t samples, const NamedArrays& inputs) {
+  std::vector<std::vector<Column>> columns;
+  for (const auto& [name, array] : outputs) {
+    const std::string argument = "out['" + name + "']";
+    const std::vector<Column> mine = columns_of(array, samples);
+    for (const auto& [input_name, input] : inputs) {
+      const auto meet = [](const Column& a, const Column& b) { return a.meets(b); };
+      if (any_pair(mine, columns_of(input, static_cast<std::size_t>(input.ndim())), meet)) {
+        throw_value_error(argument, "overlaps " + input_name);
       }
     }
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const auto collide = [](const Column& a, const Column& b) { return a.collides(b); };
+      if (any_pair(mine, columns[k], collide)) {
+        throw_value_error(argument, "overlaps out['" + outputs[k].first + "']");
+      }
+    }
+    columns.push_back(mine);
   }
 }
 

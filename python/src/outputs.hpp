@@ -28,7 +28,8 @@ struct OutputNames {
 /// Refuses more samples than memory can address, for which numpy's arrays have no shape.
 void require_addressable(std::size_t samples, int components, const std::string& argument);
 
-/// The names in `outputs` (a name, or several) and the keys of `out` (None, or a dict).
+/// The names in `outputs` (a name, or several) and the keys of `out` (None, or a dict). To be
+/// called once, since `outputs` may be a generator, which has its names only once.
 [[nodiscard]] std::vector<std::string>
 wanted_outputs(const OutputNames& known, const py::object& outputs, const py::object& out);
 
@@ -41,16 +42,23 @@ wanted_outputs(const OutputNames& known, const py::object& outputs, const py::ob
 [[nodiscard]] std::ptrdiff_t sample_stride(const py::array& array, std::size_t samples,
                                            const std::string& argument);
 
-/// Refuses arrays that share memory, with the names of both.
-void refuse_overlaps(const std::vector<std::pair<std::string, py::array>>& arrays);
+/// Arrays, and the names of the arguments that they are.
+using NamedArrays = std::vector<std::pair<std::string, py::array>>;
+
+/// Refuses outputs that share memory with one another or with an input, with the names of both. It
+/// refuses all that the library does, since more than three components take several calls, of which
+/// none may have written when another one is refused. `samples` are the dimensions of the outputs
+/// in front of the components.
+void refuse_overlaps(const NamedArrays& outputs, std::size_t samples, const NamedArrays& inputs);
 
 template <typename T>
 class OutputArrays {
 public:
-  /// samples: the dimensions in front of the components.
-  OutputArrays(const OutputNames& known, const py::object& outputs, const py::object& out,
-               const std::vector<py::ssize_t>& samples, int components) {
-    for (const std::string& name : wanted_outputs(known, outputs, out)) {
+  /// wanted: what wanted_outputs() found. samples: the dimensions in front of the components.
+  OutputArrays(const OutputNames& known, const std::vector<std::string>& wanted,
+               const py::object& out, const std::vector<py::ssize_t>& samples, int components,
+               const NamedArrays& inputs) {
+    for (const std::string& name : wanted) {
       std::vector<py::ssize_t> shape = samples;
       if (known.is_vector(name)) {
         shape.push_back(components);
@@ -64,7 +72,7 @@ public:
       entries_.push_back({name, array, array.mutable_data(), stride, component_stride(array)});
       arrays_.emplace_back(name, std::move(array));
     }
-    refuse_overlaps(arrays_);
+    refuse_overlaps(arrays_, samples.size(), inputs);
   }
 
   /// `count` components of a vector output from `first` on; nothing where it is not wanted.
@@ -122,7 +130,7 @@ private:
   }
 
   std::vector<Entry> entries_;
-  std::vector<std::pair<std::string, py::array>> arrays_;
+  NamedArrays arrays_;
 };
 
 /// call(first, count) for the components of a set, three at a time.

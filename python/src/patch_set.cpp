@@ -54,7 +54,7 @@ public:
           return evaluate_at(set, grid,
                              {static_cast<py::ssize_t>(set.size()), static_cast<py::ssize_t>(rows),
                               static_cast<py::ssize_t>(columns)},
-                             outputs, out, threads);
+                             outputs, out, {}, threads);
         },
         set_);
   }
@@ -71,7 +71,8 @@ public:
           require_length("v", vs.size(), us.size());
           require_length("patch", patches.size(), us.size());
           const Samples<T> samples{span_of(patches), span_of(us), span_of(vs)};
-          return evaluate_at(set, samples, {us.size()}, outputs, out, threads);
+          return evaluate_at(set, samples, {us.size()}, outputs, out,
+                             {{"patch", patches}, {"u", us}, {"v", vs}}, threads);
         },
         set_);
   }
@@ -129,14 +130,15 @@ private:
   template <typename T, typename Where>
   static py::dict evaluate_at(const PatchSet<T>& set, const Where& where,
                               const std::vector<py::ssize_t>& samples, const py::object& outputs,
-                              const py::object& out, int threads) {
-    for (const std::string& name : wanted_outputs(kOutputs, outputs, out)) {
+                              const py::object& out, const NamedArrays& inputs, int threads) {
+    const std::vector<std::string> wanted = wanted_outputs(kOutputs, outputs, out);
+    for (const std::string& name : wanted) {
       if (set.components() != 3 && (name == "normal" || kOutputs.is_value(name))) {
         throw_value_error("outputs", "'" + name + "' needs three components, the set has " +
                                          std::to_string(set.components()));
       }
     }
-    const OutputArrays<T> arrays(kOutputs, outputs, out, samples, set.components());
+    const OutputArrays<T> arrays(kOutputs, wanted, out, samples, set.components(), inputs);
     Options options;
     options.threads = threads;
     Status status;

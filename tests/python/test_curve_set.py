@@ -50,3 +50,9 @@ def test_it_says_what_it_is():
     curves = simdbezier.CurveSet(np.zeros((3, 4, 2)), dtype='float32')
     assert repr(curves) == '<simdbezier.CurveSet: 3 curves of degree 3, 2 components, float32>'
     assert len(curves) == 3 and curves.components == 2 and curves.dtype == np.float32
+
+
+def test_names_come_from_a_generator():
+    curves = simdbezier.CurveSet(np.ones((2, 4, 3), np.float32))
+    got = curves.evaluate_grid(5, (name for name in ('position', 'd1')))
+    assert list(got) == ['position', 'd1']

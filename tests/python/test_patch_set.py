@@ -138,3 +138,17 @@ def test_it_says_what_it_is():
     assert repr(rational) == ('<simdbezier.PatchSet: 1 patch of degree 3 x 2, rational, '
                               '3 components, float32>')
     assert rational.is_rational(0) and not simdbezier.PatchSet(points).is_rational(1)
+
+
+# Names that can be run through only once, and what is asked for beside them.
+NAMES = [((lambda: (name for name in ('position', 'du'))), (), ['position', 'du']),
+         ((lambda: iter(['normal'])), (), ['normal']),
+         ((lambda: map(str, ['du'])), ('position',), ['du', 'position']),
+         ((lambda: dict.fromkeys(['position']).keys()), (), ['position'])]
+
+
+@pytest.mark.parametrize('names, given, expected', NAMES)
+def test_names_come_from_any_iterable(names, given, expected):
+    patches = simdbezier.PatchSet(np.ones((2, 4, 4, 3), np.float32))
+    out = {name: np.empty((2, 3, 5, 3), np.float32) for name in given}
+    assert list(patches.evaluate_grid(5, 3, names(), out)) == expected
