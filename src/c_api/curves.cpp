@@ -3,6 +3,7 @@
 
 #include "src/c_api/handles.hpp"
 #include "src/c_api/views.hpp"
+#include "src/nets/net_call.hpp"
 
 namespace simdbezier::c_api {
 namespace {
@@ -171,6 +172,8 @@ simdbezier_status simdbezier_boundary_curves(const simdbezier_nets* nets, simdbe
     require_writable(curves, {"curves"});
     with_scalar(given.scalar, path / "scalar", [&]<typename S>() {
       const ControlNets<S> view = nets_of<S>(given, path);
+      require_ok(detail::check_input(view),
+                 [&](Status status) { return blamed_nets(status, path); });
       const ControlCurves<S> of = boundary_curves(view, which);
       simdbezier_control_curves known{};
       known.points = given.points;

@@ -211,6 +211,16 @@ const Case kCases[] = {
      [](World& w) { return w.nets.degree_u = 16, w.pack(); }},
     {SIMDBEZIER_BAD_COMPONENTS, "nets[0].components",
      [](World& w) { return w.nets.components = 0, w.pack(); }},
+    {SIMDBEZIER_BAD_DEGREE, "nets->degree_u or degree_v",
+     [](World& w) { return w.nets.degree_u = -7, w.nets.degree_v = 99, w.take_edge(); }},
+    {SIMDBEZIER_BAD_COMPONENTS, "nets->components",
+     [](World& w) { return w.nets.components = 0, w.take_edge(); }},
+    {SIMDBEZIER_SIZE_OVERFLOW, "nets->count",
+     [](World& w) { return w.nets.row_stride = std::ptrdiff_t(1) << 62, w.take_edge(); }},
+    {SIMDBEZIER_BAD_STRIDE, "nets",
+     [](World& w) { return w.nets.point_stride = 0, w.take_edge(); }},
+    {SIMDBEZIER_INPUT_TOO_SMALL, "nets->length",
+     [](World& w) { return w.nets.length -= 1, w.take_edge(); }},
     {SIMDBEZIER_NON_FINITE_INPUT, "nets[0].points",
      [](World& w) { return w.values[50] = kNan, w.pack(); }},
     {SIMDBEZIER_NON_FINITE_INPUT, "options->relative_to",
@@ -283,6 +293,7 @@ TEST(CBadInput, IsRefusedByName) {
     EXPECT_EQ(fault.status, status);
     EXPECT_EQ(fault.argument, one.argument) << simdbezier_last_message();
     EXPECT_EQ(world.made, nullptr);
+    EXPECT_EQ(world.edge.points, nullptr);
     for (const auto* const memory : {&world.positions, &world.room}) {
       for (const float value : *memory) {
         ASSERT_EQ(value, -7.0F) << one.argument << ": something was written";

@@ -45,6 +45,7 @@ struct World {
   simdbezier_mutable_nets low = simdbezier_packed_mutable_nets_f32(room.data(), 96, 3, 3, 3, 0);
   simdbezier_mutable_nets high =
       simdbezier_packed_mutable_nets_f32(room.data() + 96, 96, 3, 3, 3, 0);
+  simdbezier_control_curves edge = sized<simdbezier_control_curves>();
   simdbezier_patch_set* made = nullptr;
   simdbezier_curve_set* made_curves = nullptr;
 
@@ -66,6 +67,9 @@ struct World {
   }
   simdbezier_status differentiate() {
     return simdbezier_evaluate_grid_derivatives(set.get(), &grid, &derivative, 1, 0, &options);
+  }
+  simdbezier_status take_edge() {
+    return simdbezier_boundary_curves(&nets, SIMDBEZIER_EDGE_U1, &edge);
   }
   simdbezier_status split() {
     return simdbezier_split_u(&nets, simdbezier_at(0.5), &low, &high, &options);

@@ -76,6 +76,9 @@ typedef int32_t simdbezier_edge;
 enum { SIMDBEZIER_EDGE_V0, SIMDBEZIER_EDGE_V1, SIMDBEZIER_EDGE_U0, SIMDBEZIER_EDGE_U1 };
 
 // boundary_curves(): the control points of one edge of every net, in the memory of the nets.
+// Returns ok | null_input | null_output | bad_struct_size | bad_scalar | bad_value | bad_alignment
+// | bad_degree | bad_components | bad_stride | size_overflow | input_too_small, and writes nothing
+// where it is not ok.
 SIMDBEZIER_API simdbezier_status simdbezier_boundary_curves(const simdbezier_nets* nets,
                                                             simdbezier_edge edge,
                                                             simdbezier_control_curves* curves);
