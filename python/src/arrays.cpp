@@ -190,7 +190,11 @@ py::array float_array(const py::object& values, py::ssize_t dimensions,
     throw_value_error(argument, "expected " + std::to_string(dimensions) +
                                     " dimensions, found shape " + shape_text(array));
   }
-  return holds<float>(array) || holds<double>(array) ? array : as_type(array, "float64");
+  if (holds<float>(array) || holds<double>(array)) {
+    return array;
+  }
+  const bool swapped_float = kind == 'f' && array.itemsize() == sizeof(float);
+  return as_type(array, swapped_float ? "float32" : "float64");
 }
 
 std::vector<std::ptrdiff_t> element_strides(py::array& array) {

@@ -34,7 +34,7 @@ template <typename T>
 [[nodiscard]] bool is_aligned(const py::array& array);
 
 /// An array of float or double with this many dimensions: the object itself where it is one, else
-/// numpy's copy of it (lists, integers).
+/// numpy's copy of it (lists, integers, bytes in another order).
 [[nodiscard]] py::array float_array(const py::object& values, py::ssize_t dimensions,
                                     const std::string& argument);
 
@@ -67,9 +67,14 @@ template <typename V>
 [[nodiscard]] py::array_t<V> contiguous(const py::object& values, const std::string& argument) {
   constexpr int kAsCalls =
       py::array::c_style | py::array::forcecast | py::detail::npy_api::NPY_ARRAY_ALIGNED_;
-  auto array = py::array_t<V, kAsCalls>::ensure(values);
-  if (!array) {
-    throw py::error_already_set();
+  py::array_t<V, kAsCalls> array;
+  try {
+    array = py::array_t<V, kAsCalls>(values);
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) {
+      throw;
+    }
+    throw_type_error(argument, "expected numbers");
   }
   if (array.ndim() > 1) {
     throw_value_error(argument, "expected one dimension, found " + std::to_string(array.ndim()));

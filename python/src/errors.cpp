@@ -9,11 +9,19 @@ PyObject* index_error = nullptr;
 
 [[noreturn]] void throw_error(PyObject* type, const std::string& argument,
                               const std::string& fault) {
-  PyErr_SetString(type, (argument + ": " + fault).c_str());
-  throw py::error_already_set();
+  throw_text(type, argument + ": " + fault);
 }
 
 } // namespace
+
+void throw_text(PyObject* type, const std::string& text) {
+  const auto message = py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
+  if (message) {
+    PyErr_SetObject(type, message.ptr());
+  }
+  throw py::error_already_set();
+}
 
 void throw_value_error(const std::string& argument, const std::string& fault) {
   throw_error(PyExc_ValueError, argument, fault);

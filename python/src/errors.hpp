@@ -13,6 +13,8 @@ namespace simdbezier::python {
 
 namespace py = pybind11;
 
+/// Bytes that are no UTF-8, which names of files may have, are escaped in texts of all errors.
+[[noreturn]] void throw_text(PyObject* type, const std::string& text);
 [[noreturn]] void throw_value_error(const std::string& argument, const std::string& fault);
 [[noreturn]] void throw_type_error(const std::string& argument, const std::string& fault);
 /// An index outside of a set: an IndexError that is a ValueError as well.

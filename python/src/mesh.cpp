@@ -23,7 +23,11 @@ public:
   }
 
   void save(const py::object& path) const {
-    const auto name = py::module_::import("os").attr("fsdecode")(path).cast<std::string>();
+    const auto bytes = py::module_::import("os").attr("fsencode")(path).cast<py::bytes>();
+    const std::string name = bytes;
+    if (name.find('\0') != std::string::npos) {
+      throw_value_error("path", "has a null character in it");
+    }
     const py::gil_scoped_release release;
     ask([&](const auto& mesh) { save_mesh(mesh, name); });
   }
@@ -79,7 +83,10 @@ double number(const py::object& value, const char* argument) {
 /// One tolerance, or one a patch.
 void set_tolerance(const py::object& tolerance, py::array_t<double>& several,
                    MeshOptions& options) {
-  if (py::isinstance<py::sequence>(tolerance) || py::isinstance<py::array>(tolerance)) {
+  const bool one_a_patch = py::isinstance<py::array>(tolerance)
+                               ? py::reinterpret_borrow<py::array>(tolerance).ndim() > 0
+                               : py::isinstance<py::sequence>(tolerance);
+  if (one_a_patch) {
     several = parameters<double>(tolerance, "tolerance");
     options.tolerances = span_of(several);
   } else {

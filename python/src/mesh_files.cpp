@@ -63,8 +63,7 @@ void write_vertices(const Mesh<T>& mesh, std::size_t first, std::size_t last,
 
 [[noreturn]] void throw_os_error(const std::string& message) {
   const py::gil_scoped_acquire acquire;
-  PyErr_SetString(PyExc_OSError, message.c_str());
-  throw py::error_already_set();
+  throw_text(PyExc_OSError, message);
 }
 
 } // namespace

@@ -13,6 +13,9 @@ std::size_t integer(const py::object& value, std::size_t least, const std::strin
     throw_type_error(argument, "expected an integer, found " + py::repr(value).cast<std::string>());
   }
   const py::ssize_t number = PyNumber_AsSsize_t(value.ptr(), nullptr); // what is larger is clipped
+  if (number == -1 && PyErr_Occurred() != nullptr) {
+    throw py::error_already_set();
+  }
   if (number < static_cast<py::ssize_t>(least)) {
     throw_value_error(argument, "expected " + std::to_string(least) + " or more, found " +
                                     py::str(value).cast<std::string>());

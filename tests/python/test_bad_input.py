@@ -86,6 +86,7 @@ CASES = [
     (ValueError, 'patch', lambda: PATCHES.evaluate([0, 2], [0.5, 0.5], [0.5, 0.5])),
     (IndexError, 'patch', lambda: PATCHES.evaluate([0, -1], [0.5, 0.5], [0.5, 0.5])),
     (TypeError, 'patch', lambda: PATCHES.evaluate([0.5], [0.5], [0.5])),
+    (TypeError, 'patch', lambda: PATCHES.evaluate(np.zeros(0, 'i4,i4'), [], [])),
     (TypeError, 'u', lambda: PATCHES.evaluate([0], ['a'], [0.5])),
     (ValueError, 'u', lambda: PATCHES.evaluate([0], [[0.5]], [0.5])),
     (ValueError, 'curve', lambda: CURVES.evaluate([2], [0.5])),
@@ -151,6 +152,12 @@ CASES = [
     (TypeError, 'grid', lambda: simdbezier.tessellate(POINTS, grid=3.5)),
     (ValueError, 'points', lambda: simdbezier.tessellate(POINTS[..., :2], tolerance=1)),
     (ValueError, 'path', lambda: simdbezier.tessellate(POINTS, grid=3).save('mesh.png')),
+    (ValueError, 'path', lambda: simdbezier.tessellate(POINTS, grid=3).save(b'\xff.png')),
+    (ValueError, 'path: has a null', lambda: simdbezier.tessellate(POINTS, grid=3).save('a\0b.obj')),
+    (TypeError, '', lambda: simdbezier.tessellate(POINTS, grid=3).save(3)),
+    (OSError, '/nowhere/', lambda: simdbezier.tessellate(POINTS, grid=3).save(b'/nowhere/\xff.obj')),
+    (TypeError, 'tolerance', lambda: simdbezier.tessellate(POINTS, tolerance=np.array('fine'))),
+    (ValueError, 'tolerance', lambda: simdbezier.tessellate(POINTS, tolerance=np.array(-1.0))),
     (OSError, '/nowhere/', lambda: simdbezier.tessellate(POINTS, grid=3).save('/nowhere/x.ply')),
     (ValueError, 'degree_u', lambda: simdbezier.elevate(POINTS, 2, 3)),
     (ValueError, 'degree_v', lambda: simdbezier.elevate(POINTS, 3, 16)),
@@ -220,6 +227,15 @@ def test_overlapping_arrays_are_both_named():
     with pytest.raises(ValueError, match=r"out\['normal'\]: overlaps out\['position'\]"):
         two_in_one(1)
     assert two_in_one(3)['normal'].shape == SHAPE
+
+
+def test_errors_of_the_caller_stay_what_they_are():
+    class Count:
+        def __index__(self):
+            raise KeyError('mine')
+
+    with pytest.raises(KeyError, match='mine'):
+        PATCHES.evaluate_grid(Count(), 3)
 
 
 def test_not_finite_parameters_give_not_finite_samples():

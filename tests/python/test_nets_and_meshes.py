@@ -1,5 +1,6 @@
 """Operations on nets, and meshes with their files."""
 import math
+import os
 import pathlib
 import struct
 
@@ -139,3 +140,20 @@ def test_meshes_become_files(tmp_path, ending, dtype, parameters):
     mesh.save(str(path))
     assert path.read_bytes() == data
     assert [entry.name for entry in pathlib.Path(tmp_path).iterdir()] == [path.name]
+
+
+def test_a_tolerance_is_one_number_as_an_array_too(points):
+    expected = simdbezier.tessellate(points, tolerance=1e-2)
+    for tolerance in (np.array(1e-2), np.float64(1e-2), np.full(5, 1e-2)):
+        got = simdbezier.tessellate(points, tolerance=tolerance)
+        assert np.array_equal(got.positions, expected.positions)
+
+
+@pytest.mark.parametrize('name', [b'plain.obj', b'\xff.obj', b'\xc3\xa9.ply', b'\xed\xa0\x80.stl'])
+def test_files_have_any_name(points, name, tmp_path):
+    mesh = simdbezier.tessellate(points, grid=3)
+    path = os.path.join(os.fsencode(tmp_path), name)
+    for given in (path, os.fsdecode(path), pathlib.Path(os.fsdecode(path))):
+        mesh.save(given)
+        assert os.listdir(os.fsencode(tmp_path)) == [name]
+        os.remove(path)

@@ -111,6 +111,7 @@ def test_dtype_is_that_of_the_points_or_as_asked_for():
     single = simdbezier.PatchSet(points, dtype=np.float32).evaluate_grid(3, 3)['position']
     assert single.dtype == np.float32
     assert simdbezier.PatchSet(points.tolist()).dtype == np.float64
+    assert simdbezier.PatchSet(points.astype(np.float16)).dtype == np.float64
     assert simdbezier.PatchSet(np.zeros((1, 2, 2, 3), int)).dtype == np.float64
 
 
@@ -152,3 +153,12 @@ def test_names_come_from_any_iterable(names, given, expected):
     patches = simdbezier.PatchSet(np.ones((2, 4, 4, 3), np.float32))
     out = {name: np.empty((2, 3, 5, 3), np.float32) for name in given}
     assert list(patches.evaluate_grid(5, 3, names(), out)) == expected
+
+
+@pytest.mark.parametrize('dtype', [np.float32, np.float64])
+def test_bytes_in_another_order_are_the_same_numbers(dtype):
+    points = np.random.default_rng(3).random((2, 4, 4, 3)).astype(dtype)
+    swapped = simdbezier.PatchSet(points.astype(np.dtype(dtype).newbyteorder()))
+    assert swapped.dtype == dtype
+    assert np.array_equal(swapped.evaluate_grid(5, 3)['position'],
+                          simdbezier.PatchSet(points).evaluate_grid(5, 3)['position'])
