@@ -35,15 +35,16 @@ void count_segments(const TopologyData& topology, MeshData& mesh) {
 }
 
 /// The triangles of a patch: two a cell, one more for every vertex that its sides have besides its
-/// own ones, and one less for every cell at a side that is a point.
+/// own ones, and one less for every cell at a side that is a point. Where that is less than
+/// none, all points of the patch are one vertex, and it has no triangle.
 std::uint64_t triangles_of(const TopologyData& topology, const MeshData& mesh, std::size_t patch) {
-  std::uint64_t triangles = 2 * std::uint64_t{mesh.nu[patch]} * mesh.nv[patch];
+  std::int64_t triangles = 2 * std::int64_t{mesh.nu[patch]} * mesh.nv[patch];
   for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
     const Side& own = topology.sides[side];
-    triangles += own.collapsed() ? 0 : mesh.segments[own.edge()];
+    triangles += own.collapsed() ? 0 : std::int64_t{mesh.segments[own.edge()]};
     triangles -= mesh.rate(side);
   }
-  return triangles;
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(triangles, 0));
 }
 
 std::size_t boundary_samples(const TopologyData& topology, const MeshData& mesh,

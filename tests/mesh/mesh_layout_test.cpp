@@ -188,6 +188,64 @@ TEST(MeshLayout, numbers_are_the_same_wherever_they_go) {
   }
 }
 
+/// A patch whose sides v0, v1, u0, u1 are the origin where a bit is set, and beside it one that
+/// shares its side u1, where that is not a point.
+std::vector<double> patch_of_points(unsigned sides) {
+  std::vector<double> values;
+  const auto put = [&](double i, double j, double k, bool origin) {
+    values.insert(values.end(), {origin ? 0.0 : i + 1, origin ? 0.0 : j + 1, k});
+  };
+  const auto at_origin = [&](std::size_t i, std::size_t j) {
+    return ((sides & 1) != 0 && j == 0) || ((sides & 2) != 0 && j == 3) ||
+           ((sides & 4) != 0 && i == 0) || ((sides & 8) != 0 && i == 3);
+  };
+  for (const std::size_t patch : {0U, 1U}) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        const bool origin = patch == 0 ? at_origin(i, j) : i == 0 && at_origin(3, j);
+        put(static_cast<double>(patch == 0 ? i : 3 + i), static_cast<double>(j),
+            patch == 0 || i == 0 ? 0 : 1, origin);
+      }
+    }
+  }
+  return values;
+}
+
+/// Rates as they are, without separate_vertices(): whatever the sides, no number is written behind
+/// the triangles that were counted.
+TEST(MeshLayout, sides_that_are_points_leave_no_triangle_uncounted) {
+  constexpr std::uint32_t kGuard = 0xabababab;
+  constexpr std::uint32_t kMost = 4;
+  for (unsigned sides = 0; sides < 16; ++sides) {
+    const Topology topology = topology_of(patch_of_points(sides), false);
+    for (std::uint32_t code = 0; code < kMost * kMost * kMost * 2; ++code) {
+      const std::vector<std::uint32_t> nu = {1 + code % kMost, 2};
+      const std::vector<std::uint32_t> nv = {1 + code / kMost % kMost,
+                                             1 + code / kMost / kMost % kMost};
+      const std::uint16_t diagonals = code / kMost / kMost / kMost != 0 ? 511 : 0;
+      SCOPED_TRACE("sides " + std::to_string(sides) + ", rates " + std::to_string(nu[0]) + " x " +
+                   std::to_string(nv[0]) + " beside " + std::to_string(nv[1]));
+      MeshLayout layout;
+      ASSERT_EQ(lay_out_mesh(topology, {nu, nv, std::vector<std::uint16_t>{diagonals, diagonals}},
+                             layout),
+                Status::ok);
+      const std::size_t counted = layout.size().triangles;
+      ASSERT_LE(counted, 100U);
+      ASSERT_LE(layout.first_triangle(1), counted);
+      std::vector<std::uint32_t> triangles(3 * counted + 60, kGuard);
+      ASSERT_EQ(write_triangles(layout, std::span(triangles), 1), Status::ok);
+      EXPECT_EQ(std::count(triangles.begin(), triangles.end(), kGuard), 60);
+      const TriangleCensus census = count_triangles<std::uint32_t>(
+          std::span(triangles).first(3 * counted), layout.size().vertices);
+      EXPECT_EQ(census.out_of_range, 0U);
+      // The neighbour's cell at an edge that is one segment and ends where it begins has one
+      // triangle less.
+      const bool loop = sides == 7 && nv[0] == 1 && nv[1] == 1;
+      EXPECT_EQ(census.degenerate, loop ? 1U : 0U);
+    }
+  }
+}
+
 TEST(MeshLayout, bad_input_is_a_status) {
   const MeshModel model = mesh_models()[1];
   const Topology topology = topology_of(model.values(), false);
