@@ -94,11 +94,15 @@ public:
   }
   /// Whether two numbers follow each other on a side.
   [[nodiscard]] bool is_segment(std::uint32_t a, std::uint32_t b) const {
-    return std::any_of(lines_.begin(), lines_.end(), [&](const Line& line) {
-      const auto at = std::find(line.chain.begin(), line.chain.end(), a);
-      return at != line.chain.end() && ((at != line.chain.begin() && *(at - 1) == b) ||
-                                        (at + 1 != line.chain.end() && *(at + 1) == b));
-    });
+    // Both ends of a side may be one corner, and corners have the lowest numbers: the larger number
+    // stands once, or next to itself.
+    const auto [lower, larger] = std::minmax(a, b);
+    return std::any_of(
+        lines_.begin(), lines_.end(), [&, lower = lower, larger = larger](auto& line) {
+          const auto at = std::find(line.chain.begin(), line.chain.end(), larger);
+          return at != line.chain.end() && ((at != line.chain.begin() && *(at - 1) == lower) ||
+                                            (at + 1 != line.chain.end() && *(at + 1) == lower));
+        });
   }
 
 private:

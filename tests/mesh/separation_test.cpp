@@ -123,6 +123,38 @@ TEST(Separation, leaves_rates_that_do_not_help) {
   }
 }
 
+/// Three sides are one point, and the fourth one ends where it begins.
+TEST(Separation, leaves_the_rates_of_patches_with_three_sides_in_a_point) {
+  for (std::size_t open = 0; open < 4; ++open) { // v0, v1, u0, u1
+    PatchPoints petal{};
+    for (std::size_t j = 0; j < 4; ++j) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        const bool on[] = {j == 0, j == 3, i == 0, i == 3};
+        const bool along = open < 2 ? i == 1 || i == 2 : j == 1 || j == 2;
+        const bool inside = (i == 1 || i == 2) && (j == 1 || j == 2);
+        if (inside || (on[open] && along)) {
+          petal[j][i] = {1.0 + static_cast<double>(i), 1.0 + static_cast<double>(j * j),
+                         inside ? 1.0 : 0.0};
+        }
+      }
+    }
+    for (const std::uint32_t nu : {1U, 2U, 3U, 4U, 5U}) {
+      for (const std::uint32_t nv : {1U, 2U, 3U, 4U, 7U}) {
+        SCOPED_TRACE(std::to_string(open) + ", " + std::to_string(nu) + " x " + std::to_string(nv));
+        const SeparatedMesh mesh = mesh_of({"petal", {petal}}, nu, nv);
+        EXPECT_EQ(mesh.topology.counts().collapsed_sides, 3U);
+        // Between opposite sides that are points, two rows of vertices make a surface.
+        EXPECT_EQ(mesh.raised, (open < 2 ? nu : nv) < 3 ? 1U : 0U);
+        EXPECT_LE(mesh.nu[0], std::max(nu + 1, 3U));
+        EXPECT_LE(mesh.nv[0], std::max(nv + 1, 3U));
+        EXPECT_EQ(mesh.census.degenerate + mesh.census.unused + mesh.census.crowded, 0U);
+        EXPECT_EQ(mesh.census.repeated, 0U);
+        EXPECT_EQ(mesh.census.euler, 1);
+      }
+    }
+  }
+}
+
 /// All four sides are one point: a bubble, and a patch that is nothing but that point.
 TEST(Separation, gives_patches_between_points_triangles) {
   for (const double size : {1.0, 0.0}) {
