@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/mesh/boundary_samples.hpp"
+#include "src/mesh/net_points.hpp"
 
 namespace simdbezier::detail {
 
@@ -56,7 +57,7 @@ public:
   CreaseFinder(const MeshData& mesh, double angle, const Planes<T>& normals,
                CreaseGroups& groups) noexcept
       : topology_(*mesh.topology.data()), always_(angle >= std::numbers::pi), never_(angle == 0),
-        cosine_(std::cos(angle)), normals_(normals), groups_(groups) {}
+        cosine_(std::cos(angle)), sine_(std::sin(angle)), normals_(normals), groups_(groups) {}
 
   /// members_of: memory for one value a corner that is joined with others.
   void group(const BoundaryEntry& entry, std::uint32_t* sample_of_corner) const noexcept {
@@ -75,17 +76,20 @@ private:
     if (always_ || never_) {
       return always_;
     }
-    double dot = 0;
-    double aa = 0;
-    double bb = 0;
-    for (const T* const n : normals_.component) {
-      const auto x = static_cast<double>(n[a]);
-      const auto y = static_cast<double>(n[b]);
-      dot += x * y;
-      aa += x * x;
-      bb += y * y;
+    const Point3 x = normal(a);
+    const Point3 y = normal(b);
+    const Point3 z = cross(x, y);
+    const double along = against ? -dot(x, y) : dot(x, y);
+    // The sine of the angle between the normals, less the crease's angle: of small angles a cosine
+    // would show the rounding of the normals' lengths instead.
+    return dot(x, x) == 0 || dot(y, y) == 0 || std::sqrt(dot(z, z)) * cosine_ < along * sine_;
+  }
+  [[nodiscard]] Point3 normal(std::size_t sample) const noexcept {
+    Point3 n;
+    for (std::size_t c = 0; c < 3; ++c) {
+      n.x[c] = static_cast<double>(normals_.component[c][sample]);
     }
-    return aa == 0 || bb == 0 || (against ? -dot : dot) > cosine_;
+    return n;
   }
   /// The same for normals at two sides of one edge.
   [[nodiscard]] bool sides_join(std::uint32_t a, std::size_t sample_a, std::uint32_t b,
@@ -153,6 +157,7 @@ private:
   bool always_;
   bool never_;
   double cosine_;
+  double sine_;
   const Planes<T>& normals_;
   CreaseGroups& groups_;
 };

@@ -9,11 +9,6 @@
 namespace simdbezier::detail {
 namespace {
 
-Point3 cross(const Point3& a, const Point3& b) {
-  return {a.x[1] * b.x[2] - a.x[2] * b.x[1], a.x[2] * b.x[0] - a.x[0] * b.x[2],
-          a.x[0] * b.x[1] - a.x[1] * b.x[0]};
-}
-
 /// The first control point along a side, from a corner on, that is not the corner's: as a
 /// difference.
 template <typename S>
@@ -135,7 +130,7 @@ std::array<double, 3> NetCorners<S>::lowest_point(std::size_t patch) const noexc
   std::array<double, 3> lowest = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   for_points(*at.nets, at.patch, [&](const Point3& point) {
     const std::array<double, 3> x = {point.x[0] + 0.0, point.x[1] + 0.0, point.x[2] + 0.0};
-    lowest = std::isfinite(x[0] + x[1] + x[2]) ? std::min(lowest, x) : lowest;
+    lowest = is_finite(point) ? std::min(lowest, x) : lowest;
   });
   return lowest;
 }

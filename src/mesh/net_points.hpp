@@ -22,13 +22,20 @@ inline Point3 operator+(const Point3& a, const Point3& b) noexcept {
 inline double dot(const Point3& a, const Point3& b) noexcept {
   return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2];
 }
+inline Point3 cross(const Point3& a, const Point3& b) noexcept {
+  return {a.x[1] * b.x[2] - a.x[2] * b.x[1], a.x[2] * b.x[0] - a.x[0] * b.x[2],
+          a.x[0] * b.x[1] - a.x[1] * b.x[0]};
+}
+inline bool is_finite(const Point3& a) noexcept { // a sum of large values would overflow
+  return std::isfinite(a.x[0]) && std::isfinite(a.x[1]) && std::isfinite(a.x[2]);
+}
 
 /// Scaled by a power of two, so that its largest value is between 1 and 2; vectors of 0 and those
 /// that are not finite stay as they are.
 inline Point3 scaled_to_one(const Point3& a, int& exponent) noexcept {
   const double largest = std::max({std::fabs(a.x[0]), std::fabs(a.x[1]), std::fabs(a.x[2])});
   exponent = 0;
-  if (!(largest > 0) || !std::isfinite(a.x[0] + a.x[1] + a.x[2])) {
+  if (!(largest > 0) || !is_finite(a)) {
     return a;
   }
   exponent = std::ilogb(largest);

@@ -87,6 +87,37 @@ TEST(Creases, split_where_planes_meet_at_more_than_the_angle) {
   }
 }
 
+/// Two planes in a plane of any direction, or with a small angle between them: what float rounds of
+/// a normal is no crease.
+TEST(Creases, of_small_angles_leave_planes_whole) {
+  constexpr double kCreases[] = {3e-4, 1e-4, 1e-5};
+  std::size_t planes = 0;
+  for (int x = -2; x <= 2; ++x) {
+    for (int y = -2; y <= 2; ++y) {
+      for (const double crease : kCreases) {
+        for (const double rise : {0.0, 20 * crease}) {
+          SCOPED_TRACE(std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(rise) +
+                       " at " + std::to_string(crease));
+          MeshModel model = roof({{-3, 0, 0}, {0, 0, 0}, {3, 0, 0}});
+          for (PatchPoints& patch : model.patches) {
+            for (auto& row : patch) {
+              for (Point& p : row) {
+                p[2] = x * p[0] + y * p[1] + (p[0] > 0 ? rise * p[0] : 0);
+              }
+            }
+          }
+          EvaluatedMesh<float> mesh(model, 5, 2);
+          const std::size_t whole = mesh.layout.size().vertices;
+          split(mesh, crease);
+          EXPECT_EQ(mesh.layout.size().vertices > whole, rise > 0);
+          ++planes;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(planes, 150U);
+}
+
 /// With an angle of 0, every patch's vertices are those of its own grid, normals included.
 TEST(Creases, of_no_angle_leave_patches_alone) {
   for (const MeshModel& model : mesh_models()) {
