@@ -23,11 +23,10 @@ struct SideNet {
   [[nodiscard]] double reach(const Point3& from) const noexcept {
     double most = 0;
     for (const Point3& point : points) {
-      const Point3 d = point - from;
-      const double square = dot(d, d);
-      most = square <= most ? most : square; // nan stays
+      const double distance = length(point - from);
+      most = distance <= most ? most : distance; // nan stays
     }
-    return std::sqrt(most);
+    return most;
   }
 };
 
@@ -40,6 +39,10 @@ public:
   void read_side(std::size_t side, SideNet& to) const;
   /// The control point of corner 4 * patch + corner.
   [[nodiscard]] Point3 corner_point(std::size_t corner) const noexcept;
+
+  [[nodiscard]] bool is_homogeneous(std::size_t patch) const noexcept {
+    return place(patch).nets->weights == Weights::homogeneous;
+  }
 
   /// Whether all control points of a side lie within a distance of both of its ends.
   [[nodiscard]] bool side_within(std::size_t side, double distance) const;

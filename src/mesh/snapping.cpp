@@ -17,14 +17,13 @@ double distance_of(const SideNet& a, const SideNet& b, bool reversed) {
   double most = 0;
   for (std::size_t k = 0; k < a.points.size(); ++k) {
     const std::size_t l = reversed ? a.points.size() - 1 - k : k;
-    const Point3 d = a.points[k] - b.points[l];
-    const double square = dot(d, d);
-    if (a.weights[k] != b.weights[l] || !(square < HUGE_VAL)) {
+    const double distance = length(a.points[k] - b.points[l]);
+    if (a.weights[k] != b.weights[l] || !(distance < HUGE_VAL)) {
       return HUGE_VAL;
     }
-    most = std::max(most, square);
+    most = std::max(most, distance);
   }
-  return std::sqrt(most);
+  return most;
 }
 
 /// An open side by the cell that the middle between its ends is in: whichever way it runs, a side
@@ -148,7 +147,7 @@ void find_displacements(const NetCorners<S>& nets, TopologyData& topology) {
     for (std::size_t end = 0; end < 2; ++end) {
       const Point3 vertex = nets.corner_point(topology.corner_of(side, end));
       const Point3 d = (end == 0 ? own.points.front() : own.points.back()) - vertex;
-      displacement = std::max(displacement, std::sqrt(dot(d, d)));
+      displacement = std::max(displacement, length(d));
       if (topology.sides[side].collapsed()) {
         displacement = std::max(displacement, own.reach(vertex));
       }

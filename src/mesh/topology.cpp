@@ -2,7 +2,6 @@
 #include <simdbezier/topology.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <new>
 #include <numeric>
 
@@ -125,6 +124,18 @@ void collapse_short_sides(const NetCorners<S>& nets, double point_size, std::spa
   }
 }
 
+/// Whether a side may be a point only because of a rounded division: control points in space are
+/// quotients there, which find_adjacency() compares in the type of the values.
+template <typename S>
+bool has_rounded_points(const NetCorners<S>& nets, const TopologyData& topology) {
+  for (std::size_t side = 0; side < topology.sides.size(); ++side) {
+    if (topology.sides[side].collapsed() && nets.is_homogeneous(side / kPatchEdges)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 template <typename S>
 Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& options,
              TopologyData& topology) {
@@ -148,7 +159,7 @@ Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& option
   number_edges(links, topology);
   join_corners(topology);
   count_edges(topology);
-  if (options.snap > 0 || options.point_size > 0) {
+  if (options.snap > 0 || options.point_size > 0 || has_rounded_points(nets, topology)) {
     find_displacements(nets, topology);
   }
   mark_repeated(nets, topology);

@@ -108,6 +108,35 @@ TEST(MeshScale, a_model_that_is_one_point_has_relative_tolerances) {
   EXPECT_LT(plan.deviation, 1e-5);
 }
 
+/// Two sheets side by side with a gap of a tenth between them.
+TEST(MeshScale, points_and_snapping_go_with_it) {
+  for (const int exponent : {0, -500, -550, -700, -1000, 550, 1000}) {
+    SCOPED_TRACE(exponent);
+    std::vector<double> values;
+    for (int patch = 0; patch < 2; ++patch) {
+      for (int j = 0; j < 4; ++j) {
+        for (int i = 0; i < 4; ++i) {
+          for (const double x : {3.1 * patch + i, 1.0 * j, i == 1 || i == 2 ? 0.5 : 0}) {
+            values.push_back(std::scalbn(x, exponent));
+          }
+        }
+      }
+    }
+    const auto nets = ControlNets<double>::packed(std::span<const double>(values));
+    for (const double snap : {0.05, 0.2}) {
+      MeshOptions options;
+      options.nu = options.nv = 64;
+      options.snap = std::scalbn(snap, exponent);
+      options.point_size = std::scalbn(1e-6, exponent);
+      const MeshPlan<double> plan = plan_mesh<double>(nets, options);
+      ASSERT_EQ(plan.status, Status::ok);
+      EXPECT_EQ(plan.counts.collapsed_sides, 0U);
+      EXPECT_EQ(plan.counts.snapped_sides, snap > 0.1 ? 2U : 0U);
+      EXPECT_EQ(std::scalbn(plan.deviations[1], -exponent) >= 0.0999, snap > 0.1);
+    }
+  }
+}
+
 TEST(MeshScale, errors_below_zero_are_refused) {
   const std::vector<double> values = values_of({3, Weights::none}, 0);
   const auto nets = ControlNets<double>::packed(std::span<const double>(values));

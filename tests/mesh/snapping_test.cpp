@@ -104,6 +104,47 @@ TEST(Snapping, is_part_of_the_certificate) {
   }
 }
 
+/// Homogeneous points whose quotients are equal in float alone make a point of a side, as snapping
+/// would: how far apart they are is part of the certificate.
+TEST(Snapping, of_quotients_is_part_of_the_certificate) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0.5, 1);
+  std::size_t judged = 0;
+  while (judged < 20) {
+    const double apex[3] = {uniform(random), uniform(random), uniform(random)};
+    const float weights[3] = {1, static_cast<float>(uniform(random)), 1};
+    std::vector<float> values;
+    double apart = 0;
+    bool equal = true;
+    for (const bool base : {false, true}) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          const double x = apex[c] + (base ? 1e-5 * static_cast<double>(i * c + 1) : 0);
+          values.push_back(static_cast<float>(x) * weights[i]);
+          const float first = values[base ? values.size() - 1 : c];
+          equal = equal && (base || values.back() / weights[i] == first);
+          apart = std::max(apart, base ? 0
+                                       : std::fabs(static_cast<double>(values.back()) /
+                                                       static_cast<double>(weights[i]) -
+                                                   static_cast<double>(first)));
+        }
+        values.push_back(weights[i]);
+      }
+    }
+    if (!equal || apart < 1e-8) {
+      continue;
+    }
+    const auto nets = ControlNets<float>::packed(values.data(), 1, 2, 1, 3, Weights::homogeneous);
+    MeshOptions options;
+    options.nu = options.nv = 256;
+    const MeshPlan<double> plan = plan_mesh<double>(nets, options);
+    ASSERT_EQ(plan.status, Status::ok);
+    EXPECT_EQ(plan.counts.collapsed_sides, 1U);
+    EXPECT_GE(plan.deviation, apart);
+    ++judged;
+  }
+}
+
 TEST(Snapping, leaves_what_is_farther_apart) {
   for (const MeshModel& model : mesh_models()) {
     if (model.name == "torus 4 x 3" || model.name == "cube") {
