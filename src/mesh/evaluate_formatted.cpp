@@ -188,22 +188,22 @@ Status quantisation_box(std::span<const ControlNets<S>> sets, VertexFormat forma
     for (std::size_t patch = 0; patch < nets.count; ++patch) {
       detail::for_points(nets, patch, [&](const detail::Point3& point) {
         points.include(point);
-        finite = finite && std::isfinite(point.x[0] + point.x[1] + point.x[2]);
+        finite = finite && detail::is_finite(point);
       });
     }
   }
-  const double extent = points.longest();
   if (!finite) {
     return Status::non_finite_input;
   }
-  if (!(extent > 0)) {
+  const bool centred = format == VertexFormat::snorm16;
+  const double step = points.longest() / (centred ? 2 * 32767 : 65535);
+  if (!(step > 0 && std::isfinite(step))) {
     return Status::bad_tolerance;
   }
-  const bool centred = format == VertexFormat::snorm16;
   for (std::size_t c = 0; c < 3; ++c) {
     box.low[c] = centred ? points.middle(c) : points.low(c);
   }
-  box.step = extent / (centred ? 2 * 32767 : 65535);
+  box.step = step;
   return Status::ok;
 }
 

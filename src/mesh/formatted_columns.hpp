@@ -54,10 +54,12 @@ struct FormattedColumn {
     if (!range(*this).meets(range(other))) {
       return false;
     }
-    const auto all = static_cast<std::uintptr_t>(stride);
-    const std::uintptr_t apart =
-        (reinterpret_cast<std::uintptr_t>(other.first) - reinterpret_cast<std::uintptr_t>(first)) %
-        all;
+    // Signed, since the ranges meet, and an unsigned difference keeps its remainder only where the
+    // stride is a power of two.
+    const auto distance = static_cast<std::ptrdiff_t>(
+        reinterpret_cast<std::uintptr_t>(other.first) - reinterpret_cast<std::uintptr_t>(first));
+    const auto all = static_cast<std::size_t>(stride);
+    const auto apart = static_cast<std::size_t>((distance % stride + stride) % stride);
     return stride != other.stride || apart < bytes || apart + other.bytes > all;
   }
 };

@@ -18,8 +18,10 @@ bool is_positive(double value) { return value > 0 && std::isfinite(value); }
 class View {
 public:
   explicit View(const Camera& camera) : camera_(camera) {
-    const auto& d = camera.direction;
-    length_ = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    int exponent = 0; // whatever the direction's length, its square is neither 0 nor infinite
+    axis_ =
+        scaled_to_one({{camera.direction[0], camera.direction[1], camera.direction[2]}}, exponent);
+    length_ = length(axis_);
     const double corner = std::hypot(camera.width, camera.height) / 2 / camera.focal_length;
     pixels_per_unit_ = camera.focal_length * std::sqrt(1 + corner * corner);
   }
@@ -28,12 +30,12 @@ public:
     return is_positive(length_) && is_positive(pixels_per_unit_) &&
            is_positive(camera_.focal_length) && is_positive(camera_.width) &&
            is_positive(camera_.height) && is_positive(camera_.nearest) &&
-           std::isfinite(eye[0] + eye[1] + eye[2]);
+           is_finite({{eye[0], eye[1], eye[2]}});
   }
   [[nodiscard]] double depth(const Point3& point) const {
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-      sum += (point.x[c] - camera_.eye[c]) * camera_.direction[c];
+      sum += (point.x[c] - camera_.eye[c]) * axis_.x[c];
     }
     return sum / length_;
   }
@@ -56,6 +58,7 @@ public:
 
 private:
   const Camera& camera_;
+  Point3 axis_;
   double length_;
   double pixels_per_unit_;
 };

@@ -148,12 +148,39 @@ TEST(MeshOptions, pixels_are_those_of_the_camera) {
   }
 }
 
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Only the camera's direction counts, whatever its length, and any finite eye is one.
+TEST(MeshOptions, cameras_look_along_directions_of_any_length) {
+  const std::vector<double> values = mesh_models()[0].values();
+  const auto nets = ControlNets<double>::packed(std::span<const double>(values));
+  const auto tolerances_of = [&](double scale, double eye, Status expected) {
+    Camera camera;
+    camera.eye = {eye, eye, 3};
+    camera.direction = {-3 * scale, -2 * scale, -scale};
+    camera.focal_length = 800;
+    camera.width = camera.height = 1000;
+    std::vector<double> tolerances(nets.count, -1);
+    EXPECT_EQ(to_string(pixel_tolerances(std::span(&nets, 1), camera, 1, std::span(tolerances))),
+              to_string(expected));
+    return tolerances;
+  };
+  const std::vector<double> usual = tolerances_of(1, 9, Status::ok);
+  EXPECT_GT(usual[0], 0);
+  for (const double scale : {0x1p-1000, 0x1p-560, 0x1p-3, 0x1p600, 0x1p1000}) {
+    EXPECT_EQ(tolerances_of(scale, 9, Status::ok), usual) << scale;
+  }
+  static_cast<void>(tolerances_of(1, 1e308, Status::ok));
+  static_cast<void>(tolerances_of(1, kNan, Status::bad_tolerance));
+  static_cast<void>(tolerances_of(kNan, 9, Status::bad_tolerance));
+  static_cast<void>(tolerances_of(0, 9, Status::bad_tolerance));
+}
+
 struct Refused {
   const char* what;
   Status status;
   void (*change)(MeshOptions&);
 };
-const double kNan = std::numeric_limits<double>::quiet_NaN();
 const Refused kRefused[] = {
     {"nothing asked", Status::bad_tolerance, [](MeshOptions& o) { o = {}; }},
     {"tolerance 0", Status::bad_tolerance, [](MeshOptions& o) { o.tolerance = 0; }},
