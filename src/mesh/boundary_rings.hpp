@@ -112,10 +112,8 @@ private:
       }
       return;
     }
-    const std::ptrdiff_t by = static_cast<std::ptrdiff_t>(step) * (reversed ? -1 : 1);
-    const T* value = reversed ? from + (points - 1) * step : from;
-    for (std::size_t k = 0; k < points; ++k, value += by) {
-      to[k] = *value;
+    for (std::size_t k = 0; k < points; ++k) {
+      to[k] = from[(points - 1 - k) * step];
     }
   }
 
