@@ -1,6 +1,7 @@
 // What a GLB file says about its vertices and indices.
 #include <tools/glb_file.hpp>
 
+#include <cmath>
 #include <initializer_list>
 #include <string_view>
 
@@ -76,7 +77,7 @@ std::string asset(const MeshContents& contents) {
   if (!contents.generator.empty()) {
     text += joined({",", member("generator", quoted(contents.generator))});
   }
-  if (contents.deviation) {
+  if (contents.deviation && std::isfinite(*contents.deviation)) { // JSON has no infinity
     text += joined({R"(,"extras":{)", member("deviation", shortest(*contents.deviation)), "}"});
   }
   text += '}';

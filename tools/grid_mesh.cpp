@@ -57,8 +57,11 @@ MeshContents GridMesh<T>::contents() const {
   contents.normals = arguments_.mesh.normals;
   contents.storage = arguments_.mesh.storage;
   contents.box = box_;
-  // Positions may leave the control points' box by rounding, which is less than this.
+  // Positions may leave the control points' box by rounding, which is less than this part of the
+  // largest coordinate. Bounds that are 0 or small stay, and positions beyond them come to them:
+  // exact ones lie inside, so that this brings no position farther from its exact one.
   constexpr double kMargin = 0x1p-16;
+  contents.margin = kMargin * largest_coordinate(box_);
   for (std::size_t c = 0; c < 3; ++c) {
     contents.box->low[c] -= kMargin * std::abs(box_.low[c]);
     contents.box->high[c] += kMargin * std::abs(box_.high[c]);

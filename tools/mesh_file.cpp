@@ -6,6 +6,7 @@
 #include <tools/failure.hpp>
 #include <tools/mesh_formats.hpp>
 #include <tools/output_file.hpp>
+#include <tools/patch_box.hpp>
 #include <tools/vertex_records.hpp>
 
 namespace simdbezier::tools {
@@ -32,14 +33,6 @@ const FormatEntry& entry_of(MeshFormat format) {
 
 // Patch numbers are floats in GLB, whose attributes have no larger integers than 16 bits.
 constexpr std::uint64_t kMostGlbPatches = std::uint64_t{1} << 24;
-
-double largest_coordinate(const MeshBox& box) {
-  double largest = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    largest = std::max({largest, std::abs(box.low[c]), std::abs(box.high[c])});
-  }
-  return largest;
-}
 
 void expect_at_most(const std::string& path, const char* format, const char* what,
                     std::uint64_t most, std::uint64_t found) {

@@ -50,6 +50,8 @@ struct MeshContents {
   /// A box around all positions, which may be larger than the smallest one. Needed where a format
   /// rounds positions: quantised ones, and doubles with a stated deviation in STL and GLB.
   std::optional<MeshBox> box;
+  /// How far positions may leave the box by rounding; quantised ones come to its border.
+  double margin = 0;
   /// A bound on the mesh's distance from the surface. Files state it plus whatever the format's
   /// rounding adds.
   std::optional<double> deviation;

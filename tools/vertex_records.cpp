@@ -127,9 +127,10 @@ void RecordPacker<T>::pack_positions(std::span<const T> values) {
     return pack_numbers(layout_.position, values, 3,
                         [](const T* p, std::size_t c) { return p[c]; });
   }
+  const double beyond = contents_.margin / space_.extent;
   pack_numbers(layout_.position, values, 3, [&](const T* p, std::size_t c) {
     const double place = (static_cast<double>(p[c]) - space_.low[c]) / space_.extent;
-    if (!(place >= 0 && place <= 1)) {
+    if (!(place >= -beyond && place <= 1 + beyond)) {
       bad_input(path_ + ": expected positions within their box, found one outside of it");
     }
     return place;

@@ -161,8 +161,10 @@ MeshContents WeldedMesh<T>::contents() const {
   contents.storage = mesh.storage;
   contents.deviation = deviation_;
   contents.generator = program_version();
-  // Positions may leave the control points' box by their errors.
-  const double margin = std::ranges::max(errors_);
+  // Positions may leave the control points' box by their errors, whose bounds may be far larger
+  // than the model, or infinite, where weights differ much: what is computed stays close to the
+  // box.
+  const double margin = std::min(std::ranges::max(errors_), largest_coordinate(box_));
   contents.box = box_;
   for (std::size_t c = 0; c < 3; ++c) {
     contents.box->low[c] -= margin;

@@ -81,5 +81,34 @@ TEST(UnweldedMesh, IsOneMeshInAllFormats) {
   }
 }
 
+// A side on which a coordinate is 0 exactly, and beside which it is rounded to less than 0: what is
+// quantised comes to the border of the box.
+TEST(UnweldedMesh, IsQuantisedWhereItsBoxTouchesZero) {
+  constexpr double kHeights[] = {0.1, 0.7, 0.3, 0.9};
+  constexpr double kFactors[] = {0.3, 0.9, 0.2, 1.0};
+  for (const double sign : {1.0, -1.0}) {
+    Net net;
+    for (int j = 0; j < 4; ++j) {
+      for (int i = 0; i < 4; ++i) {
+        net.at(j, i) = {j == 3 ? sign * kFactors[i] : 0, i / 3.0, kHeights[i] * (1 + j % 2)};
+      }
+    }
+    const TemporaryFolder folder;
+    const std::string in = folder.write("zero.bez", bez_text(std::span(&net, 1)));
+    const std::vector<std::string> options = {"--grid", "5x3000"};
+    std::vector<std::string> quantised = options;
+    quantised.insert(quantised.end(), {"--quantise", "16"});
+    const ReadMesh full = read_glb_mesh(tessellated(in, "glb", options));
+    const ReadMesh mesh = read_glb_mesh(tessellated(in, "glb", quantised));
+    ASSERT_EQ(mesh.positions.size(), full.positions.size());
+    for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(mesh.translation[c] + mesh.scale * mesh.positions[k][c] / 65535,
+                    full.positions[k][c], mesh.scale / 65535 * 0.51);
+      }
+    }
+  }
+}
+
 } // namespace
 } // namespace simdbezier::tests::unwelded_test

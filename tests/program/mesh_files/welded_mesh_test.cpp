@@ -229,5 +229,32 @@ TEST(WeldedMesh, IsQuantisedWithinItsDeviation) {
   }
 }
 
+// A weight so small that no useful bound on rounding is known: positions are finite all the same.
+TEST(WeldedMesh, OfVeryDifferentWeightsIsWrittenAsFloats) {
+  const TemporaryFolder folder;
+  std::string text = "8\n3 3\n";
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      const double w = i == 1 && j == 1 ? 1e-9 : 1;
+      text += number_text(w * i) + " " + number_text(w * j) + " 0 " + number_text(w) + "\n";
+    }
+  }
+  const std::string in = folder.write("light.bv", text);
+  const ReadMesh ply = read_ply_mesh(tessellated(in, "ply", {"--grid", "9"}));
+  const ReadMesh glb = read_glb_mesh(tessellated(in, "glb", {"--grid", "9"}));
+  const ReadMesh stl = read_stl_mesh(tessellated(in, "stl", {"--grid", "9"}));
+  EXPECT_EQ(glb.positions, ply.positions);
+  EXPECT_FALSE(glb.deviation) << "none is certified";
+  EXPECT_EQ(stl.faces.size(), ply.faces.size());
+  const ReadMesh mesh = read_glb_mesh(tessellated(in, "glb", {"--grid", "9", "--quantise", "16"}));
+  ASSERT_EQ(mesh.positions.size(), ply.positions.size());
+  for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_NEAR(mesh.translation[c] + mesh.scale * mesh.positions[k][c] / 65535,
+                  ply.positions[k][c], mesh.scale / 65535);
+    }
+  }
+}
+
 } // namespace
 } // namespace simdbezier::tests::welded_mesh_test
