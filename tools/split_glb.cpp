@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include <tools/failure.hpp>
-#include <tools/interruption.hpp>
 
 namespace simdbezier::tools {
 

@@ -1,11 +1,6 @@
 // Binary glTF: one file, or several where one would be too large for the format.
 #include <tools/mesh_formats.hpp>
 
-#include <filesystem>
-#include <unordered_map>
-#include <vector>
-
-#include <tools/failure.hpp>
 #include <tools/glb_file.hpp>
 #include <tools/split_glb.hpp>
 
