@@ -81,6 +81,9 @@ private:
 /// points of edges that it owns (v0, v1, u0, u1, in the direction of its parameter), then its inner
 /// points row by row. The lowest of the patches that share a vertex owns it, on its first edge.
 ///
+/// Rates that separate_vertices() has not seen may leave patches whose sides are points without a
+/// triangle: those all of whose points are one vertex.
+///
 /// layout:     replaced on ok, left as it was otherwise.
 /// Allocation: about 40 bytes a patch and 8 an edge. Determinism: a function of its input alone.
 /// Returns:    ok | bad_rates (not one value a patch, or outside of 1 to kMostSegments) |

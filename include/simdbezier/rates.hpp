@@ -26,8 +26,8 @@ struct RateOptions {
   /// How far evaluated vertices may be from the exact ones, one value a patch: position_errors() of
   /// the set that will be evaluated. Part of the tolerance. Empty: 0.
   std::span<const double> errors = {};
-  /// No row or column of cells has a longer edge than about this: the length of control polygons
-  /// over the number of segments.
+  /// No row or column of cells has a longer edge than about this: the longest leg of the control
+  /// net times the degree, over the number of segments.
   double longest_edge = kUnlimited;
   /// No row or column of cells turns its normal by more than about this angle, in radians, from one
   /// point to the next: the total turn of the control net's normals over the number of segments.
@@ -74,7 +74,7 @@ template <typename T>
 /// Formula:  pixels * depth / (focal_length * f), depth being that of the nearest control point, at
 ///           least Camera::nearest, and f the secant of the angle between the axis and the corners
 ///           of the picture. Patches that lie in front of Camera::nearest altogether, and are not
-///           seen, get the diagonal of their control points' box.
+///           seen, get the diagonal of their control points' box, at least Camera::nearest.
 /// out:      one value a patch, in the order of all views.
 /// Returns:  ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
 ///           size_overflow | bad_tolerance (pixels, or a member of the camera, that is not above

@@ -59,8 +59,8 @@ struct QuantisationBox {
 
 /// The box of all control points, for one of the two formats.
 /// Returns: ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
-///          size_overflow | non_finite_input | bad_tolerance (another format, or all points are
-///          equal).
+///          size_overflow | non_finite_input | bad_tolerance (another format, or points so close to
+///          each other, or so far apart, that the step is 0 or infinite).
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status quantisation_box(std::span<const ControlNets<S>> sets,
                                                      VertexFormat format,
