@@ -8,13 +8,14 @@
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 /// Filip's bound for whole patches: nu with its best nv, and the other way round; the fewer cells.
+/// More than `most` in a direction where that pair would take them. Roundings and steps above about
+/// 2000 may take more than is left for them here, so a lane's result has to be looked at.
 template <typename V>
 SIMDBEZIER_INLINE LaneCells<V> filip_cells(const RateGroup<V>& group, V t, V most) {
   using T = ScalarOf<V>;
   const V one = broadcast<V>(T(1));
   const V tiny = broadcast<V>(std::numeric_limits<T>::min());
-  const V limit =
-      broadcast<V>(T(8) * (T(1) - T(1e-3))) * t; // steps may be longer: see zone_terms()
+  const V limit = broadcast<V>(T(8) * (T(1) - T(1e-3))) * t; // steps may be longer: see CellSteps
   const V a = group.largest.uu + group.doubt.uu;
   const V b = group.largest.uv + group.doubt.uv;
   const V c = group.largest.vv + group.doubt.vv;
@@ -107,7 +108,8 @@ struct CertifiedCells {
 };
 
 /// The fewest cells near those that the bound of an even pair of rates, in proportion to the
-/// tolerance, asks for. What Filip's bound gives always holds.
+/// tolerance, asks for. Where none of them holds, it is what Filip's bound gives, whose own bound
+/// may be above t.
 ///
 /// Few cells need all vectors looked at: the vectors that set the even pair's bound show of most
 /// cells that they do not hold. Every lane has candidates of its own, so that lanes do not wait for
@@ -234,14 +236,13 @@ SIMDBEZIER_INLINE void choose_group(const detail::RateTask<T>& task, std::size_t
     const double scaled = left / static_cast<double>(lanes.size[p]) * (1 - 0x1p-20);
     t[p] = scaled > 1e30 ? T(1e30) : scaled > 1e-30 ? static_cast<T>(scaled) : T(1e-30);
   }
-  const V most = broadcast<V>(static_cast<T>(task.most));
-  lanes.store(choose_cells<V>(scratch, group, load_vector<V>(t), most));
+  const T most = static_cast<T>(task.most);
+  lanes.store(choose_cells<V>(scratch, group, load_vector<V>(t), broadcast<V>(most)));
   for (std::size_t p = 0; p < count; ++p) {
-    const bool known = is_usual_size(lanes.size[p]);
-    const bool any = tolerance_of(task, first + p) > 0;
-    const std::uint32_t other = any ? detail::kUndecided : 0;
-    task.nu[first + p] = any && known ? static_cast<std::uint32_t>(lanes.nu[p]) : other;
-    task.nv[first + p] = any && known ? static_cast<std::uint32_t>(lanes.nv[p]) : other;
+    const bool holds = is_usual_size(lanes.size[p]) && tolerance_of(task, first + p) > 0 &&
+                       lanes.bound[p] <= t[p] && lanes.nu[p] <= most && lanes.nv[p] <= most;
+    task.nu[first + p] = holds ? static_cast<std::uint32_t>(lanes.nu[p]) : detail::kUndecided;
+    task.nv[first + p] = holds ? static_cast<std::uint32_t>(lanes.nv[p]) : detail::kUndecided;
   }
   lanes.put_bounds(task, first, count);
 }

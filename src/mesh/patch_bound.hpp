@@ -27,6 +27,10 @@ public:
   /// none.
   [[nodiscard]] CellCounts choose(double t, std::uint32_t most) const;
 
+  /// Adds cells in both directions, as long as there may be more, until the bound is at most t;
+  /// more than `most` in a direction where it never is, or where `cells` had more.
+  [[nodiscard]] CellCounts raise(CellCounts cells, double t, std::uint32_t most) const;
+
   /// The longest rows and columns of control points, in u and in v.
   [[nodiscard]] std::array<double, 2> lengths() const;
   /// The most that normals of the control net turn along its rows and columns.

