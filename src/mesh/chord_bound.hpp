@@ -3,8 +3,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 namespace simdbezier::detail {
+
+/// The larger of two bounds; infinity where one of them is no number, because comparisons with nan
+/// would pass it over.
+inline double larger_bound(double a, double b) {
+  return b <= a ? a : b > a ? b : std::numeric_limits<double>::infinity();
+}
 
 /// Largest value of (l0 l1 a + l0 l2 b + l1 l2 c) / 2 over the triangle, a, b, c >= 0: s/8 with s
 /// the largest of them where that one is at least half of the sum, else half of the square of a

@@ -120,7 +120,7 @@ bool VectorPatch::read(const ControlNets<S>& nets, std::size_t patch) {
   const S* const first = nets.points + static_cast<std::ptrdiff_t>(patch) * nets.patch_stride;
   double low[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   double high[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  double largest_weight = 1;
+  double largest_weight = 0;
   for (std::size_t j = 0; j < net.rows; ++j) {
     for (std::size_t i = 0; i < net.columns; ++i) {
       ControlVector& to = net(i, j);
@@ -145,6 +145,10 @@ bool VectorPatch::read(const ControlNets<S>& nets, std::size_t patch) {
   }
   exponent = largest > 0 ? std::ilogb(largest) : 0;
   largest = std::scalbn(largest, -exponent);
+  const int weight_exponent = std::ilogb(largest_weight);
+  for (ControlVector& v : net.at) {
+    v.x[3] = std::scalbn(v.x[3], -weight_exponent);
+  }
   for (std::size_t c = 0; c < 3; ++c) {
     const double least = std::scalbn(low[c], -exponent);
     const double middle = least + (std::scalbn(high[c], -exponent) - least) / 2;
@@ -152,8 +156,8 @@ bool VectorPatch::read(const ControlNets<S>& nets, std::size_t patch) {
       v.x[c] = (std::scalbn(v.x[c], -exponent) - middle) * v.x[3];
     }
   }
-  largest *= largest_weight;
-  return std::isfinite(largest);
+  largest *= std::scalbn(largest_weight, -weight_exponent);
+  return true;
 }
 
 template bool VectorPatch::read(const ControlNets<float>&, std::size_t);

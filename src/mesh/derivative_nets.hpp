@@ -82,7 +82,7 @@ struct VectorPatch {
   bool rational = false;
   double largest = 0; ///< of all values, for rounding
   /// Values are those given over two to this power: the largest is between 1 and 2, so that squares
-  /// neither overflow nor vanish.
+  /// neither overflow nor vanish. So is the largest weight, by a power that need not be known.
   int exponent = 0;
 
   /// Reads a patch: false where a value is not finite, or a weight not positive.

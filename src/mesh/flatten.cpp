@@ -62,7 +62,7 @@ public:
         square += d * d;
       }
       const double w = (weight_[i + 2] - weight_[i + 1]) - (weight_[i + 1] - weight_[i]);
-      most = std::max(most, std::sqrt(square) + radius_ * std::fabs(w));
+      most = larger_bound(most, std::sqrt(square) + radius_ * std::fabs(w));
     }
     // Values around the middle err by a few u of the box, and divided ones by u of their own size;
     // a second difference has four of them.
@@ -74,15 +74,15 @@ public:
       return 0;
     }
     const double all = n * (n - 1) * (most + doubt) / lightest * (1 + 1e-12);
-    return std::scalbn(all, exponent_) + std::numeric_limits<double>::denorm_min();
+    return std::scalbn(larger_bound(0, all), exponent_) + std::numeric_limits<double>::denorm_min();
   }
 
 private:
   [[nodiscard]] double weighted(std::size_t i, std::size_t c) const {
     return weight_[i] * point_[i][c];
   }
-  /// Divides by the power of two that brings the largest value between 1 and 2, so that squares
-  /// neither overflow nor vanish.
+  /// Divides by the powers of two that bring the largest value and the largest weight between 1 and
+  /// 2, so that squares neither overflow nor vanish.
   void scale() {
     double largest = 0;
     for (std::size_t i = 0; i < points_; ++i) {
@@ -91,7 +91,9 @@ private:
       }
     }
     exponent_ = largest > 0 ? std::ilogb(largest) : 0;
+    const int weight_exponent = std::ilogb(*std::max_element(weight_, weight_ + points_));
     for (std::size_t i = 0; i < points_; ++i) {
+      weight_[i] = std::scalbn(weight_[i], -weight_exponent);
       for (std::size_t c = 0; c < components_; ++c) {
         point_[i][c] = std::scalbn(point_[i][c], -exponent_);
       }

@@ -28,7 +28,7 @@ SecondBounds measure(const SecondNets& nets, const Hull& hull) {
   const auto most = [&](const VectorNet& net) {
     double size = 0;
     for (const ControlVector& v : net.at) {
-      size = std::max(size, hull.size(v));
+      size = larger_bound(size, hull.size(v));
     }
     return size;
   };
@@ -57,18 +57,18 @@ double measure_diagonal(const SecondNets& raised, const CellSteps& steps, bool f
   const double uv = falling ? -steps.uv : steps.uv;
   double size = 0;
   for (std::size_t k = 0; k < raised.uu.at.size(); ++k) {
-    size = std::max(size, hull.size(steps.uu * raised.uu.at[k] + uv * raised.uv.at[k] +
-                                    steps.vv * raised.vv.at[k]));
+    size = larger_bound(size, hull.size(steps.uu * raised.uu.at[k] + uv * raised.uv.at[k] +
+                                        steps.vv * raised.vv.at[k]));
   }
   return size;
 }
 
 double bound_of(const CellSteps& steps, const SecondBounds& largest, double diagonal,
                 const SecondBounds& doubt, const Hull& hull) {
-  return triangle_bound(steps.uu * (largest.uu + doubt.uu), steps.vv * (largest.vv + doubt.vv),
-                        diagonal + steps.uu * doubt.uu + steps.uv * doubt.uv +
-                            steps.vv * doubt.vv) /
-         hull.smallest_weight;
+  const double bound =
+      triangle_bound(steps.uu * (largest.uu + doubt.uu), steps.vv * (largest.vv + doubt.vv),
+                     diagonal + steps.uu * doubt.uu + steps.uv * doubt.uv + steps.vv * doubt.vv);
+  return larger_bound(0, bound / hull.smallest_weight);
 }
 
 } // namespace
@@ -90,8 +90,8 @@ bool PatchBound::read(const ControlNets<S>& nets, std::size_t patch, std::uint8_
     for (const QuarterSet set : kZones) {
       if ((set >> k & 1) != 0) {
         const SecondBounds part = measure(quarter, hull_of(set));
-        largest_[set].uu = std::max(largest_[set].uu, part.uu);
-        largest_[set].vv = std::max(largest_[set].vv, part.vv);
+        largest_[set].uu = larger_bound(largest_[set].uu, part.uu);
+        largest_[set].vv = larger_bound(largest_[set].vv, part.vv);
       }
     }
     raise_all(quarter, patch_.net);
@@ -137,7 +137,7 @@ double PatchBound::zone_bound(QuarterSet quarters, const CellCounts& cells, bool
   double diagonal = 0;
   for (std::size_t k = 0; k < raised_.size(); ++k) {
     if ((quarters >> k & 1) != 0) {
-      diagonal = std::max(diagonal, measure_diagonal(raised_[k], steps, falling, hull));
+      diagonal = larger_bound(diagonal, measure_diagonal(raised_[k], steps, falling, hull));
     }
   }
   return bound_of(steps, largest_[quarters], diagonal, doubt_, hull);
@@ -182,7 +182,7 @@ double PatchBound::in_space(double bound) const {
 double PatchBound::rising_bound(const CellCounts& cells) const {
   double worst = 0;
   for_zones(cells, [&](QuarterSet quarters, std::size_t) {
-    worst = std::max(worst, zone_bound(quarters, cells, false));
+    worst = larger_bound(worst, zone_bound(quarters, cells, false));
   });
   return in_space(worst * kRounding);
 }
@@ -196,11 +196,11 @@ double PatchBound::bound(const CellCounts& cells, std::uint16_t* diagonals) cons
     if (!(rising_bound < falling_bound)) {
       falling = static_cast<std::uint16_t>(falling | 1U << zone);
     }
-    worst = std::max(worst, std::min(rising_bound, falling_bound));
+    worst = larger_bound(worst, std::min(rising_bound, falling_bound));
   });
   for (std::size_t corner = 0; corner < kPatchCorners; ++corner) {
     if (is_forced_through(flags_, corner)) {
-      worst = std::max(worst, corner_bound(corner, cells));
+      worst = larger_bound(worst, corner_bound(corner, cells));
     }
   }
   if (diagonals != nullptr) {
@@ -216,10 +216,10 @@ std::array<double, 2> PatchBound::lengths() const {
     for (std::size_t i = 0; i < patch_.net.columns; ++i) {
       const ControlVector& at = patch_.net(i, j);
       if (i > 0) {
-        longest[0] = std::max(longest[0], hull.size(at - patch_.net(i - 1, j)));
+        longest[0] = larger_bound(longest[0], hull.size(at - patch_.net(i - 1, j)));
       }
       if (j > 0) {
-        longest[1] = std::max(longest[1], hull.size(at - patch_.net(i, j - 1)));
+        longest[1] = larger_bound(longest[1], hull.size(at - patch_.net(i, j - 1)));
       }
     }
   }
