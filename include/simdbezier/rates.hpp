@@ -137,8 +137,8 @@ template <typename S>
 /// deviation: one value a patch, `errors` included, which has as many or none.
 /// Returns:   ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
 ///            size_overflow | non_finite_input | bad_weight | bad_rates (outside of 1 to
-///            kMostGridCells, or spans that are not one value a patch) | out_of_memory. Cost: 30 us
-///            and more a patch.
+///            kMostGridCells, or spans that are not one value a patch) | bad_tolerance (an error
+///            below 0 or nan) | out_of_memory. Cost: 30 us and more a patch.
 inline constexpr std::uint32_t kMostGridCells = std::uint32_t{1} << 20;
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<S>> sets,

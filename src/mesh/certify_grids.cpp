@@ -12,6 +12,13 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
+/// Lowers a number that several threads lower.
+void lower(std::atomic<std::size_t>& least, std::size_t to) noexcept {
+  std::size_t now = least;
+  while (to < now && !least.compare_exchange_weak(now, to)) {
+  }
+}
+
 /// All patches of one view.
 template <typename S>
 RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::span<double> deviation,
@@ -26,19 +33,29 @@ RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::spa
     return {fault.status, fault.patch};
   }
   std::atomic<bool> failed = false;
+  std::atomic<std::size_t> unreadable = nets.count; // the first patch that is
   auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
     try {
       PatchBound bound;
       for (std::size_t patch = begin; patch < end; ++patch) {
-        static_cast<void>(bound.read(nets, patch, 0)); // nets without faults can be read
-        deviation[patch] += bound.rising_bound(cells);
+        if (bound.read(nets, patch, 0)) {
+          deviation[patch] += bound.rising_bound(cells);
+        } else { // a quotient of values without faults is out of range
+          lower(unreadable, patch);
+        }
       }
     } catch (const std::bad_alloc&) {
       failed = true;
     }
   };
   for_blocks(nets.count, thread_count(threads, nets.count), BlockBody(body));
-  return {failed ? Status::out_of_memory : Status::ok};
+  if (failed) {
+    return {Status::out_of_memory};
+  }
+  if (const std::size_t patch = unreadable; patch < nets.count) {
+    return {Status::non_finite_input, patch};
+  }
+  return {};
 }
 
 } // namespace
@@ -59,6 +76,9 @@ RateReport certify_grids(std::span<const ControlNets<S>> sets, std::uint32_t nu,
   }
   for (std::size_t patch = 0; patch < patches; ++patch) {
     deviation[patch] = errors.empty() ? 0 : errors[patch];
+    if (!(deviation[patch] >= 0)) {
+      return {Status::bad_tolerance, patch};
+    }
   }
   std::size_t first = 0;
   for (const ControlNets<S>& nets : sets) {

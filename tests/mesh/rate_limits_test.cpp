@@ -222,5 +222,42 @@ TEST(RateReports, name_the_first_patch_of_all_sets) {
   }
 }
 
+TEST(GridCertificates, are_refused_where_there_are_none) {
+  struct Case {
+    Weights weights;
+    double x;
+    double weight;
+    double error;
+    Status status;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Case cases[] = {{Weights::homogeneous, 1e200, 1e-200, 0, Status::non_finite_input},
+                        {Weights::homogeneous, 1e200, 1, 0, Status::ok},
+                        {Weights::cartesian, 1, 1.5e308, 0, Status::ok},
+                        {Weights::cartesian, 1, 1, -5, Status::bad_tolerance},
+                        {Weights::cartesian, 1, 1, nan, Status::bad_tolerance},
+                        {Weights::cartesian, 1, 1, 5, Status::ok}};
+  for (const Case& each : cases) {
+    SCOPED_TRACE(&each - cases);
+    std::vector<double> values;
+    for (int k = 0; k < 8; ++k) { // two bilinear patches; the second one is at fault
+      const bool at_fault = k == 6;
+      values.insert(values.end(), {at_fault ? each.x : k % 2, 1.0 * (k / 2 % 2), 1.0 * k,
+                                   at_fault ? each.weight : 1});
+    }
+    const ControlNets<double> nets =
+        ControlNets<double>::packed(values.data(), 2, 1, 1, 3, each.weights);
+    const std::vector<double> errors = {0, each.error};
+    std::vector<double> deviation(2);
+    const RateReport report = certify_grids<double>({&nets, 1}, 3, 3, errors, deviation);
+    EXPECT_EQ(report.status, each.status);
+    EXPECT_EQ(report.patch, each.status == Status::ok ? 0U : 1U);
+    if (each.status == Status::ok) {
+      EXPECT_GE(deviation[1], each.error);
+      EXPECT_GT(deviation[1], 0);
+    }
+  }
+}
+
 } // namespace
 } // namespace simdbezier::tests::rate_limits_test
