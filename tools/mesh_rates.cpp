@@ -22,9 +22,7 @@ struct Tolerances {
 template <typename T>
 Tolerances find_tolerances(const RatedPatches<T>& patches, const MeshArguments& mesh) {
   Tolerances found;
-  // Far more than any mesh is off, where nothing but an angle is asked for.
-  found.all = patches.diagonal > 0 ? 1e3 * patches.diagonal : 1;
-  found.all = std::min(found.all, mesh.tolerance.value_or(found.all));
+  found.all = mesh.tolerance.value_or(kUnlimited);
   if (mesh.relative && patches.diagonal > 0) {
     found.all = std::min(found.all, *mesh.relative * patches.diagonal);
   }
@@ -34,6 +32,11 @@ Tolerances find_tolerances(const RatedPatches<T>& patches, const MeshArguments& 
     for (double& tolerance : found.single) {
       tolerance = std::min(tolerance, found.all);
     }
+  }
+  if (found.all == kUnlimited) {
+    // Far more than any mesh is off, where nothing but an angle is asked for.
+    const double size = patches.diagonal > 0 ? 1e3 * patches.diagonal : 1;
+    found.all = std::max(size, 1e3 * std::ranges::max(patches.errors));
   }
   return found;
 }

@@ -1,5 +1,6 @@
 // Bounds of very small and very large models are those of usual ones, times the scale.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -134,6 +135,38 @@ TEST(MeshScale, points_and_snapping_go_with_it) {
       EXPECT_EQ(plan.counts.snapped_sides, snap > 0.1 ? 2U : 0U);
       EXPECT_EQ(std::scalbn(plan.deviations[1], -exponent) >= 0.0999, snap > 0.1);
     }
+
+TEST(MeshScale, a_model_that_is_nearly_one_point_has_the_tolerance_that_is_asked_for) {
+  // All but one point: its size is far below the tolerance, and below what its vertices are off.
+  std::vector<double> values(48, 1000.0);
+  values[15] += 1e-12;
+  const auto nets = ControlNets<double>::packed(std::span<const double>(values));
+  const std::array<double, 1> own = {0.1};
+  struct Case {
+    const char* name;
+    MeshOptions options;
+    Status status;
+  };
+  std::vector<Case> cases(6);
+  cases[0] = {"tolerance", {}, Status::ok};
+  cases[0].options.tolerance = 0.1;
+  cases[1] = {"tolerances", {}, Status::ok};
+  cases[1].options.tolerances = own;
+  cases[2] = {"pixels", {}, Status::ok};
+  cases[2].options.pixels = 1;
+  cases[2].options.camera.eye = {1000, 1000, 2000};
+  cases[3] = {"angle", {}, Status::ok};
+  cases[3].options.normal_angle = 0.1;
+  cases[4] = {"below the vertices' errors", {}, Status::bad_tolerance};
+  cases[4].options.tolerance = 1e-9;
+  cases[5] = {"the smaller of two", {}, Status::bad_tolerance};
+  cases[5].options.tolerances = own;
+  cases[5].options.tolerance = 1e-9;
+  for (const Case& each : cases) {
+    SCOPED_TRACE(each.name);
+    const MeshPlan<float> plan = plan_mesh<float>(nets, each.options);
+    EXPECT_EQ(plan.status, each.status);
+    EXPECT_LE(plan.deviation, 0.1);
   }
 }
 
