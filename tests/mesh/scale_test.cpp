@@ -135,6 +135,8 @@ TEST(MeshScale, points_and_snapping_go_with_it) {
       EXPECT_EQ(plan.counts.snapped_sides, snap > 0.1 ? 2U : 0U);
       EXPECT_EQ(std::scalbn(plan.deviations[1], -exponent) >= 0.0999, snap > 0.1);
     }
+  }
+}
 
 TEST(MeshScale, a_model_that_is_nearly_one_point_has_the_tolerance_that_is_asked_for) {
   // All but one point: its size is far below the tolerance, and below what its vertices are off.
