@@ -12,13 +12,6 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-/// Lowers a number that several threads lower.
-void lower(std::atomic<std::size_t>& least, std::size_t to) noexcept {
-  std::size_t now = least;
-  while (to < now && !least.compare_exchange_weak(now, to)) {
-  }
-}
-
 /// All patches of one view.
 template <typename S>
 RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::span<double> deviation,

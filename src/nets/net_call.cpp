@@ -208,9 +208,7 @@ NetReport find_fault(const ControlNets<S>& nets, int threads, bool signed_weight
     for (std::size_t patch = begin * kMaxLanes;
          patch < std::min(end * kMaxLanes, nets.count) && patch < first; ++patch) {
       if (doubtful(view, patch, check_weights) && !fault_of(nets, patch, signed_weights)) {
-        std::size_t known = first;
-        while (patch < known && !first.compare_exchange_weak(known, patch)) {
-        }
+        lower(first, patch);
         return;
       }
     }

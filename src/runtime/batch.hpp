@@ -41,6 +41,13 @@ private:
 /// floating-point environment. One thread is the caller's own, without an OpenMP region.
 void for_blocks(std::size_t units, int threads, BlockBody body) noexcept;
 
+/// Lowers a number that several threads lower.
+inline void lower(std::atomic<std::size_t>& least, std::size_t to) noexcept {
+  std::size_t now = least;
+  while (to < now && !least.compare_exchange_weak(now, to)) {
+  }
+}
+
 /// Scratch of a call's threads, each from a cache line of its own.
 class ThreadScratch {
 public:
