@@ -1,11 +1,9 @@
 // Open CASCADE, Geom_BezierSurface::D0 and D1: double, sample by sample.
-#include <Geom_BezierSurface.hxx>
-#include <TColgp_Array2OfPnt.hxx>
-#include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>
 
 #include <vector>
 
+#include "bench/peers/opencascade_surface.hpp"
 #include "bench/peers/peers.hpp"
 
 namespace simdbezier_bench {
@@ -19,11 +17,7 @@ struct Batch {
   Batch(const GridJob<double>& job, const double* nets)
       : u(job.u, job.u + job.nu), v(job.v, job.v + job.nv), out(job.out) {
     for (std::size_t patch = 0; patch < job.patches; ++patch, nets += 48) {
-      TColgp_Array2OfPnt poles(1, 4, 1, 4);
-      for (int k = 0; k < 16; ++k) {
-        poles.SetValue(k % 4 + 1, k / 4 + 1, gp_Pnt(nets[3 * k], nets[3 * k + 1], nets[3 * k + 2]));
-      }
-      surfaces.push_back(new Geom_BezierSurface(poles));
+      surfaces.push_back(opencascade_surface(nets));
     }
   }
 

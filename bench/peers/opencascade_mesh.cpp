@@ -3,15 +3,13 @@
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
-#include <Geom_BezierSurface.hxx>
-#include <TColgp_Array2OfPnt.hxx>
 #include <TopoDS_Face.hxx>
-#include <gp_Pnt.hxx>
 
 #include <limits>
 #include <sstream>
 #include <string>
 
+#include "bench/peers/opencascade_surface.hpp"
 #include "bench/peers/peers.hpp"
 
 namespace simdbezier_bench {
@@ -25,12 +23,7 @@ public:
   explicit OpenCascadeMesher(std::span<const double> nets) {
     BRepBuilderAPI_Sewing sewing(kSewingTolerance);
     for (std::size_t at = 0; at < nets.size(); at += 48) {
-      TColgp_Array2OfPnt poles(1, 4, 1, 4);
-      for (int k = 0; k < 16; ++k) {
-        const double* const point = &nets[at + 3 * static_cast<std::size_t>(k)];
-        poles.SetValue(k % 4 + 1, k / 4 + 1, gp_Pnt(point[0], point[1], point[2]));
-      }
-      const opencascade::handle<Geom_Surface> surface = new Geom_BezierSurface(poles);
+      const opencascade::handle<Geom_Surface> surface = opencascade_surface(&nets[at]);
       sewing.Add(BRepBuilderAPI_MakeFace(surface, kSewingTolerance).Face());
     }
     sewing.Perform();
