@@ -90,11 +90,12 @@ double stated_deviation(MeshFormat format, const MeshContents& contents) {
   }
   assert(contents.box);
   const double size = largest_coordinate(*contents.box);
-  // Whoever reads quantised positions scales and moves them in floats: three roundings.
+  // Whoever reads quantised positions computes in floats. 1 / 65535, the extent and both products
+  // are rounded, which are parts of the extent; so are the box's corner and the sum.
+  const double extent = quantised ? quantised_space(*contents.box).extent : 0;
   const double component =
-      quantised ? quantised_space(*contents.box).extent / 65535 / 2 + 3 * kHalfFloat * size
-                : kHalfFloat * size + 0x1p-150;
-  const double error = std::sqrt(3.0) * component * (1 + 0x1p-40);
+      quantised ? extent / 65535 / 2 + kHalfFloat * (4 * extent + 2 * size) : kHalfFloat * size;
+  const double error = std::sqrt(3.0) * (component * (1 + 0x1p-32) + 0x1p-148);
   return std::nextafter(*contents.deviation + error, HUGE_VAL);
 }
 

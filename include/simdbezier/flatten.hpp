@@ -37,10 +37,11 @@ struct FlattenReport {
 };
 
 /// Upper bounds on the distance of evaluated points of each curve from the exact ones: the norm of
-/// error_bounds(). out: one value a curve. Returns: ok | output_too_small.
+/// error_bounds(). out: one value a curve. isa: as there.
+/// Returns: ok | output_too_small | unknown_isa | unsupported_isa.
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API Status position_errors(const CurveSet<T>& set,
-                                                    std::span<double> out) noexcept;
+[[nodiscard]] SIMDBEZIER_API Status position_errors(const CurveSet<T>& set, std::span<double> out,
+                                                    Isa isa = Isa::automatic) noexcept;
 
 /// The fewest uniform parameters with which every curve is within its tolerance of its polyline,
 /// and the polyline of the curve: 2 or more points, as CurveGrids::n takes them.
@@ -57,8 +58,8 @@ template <typename T>
 /// Determinism: the same on all machines. Allocation: none.
 /// Returns:    ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
 ///             non_finite_input | bad_weight | unequal_lengths (spans that are not one value a
-///             curve) | bad_tolerance (not above zero, or not above the curve's error, or more than
-///             most_points would be needed; the report names the curve). Outputs are undefined on
+///             curve) | bad_tolerance (not above zero, or not above the curve's error, an error below zero,
+///             or more than most_points would be needed; the report names the curve). Outputs are undefined on
 ///             an error.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API FlattenReport choose_polylines(const ControlCurves<S>& curves,

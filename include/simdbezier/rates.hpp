@@ -8,6 +8,7 @@
 #include <span>
 
 #include <simdbezier/control_nets.hpp>
+#include <simdbezier/isa.hpp>
 #include <simdbezier/mesh_layout.hpp>
 #include <simdbezier/patch_set.hpp>
 #include <simdbezier/topology.hpp>
@@ -63,10 +64,11 @@ struct CertifiedRates {
 };
 
 /// Upper bounds on the distance of evaluated positions of each patch from the exact ones: the norm
-/// of error_bounds(). out: one value a patch. Returns: ok | output_too_small.
+/// of error_bounds(). out: one value a patch. isa: as there.
+/// Returns: ok | output_too_small | unknown_isa | unsupported_isa.
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API Status position_errors(const PatchSet<T>& set,
-                                                    std::span<double> out) noexcept;
+[[nodiscard]] SIMDBEZIER_API Status position_errors(const PatchSet<T>& set, std::span<double> out,
+                                                    Isa isa = Isa::automatic) noexcept;
 
 /// Tolerances for choose_rates() with which no point of a surface is seen more than `pixels` away
 /// from its place on the mesh, from this camera.

@@ -170,7 +170,7 @@ Status flatten_into(const ControlCurves<S>& curves, double tolerance, const Opti
   std::vector<double> errors(set.size());
   std::vector<double> deviation(set.size());
   std::vector<std::uint32_t> points(set.size());
-  Status status = position_errors(set, std::span<double>(errors));
+  Status status = position_errors(set, std::span<double>(errors), options.isa);
   const FlattenReport report = choose_polylines(curves, {tolerance, {}, errors}, points, deviation);
   if (!status || !report) {
     lines.fault_curve = report.curve;
@@ -196,15 +196,19 @@ Status flatten_into(const ControlCurves<S>& curves, double tolerance, const Opti
 } // namespace detail
 
 template <typename T>
-Status position_errors(const CurveSet<T>& set, std::span<double> out) noexcept {
+Status position_errors(const CurveSet<T>& set, std::span<double> out, Isa isa) noexcept {
   if (out.size() < set.size()) {
     return Status::output_too_small;
+  }
+  Isa chosen = Isa::automatic;
+  if (const Status status = resolve_isa(isa, chosen); !status) {
+    return status;
   }
   const detail::DefaultFpEnvironment environment;
   for (std::size_t curve = 0; curve < set.size(); ++curve) {
     double square = 0;
     double norm = 0; // taken where squares overflow or vanish
-    for (const double error : error_bounds(set, curve).position) {
+    for (const double error : error_bounds(set, curve, chosen).position) {
       square += error * error;
       norm = std::hypot(norm, error);
     }
@@ -238,7 +242,8 @@ FlattenReport choose_polylines(const ControlCurves<S>& curves, const FlattenOpti
     // Less one rounding, so that bound and error together stay below what was wanted.
     const double t = wanted * (1 - 0x1p-51) - error;
     const double second = bound.second();
-    const std::uint32_t count = t > 0 ? detail::points_for(second, t, options.most_points) : 0;
+    const bool possible = t > 0 && error >= 0;
+    const std::uint32_t count = possible ? detail::points_for(second, t, options.most_points) : 0;
     if (count == 0) {
       return {Status::bad_tolerance, curve};
     }
@@ -271,8 +276,10 @@ Polylines<T> flatten(const ControlCurves<S>& curves, double tolerance,
   return none;
 }
 
-template SIMDBEZIER_API Status position_errors(const CurveSet<float>&, std::span<double>) noexcept;
-template SIMDBEZIER_API Status position_errors(const CurveSet<double>&, std::span<double>) noexcept;
+template SIMDBEZIER_API Status position_errors(const CurveSet<float>&, std::span<double>,
+                                               Isa) noexcept;
+template SIMDBEZIER_API Status position_errors(const CurveSet<double>&, std::span<double>,
+                                               Isa) noexcept;
 #define SIMDBEZIER_INSTANTIATE(S)                                                                  \
   template SIMDBEZIER_API FlattenReport choose_polylines(                                          \
       const ControlCurves<S>&, const FlattenOptions&, std::span<std::uint32_t>,                    \

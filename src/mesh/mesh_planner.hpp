@@ -123,7 +123,7 @@ private:
     plan_.deviations.resize(patches);
     diagonals_.resize(patches);
     errors_.resize(patches);
-    return position_errors(plan_.set, errors_);
+    return position_errors(plan_.set, errors_, options_.isa);
   }
 
   Status choose() {

@@ -158,6 +158,10 @@ TEST(FlattenSizes, bad_input_is_a_status) {
   const FlattenReport report = choose_polylines(curve.curves(), {0.1, {}, errors}, points, {});
   EXPECT_EQ(report.status, Status::bad_tolerance);
   EXPECT_EQ(report.curve, 1U);
+  for (const double error : {-1e-3, -1.0, nan}) {
+    const std::array<double, 2> impossible = {0, error};
+    EXPECT_EQ(status({0.1, {}, impossible}), Status::bad_tolerance) << error;
+  }
   EXPECT_EQ(choose_polylines(curve.curves(), {0.1}, std::span(points).first(1), {}).status,
             Status::unequal_lengths);
   EXPECT_EQ(status({0.1, std::span(errors).first(1)}), Status::unequal_lengths);

@@ -148,6 +148,35 @@ TEST(MeshOptions, pixels_are_those_of_the_camera) {
   }
 }
 
+/// Vertices that are computed without fused operations are certified as such.
+TEST(MeshOptions, deviations_are_those_of_the_instruction_set) {
+  std::vector<double> values = sheet_values();
+  for (double& value : values) {
+    value += 1000; // rounding is most of what single precision deviates by
+  }
+  const auto nets = ControlNets<double>::packed(std::span<const double>(values));
+  for (const Isa isa : available_isas()) {
+    MeshOptions options;
+    options.nu = options.nv = 33;
+    options.isa = isa;
+    const MeshPlan<float> plan = plan_mesh<float>(nets, options);
+    ASSERT_EQ(plan.status, Status::ok);
+    std::vector<double> rounding(plan.set.size());
+    ASSERT_TRUE(position_errors(plan.set, rounding, isa));
+    for (std::size_t p = 0; p < rounding.size(); ++p) {
+      EXPECT_GE(plan.deviations[p], rounding[p]) << to_string(isa);
+      EXPECT_LE(plan.deviations[p], rounding[p] + 0.01) << to_string(isa);
+    }
+    options.isa = Isa::scalar;
+    const MeshPlan<float> unfused = plan_mesh<float>(nets, options);
+    EXPECT_EQ(plan.deviation < unfused.deviation, fuses_multiply_add(isa)) << to_string(isa);
+  }
+  std::vector<double> rounding(nets.count);
+  EXPECT_EQ(position_errors(plan_mesh<float>(nets, {.nu = 2, .nv = 2}).set, rounding,
+                            static_cast<Isa>(99)),
+            Status::unsupported_isa);
+}
+
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Only the camera's direction counts, whatever its length, and any finite eye is one.

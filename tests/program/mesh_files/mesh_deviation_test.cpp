@@ -5,6 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include <tools/mesh_file.hpp>
+
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/mesh_files/welded_mesh.hpp"
 
@@ -86,6 +88,36 @@ TEST(MeshDeviation, IsFinerWhereMoreIsAsked) {
     EXPECT_LE(*mesh.deviation, std::strtod(tolerance, nullptr));
     EXPECT_GT(mesh.faces.size(), faces);
     faces = mesh.faces.size();
+  }
+}
+
+// Readers multiply by the extent and add the corner in floats, whichever way they normalise.
+TEST(MeshDeviation, OfQuantisedPositionsIncludesWhatReadersRound) {
+  const struct {
+    double low;
+    double extent;
+  } kBoxes[] = {{0, 1},      {1000.1, 10},  {-1.1, 2.4},     {-1.0270445908326944, 2.1527334588487},
+                {-7, 0.001}, {0.1, 1e-300}, {-1e30, 2.1e30}, {-3.3e-40, 1e-39}};
+  for (const auto& [low, extent] : kBoxes) {
+    tools::MeshContents contents;
+    contents.storage = tools::VertexStorage::quantised_16;
+    contents.box = {{low, low, low}, {low + extent, low + extent, low + extent}};
+    contents.deviation = 0;
+    const double width = (low + extent) - low;
+    double worst = 0;
+    for (int q = 0; q <= 65535; ++q) {
+      const double exact = low + width * (q / 65535.0);
+      for (const float t : {static_cast<float>(q) / 65535.0F,
+                            static_cast<float>(q) * static_cast<float>(1 / 65535.0)}) {
+        const float scaled = static_cast<float>(width) * t;
+        const float read = static_cast<float>(low) + scaled;
+        worst = std::max(worst, std::abs(static_cast<double>(read) - exact));
+      }
+    }
+    const double half_step = width / 65535 / 2;
+    EXPECT_GE(tools::stated_deviation<float>(tools::MeshFormat::glb, contents),
+              std::sqrt(3.0) * (half_step + worst))
+        << low << " " << extent;
   }
 }
 
