@@ -31,6 +31,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <type_traits>
 
 #include <simdbezier/options.hpp>
@@ -99,7 +100,7 @@ namespace detail {
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API T one_less(T t) noexcept;
 template <typename T>
-[[nodiscard]] SIMDBEZIER_API T quotient(int i, int n) noexcept;
+[[nodiscard]] SIMDBEZIER_API T quotient(std::int64_t i, std::int64_t n) noexcept;
 
 } // namespace detail
 
@@ -113,9 +114,9 @@ public:
   constexpr UnitParameter(T t) noexcept : t_(t), complement_(one_less(t)) {} // NOLINT: implicit
   /// Counted from the other end: the complement is c, and t = 1 - c rounded.
   [[nodiscard]] static constexpr UnitParameter from_end(T c) noexcept { return {one_less(c), c}; }
-  /// i / n and (n - i) / n, each rounded once; n > 0.
+  /// i / n and (n - i) / n, each rounded once where T holds i, n and n - i; n > 0.
   [[nodiscard]] static constexpr UnitParameter fraction(int i, int n) noexcept {
-    return {quotient(i, n), quotient(n - i, n)};
+    return {quotient(i, n), quotient(std::int64_t{n} - i, n)};
   }
 
   [[nodiscard]] constexpr T t() const noexcept { return t_; }
@@ -129,7 +130,7 @@ private:
   static constexpr T one_less(T t) noexcept {
     return std::is_constant_evaluated() ? T(1) - t : detail::one_less(t);
   }
-  static constexpr T quotient(int i, int n) noexcept {
+  static constexpr T quotient(std::int64_t i, std::int64_t n) noexcept {
     return std::is_constant_evaluated() ? static_cast<T>(i) / static_cast<T>(n)
                                         : detail::quotient<T>(i, n);
   }

@@ -171,6 +171,19 @@ AnyPointViews<View> any_views_of(std::vector<Points>&& arrays) {
                   : views_of<double, View>(std::move(arrays));
 }
 
+// Whether these are Python's integers, which numpy leaves as objects where its own are too short.
+bool are_integers(const py::array& objects) {
+  if (objects.dtype().kind() != 'O') {
+    return false;
+  }
+  for (const py::handle item : objects.attr("flat")) {
+    if (!py::isinstance<py::int_>(item)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 } // namespace
 
 std::string dtype_name(const py::array& array) {
@@ -252,6 +265,9 @@ py::array_t<std::uint32_t> indices(const py::object& values, std::size_t count,
   py::array array = any_array(values, argument);
   const char kind = array.dtype().kind();
   if ((kind != 'i' && kind != 'u') && array.size() > 0) {
+    if (are_integers(array)) {
+      throw_index_error(argument, "a number is outside of the set");
+    }
     throw_type_error(argument, "expected integers, found " + dtype_name(array));
   }
   if (array.ndim() == 0) {

@@ -120,7 +120,7 @@ simdbezier_status simdbezier_last_fault(simdbezier_fault* fault) {
   if (fault == nullptr) {
     return SIMDBEZIER_NULL_OUTPUT;
   }
-  if (!is_size(fault->struct_size, kFirstSize<simdbezier_fault>)) {
+  if (!is_size<simdbezier_fault>(fault->struct_size)) {
     return SIMDBEZIER_BAD_STRUCT_SIZE;
   }
   simdbezier_fault known{};

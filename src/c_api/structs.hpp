@@ -18,8 +18,11 @@ inline constexpr std::size_t kFirstSize = sizeof(S);
 /// No struct will ever be larger; a larger struct_size is one that was never set.
 inline constexpr std::size_t kMostSize = 4096;
 
-inline bool is_size(std::size_t size, std::size_t least) noexcept {
-  return size >= least && size <= kMostSize;
+/// Whether some version of S can have that size: one that is no multiple of its alignment would
+/// leave the next element of an array where none can lie.
+template <typename S>
+bool is_size(std::size_t size) noexcept {
+  return size >= kFirstSize<S> && size <= kMostSize && size % alignof(S) == 0;
 }
 
 /// The caller's struct in the size that is known here. Members that the caller did not know become
@@ -29,7 +32,7 @@ S read(const S* given, const Path& path) {
   static_assert(std::is_trivially_copyable_v<S>);
   require(given != nullptr, SIMDBEZIER_NULL_INPUT, path);
   const std::size_t size = given->struct_size;
-  require(is_size(size, kFirstSize<S>), SIMDBEZIER_BAD_STRUCT_SIZE, path / "struct_size");
+  require(is_size<S>(size), SIMDBEZIER_BAD_STRUCT_SIZE, path / "struct_size");
   S known{};
   std::memcpy(&known, given, std::min(size, sizeof(S)));
   if (size > sizeof(S)) {
@@ -52,7 +55,7 @@ S read_element(const S* array, std::size_t k, const char* name) {
   const Path path{name, k};
   require(array != nullptr, SIMDBEZIER_NULL_INPUT, {name});
   const std::size_t size = array->struct_size;
-  require(is_size(size, kFirstSize<S>), SIMDBEZIER_BAD_STRUCT_SIZE, Path{name, 0} / "struct_size");
+  require(is_size<S>(size), SIMDBEZIER_BAD_STRUCT_SIZE, Path{name, 0} / "struct_size");
   const auto* const bytes = reinterpret_cast<const unsigned char*>(array) + k * size;
   const auto* const element = reinterpret_cast<const S*>(bytes);
   require(element->struct_size == size, SIMDBEZIER_BAD_STRUCT_SIZE, path / "struct_size");
@@ -63,8 +66,7 @@ S read_element(const S* array, std::size_t k, const char* name) {
 template <typename S>
 void require_writable(const S* result, const Path& path) {
   require(result != nullptr, SIMDBEZIER_NULL_OUTPUT, path);
-  require(is_size(result->struct_size, kFirstSize<S>), SIMDBEZIER_BAD_STRUCT_SIZE,
-          path / "struct_size");
+  require(is_size<S>(result->struct_size), SIMDBEZIER_BAD_STRUCT_SIZE, path / "struct_size");
 }
 
 /// Writes what the caller's struct has room for; members that are not known here become zero.

@@ -66,6 +66,8 @@ const Case kCases[] = {
      [](World& w) { return w.grid.struct_size -= 8, w.evaluate(); }},
     {SIMDBEZIER_BAD_STRUCT_SIZE, "out->struct_size",
      [](World& w) { return w.out.struct_size = std::size_t(1) << 40, w.evaluate(); }},
+    {SIMDBEZIER_BAD_STRUCT_SIZE, "grid->struct_size",
+     [](World& w) { return w.grid.struct_size += 4, w.evaluate(); }},
     {SIMDBEZIER_BAD_STRUCT_SIZE, "options->struct_size",
      [](World& w) { return w.options.struct_size = 1, w.evaluate(); }},
     {SIMDBEZIER_BAD_STRUCT_SIZE, "derivatives[0].struct_size",

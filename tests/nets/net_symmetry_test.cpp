@@ -2,6 +2,10 @@
 // what they are: bit for bit.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <utility>
+
 #include "tests/nets/net_batches.hpp"
 
 namespace simdbezier::tests::net_symmetry_test {
@@ -56,6 +60,28 @@ template <typename T>
 class NetSymmetry : public ::testing::Test {};
 using Types = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(NetSymmetry, Types);
+
+TYPED_TEST(NetSymmetry, FractionsMirrorThemselves) {
+  using T = TypeParam;
+  constexpr int kLeast = std::numeric_limits<int>::min();
+  constexpr int kMost = std::numeric_limits<int>::max();
+  for (const auto& [i, n] : {std::pair(0, 1),
+                             {1, 3},
+                             {-2, 5},
+                             {9, 4},
+                             {kLeast, 1},
+                             {kMost, kMost},
+                             {kLeast, kMost},
+                             {-1, kMost}}) {
+    const UnitParameter<T> at = UnitParameter<T>::fraction(i, n);
+    const long double exact = static_cast<long double>(i) / n;
+    const long double unit = std::numeric_limits<T>::epsilon();
+    EXPECT_LE(std::fabs(at.t() - exact), unit * std::fabs(exact)) << i << "/" << n;
+    EXPECT_LE(std::fabs(at.complement() - (1 - exact)), unit * std::fabs(1 - exact))
+        << i << "/" << n;
+    EXPECT_EQ(at.mirrored().t(), at.complement());
+  }
+}
 
 TYPED_TEST(NetSymmetry, ReversedNetsGiveReversedResults) {
   using T = TypeParam;
