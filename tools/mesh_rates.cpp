@@ -33,11 +33,6 @@ Tolerances find_tolerances(const RatedPatches<T>& patches, const MeshArguments& 
       tolerance = std::min(tolerance, found.all);
     }
   }
-  if (found.all == kUnlimited) {
-    // Far more than any mesh is off, where nothing but an angle is asked for.
-    const double size = patches.diagonal > 0 ? 1e3 * patches.diagonal : 1;
-    found.all = std::max(size, 1e3 * std::ranges::max(patches.errors));
-  }
   return found;
 }
 

@@ -20,7 +20,8 @@ inline constexpr double kUnlimited = std::bit_cast<double>(std::uint64_t{0x7ff} 
 
 /// How close a mesh is to be.
 struct RateOptions {
-  /// The largest distance of any point of the surface from the mesh, and back.
+  /// The largest distance of any point of the surface from the mesh, and back; kUnlimited: any, so
+  /// that only what else is asked for counts.
   double tolerance = 0;
   /// One value a patch, instead of `tolerance`; or empty.
   std::span<const double> tolerances = {};

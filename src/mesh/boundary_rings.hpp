@@ -79,10 +79,7 @@ private:
   };
 
   static std::uint32_t most_rate(const MeshData& mesh) noexcept {
-    const auto most = [](const auto& rates) {
-      return *std::max_element(rates.begin(), rates.end());
-    };
-    return std::min(kMost, std::max(most(mesh.nu), most(mesh.nv)));
+    return std::min(kMost, mesh.most_rate());
   }
   /// Two rows with their ends, and two columns without.
   static std::size_t plane_values(std::size_t rate) noexcept {

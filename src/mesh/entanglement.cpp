@@ -180,9 +180,6 @@ private:
     }
   }
 
-  static Pair pair_of(std::uint32_t a, std::uint32_t b) {
-    return Pair{std::min(a, b)} << 32 | std::max(a, b);
-  }
   static std::size_t count(const std::vector<Pair>& pairs, Pair pair) {
     const auto [begin, end] = std::equal_range(pairs.begin(), pairs.end(), pair);
     return static_cast<std::size_t>(end - begin);

@@ -66,8 +66,7 @@ private:
   }
 
   Status check() {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
-    const auto is_given = [&](double value) { return value != kNone; };
+    const auto is_given = [&](double value) { return value != kUnlimited; };
     const bool toleranced = is_given(options_.tolerance) || is_given(options_.relative_tolerance) ||
                             is_given(options_.pixels) || is_given(options_.longest_edge) ||
                             is_given(options_.normal_angle) || !options_.tolerances.empty();
@@ -156,22 +155,12 @@ private:
     return Status::ok;
   }
 
-  /// Far more than the size of a model, and than its vertices are off: where nothing is asked for.
-  [[nodiscard]] double ample_tolerance() const {
-    const double size = plan_.diagonal > 0 ? 1e3 * plan_.diagonal : 1;
-    const auto largest = std::max_element(errors_.begin(), errors_.end());
-    return largest == errors_.end() ? size : std::max(size, 1e3 * *largest);
-  }
-
   /// The smallest of what is asked of each patch.
   Status find_tolerances(RateOptions& how) {
-    constexpr double kNone = std::numeric_limits<double>::infinity();
     // A share of a diagonal of 0 would be a tolerance of 0, which no mesh could keep.
     const double relative =
-        plan_.diagonal > 0 ? options_.relative_tolerance * plan_.diagonal : kNone;
-    const double asked = std::min(options_.tolerance, relative);
-    const double ample = ample_tolerance();
-    how.tolerance = asked < kNone ? asked : ample;
+        plan_.diagonal > 0 ? options_.relative_tolerance * plan_.diagonal : kUnlimited;
+    how.tolerance = std::min(options_.tolerance, relative);
     const bool pixels = std::isfinite(options_.pixels);
     if (options_.tolerances.empty() && !pixels) {
       return Status::ok;
@@ -183,7 +172,7 @@ private:
     if (!options_.tolerances.empty() && options_.tolerances.size() != given) {
       return Status::bad_rates;
     }
-    tolerances_.assign(plan_.set.size(), kNone);
+    tolerances_.assign(plan_.set.size(), kUnlimited);
     if (pixels) {
       if (const Status status =
               pixel_tolerances<S>(nets_, options_.camera, options_.pixels, tolerances_);
@@ -193,13 +182,12 @@ private:
     }
     for (std::size_t patch = 0; patch < tolerances_.size(); ++patch) {
       double& tolerance = tolerances_[patch];
-      tolerance = std::min(tolerance, asked);
+      tolerance = std::min(tolerance, how.tolerance);
       if (!options_.tolerances.empty()) {
         const double own =
             options_.tolerances[plan_.patches.empty() ? patch : plan_.patches[patch]];
         tolerance = own >= tolerance ? tolerance : own; // nan is kept, and refused
       }
-      tolerance = tolerance == kNone ? ample : tolerance;
     }
     how.tolerances = tolerances_;
     return Status::ok;

@@ -5,33 +5,27 @@
 // added up along rows, and along columns.
 #include <cmath>
 
+#include "src/mesh/net_points.hpp"
 #include "src/mesh/patch_bound.hpp"
 
 namespace simdbezier::detail {
 namespace {
 
-using Vector = std::array<double, 3>;
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// Angles between vectors that follow each other; those without a direction are passed over.
 class TurnSum {
 public:
-  void add(const Vector& next) {
+  void add(const Point3& next) {
     if (!(dot(next, next) > 0)) {
       return;
     }
-    const Vector n = cross(last_, next);
+    const Point3 n = cross(last_, next);
     sum_ += std::atan2(std::sqrt(dot(n, n)), dot(last_, next));
     last_ = next;
   }
   [[nodiscard]] double sum() const { return sum_; }
 
 private:
-  Vector last_{};
+  Point3 last_{};
   double sum_ = 0;
 };
 
@@ -41,9 +35,9 @@ std::array<double, 2> PatchBound::normal_turns() const {
   const auto difference = [&](std::size_t i, std::size_t j, std::size_t to_i, std::size_t to_j) {
     const ControlVector& a = patch_.net(i, j);
     const ControlVector& b = patch_.net(to_i, to_j);
-    Vector d;
+    Point3 d;
     for (std::size_t c = 0; c < 3; ++c) {
-      d[c] = patch_.rational ? b.x[c] / b.x[3] - a.x[c] / a.x[3] : b.x[c] - a.x[c];
+      d.x[c] = patch_.rational ? b.x[c] / b.x[3] - a.x[c] / a.x[3] : b.x[c] - a.x[c];
     }
     return d;
   };
@@ -58,7 +52,7 @@ std::array<double, 2> PatchBound::normal_turns() const {
       for (const std::size_t row : {t, t + 1}) {
         TurnSum sum;
         for (std::size_t s = 0; s + 1 < sizes[along]; ++s) {
-          const Vector forward = leg(s, row, s + 1, row);
+          const Point3 forward = leg(s, row, s + 1, row);
           sum.add(cross(forward, leg(s, t, s, t + 1)));
           sum.add(cross(forward, leg(s + 1, t, s + 1, t + 1)));
         }

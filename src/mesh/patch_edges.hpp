@@ -20,10 +20,6 @@ struct MeshEdge {
   friend auto operator<=>(const MeshEdge&, const MeshEdge&) = default;
 };
 
-inline std::uint64_t pair_of(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
-
 /// All diagonals from (0,0) to (1,1), or from (1,0) to (0,1).
 inline constexpr std::uint16_t kCuts[] = {0, 0x1ff};
 

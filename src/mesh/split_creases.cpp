@@ -22,10 +22,7 @@ public:
         sample_of_corner_(sample_of_corner), wishes_{0, true, true,
                                                      std::max(kMostSamples,
                                                               mesh.most_boundary_samples)} {
-    const auto most = [](const auto& rates) {
-      return *std::max_element(rates.begin(), rates.end());
-    };
-    most_rate_ = std::max(most(mesh.nu), most(mesh.nv));
+    most_rate_ = mesh.most_rate();
   }
 
   [[nodiscard]] std::size_t units() const noexcept { return mesh_.patches(); }

@@ -38,6 +38,11 @@ constexpr std::uint32_t corner_at(std::size_t side, std::size_t end) noexcept {
                                     kSideCorners[side % kPatchEdges][end]);
 }
 
+/// Two corners, or edges, in any order.
+constexpr std::uint64_t pair_of(std::uint32_t a, std::uint32_t b) noexcept {
+  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
+
 /// Sides v0 and v1 run in u.
 constexpr bool runs_in_u(std::size_t side) noexcept { return side % kPatchEdges < 2; }
 

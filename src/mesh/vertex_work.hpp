@@ -37,11 +37,8 @@ struct VertexSizes {
 
   VertexSizes(const VertexTask<T>& task, std::size_t wanted_chunk) noexcept {
     const MeshData& mesh = *task.mesh;
-    const auto most = [](const auto& rates) {
-      return *std::max_element(rates.begin(), rates.end());
-    };
-    const std::size_t widest = most(mesh.nu);
-    most_rate = std::max<std::size_t>(widest, most(mesh.nv));
+    const std::size_t widest = mesh.most_nu();
+    most_rate = mesh.most_rate();
     chunk = std::max({wanted_chunk, mesh.most_boundary_vertices, widest});
     wishes = {task.dimension, task.normals, task.every_patch(),
               std::max(kBoundarySamples, mesh.most_boundary_samples)};
