@@ -123,21 +123,13 @@ private:
     const OutputArrays<T> arrays(kOutputs, wanted, out, samples, components, inputs);
     Options options;
     options.threads = threads;
-    Status status;
-    for_each_three(components, [&](int first, int count) {
-      if (!status || (first > 0 && !arrays.any_vector(kOutputs))) {
-        return;
-      }
-      CurveOutputs<T> to;
-      for (std::size_t k = 0; k < kCurveVectorOutputs; ++k) {
-        to[static_cast<CurveOutput>(k)] = arrays.vectors(kOutputs.vectors[k], first, count);
-      }
+    const auto evaluate = [&](CurveOutputs<T>& to) {
       to.curvature = arrays.values("curvature");
-      to.status = arrays.status();
-      to.first_component = first;
       const py::gil_scoped_release release;
-      status = simdbezier::evaluate(set, where, to, options);
-    });
+      return simdbezier::evaluate(set, where, to, options);
+    };
+    const Status status =
+        evaluate_by_threes<CurveOutputs<T>, CurveOutput>(kOutputs, arrays, components, evaluate);
     require_ok(status, status == Status::bad_patch_index ? "curve" : "out");
     return arrays.result();
   }

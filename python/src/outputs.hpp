@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <simdbezier/sample_status.hpp>
+#include <simdbezier/status.hpp>
 #include <simdbezier/vectors.hpp>
 
 #include "python/src/arrays.hpp"
@@ -133,12 +134,24 @@ private:
   NamedArrays arrays_;
 };
 
-/// call(first, count) for the components of a set, three at a time.
-template <typename Call>
-void for_each_three(int components, Call call) {
-  for (int first = 0; first < components; first += 3) {
-    call(first, std::min(3, components - first));
+/// Calls evaluate(to) for three components after three others, until a call is refused. `to` is of
+/// the type To, the library's outputs, whose vectors Name numbers in the order of known.vectors.
+template <typename To, typename Name, typename T, typename Evaluate>
+Status evaluate_by_threes(const OutputNames& known, const OutputArrays<T>& arrays, int components,
+                          const Evaluate& evaluate) {
+  Status status;
+  const int end = arrays.any_vector(known) ? components : 1; // the rest has no components
+  for (int first = 0; status && first < end; first += 3) {
+    To to;
+    for (std::size_t k = 0; k < known.vectors.size(); ++k) {
+      to[static_cast<Name>(k)] =
+          arrays.vectors(known.vectors[k], first, std::min(3, components - first));
+    }
+    to.status = arrays.status();
+    to.first_component = first;
+    status = evaluate(to);
   }
+  return status;
 }
 
 } // namespace simdbezier::python

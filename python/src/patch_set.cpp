@@ -141,22 +141,14 @@ private:
     const OutputArrays<T> arrays(kOutputs, wanted, out, samples, set.components(), inputs);
     Options options;
     options.threads = threads;
-    Status status;
-    for_each_three(set.components(), [&](int first, int count) {
-      if (!status || (first > 0 && !arrays.any_vector(kOutputs))) {
-        return;
-      }
-      Outputs<T> to;
-      for (std::size_t k = 0; k < kVectorOutputs; ++k) {
-        to[static_cast<Output>(k)] = arrays.vectors(kOutputs.vectors[k], first, count);
-      }
+    const auto evaluate = [&](Outputs<T>& to) {
       to.curvature = {arrays.values("gaussian"), arrays.values("mean"), arrays.values("minimum"),
                       arrays.values("maximum")};
-      to.status = arrays.status();
-      to.first_component = first;
       const py::gil_scoped_release release;
-      status = simdbezier::evaluate(set, where, to, options);
-    });
+      return simdbezier::evaluate(set, where, to, options);
+    };
+    const Status status =
+        evaluate_by_threes<Outputs<T>, Output>(kOutputs, arrays, set.components(), evaluate);
     require_ok(status, status == Status::bad_patch_index ? "patch" : "out");
     return arrays.result();
   }
