@@ -34,7 +34,8 @@ int report(std::string_view message, int exit_code) {
   std::setvbuf(stderr, line, _IOFBF, sizeof line);
   std::fputs("simdbezier: ", stderr);
   for (const char c : message) {
-    const bool control = (c >= 0 && c < 0x20) || c == 0x7f;
+    const auto byte = static_cast<unsigned char>(c); // char has a sign on some machines alone
+    const bool control = byte < 0x20 || byte == 0x7f;
     std::putc(control ? ' ' : c, stderr);
   }
   std::putc('\n', stderr);
