@@ -85,7 +85,7 @@ simdbezier_status evaluate_at(const char* function, const simdbezier_curve_set* 
       const CallOptions how(options);
       require_ok(evaluate(curves, where, to, *how), [&](Status status) {
         const Path blamed = blamed_in_call(status, path);
-        return blamed.root == kOut.root && blamed.member == nullptr
+        return blamed.is_of(kOut) && blamed.member == nullptr
                    ? blamed_output(to, status, sample_count(curves, where),
                                    std::int64_t{curves.components()} - to.first_component)
                    : blamed;

@@ -109,7 +109,7 @@ simdbezier_status evaluate_at(const char* function, const simdbezier_patch_set* 
       const CallOptions how(options);
       require_ok(evaluate(patches, where, to, *how), [&](Status status) {
         const Path blamed = blamed_in_call(status, path);
-        return blamed.root == kOut.root && blamed.member == nullptr
+        return blamed.is_of(kOut) && blamed.member == nullptr
                    ? blamed_output(to, status, sample_count(patches, where),
                                    std::int64_t{patches.components()} - to.first_component)
                    : blamed;
@@ -142,7 +142,7 @@ simdbezier_status derivatives_at(const char* function, const simdbezier_patch_se
         }
         const bool about_orders = status == Status::bad_degree;
         const Path blamed = about_orders ? Path{"derivatives"} : blamed_in_call(status, path);
-        return blamed.root == kOut.root ? Path{"derivatives"} : blamed;
+        return blamed.is_of(kOut) ? Path{"derivatives"} : blamed;
       });
     });
   });
@@ -273,7 +273,7 @@ simdbezier_status simdbezier_evaluate_tiles(const simdbezier_patch_set* set,
       };
       require_ok(evaluate_tiles(patches, where, as, hand_over, *how), [](Status status) {
         const Path blamed = blamed_in_call(status, kGrid);
-        return blamed.root == kOut.root ? Path{"format"} : blamed;
+        return blamed.is_of(kOut) ? Path{"format"} : blamed;
       });
     });
   });

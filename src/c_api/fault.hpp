@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <new>
 #include <stdexcept>
+#include <string_view>
 
 #include <simdbezier.h>
 #include <simdbezier/patch_set.hpp>
@@ -22,6 +23,10 @@ struct Path {
   const char* member = nullptr;
   const char* part = nullptr; ///< of the member
 
+  /// Whether the roots are the same. Equal literals may stand in different places.
+  [[nodiscard]] constexpr bool is_of(const Path& other) const noexcept {
+    return std::string_view(root) == other.root;
+  }
   /// One level down.
   [[nodiscard]] constexpr Path operator/(const char* name) const noexcept {
     Path path = *this;

@@ -244,7 +244,7 @@ simdbezier_status simdbezier_spline_to_bezier(const simdbezier_spline_mesh* mesh
       require_ok(spline_to_bezier(mesh_of<T>(given, path), output_of<T>(out, kOut), *how),
                  [&](Status status) {
                    const Path found = blamed(status, kOut);
-                   const bool of_mesh = found.root == kNets.root || status == Status::bad_grid;
+                   const bool of_mesh = found.is_of(kNets) || status == Status::bad_grid;
                    return of_mesh ? path : found;
                  });
     });
