@@ -52,6 +52,8 @@ struct ColumnTile {
   static_assert(kWhole || kRows <= 2);
   using T = ScalarOf<V>;
   using Vector = V;
+  static constexpr std::size_t kTileRows = kRows;
+  static constexpr bool kEveryLane = kWhole; ///< has a sample
   static constexpr bool kBuffered = kExtra;
   using Groups = RowGroups<kRows, V>;
   static constexpr std::size_t kColumns = kLanes<V> / kRows;

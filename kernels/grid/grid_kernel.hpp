@@ -17,6 +17,7 @@
 #include "kernels/grid/patch_sweeps.hpp"
 #include "kernels/grid/record_rows.hpp"
 #include "kernels/grid/small_grid_jets.hpp"
+#include "kernels/grid/square_sweeps.hpp"
 #include "kernels/simd/register_pair.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -36,12 +37,6 @@ struct ColumnSplit {
     }
   }
 };
-
-/// Whether two registers of columns are swept as one, which counts rows half as often and writes to
-/// no cache line twice. Their polynomials take 8 of 16 or 32 registers, or 16 of 32.
-template <detail::OutputSet kOutputs, typename T>
-constexpr bool kSweepsTwice = (kOutputs == detail::kPosition && sizeof(T) * kLanes<vec<T>> >= 32) ||
-                              (kOutputs == detail::kPositionDerivatives && kLineWide<vec<T>>);
 
 /// Where two registers are streamed together: they are one line, or two that lie side by side, of
 /// which memory takes each second one at half of its rate.
@@ -155,72 +150,6 @@ SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<ve
   }
 }
 
-/// The same for a grid of kSide x kSide.
-template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
-SIMDBEZIER_INLINE void sweep_square(const GridTask<T>& task, const SquarePiece<T, kSide>& piece,
-                                    std::size_t patch, std::size_t end) {
-  using V = vec<T>;
-  constexpr std::size_t kL = kLanes<V>;
-  constexpr std::size_t kRest = kSide % kL;
-  if constexpr (kSweepsTwice<kOutputs, T> && kSide >= 2 * kL && kSide % (2 * kL) <= 1) {
-    using W = RegisterPair<V>;
-    constexpr std::size_t kLast = kSide - kRest - 2 * kL;
-    for (std::size_t first = 0; first < kLast; first += 2 * kL) {
-      sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, false, W>>(task, piece, first,
-                                                                             2 * kL, patch, end);
-    }
-    sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, kRest == 1, W>>(task, piece, kLast,
-                                                                                2 * kL, patch, end);
-    return;
-  }
-  constexpr std::size_t kKnown = kSide - kRest - (kRest == 1 ? kL : 0);
-  for (std::size_t first = 0; first < kKnown; first += kL) {
-    sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, false, V>>(task, piece, first, kL,
-                                                                           patch, end);
-  }
-  if constexpr (kRest == 1) {
-    sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, true, V>>(task, piece, kKnown, kL,
-                                                                          patch, end);
-  } else if constexpr (kSide * 2 == kL) {
-    sweep_tile<kOutputs, Known::watertight, ColumnTile<2, true, false, V>>(task, piece, 0, kSide,
-                                                                           patch, end);
-  } else if constexpr (kRest != 0) {
-    sweep_tile<kOutputs, Known::watertight, ColumnTile<1, false, false, V>>(task, piece, kKnown,
-                                                                            kRest, patch, end);
-  }
-}
-
-/// Sweeps the patches if `piece` is a square with one of these sides.
-template <detail::OutputSet kOutputs, std::size_t... kSides, typename T>
-SIMDBEZIER_INLINE bool sweep_square_of(std::index_sequence<kSides...>, const GridTask<T>& task,
-                                       const RowPiece<T>& piece, std::size_t patch,
-                                       std::size_t end) {
-  const auto sweep =
-      [&]<std::size_t kSide>(std::integral_constant<std::size_t, kSide>) SIMDBEZIER_INLINE_LAMBDA {
-        const bool square = SquarePiece<T, kSide>::is(piece, task.nu);
-        if (square) {
-          sweep_square<kOutputs>(task, SquarePiece<T, kSide>(piece.middle.y), patch, end);
-        }
-        return square;
-      };
-  return (sweep(std::integral_constant<std::size_t, kSides>{}) || ...);
-}
-
-/// The squares that gain by code of their own: short ones, of sides 2^k and 2^k + 1, where roots
-/// (normals of 16) do not set the pace. Straight code for sides of 32 and 33 is slower than a loop.
-template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_INLINE constexpr auto known_sides() {
-  if constexpr (kOutputs == detail::kPositionNormal) {
-    return std::index_sequence<8, 9, 17>{};
-  } else {
-    return std::index_sequence<8, 9, 16, 17>{};
-  }
-}
-
-/// Whether there is such code at all: for registers of 32 bytes and more, and edges as usual.
-template <detail::OutputSet kOutputs, typename T>
-constexpr bool kKnowsSquares = kUsual<kOutputs> && (kLanes<vec<T>> * sizeof(T) >= 32);
-
 /// Patches [patch, end) on the rows of a piece. Registers of 64 bytes have tiles for either kind of
 /// edges; shorter ones ask at run time, since twice the code would be too much for what it gains.
 template <detail::OutputSet kOutputs, typename T>
@@ -244,8 +173,7 @@ SIMDBEZIER_INLINE void sweep_patches(const GridTask<T>& task, const ColumnSplit<
       }
     }
     if constexpr (kKnowsSquares<kOutputs, T>) {
-      if (task.watertight &&
-          sweep_square_of<kOutputs>(known_sides<kOutputs, T>(), task, piece, patch, end)) {
+      if (task.watertight && sweep_square_of<kOutputs>(SquareSides(), task, piece, patch, end)) {
         return;
       }
     }

@@ -3,7 +3,7 @@
 
 #include "kernels/drain/drain_kernel.hpp"
 #include "kernels/grid/prefetch.hpp"
-#include "kernels/grid/tile_components.hpp"
+#include "kernels/grid/square_column.hpp"
 #include "kernels/grid/tile_normals.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -94,7 +94,18 @@ SIMDBEZIER_INLINE void sweep_component_patches(const GridTask<T>& task, const Pi
     Component<T> component(task, patch, 0);
     for (std::size_t c = 0; c < 3; ++c, component = component.next()) {
       T* const position = task.out[detail::kPositionGroup].component[c] + at;
-      if constexpr (kOutputs == detail::kPosition) {
+      if constexpr (Piece::kAcross && SomeTile::kBuffered) {
+        SquareColumn<V, Piece::rows(), kPlanes> behind;
+        if constexpr (kOutputs == detail::kPosition) {
+          behind.find_position(piece, component, column);
+          sweep_position(piece, component, tile, nu, position, behind);
+        } else {
+          behind.find_derivatives(piece, component, column);
+          const JetPlanes<T> to{position, task.out[detail::kDuGroup].component[c] + at,
+                                task.out[detail::kDvGroup].component[c] + at};
+          sweep_derivatives(piece, component, tile, nu, to, behind);
+        }
+      } else if constexpr (kOutputs == detail::kPosition) {
         if constexpr (SomeTile::kBuffered) {
           sweep_position(piece, component, column, 1, there.position, extra);
         }

@@ -75,7 +75,9 @@ SIMDBEZIER_INLINE bool are_mirrored(const T* y, std::size_t rows) {
 /// grid is one such piece.
 template <typename T>
 struct RowPiece {
-  static constexpr bool kKnown = false; ///< how many rows
+  static constexpr bool kKnown = false;   ///< how many rows
+  static constexpr bool kStraight = true; ///< as far as they are known
+  static constexpr bool kAcross = false;  ///< lie across lines, and are as wide as their tile
 
   std::size_t first = 0; ///< row
   bool lead = false;     ///< whether there is a first row on an edge, and which
@@ -90,36 +92,6 @@ struct RowPiece {
   }
   /// The columns of a grid whose task says nu; SquarePiece knows them.
   static SIMDBEZIER_INLINE std::size_t columns(std::size_t nu) { return nu; }
-};
-
-/// A whole grid of kSide x kSide samples, whose first and last rows are edges and whose others are
-/// pairs. The compiler knows its size, so that sweeps are straight code, without counting, tests
-/// and addresses: 198 instead of 389 instructions for the positions of an 8 x 8 grid, 660 instead
-/// of 1022 for 17 x 17 (AVX-512).
-template <typename T, std::size_t kSide>
-struct SquarePiece {
-  static constexpr bool kKnown = true;
-  static constexpr std::size_t first = 0;
-  static constexpr bool lead = true;
-  static constexpr bool trail = true;
-  static constexpr std::size_t kMiddle = kSide - 2;
-
-  struct Middle {
-    const T* y; ///< of RowPowers
-    static constexpr RowKind kind = RowKind::interior;
-  } middle;
-
-  explicit SIMDBEZIER_INLINE SquarePiece(const T* middle_y) : middle{middle_y} {}
-  static constexpr std::size_t rows() { return kSide; }
-  static constexpr std::size_t columns(std::size_t /*nu*/) { return kSide; }
-
-  /// Whether `piece` is one.
-  static SIMDBEZIER_INLINE bool is(const RowPiece<T>& piece, std::size_t nu) {
-    return nu == kSide && piece.first == 0 && piece.middle.rows == kMiddle && piece.lead &&
-           piece.trail && piece.lead_kind == RowKind::edge_v0 &&
-           piece.trail_kind == RowKind::edge_v1 && piece.middle.kind == RowKind::interior &&
-           piece.mirrored;
-  }
 };
 
 /// Cuts the rows of a task into pieces.
@@ -247,46 +219,6 @@ SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::s
   if (piece.trail) {
     edge(piece.trail_kind, trail);
   }
-}
-
-/// The same, one register behind the other throughout; RowOrder::together = 1 keeps a loop.
-template <RowOrder kOrder, typename T, std::size_t kSide, typename Edge, typename Pair,
-          typename Interior>
-SIMDBEZIER_INLINE void for_rows(const SquarePiece<T, kSide>& piece, std::size_t at, std::size_t nu,
-                                const Edge& edge, const Pair& pair, const Interior& interior) {
-  constexpr std::size_t kRows = kOrder.rows;
-  constexpr std::size_t kMiddle = SquarePiece<T, kSide>::kMiddle;
-  constexpr std::size_t kPairs = kOrder.pairs ? kMiddle / (2 * kRows) : 0; // registers
-  constexpr std::size_t kSingle = kMiddle - 2 * kPairs * kRows;            // rows
-  constexpr std::size_t kFull = kSingle / kRows;
-  const T* const y = piece.middle.y;
-  const RowPlace first{at + nu, 1};
-  const RowPlace last{at + kMiddle * nu, kMiddle};
-  const auto pair_at = [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-    const std::size_t row = k * kRows;
-    pair(y + row, first.behind(row, nu), RowPlace{last.at - row * nu, last.row - row});
-  };
-  const auto single_at = [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-    const std::size_t row = (kPairs + k) * kRows;
-    interior(y + row, first.behind(row, nu), kRows);
-  };
-  edge(RowKind::edge_v0, RowPlace{at, 0});
-  if constexpr (kOrder.together > 1) {
-    repeat<kPairs>(pair_at);
-    repeat<kFull>(single_at);
-  } else {
-    for (std::size_t k = 0; k < kPairs; ++k) {
-      pair_at(k);
-    }
-    for (std::size_t k = 0; k < kFull; ++k) {
-      single_at(k);
-    }
-  }
-  if constexpr (kFull * kRows < kSingle) {
-    const std::size_t row = (kPairs + kFull) * kRows;
-    interior(y + row, first.behind(row, nu), kSingle - kFull * kRows);
-  }
-  edge(RowKind::edge_v1, last.behind(1, nu));
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,7 +1,7 @@
 // One component of one tile: positions, positions with both first derivatives, second derivatives.
 #pragma once
 
-#include "kernels/grid/column_tile.hpp"
+#include "kernels/grid/plane_rows.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -11,6 +11,7 @@ constexpr std::size_t kBufferRows = kMostMiddleRows + 2;
 /// A column's planes, the k-th one kPlane values behind the first: one address for all of them.
 template <typename T>
 struct ColumnPlanes {
+  using Plane = const T*;
   static constexpr std::size_t kPlane = kBufferRows + 2 * detail::kMaxLanes;
   const T* first;
 
@@ -39,19 +40,27 @@ struct ColumnBuffer {
 template <typename V>
 using SingleColumnTile = ColumnTile<kLanes<V>, true, false, V>;
 
-template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
-SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<ScalarOf<V>>& c,
-                                      const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
-                                      std::size_t nu, ScalarOf<V>* to,
-                                      ColumnPlanes<ScalarOf<V>> extra) {
-  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
-  using T = ScalarOf<V>;
-  V q[kOrder];
-  if constexpr (Tile::kSingle) {
+/// The polynomials in Y of a tile's columns.
+template <typename SomeTile, typename V>
+SIMDBEZIER_INLINE void tile_polynomial(const Component<ScalarOf<V>>& c, const SomeTile& tile,
+                                       V q[kOrder]) {
+  if constexpr (SomeTile::kSingle) {
     single_column_polynomial(c, tile.column, q);
   } else {
     column_polynomial(c, tile.column, q);
   }
+}
+
+/// extra: the column behind the tile, ColumnPlanes or SquareColumn.
+template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams,
+          typename Extra>
+SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<ScalarOf<V>>& c,
+                                      const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
+                                      std::size_t nu, ScalarOf<V>* to, const Extra& extra) {
+  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
+  using T = ScalarOf<V>;
+  V q[kOrder];
+  tile_polynomial(c, tile, q);
   const LocalOrigin<V> origin = column_origin(c, tile.column);
   V shared = tile.column.x; // not used
   if constexpr (Tile::kShared) {
@@ -59,24 +68,32 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
       shared = tile.edge_rows(c, 0);
     }
   }
-  constexpr RowOrder kRowOrder{kRows, Tile::kPairs, kRows == 1 ? 4 : 1};
+  PlaneRows<Piece, Tile, typename Extra::Plane> plane(tile, to, nu, extra.plane(0));
+  if constexpr (kSweepsLines<Piece, Tile>) {
+    plane.borders(shared, row_value(q, rows_beside_edges<V>(piece)));
+    for_inner_rows(piece, nu, [&](const T* y, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
+      plane.rows(row_value(q, RowPowers<T>::template point<kRows, V>(y)), place, kRows);
+    });
+    return;
+  }
+  constexpr RowOrder kRowOrder{kRows, Tile::kPairs && !Piece::kAcross,
+                               kRows == 1 && Piece::kStraight ? 4 : 1};
   for_rows<kRowOrder>(
       piece, 0, nu,
       [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-        const V p = Tile::kShared ? shared : tile.edge_rows(c, edge_of(kind));
-        tile.store_edge(to + place.at, p, kind, extra.plane(0) + place.row);
+        plane.edge(Tile::kShared ? shared : tile.edge_rows(c, edge_of(kind)), kind, place);
       },
       [&](const T* y, RowPlace place, RowPlace mirrored) SIMDBEZIER_INLINE_LAMBDA {
         const auto at = RowPowers<T>::template point<kRows, V>(y);
         const Parts<V> p = value_parts(q, at);
-        tile.store(to + place.at, nu, origin.add_to(p.sum()), kRows, extra.plane(0) + place.row);
-        tile.store_mirrored(to + mirrored.at, nu, origin.add_to(p.difference()),
-                            extra.plane(0) + mirrored.row);
+        plane.rows(origin.add_to(p.sum()), place, kRows);
+        plane.mirrored(origin.add_to(p.difference()), mirrored);
       },
       [&](const T* y, RowPlace place, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
         const V p = row_value(q, RowPowers<T>::template point<kRows, V>(y));
-        tile.store(to + place.at, nu, origin.add_to(p), rows, extra.plane(0) + place.row);
+        plane.rows(origin.add_to(p), place, rows);
       });
+  plane.finish();
 }
 
 /// Position and first derivatives of one component, a register of samples.
@@ -153,11 +170,12 @@ struct JetPlanes {
   T* dv;
 };
 
-template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
+template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams,
+          typename Extra>
 SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<ScalarOf<V>>& c,
                                          const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                          std::size_t nu, const JetPlanes<ScalarOf<V>>& to,
-                                         ColumnPlanes<ScalarOf<V>> extra) {
+                                         const Extra& extra) {
   using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
   JetColumns<V> columns;
@@ -168,32 +186,50 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
       shared = columns.edge(c, tile, 0);
     }
   }
-  constexpr RowOrder kRowOrder{kRows, Tile::kPairs, Piece::kKnown ? 2 : 1};
+  PlaneRows<Piece, Tile, typename Extra::Plane> position(tile, to.position, nu, extra.plane(0));
+  PlaneRows<Piece, Tile, typename Extra::Plane> du(tile, to.du, nu, extra.plane(1));
+  PlaneRows<Piece, Tile, typename Extra::Plane> dv(tile, to.dv, nu, extra.plane(2));
+  const auto put = [&](const Jet<V>& jet, RowPlace place, std::size_t rows)
+                       SIMDBEZIER_INLINE_LAMBDA {
+                         position.rows(jet.p, place, rows);
+                         du.rows(jet.du, place, rows);
+                         dv.rows(jet.dv, place, rows);
+                       };
+  if constexpr (kSweepsLines<Piece, Tile>) {
+    const Jet<V> beside = columns.interior(rows_beside_edges<V>(piece));
+    position.borders(shared.p, beside.p);
+    du.borders(shared.du, beside.du);
+    dv.borders(shared.dv, beside.dv);
+    for_inner_rows(piece, nu, [&](const T* y, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
+      put(columns.interior(RowPowers<T>::template point<kRows, V>(y)), place, kRows);
+    });
+    return;
+  }
+  constexpr RowOrder kRowOrder{kRows, Tile::kPairs && !Piece::kAcross,
+                               Piece::kKnown && Piece::kStraight ? 2 : 1};
   for_rows<kRowOrder>(
       piece, 0, nu,
       [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
         const Jet<V> jet = Tile::kShared ? shared : columns.edge(c, tile, edge_of(kind));
-        tile.store_edge(to.position + place.at, jet.p, kind, extra.plane(0) + place.row);
-        tile.store_edge(to.du + place.at, jet.du, kind, extra.plane(1) + place.row);
-        tile.store_edge(to.dv + place.at, jet.dv, kind, extra.plane(2) + place.row);
+        position.edge(jet.p, kind, place);
+        du.edge(jet.du, kind, place);
+        dv.edge(jet.dv, kind, place);
       },
       [&](const T* y, RowPlace place, RowPlace mirror) SIMDBEZIER_INLINE_LAMBDA {
         Jet<V> jet;
         Jet<V> mirrored;
         columns.pair(RowPowers<T>::template point<kRows, V>(y), jet, mirrored);
-        tile.store(to.position + place.at, nu, jet.p, kRows, extra.plane(0) + place.row);
-        tile.store(to.du + place.at, nu, jet.du, kRows, extra.plane(1) + place.row);
-        tile.store(to.dv + place.at, nu, jet.dv, kRows, extra.plane(2) + place.row);
-        tile.store_mirrored(to.position + mirror.at, nu, mirrored.p, extra.plane(0) + mirror.row);
-        tile.store_mirrored(to.du + mirror.at, nu, mirrored.du, extra.plane(1) + mirror.row);
-        tile.store_mirrored(to.dv + mirror.at, nu, mirrored.dv, extra.plane(2) + mirror.row);
+        put(jet, place, kRows);
+        position.mirrored(mirrored.p, mirror);
+        du.mirrored(mirrored.du, mirror);
+        dv.mirrored(mirrored.dv, mirror);
       },
       [&](const T* y, RowPlace place, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
-        const Jet<V> jet = columns.interior(RowPowers<T>::template point<kRows, V>(y));
-        tile.store(to.position + place.at, nu, jet.p, rows, extra.plane(0) + place.row);
-        tile.store(to.du + place.at, nu, jet.du, rows, extra.plane(1) + place.row);
-        tile.store(to.dv + place.at, nu, jet.dv, rows, extra.plane(2) + place.row);
+        put(columns.interior(RowPowers<T>::template point<kRows, V>(y)), place, rows);
       });
+  position.finish();
+  du.finish();
+  dv.finish();
 }
 
 /// Groups with null planes are computed and dropped.

@@ -179,6 +179,14 @@ struct RowGroups<2, vec<float>> : PortableRowGroups<2, vec<float>> {
   }
 };
 
+/// Of two rows each, the first ones, and the second ones.
+SIMDBEZIER_INLINE vec<float> first_rows(vec<float> a, vec<float> b) {
+  return vec<float>(_mm512_shuffle_f32x4(a, b, 0x44));
+}
+SIMDBEZIER_INLINE vec<float> second_rows(vec<float> a, vec<float> b) {
+  return vec<float>(_mm512_shuffle_f32x4(a, b, 0xee));
+}
+
 template <>
 struct RowGroups<4, vec<float>> : PortableRowGroups<4, vec<float>> {
   static SIMDBEZIER_INLINE vec<float> repeat(const float* values) {

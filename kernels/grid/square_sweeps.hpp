@@ -1,0 +1,113 @@
+// Squares whose sides the compiler knows: which tiles take them.
+#pragma once
+
+#include <utility>
+
+#include "kernels/grid/patch_sweeps.hpp"
+#include "kernels/simd/register_pair.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Whether two registers of columns are swept as one, which counts rows half as often and writes to
+/// no cache line twice. Their polynomials take 8 of 16 or 32 registers, or 16 of 32.
+template <detail::OutputSet kOutputs, typename T>
+constexpr bool kSweepsTwice = (kOutputs == detail::kPosition && sizeof(T) * kLanes<vec<T>> >= 32) ||
+                              (kOutputs == detail::kPositionDerivatives && kLineWide<vec<T>>);
+
+/// All tiles of patches [patch, end) of a grid of kSide x kSide: the choices of sweep_tiles().
+template <detail::OutputSet kOutputs, std::size_t kSide, bool kAcross, typename T>
+SIMDBEZIER_INLINE void sweep_square(const GridTask<T>& task,
+                                    const SquarePiece<T, kSide, kAcross>& piece, std::size_t patch,
+                                    std::size_t end) {
+  using V = vec<T>;
+  constexpr std::size_t kL = kLanes<V>;
+  constexpr std::size_t kRest = kSide % kL;
+  if constexpr (kSweepsTwice<kOutputs, T> && kSide >= 2 * kL && kSide % (2 * kL) <= 1) {
+    using W = RegisterPair<V>;
+    constexpr std::size_t kLast = kSide - kRest - 2 * kL;
+    for (std::size_t first = 0; first < kLast; first += 2 * kL) {
+      sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, false, W>>(task, piece, first,
+                                                                             2 * kL, patch, end);
+    }
+    sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, kRest == 1, W>>(task, piece, kLast,
+                                                                                2 * kL, patch, end);
+    return;
+  }
+  constexpr std::size_t kKnown = kSide - kRest - (kRest == 1 ? kL : 0);
+  for (std::size_t first = 0; first < kKnown; first += kL) {
+    sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, false, V>>(task, piece, first, kL,
+                                                                           patch, end);
+  }
+  if constexpr (kRest == 1) {
+    sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, true, V>>(task, piece, kKnown, kL,
+                                                                          patch, end);
+  } else if constexpr (kSide * 2 == kL) {
+    sweep_tile<kOutputs, Known::watertight, ColumnTile<2, true, false, V>>(task, piece, 0, kSide,
+                                                                           patch, end);
+  } else if constexpr (kRest != 0) {
+    sweep_tile<kOutputs, Known::watertight, ColumnTile<1, false, false, V>>(task, piece, kKnown,
+                                                                            kRest, patch, end);
+  }
+}
+
+/// Whether such squares are written as streams where their rows lie across lines: a tile has whole
+/// rows. Normals, of three components at once, have no registers left for that.
+template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
+constexpr bool kIsStream = kStreamsLines && (kOutputs != detail::kPositionNormal) &&
+                           (kSide > kLanes<vec<T>> / 2) && (kSide <= 2 * kLanes<vec<T>> + 1);
+
+/// Whether that pays in staging as well, which stays in the first-level cache: splitting stores
+/// costs less there.
+template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
+constexpr bool kIsStagedStream = (kOutputs == detail::kPositionDerivatives) &&
+                                 (kSide <= kLanes<vec<T>> + 1);
+
+/// Whether such squares are worth straight code: not where roots set the pace.
+template <detail::OutputSet kOutputs, std::size_t kSide>
+constexpr bool kIsStraight = kSide <= 17 && (kOutputs != detail::kPositionNormal || kSide != 16);
+
+/// Whether all planes begin where lines do.
+template <typename T>
+SIMDBEZIER_INLINE bool planes_begin_lines(const GridTask<T>& task) {
+  std::uintptr_t bits = 0;
+  for (const auto& group : task.out) {
+    for (const T* const plane : group.component) {
+      bits |= reinterpret_cast<std::uintptr_t>(plane);
+    }
+  }
+  return bits % 64 == 0;
+}
+
+/// Sweeps the patches if `piece` is a square with one of these sides.
+template <detail::OutputSet kOutputs, std::size_t... kSides, typename T>
+SIMDBEZIER_INLINE bool sweep_square_of(std::index_sequence<kSides...>, const GridTask<T>& task,
+                                       const RowPiece<T>& piece, std::size_t patch,
+                                       std::size_t end) {
+  const auto sweep =
+      [&]<std::size_t kSide>(std::integral_constant<std::size_t, kSide>) SIMDBEZIER_INLINE_LAMBDA {
+        if (!SquarePiece<T, kSide, false>::is(piece, task.nu)) {
+          return false;
+        }
+        if constexpr (kIsStream<kOutputs, kSide, T>) {
+          const bool pays = kIsStagedStream<kOutputs, kSide, T> || task.drain == nullptr;
+          if (pays && (kSide % kLanes<vec<T>> != 0 || !planes_begin_lines(task))) {
+            sweep_square<kOutputs>(task, SquarePiece<T, kSide, true>(piece.middle.y), patch, end);
+            return true;
+          }
+        }
+        if constexpr (kIsStraight<kOutputs, kSide>) {
+          sweep_square<kOutputs>(task, SquarePiece<T, kSide, false>(piece.middle.y), patch, end);
+        }
+        return kIsStraight<kOutputs, kSide>;
+      };
+  return (sweep(std::integral_constant<std::size_t, kSides>{}) || ...);
+}
+
+/// Squares that gain by code of their own: short ones, of sides 2^k and 2^k + 1.
+using SquareSides = std::index_sequence<8, 9, 16, 17, 32, 33>;
+
+/// Whether there is such code at all: for registers of 32 bytes and more, and edges as usual.
+template <detail::OutputSet kOutputs, typename T>
+constexpr bool kKnowsSquares = kUsual<kOutputs> && (kLanes<vec<T>> * sizeof(T) >= 32);
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -1,0 +1,139 @@
+// Values that follow one another in memory, written in whole lines wherever they begin: a store
+// across two lines takes an Intel processor as long as five others, and each line that a row's
+// unaligned registers touch is touched twice.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/simd/lanes.hpp"
+#include "kernels/simd/register_pair.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+inline constexpr bool kStreamsLines = true;
+
+struct LaneNumbers {
+  std::int32_t by_4[32];
+  std::int64_t by_8[16];
+  constexpr LaneNumbers() : by_4{}, by_8{} {
+    for (int k = 0; k < 32; ++k) {
+      by_4[k] = k;
+      by_8[k / 2] = k / 2;
+    }
+  }
+};
+inline constexpr LaneNumbers kLaneNumbers;
+
+/// Registers whose lanes are the n-th to the (n+15)-th, or (n+7)-th, of two others side by side.
+class LaneWindow {
+public:
+  explicit SIMDBEZIER_INLINE LaneWindow(std::size_t n, float /*type*/)
+      : lanes_(_mm512_loadu_si512(kLaneNumbers.by_4 + n)) {}
+  explicit SIMDBEZIER_INLINE LaneWindow(std::size_t n, double /*type*/)
+      : lanes_(_mm512_loadu_si512(kLaneNumbers.by_8 + n)) {}
+
+  SIMDBEZIER_INLINE vec<float> of(vec<float> low, vec<float> high) const {
+    return vec<float>(_mm512_permutex2var_ps(low, lanes_, high));
+  }
+  SIMDBEZIER_INLINE vec<double> of(vec<double> low, vec<double> high) const {
+    return vec<double>(_mm512_permutex2var_pd(low, lanes_, high));
+  }
+
+private:
+  __m512i lanes_;
+};
+
+/// Lanes from the second on, and behind them a lane of another register.
+struct AppendedLanes {
+  alignas(64) std::int32_t by_4[16][16];
+  alignas(64) std::int64_t by_8[8][8];
+  constexpr AppendedLanes() : by_4{}, by_8{} {
+    for (int lane = 0; lane < 16; ++lane) {
+      for (int k = 0; k < 16; ++k) {
+        by_4[lane][k] = k < 15 ? k + 1 : 16 + lane;
+        by_8[lane / 2][k / 2] = k / 2 < 7 ? k / 2 + 1 : 8 + lane / 2;
+      }
+    }
+  }
+};
+inline constexpr AppendedLanes kAppendedLanes;
+
+SIMDBEZIER_INLINE vec<float> append_lane(vec<float> values, vec<float> from, std::size_t lane) {
+  const __m512i lanes = _mm512_load_si512(kAppendedLanes.by_4[lane]);
+  return vec<float>(_mm512_permutex2var_ps(values, lanes, from));
+}
+SIMDBEZIER_INLINE vec<double> append_lane(vec<double> values, vec<double> from, std::size_t lane) {
+  const __m512i lanes = _mm512_load_si512(kAppendedLanes.by_8[lane]);
+  return vec<double>(_mm512_permutex2var_pd(values, lanes, from));
+}
+SIMDBEZIER_INLINE void store_line(float* line, unsigned lanes, vec<float> value) {
+  _mm512_mask_store_ps(line, static_cast<__mmask16>(lanes), value);
+}
+SIMDBEZIER_INLINE void store_line(double* line, unsigned lanes, vec<double> value) {
+  _mm512_mask_store_pd(line, static_cast<__mmask8>(lanes), value);
+}
+
+/// Writes nothing but what was put into it, once finish() has been called.
+template <typename V>
+class LineStream {
+  using T = ScalarOf<V>;
+  static constexpr unsigned kAll = (1U << kLanes<V>)-1U;
+
+public:
+  explicit SIMDBEZIER_INLINE LineStream(T* to)
+      : filled_(reinterpret_cast<std::uintptr_t>(to) % 64 / sizeof(T)), line_(to - filled_),
+        own_(kAll << filled_), last_(broadcast<V>(T(0))) {}
+
+  SIMDBEZIER_INLINE void put(V values) {
+    store(own_, LaneWindow(kLanes<V> - filled_, T()).of(last_, values));
+    own_ = kAll;
+    last_ = values;
+  }
+  SIMDBEZIER_INLINE void put(RegisterPair<V> values) {
+    put(values.low);
+    put(values.high);
+  }
+  /// The first kCount lanes.
+  template <std::size_t kCount>
+  SIMDBEZIER_INLINE void put_first(V values) {
+    const V line = LaneWindow(kLanes<V> - filled_, T()).of(last_, values);
+    last_ = LaneWindow(kCount, T()).of(last_, values);
+    advance(kCount, line);
+  }
+  SIMDBEZIER_INLINE void put_lane(V from, std::size_t lane) {
+    last_ = append_lane(last_, from, lane);
+    advance(1, last_);
+  }
+  SIMDBEZIER_INLINE void finish() const {
+    const unsigned rest = (1U << filled_) - 1U;
+    if (rest != 0) {
+      const V line = LaneWindow(kLanes<V> - filled_, T()).of(last_, last_);
+      store_line(line_, own_ & rest, line);
+    }
+  }
+
+private:
+  SIMDBEZIER_INLINE void store(unsigned lanes, V line) {
+    store_line(line_, lanes, line);
+    line_ += kLanes<V>;
+  }
+  SIMDBEZIER_INLINE void advance(std::size_t count, V line) {
+    filled_ += count;
+    if (filled_ >= kLanes<V>) {
+      filled_ -= kLanes<V>;
+      store(own_, line);
+      own_ = kAll;
+    }
+  }
+
+  std::size_t filled_; ///< lanes of the line
+  T* line_;
+  unsigned own_; ///< those of its lanes that are not somebody else's
+  V last_;       ///< the values put last
+};
+#else
+inline constexpr bool kStreamsLines = false;
+#endif
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
