@@ -4,8 +4,8 @@
 #     sanitize.sh [address | thread]     one of them; both where none is named
 #
 # address  addresses and undefined behaviour, library, kernels, program and the whole test suite,
-#          except tests of other builds (same_bits_*, installed_tree), and those that let every
-#          system call of a program fail once: some calls are the sanitizers' own.
+#          except tests of other builds (same_bits_*, installed_tree), of symbols, and those that let
+#          every system call of a program fail once: some symbols and calls are the sanitizers' own.
 #          In kernels null pointers, sizes of objects and alignment are left to the address
 #          sanitizer and the processor: to test each of them takes twice as long to compile.
 # thread   who touches what from which thread. By clang with LLVM's OpenMP runtime, whose tool
@@ -33,7 +33,7 @@ address() {
   configure_and_build asan-ubsan all
   # libgomp keeps its threads' memory until the process ends.
   UBSAN_OPTIONS=print_stacktrace=1 run_tests asan-ubsan \
-    -E '^same_bits_|^installed_tree$|^mutation|^faults\.Jobs/SystemCalls'
+    -E '^same_bits_|^symbols_|^installed_tree$|^mutation|^faults\.Jobs/SystemCalls'
 }
 
 thread() {
