@@ -123,6 +123,11 @@ SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<ve
   using V = vec<T>;
   constexpr std::size_t kL = kLanes<V>;
   const TileSweeper<kOutputs, kKnown, T> tiles{task, piece, patch, end};
+  if constexpr (kStreamsLines && (kKnown == Known::watertight)) {
+    if (sweep_across_lines<kOutputs>(task, piece, patch, end)) {
+      return;
+    }
+  }
   // A single column goes along with the last whole register.
   const std::size_t plain = split.column ? split.full - kL : split.full;
   std::size_t first = 0;

@@ -60,8 +60,8 @@ class PlaneRows<Piece, Tile, Extra, true> {
   using Register = vec<T>;
 
 public:
-  SIMDBEZIER_INLINE PlaneRows(const Tile& /*tile*/, T* to, std::size_t /*nu*/, Extra extra)
-      : stream_(to), extra_(extra) {}
+  SIMDBEZIER_INLINE PlaneRows(const Tile& tile, T* to, std::size_t /*nu*/, Extra extra)
+      : columns_(Piece::columns(tile.active)), stream_(to), extra_(extra) {}
 
   SIMDBEZIER_INLINE void edge(V value, RowKind kind, RowPlace /*place*/) {
     put(value);
@@ -84,10 +84,11 @@ private:
     if constexpr (Tile::kEveryLane) {
       stream_.put(value);
     } else {
-      stream_.template put_first<Piece::columns(0)>(value);
+      stream_.put_first(value, columns_);
     }
   }
 
+  std::size_t columns_;
   LineStream<Register> stream_;
   Extra extra_;
 };

@@ -94,6 +94,13 @@ struct RowPiece {
   static SIMDBEZIER_INLINE std::size_t columns(std::size_t nu) { return nu; }
 };
 
+/// Rows that lie across lines, and are as wide as their tile.
+template <typename T>
+struct AcrossPiece : RowPiece<T> {
+  static constexpr bool kAcross = true;
+  explicit SIMDBEZIER_INLINE AcrossPiece(const RowPiece<T>& piece) : RowPiece<T>(piece) {}
+};
+
 /// Cuts the rows of a task into pieces.
 template <typename T>
 class RowPieces {

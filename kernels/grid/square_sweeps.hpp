@@ -78,6 +78,41 @@ SIMDBEZIER_INLINE bool planes_begin_lines(const GridTask<T>& task) {
   return bits % 64 == 0;
 }
 
+/// Sweeps the patches if their rows lie across lines, and one tile without a column behind it is as
+/// wide as they are. Positions in a part of a register gain nothing by this.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_INLINE bool sweep_across_lines(const GridTask<T>& task, const RowPiece<T>& piece,
+                                          std::size_t patch, std::size_t end) {
+  using V = vec<T>;
+  constexpr std::size_t kL = kLanes<V>;
+  constexpr bool kDerivatives = kOutputs == detail::kPositionDerivatives;
+  const std::size_t nu = task.nu;
+  if constexpr (kDerivatives || kOutputs == detail::kPosition) {
+    if (task.drain != nullptr || (nu % kL == 0 && planes_begin_lines(task))) {
+      return false;
+    }
+    const AcrossPiece<T> across(piece);
+    if (nu == kL) {
+      sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, false, V>>(task, across, 0, nu,
+                                                                             patch, end);
+      return true;
+    }
+    if (nu == 2 * kL) {
+      sweep_tile<kOutputs, Known::watertight, ColumnTile<1, true, false, RegisterPair<V>>>(
+          task, across, 0, nu, patch, end);
+      return true;
+    }
+    if constexpr (kDerivatives) {
+      if (nu > kL / 2 && nu < kL) {
+        sweep_tile<kOutputs, Known::watertight, ColumnTile<1, false, false, V>>(task, across, 0, nu,
+                                                                                patch, end);
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 /// Sweeps the patches if `piece` is a square with one of these sides.
 template <detail::OutputSet kOutputs, std::size_t... kSides, typename T>
 SIMDBEZIER_INLINE bool sweep_square_of(std::index_sequence<kSides...>, const GridTask<T>& task,

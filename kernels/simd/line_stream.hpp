@@ -94,12 +94,11 @@ public:
     put(values.low);
     put(values.high);
   }
-  /// The first kCount lanes.
-  template <std::size_t kCount>
-  SIMDBEZIER_INLINE void put_first(V values) {
+  /// The first `count` lanes.
+  SIMDBEZIER_INLINE void put_first(V values, std::size_t count) {
     const V line = LaneWindow(kLanes<V> - filled_, T()).of(last_, values);
-    last_ = LaneWindow(kCount, T()).of(last_, values);
-    advance(kCount, line);
+    last_ = LaneWindow(count, T()).of(last_, values);
+    advance(count, line);
   }
   SIMDBEZIER_INLINE void put_lane(V from, std::size_t lane) {
     last_ = append_lane(last_, from, lane);
