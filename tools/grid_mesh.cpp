@@ -99,9 +99,11 @@ void GridMesh<T>::write_block(const GridBlock& block, MeshWriter<T>& writer,
   {
     const Stopwatch watch(seconds.evaluate);
     evaluator_.evaluate(block, out);
-    for (std::size_t k = 3; arguments_.mesh.flip && k < values_.size(); k += stride) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        values_[k + c] = T(0) - values_[k + c]; // no -0
+    if (arguments_.mesh.normals && arguments_.mesh.flip) {
+      for (std::size_t k = 3; k < values_.size(); k += stride) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          values_[k + c] = T(0) - values_[k + c]; // no -0
+        }
       }
     }
   }

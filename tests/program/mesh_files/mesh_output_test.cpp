@@ -106,11 +106,7 @@ TEST(MeshStatistics, StateWhatFilesState) {
           "tessellate", "builtin:teapot", "--grid", "5", "--stats=json", "-o", out};
       arguments.insert(arguments.end(), more.begin(), more.end());
       const Json stats = Json::parse(run(arguments).out, nullptr, false);
-      const std::string bytes = read_file(out);
-      const ReadMesh mesh = extension == "obj"   ? read_obj_mesh(bytes)
-                            : extension == "ply" ? read_ply_mesh(bytes)
-                            : extension == "stl" ? read_stl_mesh(bytes)
-                                                 : read_glb_mesh(bytes);
+      const ReadMesh mesh = read_mesh(extension, read_file(out));
       EXPECT_EQ(stats["deviation"].get<double>(), mesh.deviation.value_or(0)) << extension;
     }
   }

@@ -31,5 +31,12 @@ struct ReadMesh {
 /// Positions are the corners of the facets, three each, and normals one a facet.
 [[nodiscard]] ReadMesh read_stl_mesh(const std::string& bytes);
 [[nodiscard]] ReadMesh read_glb_mesh(const std::string& bytes);
+/// The one of these that a file's extension names.
+[[nodiscard]] inline ReadMesh read_mesh(const std::string& extension, const std::string& bytes) {
+  return extension == "obj"   ? read_obj_mesh(bytes)
+         : extension == "ply" ? read_ply_mesh(bytes)
+         : extension == "stl" ? read_stl_mesh(bytes)
+                              : read_glb_mesh(bytes);
+}
 
 } // namespace simdbezier::tests

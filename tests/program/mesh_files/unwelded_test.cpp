@@ -1,6 +1,9 @@
 // Meshes whose patches stay apart, as the program has always written them, and in every format.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
+
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/mesh_files/mesh_readers.hpp"
 #include "tests/program/process/program.hpp"
@@ -25,6 +28,21 @@ std::string two_squares(const TemporaryFolder& folder) {
     point[2] = 1;
   }
   return folder.write("squares.bez", bez_text(nets));
+}
+
+// What the faces enclose together with the origin.
+double volume_of(const ReadMesh& mesh) {
+  double sum = 0;
+  for (const std::vector<std::uint32_t>& face : mesh.faces) {
+    const Vector3& a = mesh.positions[face[0]];
+    for (std::size_t c = 2; c < face.size(); ++c) {
+      const Vector3& b = mesh.positions[face[c - 1]];
+      const Vector3& d = mesh.positions[face[c]];
+      sum += a[0] * (b[1] * d[2] - b[2] * d[1]) + a[1] * (b[2] * d[0] - b[0] * d[2]) +
+             a[2] * (b[0] * d[1] - b[1] * d[0]);
+    }
+  }
+  return sum / 6;
 }
 
 TEST(UnweldedMesh, IsTheSameTextAsEver) {
@@ -77,6 +95,47 @@ TEST(UnweldedMesh, IsOneMeshInAllFormats) {
   for (std::size_t k = 0; k < ply.faces.size(); ++k) {
     for (std::size_t c = 0; c < 3; ++c) {
       EXPECT_EQ(stl.positions[3 * k + c], ply.positions[ply.faces[k][c]]);
+    }
+  }
+}
+
+struct Flipped {
+  const char* extension;
+  std::vector<std::string> options;
+};
+
+// Faces and normals turn around, and positions stay, whatever else a vertex has.
+TEST(UnweldedMesh, FlipTurnsFacesAndNormalsOnly) {
+  const std::vector<Flipped> cases = {{"obj", {}},
+                                      {"obj", {"--no-normals"}},
+                                      {"obj", {"--quads", "--no-normals"}},
+                                      {"ply", {}},
+                                      {"ply", {"--no-normals"}},
+                                      {"ply", {"--quads", "--no-normals"}},
+                                      {"stl", {}},
+                                      {"stl", {"--no-normals"}},
+                                      {"glb", {}},
+                                      {"glb", {"--no-normals"}}};
+  for (const std::string precision : {"f32", "f64"}) {
+    for (const auto& [extension, more] : cases) {
+      SCOPED_TRACE(precision + " " + extension + (more.empty() ? "" : " " + more[0]));
+      std::vector<std::string> options = {"--grid", "5x4", "--precision", precision};
+      options.insert(options.end(), more.begin(), more.end());
+      const ReadMesh mesh = read_mesh(extension, tessellated("builtin:teapot", extension, options));
+      options.emplace_back("--flip");
+      const ReadMesh flipped =
+          read_mesh(extension, tessellated("builtin:teapot", extension, options));
+      // In STL each face has corners of its own, in its own order.
+      EXPECT_EQ(std::multiset(flipped.positions.begin(), flipped.positions.end()),
+                std::multiset(mesh.positions.begin(), mesh.positions.end()));
+      EXPECT_GT(std::abs(volume_of(mesh)), 1);
+      EXPECT_NEAR(volume_of(flipped), -volume_of(mesh), 1e-4);
+      ASSERT_EQ(flipped.normals.size(), mesh.normals.size());
+      for (std::size_t k = 0; extension != std::string("stl") && k < mesh.normals.size(); ++k) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          EXPECT_NEAR(flipped.normals[k][c], -mesh.normals[k][c], 1e-4);
+        }
+      }
     }
   }
 }
