@@ -3,7 +3,9 @@
 
 #include <cstdio>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <tools/failure.hpp>
 #include <tools/grid_mesh.hpp>
@@ -22,6 +24,17 @@ bool may_show_bar(const Arguments& arguments, const MeshWriter<T>& writer) {
   return arguments.out != "-" && !writer.is_terminal();
 }
 
+// JSON is data, text is for people.
+void print(const MeshStats& stats, StatsForm form) {
+  if (form == StatsForm::json) {
+    OutputFile out("-");
+    out.text(stats_as_json(stats));
+    out.commit();
+  } else if (form == StatsForm::text) {
+    std::fputs(stats_as_text(stats).c_str(), stderr);
+  }
+}
+
 template <typename T>
 void write_mesh(MeshSource<T>& mesh, const Arguments& arguments, MeshStats& stats) {
   std::unique_ptr<MeshWriter<T>> writer;
@@ -33,7 +46,11 @@ void write_mesh(MeshSource<T>& mesh, const Arguments& arguments, MeshStats& stat
     Progress progress("tessellating", "patches", stats.patches, may_show_bar(arguments, *writer));
     mesh.write(*writer, stats.seconds, progress);
   }
-  const Stopwatch watch(stats.seconds.write);
+  {
+    const Stopwatch watch(stats.seconds.write);
+    writer->complete();
+  }
+  print(stats, arguments.mesh.stats); // where this fails, there is no mesh either
   writer->finish();
 }
 
@@ -53,22 +70,15 @@ void tessellate(const Arguments& arguments, PatchFile patches, MeshStats& stats)
   write_mesh(mesh, arguments, stats);
 }
 
-// JSON is data, text is for people.
-void print(const MeshStats& stats, StatsForm form) {
-  if (form == StatsForm::json) {
-    OutputFile out("-");
-    out.text(stats_as_json(stats));
-    out.commit();
-  } else if (form == StatsForm::text) {
-    std::fputs(stats_as_text(stats).c_str(), stderr);
-  }
-}
-
 } // namespace
 
 void run_tessellate(const Arguments& arguments) {
   chosen_isa();
-  refuse_input_as_output(arguments.out, inputs_of(arguments));
+  const std::vector<std::string> inputs = inputs_of(arguments);
+  refuse_input_as_output(arguments.out, inputs);
+  if (arguments.mesh.stats == StatsForm::json) {
+    refuse_input_as_output("-", inputs);
+  }
   MeshStats stats;
   PatchFile patches;
   {
@@ -77,7 +87,6 @@ void run_tessellate(const Arguments& arguments) {
   }
   arguments.precision == Precision::f32 ? tessellate<float>(arguments, std::move(patches), stats)
                                         : tessellate<double>(arguments, std::move(patches), stats);
-  print(stats, arguments.mesh.stats);
 }
 
 } // namespace simdbezier::tools

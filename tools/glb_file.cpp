@@ -89,10 +89,11 @@ void GlbFile::complete() {
     constexpr std::array<char, 4> kZeros = {};
     body(kZeros.data(), parts_.bytes() - parts_.vertex_bytes() - parts_.all_index_bytes());
   }
-  if (!waiting_) {
-    file_.rewrite(0, frame());
-    return;
-  }
+  waiting_ ? write_waiting() : file_.rewrite(0, frame());
+  file_.complete();
+}
+
+void GlbFile::write_waiting() {
   file_.text(frame());
   std::vector<char> block(std::size_t{1} << 16);
   for (std::uint64_t at = 0; at < waiting_->size(); at += block.size()) {

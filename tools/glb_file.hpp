@@ -50,12 +50,14 @@ public:
   void vertices(std::span<const std::byte> records);
   /// To be called after all vertices.
   void indices(std::span<const std::uint32_t> corners);
-  /// To be called after all indices; only the file's name is missing then.
+  /// To be called after all indices. Brings the file to its disk or device; only its name is
+  /// missing then.
   void complete();
   void commit() { file_.commit(); }
 
 private:
   void body(const void* data, std::size_t size);
+  void write_waiting();
   [[nodiscard]] std::string frame() const;
 
   MeshContents contents_;

@@ -179,8 +179,10 @@ StatsForm parse_stats(const Words& words) {
   if (!form) {
     return StatsForm::none;
   }
-  if (*form == "json" && *words.value("-o") == "-") {
-    bad_usage("--stats: expected json for an output that is not standard output, found -o -");
+  if (const std::string out = *words.value("-o");
+      *form == "json" && mixes_with_standard_output(out)) {
+    bad_usage("--stats: expected json for an output that is not standard output, found -o " + out +
+              (out == "-" ? "" : ", which is standard output"));
   }
   if (!form->empty() && *form != "text" && *form != "json") {
     refuse(2, words, "--stats", in_quotes(*form));

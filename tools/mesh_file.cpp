@@ -150,8 +150,17 @@ void MeshWriter<T>::faces(std::span<const std::uint32_t> corners) {
 }
 
 template <typename T>
+void MeshWriter<T>::complete() {
+  assert(vertices_done_ == contents_.vertices && faces_done_ == contents_.faces && !complete_);
+  put_on_disk();
+  complete_ = true;
+}
+
+template <typename T>
 void MeshWriter<T>::finish() {
-  assert(vertices_done_ == contents_.vertices && faces_done_ == contents_.faces);
+  if (!complete_) {
+    complete();
+  }
   put_in_place();
 }
 

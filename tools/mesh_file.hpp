@@ -83,7 +83,10 @@ public:
   void vertices(const VertexBlock<T>& block);
   /// Corners of faces, MeshContents::corners each, numbered from 0.
   void faces(std::span<const std::uint32_t> corners);
-  /// Puts the complete file in its place; without it, there is none.
+  /// Brings the whole mesh to its disk or device. Only the file's name is missing then.
+  void complete();
+  /// Puts the file in its place, after complete() if that has not been called; without it, there
+  /// is none.
   void finish();
 
   /// Whether faces may come before the last vertex.
@@ -100,12 +103,14 @@ protected:
 private:
   virtual void take_vertices(const VertexBlock<T>& block) = 0;
   virtual void take_faces(std::span<const std::uint32_t> corners) = 0;
+  virtual void put_on_disk() = 0;
   virtual void put_in_place() = 0;
 
   std::string path_;
   MeshContents contents_;
   std::uint64_t vertices_done_ = 0;
   std::uint64_t faces_done_ = 0;
+  bool complete_ = false;
 };
 
 /// A writer for the format. Throws Failure, before anything is written, where the format cannot

@@ -52,6 +52,10 @@ std::optional<struct stat> file_of(const std::string& name, int standard) {
   return exists ? std::optional(status) : std::nullopt;
 }
 
+bool are_one(const std::optional<struct stat>& a, const std::optional<struct stat>& b) {
+  return a && b && a->st_dev == b->st_dev && a->st_ino == b->st_ino;
+}
+
 } // namespace
 
 OutputFile::OutputFile(std::string path) : path_(std::move(path)), buffer_(kBufferSize) {
@@ -149,16 +153,31 @@ void OutputFile::rewrite(std::uint64_t at, std::string_view text) {
   }
 }
 
-void OutputFile::commit() {
+void OutputFile::complete() {
   flush();
-  if (temporary_) {
-    try {
-      temporary_->replace_target();
-    } catch (const std::system_error& error) {
-      fail("room to write", error_text(error.code().value()));
+  descriptor_ = -1;
+  try {
+    if (temporary_) {
+      temporary_->complete();
+    } else if (const std::error_code error = direct_.close()) {
+      throw std::system_error(error);
     }
-  } else if (const std::error_code error = direct_.close()) {
-    fail("room to write", error_text(error.value()));
+  } catch (const std::system_error& error) {
+    fail("room to write", error_text(error.code().value()));
+  }
+}
+
+void OutputFile::commit() {
+  if (descriptor_ >= 0) {
+    complete();
+  }
+  if (!temporary_) {
+    return;
+  }
+  try {
+    temporary_->replace_target();
+  } catch (const std::system_error& error) {
+    fail("a place that the finished file can be moved to", error_text(error.code().value()));
   }
 }
 
@@ -167,13 +186,18 @@ void refuse_input_as_output(const std::string& out, std::span<const std::string>
   for (const std::string& input : inputs) {
     const auto read = file_of(input, STDIN_FILENO);
     // Devices, terminals and the like may well be both.
-    if (written && read && S_ISREG(written->st_mode) && written->st_dev == read->st_dev &&
-        written->st_ino == read->st_ino) {
+    if (are_one(written, read) && S_ISREG(written->st_mode)) {
       bad_input((out == "-" ? "standard output" : out) +
                 ": expected an output that is no input, found the file that " +
                 (input == "-" ? "standard input" : input) + " is read from");
     }
   }
+}
+
+bool mixes_with_standard_output(const std::string& path) {
+  const auto standard = file_of("-", STDOUT_FILENO);
+  return path == "-" || (are_one(file_of(path, STDOUT_FILENO), standard) &&
+                         !are_one(file_of("/dev/null", STDOUT_FILENO), standard));
 }
 
 bool is_written_directly(const std::string& path) {

@@ -46,6 +46,10 @@ public:
         static_cast<std::size_t>(std::to_chars(first, first + kLongestNumber, value).ptr - first);
   }
 
+  /// Brings everything to its disk or device. Nothing more can be written; only the name is
+  /// missing.
+  void complete();
+  /// Gives the file its name, after complete() if that has not been called.
   void commit();
 
 private:
@@ -66,7 +70,7 @@ private:
   std::string path_;
   std::optional<TemporaryFile> temporary_;
   Descriptor direct_;   // of a device or pipe
-  int descriptor_ = -1; // of either of them
+  int descriptor_ = -1; // of either of them; none when the file is complete
   std::vector<char> buffer_;
   std::size_t used_ = 0;
 };
@@ -74,6 +78,10 @@ private:
 /// Throws Failure where the output would go to the file that an input is read from, by whatever
 /// names. "-" means standard input or standard output.
 void refuse_input_as_output(const std::string& out, std::span<const std::string> inputs);
+
+/// True for "-", and for every other name of the file or device that standard output is, but not
+/// for /dev/null, where nothing can mix.
+[[nodiscard]] bool mixes_with_standard_output(const std::string& path);
 
 /// True for "-", devices and pipes, which have no temporary file.
 [[nodiscard]] bool is_written_directly(const std::string& path);

@@ -118,10 +118,13 @@ void SplitGlb::write_triangles(GlbFile& file) {
   }
 }
 
-void SplitGlb::commit() {
+void SplitGlb::complete() {
   if (part_.triangles > 0) {
     complete_part();
   }
+}
+
+void SplitGlb::commit() {
   for (GlbFile& file : files_) {
     file.commit();
   }

@@ -27,7 +27,9 @@ public:
     records_.append(records.data(), records.size());
   }
   void triangles(std::span<const std::uint32_t> corners);
-  /// Gives all files their names when all are complete.
+  /// Brings all files to the disk. Only their names are missing then.
+  void complete();
+  /// Gives all of them their names, after complete().
   void commit();
 
 private:

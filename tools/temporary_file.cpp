@@ -123,7 +123,7 @@ void TemporaryFile::take_over(const struct stat& target) const {
   static_cast<void>(!fchmod(file, mode));
 }
 
-void TemporaryFile::replace_target() {
+void TemporaryFile::complete() {
   struct stat target = {};
   if (fstatat(folder_.number(), target_.c_str(), &target, AT_SYMLINK_NOFOLLOW) == 0) {
     take_over(target);
@@ -134,6 +134,9 @@ void TemporaryFile::replace_target() {
   if (const std::error_code error = file_.close()) {
     throw std::system_error(error);
   }
+}
+
+void TemporaryFile::replace_target() {
   if (renameat(folder_.number(), name_.c_str(), folder_.number(), target_.c_str()) != 0) {
     fail(errno);
   }

@@ -37,8 +37,10 @@ public:
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
   [[nodiscard]] int descriptor() const noexcept { return file_.number(); }
-  /// Gives it the name of its target, and the target's owner, group and mode as far as that is
-  /// permitted. Before that, the data are on the disk. Throws std::system_error.
+  /// Brings it to the disk, with the target's owner, group and mode as far as that is permitted.
+  /// Nothing can be written any more. Throws std::system_error.
+  void complete();
+  /// Gives the complete file the name of its target. Throws std::system_error.
   void replace_target();
 
 private:

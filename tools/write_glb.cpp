@@ -18,10 +18,8 @@ public:
 private:
   void take_vertices(const VertexBlock<T>& block) override { file_.vertices(packer_.pack(block)); }
   void take_faces(std::span<const std::uint32_t> corners) override { file_.indices(corners); }
-  void put_in_place() override {
-    file_.complete();
-    file_.commit();
-  }
+  void put_on_disk() override { file_.complete(); }
+  void put_in_place() override { file_.commit(); }
 
   RecordPacker<T> packer_;
   GlbFile file_;
@@ -37,6 +35,7 @@ public:
 private:
   void take_vertices(const VertexBlock<T>& block) override { files_.vertices(packer_.pack(block)); }
   void take_faces(std::span<const std::uint32_t> corners) override { files_.triangles(corners); }
+  void put_on_disk() override { files_.complete(); }
   void put_in_place() override { files_.commit(); }
 
   RecordPacker<T> packer_;

@@ -86,6 +86,7 @@ private:
     }
   }
 
+  void put_on_disk() override { file_.complete(); }
   void put_in_place() override { file_.commit(); }
 
   OutputFile file_;

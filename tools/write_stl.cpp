@@ -92,6 +92,7 @@ private:
     file_.bytes(bytes.data(), bytes.size());
   }
 
+  void put_on_disk() override { file_.complete(); }
   void put_in_place() override { file_.commit(); }
 
   RecordPacker<T> packer_;

@@ -155,9 +155,24 @@ TEST(RefusedMeshOptions, QuadsInFormatsOfTriangles) {
   }
 }
 
+// Standard output by all of its names, and a file that it goes to.
 TEST(RefusedMeshOptions, JsonAmongData) {
-  expect_failure(run({"tessellate", "builtin:teapot", "--stats=json", "-o", "-", "--to", "ply"}), 2,
-                 "--stats: expected json for an output that is not standard output");
+  const TemporaryFolder folder;
+  const std::string out = folder.write("out.ply", "before");
+  const std::string message =
+      "--stats: expected json for an output that is not standard output, found -o ";
+  const auto outcome = [&](const std::string& name, const std::string& append) {
+    return run({"tessellate", "builtin:teapot", "--stats=json", "-o", name, "--to", "ply"},
+               {.append_path = append});
+  };
+  expect_failure(outcome("-", ""), 2, message + "-\n");
+  for (const std::string name : {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
+    expect_failure(outcome(name, ""), 2, message + name + ", which is standard output");
+  }
+  expect_failure(outcome(out, out), 2, message + out + ", which is standard output");
+  EXPECT_EQ(read_file(out), "before");
+  EXPECT_EQ(outcome("/dev/null", "/dev/null").exit_code, 0) << "nothing mixes there";
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"out.ply"});
 }
 
 TEST(RefusedMeshOptions, StandardOutputWithoutAFormat) {

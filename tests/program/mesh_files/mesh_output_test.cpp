@@ -170,6 +170,23 @@ TEST(MeshStatistics, AreReadableToo) {
   }
 }
 
+// The mesh has no name yet when its statistics are printed.
+TEST(MeshStatistics, ThatCannotBePrintedLeaveNoMesh) {
+  for (const std::string extension : kExtensions) {
+    for (const char* const standard : {"/dev/full", "closed"}) {
+      const TemporaryFolder folder;
+      const std::string old = folder.write("old." + extension, "before");
+      for (const std::string& out : {old, folder.path("new." + extension)}) {
+        expect_failure(run({"tessellate", "builtin:teapot", "--stats=json", "-o", out},
+                           {.append_path = standard}),
+                       1, "standard output: expected room to write");
+      }
+      EXPECT_EQ(read_file(old), "before");
+      EXPECT_EQ(folder.names(), std::vector<std::string>{"old." + extension});
+    }
+  }
+}
+
 TEST(MeshToStandardOutput, IsTheFile) {
   for (const std::string extension : kExtensions) {
     const Outcome outcome =

@@ -60,6 +60,13 @@ __attribute__((visibility("default"))) int fchown(int file, uid_t owner, gid_t g
                                     : next<int(int, uid_t, gid_t)>("fchown")(file, owner, group);
 }
 
+__attribute__((visibility("default"))) int renameat(int from, const char* name, int to,
+                                                    const char* target) {
+  return is_wanted("rename_refused")
+             ? failed(EPERM)
+             : next<int(int, const char*, int, const char*)>("renameat")(from, name, to, target);
+}
+
 // A few bytes at a time, and every other time none because a signal came.
 __attribute__((visibility("default"))) ssize_t write(int file, const void* data, size_t size) {
   static bool interrupted = false;

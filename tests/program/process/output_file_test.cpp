@@ -199,6 +199,9 @@ TEST(OutputFile, IsNoInput) {
                  1, "standard output" + expected + samples);
   expect_failure(run({"info", model}, {.append_path = model}), 1,
                  "standard output" + expected + model);
+  expect_failure(run({"tessellate", model, "--stats=json", "-o", folder.path("out.ply")},
+                     {.append_path = model}),
+                 1, "standard output" + expected + model);
   EXPECT_EQ(read_file(samples), "patch,u,v\n0,0.5,0.5\n");
   EXPECT_EQ(read_file(model), read_file(sample_path("obj")));
   // Devices may well be both.

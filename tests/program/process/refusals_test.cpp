@@ -62,6 +62,19 @@ TEST(Faults, SyncThatFailsIsAFailedWrite) {
   EXPECT_EQ(folder.names(), Names{"old.csv"});
 }
 
+// As in a folder whose sticky bit lets nobody replace the files of others.
+TEST(Faults, RefusedRenamingIsNoLackOfRoom) {
+  const TemporaryFolder folder;
+  const std::string old = folder.write("old.csv", "before");
+  for (const std::string& out : {old, folder.path("new.csv")}) {
+    expect_failure(run({"evaluate", "builtin:teapot", "-o", out}, {.fault = "rename_refused"}), 1,
+                   out + ": expected a place that the finished file can be moved to, found "
+                         "'Operation not permitted'");
+  }
+  EXPECT_EQ(read_file(old), "before");
+  EXPECT_EQ(folder.names(), Names{"old.csv"});
+}
+
 TEST(Faults, FileSystemsWithoutSyncWillDo) {
   const TemporaryFolder folder;
   expect_silent_success(run({"evaluate", "builtin:teapot", "-o", folder.path("out.csv")},
