@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <tools/counts.hpp>
 #include <tools/grid_blocks.hpp>
 #include <tools/library_status.hpp>
 #include <tools/output_file.hpp>
@@ -72,7 +73,7 @@ std::string describe(const std::map<Shape, std::size_t>& shapes) {
     text += text.empty() ? "degrees            " : "                   ";
     text += describe(shape);
     if (shapes.size() > 1) {
-      text += ": " + std::to_string(count) + (count == 1 ? " patch" : " patches");
+      text += ": " + quantity(count, "patch", "patches");
     }
     text += "\n";
   }

@@ -47,15 +47,16 @@ PatchFile CountedPatches::finish() {
 
 void CountedPatches::expect_more() {
   if (lexer_.at(TokenKind::end)) {
-    lexer_.fail(
-        declared(),
-        "the end of the file after " + std::to_string(file_.count) + " patches" +
-            (coordinates_ == 0 ? "" : " and " + std::to_string(coordinates_) + " coordinates"));
+    lexer_.fail(declared(),
+                "the end of the file after " + quantity(file_.count, "patch", "patches") +
+                    (coordinates_ == 0
+                         ? ""
+                         : " and " + quantity(coordinates_, "coordinate", "coordinates")));
   }
 }
 
 std::string CountedPatches::declared() const {
-  return std::to_string(count_) + " patches" + each_ + " as declared in line " +
+  return quantity(count_, "patch", "patches") + each_ + " as declared in line " +
          std::to_string(count_line_);
 }
 

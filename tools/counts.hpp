@@ -40,6 +40,11 @@ private:
   bool fits_;
 };
 
+/// "1 patch", "2 patches".
+[[nodiscard]] inline std::string quantity(std::size_t count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
 /// The count's digits, or "more than" the largest one.
 [[nodiscard]] inline std::string to_string(Count count) {
   return count.value() ? std::to_string(*count.value())

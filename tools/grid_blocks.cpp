@@ -29,7 +29,7 @@ std::uint64_t checked_sample_count(std::size_t patches, const GridSize& grid,
   const Count samples = Count(patches) * grid.nu * grid.nv;
   if (!(samples * bytes_per_sample).within(kMostBytes)) {
     bad_usage("--grid: expected at most " + std::to_string(kMostBytes) +
-              " bytes of results, found " + std::to_string(patches) + " patches of " +
+              " bytes of results, found " + quantity(patches, "patch", "patches") + " of " +
               std::to_string(grid.nu) + "x" + std::to_string(grid.nv) + " samples of " +
               std::to_string(bytes_per_sample) + " bytes");
   }

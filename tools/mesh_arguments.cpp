@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <string>
 #include <string_view>
 
@@ -15,8 +14,6 @@
 namespace simdbezier::tools {
 
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180;
 
 [[noreturn]] void refuse(int exit_code, const Words& words, const char* option,
                          const std::string& found) {
@@ -47,10 +44,6 @@ std::optional<double> number(const Words& words, const char* option, Fits&& fits
 }
 std::optional<double> positive(const Words& words, const char* option) {
   return number(words, option, [](double value) { return value > 0; });
-}
-std::optional<double> degrees(const Words& words, const char* option, double least, double most) {
-  const auto value = number(words, option, [&](double v) { return v >= least && v <= most; });
-  return value ? std::optional(*value * kRadians) : std::nullopt;
 }
 
 // Six numbers separated by commas.
@@ -102,7 +95,7 @@ Camera parse_camera(const Words& words) {
   }
   camera.width = width;
   camera.height = height;
-  camera.focal_length = height / (2 * std::tan(angle * kRadians / 2));
+  camera.focal_length = height / (2 * std::tan(angle * kRadiansPerDegree / 2));
   camera.nearest = kNearest * distance;
   return camera;
 }
@@ -161,14 +154,14 @@ void parse_contents(const Words& words, MeshArguments& mesh) {
   mesh.orient = words.has("--orient");
   mesh.quads = words.has("--quads");
   if (mesh.quads && mesh.format != MeshFormat::obj && mesh.format != MeshFormat::ply) {
-    bad_usage("--quads: expected an output in obj or ply, found " + in_quotes(*words.value("-o")));
+    bad_usage("--quads: expected an output in obj or ply, found " + mesh_format_name(mesh.format));
   }
   if (const auto bits = words.value("--quantise")) {
     if (*bits != "16" && *bits != "8") {
       refuse(2, words, "--quantise", in_quotes(*bits));
     }
     if (mesh.format != MeshFormat::glb) {
-      bad_usage("--quantise: expected an output in glb, found " + in_quotes(*words.value("-o")));
+      bad_usage("--quantise: expected an output in glb, found " + mesh_format_name(mesh.format));
     }
     mesh.storage = *bits == "16" ? VertexStorage::quantised_16 : VertexStorage::quantised_8;
   }
@@ -201,10 +194,7 @@ MeshArguments parse_mesh_arguments(const Words& words) {
   mesh.relative = positive(words, "--relative");
   mesh.pixels = positive(words, "--pixels");
   mesh.angle = number(words, "--angle", [](double v) { return v > 0 && v <= 180; });
-  if (mesh.angle) {
-    *mesh.angle *= kRadians;
-  }
-  mesh.crease = degrees(words, "--crease", 0, 180);
+  mesh.crease = number(words, "--crease", [](double v) { return v >= 0 && v <= 180; });
   mesh.snap = positive(words, "--snap").value_or(0);
   if (mesh.pixels) {
     mesh.camera = parse_camera(words);

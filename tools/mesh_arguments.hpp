@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <optional>
 
 #include <simdbezier/simdbezier.hpp>
@@ -10,6 +11,8 @@
 #include <tools/mesh_file.hpp>
 
 namespace simdbezier::tools {
+
+inline constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 
 enum class StatsForm : std::uint8_t { none, text, json };
 
@@ -22,14 +25,14 @@ struct MeshArguments {
   bool quads = false;
   bool orient = false;
   double snap = 0;
-  std::optional<double> crease; ///< in radians
+  std::optional<double> crease; ///< in degrees
   StatsForm stats = StatsForm::none;
 
   /// How fine it is. Without any of these, every patch has the samples of a grid.
   std::optional<double> tolerance;
   std::optional<double> relative;
   std::optional<double> pixels;
-  std::optional<double> angle; ///< in radians
+  std::optional<double> angle; ///< in degrees
   Camera camera;
 
   [[nodiscard]] bool adaptive() const noexcept { return tolerance || relative || pixels || angle; }

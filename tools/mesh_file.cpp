@@ -71,6 +71,8 @@ std::optional<MeshFormat> mesh_format_of(const std::string& path) {
              : std::optional(static_cast<MeshFormat>(entry - std::begin(kFormats)));
 }
 
+std::string mesh_format_name(MeshFormat format) { return entry_of(format).extension; }
+
 std::string mesh_format_names(const std::string& prefix) {
   std::string names;
   for (const FormatEntry& entry : kFormats) {

@@ -19,6 +19,8 @@ enum class MeshFormat : std::uint8_t { obj, ply, stl, glb };
 /// The format that a file's name asks for by its extension.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::string& path);
 
+/// "obj", …
+[[nodiscard]] std::string mesh_format_name(MeshFormat format);
 /// "obj, ply, … or glb", every name behind `prefix`.
 [[nodiscard]] std::string mesh_format_names(const std::string& prefix);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include <tools/failure.hpp>
 #include <tools/library_status.hpp>
@@ -11,20 +12,30 @@ namespace simdbezier::tools {
 
 namespace {
 
-/// What is asked of single patches; of all of them, where there is nothing for single ones.
+/// The distances that are asked for.
 struct Tolerances {
-  double all = 0;
-  std::vector<double> single;
+  double all = kUnlimited;
+  std::string option;         ///< that `all` comes from; empty where that is unlimited
+  std::vector<double> single; ///< of each patch, at most `all`; empty without --pixels
 
   [[nodiscard]] double of(std::size_t patch) const { return single.empty() ? all : single[patch]; }
+  [[nodiscard]] std::string option_of(std::size_t patch) const {
+    return of(patch) < all ? "--pixels" : option;
+  }
+  void lower(double tolerance, const char* from) {
+    if (tolerance < all) {
+      all = tolerance;
+      option = from;
+    }
+  }
 };
 
 template <typename T>
 Tolerances find_tolerances(const RatedPatches<T>& patches, const MeshArguments& mesh) {
   Tolerances found;
-  found.all = mesh.tolerance.value_or(kUnlimited);
+  found.lower(mesh.tolerance.value_or(kUnlimited), "--tolerance");
   if (mesh.relative && patches.diagonal > 0) {
-    found.all = std::min(found.all, *mesh.relative * patches.diagonal);
+    found.lower(*mesh.relative * patches.diagonal, "--relative");
   }
   if (mesh.pixels) {
     found.single.resize(patches.errors.size());
@@ -36,34 +47,51 @@ Tolerances find_tolerances(const RatedPatches<T>& patches, const MeshArguments& 
   return found;
 }
 
-[[noreturn]] void refuse(const MeshArguments& mesh, double found, double error,
-                         const std::string& patch) {
-  const char* const option = mesh.tolerance  ? "--tolerance"
-                             : mesh.relative ? "--relative"
-                             : mesh.pixels   ? "--pixels"
-                                             : "--angle";
+// Whether the patch would have its rates without the angle.
+template <typename T>
+bool asks_too_small_an_angle(const RatedPatches<T>& patches, RateOptions how,
+                             const CertifiedRates& rates, std::size_t patch) {
+  how.normal_angle = kUnlimited;
+  const RateReport report = choose_rates<T>(patches.nets, patches.topology, how, rates);
+  return report.status != Status::bad_tolerance || report.patch != patch;
+}
+
+// For a patch whose distance is too small.
+[[noreturn]] void refuse_distance(const MeshArguments& mesh, const Tolerances& tolerances,
+                                  std::size_t patch, double error, const std::string& name) {
+  const double found = tolerances.of(patch);
+  if (found == kUnlimited) {
+    bad_input(resolution_options(mesh) + ": expected a patch whose error of rounding is bounded, " +
+              "found " + name);
+  }
   const std::string needed =
       found > error
           ? "a distance that " + std::to_string(kMostSegments) + " cells a direction can keep"
           : "a distance above the error of rounding, " + shortest(error);
-  bad_input(std::string(option) + ": expected " + needed + ", found " + shortest(found) + " for " +
-            patch);
+  bad_input(tolerances.option_of(patch) + ": expected " + needed + ", found " + shortest(found) +
+            " for " + name);
 }
 
 template <typename T>
 void choose_adaptive(const RatedPatches<T>& patches, const Arguments& arguments,
                      const CertifiedRates& rates) {
-  const Tolerances tolerances = find_tolerances(patches, arguments.mesh);
+  const MeshArguments& mesh = arguments.mesh;
+  const Tolerances tolerances = find_tolerances(patches, mesh);
   RateOptions how;
   how.tolerance = tolerances.all;
   how.tolerances = tolerances.single;
   how.errors = patches.errors;
-  how.normal_angle = arguments.mesh.angle.value_or(how.normal_angle);
+  how.normal_angle = mesh.angle ? *mesh.angle * kRadiansPerDegree : kUnlimited;
   how.threads = arguments.threads;
   const RateReport report = choose_rates<T>(patches.nets, patches.topology, how, rates);
   if (report.status == Status::bad_tolerance) {
-    refuse(arguments.mesh, tolerances.of(report.patch), patches.errors[report.patch],
-           "patch " + std::to_string(report.patch) + " of " + patches.name);
+    const std::size_t patch = report.patch;
+    const std::string name = "patch " + std::to_string(patch) + " of " + patches.name;
+    if (mesh.angle && asks_too_small_an_angle(patches, how, rates, patch)) {
+      bad_input("--angle: expected degrees that " + std::to_string(kMostSegments) +
+                " cells a direction can keep, found " + shortest(*mesh.angle) + " for " + name);
+    }
+    refuse_distance(mesh, tolerances, patch, patches.errors[patch], name);
   }
   check(report.status);
 }
@@ -86,6 +114,18 @@ void choose_uniform(const RatedPatches<T>& patches, const Arguments& arguments,
 }
 
 } // namespace
+
+std::string resolution_options(const MeshArguments& mesh) {
+  std::string names;
+  const auto add = [&](const std::optional<double>& wish, const char* option) {
+    names += !wish ? "" : (names.empty() ? "" : " and ") + std::string(option);
+  };
+  add(mesh.tolerance, "--tolerance");
+  add(mesh.relative, "--relative");
+  add(mesh.pixels, "--pixels");
+  add(mesh.angle, "--angle");
+  return names.empty() ? "--grid" : names;
+}
 
 template <typename T>
 MeshRates choose_mesh_rates(const RatedPatches<T>& patches, const Arguments& arguments) {

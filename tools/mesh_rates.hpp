@@ -29,6 +29,10 @@ struct RatedPatches {
   const std::string& name;        ///< of their file, for messages
 };
 
+/// The options that say how fine a mesh is, for messages about all of it: "--relative and --angle",
+/// or "--grid" where it is not adaptive.
+[[nodiscard]] std::string resolution_options(const MeshArguments& mesh);
+
 /// Throws Failure that names the option whose wish cannot be met.
 template <typename T>
 [[nodiscard]] MeshRates choose_mesh_rates(const RatedPatches<T>& patches,

@@ -128,7 +128,7 @@ private:
       }
     }
     if (count != 3 && count != 4 && count != 6) {
-      bad_input_at(lexer_.name(), line, "x y z or x y z w", std::to_string(count) + " numbers");
+      bad_input_at(lexer_.name(), line, "x y z or x y z w", quantity(count, "number", "numbers"));
     }
     if (count == 6) {
       value[3] = 1;

@@ -115,9 +115,14 @@ private:
       } else {
         lexer_.fail("a basis");
       }
-      basis->step = lexer_.next().integer("the step of a basis", 1, kMostPoints);
+      basis->step = next_count("the step of a basis", 1);
     }
     lexer_.next();
+  }
+
+  std::size_t next_count(const std::string& what, std::size_t least) {
+    const std::string range = std::to_string(least) + " to " + std::to_string(kMostPoints);
+    return lexer_.next().integer(what + " (" + range + ")", least, kMostPoints);
   }
 
   std::string basis_of_matrix() {
@@ -162,8 +167,7 @@ private:
   MeshDirection direction(int degree, const Basis& basis, const std::string& name) {
     const std::size_t step = degree == 3 ? basis.step : 1;
     const auto order = static_cast<std::size_t>(degree) + 1;
-    const std::size_t points =
-        lexer_.next().integer("the number of points in " + name, 2, kMostPoints);
+    const std::size_t points = next_count("the number of points in " + name, 2);
     const std::string found = std::to_string(points);
     const std::size_t line = lexer_.line();
     lexer_.next();
@@ -234,7 +238,7 @@ private:
     for (std::size_t k = 0; k < all; ++k) {
       lexer_.next();
       if (lexer_.at(TokenKind::close) || lexer_.at(TokenKind::end)) {
-        lexer_.fail(what, lexer_.described() + " after " + std::to_string(k) + " numbers");
+        lexer_.fail(what, lexer_.described() + " after " + quantity(k, "number", "numbers"));
       }
       if (k % values == 0) {
         file_.add_line(lexer_.line());

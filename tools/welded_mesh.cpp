@@ -57,7 +57,8 @@ WeldedMesh<T>::WeldedMesh(PatchFile file, const Arguments& arguments, MeshStats&
   if (arguments_.mesh.crease) {
     Options options;
     options.threads = arguments_.threads;
-    check(split_creases(set_, layout_, *arguments_.mesh.crease, layout_, options));
+    check(split_creases(set_, layout_, *arguments_.mesh.crease * kRadiansPerDegree, layout_,
+                        options));
   }
   count_faces();
   const MeshContents mesh = contents();
@@ -114,9 +115,8 @@ template <typename T>
 void WeldedMesh<T>::lay_out() {
   const Status status = lay_out_mesh(topology_, {rates_.nu, rates_.nv, rates_.diagonals}, layout_);
   if (status == Status::size_overflow) {
-    const char* const option = arguments_.mesh.adaptive() ? "--tolerance" : "--grid";
-    bad_input(std::string(option) + ": expected at most " + std::to_string(kMostMeshVertices) +
-              " vertices, found more");
+    bad_input(resolution_options(arguments_.mesh) + ": expected at most " +
+              std::to_string(kMostMeshVertices) + " vertices, found more");
   }
   check(status);
   deviation_ = rates_.deviation;

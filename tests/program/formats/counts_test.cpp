@@ -38,6 +38,31 @@ TEST(Count, HasNoneWhereItCannot) {
   }
 }
 
+// One thing is no "things".
+TEST(Quantity, OfOneIsSingular) {
+  struct Case {
+    const char* format;
+    const char* text;
+    const char* message;
+  };
+  const Case cases[] = {
+      {"bez", "1\n7\n",
+       ":2: expected 1 patch of 48 coordinates as declared in line 1, found the end of the file "
+       "after 0 patches and 1 coordinate"},
+      {"bpt", "2 1 1 0 0 0 1 0 0 0 1 0 1 1 0",
+       ":1: expected 2 patches as declared in line 1, found the end of the file after 1 patch"},
+      {"bpt", "1 1 1 0 0 0 1 0 0 0 1 0 1 1 0 5",
+       ":1: expected the end of the file after 1 patch as declared in line 1, found '5'"},
+      {"obj", "v 1\n", ":1: expected x y z or x y z w, found 1 number"},
+      {"rib", "Patch \"bilinear\" \"P\" [7]",
+       ":1: expected 4 points of 3 numbers, found ']' after 1 number"},
+      {"rib", "PatchMesh \"bilinear\" 1 \"nonperiodic\" 2 \"nonperiodic\" \"P\" []",
+       ":1: expected the number of points in u (2 to 2147483648), found '1'"}};
+  for (const auto& [format, text, message] : cases) {
+    EXPECT_EQ(refusal(format, text), message);
+  }
+}
+
 struct HugeFile {
   const char* name;
   const char* format;
@@ -60,9 +85,9 @@ std::vector<HugeFile> huge_files() {
       {"FitsButIsNotThere", "rib", mesh(many, "2", "\"P\" [0 0 0]"),
        ":1: expected 4294967296 points of 3 numbers, found ']' after 3 numbers"},
       {"BeyondPoints", "rib", mesh("2147483649", "2", "\"P\" []"),
-       ":1: expected the number of points in u, found '2147483649'"},
+       ":1: expected the number of points in u (2 to 2147483648), found '2147483649'"},
       {"BeyondIntegers", "rib", mesh("18446744073709551618", "2", "\"P\" []"),
-       ":1: expected the number of points in u, found '18446744073709551618'"},
+       ":1: expected the number of points in u (2 to 2147483648), found '18446744073709551618'"},
       {"HugeStep", "rib",
        "Basis \"bezier\" 2147483648 \"bezier\" 2147483648\n"
        "PatchMesh \"bicubic\" 2147483648 \"periodic\" 2147483648 \"periodic\" \"Pw\" []",

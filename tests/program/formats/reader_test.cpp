@@ -113,13 +113,13 @@ std::vector<BadFile> bad_files() {
        ":35: expected 3 patches as declared in line 1"},
       {"Truncated", "bez", bez.substr(0, bez.rfind("201 ")), // inside the second patch
        ":18: expected 2 patches of 48 coordinates as declared in line 1, found the end of the file "
-       "after 1 patches and 3 coordinates"},
+       "after 1 patch and 3 coordinates"},
       {"TruncatedBpt", "bpt", bpt.substr(0, bpt.rfind("203 ")),
        ":22: expected 2 patches as declared in line 1, found the end of the file "
-       "after 1 patches and 9 coordinates"},
+       "after 1 patch and 9 coordinates"},
       {"OneCoordinateLess", "bez", bez.substr(0, bez.rfind(' ')),
        ":33: expected 2 patches of 48 coordinates as declared in line 1, found the end of the file "
-       "after 1 patches and 47 coordinates"},
+       "after 1 patch and 47 coordinates"},
       {"OneCoordinateMore", "bez", bez + "\n7\n",
        ":35: expected the end of the file after 2 patches of 48 coordinates as declared in line 1, "
        "found '7'"},

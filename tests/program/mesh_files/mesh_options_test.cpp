@@ -43,7 +43,42 @@ const Refused kRefused[] = {
      "--relative: expected a distance above the error of rounding, "},
     {"AngleZero", 1, {"--angle", "0"}, "--angle: expected degrees above 0 and at most 180"},
     {"AngleLarge", 1, {"--angle", "181"}, "--angle: expected degrees above 0 and at most 180"},
-    {"AngleTiny", 1, {"--angle", "1e-9"}, "--angle: expected "},
+    {"AngleBeyondRates",
+     1,
+     {"--angle", "1e-5"},
+     "--angle: expected degrees that 4096 cells a direction can keep, found 1e-05 for patch 0 of"},
+    {"AngleBesideTolerance",
+     1,
+     {"--tolerance", "1", "--angle", "1e-5"},
+     "--angle: expected degrees that 4096 cells a direction can keep, found 1e-05 for patch 0 of"},
+    {"AngleBesideRelative",
+     1,
+     {"--relative", "0.5", "--angle", "1e-5"},
+     "--angle: expected degrees that 4096 cells"},
+    {"AngleBesidePixels",
+     1,
+     {"--pixels", "1", "--camera", "9,0,0,0,0,0", "--angle", "1e-5"},
+     "--angle: expected degrees that 4096 cells"},
+    {"ToleranceBesideAngle",
+     1,
+     {"--tolerance", "1e-9", "--angle", "10"},
+     "--tolerance: expected a distance above the error of rounding, "},
+    {"ToleranceBesideTinyAngle",
+     1,
+     {"--tolerance", "1e-9", "--angle", "1e-5"},
+     "--tolerance: expected a distance above the error of rounding, "},
+    {"RelativeBelowTolerance",
+     1,
+     {"--tolerance", "1", "--relative", "1e-12"},
+     "--relative: expected a distance above the error of rounding, "},
+    {"PixelsBelowTolerance",
+     1,
+     {"--tolerance", "1", "--pixels", "1e-9", "--camera", "9,0,0,0,0,0"},
+     "--pixels: expected a distance above the error of rounding, "},
+    {"ToleranceBelowPixels",
+     1,
+     {"--tolerance", "1e-9", "--pixels", "1", "--camera", "9,0,0,0,0,0"},
+     "--tolerance: expected a distance above the error of rounding, "},
     {"PixelsZero", 1, {"--pixels", "0", "--camera", "9,0,0,0,0,0"}, "--pixels: expected a number"},
     {"PixelsWithoutCamera", 2, {"--pixels", "1"}, "--pixels: expected with --camera"},
     {"CameraWithoutPixels", 2, {"--camera", "9,0,0,0,0,0"}, "--camera: expected with --pixels"},
@@ -95,7 +130,7 @@ const Refused kRefused[] = {
     {"OrientOfSheets", 2, {"--no-weld", "--orient"}, "--orient: expected without --no-weld"},
     {"SnapOfSheets", 2, {"--no-weld", "--snap", "1"}, "--snap: expected without --no-weld"},
     {"StatsUnknown", 2, {"--stats=xml"}, "--stats: expected text or json, found 'xml'"},
-    {"QuantisedPly", 2, {"--quantise", "16"}, "--quantise: expected an output in glb"},
+    {"QuantisedPly", 2, {"--quantise", "16"}, "--quantise: expected an output in glb, found ply"},
     {"QuantisedWords", 2, {"--quantise", "12"}, "--quantise: expected 16 or 8, found '12'"},
     {"OtherFormat", 2, {"--to", "obj"}, "--to: expected the format of "},
     {"UnknownFormat", 2, {"--to", "fbx"}, "--to: expected obj, ply, stl or glb, found 'fbx'"},
@@ -116,17 +151,33 @@ TEST_P(RefusedOptions, AreNamedInOneLine) {
 INSTANTIATE_TEST_SUITE_P(All, RefusedOptions, ::testing::ValuesIn(kRefused),
                          [](const auto& test) { return std::string(test.param.name); });
 
+// The options that ask for so many are named, and no other ones.
 TEST(RefusedMeshOptions, MoreVerticesThanIndices) {
   const TemporaryFolder folder;
-  std::vector<Net> nets(300, flat_net());
+  std::vector<Net> nets(1500, flat_net());
   for (std::size_t k = 0; k < nets.size(); ++k) {
-    for (Vector3& point : nets[k].points) {
-      point[2] = static_cast<double>(k);
+    for (std::size_t m = 0; m < nets[k].points.size(); ++m) {
+      Vector3& point = nets[k].points[m];
+      point = {3 * point[0], 3 * point[1],
+               static_cast<double>((m % 4 * 7 + m / 4 * 5) % 4) + 0.01 * static_cast<double>(k)};
     }
   }
   const std::string in = folder.write("in.bez", bez_text(nets));
-  expect_failure(run({"tessellate", in, "--grid", "4097", "-o", folder.path("out.ply")}), 1,
-                 "--grid: expected at most 4294967295 vertices, found more");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"--grid", "4097"}, "--grid"},
+      {{"--tolerance", "1e-6"}, "--tolerance"},
+      {{"--relative", "5e-8"}, "--relative"},
+      {{"--angle", "0.1"}, "--angle"},
+      {{"--angle", "0.1", "--relative", "0.5"}, "--relative and --angle"},
+      {{"--pixels", "5e-5", "--camera", "1,1,30,1,1,0"}, "--pixels"}};
+  for (const auto& [options, name] : cases) {
+    std::vector<std::string> arguments = {"tessellate", in,   "--precision",
+                                          "f64",        "-o", folder.path("out.ply")};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    // Without the refusal, the limit keeps the disk from being filled.
+    expect_failure(run(arguments, {.file_size_limit = 1 << 20}), 1,
+                   "simdbezier: " + name + ": expected at most 4294967295 vertices, found more");
+  }
   EXPECT_EQ(folder.names(), std::vector<std::string>{"in.bez"});
 }
 
@@ -150,8 +201,13 @@ TEST(RefusedMeshOptions, SurfacesOfOneSide) {
 
 TEST(RefusedMeshOptions, QuadsInFormatsOfTriangles) {
   for (const std::string extension : {"stl", "glb"}) {
-    expect_failure(run({"tessellate", "builtin:teapot", "--quads", "-o", "out." + extension}), 2,
-                   "--quads: expected an output in obj or ply, found 'out." + extension + "'");
+    for (const std::vector<std::string>& out :
+         {std::vector<std::string>{"out." + extension}, {"-", "--to", extension}}) {
+      std::vector<std::string> arguments = {"tessellate", "builtin:teapot", "--quads", "-o"};
+      arguments.insert(arguments.end(), out.begin(), out.end());
+      expect_failure(run(arguments), 2,
+                     "--quads: expected an output in obj or ply, found " + extension + "\n");
+    }
   }
 }
 
