@@ -9,6 +9,13 @@ namespace simdbezier::tools {
 
 namespace {
 
+using Names = std::array<std::string_view, 3>;
+constexpr Names kUnit = {"patch", "u", "v"};
+constexpr Names kCentred = {"patch", "x", "y"};
+// In results, where x, y and z are positions. Samples may have them too, so that the first columns
+// of results are samples again.
+constexpr Names kCentredResult = {"patch", "centred_u", "centred_v"};
+
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 constexpr std::array<std::string_view, kOutputGroups> kColumns = {
     ",x,y,z",          ",dux,duy,duz",    ",dvx,dvy,dvz", ",duux,duuy,duuz",
@@ -34,7 +41,7 @@ struct Fields {
       line.remove_prefix(more ? comma + 1 : line.size());
     }
   }
-  [[nodiscard]] bool are(const std::array<std::string_view, 3>& names) const {
+  [[nodiscard]] bool are(const Names& names) const {
     return count == names.size() && std::ranges::equal(names, std::span(value).first(names.size()));
   }
   /// The first field that another one repeats, or an empty one.
@@ -68,8 +75,8 @@ SampleReader::SampleReader(const std::string& path, std::size_t patches)
     fail(expected, "the end of the file");
   }
   const Fields fields(line_);
-  centred_ = fields.are({"patch", "x", "y"});
-  if (!centred_ && !fields.are({"patch", "u", "v"})) {
+  centred_ = fields.are(kCentred) || fields.are(kCentredResult);
+  if (!centred_ && !fields.are(kUnit)) {
     const std::string_view repeated = fields.repeated();
     fail(expected,
          in_quotes(line_) + (repeated.empty() ? "" : " with " + in_quotes(repeated) + " twice"));
@@ -128,7 +135,12 @@ void SampleReader::fail(const std::string& expected, const std::string& found) c
 
 ResultWriter::ResultWriter(OutputFile& file, bool centred, std::span<const OutputGroup> groups)
     : file_(file) {
-  file_.text(centred ? "patch,x,y" : "patch,u,v");
+  const Names& names = centred ? kCentredResult : kUnit;
+  file_.text(names[0]);
+  for (const std::string_view name : std::span(names).subspan(1)) {
+    file_.character(',');
+    file_.text(name);
+  }
   for (const OutputGroup group : groups) {
     file_.text(kColumns[static_cast<std::size_t>(group)]);
   }

@@ -14,14 +14,15 @@
 
 namespace simdbezier::tools {
 
-/// One sample as its line gives it. u and v are centred where the header says patch,x,y.
+/// One sample as its line gives it. u and v may be centred, which the header tells.
 struct CsvSample {
   std::uint32_t patch = 0;
   double u = 0;
   double v = 0;
 };
 
-/// Reads a file with the header patch,u,v or patch,x,y, line by line.
+/// Reads a file with the header patch,u,v or patch,x,y, or patch,centred_u,centred_v as results
+/// have it instead of the latter, line by line.
 /// Throws Failure with file and line on anything else.
 class SampleReader {
 public:

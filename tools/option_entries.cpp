@@ -80,7 +80,7 @@ Entries make_entries() {
   const Entries rest = {
       {"--samples", "FILE.csv", "the name of a CSV file or - for standard input",
        "Samples instead of a grid, with the header patch,u,v, or patch,x,y with x = 2u-1, y = "
-       "2v-1",
+       "2v-1, which results call centred_u and centred_v",
        " evaluate "},
       {"--outputs", "LIST", std::string(kOutputNames) + " separated by commas",
        "Columns (default position); curvature is four: gaussian, mean, smaller and larger "

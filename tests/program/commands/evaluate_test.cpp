@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <ostream>
+#include <set>
 #include <sstream>
 
 #include <tools/csv.hpp>
@@ -148,7 +149,8 @@ TEST(Evaluate, CentredParametersAreTakenAsTheyAre) {
     const std::string unit = evaluate(options, "patch,u,v\n3,0.25,0.625\n31,0,1\n0,1.5,-0.5\n");
     const std::string centred = evaluate(options, "patch,x,y\n3,-0.5,0.25\n31,-1,1\n0,2,-2\n");
     EXPECT_EQ(first_line(unit), "patch,u,v,x,y,z");
-    EXPECT_EQ(first_line(centred), "patch,x,y,x,y,z");
+    EXPECT_EQ(first_line(centred), "patch,centred_u,centred_v,x,y,z");
+    EXPECT_EQ(evaluate(options, samples_of(centred)), centred);
     const ParsedCsv a = parse_csv(unit);
     const ParsedCsv b = parse_csv(centred);
     ASSERT_EQ(a.rows.size(), 3U);
@@ -158,6 +160,16 @@ TEST(Evaluate, CentredParametersAreTakenAsTheyAre) {
     }
     EXPECT_EQ(b.rows[0][1], -0.5);
     EXPECT_EQ(b.rows[2][2], -2);
+  }
+}
+
+TEST(Evaluate, GivesEveryColumnANameOfItsOwn) {
+  for (const std::string header : {"patch,u,v", "patch,x,y"}) {
+    const std::string csv = evaluate(
+        {"builtin:teapot", "--samples", "-", "--outputs", std::string(kEverything) + ",curvature"},
+        header + "\n0,0.5,0.5\n");
+    const std::vector<std::string> names = fields(first_line(csv));
+    EXPECT_EQ(std::set(names.begin(), names.end()).size(), names.size()) << first_line(csv);
   }
 }
 
