@@ -11,6 +11,8 @@ namespace simdbezier::tools {
 
 namespace {
 
+bool is_builtin(const std::string& in) { return in.starts_with("builtin:"); }
+
 // For options that are the same in all commands that have them.
 [[noreturn]] void refuse(const char* name, const std::string& found) {
   const auto entry = std::ranges::find(option_entries(), name, &OptionEntry::name);
@@ -95,7 +97,7 @@ void understand_evaluation(const Words& words, Arguments& arguments) {
 
 std::vector<std::string> inputs_of(const Arguments& arguments) {
   std::vector<std::string> inputs;
-  if (!arguments.in.starts_with("builtin:")) {
+  if (!is_builtin(arguments.in)) {
     inputs.push_back(arguments.in);
   }
   if (arguments.samples) {
@@ -117,6 +119,9 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
   }
   if (const auto format = words->value("--format")) {
     arguments.format = parse_patch_format("--format", *format);
+    if (is_builtin(arguments.in)) {
+      bad_usage("--format: expected with a file, found " + in_quotes(arguments.in));
+    }
   }
   arguments.json = words->has("--json");
   if (words->command != Command::info) {

@@ -58,25 +58,50 @@ std::unique_ptr<Parser> make_parser() {
   bad_usage(entry.name + ": expected " + entry.expected + ", found " + found);
 }
 
-// CLI11 objects in two cases only: an option that takes no value has one, or the last option lacks
-// its value.
-[[noreturn]] void refuse_values(int argc, const char* const* argv) {
+// Calls visit(option, what follows its =, whether it is the last word) for all words that look like
+// options of their command.
+template <typename Visit>
+void for_options(int argc, const char* const* argv, Visit&& visit) {
   std::string_view command = "simdbezier";
-  for (int k = 1; k < argc; ++k) {
+  for (int k = 1; k < argc && argv[k] != std::string_view("--"); ++k) {
     const std::string word = argv[k];
     if (std::ranges::find(kCommands, word) != kCommands.end()) {
       command = command == "simdbezier" ? argv[k] : command;
       continue;
     }
-    const std::size_t equals = std::min(word.find('='), word.size());
+    const std::size_t equals = word.find('=');
     const OptionEntry* const entry = find_option(word.substr(0, equals), command);
-    if (entry != nullptr && entry->value.empty() && equals < word.size()) {
-      bad_usage(entry->name + ": expected no value, found " + in_quotes(word.substr(equals + 1)));
-    }
-    if (entry != nullptr && entry->needs_value && !entry->value.empty() && k == argc - 1) {
-      refuse_missing(*entry, "the end of the command line");
+    if (entry != nullptr) {
+      const bool has_value = equals != std::string::npos;
+      visit(*entry, has_value ? std::optional(word.substr(equals + 1)) : std::nullopt,
+            k == argc - 1);
     }
   }
+}
+
+// CLI11 takes "--option=" for the option without a value, and the next word for its value.
+void refuse_empty_values(int argc, const char* const* argv) {
+  for_options(argc, argv,
+              [](const OptionEntry& entry, const std::optional<std::string>& value, bool) {
+                if (value == "") {
+                  bad_usage(entry.name + ": expected " +
+                            (entry.value.empty() ? "no value" : entry.expected) + ", found ''");
+                }
+              });
+}
+
+// CLI11 objects in two cases only: an option that takes no value has one, or the last option lacks
+// its value.
+[[noreturn]] void refuse_values(int argc, const char* const* argv) {
+  for_options(argc, argv,
+              [](const OptionEntry& entry, const std::optional<std::string>& value, bool last) {
+                if (entry.value.empty() && value) {
+                  bad_usage(entry.name + ": expected no value, found " + in_quotes(*value));
+                }
+                if (entry.needs_value && !entry.value.empty() && last) {
+                  refuse_missing(entry, "the end of the command line");
+                }
+              });
   bad_usage("expected what 'simdbezier --help' lists, found " + in_quotes(argv[argc - 1]));
 }
 
@@ -166,6 +191,7 @@ std::optional<std::string> Words::value(std::string_view name) const {
 }
 
 std::optional<Words> split_command_line(int argc, const char* const* argv) {
+  refuse_empty_values(argc, argv);
   const std::unique_ptr<Parser> parser = make_parser();
   try {
     parser->app.parse(argc, argv);

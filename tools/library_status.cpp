@@ -2,11 +2,25 @@
 
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 #include <tools/failure.hpp>
 #include <tools/text_input.hpp>
 
 namespace simdbezier::tools {
+
+namespace {
+
+// The library takes every other word for no wish.
+void check_destination() {
+  const char* const value = std::getenv("SIMDBEZIER_DESTINATION");
+  const std::string_view wish = value == nullptr ? "" : value;
+  if (!wish.empty() && wish != "automatic" && wish != "memory" && wish != "cache") {
+    bad_usage("SIMDBEZIER_DESTINATION: expected memory or cache, found " + in_quotes(wish));
+  }
+}
+
+} // namespace
 
 std::string available_isa_names(std::string_view separator) {
   std::string names;
@@ -44,6 +58,7 @@ void check(Status status) {
 }
 
 Isa chosen_isa() {
+  check_destination();
   Isa isa = Isa::automatic;
   check(resolve_isa(Isa::automatic, isa));
   return isa;

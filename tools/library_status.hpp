@@ -11,8 +11,9 @@ namespace simdbezier::tools {
 /// Does nothing for ok, and otherwise throws the Failure that the status means to a user.
 void check(Status status);
 
-/// The instruction set that evaluate calls will run on. Throws Failure (bad usage) naming
-/// SIMDBEZIER_ISA where that is not available.
+/// The instruction set that evaluate calls will run on. Throws Failure (bad usage) naming the
+/// variable of the environment, SIMDBEZIER_ISA or SIMDBEZIER_DESTINATION, that asks for what is not
+/// there.
 Isa chosen_isa();
 
 /// "simdbezier 1.2.3".

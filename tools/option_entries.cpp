@@ -61,20 +61,21 @@ void add_mesh(Entries& entries) {
 Entries make_entries() {
   const std::string all = " tessellate evaluate info ";
   const std::string both = " tessellate evaluate ";
-  const std::string side = std::to_string(kMostPerDirection);
+  const std::string sides = "N or NUxNV, each from 2 to " + std::to_string(kMostPerDirection);
   Entries entries = {
       {"IN", "IN", "builtin:teapot, the name of a file or - for standard input",
        "Patches (" + patch_format_names(".") + ", compressed by gzip or not)", all},
       {"-o", "OUT", "a name that ends in " + mesh_format_names(".") + ", or - with --to",
-       "Output, required", " tessellate "},
+       "Output, required; a device or pipe needs --to", " tessellate "},
       {"--to", "NAME", mesh_format_names(""), "Format of OUT, otherwise told by its name",
        " tessellate "},
-      {"-o", "OUT", "a name that ends in .csv, or - for standard output", "Output, required",
-       " evaluate "},
+      {"-o", "OUT", "a name that ends in .csv, or - for standard output",
+       "Output, required; may be a device or pipe", " evaluate "},
       {"--format", "NAME", patch_format_names(""), "Format of IN, otherwise told by its name", all},
-      {"--grid", "N|NUxNV", "N or NUxNV, each from 2 to " + side,
+      {"--grid", "N|NUxNV", sides,
        "Samples of every patch (default 16); at most 4097 a direction in one mesh without gaps",
-       both}};
+       " tessellate "},
+      {"--grid", "N|NUxNV", sides, "Samples of every patch (default 16)", " evaluate "}};
   add_resolution(entries);
   add_mesh(entries);
   const Entries rest = {
@@ -83,8 +84,8 @@ Entries make_entries() {
        "2v-1, which results call centred_u and centred_v",
        " evaluate "},
       {"--outputs", "LIST", std::string(kOutputNames) + " separated by commas",
-       "Columns (default position); curvature is four: gaussian, mean, smaller and larger "
-       "principal",
+       "Columns (default position); they come in the order of this list, curvature as four "
+       "(gaussian, mean, smaller and larger principal)",
        " evaluate "},
       {"--precision", "TYPE", "f32 or f64",
        "Numbers to compute with (default f32, control points are rounded to float first)", both},

@@ -1,4 +1,5 @@
 // SIMDBEZIER_ISA: every instruction set can be chosen, is what runs, and unknown ones are errors.
+// So are unknown words of SIMDBEZIER_DESTINATION.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -100,6 +101,26 @@ TEST(InstructionSet, UnknownOrUnavailableIsBadUsage) {
     }
   }
   EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(Destination, UnknownIsBadUsage) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path("out.csv");
+  const std::vector<std::vector<std::string>> commands = {
+      {"info", "builtin:teapot"},
+      {"tessellate", folder.path("absent.bez"), "-o", folder.path("out.ply")}, // before any work
+      {"evaluate", "builtin:teapot", "-o", out}};
+  for (const std::string word : {"bogus", "Memory", "cache "}) {
+    for (const auto& command : commands) {
+      expect_failure(run(command, {.environment = {{"SIMDBEZIER_DESTINATION", word}}}), 2,
+                     "SIMDBEZIER_DESTINATION: expected memory or cache, found '" + word + "'");
+    }
+  }
+  EXPECT_TRUE(folder.names().empty());
+  for (const std::string word : {"", "automatic", "memory", "cache"}) {
+    expect_silent_success(
+        run(commands.back(), {.environment = {{"SIMDBEZIER_DESTINATION", word}}}));
+  }
 }
 
 } // namespace

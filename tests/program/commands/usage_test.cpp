@@ -1,8 +1,7 @@
-// Command lines that the program refuses, and those that it answers without any data.
+// Command lines that the program refuses, and the ways in which words may stand.
 #include <gtest/gtest.h>
 
 #include <ostream>
-#include <sstream>
 
 #include "tests/program/process/program.hpp"
 
@@ -72,6 +71,18 @@ std::vector<BadUsage> bad_usages() {
       {"FlagTwice",
        {"info", "builtin:teapot", "--json", "--json"},
        "--json: expected once, found 2 times"},
+      {"FlagWithEmptyValue",
+       {"info", "builtin:teapot", "--json="},
+       "--json: expected no value, found ''"},
+      {"StatsEmpty", tessellate_obj({"--stats="}), "--stats: expected text or json, found ''"},
+      {"GridEmptyBehindEquals", tessellate_obj({"--grid=", "4"}), grid + "'"},
+      {"OutputEmptyBehindEquals", tessellate({"-o="}),
+       "-o: expected a name that ends in .obj, .ply, .stl or .glb, or - with --to, found ''"},
+      {"FormatOfBuiltin",
+       {"info", "builtin:teapot", "--format", "obj"},
+       "--format: expected with a file, found 'builtin:teapot'"},
+      {"FormatOfBuiltinMesh", tessellate_obj({"--format", "bez"}),
+       "--format: expected with a file, found 'builtin:teapot'"},
       {"OutputTwice", tessellate_obj({"-o", "other.obj"}), "-o: expected once, found 2 times"},
       {"NoInput",
        {"info"},
@@ -163,30 +174,6 @@ TEST(Usage, InputsOfUnknownOrLaterFormats) {
   }
 }
 
-const std::vector<std::string> kCommands = {"tessellate", "evaluate", "info"};
-
-std::string help_of(const std::string& command) {
-  const Outcome outcome = run({command, "--help"});
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_EQ(outcome.err, "");
-  EXPECT_EQ(run({command, "-h"}).out, outcome.out);
-  EXPECT_EQ(run({command, "--help", "IN", "--bogus"}).out, outcome.out);
-  return outcome.out;
-}
-
-TEST(Usage, HelpAndVersionAreAnswers) {
-  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {{"--help"}, "usage: simdbezier COMMAND"},
-      {{"-h"}, "tessellate IN -o OUT [options]"},
-      {{"--version"}, "simdbezier 0."}};
-  for (const auto& [arguments, part] : cases) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, 0);
-    EXPECT_EQ(outcome.err, "");
-    EXPECT_NE(outcome.out.find(part), std::string::npos) << outcome.out;
-  }
-}
-
 TEST(Usage, WordsMayStandInManyWays) {
   const TemporaryFolder folder;
   const std::string out = folder.path("out.ply");
@@ -201,76 +188,6 @@ TEST(Usage, WordsMayStandInManyWays) {
     expect_silent_success(run(command));
     first = first.empty() ? read_file(out) : first;
     EXPECT_TRUE(read_file(out) == first);
-  }
-}
-
-TEST(Usage, HelpHasExamplesRangesDefaultsAndExitCodes) {
-  const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
-      {"tessellate",
-       {"N or NUxNV, each from 2 to 1048576", "(default 16)", "1 to 1024, or 0 for all",
-        "(default f32", "rounded to float first", "--no-normals", ".obj, .ply, .stl or .glb"}},
-      {"evaluate",
-       {"position, du, dv, duu, duv, dvv, normal, curvature", "(default position)",
-        "patch,x,y with x = 2u-1"}},
-      {"info", {"--json", "bez, bpt, bv, itd, obj or rib"}}};
-  for (const auto& [command, parts] : cases) {
-    std::string help = help_of(command);
-    EXPECT_NE(help.find("Examples:\n  simdbezier " + command), std::string::npos) << help;
-    EXPECT_NE(help.find("Exit codes: 0 done, 1 bad input or failed write, 2 bad usage"),
-              std::string::npos);
-    for (std::size_t at = help.find("\n                        "); at != std::string::npos;
-         at = help.find("\n                        ")) {
-      help.replace(at, 25, " "); // lines that go on
-    }
-    for (const std::string& part : parts) {
-      EXPECT_NE(help.find(part), std::string::npos) << part << "\n" << help;
-    }
-  }
-}
-
-// Every option that help lists is one, and needs what help says.
-TEST(Usage, HelpListsNoOptionThatIsNotThere) {
-  for (const std::string& command : kCommands) {
-    const std::string help = help_of(command);
-    EXPECT_EQ(help.find("not supported"), std::string::npos) << help;
-    std::size_t options = 0;
-    for (std::size_t at = help.find("\n  --"); at != std::string::npos;
-         at = help.find("\n  --", at + 1)) {
-      const std::string name = help.substr(at + 3, help.find_first_of(" [\n", at + 3) - at - 3);
-      const Outcome outcome = run({command, "builtin:teapot", name, "--bogus"});
-      EXPECT_EQ(outcome.err.find("found '" + name + "'"), std::string::npos) << outcome.err;
-      ++options;
-    }
-    EXPECT_GE(options, 2U) << help;
-  }
-}
-
-TEST(Usage, ExamplesOfHelpRun) {
-  const TemporaryFolder folder;
-  for (const std::string& command : kCommands) {
-    const std::string help = help_of(command);
-    const std::size_t at = help.find("  simdbezier " + command + " builtin:teapot");
-    ASSERT_NE(at, std::string::npos) << help;
-    std::vector<std::string> words;
-    std::istringstream line(help.substr(at, help.find('\n', at) - at));
-    for (std::string word; line >> word;) {
-      words.push_back(words.size() > 1 && words.back() == "-o" ? folder.path(word) : word);
-    }
-    words.erase(words.begin());
-    EXPECT_EQ(run(words).exit_code, 0) << help;
-  }
-}
-
-TEST(Usage, HelpKeepsToTheTerminal) {
-  std::string all = run({"--help"}).out;
-  for (const std::string& command : kCommands) {
-    all += help_of(command);
-  }
-  std::istringstream lines(all);
-  for (std::string line; std::getline(lines, line);) {
-    EXPECT_LE(line.size(),
-              line.starts_with("  simdbezier ") || line.starts_with("  printf") ? 100U : 82U)
-        << line; // examples are not broken; an accent is two characters here
   }
 }
 
