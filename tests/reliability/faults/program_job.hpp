@@ -38,6 +38,8 @@ public:
 
 private:
   [[nodiscard]] bool writes_file() const;
+  /// Whether standard output says what was written.
+  [[nodiscard]] bool is_told() const;
   [[nodiscard]] std::optional<std::string> output() const;
 
   const Job& job_;
