@@ -169,7 +169,7 @@ TEST(RefusedMeshOptions, MoreVerticesThanIndices) {
       {{"--relative", "5e-8"}, "--relative"},
       {{"--angle", "0.1"}, "--angle"},
       {{"--angle", "0.1", "--relative", "0.5"}, "--relative and --angle"},
-      {{"--pixels", "5e-5", "--camera", "1,1,30,1,1,0"}, "--pixels"}};
+      {{"--pixels", "1.7e-7", "--camera", "1,1,10000,1,1,0"}, "--pixels"}};
   for (const auto& [options, name] : cases) {
     std::vector<std::string> arguments = {"tessellate", in,   "--precision",
                                           "f64",        "-o", folder.path("out.ply")};
