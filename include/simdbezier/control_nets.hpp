@@ -21,7 +21,7 @@ enum class Weights : std::uint8_t {
 
 /// Non-owning description of `count` control nets with equal degrees and components.
 ///
-///     v ^  P[3][0] P[3][1] P[3][2] P[3][3]      row j runs in v, column i runs in u, u fastest
+///     v ^  P[3][0] P[3][1] P[3][2] P[3][3]      j numbers rows, in v; i points of a row, in u
 ///       |  P[2][0]    …                         S(u,v) = sum_j sum_i P[j][i] B_i(u) B_j(v)
 ///       |  P[1][0]    …
 ///       |  P[0][0] P[0][1] P[0][2] P[0][3]      with weights, (sum w P B B) / (sum w B B)

@@ -57,10 +57,10 @@ template <typename T>
 ///             curve, or empty.
 /// Determinism: the same on all machines. Allocation: none.
 /// Returns:    ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
-///             non_finite_input | bad_weight | unequal_lengths (spans that are not one value a
-///             curve) | bad_tolerance (not above zero, or not above the curve's error, an error
-///             below zero, or more than most_points would be needed; the report names the curve).
-///             Outputs are undefined on an error.
+///             size_overflow | non_finite_input | bad_weight | unequal_lengths (spans that are not
+///             one value a curve) | bad_tolerance (not above zero, or not above the curve's error,
+///             an error below zero, or more than most_points would be needed; the report names the
+///             curve). Outputs are undefined on an error.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API FlattenReport choose_polylines(const ControlCurves<S>& curves,
                                                             const FlattenOptions& options,

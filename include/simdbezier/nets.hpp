@@ -202,7 +202,7 @@ template <typename T>
 ///
 /// Formula:    q_i = sum_k C(n,k) C(r,i-k) p_k / C(n+r,i) from degree n to n + r, the terms paired
 ///             from both ends.
-/// Errors:     float: one rounding (the sums are carried in double). double: at most n + 2 u
+/// Errors:     float: one rounding (the sums are carried in double). double: at most (n + 2) u
 ///             max|P| per direction. Exact wherever these sums and quotients are.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport elevate(const ControlNets<T>& nets,

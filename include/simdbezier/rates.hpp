@@ -134,6 +134,7 @@ template <typename S>
                                                       const CertifiedRates& rates,
                                                       int threads = 0) noexcept;
 
+inline constexpr std::uint32_t kMostGridCells = std::uint32_t{1} << 20;
 /// The certificate of meshes whose patches stay apart: each is a grid of nu x nv cells, as
 /// evaluate() numbers its samples, whose diagonals all run from (0,0) to (1,1).
 ///
@@ -142,7 +143,6 @@ template <typename S>
 ///            size_overflow | non_finite_input | bad_weight | bad_rates (outside of 1 to
 ///            kMostGridCells, or spans that are not one value a patch) | bad_tolerance (an error
 ///            below 0 or nan) | out_of_memory. Cost: 30 us and more a patch.
-inline constexpr std::uint32_t kMostGridCells = std::uint32_t{1} << 20;
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<S>> sets,
                                                       std::uint32_t nu, std::uint32_t nv,

@@ -84,9 +84,9 @@ private:
 /// Allocation: about 60 bytes a side. Determinism: a function of the control points and of the
 ///             options other than `threads`. Cost: about 1 us a patch.
 /// Returns:    ok | null_input | input_too_small | bad_degree | bad_components (not three) |
-/// bad_stride |
-///             bad_tolerance (a point_size or snap below 0, or nan) | not_orientable (where
-///             `orient` is asked for) | size_overflow (2^29 patches and more) | out_of_memory.
+///             bad_stride | bad_tolerance (a point_size or snap below 0, or nan) | not_orientable
+///             (where `orient` is asked for) | size_overflow (2^29 patches and more) |
+///             out_of_memory.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status find_topology(std::span<const ControlNets<S>> sets,
                                                   Topology& topology,
