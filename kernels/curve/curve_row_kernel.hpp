@@ -47,8 +47,8 @@ struct RowRings {
   }
 };
 
-/// What is in the lanes: samples, curves, or otherwise so many curves a register, by lines, which
-/// need no rings.
+/// Ways to fill a register: with samples of a curve, or with a sample of each of many curves. Any
+/// other number is that of the curves whose samples fill it, by lines, which need no rings.
 inline constexpr std::size_t kAlong = 0;
 inline constexpr std::size_t kAcross = ~std::size_t(0);
 

@@ -8,8 +8,8 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// What the compiler knows of a task. Most sets have no origins: asking costs up to a tenth of the
-/// speed of small grids. Whether edges are watertight costs open grids as much, and normals more.
+/// What the compiler knows of a task. To ask for origins, which most sets lack, costs small grids
+/// up to a tenth of their speed; to ask for exact edges costs open grids as much, and normals more.
 enum class Known {
   watertight, ///< and that there are no origins
   open,       ///< likewise

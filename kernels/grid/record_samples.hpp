@@ -122,7 +122,7 @@ struct RecordSweep {
     }
     return false;
   }
-  /// Normals that are, after they have been stored.
+  /// The second look at unusual normals, after they have been stored.
   SIMDBEZIER_INLINE void resolve(const GridTask<T>& task, std::size_t patch, const Suspects& which,
                                  const Samples& s, V y, V floor) const {
     if constexpr (Groups::kNormals) {

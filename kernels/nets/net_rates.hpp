@@ -7,9 +7,9 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Filip's bound for whole patches: nu with its best nv, and the other way round; the fewer cells.
-/// More than `most` in a direction where that pair would take them. Roundings and steps above about
-/// 2000 may take more than is left for them here, so a lane's result has to be looked at.
+/// Cells by Filip's bound for whole patches: of nu with its best nv, and nv with its best nu, the
+/// pair of fewer cells; above `most` in a direction that needs more. Roundings, and steps above
+/// about 2000, may take more than is left for them here, so a lane's result has to be looked at.
 template <typename V>
 SIMDBEZIER_INLINE LaneCells<V> filip_cells(const RateGroup<V>& group, V t, V most) {
   using T = ScalarOf<V>;
