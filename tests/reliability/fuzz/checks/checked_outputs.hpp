@@ -168,9 +168,6 @@ public:
     return results;
   }
 
-  /// For calls that must have failed.
-  void check_untouched() { check_rest(std::vector<bool>(samples_, false)); }
-
 private:
   static constexpr auto kNoStatus = static_cast<SampleStatus>(77);
 
