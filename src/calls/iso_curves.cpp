@@ -37,13 +37,13 @@ void for_patches(std::size_t count, int threads, const F& f) {
 /// Nets are read twice, so that nothing is written where one of them is at fault.
 template <typename S>
 PackReport form_all(const IsoTask<S>& task, double* points, int threads) {
-  const PackReport fault = find_fault(task.nets, threads);
-  if (fault) {
+  const PackReport checked = find_fault(task.nets, threads);
+  if (checked) {
     for_patches(task.nets.count, threads, [&](std::size_t patch) {
       form_curve(task, patch, points + patch * task.curve_values());
     });
   }
-  return fault;
+  return checked;
 }
 
 /// Bytes of the points of `count` curves; false where they are too many.

@@ -22,8 +22,8 @@ RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::spa
   if (nets.components != 3) {
     return {Status::bad_components};
   }
-  if (const NetReport fault = find_fault(nets, threads); !fault) {
-    return {fault.status, fault.patch};
+  if (const NetReport checked = find_fault(nets, threads); !checked) {
+    return {checked.status, checked.patch};
   }
   std::atomic<bool> failed = false;
   std::atomic<std::size_t> unreadable = nets.count; // the first patch that is

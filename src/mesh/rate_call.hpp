@@ -52,8 +52,8 @@ public:
 
   /// Rates with their certificates.
   RateReport choose() {
-    if (const RateReport fault = find_faults(); !fault) {
-      return fault;
+    if (const RateReport checked = find_faults(); !checked) {
+      return checked;
     }
     const RateReport ran = run_kernels(true);
     if (!ran) {
@@ -108,8 +108,8 @@ public:
         return {Status::bad_rates, patch};
       }
     }
-    const RateReport fault = find_faults();
-    return fault ? certify() : fault;
+    const RateReport checked = find_faults();
+    return checked ? certify() : checked;
   }
 
   /// The certificate of the rates that are there: the kernel's, and where that one is coarser than
@@ -165,9 +165,9 @@ private:
   RateReport find_faults() const {
     std::size_t first = 0;
     for (const ControlNets<S>& nets : sets_) {
-      const NetReport fault = find_fault(nets, options_.threads);
-      if (!fault) {
-        return {fault.status, first + fault.patch};
+      const NetReport checked = find_fault(nets, options_.threads);
+      if (!checked) {
+        return {checked.status, first + checked.patch};
       }
       first += nets.count;
     }

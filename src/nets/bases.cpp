@@ -125,9 +125,9 @@ NetReport convert_mesh(const SplineMesh<T>& mesh, const MutableNets<T>& out,
   if (runs != Status::ok) {
     return {runs};
   }
-  const NetReport fault = find_mesh_fault(mesh);
-  if (!fault) {
-    return fault;
+  const NetReport checked = find_mesh_fault(mesh);
+  if (!checked) {
+    return checked;
   }
   const LinearMap map = to_bezier_map(Basis::b_spline, 3);
   const std::size_t columns = mesh.patches_u();

@@ -95,9 +95,9 @@ NetReport compute_nets(const ControlNets<T>& nets, NetKernel<Task> NetTable<T>::
   if (runs != Status::ok) {
     return {runs};
   }
-  const NetReport fault = find_fault(nets, options.threads, signed_weights);
-  if (!fault) {
-    return fault;
+  const NetReport checked = find_fault(nets, options.threads, signed_weights);
+  if (!checked) {
+    return checked;
   }
   return {run_net_kernel<T, Task>(kernel, task, nets.count, values, options)};
 }

@@ -90,9 +90,9 @@ NetReport run_copy(const ControlNets<T>& original, const ControlNets<T>& nets,
   if (runs != Status::ok) {
     return {runs};
   }
-  const NetReport fault = find_fault(original, options.threads);
-  if (!fault) {
-    return fault;
+  const NetReport checked = find_fault(original, options.threads);
+  if (!checked) {
+    return checked;
   }
   const std::ptrdiff_t channels = static_cast<std::ptrdiff_t>(shape_of(nets).channels());
   const auto copy_patch = [&](std::ptrdiff_t patch) {
@@ -118,7 +118,7 @@ NetReport run_copy(const ControlNets<T>& original, const ControlNets<T>& nets,
                      })};
 }
 
-/// A result of other degrees than the input's.
+/// check_nets() where there is one result.
 template <typename T>
 Status check_result(const ControlNets<T>& nets, const MutableNets<T>& out, int degree_u,
                     int degree_v) noexcept {
