@@ -56,7 +56,7 @@ SIMDBEZIER_INLINE void for_each_value(const detail::NetView<S>& nets, std::size_
 /// How many values are moved in blocks: in whole groups of packed nets, all except a few.
 template <typename V, typename S>
 SIMDBEZIER_INLINE std::size_t values_in_blocks(const detail::NetView<S>& nets, std::size_t count) {
-  if constexpr (kBlock < V >> 0) {
+  if constexpr ((kBlock<V>) != 0) {
     return nets.packed && count == kLanes<V> ? values_of(nets) / kBlock<V> * kBlock<V> : 0;
   } else {
     return 0;
@@ -92,7 +92,7 @@ SIMDBEZIER_INLINE void read_group(const detail::NetView<const S>& nets, std::siz
                                   std::size_t count, ScalarOf<V>* group) {
   using T = ScalarOf<V>;
   const std::size_t done = values_in_blocks<V>(nets, count);
-  if constexpr (kBlock < V >> 0) {
+  if constexpr ((kBlock<V>) != 0) {
     for (std::size_t k = 0; k < done; k += kBlock<V>) {
       load_block<V>(net_at(nets, first) + k, nets.patch_stride, lanes_of<V>(group, k));
     }
@@ -123,7 +123,7 @@ SIMDBEZIER_INLINE void scatter_group(ScalarOf<V>* group, const detail::NetView<S
     project<V>(group, nets.order_u * nets.order_v, nets.channels);
   }
   const std::size_t done = values_in_blocks<V>(nets, count);
-  if constexpr (kBlock < V >> 0) {
+  if constexpr ((kBlock<V>) != 0) {
     for (std::size_t k = 0; k < done; k += kBlock<V>) {
       store_block<V>(lanes_of<V>(group, k), net_at(nets, first) + k, nets.patch_stride);
     }

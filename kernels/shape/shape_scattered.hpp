@@ -172,7 +172,7 @@ __attribute__((noinline)) void scatter_shape(const ScatteredTask<T>& task) {
     while (count < kLanes<V> && k + count < task.count && task.patch[k + count] == task.patch[k]) {
       ++count;
     }
-    if (kLanes < V >> 1 && count <= kFew && evaluate_single<P>(task, shape, k)) {
+    if ((kLanes<V>) > 1 && count <= kFew && evaluate_single<P>(task, shape, k)) {
       ++k;
       continue;
     }
