@@ -7,8 +7,8 @@
 // Without normals one component is swept after the other (4 or 8 registers of polynomials, one to
 // three store streams), two registers of columns as one where there is room
 // (simd/register_pair.hpp); normals need all three components at once (24 registers, which AVX2
-// keeps partly in L1). Squares of usual sizes are known to the compiler: sweep_square() makes the
-// choices of sweep_tiles() for them, so that it instantiates no tile that they do not have.
+// keeps partly in L1). Squares of usual sizes are known to the compiler: sweep_square() chooses as
+// sweep_tiles() does. Rows of one tile that lie across lines are put together to whole lines.
 #pragma once
 
 #include <type_traits>

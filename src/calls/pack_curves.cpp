@@ -30,8 +30,8 @@ Status allocate(std::size_t count, CurveStorage<T>& storage) {
   if (count > (kLimit - kGap) / per_curve) {
     return Status::size_overflow;
   }
-  storage.memory.reset(
-      ::operator new (count* per_curve + kGap, std::align_val_t{64}, std::nothrow));
+  const std::size_t bytes = count * per_curve + kGap;
+  storage.memory.reset(::operator new (bytes, std::align_val_t{64}, std::nothrow));
   if (storage.memory == nullptr) {
     return Status::out_of_memory;
   }
