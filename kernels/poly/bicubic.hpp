@@ -96,7 +96,7 @@ struct Component {
   SIMDBEZIER_INLINE const T* origin() const { return origins + origin_at; }
 };
 
-/// The polynomial in Y that a column is, for position and v derivative.
+/// A column on an edge u = const is the polynomial of that edge.
 template <typename V>
 SIMDBEZIER_INLINE void replace_edge_columns(const Component<ScalarOf<V>>& c,
                                             const Column<V>& column, V q[kOrder]) {
@@ -125,8 +125,8 @@ SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const 
   replace_edge_columns(c, column, q);
 }
 
-/// As above; dq is the polynomial of the u derivative, which on an edge u = const still comes from
-/// the patch, because the edge's control points do not determine it.
+/// The polynomials in Y that a column is: q, and dq of the u derivative, which on an edge u = const
+/// still comes from the patch, because the edge's control points do not determine it.
 template <typename V>
 SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                          V q[kOrder], V dq[kOrder]) {
