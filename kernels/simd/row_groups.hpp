@@ -179,7 +179,7 @@ struct RowGroups<2, vec<float>> : PortableRowGroups<2, vec<float>> {
   }
 };
 
-/// Of two rows each, the first ones, and the second ones.
+/// The first rows, and the second rows, of two registers of two rows each.
 SIMDBEZIER_INLINE vec<float> first_rows(vec<float> a, vec<float> b) {
   return vec<float>(_mm512_shuffle_f32x4(a, b, 0x44));
 }

@@ -70,7 +70,7 @@ Samples<T> where_of(const simdbezier_samples* given) {
           parameters_of(known.parameters, kSamples)};
 }
 
-/// The values of one number a sample, and what they are called.
+/// The first output of one number a sample that has too little memory; all of them otherwise.
 template <typename T>
 Path blamed_values(const Outputs<T>& out, std::size_t samples) {
   const std::pair<const Values<T>*, const char*> all[] = {{&out.curvature.gaussian, "gaussian"},

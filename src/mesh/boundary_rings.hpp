@@ -18,7 +18,7 @@ namespace simdbezier::detail {
 template <typename T>
 class BoundaryRings {
 public:
-  /// Values of scratch, of `planes` each sample has.
+  /// Values of scratch, for samples of `planes` values each.
   [[nodiscard]] static std::size_t memory_values(const MeshData& mesh,
                                                  std::size_t planes) noexcept {
     return kBlocks * planes * plane_values(most_rate(mesh)) + 2 * PointBlock<T>::kPoints;

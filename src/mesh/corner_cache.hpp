@@ -16,7 +16,7 @@ namespace simdbezier::detail {
 template <typename T>
 class CornerCache {
 public:
-  /// Values of scratch, of `planes` each corner has.
+  /// Values of scratch, for corners of `planes` values each.
   [[nodiscard]] static std::size_t memory_values(std::size_t planes) noexcept {
     return kBlocks * kBlockCorners * planes;
   }

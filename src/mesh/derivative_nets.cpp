@@ -98,7 +98,8 @@ Hull HullBox::hull() const {
   return hull;
 }
 
-/// Control point k of a patch in space, and its weight; false where one of them is no number.
+/// The control point in space that begins at `values`, and its weight; false where one of them is
+/// not finite, or the weight not positive.
 template <typename S>
 bool read_point(const ControlNets<S>& nets, const S* values, ControlVector& to) {
   const std::ptrdiff_t step = nets.component_stride;

@@ -52,14 +52,9 @@ inline void include_rate(EdgeRates& rates, std::uint32_t rate) {
   }
 }
 
-/// Passes all fractions in ascending order, equal ones at once: visit(place, next, k) after `place`
-/// segments, where next[i] is the numerator that rate i has come to, and next[k] / rates[k] is the
-/// fraction. Returns the number of segments.
-///
-/// next: memory for as many values as rates.
 namespace unions {
 
-/// The usual case: two sides of different rates.
+/// walk_union() in the usual case: two sides of different rates.
 template <typename Visit>
 std::uint32_t walk_two(const std::uint32_t* rates, std::uint32_t* next, const Visit& visit) {
   const std::uint64_t a = rates[0];
@@ -82,6 +77,11 @@ std::uint32_t walk_two(const std::uint32_t* rates, std::uint32_t* next, const Vi
 
 } // namespace unions
 
+/// Passes all fractions in ascending order, equal ones at once: visit(place, next, k) after `place`
+/// segments, where next[i] is the numerator that rate i has come to, and next[k] / rates[k] is the
+/// fraction. Returns the number of segments.
+///
+/// next: memory for as many values as rates.
 template <typename Visit>
 std::uint32_t walk_union(std::span<const std::uint32_t> rates, std::uint32_t* next,
                          const Visit& visit) {
