@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Puts single mutations into a copy of the sources and sees whether the tests notice.
 
-    tests/reliability/mutation/mutate.py N [--seed S]   N random ones of shipped code
-    tests/reliability/mutation/mutate.py --planted      the faults of planted.txt
-    tests/reliability/mutation/mutate.py --check        the planted ones' places exist (no build)
+    tests/reliability/mutation/mutate.py N [--seed S] [--after K]   N random ones of shipped code
+    tests/reliability/mutation/mutate.py --planted   the faults of planted.txt
+    tests/reliability/mutation/mutate.py --check     the planted ones' places exist (no build)
 
 The copy lies in build/mutate and is built without optimisation that takes long: first with the
 scalar kernels alone, which most mutations do not survive, then with vectors as well. A mutation
 that does not compile, or changes nothing in the library and the program, is replaced by the next.
+A verdict begins with the mutation's number; --after K goes on behind number K of the same sources
+and the same seed, because many mutations take hours.
 Exit code: 0 where at least 19 of 20 were caught (all of the planted ones), else 1.
 """
 import argparse
@@ -205,6 +207,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument('count', type=int, nargs='?', default=10)
     parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--after', type=int, default=0)
     parser.add_argument('--planted', action='store_true')
     parser.add_argument('--check', action='store_true')
     arguments = parser.parse_args()
@@ -219,10 +222,11 @@ def main():
     mutations = planted if arguments.planted else random_mutations(arguments.seed)
     wanted = len(planted) if arguments.planted else arguments.count
     caught, survivors = 0, []
-    for mutation in mutations:
+    for number, mutation in enumerate(mutations[arguments.after:], arguments.after + 1):
         start = time.monotonic()
         verdict = judge(mutation, stages)
-        print(f'{place(mutation)}: {mutation.kind}: {verdict}, {time.monotonic() - start:.0f} s')
+        seconds = time.monotonic() - start
+        print(f'{number}: {place(mutation)}: {mutation.kind}: {verdict}, {seconds:.0f} s')
         print(diff(mutation), flush=True)
         caught += verdict.startswith('caught')
         if verdict == 'survived' or (arguments.planted and not verdict.startswith('caught')):
