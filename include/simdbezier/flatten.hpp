@@ -80,7 +80,9 @@ struct Polylines {
 };
 
 /// Packs, chooses, and evaluates curves of up to three components.
-/// Returns: in Polylines::status, what pack(), choose_polylines() and evaluate() return.
+/// Returns: in Polylines::status, what pack(), choose_polylines() and evaluate() return;
+///          out_of_memory.
+/// Memory:  allocates the set of curves, which goes at the end, and the polylines.
 template <typename T, typename S>
 [[nodiscard]] Polylines<T> flatten(const ControlCurves<S>& curves, double tolerance,
                                    const Options& options = {}) noexcept;

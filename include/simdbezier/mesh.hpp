@@ -56,7 +56,7 @@ struct MeshOptions {
   bool short_indices = false; ///< 16-bit ones, where vertices are few enough
   bool local_origin = false;  ///< see PackOptions
   int threads = 0;            ///< as in Options
-  Isa isa = Isa::automatic;
+  Isa isa = Isa::automatic;   ///< whose roundings are certified, and whose kernels run
 };
 
 /// A mesh that is laid out but not evaluated yet.
@@ -108,7 +108,11 @@ struct Mesh {
 /// Returns:  in MeshPlan::status, what pack(), find_topology(), choose_rates() or certify_rates(),
 ///           lay_out_mesh() and split_creases() return; bad_tolerance also where nothing says how
 ///           fine the mesh is to be, bad_grid where a grid has fewer than 2 samples or where
-///           tolerances are given as well.
+///           tolerances are given as well; out_of_memory.
+/// Memory:   allocates what the plan holds, and working memory for edges and rates. A mesh is
+///           planned whole; vertices and triangles can then be had range by range.
+/// Threads:  MeshOptions::threads; joining edges is mostly one thread's work.
+/// Cost:     find_topology() and choose_rates(), see there.
 template <typename T, typename S>
 [[nodiscard]] MeshPlan<T> plan_mesh(std::span<const ControlNets<S>> nets,
                                     const MeshOptions& options) noexcept;
@@ -116,6 +120,8 @@ template <typename T, typename S>
 /// Plans and evaluates.
 /// Threads: MeshOptions::threads. Neither they nor the instruction set within a class change a bit.
 /// Returns: in Mesh::status, as plan_mesh(); size_overflow also where vertices exceed 2^32 - 1.
+/// Memory:  allocates the plan, which goes at the end, and the mesh.
+/// Cost:    plan_mesh(), evaluate_mesh() and write_triangles(), see there.
 template <typename T, typename S>
 [[nodiscard]] Mesh<T> tessellate(std::span<const ControlNets<S>> nets,
                                  const MeshOptions& options) noexcept;

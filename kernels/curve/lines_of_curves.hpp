@@ -7,7 +7,6 @@
 #pragma once
 
 #include "kernels/curve/curve_rows.hpp"
-#include "kernels/simd/fours.hpp"
 #include "kernels/simd/structures_across.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -30,26 +29,6 @@ template <typename T>
 inline constexpr std::size_t kLeastCurves = kLineWide<vec<T>> ? 2 : 1;
 template <typename T>
 inline constexpr std::size_t kMostCurves = kLanes<vec<T>> / 4;
-
-/// Four values of each of kCurves curves, repeated in each curve's lanes.
-template <std::size_t kCurves, typename V>
-SIMDBEZIER_INLINE V fours_of_curves(const ScalarOf<V>* from, [[maybe_unused]] std::size_t stride) {
-  if constexpr (kCurves == 1) {
-    return repeat_four<V>(from);
-  } else if constexpr (kCurves == kQuads<V>) {
-    return __builtin_bit_cast(V, join_quads<V>(from, stride));
-  } else {
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-    static_assert(kCurves == 2);
-    if constexpr (sizeof(ScalarOf<V>) == sizeof(float)) {
-      const __m512 first = _mm512_broadcast_f32x4(load_any<__m128>(from));
-      return V(_mm512_mask_broadcast_f32x4(first, 0xff00, load_any<__m128>(from + stride)));
-    } else {
-      return V(two_halves(from, from + stride));
-    }
-#endif
-  }
-}
 
 /// Rows of cubics without origins by lines.
 template <std::size_t kCurves, bool kTriples, typename T>
@@ -114,13 +93,13 @@ private:
 
   /// One component: coefficients, then both ends.
   SIMDBEZIER_INLINE V position(const T* values, V x) const {
-    const V coefficients = fours_of_curves<kCurves, V>(values, stride_);
+    const V coefficients = join_fours<kCurves, V>(values, stride_);
     V power[kOrderOfCubics];
     split_fours(coefficients, power);
     const V inside = row_series<0>(Order<kOrderOfCubics>(kOrderOfCubics), x,
                                    [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return power[k]; })
                          .value;
-    const V ends = fours_of_curves<kCurves, V>(values + 2, stride_);
+    const V ends = join_fours<kCurves, V>(values + 2, stride_);
     return select_where<V>(
         x == broadcast<V>(T(-0.5)), broadcast_in_four<2>(ends),
         select_where<V>(x == broadcast<V>(T(0.5)), broadcast_in_four<3>(ends), inside));

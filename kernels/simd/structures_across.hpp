@@ -3,6 +3,7 @@
 // Memory is read and written in pieces of 128 bits, which are turned by shuffles inside of them.
 #pragma once
 
+#include "kernels/simd/fours.hpp"
 #include "kernels/simd/interleave.hpp"
 #include "kernels/simd/quads.hpp"
 
@@ -35,7 +36,7 @@ SIMDBEZIER_INLINE Bits<V> join_quads(const ScalarOf<V>* from, std::size_t step) 
   return value;
 }
 
-/// The reverse.
+/// The reverse of join_quads().
 template <typename V>
 SIMDBEZIER_INLINE void part_quads(Bits<V> value, ScalarOf<V>* to, std::size_t step) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
@@ -54,6 +55,26 @@ SIMDBEZIER_INLINE void part_quads(Bits<V> value, ScalarOf<V>* to, std::size_t st
   (void)step;
   __builtin_memcpy(to, &value, sizeof(value));
 #endif
+}
+
+/// The first four values of each of kStructures structures, repeated in each structure's lanes.
+template <std::size_t kStructures, typename V>
+SIMDBEZIER_INLINE V join_fours(const ScalarOf<V>* from, [[maybe_unused]] std::size_t step) {
+  if constexpr (kStructures == 1) {
+    return repeat_four<V>(from);
+  } else if constexpr (kStructures == kQuads<V>) {
+    return __builtin_bit_cast(V, join_quads<V>(from, step));
+  } else {
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+    static_assert(kStructures == 2);
+    if constexpr (sizeof(ScalarOf<V>) == sizeof(float)) {
+      const __m512 first = _mm512_broadcast_f32x4(load_any<__m128>(from));
+      return V(_mm512_mask_broadcast_f32x4(first, 0xff00, load_any<__m128>(from + step)));
+    } else {
+      return V(two_halves(from, from + step));
+    }
+#endif
+  }
 }
 
 // Arrays live in registers only where every index is a constant; loops that copy them go by way of

@@ -114,7 +114,8 @@ private:
       for (std::size_t i = 0; i < points_; ++i) {
         point_[i][c] -= middle;
       }
-      square += (high - low) / 2 * ((high - low) / 2);
+      const double half = std::max(high - middle, middle - low); // the middle is rounded
+      square += half * half;
     }
     radius_ = std::sqrt(square) * (1 + 1e-12);
   }
@@ -126,7 +127,7 @@ private:
   int exponent_ = 0;
   double point_[kMostDegree + 1][kMostComponents];
   double weight_[kMostDegree + 1];
-  double radius_ = 0; ///< half of the diagonal of the box
+  double radius_ = 0; ///< no point is farther from the middle of the box
   double size_ = 0;   ///< the largest value that a division has rounded
 };
 
