@@ -45,8 +45,9 @@ struct DerivativeOutputs {
 ///             that the edge's orientation gives them. In the middle of an edge of degree 6 or
 ///             more, where two halves meet, they agree only within the bounds.
 /// Bits        (0,0), (1,0), (0,1), (2,0), (1,1), (0,2) have the bits of evaluate(), except (2,0)
-///             and (0,2) of rational patches, which are equal only within the bounds, and results
-///             outside of the normal range. Bits do not depend on which others are asked for.
+///             and (0,2) of rational patches, which are equal only within the bounds, and where a
+///             result or a sum on the way to it is outside of the normal range. Bits do not depend
+///             on which others are asked for.
 /// Accuracy    docs/accuracy.md. What T cannot hold is infinite or nan.
 /// Cost        polynomial: A n (m + B) multiply-adds a component, A and B the highest orders asked
 ///             for plus one; rational: 1/4 A^2 B^2 more. Samples of one patch are computed together
