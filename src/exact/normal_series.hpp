@@ -7,6 +7,7 @@
 #include "src/exact/exact_points.hpp"
 #include "src/exact/leading_term.hpp"
 #include "src/exact/line_basis.hpp"
+#include "src/exact/straight_points.hpp"
 
 namespace simdbezier::detail {
 
@@ -55,82 +56,10 @@ public:
     return all;
   }
 
-  /// Whether the patch is a line, decided exactly; a point is for the series to find.
-  [[nodiscard]] bool is_zero() const {
-    const std::size_t count = (degree_u_ + 1) * (degree_v_ + 1);
-    const BoundedField doubles = field();
-    const FromFirst<BoundedField> points(doubles, points_);
-    std::size_t far = 0;
-    double size = 0;
-    for (std::size_t k = 1; k < count; ++k) {
-      Bounded at[3];
-      points.place(k, at);
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (std::fabs(at[c].value) > std::fmax(size, at[c].error)) {
-          size = std::fabs(at[c].value);
-          far = k;
-        }
-      }
-    }
-    const auto beside_line = [](const Bounded& a) { return std::fabs(a.value) > a.error; };
-    if (far == 0 || !on_line(doubles, far, count, beside_line)) {
-      return false;
-    }
-    DigitRange ranges[kQuantities];
-    points_.include_in(ranges[kPoint], ranges[kWeight]);
-    const int needed = 2 * points_.digits(ranges[kPoint], ranges[kWeight]) + 4;
-    Primes primes;
-    for (double known = 0; known < needed; known += Primes::kDigits) {
-      const PrimeField field(primes.next(), ranges);
-      if (!on_line(field, far, count, [](Residue a) { return !PrimeField::vanishes(a); })) {
-        return false;
-      }
-    }
-    return true;
-  }
+  /// Whether the patch is a line; a point is for the series to find.
+  [[nodiscard]] bool is_zero() const { return is_line(points_, (degree_u_ + 1) * (degree_v_ + 1)); }
 
 private:
-  /// Numerators relative to the first point: ExactPoints::place() moves rational ones only.
-  template <typename Field>
-  class FromFirst {
-  public:
-    FromFirst(const Field& field, const ExactPoints& points) : field_(field), points_(points) {
-      points.place(field, 0, 0, first_);
-    }
-    void place(std::size_t k, typename Field::Value to[3]) const {
-      typename Field::Value point[4];
-      points_.place(field_, k, 0, point);
-      for (std::size_t c = 0; c < 3; ++c) {
-        to[c] = field_.subtract(point[c], first_[c]);
-      }
-    }
-
-  private:
-    const Field& field_;
-    const ExactPoints& points_;
-    typename Field::Value first_[4];
-  };
-  /// Whether no point lies beside the line through the first one and point `far`: beside() judges
-  /// each component of the cross products.
-  template <typename Field, typename Beside>
-  [[nodiscard]] bool on_line(const Field& field, std::size_t far, std::size_t count,
-                             const Beside& beside) const {
-    using Value = typename Field::Value;
-    const FromFirst<Field> points(field, points_);
-    Value along[3];
-    points.place(far, along);
-    for (std::size_t k = 1; k < count; ++k) {
-      Value at[3];
-      points.place(k, at);
-      Value cross[3] = {field.zero(), field.zero(), field.zero()};
-      add_cross(field, along, at, cross);
-      if (std::any_of(cross, cross + 3, beside)) {
-        return false;
-      }
-    }
-    return true;
-  }
-
   static std::size_t nearest(double half_centred, std::size_t degree) {
     const double t = std::clamp(0.5 + half_centred, 0.0, 1.0);
     return static_cast<std::size_t>(t * static_cast<double>(degree) + 0.5);

@@ -7,6 +7,7 @@
 #include "src/exact/exact_points.hpp"
 #include "src/exact/leading_term.hpp"
 #include "src/exact/line_basis.hpp"
+#include "src/exact/straight_points.hpp"
 
 namespace simdbezier::detail {
 
@@ -137,6 +138,8 @@ public:
     all.coefficients = 2 * all.coefficients + 8; // there are at most 31 products of orders below 32
     return all;
   }
+  /// Whether the curve is a line.
+  [[nodiscard]] bool is_zero() const { return is_line(tangent_.points(), tangent_.degree() + 1); }
 
 private:
   const TangentQuestion& tangent_;
