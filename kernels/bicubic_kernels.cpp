@@ -2,6 +2,7 @@
 // Only the tables leave this object; they are constants, so nothing runs at load time. The other
 // sources of this folder are compiled the same way.
 #include "kernels/grid/grid_kernel.hpp"
+#include "kernels/grid/side_kernel.hpp"
 #include "kernels/pack/bicubic_pack_kernel.hpp"
 #include "kernels/scattered/scattered_kernel.hpp"
 
@@ -34,6 +35,7 @@ constexpr detail::KernelTable<T> make_table() {
     table.grid[detail::kAnyOutputs] = grid_kernel<T, detail::kAnyOutputs>;
     table.grid[detail::kSecondDerivatives] = grid_kernel<T, detail::kSecondDerivatives>;
     table.scattered = scattered_kernel<T>;
+    table.side = side_kernel<T>;
   }
   return table;
 }

@@ -84,6 +84,15 @@ struct PatchKernels {
     }
   }
 
+  /// False where there is no such kernel, and nothing has been done.
+  bool run(SideTask<T>& task) const noexcept {
+    if (choice.any_shape || !watertight || !task.shape->is_bicubic()) {
+      return false;
+    }
+    table->side(task);
+    return true;
+  }
+
   void run(ScatteredTask<T>& task) const noexcept {
     if (choice.any_shape || !task.shape->is_bicubic()) {
       table->shapes->scattered(task);

@@ -1,6 +1,5 @@
 // The samples that corners and edges of a mesh are made of: one for every vertex there, or, where
-// normals are merged, one for every patch that has the vertex. Edges are rows and columns for the
-// grid kernels.
+// normals are merged, one for every patch that has the vertex.
 #pragma once
 
 #include <algorithm>
@@ -87,8 +86,6 @@ public:
     for (std::size_t c = 0; c < 3 && wishes.normals; ++c) {
       normals_.component[c] = take<T>(memory, plane_values(wishes));
     }
-    std::fill_n(low_, kMaxLanes + 1, T(-0.5));
-    std::fill_n(high_, kMaxLanes + 1, T(0.5));
   }
 
   void clear() noexcept { count_ = entry_count_ = 0; }
@@ -178,22 +175,13 @@ private:
     }
   }
 
-  /// One side as a row or a column.
   void run_side(std::uint32_t side, const T* along, std::uint32_t points) noexcept {
     PieceTarget<T> to;
     for (std::size_t c = 0; c < 3; ++c) {
       to.position.component[c] = moved(positions_.component[c]);
       to.normal.component[c] = moved(normals_.component[c]);
     }
-    const bool far = side % 2 != 0;
-    const T* const end = far ? high_ : low_;
-    if (runs_in_u(side)) {
-      const RowRun<T> run{end, 1, far ? RowKind::edge_v1 : RowKind::edge_v0};
-      runner_.run(side / kPatchEdges, 1, {along, points, &run, 1, 1}, to);
-    } else {
-      const RowRun<T> run{along, points, RowKind::interior};
-      runner_.run(side / kPatchEdges, 1, {end, 1, &run, 1, points}, to);
-    }
+    runner_.run_side(side / kPatchEdges, side % kPatchEdges, along, points, to);
   }
   [[nodiscard]] T* moved(T* plane) const noexcept {
     return plane == nullptr ? nullptr : plane + count_;
@@ -237,8 +225,6 @@ private:
   Planes<T> normals_;
   std::size_t count_ = 0;
   std::size_t entry_count_ = 0;
-  T low_[kMaxLanes + 1];
-  T high_[kMaxLanes + 1];
 };
 
 } // namespace simdbezier::detail

@@ -1,12 +1,15 @@
-// Grid kernels on small pieces of single patches: the part of a task that is about the set is
-// written once.
+// Kernels on small pieces of single patches: the part of a task that is about the set is written
+// once.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "src/calls/grid_plan.hpp"
 #include "src/calls/kernel_choice.hpp"
 #include "src/exact/normal_fallback.hpp"
+#include "src/mesh/topology_data.hpp"
 #include "src/runtime/dispatch.hpp"
 
 namespace simdbezier::detail {
@@ -28,16 +31,17 @@ struct PieceTarget {
   Planes<T> normal;
   std::size_t record = 1; ///< values from one sample to the next, see GridTask
   DrainQueue<T>* drain = nullptr;
+
+  [[nodiscard]] bool wanted() const noexcept { return position.wanted() || normal.wanted(); }
 };
 
-/// One thread's task.
+/// One thread's tasks.
 template <typename T>
 class PatchRunner {
 public:
   explicit PatchRunner(const PatchKernels<T>& kernels) noexcept : kernels_(kernels) {
-    task_.first_component = kernels.first_component;
-    task_.resolve_normal = resolve_normal<T>;
-    task_.watertight = kernels.watertight;
+    std::fill_n(low_, kMaxLanes + 1, T(-0.5));
+    std::fill_n(high_, kMaxLanes + 1, T(0.5));
   }
 
   /// How many of the patches from `patch` on, at most `most`, one call takes.
@@ -59,45 +63,84 @@ public:
   /// without outputs.
   void run(std::size_t patch, std::size_t count, const PieceParameters<T>& piece,
            const PieceTarget<T>& to) noexcept {
-    if (to.position.component[0] == nullptr && to.normal.component[0] == nullptr) {
+    if (!to.wanted()) {
       return;
     }
-    const PatchPlace place = kernels_.set->place(patch);
-    const PatchStorage<T>& bucket = kernels_.set->buckets[place.bucket];
-    if (bucket_ != &bucket) {
-      bucket_ = &bucket;
-      task_.shape = &bucket.shape;
-      task_.prefetch =
-          bucket.count >
-          second_level_cache() / ((bucket.shape.coefficients() + bucket.shape.edges()) * sizeof(T));
+    aim(grid_, patch, to);
+    grid_.patch_count = count;
+    grid_.x = piece.x;
+    grid_.nu = piece.columns;
+    grid_.runs = piece.runs;
+    grid_.run_count = piece.run_count;
+    grid_.patch_step = piece.rows * piece.columns;
+    grid_.record = to.record;
+    grid_.drain = to.drain;
+    kernels_.run(grid_);
+    executed_ = grid_.executed;
+  }
+
+  /// Points between the ends of a patch's side, to consecutive places. along: their half-centred
+  /// parameters, kMaxLanes more readable behind them.
+  void run_side(std::size_t patch, std::size_t side, const T* along, std::uint32_t points,
+                const PieceTarget<T>& to) noexcept {
+    if (!to.wanted()) {
+      return;
     }
-    const NetShape& shape = bucket.shape;
-    task_.coefficients = bucket.coefficients + place.index * shape.coefficients();
-    task_.edges = bucket.edges + place.index * shape.edges();
-    task_.given = bucket.given.from(place.index * shape.control_values());
-    task_.origins =
-        bucket.origins == nullptr ? nullptr : bucket.origins + place.index * shape.origins();
-    task_.normal_floor = bucket.normal_floor + place.index * shape.floors();
-    task_.patch_count = count;
-    task_.x = piece.x;
-    task_.nu = piece.columns;
-    task_.runs = piece.runs;
-    task_.run_count = piece.run_count;
-    task_.out[kPositionGroup] = to.position;
-    task_.out[kNormalGroup] = to.normal;
-    task_.patch_step = piece.rows * piece.columns;
-    task_.record = to.record;
-    task_.drain = to.drain;
-    kernels_.run(task_);
+    aim(side_, patch, to);
+    side_.edge = side;
+    side_.along = along;
+    side_.points = points;
+    if (kernels_.run(side_)) {
+      executed_ = side_.executed;
+      return;
+    }
+    const bool far = side % 2 != 0;
+    const T* const end = far ? high_ : low_;
+    if (runs_in_u(side)) {
+      const RowRun<T> row{end, 1, far ? RowKind::edge_v1 : RowKind::edge_v0};
+      this->run(patch, 1, {along, points, &row, 1, 1}, to);
+    } else {
+      const RowRun<T> rows{along, points, RowKind::interior};
+      this->run(patch, 1, {end, 1, &rows, 1, points}, to);
+    }
   }
 
   /// The instruction set of the kernels that ran.
-  [[nodiscard]] Isa executed() const noexcept { return task_.executed; }
+  [[nodiscard]] Isa executed() const noexcept { return executed_; }
 
 private:
+  void aim(SampleTask<T>& task, std::size_t patch, const PieceTarget<T>& to) noexcept {
+    const PatchPlace place = kernels_.set->place(patch);
+    const PatchStorage<T>& bucket = kernels_.set->buckets[place.bucket];
+    const NetShape& shape = bucket.shape;
+    if (bucket_ != &bucket) {
+      bucket_ = &bucket;
+      const std::size_t bytes = (shape.coefficients() + shape.edges()) * sizeof(T);
+      prefetch_ = bucket.count > second_level_cache() / bytes;
+    }
+    task.first_component = kernels_.first_component;
+    task.resolve_normal = resolve_normal<T>;
+    task.watertight = kernels_.watertight;
+    task.shape = &shape;
+    task.prefetch = prefetch_;
+    task.coefficients = bucket.coefficients + place.index * shape.coefficients();
+    task.edges = bucket.edges + place.index * shape.edges();
+    task.given = bucket.given.from(place.index * shape.control_values());
+    task.origins =
+        bucket.origins == nullptr ? nullptr : bucket.origins + place.index * shape.origins();
+    task.normal_floor = bucket.normal_floor + place.index * shape.floors();
+    task.out[kPositionGroup] = to.position;
+    task.out[kNormalGroup] = to.normal;
+  }
+
   const PatchKernels<T>& kernels_;
   const PatchStorage<T>* bucket_ = nullptr;
-  GridTask<T> task_{};
+  bool prefetch_ = false; ///< of the bucket
+  GridTask<T> grid_{};
+  SideTask<T> side_{};
+  Isa executed_ = Isa::automatic;
+  T low_[kMaxLanes + 1];
+  T high_[kMaxLanes + 1];
 };
 
 } // namespace simdbezier::detail

@@ -101,6 +101,14 @@ struct GridTask : SampleTask<T> {
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see drain_some()
 };
 
+/// Points between the ends of one side of a single patch. Point k goes to plane[k].
+template <typename T>
+struct SideTask : SampleTask<T> {
+  std::size_t edge; ///< as in src/storage/patch_storage.hpp: v = 0, v = 1, u = 0, u = 1
+  const T* along;   ///< half-centred, strictly between -1/2 and 1/2; kMaxLanes more are readable
+  std::size_t points;
+};
+
 /// Scattered samples with unit-stride outputs.
 template <typename T>
 struct ScatteredTask : SampleTask<T> {
@@ -222,6 +230,7 @@ struct KernelTable {
   bool puts_records; ///< whether usual outputs' grid kernels put records together
   void (*grid[kOutputSets])(GridTask<T>& task);
   void (*scattered)(ScatteredTask<T>& task);
+  void (*side)(SideTask<T>& task);     ///< positions and normals of watertight sets; either is null
   void (*drain)(DrainQueue<T>& queue); ///< passes on all that is left
   void (*fence)();                     ///< completes streaming stores
   std::uint32_t (*highest_index)(const std::uint32_t* index, std::size_t count);
