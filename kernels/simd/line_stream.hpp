@@ -67,11 +67,12 @@ SIMDBEZIER_INLINE vec<double> append_lane(vec<double> values, vec<double> from, 
   const __m512i lanes = _mm512_load_si512(kAppendedLanes.by_8[lane]);
   return vec<double>(_mm512_permutex2var_pd(values, lanes, from));
 }
+/// Not the stores that need lines: they fault where memory is not aligned to its numbers.
 SIMDBEZIER_INLINE void store_line(float* line, unsigned lanes, vec<float> value) {
-  _mm512_mask_store_ps(line, static_cast<__mmask16>(lanes), value);
+  _mm512_mask_storeu_ps(line, static_cast<__mmask16>(lanes), value);
 }
 SIMDBEZIER_INLINE void store_line(double* line, unsigned lanes, vec<double> value) {
-  _mm512_mask_store_pd(line, static_cast<__mmask8>(lanes), value);
+  _mm512_mask_storeu_pd(line, static_cast<__mmask8>(lanes), value);
 }
 
 /// Writes nothing but what was put into it, once finish() has been called.
