@@ -11,9 +11,6 @@
 // sweep_tiles() does. Rows of one tile that lie across lines are put together to whole lines.
 #pragma once
 
-#include <type_traits>
-#include <utility>
-
 #include "kernels/grid/patch_sweeps.hpp"
 #include "kernels/grid/record_rows.hpp"
 #include "kernels/grid/small_grid_jets.hpp"

@@ -8,8 +8,9 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Piece::kAcross: rows come in order, without mirror images.
-/// Extra: what is known of the column behind the tile, where there is one.
+/// Piece::kAcross: rows come in order, without mirror images, and are as wide as the tile and the
+/// column behind it.
+/// Extra: how to read the column behind the tile, where there is one.
 template <typename Piece, typename Tile, typename Extra,
           bool kStream = (Piece::kAcross) && (Tile::kTileRows == 1)>
 class PlaneRows {
@@ -32,8 +33,8 @@ public:
   SIMDBEZIER_INLINE void finish() {}
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-  /// The first two rows and the last two of a square of two rows a register: the edges, and the
-  /// rows beside them.
+  /// The first two rows and the last two of a square. edges: its first row and its last one;
+  /// beside: the rows next to these.
   SIMDBEZIER_INLINE void borders(V edges, V beside) {
     store_vector(to_, first_rows(edges, beside));
     store_vector(to_ + (Piece::rows() - 2) * nu_, second_rows(beside, edges));
@@ -47,8 +48,9 @@ private:
   Extra extra_;
 };
 
-/// Whether a square is swept two rows at a time, as they lie in lines: its borders first. Registers
-/// of the rows between edges would lie across lines.
+/// Whether a square whose lines hold two rows is stored a line at a time: first the borders, each
+/// edge with the row beside it, then the rows between. If edges were stored by themselves, as in
+/// other tiles, all registers of the rows between them would lie across lines.
 template <typename Piece, typename Tile>
 constexpr bool kSweepsLines = kStreamsLines && (Piece::kKnown) && (Tile::kTileRows == 2);
 

@@ -94,7 +94,8 @@ struct RowPiece {
   static SIMDBEZIER_INLINE std::size_t columns(std::size_t nu) { return nu; }
 };
 
-/// Rows that lie across lines, and are as wide as their tile.
+/// The same where rows lie across lines and are as wide as their tile, which writes them as a
+/// stream.
 template <typename T>
 struct AcrossPiece : RowPiece<T> {
   static constexpr bool kAcross = true;

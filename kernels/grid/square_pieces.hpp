@@ -86,7 +86,7 @@ SIMDBEZIER_INLINE RowPoint<V> rows_beside_edges(const SquarePiece<T, kSide, kAcr
   return RowPoint<V>(RowGroups<2, V>::spread(ends));
 }
 
-/// The rows between these, two a register: rows(y, place).
+/// The rows between those beside the edges, two a register: rows(y, place).
 template <typename T, std::size_t kSide, bool kAcross, typename Rows>
 SIMDBEZIER_INLINE void for_inner_rows(const SquarePiece<T, kSide, kAcross>& piece, std::size_t nu,
                                       const Rows& rows) {

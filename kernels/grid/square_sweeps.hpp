@@ -78,8 +78,8 @@ SIMDBEZIER_INLINE bool planes_begin_lines(const GridTask<T>& task) {
   return bits % 64 == 0;
 }
 
-/// Sweeps the patches if their rows lie across lines, and one tile without a column behind it is as
-/// wide as they are. Positions in a part of a register gain nothing by this.
+/// Sweeps the patches as streams if their rows lie across lines, and one tile without a column
+/// behind it is as wide as they are. Positions in a part of a register gain nothing by this.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_INLINE bool sweep_across_lines(const GridTask<T>& task, const RowPiece<T>& piece,
                                           std::size_t patch, std::size_t end) {
@@ -113,7 +113,7 @@ SIMDBEZIER_INLINE bool sweep_across_lines(const GridTask<T>& task, const RowPiec
   return false;
 }
 
-/// Sweeps the patches if `piece` is a square with one of these sides.
+/// Sweeps the patches if `piece` is a square with one of these sides, and there is code for it.
 template <detail::OutputSet kOutputs, std::size_t... kSides, typename T>
 SIMDBEZIER_INLINE bool sweep_square_of(std::index_sequence<kSides...>, const GridTask<T>& task,
                                        const RowPiece<T>& piece, std::size_t patch,

@@ -25,7 +25,8 @@ struct LaneNumbers {
 };
 inline constexpr LaneNumbers kLaneNumbers;
 
-/// Registers whose lanes are the n-th to the (n+15)-th, or (n+7)-th, of two others side by side.
+/// Registers whose lanes are the n-th to the (n+15)-th, or (n+7)-th, of two others side by side; n
+/// is at most the number of lanes of one.
 class LaneWindow {
 public:
   explicit SIMDBEZIER_INLINE LaneWindow(std::size_t n, float /*type*/)
@@ -75,7 +76,8 @@ SIMDBEZIER_INLINE void store_line(double* line, unsigned lanes, vec<double> valu
   _mm512_mask_storeu_pd(line, static_cast<__mmask8>(lanes), value);
 }
 
-/// Writes nothing but what was put into it, once finish() has been called.
+/// Values that are put one behind the other, as they are to lie from `to` on. Once finish() has
+/// been called all of them are written, each once, and nothing besides.
 template <typename V>
 class LineStream {
   using T = ScalarOf<V>;
@@ -95,7 +97,7 @@ public:
     put(values.low);
     put(values.high);
   }
-  /// The first `count` lanes.
+  /// The first `count` lanes, all of them at most.
   SIMDBEZIER_INLINE void put_first(V values, std::size_t count) {
     const V line = LaneWindow(kLanes<V> - filled_, T()).of(last_, values);
     last_ = LaneWindow(count, T()).of(last_, values);
@@ -127,10 +129,10 @@ private:
     }
   }
 
-  std::size_t filled_; ///< lanes of the line
-  T* line_;
-  unsigned own_; ///< those of its lanes that are not somebody else's
-  V last_;       ///< the values put last
+  std::size_t filled_; ///< first lanes of the line that are put already, or somebody else's
+  T* line_;            ///< the next one to be stored
+  unsigned own_;       ///< those of its lanes that are not somebody else's
+  V last_;             ///< a register of the values put last, the very last one in its last lane
 };
 #else
 inline constexpr bool kStreamsLines = false;
