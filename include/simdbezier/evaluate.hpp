@@ -12,7 +12,7 @@
 //               how far. Where a parameter is nan or infinite, that sample's outputs are nan; its
 //               neighbours are untouched.
 //   Outputs     belong to the caller, may not overlap the inputs or each other, need no alignment
-//               (64-byte alignment is faster).
+//               beyond that of T (64-byte alignment is faster).
 //   Accuracy    bicubic patches: |error| <= 21 u max|P| a component with FMA, 30 u without, at the
 //               centred parameters as rounded (u = 2^-24 float, 2^-53 double); derivatives, other
 //               degrees and weights: docs/accuracy.md, error_bounds().

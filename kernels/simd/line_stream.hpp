@@ -68,7 +68,6 @@ SIMDBEZIER_INLINE vec<double> append_lane(vec<double> values, vec<double> from, 
   const __m512i lanes = _mm512_load_si512(kAppendedLanes.by_8[lane]);
   return vec<double>(_mm512_permutex2var_pd(values, lanes, from));
 }
-/// Not the stores that need lines: they fault where memory is not aligned to its numbers.
 SIMDBEZIER_INLINE void store_line(float* line, unsigned lanes, vec<float> value) {
   _mm512_mask_storeu_ps(line, static_cast<__mmask16>(lanes), value);
 }
@@ -81,7 +80,7 @@ SIMDBEZIER_INLINE void store_line(double* line, unsigned lanes, vec<double> valu
 template <typename V>
 class LineStream {
   using T = ScalarOf<V>;
-  static constexpr unsigned kAll = (1U << kLanes<V>)-1U;
+  static constexpr unsigned kAll = (1U << (kLanes<V>)) - 1U;
 
 public:
   explicit SIMDBEZIER_INLINE LineStream(T* to)

@@ -47,7 +47,8 @@ public:
     groups_ = static_cast<std::uint8_t>(bytes.byte() & (plane_or_space ? 15 : 7));
     curvature_ = plane_or_space && bytes.flag();
     groups_ |= groups_ == 0 && !curvature_ ? 1 : 0;
-    options_.patch_count = patches_of(options_, curves_.count);
+    const std::size_t most = kMostSamples / grid_.count() + 1;
+    options_.patch_count = std::min<std::size_t>(patches_of(options_, curves_.count), most);
     samples_ = options_.patch_count * grid_.count();
   }
 
@@ -76,6 +77,10 @@ public:
   }
 
 private:
+  /// An exact decision about a tangent may take a millisecond, ten times as long with sanitizers,
+  /// and every sample is evaluated by some ten calls.
+  static constexpr std::size_t kMostSamples = 200;
+
   static Nets<S> any_curves(ByteSource& bytes) {
     const int n = degree(bytes);
     const int with_components = components(bytes);
