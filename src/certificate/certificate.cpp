@@ -124,9 +124,12 @@ private:
       position += sums.size + most;
     }
     const double lost = shape_.cells() == 1 ? 0 : carried(largest(c));
-    return {kRoundings * position + kDenormals + lost,
-            kRoundings * sums.du + kDenormals + 2 * shape_.degree_u * lost,
-            kRoundings * sums.dv + kDenormals + 2 * shape_.degree_v * lost};
+    const auto bound = [&](double sum, double factor, double way) {
+      return unless_overflow<T>(kRoundings * sum + kDenormals + factor * lost, way);
+    };
+    return {bound(position, 1, sums.way + position),
+            bound(sums.du, 2 * shape_.degree_u, sums.way_u),
+            bound(sums.dv, 2 * shape_.degree_v, sums.way_v)};
   }
 
   /// Bounds of S = h / w around an origin O, S_u = (h_u - S w_u) / w and S_v, from those of h, w
@@ -148,7 +151,9 @@ private:
     // The reciprocal of w and its product with h round once each.
     const double error_s =
         (error_h + reach * error_w) / lowest + 2 * kRoundings * reach + kDenormals;
-    const auto slope = [&](double size_h, double size_w, double sum_h, double sum_w, int degree) {
+    const double way_s = h.way + w.way + reach;
+    const auto slope = [&](double size_h, double size_w, double sum_h, double sum_w, int degree,
+                           double way) {
       const double factor = 2.0 * degree;
       const double error_hu = kRoundings * sum_h + kDenormals + factor * lost_h;
       const double error_wu = kRoundings * sum_w + kDenormals + factor * lost_w;
@@ -156,7 +161,9 @@ private:
       const double error = error_hu + size_w * error_s + reach * error_wu +
                            kRoundings * per_step_ * numerator + kDenormals;
       const double most = numerator / lowest; // bounds |S_u|
-      return 1.01 * (error + most * error_w) / lowest + 2 * kRoundings * most + kDenormals;
+      const double bound =
+          1.01 * (error + most * error_w) / lowest + 2 * kRoundings * most + kDenormals;
+      return unless_overflow<T>(bound, way + numerator + way_s);
     };
     Bound bound;
     bound.position = 1.01 * error_s;
@@ -165,8 +172,9 @@ private:
       bound.position =
           std::max(bound.position + kRoundings * size, 2 * kRoundings * size); // corner
     }
-    bound.du = slope(h.size_u, w.size_u, h.du, w.du, shape_.degree_u);
-    bound.dv = slope(h.size_v, w.size_v, h.dv, w.dv, shape_.degree_v);
+    bound.position = unless_overflow<T>(bound.position, way_s + std::fabs(around));
+    bound.du = slope(h.size_u, w.size_u, h.du, w.du, shape_.degree_u, h.way_u + w.way_u);
+    bound.dv = slope(h.size_v, w.size_v, h.dv, w.dv, shape_.degree_v, h.way_v + w.way_v);
     return bound;
   }
 

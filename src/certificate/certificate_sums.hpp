@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "src/certificate/direction_roundings.hpp"
 
@@ -17,6 +18,10 @@ struct TermSums {
   double value = 0; ///< of (roundings + 1) |term|; the one is the coefficient's own
   double du = 0;
   double dv = 0;
+  /// Of |coefficient| by the same factors: sums on the way to a value or derivative are no larger.
+  double way = 0;
+  double way_u = 0;
+  double way_v = 0;
 
   /// Terms C_kl 2^-(k+l), and for derivatives k C_kl 2^-(k+l-1). at(k, l): the coefficient.
   template <typename At>
@@ -34,9 +39,20 @@ struct TermSums {
         value += (u.value(k) + v.value(l) + 1) * term;
         du += (u.slope(k) + v.value(l) + 1) * term_u;
         dv += (u.value(k) + v.slope(l) + 1) * term_v;
+        way += c;
+        way_u += static_cast<double>(k) * c;
+        way_v += static_cast<double>(l) * c;
       }
     }
   }
 };
+
+/// The bound, or infinity where a sum on the way, at most `way`, might leave T's range.
+template <typename T>
+double unless_overflow(double bound, double way) {
+  constexpr double kMost =
+      static_cast<double>(std::numeric_limits<T>::max()) / 8; // halves scale by 4
+  return way < kMost ? bound : std::numeric_limits<double>::infinity();
+}
 
 } // namespace simdbezier::detail

@@ -5,7 +5,7 @@
 
 #include <simdbezier/error_bounds.hpp>
 
-#include "src/certificate/direction_roundings.hpp"
+#include "src/certificate/certificate_sums.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/curve_storage.hpp"
 
@@ -22,6 +22,7 @@ struct ByOrder {
 struct PolynomialBounds {
   ByOrder size;  ///< of the values
   ByOrder error; ///< of the computed ones
+  ByOrder way;   ///< sums on the way to a value are no larger
 };
 
 template <typename T>
@@ -64,10 +65,13 @@ private:
     PolynomialBounds bounds;
     const T* const a = channel(cell, index);
     for (std::size_t k = 0; k < shape_.order(); ++k) {
-      double term = std::ldexp(std::fabs(static_cast<double>(a[k])), -static_cast<int>(k));
+      double way = std::fabs(static_cast<double>(a[k]));
+      double term = std::ldexp(way, -static_cast<int>(k));
       for (std::size_t d = 0; d < 3 && d <= k; ++d) {
         bounds.size.at[d] += term;
         bounds.error.at[d] += kUnit * (roundings_.derivative(d, k) + 1) * term;
+        bounds.way.at[d] += way;
+        way *= static_cast<double>(k - d);
         term *= 2 * static_cast<double>(k - d);
       }
     }
@@ -80,7 +84,12 @@ private:
   [[nodiscard]] ByOrder plain(std::size_t cell, std::size_t component) const {
     PolynomialBounds bounds = polynomial(cell, component);
     if (shape_.origins) {
-      bounds.error.at[0] += kUnit * (std::fabs(origin(cell, component)) + bounds.size.at[0]);
+      const double o = std::fabs(origin(cell, component));
+      bounds.error.at[0] += kUnit * (o + bounds.size.at[0]);
+      bounds.way.at[0] += o;
+    }
+    for (std::size_t d = 0; d < 3; ++d) {
+      bounds.error.at[d] = unless_overflow<T>(bounds.error.at[d], bounds.way.at[d]);
     }
     return bounds.error;
   }
@@ -122,6 +131,12 @@ private:
                            3 * per_step_ * kUnit * second_numerator) /
                               divisor +
                           second_numerator / divisor * by_inverse);
+    const double numerators[3] = {most + std::fabs(o), numerator, first + second_numerator};
+    double way = 0; // derivatives take the lower ones
+    for (std::size_t d = 0; d < 3; ++d) {
+      way += h.way.at[d] + w.way.at[d] + numerators[d];
+      error.at[d] = unless_overflow<T>(error.at[d], way);
+    }
     return error;
   }
 

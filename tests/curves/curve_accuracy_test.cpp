@@ -1,5 +1,7 @@
 // Every sample of every kind of curve against its certificate.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "tests/curves/curve_results.hpp"
 #include "tests/support/call_options.hpp"
@@ -35,14 +37,54 @@ class CurveAccuracy : public CurveTest {
 protected:
   template <typename T, typename S>
   void meets_its_bounds(const Kind& kind, int degree) {
-    constexpr std::size_t kCurves = 4;
-    constexpr std::size_t kSamples = 17;
     const CurveBatch<S> batch = random_curves<S>(kCurves, degree, kind.components, kind.ratio,
                                                  static_cast<std::uint64_t>(degree), kind.offset);
     PackOptions options;
     options.local_origin = kind.local_origin;
     std::fill_n(options.relative_to, 3, kind.relative_to);
-    const CurveSet<T> set = packed<T>(batch, options);
+    judge(batch, packed<T>(batch, options), kind, degree);
+  }
+
+  /// Points as large as T holds them, and somewhat smaller ones. Returns how many bounds there are.
+  template <typename T>
+  std::size_t bounds_near_overflow(const Kind& kind, int degree, int octaves) {
+    CurveBatch<T> batch = random_curves<T>(kCurves, degree, kind.components, kind.ratio,
+                                           static_cast<std::uint64_t>(degree));
+    const auto components = static_cast<std::size_t>(kind.components);
+    const T scale = std::ldexp(std::numeric_limits<T>::max(), -octaves);
+    for (std::size_t curve = 0; curve < kCurves; ++curve) {
+      for (std::size_t i = 0; i < batch.order(); ++i) {
+        for (std::size_t c = 0; c < components; ++c) {
+          batch.at(curve, i, c) *= scale;
+        }
+      }
+    }
+    PackOptions options;
+    options.local_origin = kind.local_origin;
+    CurveSet<T> set;
+    if (!pack(batch.view(), set, options)) {
+      return 0; // its coefficients overflow
+    }
+    judge(batch, set, kind, degree);
+    std::size_t finite = 0;
+    for (std::size_t curve = 0; curve < kCurves; ++curve) {
+      const CurveErrorBounds bounds = error_bounds(set, curve, isa());
+      for (const auto& of : {bounds.position, bounds.d1, bounds.d2}) {
+        finite += static_cast<std::size_t>(
+            std::count_if(of, of + components, [](double bound) { return std::isfinite(bound); }));
+      }
+    }
+    return finite;
+  }
+
+  static constexpr std::size_t kCurves = 4;
+  double worst_[3] = {0, 0, 0};
+
+private:
+  static constexpr std::size_t kSamples = 17;
+
+  template <typename T, typename S>
+  void judge(const CurveBatch<S>& batch, const CurveSet<T>& set, const Kind& kind, int degree) {
     for (int first = 0; first < kind.components; first += 3) {
       CallOptions where;
       where.first_component = first;
@@ -63,7 +105,7 @@ protected:
             for (std::size_t d = 0; d < 3; ++d) {
               const T value = results.at(d, static_cast<std::size_t>(c), curve * kSamples + i);
               const double error = std::fabs((exact.d[d] - static_cast<double>(value)).to_double());
-              ASSERT_LE(error, limits[d])
+              ASSERT_TRUE(error <= limits[d] || std::isinf(limits[d]))
                   << kind.name << " degree " << degree << " curve " << curve << " sample " << i
                   << " component " << component << " derivative " << d;
               worst_[d] = std::max(worst_[d], limits[d] > 0 ? error / limits[d] : 0);
@@ -73,8 +115,6 @@ protected:
       }
     }
   }
-
-  double worst_[3] = {0, 0, 0};
 };
 
 TEST_P(CurveAccuracy, ErrorsStayWithinTheirBounds) {
@@ -89,6 +129,22 @@ TEST_P(CurveAccuracy, ErrorsStayWithinTheirBounds) {
     for (std::size_t d = 0; d < 3; ++d) {
       EXPECT_GT(worst_[d], kind.ratio > 0 ? 1e-5 : 0.02) << kind.name << " derivative " << d;
     }
+  }
+}
+
+TEST_P(CurveAccuracy, BoundsThatMightNotHoldAreInfinite) {
+  for (const Kind& kind : {Kind{"space", 3, 0}, {"rational", 3, 4}, {"origin", 3, 0, 0, true}}) {
+    std::size_t few = 0;
+    for (int degree = 1; degree <= kMostDegree; ++degree) {
+      constexpr std::size_t kAll = kCurves * 9;
+      EXPECT_EQ(bounds_near_overflow<float>(kind, degree, 60), kAll) << kind.name << degree;
+      EXPECT_EQ(bounds_near_overflow<double>(kind, degree, 60), kAll) << kind.name << degree;
+      for (int octaves = 0; octaves < 30; ++octaves) {
+        const std::size_t there = bounds_near_overflow<float>(kind, degree, octaves);
+        few += there > 0 && there < kAll ? 1 : 0;
+      }
+    }
+    EXPECT_GT(few, 10U) << kind.name;
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "tests/mesh/mesh_models.hpp"
 #include "tests/mesh/mesh_oracle.hpp"
+#include "tests/support/isas.hpp"
 
 namespace simdbezier::tests::mesh_options_test {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -140,6 +141,12 @@ private:
   }
 
   [[nodiscard]] static double ratio(T found, const Rational& value, double bound) {
+    if (std::isinf(bound)) {
+      return 0;
+    }
+    if (!std::isfinite(found)) {
+      return std::numeric_limits<double>::infinity();
+    }
     const Rational error = abs(value - exact(static_cast<double>(found)));
     return error.get_d() / bound;
   }
@@ -205,6 +212,36 @@ TEST(ShapeCertificates, hold_around_local_origins) {
   expect_certified<double>(true, 0, 1e4);
 }
 TEST(ShapeCertificates, hold_far_from_the_origin) { expect_certified<float>(false, 1e5, 4); }
+
+/// Points as large as float holds them, and somewhat smaller ones.
+TEST(ShapeCertificates, are_infinite_where_sums_may_overflow) {
+  std::size_t infinite = 0;
+  std::size_t finite = 0;
+  for (const int n : {1, 3, 4, 7, 15}) {
+    for (const ShapeCase& c : {ShapeCase{n, n, 1}, ShapeCase{n, 3, 1, Weights::cartesian}}) {
+      for (int octaves = 0; octaves < 40; octaves += 2) {
+        RandomNets<float> nets(c, 1, 1);
+        fill(nets, c, Family::signs, 0, 4, static_cast<std::uint64_t>(n));
+        for (std::size_t k = 0; k < nets.values.size(); ++k) {
+          if (c.weights == Weights::none || (k + 1) % c.channels() != 0) {
+            nets.values[k] *= std::ldexp(std::numeric_limits<float>::max(), -octaves);
+          }
+        }
+        PatchSet<float> set;
+        if (!pack(nets.view, set)) {
+          continue; // coefficients overflow
+        }
+        const double bound = error_bounds(set, 0, available_isas().front()).du[0];
+        ++(std::isinf(bound) ? infinite : finite);
+        for (const double worst : CertificateCheck<float>(c, nets, {}).worst(7)) {
+          EXPECT_LE(worst, 1) << c << " octaves " << octaves;
+        }
+      }
+    }
+  }
+  EXPECT_GT(infinite, 10U);
+  EXPECT_GT(finite, 10U);
+}
 
 /// What has no certificate: components that are not there, and patches outside of the set.
 TEST(ShapeCertificates, components_that_are_not_there_have_none) {
