@@ -15,8 +15,8 @@
 //
 //   Statuses   Every function that can fail returns one. simdbezier_last_fault() then says which
 //              argument was at fault. Nothing prints, aborts or lets an exception through. On an
-//              error nothing has been written, except by functions that choose or certify rates,
-//              whose outputs are undefined then.
+//              error nothing has been written, except by functions that choose or certify rates
+//              and polylines, whose outputs are undefined then.
 //   Structs    begin with struct_size, which the caller sets to sizeof. They may grow at their end:
 //              a program that was compiled for a smaller struct goes on working, and so does one
 //              that was compiled for a larger struct, as long as the members that this library
@@ -30,14 +30,15 @@
 //              _f32 and _f64 below fill in structs, so that the compiler checks the pointers.
 //   Handles    are made by one function and given back to one …_free(), which accepts null.
 //              They are immutable: any number of threads may use one at once.
-//   C++ alone  has polylines (flatten.hpp), formats of vertices (vertex_formats.hpp), plan_mesh(),
-//              certify_grids(), and triangles and polygons of some of the patches.
+//   C++ alone  has formats of vertices (vertex_formats.hpp), plan_mesh(), certify_grids(), and
+//              triangles and polygons of some of the patches.
 #pragma once
 
-#include <simdbezier/c/curves.h>   // IWYU pragma: export
-#include <simdbezier/c/evaluate.h> // IWYU pragma: export
-#include <simdbezier/c/meshes.h>   // IWYU pragma: export
-#include <simdbezier/c/models.h>   // IWYU pragma: export
-#include <simdbezier/c/nets.h>     // IWYU pragma: export
-#include <simdbezier/c/sets.h>     // IWYU pragma: export
-#include <simdbezier/c/types.h>    // IWYU pragma: export
+#include <simdbezier/c/curves.h>    // IWYU pragma: export
+#include <simdbezier/c/evaluate.h>  // IWYU pragma: export
+#include <simdbezier/c/meshes.h>    // IWYU pragma: export
+#include <simdbezier/c/models.h>    // IWYU pragma: export
+#include <simdbezier/c/nets.h>      // IWYU pragma: export
+#include <simdbezier/c/polylines.h> // IWYU pragma: export
+#include <simdbezier/c/sets.h>      // IWYU pragma: export
+#include <simdbezier/c/types.h>     // IWYU pragma: export

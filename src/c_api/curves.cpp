@@ -94,6 +94,15 @@ simdbezier_status evaluate_at(const char* function, const simdbezier_curve_set* 
   });
 }
 
+template <typename Where>
+std::size_t samples_at(const simdbezier_curve_set* set, const Where* given) noexcept {
+  return size_or_zero([&] {
+    return with_set(set, kSet, [&]<typename T>(const CurveSet<T>& curves) {
+      return sample_count(curves, where_of<T>(given));
+    });
+  });
+}
+
 /// iso_u() or iso_v() of a set.
 template <typename Call>
 simdbezier_status iso_curves(const char* function, const simdbezier_patch_set* patches,
@@ -161,6 +170,16 @@ simdbezier_status simdbezier_evaluate_curve_samples(const simdbezier_curve_set* 
                                                     const simdbezier_curve_outputs* out,
                                                     const simdbezier_options* options) {
   return evaluate_at(__func__, set, samples, kSamples, out, options);
+}
+
+size_t simdbezier_curve_grid_sample_count(const simdbezier_curve_set* set,
+                                          const simdbezier_curve_grid* grid) {
+  return samples_at(set, grid);
+}
+
+size_t simdbezier_curve_grids_sample_count(const simdbezier_curve_set* set,
+                                           const simdbezier_curve_grids* grids) {
+  return samples_at(set, grids);
 }
 
 simdbezier_status simdbezier_boundary_curves(const simdbezier_nets* nets, simdbezier_edge edge,

@@ -4,8 +4,10 @@
 #include <memory>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <simdbezier/curves.hpp>
+#include <simdbezier/flatten.hpp>
 #include <simdbezier/mesh.hpp>
 #include <simdbezier/mesh_layout.hpp>
 #include <simdbezier/topology.hpp>
@@ -17,6 +19,9 @@ struct simdbezier_patch_set {
 };
 struct simdbezier_curve_set {
   std::variant<simdbezier::CurveSet<float>, simdbezier::CurveSet<double>> of;
+};
+struct simdbezier_polylines {
+  std::variant<simdbezier::Polylines<float>, simdbezier::Polylines<double>> of;
 };
 struct simdbezier_topology {
   simdbezier::Topology of;
@@ -47,6 +52,16 @@ const auto& object_of(const Handle* handle, const Path& path) {
 template <typename Handle, typename Object>
 void give(Handle** handle, Object&& object) {
   *handle = std::make_unique<Handle>(Handle{std::forward<Object>(object)}).release();
+}
+
+/// The first number of a vector that a handle holds, or null where there is none.
+template <typename V>
+const auto* first_of(const std::vector<V>& values) {
+  if constexpr (std::is_arithmetic_v<V>) {
+    return values.data();
+  } else {
+    return values.empty() ? nullptr : values.front().data();
+  }
 }
 
 inline simdbezier_topology_counts counts_of(const TopologyCounts& of) noexcept {

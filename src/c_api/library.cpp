@@ -77,6 +77,10 @@ Path blamed_nets(Status status, const Path& nets) {
   }
 }
 
+Path blamed_curves(Status status, const Path& curves) {
+  return status == Status::bad_degree ? curves / "degree" : blamed_nets(status, curves);
+}
+
 Path blamed_in_call(Status status, const Path& where) {
   switch (status.code()) {
   case Status::unknown_isa:

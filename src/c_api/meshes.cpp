@@ -90,16 +90,6 @@ Path blamed_in_tessellation(Status status, std::span<const ControlNets<S>> nets,
   }
 }
 
-/// The first element, or null where there is none.
-template <typename V>
-const auto* first_of(const std::vector<V>& values) {
-  if constexpr (std::is_arithmetic_v<V>) {
-    return values.data();
-  } else {
-    return values.empty() ? nullptr : values.front().data();
-  }
-}
-
 template <typename T>
 simdbezier_mesh_arrays arrays_of(const Mesh<T>& mesh) noexcept {
   simdbezier_mesh_arrays known{};

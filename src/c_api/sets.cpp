@@ -1,5 +1,6 @@
 // Packed sets of simdbezier.h, and their error bounds.
 #include <simdbezier/error_bounds.hpp>
+#include <simdbezier/flatten.hpp>
 #include <simdbezier/rates.hpp>
 
 #include "src/c_api/handles.hpp"
@@ -12,10 +13,10 @@ constexpr Path kSet{"set"};
 
 /// What packing was refused for: an option where no point is at fault.
 template <typename PathOf>
-void require_packed(const PackReport& report, PathOf nets) {
+void require_packed(const PackReport& report, PathOf blamed) {
   require_ok(report, [&](Status status) {
     const bool option = status == Status::non_finite_input && report.point < 0;
-    return option ? kOptions / "relative_to" : blamed_nets(status, nets(report.patch));
+    return option ? kOptions / "relative_to" : blamed(status);
   });
 }
 
@@ -34,6 +35,19 @@ Isa resolved(simdbezier_isa isa) {
 template <std::size_t N>
 void copy(const double (&from)[N], double (&to)[N]) {
   std::copy_n(from, N, to);
+}
+
+/// position_errors() of patches and of curves.
+template <typename Handle>
+simdbezier_status errors_of(const char* function, const Handle* set, simdbezier_isa isa,
+                            double* errors, std::size_t length) noexcept {
+  return answer(function, [&] {
+    const std::span<double> out = span_of(errors, length, {"errors"});
+    with_set(set, kSet, [&](const auto& members) {
+      require_ok(position_errors(members, out, resolved(isa)),
+                 [](Status) { return Path{"length"}; });
+    });
+  });
 }
 
 /// A number that is asked of a handle; 0 for a null handle.
@@ -58,8 +72,10 @@ simdbezier_status simdbezier_pack(const simdbezier_nets* nets, size_t length,
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
       with_scalar(scalar, {"scalar"}, [&]<typename T>() {
         PatchSet<T> packed;
-        require_packed(pack(views, packed, how),
-                       [&](std::size_t patch) { return nets_with_patch(views, patch); });
+        const PackReport report = pack(views, packed, how);
+        require_packed(report, [&](Status status) {
+          return blamed_nets(status, nets_with_patch(views, report.patch));
+        });
         give(set, std::move(packed));
       });
     });
@@ -81,7 +97,7 @@ simdbezier_status simdbezier_pack_curves(const simdbezier_control_curves* curves
       with_scalar(scalar, {"scalar"}, [&]<typename T>() {
         CurveSet<T> packed;
         require_packed(pack(curves_of<S>(given, path), packed, how),
-                       [&](std::size_t) { return path; });
+                       [&](Status status) { return blamed_curves(status, path); });
         give(set, std::move(packed));
       });
     });
@@ -100,6 +116,10 @@ simdbezier_scalar simdbezier_patch_set_scalar(const simdbezier_patch_set* set) {
 
 int32_t simdbezier_patch_set_components(const simdbezier_patch_set* set) {
   return ask(set, [](const auto& patches) { return patches.components(); });
+}
+
+int32_t simdbezier_patch_set_has_local_origins(const simdbezier_patch_set* set) {
+  return ask(set, [](const auto& patches) { return patches.has_local_origins() ? 1 : 0; });
 }
 
 simdbezier_status simdbezier_patch_set_shape(const simdbezier_patch_set* set, size_t patch,
@@ -132,6 +152,10 @@ int32_t simdbezier_curve_set_components(const simdbezier_curve_set* set) {
 
 int32_t simdbezier_curve_set_rational(const simdbezier_curve_set* set) {
   return ask(set, [](const auto& curves) { return curves.rational() ? 1 : 0; });
+}
+
+int32_t simdbezier_curve_set_has_local_origins(const simdbezier_curve_set* set) {
+  return ask(set, [](const auto& curves) { return curves.has_local_origins() ? 1 : 0; });
 }
 
 simdbezier_status simdbezier_patch_error_bounds(const simdbezier_patch_set* set, size_t patch,
@@ -177,12 +201,13 @@ simdbezier_status simdbezier_largest_position_bound(const simdbezier_patch_set* 
   });
 }
 
-simdbezier_status simdbezier_position_errors(const simdbezier_patch_set* set, double* errors,
-                                             size_t length) {
-  return answer(__func__, [&] {
-    const std::span<double> out = span_of(errors, length, {"errors"});
-    with_set(set, kSet, [&](const auto& patches) {
-      require_ok(position_errors(patches, out), [](Status) { return Path{"length"}; });
-    });
-  });
+simdbezier_status simdbezier_position_errors(const simdbezier_patch_set* set, simdbezier_isa isa,
+                                             double* errors, size_t length) {
+  return errors_of(__func__, set, isa, errors, length);
+}
+
+simdbezier_status simdbezier_curve_position_errors(const simdbezier_curve_set* set,
+                                                   simdbezier_isa isa, double* errors,
+                                                   size_t length) {
+  return errors_of(__func__, set, isa, errors, length);
 }

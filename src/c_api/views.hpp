@@ -125,6 +125,18 @@ ControlCurves<S> curves_of(const simdbezier_control_curves& given, const Path& p
 /// The member of nets or curves that a status is about.
 Path blamed_nets(Status status, const Path& nets);
 
+/// The same where there is one degree.
+Path blamed_curves(Status status, const Path& curves);
+
+/// The member of RateOptions or FlattenOptions that bad_tolerance is about, at a patch or a curve.
+template <typename Tolerances>
+Path blamed_tolerance(const Tolerances& options, std::size_t at) {
+  if (at < options.errors.size() && !(options.errors[at] >= 0)) {
+    return kOptions / "errors";
+  }
+  return kOptions / (options.tolerances.empty() ? "tolerance" : "tolerances");
+}
+
 /// body(std::span<const ControlNets<S>>) with the nets of an array, S being their type.
 template <typename Body>
 auto with_net_array(const simdbezier_nets* nets, std::size_t length, Body body) {

@@ -55,6 +55,8 @@ TYPED_TEST(CCurves, OfCurves) {
   };
 
   const simdbezier_curve_grid grid = simdbezier_uniform_curve_grid(6);
+  EXPECT_EQ(simdbezier_curve_grid_sample_count(c_set.get(), &grid), 42U);
+  EXPECT_EQ(simdbezier_curve_grid_sample_count(nullptr, &grid), 0U);
   expect_same(evaluate(set, CurveGrid<T>::uniform(6), out),
               simdbezier_evaluate_curve_grid(c_set.get(), &grid, &c_out, nullptr));
   const std::vector<std::uint32_t> n = {4, 5};
@@ -62,6 +64,8 @@ TYPED_TEST(CCurves, OfCurves) {
   grids.n = n.data();
   grids.n_length = 2;
   grids.first_curve = 3;
+  EXPECT_EQ(simdbezier_curve_grids_sample_count(c_set.get(), &grids), 9U);
+  EXPECT_EQ(simdbezier_curve_grids_sample_count(c_set.get(), nullptr), 0U);
   expect_same(evaluate(set, CurveGrids{n, {}, 3}, out),
               simdbezier_evaluate_curve_grids(c_set.get(), &grids, &c_out, nullptr));
   const std::vector<T> t = {T(0.2), T(0.7)};

@@ -233,11 +233,6 @@ TYPED_TEST(CEvaluation, BoundsErrors) {
   EXPECT_C_OK(
       simdbezier_largest_position_bound(this->c_set_.get(), SIMDBEZIER_ISA_AUTOMATIC, &largest));
   EXPECT_EQ(largest, largest_position_bound(this->set_));
-  std::vector<double> errors(5);
-  std::vector<double> expected_errors(5);
-  ASSERT_TRUE(position_errors(this->set_, expected_errors));
-  EXPECT_C_OK(simdbezier_position_errors(this->c_set_.get(), errors.data(), errors.size()));
-  expect_same_bits(errors, expected_errors, "position errors");
 }
 
 TYPED_TEST(CEvaluation, SaysWhatASetIs) {

@@ -17,6 +17,7 @@ int main(void) {
   SIZE(simdbezier_error_bounds_of_curve);
   SIZE(simdbezier_error_bounds_of_patch);
   SIZE(simdbezier_fault);
+  SIZE(simdbezier_flatten_options);
   SIZE(simdbezier_grid);
   SIZE(simdbezier_mesh_arrays);
   SIZE(simdbezier_mesh_options);
@@ -30,6 +31,7 @@ int main(void) {
   SIZE(simdbezier_partial_derivative);
   SIZE(simdbezier_patch_grids);
   SIZE(simdbezier_patch_shape);
+  SIZE(simdbezier_polyline_arrays);
   SIZE(simdbezier_rate_options);
   SIZE(simdbezier_rates);
   SIZE(simdbezier_samples);

@@ -71,6 +71,12 @@ SIMDBEZIER_API simdbezier_status simdbezier_evaluate_curve_samples(
     const simdbezier_curve_set* set, const simdbezier_curve_samples* samples,
     const simdbezier_curve_outputs* out, const simdbezier_options* options);
 
+// sample_count() of curves, as of patches.
+SIMDBEZIER_API size_t simdbezier_curve_grid_sample_count(const simdbezier_curve_set* set,
+                                                         const simdbezier_curve_grid* grid);
+SIMDBEZIER_API size_t simdbezier_curve_grids_sample_count(const simdbezier_curve_set* set,
+                                                          const simdbezier_curve_grids* grids);
+
 // PatchEdge.
 typedef int32_t simdbezier_edge;
 enum { SIMDBEZIER_EDGE_V0, SIMDBEZIER_EDGE_V1, SIMDBEZIER_EDGE_U0, SIMDBEZIER_EDGE_U1 };

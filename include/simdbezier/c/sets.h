@@ -202,6 +202,7 @@ typedef struct simdbezier_patch_shape {
 SIMDBEZIER_API size_t simdbezier_patch_set_size(const simdbezier_patch_set* set);
 SIMDBEZIER_API simdbezier_scalar simdbezier_patch_set_scalar(const simdbezier_patch_set* set);
 SIMDBEZIER_API int32_t simdbezier_patch_set_components(const simdbezier_patch_set* set);
+SIMDBEZIER_API int32_t simdbezier_patch_set_has_local_origins(const simdbezier_patch_set* set);
 // Returns ok | null_input | null_output | bad_struct_size | bad_patch_range.
 SIMDBEZIER_API simdbezier_status simdbezier_patch_set_shape(const simdbezier_patch_set* set,
                                                             size_t patch,
@@ -213,6 +214,7 @@ SIMDBEZIER_API simdbezier_scalar simdbezier_curve_set_scalar(const simdbezier_cu
 SIMDBEZIER_API int32_t simdbezier_curve_set_degree(const simdbezier_curve_set* set);
 SIMDBEZIER_API int32_t simdbezier_curve_set_components(const simdbezier_curve_set* set);
 SIMDBEZIER_API int32_t simdbezier_curve_set_rational(const simdbezier_curve_set* set);
+SIMDBEZIER_API int32_t simdbezier_curve_set_has_local_origins(const simdbezier_curve_set* set);
 
 // ErrorBounds: absolute bounds a component, 0 where there is no such component.
 typedef struct simdbezier_error_bounds_of_patch {
@@ -235,11 +237,15 @@ simdbezier_patch_error_bounds(const simdbezier_patch_set* set, size_t patch, sim
 SIMDBEZIER_API simdbezier_status
 simdbezier_curve_error_bounds(const simdbezier_curve_set* set, size_t curve, simdbezier_isa isa,
                               simdbezier_error_bounds_of_curve* bounds);
-// largest_position_bound(), position_errors(): the latter has one value a patch.
+// largest_position_bound(), position_errors(): the latter have one value a patch or a curve.
 SIMDBEZIER_API simdbezier_status simdbezier_largest_position_bound(const simdbezier_patch_set* set,
                                                                    simdbezier_isa isa,
                                                                    double* bound);
 SIMDBEZIER_API simdbezier_status simdbezier_position_errors(const simdbezier_patch_set* set,
-                                                            double* errors, size_t length);
+                                                            simdbezier_isa isa, double* errors,
+                                                            size_t length);
+SIMDBEZIER_API simdbezier_status simdbezier_curve_position_errors(const simdbezier_curve_set* set,
+                                                                  simdbezier_isa isa,
+                                                                  double* errors, size_t length);
 
 SIMDBEZIER_END_C

@@ -1,0 +1,54 @@
+// flatten.hpp: curves as polylines that stay within a tolerance of them.
+//
+//     simdbezier_choose_polylines(&curves, &options, points, count, NULL, 0);   sizes first
+//     grids.n = points;                                                         then points
+//     simdbezier_evaluate_curve_grids(set, &grids, &out, NULL);
+//
+// simdbezier_flatten() does both in one call.
+#pragma once
+
+#include <simdbezier/c/sets.h>
+
+SIMDBEZIER_BEGIN_C
+
+// FlattenOptions.
+typedef struct simdbezier_flatten_options {
+  size_t struct_size;
+  double tolerance;
+  const double* tolerances; // one value a curve, instead of `tolerance`; or null
+  size_t tolerances_length;
+  const double* errors; // simdbezier_curve_position_errors(), or null
+  size_t errors_length;
+  uint32_t most_points; // 0: 65 537
+} simdbezier_flatten_options;
+
+// choose_polylines(): points and deviation have one value a curve, and deviation may be null.
+// Returns its statuses and null_input | null_output | bad_struct_size | bad_scalar | bad_value |
+// bad_alignment.
+SIMDBEZIER_API simdbezier_status simdbezier_choose_polylines(
+    const simdbezier_control_curves* curves, const simdbezier_flatten_options* options,
+    uint32_t* points, size_t points_length, double* deviation, size_t deviation_length);
+
+typedef struct simdbezier_polylines simdbezier_polylines;
+
+// What polylines consist of. The arrays belong to them.
+typedef struct simdbezier_polyline_arrays {
+  size_t struct_size;
+  simdbezier_scalar scalar; // of points
+  size_t curves;
+  size_t vertices;     // of all polylines
+  const void* points;  // 3 a vertex; null where there is none
+  const size_t* first; // of every curve among the vertices, and the end of the last
+  double deviation;
+} simdbezier_polyline_arrays;
+
+// flatten(): polylines whose points have the type `scalar`. polylines: written on ok only.
+SIMDBEZIER_API simdbezier_status simdbezier_flatten(const simdbezier_control_curves* curves,
+                                                    simdbezier_scalar scalar, double tolerance,
+                                                    const simdbezier_options* options,
+                                                    simdbezier_polylines** polylines);
+SIMDBEZIER_API void simdbezier_polylines_free(simdbezier_polylines* polylines);
+SIMDBEZIER_API simdbezier_status simdbezier_polylines_look(const simdbezier_polylines* polylines,
+                                                           simdbezier_polyline_arrays* arrays);
+
+SIMDBEZIER_END_C
