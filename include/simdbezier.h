@@ -25,20 +25,20 @@
 //              The elements of an array of structs all have the struct_size of the first.
 //   Pointers   come with the number of elements that they point to, and a call that would go
 //              beyond is refused. A null pointer to options means that all members are zero.
-//   Strides    count elements, not bytes.
+//   Strides    count elements, not bytes; those of formatted vertices alone count bytes.
 //   Numbers    are float or double: a struct says which by its `scalar`. The functions ending in
 //              _f32 and _f64 below fill in structs, so that the compiler checks the pointers.
 //   Handles    are made by one function and given back to one …_free(), which accepts null.
 //              They are immutable: any number of threads may use one at once.
-//   C++ alone  has formats of vertices (vertex_formats.hpp), plan_mesh(), certify_grids(), and
-//              triangles and polygons of some of the patches.
+//   C++ alone  has plan_mesh(), certify_grids(), and triangles and polygons of some of the patches.
 #pragma once
 
-#include <simdbezier/c/curves.h>    // IWYU pragma: export
-#include <simdbezier/c/evaluate.h>  // IWYU pragma: export
-#include <simdbezier/c/meshes.h>    // IWYU pragma: export
-#include <simdbezier/c/models.h>    // IWYU pragma: export
-#include <simdbezier/c/nets.h>      // IWYU pragma: export
-#include <simdbezier/c/polylines.h> // IWYU pragma: export
-#include <simdbezier/c/sets.h>      // IWYU pragma: export
-#include <simdbezier/c/types.h>     // IWYU pragma: export
+#include <simdbezier/c/curves.h>         // IWYU pragma: export
+#include <simdbezier/c/evaluate.h>       // IWYU pragma: export
+#include <simdbezier/c/meshes.h>         // IWYU pragma: export
+#include <simdbezier/c/models.h>         // IWYU pragma: export
+#include <simdbezier/c/nets.h>           // IWYU pragma: export
+#include <simdbezier/c/polylines.h>      // IWYU pragma: export
+#include <simdbezier/c/sets.h>           // IWYU pragma: export
+#include <simdbezier/c/types.h>          // IWYU pragma: export
+#include <simdbezier/c/vertex_formats.h> // IWYU pragma: export

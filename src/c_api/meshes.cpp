@@ -1,8 +1,6 @@
-// Vertices of meshes, and meshes in one call, of simdbezier.h.
-#include <cmath>
+// Meshes in one call of simdbezier.h.
 #include <limits>
 
-#include <simdbezier/evaluate_mesh.hpp>
 #include <simdbezier/mesh.hpp>
 
 #include "src/c_api/handles.hpp"
@@ -10,36 +8,6 @@
 
 namespace simdbezier::c_api {
 namespace {
-
-constexpr Path kSet{"set"};
-constexpr Path kLayout{"layout"};
-constexpr Path kOut{"out"};
-
-template <typename T>
-MeshOutputs<T> outputs_of(const simdbezier_mesh_outputs* given) {
-  const simdbezier_mesh_outputs known = read(given, kOut);
-  MeshOutputs<T> out{vectors_of<T>(known.position, kOut / "position"),
-                     vectors_of<T>(known.normal, kOut / "normal"),
-                     vectors_of<T>(known.parameters, kOut / "parameters"),
-                     {}};
-  if (known.patch != nullptr || known.patch_length != 0) {
-    out.patch = span_of(known.patch, known.patch_length, kOut / "patch");
-  }
-  return out;
-}
-
-/// unequal_lengths is about the number of patches in the set, not about the range asked for.
-Path blamed_in_mesh(Status status) {
-  switch (status.code()) {
-  case Status::unequal_lengths:
-  case Status::bad_components:
-    return kSet;
-  case Status::bad_patch_range:
-    return {"first_patch or patch_count"};
-  default:
-    return blamed_in_call(status, kLayout);
-  }
-}
 
 /// Zero stands for no limit.
 double limit_of(double value) {
@@ -113,62 +81,6 @@ simdbezier_mesh_arrays arrays_of(const Mesh<T>& mesh) noexcept {
 
 using namespace simdbezier;
 using namespace simdbezier::c_api;
-
-simdbezier_status simdbezier_evaluate_mesh(const simdbezier_patch_set* set,
-                                           const simdbezier_mesh_layout* layout,
-                                           const simdbezier_mesh_outputs* out,
-                                           const simdbezier_options* options, size_t first_patch,
-                                           size_t patch_count) {
-  return answer(__func__, [&] {
-    const MeshLayout& numbers = object_of(layout, kLayout);
-    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
-      const MeshOutputs<T> to = outputs_of<T>(out);
-      const CallOptions how(options);
-      require_ok(evaluate_mesh(patches, numbers, to, *how, range_of(first_patch, patch_count)),
-                 blamed_in_mesh);
-    });
-  });
-}
-
-simdbezier_status simdbezier_evaluate_mesh_attributes(const simdbezier_patch_set* set,
-                                                      const simdbezier_mesh_layout* layout,
-                                                      const simdbezier_vectors* out,
-                                                      int32_t first_component,
-                                                      const simdbezier_options* options,
-                                                      size_t first_patch, size_t patch_count) {
-  return answer(__func__, [&] {
-    const MeshLayout& numbers = object_of(layout, kLayout);
-    require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, kOut);
-    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
-      const Vectors<T> to = vectors_of<T>(*out, kOut);
-      const CallOptions how(options);
-      require_ok(evaluate_mesh_attributes(patches, numbers, to, first_component, *how,
-                                          range_of(first_patch, patch_count)),
-                 [](Status status) {
-                   return status == Status::bad_components ? Path{"first_component"}
-                                                           : blamed_in_mesh(status);
-                 });
-    });
-  });
-}
-
-simdbezier_status simdbezier_split_creases(const simdbezier_patch_set* set,
-                                           const simdbezier_mesh_layout* layout, double angle,
-                                           const simdbezier_options* options,
-                                           simdbezier_mesh_layout** split) {
-  return answer(__func__, [&] {
-    require_place(split, {"split"});
-    const MeshLayout& numbers = object_of(layout, kLayout);
-    with_set(set, kSet, [&](const auto& patches) {
-      const CallOptions how(options);
-      MeshLayout made;
-      require_ok(split_creases(patches, numbers, angle, made, *how), [](Status status) {
-        return status == Status::bad_tolerance ? Path{"angle"} : blamed_in_mesh(status);
-      });
-      give(split, std::move(made));
-    });
-  });
-}
 
 simdbezier_status simdbezier_tessellate(const simdbezier_nets* nets, size_t length,
                                         simdbezier_scalar scalar,

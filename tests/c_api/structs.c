@@ -18,6 +18,8 @@ int main(void) {
   SIZE(simdbezier_error_bounds_of_patch);
   SIZE(simdbezier_fault);
   SIZE(simdbezier_flatten_options);
+  SIZE(simdbezier_formatted_output);
+  SIZE(simdbezier_formatted_outputs);
   SIZE(simdbezier_grid);
   SIZE(simdbezier_mesh_arrays);
   SIZE(simdbezier_mesh_options);
@@ -32,6 +34,7 @@ int main(void) {
   SIZE(simdbezier_patch_grids);
   SIZE(simdbezier_patch_shape);
   SIZE(simdbezier_polyline_arrays);
+  SIZE(simdbezier_quantisation_box);
   SIZE(simdbezier_rate_options);
   SIZE(simdbezier_rates);
   SIZE(simdbezier_samples);

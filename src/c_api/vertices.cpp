@@ -1,0 +1,215 @@
+// Vertices of meshes of simdbezier.h.
+#include <algorithm>
+
+#include <simdbezier/evaluate_mesh.hpp>
+#include <simdbezier/vertex_formats.hpp>
+
+#include "src/c_api/handles.hpp"
+#include "src/c_api/views.hpp"
+#include "src/mesh/formatted_columns.hpp"
+
+namespace simdbezier::c_api {
+namespace {
+
+constexpr Path kSet{"set"};
+constexpr Path kLayout{"layout"};
+constexpr Path kOut{"out"};
+
+constexpr std::int32_t kFormats = 6;
+static_assert(SIMDBEZIER_FORMAT_OCTAHEDRAL8 == static_cast<int>(VertexFormat::octahedral8));
+static_assert(SIMDBEZIER_FORMAT_OCTAHEDRAL8 == kFormats - 1);
+
+template <typename T>
+MeshOutputs<T> outputs_of(const simdbezier_mesh_outputs* given) {
+  const simdbezier_mesh_outputs known = read(given, kOut);
+  MeshOutputs<T> out{vectors_of<T>(known.position, kOut / "position"),
+                     vectors_of<T>(known.normal, kOut / "normal"),
+                     vectors_of<T>(known.parameters, kOut / "parameters"),
+                     {}};
+  if (known.patch != nullptr || known.patch_length != 0) {
+    out.patch = span_of(known.patch, known.patch_length, kOut / "patch");
+  }
+  return out;
+}
+
+/// unequal_lengths is about the number of patches in the set, not about the range asked for.
+Path blamed_in_mesh(Status status) {
+  switch (status.code()) {
+  case Status::unequal_lengths:
+  case Status::bad_components:
+    return kSet;
+  case Status::bad_patch_range:
+    return {"first_patch or patch_count"};
+  default:
+    return blamed_in_call(status, kLayout);
+  }
+}
+
+/// What vertex_formats.h says of an output, and what C++ makes of it.
+constexpr struct {
+  simdbezier_formatted_output simdbezier_formatted_outputs::*given;
+  FormattedOutput FormattedOutputs::*output;
+  const char* name;
+} kFormatted[] = {
+    {&simdbezier_formatted_outputs::position, &FormattedOutputs::position, "position"},
+    {&simdbezier_formatted_outputs::normal, &FormattedOutputs::normal, "normal"},
+    {&simdbezier_formatted_outputs::parameters, &FormattedOutputs::parameters, "parameters"}};
+
+FormattedOutputs outputs_of(const simdbezier_formatted_outputs* given) {
+  const simdbezier_formatted_outputs known = read(given, kOut);
+  FormattedOutputs out;
+  for (const auto& [member, output, name] : kFormatted) {
+    const simdbezier_formatted_output& one = known.*member;
+    if (one.first == nullptr && one.capacity == 0) {
+      continue;
+    }
+    require(one.first != nullptr, SIMDBEZIER_NULL_OUTPUT, kOut / name / "first");
+    out.*output = {one.first, one.stride,
+                   choice<VertexFormat>(one.format, kFormats, kOut / name / "format"),
+                   one.capacity};
+  }
+  std::copy_n(known.box.low, 3, out.box.low.begin());
+  out.box.step = known.box.step;
+  return out;
+}
+
+/// The first output that would be refused in the same way if it were the only one.
+Path blamed_output(const FormattedOutputs& out, Status status, std::size_t vertices) {
+  if (status == Status::bad_tolerance) {
+    return kOut / "box";
+  }
+  for (const auto& [member, output, name] : kFormatted) {
+    FormattedOutputs alone;
+    alone.*output = out.*output;
+    alone.box = out.box;
+    if ((out.*output).first != nullptr &&
+        detail::FormattedColumns(alone).check(alone, vertices) == status) {
+      switch (status.code()) {
+      case Status::bad_components:
+        return kOut / name / "format";
+      case Status::bad_stride:
+        return kOut / name / "stride";
+      default:
+        return kOut / name;
+      }
+    }
+  }
+  return blamed_in_mesh(status);
+}
+
+/// How many vertices a call for some patches writes.
+std::size_t vertices_of(const MeshLayout& layout, std::size_t patches, SetRange range) {
+  const std::size_t last =
+      range.count > patches - range.first ? patches : range.first + range.count;
+  return layout.first_vertex(last) - layout.first_vertex(range.first);
+}
+
+} // namespace
+} // namespace simdbezier::c_api
+
+using namespace simdbezier;
+using namespace simdbezier::c_api;
+
+simdbezier_status simdbezier_evaluate_mesh(const simdbezier_patch_set* set,
+                                           const simdbezier_mesh_layout* layout,
+                                           const simdbezier_mesh_outputs* out,
+                                           const simdbezier_options* options, size_t first_patch,
+                                           size_t patch_count) {
+  return answer(__func__, [&] {
+    const MeshLayout& numbers = object_of(layout, kLayout);
+    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+      const MeshOutputs<T> to = outputs_of<T>(out);
+      const CallOptions how(options);
+      require_ok(evaluate_mesh(patches, numbers, to, *how, range_of(first_patch, patch_count)),
+                 blamed_in_mesh);
+    });
+  });
+}
+
+simdbezier_status simdbezier_evaluate_mesh_attributes(const simdbezier_patch_set* set,
+                                                      const simdbezier_mesh_layout* layout,
+                                                      const simdbezier_vectors* out,
+                                                      int32_t first_component,
+                                                      const simdbezier_options* options,
+                                                      size_t first_patch, size_t patch_count) {
+  return answer(__func__, [&] {
+    const MeshLayout& numbers = object_of(layout, kLayout);
+    require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, kOut);
+    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+      const Vectors<T> to = vectors_of<T>(*out, kOut);
+      const CallOptions how(options);
+      require_ok(evaluate_mesh_attributes(patches, numbers, to, first_component, *how,
+                                          range_of(first_patch, patch_count)),
+                 [](Status status) {
+                   return status == Status::bad_components ? Path{"first_component"}
+                                                           : blamed_in_mesh(status);
+                 });
+    });
+  });
+}
+
+simdbezier_status simdbezier_split_creases(const simdbezier_patch_set* set,
+                                           const simdbezier_mesh_layout* layout, double angle,
+                                           const simdbezier_options* options,
+                                           simdbezier_mesh_layout** split) {
+  return answer(__func__, [&] {
+    require_place(split, {"split"});
+    const MeshLayout& numbers = object_of(layout, kLayout);
+    with_set(set, kSet, [&](const auto& patches) {
+      const CallOptions how(options);
+      MeshLayout made;
+      require_ok(split_creases(patches, numbers, angle, made, *how), [](Status status) {
+        return status == Status::bad_tolerance ? Path{"angle"} : blamed_in_mesh(status);
+      });
+      give(split, std::move(made));
+    });
+  });
+}
+
+size_t simdbezier_format_bytes(simdbezier_vertex_format format, size_t components) {
+  return format < 0 || format >= kFormats
+             ? 0
+             : format_bytes(static_cast<VertexFormat>(format), components);
+}
+
+simdbezier_status simdbezier_find_quantisation_box(const simdbezier_nets* nets, size_t length,
+                                                   simdbezier_vertex_format format,
+                                                   simdbezier_quantisation_box* box) {
+  return answer(__func__, [&] {
+    require(box != nullptr, SIMDBEZIER_NULL_OUTPUT, {"box"});
+    const auto as = choice<VertexFormat>(format, kFormats, {"format"});
+    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+      QuantisationBox found;
+      require_ok(quantisation_box(views, as, found), [&](Status status) -> Path {
+        if (status == Status::bad_tolerance) {
+          const bool has_box = as == VertexFormat::unorm16 || as == VertexFormat::snorm16;
+          return {has_box ? "nets" : "format"};
+        }
+        return blamed_nets(status, {"nets"});
+      });
+      std::copy_n(found.low.begin(), 3, box->low);
+      box->step = found.step;
+    });
+  });
+}
+
+simdbezier_status simdbezier_evaluate_formatted_mesh(const simdbezier_patch_set* set,
+                                                     const simdbezier_mesh_layout* layout,
+                                                     const simdbezier_formatted_outputs* out,
+                                                     const simdbezier_options* options,
+                                                     size_t first_patch, size_t patch_count) {
+  return answer(__func__, [&] {
+    const MeshLayout& numbers = object_of(layout, kLayout);
+    with_set(set, kSet, [&](const auto& patches) {
+      const FormattedOutputs to = outputs_of(out);
+      const CallOptions how(options);
+      const SetRange range = range_of(first_patch, patch_count);
+      const Status status = evaluate_mesh(patches, numbers, to, *how, range);
+      require_ok(status, [&](Status) {
+        return status == Status::unequal_lengths || status == Status::bad_patch_range
+                   ? blamed_in_mesh(status)
+                   : blamed_output(to, status, vertices_of(numbers, patches.size(), range));
+      });
+    });
+  });
+}
