@@ -30,7 +30,7 @@
 //              _f32 and _f64 below fill in structs, so that the compiler checks the pointers.
 //   Handles    are made by one function and given back to one …_free(), which accepts null.
 //              They are immutable: any number of threads may use one at once.
-//   C++ alone  has plan_mesh(), certify_grids(), and triangles and polygons of some of the patches.
+//   C++ alone  has triangles and polygons of some of the patches.
 #pragma once
 
 #include <simdbezier/c/curves.h>         // IWYU pragma: export

@@ -29,6 +29,17 @@ struct simdbezier_topology {
 struct simdbezier_mesh_layout {
   simdbezier::MeshLayout of;
 };
+struct simdbezier_mesh_plan {
+  /// The plan's parts as handles, which other calls take.
+  template <typename T>
+  explicit simdbezier_mesh_plan(simdbezier::MeshPlan<T>&& plan)
+      : set{plan.set}, topology{plan.topology}, layout{plan.layout}, of(std::move(plan)) {}
+
+  simdbezier_patch_set set;
+  simdbezier_topology topology;
+  simdbezier_mesh_layout layout;
+  std::variant<simdbezier::MeshPlan<float>, simdbezier::MeshPlan<double>> of;
+};
 struct simdbezier_mesh {
   std::variant<simdbezier::Mesh<float>, simdbezier::Mesh<double>> of;
 };

@@ -1,4 +1,4 @@
-// Meshes in one call of simdbezier.h.
+// Meshes in one call, and plans of them, of simdbezier.h.
 #include <limits>
 
 #include <simdbezier/mesh.hpp>
@@ -51,8 +51,9 @@ Path blamed_in_tessellation(Status status, std::span<const ControlNets<S>> nets,
   case Status::bad_grid:
     return kOptions / "nu or nv";
   case Status::bad_rates:
+    return kOptions / "tolerances";
   case Status::not_orientable:
-    return kOptions;
+    return kOptions / "orient";
   default:
     return blamed_nets(status, nets_with_patch(nets, patch));
   }
@@ -76,6 +77,47 @@ simdbezier_mesh_arrays arrays_of(const Mesh<T>& mesh) noexcept {
   return known;
 }
 
+simdbezier_mesh_plan_parts parts_of(const simdbezier_mesh_plan& plan) noexcept {
+  simdbezier_mesh_plan_parts known{};
+  known.set = &plan.set;
+  known.topology = &plan.topology;
+  known.layout = &plan.layout;
+  std::visit(
+      [&](const auto& of) {
+        known.patch_count = of.nu.size();
+        known.patches = of.patches.empty() ? nullptr : of.patches.data();
+        known.nu = first_of(of.nu);
+        known.nv = first_of(of.nv);
+        known.deviations = first_of(of.deviations);
+        known.deviation = of.deviation;
+        known.diagonal = of.diagonal;
+      },
+      plan.of);
+  return known;
+}
+
+/// A mesh or a plan of one, which `call` makes.
+template <typename Handle, typename Call>
+simdbezier_status make(const char* function, const simdbezier_nets* nets, std::size_t length,
+                       simdbezier_scalar scalar, const simdbezier_mesh_options* options,
+                       Handle** handle, const char* name, Call call) noexcept {
+  return answer(function, [&] {
+    require_place(handle, {name});
+    const MeshOptions how = mesh_options_of(options);
+    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+      with_scalar(scalar, {"scalar"}, [&]<typename T>() {
+        auto made = call.template operator()<T>(views, how);
+        if (!made) {
+          throw Fault{code_of(made.status),
+                      blamed_in_tessellation(made.status, views, made.fault_patch),
+                      made.fault_patch};
+        }
+        give(handle, std::move(made));
+      });
+    });
+  });
+}
+
 } // namespace
 } // namespace simdbezier::c_api
 
@@ -86,21 +128,10 @@ simdbezier_status simdbezier_tessellate(const simdbezier_nets* nets, size_t leng
                                         simdbezier_scalar scalar,
                                         const simdbezier_mesh_options* options,
                                         simdbezier_mesh** mesh) {
-  return answer(__func__, [&] {
-    require_place(mesh, {"mesh"});
-    const MeshOptions how = mesh_options_of(options);
-    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      with_scalar(scalar, {"scalar"}, [&]<typename T>() {
-        Mesh<T> made = tessellate<T>(views, how);
-        if (!made) {
-          throw Fault{code_of(made.status),
-                      blamed_in_tessellation(made.status, views, made.fault_patch),
-                      made.fault_patch};
-        }
-        give(mesh, std::move(made));
-      });
-    });
-  });
+  return make(__func__, nets, length, scalar, options, mesh, "mesh",
+              []<typename T>(const auto& views, const MeshOptions& how) {
+                return tessellate<T>(views, how);
+              });
 }
 
 void simdbezier_mesh_free(simdbezier_mesh* mesh) { delete mesh; }
@@ -118,5 +149,34 @@ simdbezier_status simdbezier_mesh_count(const simdbezier_mesh* mesh,
   return answer(__func__, [&] {
     require_writable(counts, {"counts"});
     with_set(mesh, {"mesh"}, [&](const auto& of) { write(counts, counts_of(of.counts)); });
+  });
+}
+
+simdbezier_status simdbezier_plan_mesh(const simdbezier_nets* nets, size_t length,
+                                       simdbezier_scalar scalar,
+                                       const simdbezier_mesh_options* options,
+                                       simdbezier_mesh_plan** plan) {
+  return make(__func__, nets, length, scalar, options, plan, "plan",
+              []<typename T>(const auto& views, const MeshOptions& how) {
+                return plan_mesh<T>(views, how);
+              });
+}
+
+void simdbezier_mesh_plan_free(simdbezier_mesh_plan* plan) { delete plan; }
+
+simdbezier_status simdbezier_mesh_plan_look(const simdbezier_mesh_plan* plan,
+                                            simdbezier_mesh_plan_parts* parts) {
+  return answer(__func__, [&] {
+    require_writable(parts, {"parts"});
+    require(plan != nullptr, SIMDBEZIER_NULL_INPUT, {"plan"});
+    write(parts, parts_of(*plan));
+  });
+}
+
+simdbezier_status simdbezier_mesh_plan_count(const simdbezier_mesh_plan* plan,
+                                             simdbezier_topology_counts* counts) {
+  return answer(__func__, [&] {
+    require_writable(counts, {"counts"});
+    with_set(plan, {"plan"}, [&](const auto& of) { write(counts, counts_of(of.counts)); });
   });
 }

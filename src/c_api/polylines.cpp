@@ -32,13 +32,10 @@ void with_curves(const simdbezier_control_curves* given, Body body) {
 
 /// The first of the spans that is not one value a curve.
 Path blamed_length(std::size_t curves, const FlattenOptions& options, std::size_t points) {
-  const auto fits = [&](std::span<const double> values) {
-    return values.empty() || values.size() == curves;
-  };
-  if (!fits(options.tolerances)) {
+  if (!is_one_each(options.tolerances, curves)) {
     return kOptions / "tolerances";
   }
-  if (!fits(options.errors)) {
+  if (!is_one_each(options.errors, curves)) {
     return kOptions / "errors";
   }
   return {points != curves ? "points" : "deviation"};

@@ -128,6 +128,11 @@ Path blamed_nets(Status status, const Path& nets);
 /// The same where there is one degree.
 Path blamed_curves(Status status, const Path& curves);
 
+/// Whether values that may be left out are one a patch or a curve.
+inline bool is_one_each(std::span<const double> values, std::size_t members) noexcept {
+  return values.empty() || values.size() == members;
+}
+
 /// The member of RateOptions or FlattenOptions that bad_tolerance is about, at a patch or a curve.
 template <typename Tolerances>
 Path blamed_tolerance(const Tolerances& options, std::size_t at) {
@@ -150,6 +155,15 @@ auto with_net_array(const simdbezier_nets* nets, std::size_t length, Body body) 
     }
     return body(std::span<const ControlNets<S>>(views));
   });
+}
+
+template <typename S>
+std::size_t patches_of(std::span<const ControlNets<S>> nets) noexcept {
+  std::size_t patches = 0;
+  for (const ControlNets<S>& one : nets) {
+    patches += one.count;
+  }
+  return patches;
 }
 
 /// Which of several nets holds a patch.

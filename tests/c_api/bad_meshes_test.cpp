@@ -28,6 +28,138 @@ const Refusal<MeshWorld> kModels[] = {
        return w.mesh_options.nu = 1, w.mesh_options.nv = 2, w.tessellate();
      }}};
 
+const Refusal<MeshWorld> kRates[] = {
+    {SIMDBEZIER_NULL_INPUT, "options",
+     [](MeshWorld& w) {
+       return simdbezier_choose_rates(&w.nets, 1, w.topology, nullptr, &w.rates);
+     }},
+    {SIMDBEZIER_NULL_INPUT, "rates",
+     [](MeshWorld& w) {
+       return simdbezier_choose_rates(&w.nets, 1, w.topology, &w.rate_options, nullptr);
+     }},
+    {SIMDBEZIER_NULL_INPUT, "topology",
+     [](MeshWorld& w) {
+       return simdbezier_choose_rates(&w.nets, 1, nullptr, &w.rate_options, &w.rates);
+     }},
+    {SIMDBEZIER_BAD_RATES, "topology", [](MeshWorld& w) { return w.nets.count = 1, w.choose(); }},
+    {SIMDBEZIER_BAD_RATES, "topology", [](MeshWorld& w) { return w.nets.count = 1, w.certify(); }},
+    {SIMDBEZIER_BAD_RATES, "rates->nu",
+     [](MeshWorld& w) { return w.rates.nu_length = 1, w.choose(); }},
+    {SIMDBEZIER_BAD_RATES, "rates->nv",
+     [](MeshWorld& w) { return w.rates.nv_length = 1, w.certify(); }},
+    {SIMDBEZIER_BAD_RATES, "rates->diagonals",
+     [](MeshWorld& w) { return w.rates.diagonals_length = 1, w.choose(); }},
+    {SIMDBEZIER_BAD_RATES, "rates->deviation",
+     [](MeshWorld& w) { return w.rates.deviation_length = 1, w.choose(); }},
+    {SIMDBEZIER_BAD_RATES, "options->errors",
+     [](MeshWorld& w) {
+       w.rate_options.errors = w.numbers;
+       return w.rate_options.errors_length = 1, w.choose();
+     }},
+    {SIMDBEZIER_BAD_RATES, "options->tolerances",
+     [](MeshWorld& w) {
+       w.rate_options.tolerances = w.numbers;
+       return w.rate_options.tolerances_length = 3, w.choose();
+     }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->tolerance",
+     [](MeshWorld& w) { return w.rate_options.tolerance = 0, w.choose(); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->longest_edge",
+     [](MeshWorld& w) { return w.rate_options.longest_edge = -1, w.choose(); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->normal_angle",
+     [](MeshWorld& w) { return w.rate_options.normal_angle = -1, w.choose(); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->errors",
+     [](MeshWorld& w) {
+       w.rate_options.errors = w.numbers;
+       return w.rate_options.errors_length = 2, w.numbers[1] = -1, w.choose();
+     }},
+    {SIMDBEZIER_BAD_RATES, "errors", [](MeshWorld& w) { return w.certify(w.numbers, 1); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "errors",
+     [](MeshWorld& w) { return w.numbers[1] = -1, w.certify(w.numbers, 2); }},
+    {SIMDBEZIER_NULL_INPUT, "errors", [](MeshWorld& w) { return w.certify(nullptr, 2); }},
+    {SIMDBEZIER_BAD_RATES, "rates->nu or nv",
+     [](MeshWorld& w) { return w.nv[1] = 4097, w.certify(); }},
+    {SIMDBEZIER_BAD_RATES, "rates->nu or nv",
+     [](MeshWorld& w) { return w.nu[0] = 0, w.lay_out(); }},
+    {SIMDBEZIER_BAD_RATES, "rates->nu or nv",
+     [](MeshWorld& w) {
+       w.rates.diagonals = nullptr;
+       return w.rates.diagonals_length = 0, w.nu[0] = 0, w.lay_out();
+     }},
+    {SIMDBEZIER_BAD_RATES, "rates->nv",
+     [](MeshWorld& w) { return w.rates.nv_length = 1, w.lay_out(); }},
+    {SIMDBEZIER_NULL_INPUT, "nets",
+     [](MeshWorld& w) {
+       return simdbezier_certify_grids(nullptr, 1, 2, 2, nullptr, 0, w.deviation, 2, 0);
+     }},
+    {SIMDBEZIER_NULL_OUTPUT, "deviation",
+     [](MeshWorld& w) {
+       return simdbezier_certify_grids(&w.nets, 1, 2, 2, nullptr, 0, nullptr, 2, 0);
+     }},
+    {SIMDBEZIER_NULL_INPUT, "errors",
+     [](MeshWorld& w) {
+       return simdbezier_certify_grids(&w.nets, 1, 2, 2, nullptr, 2, w.deviation, 2, 0);
+     }},
+    {SIMDBEZIER_BAD_RATES, "deviation",
+     [](MeshWorld& w) { return w.rates.deviation_length = 1, w.certify_grids(2, 2); }},
+    {SIMDBEZIER_BAD_RATES, "errors",
+     [](MeshWorld& w) { return w.numbers_length = 3, w.certify_grids(2, 2); }},
+    {SIMDBEZIER_BAD_RATES, "nu or nv", [](MeshWorld& w) { return w.certify_grids(0, 2); }},
+    {SIMDBEZIER_BAD_RATES, "nu or nv",
+     [](MeshWorld& w) { return w.certify_grids(2, kMostGridCells + 1); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "errors",
+     [](MeshWorld& w) { return w.numbers[0] = kNan, w.certify_grids(2, 2); }},
+    {SIMDBEZIER_NON_FINITE_INPUT, "nets[0].points",
+     [](MeshWorld& w) { return w.values[50] = kNan, w.certify_grids(2, 2); }},
+    {SIMDBEZIER_BAD_ALIGNMENT, "nets[0].points",
+     [](MeshWorld& w) { return between(w.nets.points), w.certify_grids(2, 2); }}};
+
+const Refusal<MeshWorld> kPlans[] = {
+    {SIMDBEZIER_NULL_OUTPUT, "plan",
+     [](MeshWorld& w) {
+       return simdbezier_plan_mesh(&w.nets, 1, SIMDBEZIER_F32, &w.mesh_options, nullptr);
+     }},
+    {SIMDBEZIER_NULL_INPUT, "options",
+     [](MeshWorld& w) {
+       return simdbezier_plan_mesh(&w.nets, 1, SIMDBEZIER_F32, nullptr, &w.made_plan);
+     }},
+    {SIMDBEZIER_NULL_INPUT, "nets",
+     [](MeshWorld& w) {
+       return simdbezier_plan_mesh(nullptr, 1, SIMDBEZIER_F32, &w.mesh_options, &w.made_plan);
+     }},
+    {SIMDBEZIER_BAD_SCALAR, "scalar",
+     [](MeshWorld& w) {
+       return simdbezier_plan_mesh(&w.nets, 1, 0, &w.mesh_options, &w.made_plan);
+     }},
+    {SIMDBEZIER_BAD_STRUCT_SIZE, "options->struct_size",
+     [](MeshWorld& w) { return w.mesh_options.struct_size -= 8, w.plan(); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->tolerance",
+     [](MeshWorld& w) { return w.mesh_options.tolerance = 0, w.plan(); }},
+    {SIMDBEZIER_BAD_RATES, "options->tolerances",
+     [](MeshWorld& w) {
+       w.mesh_options.tolerances = w.numbers;
+       return w.mesh_options.tolerances_length = 3, w.plan();
+     }},
+    {SIMDBEZIER_NON_FINITE_INPUT, "nets[0].points",
+     [](MeshWorld& w) { return w.values[50] = kNan, w.plan(); }},
+    {SIMDBEZIER_NULL_INPUT, "plan",
+     [](MeshWorld&) {
+       auto parts = sized<simdbezier_mesh_plan_parts>();
+       return simdbezier_mesh_plan_look(nullptr, &parts);
+     }},
+    {SIMDBEZIER_NULL_OUTPUT, "parts",
+     [](MeshWorld&) { return simdbezier_mesh_plan_look(nullptr, nullptr); }},
+    {SIMDBEZIER_BAD_STRUCT_SIZE, "parts->struct_size",
+     [](MeshWorld&) {
+       simdbezier_mesh_plan_parts parts{};
+       return simdbezier_mesh_plan_look(nullptr, &parts);
+     }},
+    {SIMDBEZIER_NULL_OUTPUT, "counts",
+     [](MeshWorld&) { return simdbezier_mesh_plan_count(nullptr, nullptr); }},
+    {SIMDBEZIER_NULL_INPUT, "plan", [](MeshWorld&) {
+       auto counts = sized<simdbezier_topology_counts>();
+       return simdbezier_mesh_plan_count(nullptr, &counts);
+     }}};
+
 const Refusal<MeshWorld> kFormats[] = {
     {SIMDBEZIER_NULL_INPUT, "set",
      [](MeshWorld& w) {
@@ -122,6 +254,8 @@ void expect_all_refused(std::span<const Refusal<MeshWorld>> refusals) {
     expect_refused(one, world);
     EXPECT_EQ(world.made_topology, nullptr) << one.argument;
     EXPECT_EQ(world.made_mesh, nullptr) << one.argument;
+    EXPECT_EQ(world.made_plan, nullptr) << one.argument;
+    EXPECT_EQ(world.made_layout, nullptr) << one.argument;
     EXPECT_EQ(world.box.step, 0) << one.argument;
     EXPECT_EQ(std::count(world.memory.begin(), world.memory.end(), 0x5a),
               static_cast<std::ptrdiff_t>(world.memory.size()))
@@ -130,6 +264,8 @@ void expect_all_refused(std::span<const Refusal<MeshWorld>> refusals) {
 }
 
 TEST(CMeshesOfBadInput, AreRefusedByName) { expect_all_refused(kModels); }
+TEST(CRatesOfBadInput, AreRefusedByName) { expect_all_refused(kRates); }
+TEST(CMeshPlansOfBadInput, AreRefusedByName) { expect_all_refused(kPlans); }
 TEST(CVertexFormatsOfBadInput, AreRefusedByName) { expect_all_refused(kFormats); }
 
 TEST(CMeshesOfBadInput, AreMadeWhereNothingIsWrong) {
@@ -137,6 +273,8 @@ TEST(CMeshesOfBadInput, AreMadeWhereNothingIsWrong) {
   EXPECT_C_OK(world.format_vertices());
   EXPECT_C_OK(world.format_vertices(2, 0));
   EXPECT_C_OK(world.find_box());
+  EXPECT_C_OK(world.certify(world.numbers, 2));
+  EXPECT_C_OK(world.certify_grids(kMostGridCells, 1));
 }
 
 } // namespace

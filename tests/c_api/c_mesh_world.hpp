@@ -35,7 +35,8 @@ struct MeshWorld : World {
   std::uint32_t nv[2] = {};
   std::uint16_t diagonals[2] = {};
   double deviation[2] = {};
-  double numbers[3] = {0.5, 0.5, 0.5};
+  double numbers[3] = {0.125, 0.125, 0.125};
+  std::size_t numbers_length = 2;
   simdbezier_rates rates = sized<simdbezier_rates>();
   simdbezier_rate_options rate_options = sized<simdbezier_rate_options>();
   simdbezier_topology_options topology_options = sized<simdbezier_topology_options>();
@@ -49,12 +50,25 @@ struct MeshWorld : World {
   simdbezier_quantisation_box box{};
   simdbezier_topology* made_topology = nullptr;
   simdbezier_mesh* made_mesh = nullptr;
+  simdbezier_mesh_plan* made_plan = nullptr;
+  simdbezier_mesh_layout* made_layout = nullptr;
 
   simdbezier_status join() {
     return simdbezier_find_topology(&nets, 1, &topology_options, &made_topology);
   }
   simdbezier_status choose() {
     return simdbezier_choose_rates(&nets, 1, topology, &rate_options, &rates);
+  }
+  simdbezier_status certify(const double* errors = nullptr, std::size_t length = 0) {
+    return simdbezier_certify_rates(&nets, 1, topology, errors, length, &rates, 0);
+  }
+  simdbezier_status certify_grids(std::uint32_t nu_, std::uint32_t nv_) {
+    return simdbezier_certify_grids(&nets, 1, nu_, nv_, numbers, numbers_length, deviation,
+                                    rates.deviation_length, 0);
+  }
+  simdbezier_status lay_out() { return simdbezier_lay_out_mesh(topology, &rates, &made_layout); }
+  simdbezier_status plan() {
+    return simdbezier_plan_mesh(&nets, 1, SIMDBEZIER_F64, &mesh_options, &made_plan);
   }
   simdbezier_status tessellate() {
     return simdbezier_tessellate(&nets, 1, SIMDBEZIER_F32, &mesh_options, &made_mesh);

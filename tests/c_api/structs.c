@@ -24,6 +24,7 @@ int main(void) {
   SIZE(simdbezier_mesh_arrays);
   SIZE(simdbezier_mesh_options);
   SIZE(simdbezier_mesh_outputs);
+  SIZE(simdbezier_mesh_plan_parts);
   SIZE(simdbezier_mutable_nets);
   SIZE(simdbezier_nets);
   SIZE(simdbezier_options);

@@ -139,8 +139,36 @@ SIMDBEZIER_API simdbezier_status simdbezier_tessellate(const simdbezier_nets* ne
 SIMDBEZIER_API void simdbezier_mesh_free(simdbezier_mesh* mesh);
 SIMDBEZIER_API simdbezier_status simdbezier_mesh_look(const simdbezier_mesh* mesh,
                                                       simdbezier_mesh_arrays* arrays);
-// TopologyCounts of the mesh's model.
+// TopologyCounts of all patches given.
 SIMDBEZIER_API simdbezier_status simdbezier_mesh_count(const simdbezier_mesh* mesh,
                                                        simdbezier_topology_counts* counts);
+
+typedef struct simdbezier_mesh_plan simdbezier_mesh_plan;
+
+// MeshPlan. Handles and arrays belong to the plan; the handles are not given back by themselves.
+typedef struct simdbezier_mesh_plan_parts {
+  size_t struct_size;
+  const simdbezier_patch_set* set;
+  const simdbezier_topology* topology;
+  const simdbezier_mesh_layout* layout;
+  size_t patch_count;      // of the set: that many values each below
+  const uint32_t* patches; // the number of each among those given; null: the same numbers
+  const uint32_t* nu;
+  const uint32_t* nv;
+  const double* deviations;
+  double deviation;
+  double diagonal;
+} simdbezier_mesh_plan_parts;
+
+// plan_mesh(): what simdbezier_tessellate() evaluates. plan: written on ok only.
+SIMDBEZIER_API simdbezier_status simdbezier_plan_mesh(const simdbezier_nets* nets, size_t length,
+                                                      simdbezier_scalar scalar,
+                                                      const simdbezier_mesh_options* options,
+                                                      simdbezier_mesh_plan** plan);
+SIMDBEZIER_API void simdbezier_mesh_plan_free(simdbezier_mesh_plan* plan);
+SIMDBEZIER_API simdbezier_status simdbezier_mesh_plan_look(const simdbezier_mesh_plan* plan,
+                                                           simdbezier_mesh_plan_parts* parts);
+SIMDBEZIER_API simdbezier_status simdbezier_mesh_plan_count(const simdbezier_mesh_plan* plan,
+                                                            simdbezier_topology_counts* counts);
 
 SIMDBEZIER_END_C

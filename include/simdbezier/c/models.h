@@ -72,7 +72,7 @@ SIMDBEZIER_API int32_t simdbezier_topology_is_repeated(const simdbezier_topology
 // RateOptions.
 typedef struct simdbezier_rate_options {
   size_t struct_size;
-  double tolerance;
+  double tolerance;         // infinity: any
   const double* tolerances; // one value a patch, instead of `tolerance`; or null
   size_t tolerances_length;
   const double* errors; // simdbezier_position_errors(), or null
@@ -121,6 +121,12 @@ SIMDBEZIER_API simdbezier_status simdbezier_choose_rates(const simdbezier_nets* 
 SIMDBEZIER_API simdbezier_status simdbezier_certify_rates(
     const simdbezier_nets* nets, size_t length, const simdbezier_topology* topology,
     const double* errors, size_t errors_length, const simdbezier_rates* rates, int32_t threads);
+// certify_grids(): deviation has one value a patch, and so has errors, which may be null.
+SIMDBEZIER_API simdbezier_status simdbezier_certify_grids(const simdbezier_nets* nets,
+                                                          size_t length, uint32_t nu, uint32_t nv,
+                                                          const double* errors,
+                                                          size_t errors_length, double* deviation,
+                                                          size_t deviation_length, int32_t threads);
 // separate_vertices(): raises rates of 1; `raised` may be null.
 SIMDBEZIER_API simdbezier_status simdbezier_separate_vertices(const simdbezier_topology* topology,
                                                               uint32_t* nu, size_t nu_length,

@@ -1,0 +1,235 @@
+// Rates and numbering of simdbezier.h.
+#include <tuple>
+
+#include <simdbezier/mesh_layout.hpp>
+#include <simdbezier/rates.hpp>
+
+#include "src/c_api/handles.hpp"
+#include "src/c_api/views.hpp"
+
+namespace simdbezier::c_api {
+namespace {
+
+constexpr Path kTopology{"topology"};
+constexpr Path kRates{"rates"};
+constexpr Path kErrors{"errors"};
+
+struct RateSpans {
+  std::span<std::uint32_t> nu;
+  std::span<std::uint32_t> nv;
+  std::span<std::uint16_t> diagonals;
+  std::span<double> deviation;
+};
+
+RateSpans rates_of(const simdbezier_rates* given) {
+  const simdbezier_rates known = read(given, kRates);
+  return {span_of(known.nu, known.nu_length, kRates / "nu"),
+          span_of(known.nv, known.nv_length, kRates / "nv"),
+          span_of(known.diagonals, known.diagonals_length, kRates / "diagonals"),
+          span_of(known.deviation, known.deviation_length, kRates / "deviation")};
+}
+
+CertifiedRates certified(const RateSpans& rates) {
+  return {rates.nu, rates.nv, rates.diagonals, rates.deviation};
+}
+
+RateOptions rate_options_of(const simdbezier_rate_options* given) {
+  const simdbezier_rate_options known = read(given, kOptions);
+  RateOptions options;
+  options.tolerance = known.tolerance;
+  options.tolerances = span_of(known.tolerances, known.tolerances_length, kOptions / "tolerances");
+  options.errors = span_of(known.errors, known.errors_length, kOptions / "errors");
+  if (known.longest_edge != 0) {
+    options.longest_edge = known.longest_edge;
+  }
+  if (known.most_segments != 0) {
+    options.most_segments = known.most_segments;
+  }
+  if (known.normal_angle != 0) {
+    options.normal_angle = known.normal_angle;
+  }
+  options.threads = known.threads;
+  return options;
+}
+
+/// What bad_rates is about: the first span that is not one value a patch, else rates themselves.
+Path blamed_rates(const RateSpans& rates, std::size_t patches, bool without_diagonals) {
+  const std::tuple<const char*, std::size_t, bool> members[] = {
+      {"nu", rates.nu.size(), false},
+      {"nv", rates.nv.size(), false},
+      {"diagonals", rates.diagonals.size(), without_diagonals},
+      {"deviation", rates.deviation.size(), rates.deviation.empty()}};
+  for (const auto& [name, length, is_left_out] : members) {
+    if (length != patches && !is_left_out) {
+      return kRates / name;
+    }
+  }
+  return kRates / "nu or nv";
+}
+
+/// Likewise of calls that have a topology, which may be another model's.
+Path blamed_rates(const RateSpans& rates, std::size_t patches, const Topology& topology) {
+  return topology.counts().patches == patches ? blamed_rates(rates, patches, false) : kTopology;
+}
+
+/// What bad_tolerance is about.
+Path blamed_limit(const RateOptions& options, std::size_t patch) {
+  if (!(options.longest_edge > 0)) {
+    return kOptions / "longest_edge";
+  }
+  return options.normal_angle > 0 ? blamed_tolerance(options, patch) : kOptions / "normal_angle";
+}
+
+/// Refuses the call as C++ did. blamed(status) names what bad_tolerance and bad_rates are about.
+template <typename S, typename Blamed>
+void require_rates(const RateReport& report, std::span<const ControlNets<S>> nets, Blamed blamed) {
+  if (report) {
+    return;
+  }
+  const bool of_nets = report.status != Status::bad_tolerance && report.status != Status::bad_rates;
+  throw Fault{code_of(report.status),
+              of_nets ? blamed_nets(report.status, nets_with_patch(nets, report.patch))
+                      : blamed(report.status),
+              report.patch};
+}
+
+} // namespace
+} // namespace simdbezier::c_api
+
+using namespace simdbezier;
+using namespace simdbezier::c_api;
+
+simdbezier_status simdbezier_choose_rates(const simdbezier_nets* nets, size_t length,
+                                          const simdbezier_topology* topology,
+                                          const simdbezier_rate_options* options,
+                                          const simdbezier_rates* rates) {
+  return answer(__func__, [&] {
+    const RateSpans out = rates_of(rates);
+    const RateOptions how = rate_options_of(options);
+    const Topology& joined = object_of(topology, kTopology);
+    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+      const RateReport report = choose_rates(views, joined, how, certified(out));
+      require_rates(report, views, [&](Status status) {
+        const std::size_t patches = patches_of(views);
+        if (status == Status::bad_tolerance) {
+          return blamed_limit(how, report.patch);
+        }
+        if (!is_one_each(how.errors, patches)) {
+          return kOptions / "errors";
+        }
+        return is_one_each(how.tolerances, patches) ? blamed_rates(out, patches, joined)
+                                                    : kOptions / "tolerances";
+      });
+    });
+  });
+}
+
+simdbezier_status simdbezier_certify_rates(const simdbezier_nets* nets, size_t length,
+                                           const simdbezier_topology* topology,
+                                           const double* errors, size_t errors_length,
+                                           const simdbezier_rates* rates, int32_t threads) {
+  return answer(__func__, [&] {
+    const RateSpans out = rates_of(rates);
+    const std::span<const double> known = span_of(errors, errors_length, kErrors);
+    const Topology& joined = object_of(topology, kTopology);
+    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+      const RateReport report = certify_rates(views, joined, known, certified(out), threads);
+      require_rates(report, views, [&](Status status) {
+        const std::size_t patches = patches_of(views);
+        const bool of_errors = status == Status::bad_tolerance || !is_one_each(known, patches);
+        return of_errors ? kErrors : blamed_rates(out, patches, joined);
+      });
+    });
+  });
+}
+
+simdbezier_status simdbezier_certify_grids(const simdbezier_nets* nets, size_t length, uint32_t nu,
+                                           uint32_t nv, const double* errors, size_t errors_length,
+                                           double* deviation, size_t deviation_length,
+                                           int32_t threads) {
+  return answer(__func__, [&] {
+    const std::span<const double> known = span_of(errors, errors_length, kErrors);
+    const std::span<double> out = span_of(deviation, deviation_length, {"deviation"});
+    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+      const RateReport report = certify_grids(views, nu, nv, known, out, threads);
+      require_rates(report, views, [&](Status status) -> Path {
+        const std::size_t patches = patches_of(views);
+        if (status == Status::bad_tolerance || !is_one_each(known, patches)) {
+          return kErrors;
+        }
+        return {out.size() == patches ? "nu or nv" : "deviation"};
+      });
+    });
+  });
+}
+
+simdbezier_status simdbezier_pixel_tolerances(const simdbezier_nets* nets, size_t length,
+                                              const simdbezier_camera* camera, double pixels,
+                                              double* tolerances, size_t tolerances_length) {
+  return answer(__func__, [&] {
+    const Camera seen_by = camera_of(camera, {"camera"});
+    const std::span<double> out = span_of(tolerances, tolerances_length, {"tolerances"});
+    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+      require_ok(pixel_tolerances(views, seen_by, pixels, out), [&](Status status) -> Path {
+        switch (status.code()) {
+        case Status::bad_tolerance:
+          return {"pixels or camera"};
+        case Status::output_too_small:
+          return {"tolerances"};
+        default:
+          return blamed_nets(status, {"nets"});
+        }
+      });
+    });
+  });
+}
+
+simdbezier_status simdbezier_separate_vertices(const simdbezier_topology* topology, uint32_t* nu,
+                                               size_t nu_length, uint32_t* nv, size_t nv_length,
+                                               size_t* raised) {
+  return answer(__func__, [&] {
+    std::size_t changed = 0;
+    require_ok(separate_vertices(object_of(topology, kTopology), span_of(nu, nu_length, {"nu"}),
+                                 span_of(nv, nv_length, {"nv"}), changed),
+               [](Status) { return Path{"nu or nv"}; });
+    if (raised != nullptr) {
+      *raised = changed;
+    }
+  });
+}
+
+simdbezier_status simdbezier_lay_out_mesh(const simdbezier_topology* topology,
+                                          const simdbezier_rates* rates,
+                                          simdbezier_mesh_layout** layout) {
+  return answer(__func__, [&] {
+    require_place(layout, {"layout"});
+    const RateSpans of = rates_of(rates);
+    const Topology& joined = object_of(topology, kTopology);
+    MeshLayout made;
+    require_ok(lay_out_mesh(joined, {of.nu, of.nv, of.diagonals}, made), [&](Status status) {
+      if (status == Status::bad_rates) {
+        return blamed_rates(of, joined.counts().patches, of.diagonals.empty());
+      }
+      return status == Status::out_of_memory ? Path{} : kRates;
+    });
+    give(layout, std::move(made));
+  });
+}
+
+void simdbezier_mesh_layout_free(simdbezier_mesh_layout* layout) { delete layout; }
+
+size_t simdbezier_mesh_layout_vertices(const simdbezier_mesh_layout* layout) {
+  return layout == nullptr ? 0 : layout->of.size().vertices;
+}
+
+size_t simdbezier_mesh_layout_triangles(const simdbezier_mesh_layout* layout) {
+  return layout == nullptr ? 0 : layout->of.size().triangles;
+}
+
+size_t simdbezier_mesh_layout_first_vertex(const simdbezier_mesh_layout* layout, size_t patch) {
+  return layout == nullptr ? 0 : layout->of.first_vertex(patch);
+}
+
+size_t simdbezier_mesh_layout_first_triangle(const simdbezier_mesh_layout* layout, size_t patch) {
+  return layout == nullptr ? 0 : layout->of.first_triangle(patch);
+}
