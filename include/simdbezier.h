@@ -30,7 +30,9 @@
 //              _f32 and _f64 below fill in structs, so that the compiler checks the pointers.
 //   Handles    are made by one function and given back to one …_free(), which accepts null.
 //              They are immutable: any number of threads may use one at once.
-//   C++ alone  has triangles and polygons of some of the patches.
+//   C++ alone  has results in std::vectors (results.hpp), and what is a line or two in C: nets seen
+//              the other way round (by `first` and strides), meets_tolerance(), iso_u() and iso_v()
+//              from nets to sets (by way of points).
 #pragma once
 
 #include <simdbezier/c/curves.h>         // IWYU pragma: export

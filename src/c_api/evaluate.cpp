@@ -198,6 +198,10 @@ simdbezier_outputs given_back(const Outputs<T>& out, std::size_t samples) noexce
 using namespace simdbezier;
 using namespace simdbezier::c_api;
 
+float simdbezier_to_centred_f32(double u) { return to_centred<float>(u); }
+
+double simdbezier_to_centred_f64(double u) { return to_centred<double>(u); }
+
 simdbezier_status simdbezier_evaluate_grid(const simdbezier_patch_set* set,
                                            const simdbezier_grid* grid,
                                            const simdbezier_outputs* out,

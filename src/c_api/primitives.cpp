@@ -4,6 +4,7 @@
 #include <simdbezier/mesh_primitives.hpp>
 
 #include "src/c_api/handles.hpp"
+#include "src/c_api/views.hpp"
 
 namespace simdbezier::c_api {
 namespace {
@@ -25,29 +26,50 @@ auto about(const char* output) {
       return {output};
     case Status::size_overflow:
       return kLayout;
+    case Status::bad_patch_range:
+      return kOptions / "first_patch or patch_count";
     default:
       return {};
     }
   };
 }
 
+/// What C++ takes as arguments of their own.
+struct Primitives {
+  SetRange patches;
+  int threads = 0;
+  Destination destination = Destination::automatic;
+};
+
+Primitives primitives_of(const simdbezier_primitive_options* given) {
+  const simdbezier_primitive_options known = read_options(given, kOptions);
+  return {range_of(known.first_patch, known.patch_count), known.threads,
+          destination_of(known.destination)};
+}
+
 template <typename Index>
 simdbezier_status triangles_of(const char* function, const simdbezier_mesh_layout* layout,
-                               Index* triangles, std::size_t length, int threads) noexcept {
+                               Index* triangles, std::size_t length,
+                               const simdbezier_primitive_options* options) noexcept {
   return answer(function, [&] {
     const std::span<Index> out = span_of(triangles, length, {"triangles"});
-    require_ok(write_triangles(object_of(layout, kLayout), out, threads), about("triangles"));
+    const Primitives how = primitives_of(options);
+    require_ok(
+        write_triangles(object_of(layout, kLayout), out, how.threads, how.patches, how.destination),
+        about("triangles"));
   });
 }
 
 template <typename Index>
 simdbezier_status polygons_of(const char* function, const simdbezier_mesh_layout* layout,
                               Index* indices, std::size_t length, std::uint8_t* sizes,
-                              std::size_t sizes_length, int threads) noexcept {
+                              std::size_t sizes_length,
+                              const simdbezier_primitive_options* options) noexcept {
   return answer(function, [&] {
     const std::span<Index> out = span_of(indices, length, {"indices"});
     const std::span<std::uint8_t> of = span_of(sizes, sizes_length, {"sizes"});
-    require_ok(write_polygons(object_of(layout, kLayout), out, of, threads),
+    const Primitives how = primitives_of(options);
+    require_ok(write_polygons(object_of(layout, kLayout), out, of, how.threads, how.patches),
                about("indices or sizes"));
   });
 }
@@ -73,23 +95,25 @@ using namespace simdbezier::c_api;
 
 simdbezier_status simdbezier_write_triangles_u32(const simdbezier_mesh_layout* layout,
                                                  uint32_t* triangles, size_t length,
-                                                 int32_t threads) {
-  return triangles_of(__func__, layout, triangles, length, threads);
+                                                 const simdbezier_primitive_options* options) {
+  return triangles_of(__func__, layout, triangles, length, options);
 }
 
 simdbezier_status simdbezier_write_triangles_u16(const simdbezier_mesh_layout* layout,
                                                  uint16_t* triangles, size_t length,
-                                                 int32_t threads) {
-  return triangles_of(__func__, layout, triangles, length, threads);
+                                                 const simdbezier_primitive_options* options) {
+  return triangles_of(__func__, layout, triangles, length, options);
 }
 
 simdbezier_status simdbezier_polygon_size(const simdbezier_mesh_layout* layout, size_t* polygons,
-                                          size_t* indices, int32_t threads) {
+                                          size_t* indices,
+                                          const simdbezier_primitive_options* options) {
   return answer(__func__, [&] {
     require_number(polygons, "polygons");
     require_number(indices, "indices");
+    const Primitives how = primitives_of(options);
     PolygonSize size;
-    require_ok(polygon_size(object_of(layout, kLayout), size, threads), about(""));
+    require_ok(polygon_size(object_of(layout, kLayout), size, how.threads, how.patches), about(""));
     *polygons = size.polygons;
     *indices = size.indices;
   });
@@ -97,14 +121,16 @@ simdbezier_status simdbezier_polygon_size(const simdbezier_mesh_layout* layout, 
 
 simdbezier_status simdbezier_write_polygons_u32(const simdbezier_mesh_layout* layout,
                                                 uint32_t* indices, size_t length, uint8_t* sizes,
-                                                size_t sizes_length, int32_t threads) {
-  return polygons_of(__func__, layout, indices, length, sizes, sizes_length, threads);
+                                                size_t sizes_length,
+                                                const simdbezier_primitive_options* options) {
+  return polygons_of(__func__, layout, indices, length, sizes, sizes_length, options);
 }
 
 simdbezier_status simdbezier_write_polygons_u16(const simdbezier_mesh_layout* layout,
                                                 uint16_t* indices, size_t length, uint8_t* sizes,
-                                                size_t sizes_length, int32_t threads) {
-  return polygons_of(__func__, layout, indices, length, sizes, sizes_length, threads);
+                                                size_t sizes_length,
+                                                const simdbezier_primitive_options* options) {
+  return polygons_of(__func__, layout, indices, length, sizes, sizes_length, options);
 }
 
 simdbezier_status simdbezier_strip_size(const simdbezier_mesh_layout* layout, size_t* indices,

@@ -22,6 +22,10 @@ inline constexpr std::int32_t kIsas = 6;
 
 inline Isa isa_of(simdbezier_isa isa, const Path& path) { return choice<Isa>(isa, kIsas, path); }
 
+inline Destination destination_of(simdbezier_destination destination) {
+  return choice<Destination>(destination, 3, kOptions / "destination");
+}
+
 /// Options, and the name of the kernel that ran, handed back to the caller.
 class CallOptions {
 public:
@@ -29,7 +33,7 @@ public:
     options_.threads = given_.threads;
     options_.watertight = given_.not_watertight == 0;
     options_.isa = isa_of(given_.isa, kOptions / "isa");
-    options_.destination = choice<Destination>(given_.destination, 3, kOptions / "destination");
+    options_.destination = destination_of(given_.destination);
     options_.executed = given_.executed == nullptr ? nullptr : &executed_;
   }
   CallOptions(const CallOptions&) = delete;

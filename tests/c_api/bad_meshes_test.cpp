@@ -1,6 +1,5 @@
 // What a caller of simdbezier.h may get wrong on the way from nets to a mesh.
 #include "tests/c_api/c_mesh_world.hpp"
-#include "tests/c_api/c_refusal.hpp"
 
 namespace simdbezier::tests::bad_meshes_test {
 namespace {
@@ -11,8 +10,6 @@ const Refusal<MeshWorld> kModels[] = {
        simdbezier_edge_link links[7];
        return simdbezier_find_adjacency(&w.nets, 1, links, 7, nullptr);
      }},
-    {SIMDBEZIER_NULL_INPUT, "layout",
-     [](MeshWorld& w) { return simdbezier_write_triangles_u32(nullptr, w.counts, 2, 0); }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->point_size or snap",
      [](MeshWorld& w) { return w.topology_options.point_size = -1, w.join(); }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->tolerance",
@@ -160,119 +157,12 @@ const Refusal<MeshWorld> kPlans[] = {
        return simdbezier_mesh_plan_count(nullptr, &counts);
      }}};
 
-const Refusal<MeshWorld> kFormats[] = {
-    {SIMDBEZIER_NULL_INPUT, "set",
-     [](MeshWorld& w) {
-       return simdbezier_evaluate_formatted_mesh(nullptr, w.layout, &w.formatted, nullptr, 0, 0);
-     }},
-    {SIMDBEZIER_NULL_INPUT, "layout",
-     [](MeshWorld& w) {
-       return simdbezier_evaluate_formatted_mesh(w.set.get(), nullptr, &w.formatted, nullptr, 0, 0);
-     }},
-    {SIMDBEZIER_NULL_INPUT, "out",
-     [](MeshWorld& w) {
-       return simdbezier_evaluate_formatted_mesh(w.set.get(), w.layout, nullptr, nullptr, 0, 0);
-     }},
-    {SIMDBEZIER_NULL_OUTPUT, "out",
-     [](MeshWorld& w) {
-       return w.formatted.position = w.formatted.normal = w.formatted.parameters = {},
-              w.format_vertices();
-     }},
-    {SIMDBEZIER_NULL_OUTPUT, "out->parameters.first",
-     [](MeshWorld& w) { return w.formatted.parameters.first = nullptr, w.format_vertices(); }},
-    {SIMDBEZIER_BAD_STRUCT_SIZE, "out->struct_size",
-     [](MeshWorld& w) { return w.formatted.struct_size -= 8, w.format_vertices(); }},
-    {SIMDBEZIER_OUTPUT_TOO_SMALL, "out->position",
-     [](MeshWorld& w) { return w.formatted.position.capacity -= 1, w.format_vertices(); }},
-    {SIMDBEZIER_OUTPUT_TOO_SMALL, "out->parameters",
-     [](MeshWorld& w) { return w.formatted.parameters.capacity = 0, w.format_vertices(); }},
-    {SIMDBEZIER_BAD_STRIDE, "out->normal.stride",
-     [](MeshWorld& w) { return w.formatted.normal.stride = -12, w.format_vertices(); }},
-    {SIMDBEZIER_BAD_STRIDE, "out->position.stride",
-     [](MeshWorld& w) { return w.formatted.position.stride = 5, w.format_vertices(); }},
-    {SIMDBEZIER_SIZE_OVERFLOW, "out->parameters",
-     [](MeshWorld& w) {
-       w.formatted.parameters.stride = std::numeric_limits<std::ptrdiff_t>::max();
-       return w.format_vertices();
-     }},
-    {SIMDBEZIER_OVERLAPPING_OUTPUTS, "out",
-     [](MeshWorld& w) {
-       return w.formatted.normal.first = w.memory.data() + 5, w.format_vertices();
-     }},
-    {SIMDBEZIER_BAD_VALUE, "out->normal.format",
-     [](MeshWorld& w) { return w.formatted.normal.format = 6, w.format_vertices(); }},
-    {SIMDBEZIER_BAD_VALUE, "out->position.format",
-     [](MeshWorld& w) { return w.formatted.position.format = -1, w.format_vertices(); }},
-    {SIMDBEZIER_BAD_COMPONENTS, "out->normal.format",
-     [](MeshWorld& w) {
-       return w.formatted.normal.format = SIMDBEZIER_FORMAT_UNORM16, w.format_vertices();
-     }},
-    {SIMDBEZIER_BAD_COMPONENTS, "out->parameters.format",
-     [](MeshWorld& w) {
-       return w.formatted.parameters.format = SIMDBEZIER_FORMAT_SNORM16, w.format_vertices();
-     }},
-    {SIMDBEZIER_BAD_COMPONENTS, "set",
-     [](MeshWorld& w) {
-       // Two components: 32 values a patch.
-       w.nets = simdbezier_packed_nets_f32(w.values.data(), 64, 3, 3, 2, SIMDBEZIER_POLYNOMIAL);
-       w.set = c_pack<float>(w.nets);
-       return w.format_vertices();
-     }},
-    {SIMDBEZIER_BAD_TOLERANCE, "out->box",
-     [](MeshWorld& w) { return w.formatted.box.step = 0, w.format_vertices(); }},
-    {SIMDBEZIER_BAD_VALUE, "options->isa",
-     [](MeshWorld& w) { return w.options.isa = 6, w.format_vertices(); }},
-    {SIMDBEZIER_BAD_PATCH_RANGE, "first_patch or patch_count",
-     [](MeshWorld& w) { return w.format_vertices(1, 2); }},
-    {SIMDBEZIER_BAD_PATCH_RANGE, "first_patch or patch_count",
-     [](MeshWorld& w) { return w.format_vertices(3, 0); }},
-    {SIMDBEZIER_UNEQUAL_LENGTHS, "set",
-     [](MeshWorld& w) {
-       w.nets.count = 1;
-       return w.set = c_pack<float>(w.nets), w.format_vertices();
-     }},
-    {SIMDBEZIER_NULL_OUTPUT, "box",
-     [](MeshWorld& w) {
-       return simdbezier_find_quantisation_box(&w.nets, 1, SIMDBEZIER_FORMAT_UNORM16, nullptr);
-     }},
-    {SIMDBEZIER_NULL_INPUT, "nets",
-     [](MeshWorld& w) {
-       return simdbezier_find_quantisation_box(nullptr, 1, SIMDBEZIER_FORMAT_UNORM16, &w.box);
-     }},
-    {SIMDBEZIER_BAD_VALUE, "format", [](MeshWorld& w) { return w.find_box(6); }},
-    {SIMDBEZIER_BAD_TOLERANCE, "format",
-     [](MeshWorld& w) { return w.find_box(SIMDBEZIER_FORMAT_HALF); }},
-    {SIMDBEZIER_BAD_TOLERANCE, "nets",
-     [](MeshWorld& w) { return std::fill(w.values.begin(), w.values.end(), 1.0F), w.find_box(); }},
-    {SIMDBEZIER_NON_FINITE_INPUT, "nets->points",
-     [](MeshWorld& w) { return w.values[50] = kNan, w.find_box(); }}};
-
-/// Nothing is made or written by a refused call.
-void expect_all_refused(std::span<const Refusal<MeshWorld>> refusals) {
-  for (const Refusal<MeshWorld>& one : refusals) {
-    MeshWorld world;
-    expect_refused(one, world);
-    EXPECT_EQ(world.made_topology, nullptr) << one.argument;
-    EXPECT_EQ(world.made_mesh, nullptr) << one.argument;
-    EXPECT_EQ(world.made_plan, nullptr) << one.argument;
-    EXPECT_EQ(world.made_layout, nullptr) << one.argument;
-    EXPECT_EQ(world.box.step, 0) << one.argument;
-    EXPECT_EQ(std::count(world.memory.begin(), world.memory.end(), 0x5a),
-              static_cast<std::ptrdiff_t>(world.memory.size()))
-        << one.argument;
-  }
-}
-
 TEST(CMeshesOfBadInput, AreRefusedByName) { expect_all_refused(kModels); }
 TEST(CRatesOfBadInput, AreRefusedByName) { expect_all_refused(kRates); }
 TEST(CMeshPlansOfBadInput, AreRefusedByName) { expect_all_refused(kPlans); }
-TEST(CVertexFormatsOfBadInput, AreRefusedByName) { expect_all_refused(kFormats); }
 
 TEST(CMeshesOfBadInput, AreMadeWhereNothingIsWrong) {
   MeshWorld world;
-  EXPECT_C_OK(world.format_vertices());
-  EXPECT_C_OK(world.format_vertices(2, 0));
-  EXPECT_C_OK(world.find_box());
   EXPECT_C_OK(world.certify(world.numbers, 2));
   EXPECT_C_OK(world.certify_grids(kMostGridCells, 1));
 }

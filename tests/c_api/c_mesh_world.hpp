@@ -1,6 +1,7 @@
 // The arguments of all calls of the C API on the way to a mesh, valid at first.
 #pragma once
 
+#include "tests/c_api/c_refusal.hpp"
 #include "tests/c_api/c_world.hpp"
 
 namespace simdbezier::tests {
@@ -47,6 +48,11 @@ struct MeshWorld : World {
   simdbezier_mesh_layout* layout = nullptr;
   std::size_t vertices = 0;
   std::vector<unsigned char> memory;
+  simdbezier_primitive_options primitives = sized<simdbezier_primitive_options>();
+  std::vector<std::uint32_t> indices = std::vector<std::uint32_t>(6 * 4096, 0x5a5a5a5a);
+  std::vector<std::uint8_t> sizes = std::vector<std::uint8_t>(4096, 0x5a);
+  std::size_t polygons = 0;
+  std::size_t corners = 0;
   simdbezier_quantisation_box box{};
   simdbezier_topology* made_topology = nullptr;
   simdbezier_mesh* made_mesh = nullptr;
@@ -77,9 +83,40 @@ struct MeshWorld : World {
     return simdbezier_evaluate_formatted_mesh(set.get(), layout, &formatted, &options, first,
                                               count);
   }
+  simdbezier_status write_triangles() {
+    return simdbezier_write_triangles_u32(layout, indices.data(), indices.size(), &primitives);
+  }
+  simdbezier_status count_polygons() {
+    return simdbezier_polygon_size(layout, &polygons, &corners, &primitives);
+  }
+  simdbezier_status write_polygons() {
+    return simdbezier_write_polygons_u32(layout, indices.data(), indices.size(), sizes.data(),
+                                         sizes.size(), &primitives);
+  }
   simdbezier_status find_box(simdbezier_vertex_format as = SIMDBEZIER_FORMAT_UNORM16) {
     return simdbezier_find_quantisation_box(&nets, 1, as, &box);
   }
 };
+
+/// Nothing is made or written by a refused call.
+inline void expect_all_refused(std::span<const Refusal<MeshWorld>> refusals) {
+  for (const Refusal<MeshWorld>& one : refusals) {
+    MeshWorld world;
+    expect_refused(one, world);
+    EXPECT_EQ(world.made_topology, nullptr) << one.argument;
+    EXPECT_EQ(world.made_mesh, nullptr) << one.argument;
+    EXPECT_EQ(world.made_plan, nullptr) << one.argument;
+    EXPECT_EQ(world.made_layout, nullptr) << one.argument;
+    EXPECT_EQ(world.box.step, 0) << one.argument;
+    const auto untouched = [](const auto& memory, auto value) {
+      return std::count(memory.begin(), memory.end(), value) ==
+             static_cast<std::ptrdiff_t>(memory.size());
+    };
+    EXPECT_TRUE(untouched(world.memory, 0x5a)) << one.argument;
+    EXPECT_TRUE(untouched(world.sizes, 0x5a)) << one.argument;
+    EXPECT_TRUE(untouched(world.indices, 0x5a5a5a5aU)) << one.argument;
+    EXPECT_EQ(world.polygons + world.corners, 0U) << one.argument;
+  }
+}
 
 } // namespace simdbezier::tests

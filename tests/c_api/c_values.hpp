@@ -34,6 +34,12 @@ inline simdbezier_vectors c_triples(std::vector<float>& values, std::ptrdiff_t s
 inline simdbezier_vectors c_triples(std::vector<double>& values, std::ptrdiff_t stride = 3) {
   return simdbezier_triples_f64(values.data(), values.size(), stride);
 }
+inline simdbezier_vectors c_pairs(std::vector<float>& values, std::ptrdiff_t stride = 2) {
+  return simdbezier_pairs_f32(values.data(), values.size(), stride);
+}
+inline simdbezier_vectors c_pairs(std::vector<double>& values, std::ptrdiff_t stride = 2) {
+  return simdbezier_pairs_f64(values.data(), values.size(), stride);
+}
 inline simdbezier_values c_values(std::vector<float>& values) {
   return simdbezier_values_f32(values.data(), values.size());
 }

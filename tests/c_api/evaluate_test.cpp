@@ -269,5 +269,12 @@ TYPED_TEST(CEvaluation, TellsWhichKernelRan) {
   }
 }
 
+TEST(CParameters, AreCentredAsInCpp) {
+  for (const double u : {0.0, 0.1, 1.0 / 3, 0.5, 0.75 + 0x1p-30, 1.0}) {
+    EXPECT_EQ(simdbezier_to_centred_f32(u), to_centred<float>(u)) << u;
+    EXPECT_EQ(simdbezier_to_centred_f64(u), to_centred<double>(u)) << u;
+  }
+}
+
 } // namespace
 } // namespace simdbezier::tests::evaluate_test

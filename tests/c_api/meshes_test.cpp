@@ -34,65 +34,6 @@ TYPED_TEST(CMesh, HasCertifiedRates) {
   EXPECT_EQ(c_raised, raised);
 }
 
-TYPED_TEST(CMesh, HasTriangles) {
-  EXPECT_EQ(simdbezier_mesh_layout_first_triangle(this->c_layout_, 7),
-            this->layout_.first_triangle(7));
-  std::vector<std::uint32_t> triangles(3 * this->layout_.size().triangles);
-  std::vector<std::uint32_t> c_triangles(triangles.size());
-  ASSERT_TRUE(write_triangles(this->layout_, std::span(triangles)));
-  EXPECT_C_OK(
-      simdbezier_write_triangles_u32(this->c_layout_, c_triangles.data(), c_triangles.size(), 0));
-  expect_same_bits(c_triangles, triangles, "triangles");
-  std::vector<std::uint16_t> small(triangles.size());
-  EXPECT_C_OK(simdbezier_write_triangles_u16(this->c_layout_, small.data(), small.size(), 0));
-  EXPECT_TRUE(std::equal(small.begin(), small.end(), triangles.begin()));
-}
-
-TYPED_TEST(CMesh, HasPolygonsAndStrips) {
-  std::size_t polygons = 0;
-  std::size_t indices = 0;
-  EXPECT_C_OK(simdbezier_polygon_size(this->c_layout_, &polygons, &indices, 0));
-  std::vector<std::uint8_t> sizes(polygons);
-  std::vector<std::uint8_t> c_sizes(polygons);
-  std::vector<std::uint16_t> expected(indices);
-  std::vector<std::uint16_t> got(indices);
-  ASSERT_TRUE(write_polygons(this->layout_, std::span(expected), std::span(sizes)));
-  EXPECT_C_OK(simdbezier_write_polygons_u16(this->c_layout_, got.data(), indices, c_sizes.data(),
-                                            polygons, 0));
-  expect_same_bits(got, expected, "polygons");
-  expect_same_bits(c_sizes, sizes, "sizes of polygons");
-
-  EXPECT_C_OK(simdbezier_strip_size(this->c_layout_, &indices, 0));
-  expected.resize(indices);
-  got.resize(indices);
-  ASSERT_TRUE(write_strips(this->layout_, std::span(expected)));
-  EXPECT_C_OK(simdbezier_write_strips_u16(this->c_layout_, got.data(), indices, 0));
-  expect_same_bits(got, expected, "strips");
-}
-
-TYPED_TEST(CMesh, HasClusters) {
-  ClusterSize size;
-  ASSERT_TRUE(cluster_size(this->layout_, size));
-  std::size_t clusters = 0;
-  std::size_t vertices = 0;
-  std::size_t triangles = 0;
-  EXPECT_C_OK(simdbezier_cluster_size(this->c_layout_, &clusters, &vertices, &triangles, 0));
-  ASSERT_EQ(clusters, size.clusters);
-  std::vector<MeshCluster> expected(clusters);
-  std::vector<simdbezier_cluster> got(clusters);
-  std::vector<std::uint32_t> numbers(vertices);
-  std::vector<std::uint32_t> c_numbers(vertices);
-  std::vector<std::uint8_t> corners(3 * triangles);
-  std::vector<std::uint8_t> c_corners(3 * triangles);
-  ASSERT_TRUE(write_clusters(this->layout_, {expected, numbers, corners}));
-  EXPECT_C_OK(simdbezier_write_clusters(this->c_layout_, got.data(), clusters, c_numbers.data(),
-                                        vertices, c_corners.data(), c_corners.size(), 0));
-  expect_same_bits(c_numbers, numbers, "vertices of clusters");
-  expect_same_bits(c_corners, corners, "corners of clusters");
-  EXPECT_EQ(got.back().triangles, expected.back().triangles);
-  EXPECT_EQ(got.back().patch, expected.back().patch);
-}
-
 TYPED_TEST(CMesh, HasVertices) {
   using T = TypeParam;
   const std::size_t vertices = this->layout_.size().vertices;
@@ -106,6 +47,9 @@ TYPED_TEST(CMesh, HasVertices) {
   MeshOutputs<T> out;
   out.position = Vectors<T>::xyz(expected, 6);
   out.normal = Vectors<T>::xyz(std::span(expected).subspan(3), 6);
+  std::vector<T> uv(2 * vertices);
+  std::vector<T> c_uv(2 * vertices);
+  out.parameters = Vectors<T>::pairs(std::span(uv));
   out.patch = patch;
   ASSERT_TRUE(evaluate_mesh(set, this->layout_, out));
   auto c_out = sized<simdbezier_mesh_outputs>();
@@ -114,11 +58,17 @@ TYPED_TEST(CMesh, HasVertices) {
   for (void** const member : {&c_out.normal.x, &c_out.normal.y, &c_out.normal.z}) {
     *member = static_cast<T*>(*member) + 3;
   }
+  c_out.parameters = c_pairs(c_uv);
   c_out.patch = c_patch.data();
   c_out.patch_length = c_patch.size();
   EXPECT_C_OK(simdbezier_evaluate_mesh(c_set.get(), this->c_layout_, &c_out, nullptr, 0, 0));
   expect_same_bits(got, expected, "vertices");
   expect_same_bits(c_patch, patch, "patches");
+  expect_same_bits(c_uv, uv, "parameters");
+  c_uv.resize(2 * vertices - 1);
+  c_out.parameters = c_pairs(c_uv); // half of the last pair is missing
+  EXPECT_EQ(simdbezier_evaluate_mesh(c_set.get(), this->c_layout_, &c_out, nullptr, 0, 0),
+            SIMDBEZIER_OUTPUT_TOO_SMALL);
   EXPECT_EQ(simdbezier_mesh_layout_first_vertex(this->c_layout_, 3), this->layout_.first_vertex(3));
 
   const std::size_t first = this->layout_.first_vertex(3);

@@ -96,7 +96,8 @@ TYPED_TEST(CMesh, IsMadeOfItsPlan) {
   EXPECT_EQ(std::memcmp(positions.data(), of.mesh.positions.data(), positions.size() * sizeof(T)),
             0);
   std::vector<std::uint32_t> indices(3 * triangles);
-  EXPECT_C_OK(simdbezier_write_triangles_u32(of.parts.layout, indices.data(), indices.size(), 0));
+  EXPECT_C_OK(
+      simdbezier_write_triangles_u32(of.parts.layout, indices.data(), indices.size(), nullptr));
   EXPECT_EQ(std::memcmp(indices.data(), of.mesh.triangles.data(), indices.size() * 4), 0);
 }
 

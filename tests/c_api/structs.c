@@ -35,6 +35,7 @@ int main(void) {
   SIZE(simdbezier_patch_grids);
   SIZE(simdbezier_patch_shape);
   SIZE(simdbezier_polyline_arrays);
+  SIZE(simdbezier_primitive_options);
   SIZE(simdbezier_quantisation_box);
   SIZE(simdbezier_rate_options);
   SIZE(simdbezier_rates);

@@ -72,6 +72,10 @@ static inline simdbezier_samples simdbezier_samples_f64(const uint32_t* patch, c
   return samples;
 }
 
+// to_centred(): x = 2u - 1, rounded once.
+SIMDBEZIER_API float simdbezier_to_centred_f32(double u);
+SIMDBEZIER_API double simdbezier_to_centred_f64(double u);
+
 // SampleStatus, one byte a sample.
 enum {
   SIMDBEZIER_SAMPLE_REGULAR,

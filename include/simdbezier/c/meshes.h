@@ -6,24 +6,33 @@
 
 SIMDBEZIER_BEGIN_C
 
+// Which patches' triangles or polygons are written, and how. Null: those of all patches.
+typedef struct simdbezier_primitive_options {
+  size_t struct_size;
+  size_t first_patch;
+  size_t patch_count;                 // 0: all from first_patch on
+  int32_t threads;                    // as in simdbezier_options
+  simdbezier_destination destination; // of triangles; polygons are never streamed
+} simdbezier_primitive_options;
+
 // write_triangles(): three numbers a triangle. `length` counts elements, as everywhere.
-SIMDBEZIER_API simdbezier_status simdbezier_write_triangles_u32(
-    const simdbezier_mesh_layout* layout, uint32_t* triangles, size_t length, int32_t threads);
-SIMDBEZIER_API simdbezier_status simdbezier_write_triangles_u16(
-    const simdbezier_mesh_layout* layout, uint16_t* triangles, size_t length, int32_t threads);
+SIMDBEZIER_API simdbezier_status
+simdbezier_write_triangles_u32(const simdbezier_mesh_layout* layout, uint32_t* triangles,
+                               size_t length, const simdbezier_primitive_options* options);
+SIMDBEZIER_API simdbezier_status
+simdbezier_write_triangles_u16(const simdbezier_mesh_layout* layout, uint16_t* triangles,
+                               size_t length, const simdbezier_primitive_options* options);
 
 // polygon_size(), write_polygons(): quads and triangles; sizes has 3 or 4 a polygon.
-SIMDBEZIER_API simdbezier_status simdbezier_polygon_size(const simdbezier_mesh_layout* layout,
-                                                         size_t* polygons, size_t* indices,
-                                                         int32_t threads);
-SIMDBEZIER_API simdbezier_status simdbezier_write_polygons_u32(const simdbezier_mesh_layout* layout,
-                                                               uint32_t* indices, size_t length,
-                                                               uint8_t* sizes, size_t sizes_length,
-                                                               int32_t threads);
-SIMDBEZIER_API simdbezier_status simdbezier_write_polygons_u16(const simdbezier_mesh_layout* layout,
-                                                               uint16_t* indices, size_t length,
-                                                               uint8_t* sizes, size_t sizes_length,
-                                                               int32_t threads);
+SIMDBEZIER_API simdbezier_status
+simdbezier_polygon_size(const simdbezier_mesh_layout* layout, size_t* polygons, size_t* indices,
+                        const simdbezier_primitive_options* options);
+SIMDBEZIER_API simdbezier_status simdbezier_write_polygons_u32(
+    const simdbezier_mesh_layout* layout, uint32_t* indices, size_t length, uint8_t* sizes,
+    size_t sizes_length, const simdbezier_primitive_options* options);
+SIMDBEZIER_API simdbezier_status simdbezier_write_polygons_u16(
+    const simdbezier_mesh_layout* layout, uint16_t* indices, size_t length, uint8_t* sizes,
+    size_t sizes_length, const simdbezier_primitive_options* options);
 
 // strip_size(), write_strips(): the largest index ends a strip.
 SIMDBEZIER_API simdbezier_status simdbezier_strip_size(const simdbezier_mesh_layout* layout,

@@ -162,6 +162,26 @@ static inline simdbezier_vectors simdbezier_triples_f64(double* first, size_t le
   return vectors;
 }
 
+// Pairs, for sets of two components and the parameters of vertices.
+static inline simdbezier_vectors simdbezier_pairs_f32(float* first, size_t length,
+                                                      ptrdiff_t stride) {
+  simdbezier_vectors vectors = {0, 0, 0, 0, 0, SIMDBEZIER_F32};
+  vectors.x = first;
+  vectors.y = length < 2 ? 0 : first + 1;
+  vectors.stride = stride;
+  vectors.capacity = simdbezier_records(length, 2, stride);
+  return vectors;
+}
+static inline simdbezier_vectors simdbezier_pairs_f64(double* first, size_t length,
+                                                      ptrdiff_t stride) {
+  simdbezier_vectors vectors = {0, 0, 0, 0, 0, SIMDBEZIER_F64};
+  vectors.x = first;
+  vectors.y = length < 2 ? 0 : first + 1;
+  vectors.stride = stride;
+  vectors.capacity = simdbezier_records(length, 2, stride);
+  return vectors;
+}
+
 // Planes of `length` elements each; y and z are null for sets of one or two components.
 static inline simdbezier_vectors simdbezier_planes_f32(float* x, float* y, float* z,
                                                        size_t length) {
