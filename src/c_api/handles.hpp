@@ -69,7 +69,7 @@ void give(Handle** handle, Object&& object) {
 template <typename V>
 const auto* first_of(const std::vector<V>& values) {
   if constexpr (std::is_arithmetic_v<V>) {
-    return values.data();
+    return values.empty() ? nullptr : values.data();
   } else {
     return values.empty() ? nullptr : values.front().data();
   }

@@ -85,7 +85,7 @@ simdbezier_mesh_plan_parts parts_of(const simdbezier_mesh_plan& plan) noexcept {
   std::visit(
       [&](const auto& of) {
         known.patch_count = of.nu.size();
-        known.patches = of.patches.empty() ? nullptr : of.patches.data();
+        known.patches = first_of(of.patches);
         known.nu = first_of(of.nu);
         known.nv = first_of(of.nv);
         known.deviations = first_of(of.deviations);

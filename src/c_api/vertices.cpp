@@ -1,5 +1,6 @@
 // Vertices of meshes of simdbezier.h.
 #include <algorithm>
+#include <tuple>
 
 #include <simdbezier/evaluate_mesh.hpp>
 #include <simdbezier/vertex_formats.hpp>
@@ -43,6 +44,28 @@ Path blamed_in_mesh(Status status) {
   default:
     return blamed_in_call(status, kLayout);
   }
+}
+
+/// How many vertices a call for some patches writes.
+std::size_t vertices_of(const MeshLayout& layout, std::size_t patches, SetRange range) {
+  const std::size_t last =
+      range.count > patches - range.first ? patches : range.first + range.count;
+  return layout.first_vertex(last) - layout.first_vertex(range.first);
+}
+
+/// One of the outputs, where it alone is at fault.
+template <typename T>
+Path blamed_output(const MeshOutputs<T>& out, Status status, std::size_t vertices) {
+  const std::tuple<const char*, const Vectors<T>&, std::int64_t> members[] = {
+      {"position", out.position, 3}, {"normal", out.normal, 3}, {"parameters", out.parameters, 2}};
+  for (const auto& [name, vectors, components] : members) {
+    if (is_at_fault(vectors, status, vertices, components)) {
+      return kOut / name;
+    }
+  }
+  const bool patch =
+      status == Status::output_too_small && out.patch.wanted() && out.patch.capacity < vertices;
+  return patch ? kOut / "patch" : blamed_in_mesh(status);
 }
 
 /// What vertex_formats.h says of an output, and what C++ makes of it.
@@ -97,13 +120,6 @@ Path blamed_output(const FormattedOutputs& out, Status status, std::size_t verti
   return blamed_in_mesh(status);
 }
 
-/// How many vertices a call for some patches writes.
-std::size_t vertices_of(const MeshLayout& layout, std::size_t patches, SetRange range) {
-  const std::size_t last =
-      range.count > patches - range.first ? patches : range.first + range.count;
-  return layout.first_vertex(last) - layout.first_vertex(range.first);
-}
-
 } // namespace
 } // namespace simdbezier::c_api
 
@@ -120,8 +136,10 @@ simdbezier_status simdbezier_evaluate_mesh(const simdbezier_patch_set* set,
     with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
       const MeshOutputs<T> to = outputs_of<T>(out);
       const CallOptions how(options);
-      require_ok(evaluate_mesh(patches, numbers, to, *how, range_of(first_patch, patch_count)),
-                 blamed_in_mesh);
+      const SetRange range = range_of(first_patch, patch_count);
+      require_ok(evaluate_mesh(patches, numbers, to, *how, range), [&](Status status) {
+        return blamed_output(to, status, vertices_of(numbers, patches.size(), range));
+      });
     });
   });
 }
@@ -204,8 +222,7 @@ simdbezier_status simdbezier_evaluate_formatted_mesh(const simdbezier_patch_set*
       const FormattedOutputs to = outputs_of(out);
       const CallOptions how(options);
       const SetRange range = range_of(first_patch, patch_count);
-      const Status status = evaluate_mesh(patches, numbers, to, *how, range);
-      require_ok(status, [&](Status) {
+      require_ok(evaluate_mesh(patches, numbers, to, *how, range), [&](Status status) {
         return status == Status::unequal_lengths || status == Status::bad_patch_range
                    ? blamed_in_mesh(status)
                    : blamed_output(to, status, vertices_of(numbers, patches.size(), range));

@@ -44,6 +44,67 @@ const Refusal<MeshWorld> kPrimitives[] = {
     {SIMDBEZIER_BAD_VALUE, "options->destination",
      [](MeshWorld& w) { return w.primitives.destination = -1, w.write_polygons(); }}};
 
+const Refusal<MeshWorld> kVertices[] = {
+    {SIMDBEZIER_NULL_INPUT, "layout",
+     [](MeshWorld& w) {
+       return simdbezier_evaluate_mesh(w.set.get(), nullptr, &w.mesh_out, nullptr, 0, 0);
+     }},
+    {SIMDBEZIER_NULL_OUTPUT, "out",
+     [](MeshWorld& w) { return w.mesh_out.position = {}, w.evaluate_vertices(); }},
+    {SIMDBEZIER_NULL_OUTPUT, "out->position",
+     [](MeshWorld& w) { return w.mesh_out.position.y = nullptr, w.evaluate_vertices(); }},
+    {SIMDBEZIER_NULL_OUTPUT, "out->parameters",
+     [](MeshWorld& w) { // which have no z
+       w.mesh_out.parameters = w.mesh_out.position;
+       return w.mesh_out.position = {}, w.evaluate_vertices();
+     }},
+    {SIMDBEZIER_OUTPUT_TOO_SMALL, "out->position",
+     [](MeshWorld& w) {
+       return w.mesh_out.position.capacity = w.vertices - 1, w.evaluate_vertices();
+     }},
+    {SIMDBEZIER_OUTPUT_TOO_SMALL, "out->normal",
+     [](MeshWorld& w) {
+       w.mesh_out.normal = c_triples(w.room);
+       return w.mesh_out.normal.capacity = w.vertices - 1, w.evaluate_vertices();
+     }},
+    {SIMDBEZIER_OUTPUT_TOO_SMALL, "out->patch",
+     [](MeshWorld& w) {
+       w.mesh_out.patch = w.indices.data();
+       return w.mesh_out.patch_length = w.vertices - 1, w.evaluate_vertices();
+     }},
+    {SIMDBEZIER_BAD_STRIDE, "out->position",
+     [](MeshWorld& w) { return w.mesh_out.position.stride = 2, w.evaluate_vertices(); }},
+    {SIMDBEZIER_BAD_STRIDE, "out->position.stride",
+     [](MeshWorld& w) { return w.mesh_out.position.stride = -3, w.evaluate_vertices(); }},
+    {SIMDBEZIER_BAD_ALIGNMENT, "out->position.y",
+     [](MeshWorld& w) { return between(w.mesh_out.position.y), w.evaluate_vertices(); }},
+    {SIMDBEZIER_BAD_SCALAR, "out->position.scalar",
+     [](MeshWorld& w) {
+       return w.mesh_out.position.scalar = SIMDBEZIER_F64, w.evaluate_vertices();
+     }},
+    {SIMDBEZIER_OVERLAPPING_OUTPUTS, "out",
+     [](MeshWorld& w) { return w.mesh_out.normal = w.mesh_out.position, w.evaluate_vertices(); }},
+    {SIMDBEZIER_BAD_PATCH_RANGE, "first_patch or patch_count",
+     [](MeshWorld& w) { return w.evaluate_vertices(0, 3); }},
+    {SIMDBEZIER_UNEQUAL_LENGTHS, "set",
+     [](MeshWorld& w) {
+       w.nets.count = 1;
+       return w.set = c_pack<float>(w.nets), w.evaluate_vertices();
+     }},
+    {SIMDBEZIER_BAD_COMPONENTS, "first_component",
+     [](MeshWorld& w) { return w.evaluate_attributes(3); }},
+    {SIMDBEZIER_NULL_OUTPUT, "out",
+     [](MeshWorld& w) {
+       return simdbezier_evaluate_mesh_attributes(w.set.get(), w.layout, nullptr, 0, nullptr, 0, 0);
+     }},
+    {SIMDBEZIER_BAD_TOLERANCE, "angle",
+     [](MeshWorld& w) {
+       return simdbezier_split_creases(w.set.get(), w.layout, -1, nullptr, &w.made_layout);
+     }},
+    {SIMDBEZIER_NULL_OUTPUT, "split", [](MeshWorld& w) {
+       return simdbezier_split_creases(w.set.get(), w.layout, 0, nullptr, nullptr);
+     }}};
+
 const Refusal<MeshWorld> kFormats[] = {
     {SIMDBEZIER_NULL_INPUT, "set",
      [](MeshWorld& w) {
@@ -132,10 +193,13 @@ const Refusal<MeshWorld> kFormats[] = {
      [](MeshWorld& w) { return w.values[50] = kNan, w.find_box(); }}};
 
 TEST(CPrimitivesOfBadInput, AreRefusedByName) { expect_all_refused(kPrimitives); }
+TEST(CVerticesOfBadInput, AreRefusedByName) { expect_all_refused(kVertices); }
 TEST(CVertexFormatsOfBadInput, AreRefusedByName) { expect_all_refused(kFormats); }
 
 TEST(CVertexFormatsOfBadInput, AreWrittenWhereNothingIsWrong) {
   MeshWorld world;
+  EXPECT_C_OK(world.evaluate_vertices());
+  EXPECT_C_OK(world.evaluate_attributes(0));
   EXPECT_C_OK(world.format_vertices());
   EXPECT_C_OK(world.format_vertices(2, 0));
   EXPECT_C_OK(world.find_box());

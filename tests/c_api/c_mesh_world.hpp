@@ -20,6 +20,7 @@ struct MeshWorld : World {
     EXPECT_C_OK(simdbezier_lay_out_mesh(topology, &rates, &layout));
     vertices = simdbezier_mesh_layout_vertices(layout);
     memory.resize(12 * vertices, 0x5a);
+    mesh_out.position = c_triples(triples);
     formatted.position = {memory.data(), vertices, 12, SIMDBEZIER_FORMAT_UNORM16};
     formatted.normal = {memory.data() + 6, vertices, 12, SIMDBEZIER_FORMAT_OCTAHEDRAL8};
     formatted.parameters = {memory.data() + 8, vertices, 12, SIMDBEZIER_FORMAT_UNORM16};
@@ -46,7 +47,9 @@ struct MeshWorld : World {
   simdbezier_formatted_outputs formatted = sized<simdbezier_formatted_outputs>();
   simdbezier_topology* topology = nullptr;
   simdbezier_mesh_layout* layout = nullptr;
+  simdbezier_mesh_outputs mesh_out = sized<simdbezier_mesh_outputs>();
   std::size_t vertices = 0;
+  std::vector<float> triples = std::vector<float>(3 * 4096, -7.0F);
   std::vector<unsigned char> memory;
   simdbezier_primitive_options primitives = sized<simdbezier_primitive_options>();
   std::vector<std::uint32_t> indices = std::vector<std::uint32_t>(6 * 4096, 0x5a5a5a5a);
@@ -83,6 +86,13 @@ struct MeshWorld : World {
     return simdbezier_evaluate_formatted_mesh(set.get(), layout, &formatted, &options, first,
                                               count);
   }
+  simdbezier_status evaluate_vertices(std::size_t first = 0, std::size_t count = 0) {
+    return simdbezier_evaluate_mesh(set.get(), layout, &mesh_out, &options, first, count);
+  }
+  simdbezier_status evaluate_attributes(std::int32_t first_component) {
+    return simdbezier_evaluate_mesh_attributes(set.get(), layout, &mesh_out.position,
+                                               first_component, &options, 0, 0);
+  }
   simdbezier_status write_triangles() {
     return simdbezier_write_triangles_u32(layout, indices.data(), indices.size(), &primitives);
   }
@@ -113,6 +123,7 @@ inline void expect_all_refused(std::span<const Refusal<MeshWorld>> refusals) {
              static_cast<std::ptrdiff_t>(memory.size());
     };
     EXPECT_TRUE(untouched(world.memory, 0x5a)) << one.argument;
+    EXPECT_TRUE(untouched(world.triples, -7.0F)) << one.argument;
     EXPECT_TRUE(untouched(world.sizes, 0x5a)) << one.argument;
     EXPECT_TRUE(untouched(world.indices, 0x5a5a5a5aU)) << one.argument;
     EXPECT_EQ(world.polygons + world.corners, 0U) << one.argument;

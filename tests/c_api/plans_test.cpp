@@ -11,7 +11,7 @@ TYPED_TEST(CMesh, HasCertifiedGrids) {
   const auto nets = ControlNets<TypeParam>::packed(this->values_);
   const std::vector<double> errors(20, 1e-3);
   std::vector<double> without;
-  for (const std::size_t given : {0, 20}) {
+  for (const std::size_t given : {0U, 20U}) {
     const std::span<const double> known(errors.data(), given);
     std::vector<double> expected(20);
     std::vector<double> deviation(20);

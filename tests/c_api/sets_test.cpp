@@ -93,12 +93,13 @@ TYPED_TEST(CSets, OfPackedCurvesGoToPlanes) {
   ASSERT_TRUE(evaluate(set, CurveGrid<T>::uniform(7), out));
   auto c_out = sized<simdbezier_curve_outputs>();
   c_out.position = c_planes(got[0], got[1], got[2]);
-  simdbezier_curve_grid grid = simdbezier_uniform_curve_grid(7);
+  const simdbezier_curve_grid grid = simdbezier_uniform_curve_grid(7);
   EXPECT_C_OK(simdbezier_evaluate_curve_grid(c_set.get(), &grid, &c_out, nullptr));
   for (std::size_t c = 0; c < 3; ++c) {
     expect_same_bits(got[c], expected[c], "a plane");
   }
-  grid.n = 8; // one sample more than the planes hold
+  got[0].pop_back(); // one sample less than there are
+  c_out.position = c_planes(got[0], got[1], got[2]);
   EXPECT_EQ(simdbezier_evaluate_curve_grid(c_set.get(), &grid, &c_out, nullptr),
             SIMDBEZIER_OUTPUT_TOO_SMALL);
 }

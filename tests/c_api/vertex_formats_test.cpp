@@ -60,7 +60,7 @@ TYPED_TEST(CMesh, HasFormattedVertices) {
   ASSERT_TRUE(pack(nets, set));
   const CPatchSet c_set = c_pack<T>(this->c_nets_);
   for (const Vertex& vertex : kVertices) {
-    for (const std::size_t first : {0, 7}) {
+    for (const std::size_t first : {0U, 7U}) {
       const std::size_t patches = first == 0 ? 0 : 5;
       const std::size_t vertices =
           first == 0 ? this->layout_.size().vertices
@@ -109,7 +109,7 @@ TYPED_TEST(CMesh, HasFormattedVertices) {
 TEST(CVertexFormats, HaveTheSizesOfCpp) {
   for (simdbezier_vertex_format format = SIMDBEZIER_FORMAT_FLOAT32;
        format <= SIMDBEZIER_FORMAT_OCTAHEDRAL8; ++format) {
-    for (const std::size_t components : {2, 3}) {
+    for (const std::size_t components : {2U, 3U}) {
       EXPECT_EQ(simdbezier_format_bytes(format, components),
                 format_bytes(static_cast<VertexFormat>(format), components));
     }

@@ -154,7 +154,7 @@ SIMDBEZIER_API simdbezier_status simdbezier_mesh_count(const simdbezier_mesh* me
 
 typedef struct simdbezier_mesh_plan simdbezier_mesh_plan;
 
-// MeshPlan. Handles and arrays belong to the plan; the handles are not given back by themselves.
+// MeshPlan. Handles and arrays belong to the plan, and end with it.
 typedef struct simdbezier_mesh_plan_parts {
   size_t struct_size;
   const simdbezier_patch_set* set;
