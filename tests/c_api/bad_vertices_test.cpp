@@ -30,6 +30,12 @@ const Refusal<MeshWorld> kPrimitives[] = {
      [](MeshWorld& w) { return w.primitives.struct_size = 0, w.write_triangles(); }},
     {SIMDBEZIER_BAD_STRUCT_SIZE, "options->struct_size",
      [](MeshWorld& w) { return w.primitives.struct_size -= 8, w.count_polygons(); }},
+    {SIMDBEZIER_BAD_STRUCT_SIZE, "options->struct_size",
+     [](MeshWorld& w) {
+       const Later later(w.primitives);
+       return simdbezier_write_triangles_u32(w.layout, w.indices.data(), w.indices.size(),
+                                             &later.known);
+     }},
     {SIMDBEZIER_BAD_PATCH_RANGE, "options->first_patch or patch_count",
      [](MeshWorld& w) { return w.primitives.patch_count = 3, w.write_triangles(); }},
     {SIMDBEZIER_BAD_PATCH_RANGE, "options->first_patch or patch_count",
@@ -127,6 +133,12 @@ const Refusal<MeshWorld> kFormats[] = {
      [](MeshWorld& w) { return w.formatted.parameters.first = nullptr, w.format_vertices(); }},
     {SIMDBEZIER_BAD_STRUCT_SIZE, "out->struct_size",
      [](MeshWorld& w) { return w.formatted.struct_size -= 8, w.format_vertices(); }},
+    {SIMDBEZIER_BAD_STRUCT_SIZE, "out->struct_size",
+     [](MeshWorld& w) {
+       const Later later(w.formatted);
+       return simdbezier_evaluate_formatted_mesh(w.set.get(), w.layout, &later.known, nullptr, 0,
+                                                 0);
+     }},
     {SIMDBEZIER_OUTPUT_TOO_SMALL, "out->position",
      [](MeshWorld& w) { return w.formatted.position.capacity -= 1, w.format_vertices(); }},
     {SIMDBEZIER_OUTPUT_TOO_SMALL, "out->parameters",

@@ -26,6 +26,16 @@ void expect_refused(const Refusal<World>& one, World& world) {
   EXPECT_EQ(fault.argument, one.argument) << simdbezier_last_message();
 }
 
+/// A struct of a later version, with a member that this library does not know.
+template <typename S>
+struct Later {
+  explicit Later(const S& of, std::size_t value = 1) : known(of), unknown(value) {
+    known.struct_size = sizeof *this;
+  }
+  S known;
+  std::size_t unknown;
+};
+
 /// Moves an address by half a float.
 inline void between(void*& address) { address = static_cast<char*>(address) + 2; }
 inline void between(const void*& address) { address = static_cast<const char*>(address) + 2; }

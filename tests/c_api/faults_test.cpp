@@ -1,4 +1,5 @@
 // How simdbezier.h describes faults, how its structs grow, and its statuses.
+#include "tests/c_api/c_refusal.hpp"
 #include "tests/c_api/c_world.hpp"
 
 namespace simdbezier::tests::faults_test {
@@ -37,20 +38,13 @@ TEST(CFaults, OfOneNetAmongSeveralAreFound) {
             SIMDBEZIER_BAD_SCALAR);
 }
 
-/// A caller that was compiled for a later version, whose structs are larger.
-struct LaterGrid {
-  simdbezier_grid grid;
-  std::size_t unknown;
-};
-
 TEST(CStructs, GrowAtTheirEnd) {
   World world;
-  LaterGrid later{world.grid, 0};
-  later.grid.struct_size = sizeof later;
-  EXPECT_EQ(simdbezier_evaluate_grid(world.set.get(), &later.grid, &world.out, nullptr),
+  Later later(world.grid, 0);
+  EXPECT_EQ(simdbezier_evaluate_grid(world.set.get(), &later.known, &world.out, nullptr),
             SIMDBEZIER_OK);
   later.unknown = 1;
-  EXPECT_EQ(simdbezier_evaluate_grid(world.set.get(), &later.grid, &world.out, nullptr),
+  EXPECT_EQ(simdbezier_evaluate_grid(world.set.get(), &later.known, &world.out, nullptr),
             SIMDBEZIER_BAD_STRUCT_SIZE);
   struct {
     simdbezier_patch_shape shape;

@@ -202,6 +202,16 @@ const Refusal<World> kRefusals[] = {
      }},
     {SIMDBEZIER_BAD_STRUCT_SIZE, "options->struct_size",
      [](World& w) { return w.options.struct_size -= 8, w.choose(); }},
+    {SIMDBEZIER_BAD_STRUCT_SIZE, "options->struct_size",
+     [](World& w) {
+       const Later later(w.options);
+       return simdbezier_choose_polylines(&w.curves, &later.known, w.points.data(), 4, nullptr, 0);
+     }},
+    {SIMDBEZIER_OK, "",
+     [](World& w) {
+       const Later later(w.options, 0);
+       return simdbezier_choose_polylines(&w.curves, &later.known, w.points.data(), 4, nullptr, 0);
+     }},
     {SIMDBEZIER_BAD_STRUCT_SIZE, "curves->struct_size",
      [](World& w) { return w.curves.struct_size = 0, w.flatten(); }},
 
