@@ -12,6 +12,7 @@ constexpr Path kNets{"nets"};
 constexpr Path kOut{"out"};
 
 static_assert(SIMDBEZIER_BASIS_B_SPLINE == static_cast<int>(Basis::b_spline));
+static_assert(int{SIMDBEZIER_MOST_BOX_LEVELS} == kMostBoxLevels);
 
 template <typename T>
 UnitParameter<T> parameter_of(const simdbezier_parameter& given, const Path& path) {

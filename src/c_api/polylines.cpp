@@ -12,6 +12,8 @@ namespace {
 constexpr Path kCurves{"curves"};
 constexpr Path kPolylines{"polylines"};
 
+static_assert(std::uint32_t{SIMDBEZIER_MOST_POLYLINE_POINTS} == kMostPolylinePoints);
+
 FlattenOptions flatten_options_of(const simdbezier_flatten_options* given) {
   const simdbezier_flatten_options known = read(given, kOptions);
   FlattenOptions options;

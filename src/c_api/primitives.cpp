@@ -11,6 +11,9 @@ namespace {
 
 constexpr Path kLayout{"layout"};
 
+static_assert(std::uint32_t{SIMDBEZIER_MOST_CLUSTER_TRIANGLES} == kMostClusterTriangles);
+static_assert(std::uint32_t{SIMDBEZIER_MOST_CLUSTER_VERTICES} == kMostClusterVertices);
+
 // Clusters are written in place.
 static_assert(sizeof(simdbezier_cluster) == sizeof(MeshCluster) &&
               offsetof(simdbezier_cluster, vertices) == offsetof(MeshCluster, vertices) &&

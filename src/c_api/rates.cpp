@@ -14,6 +14,9 @@ constexpr Path kTopology{"topology"};
 constexpr Path kRates{"rates"};
 constexpr Path kErrors{"errors"};
 
+static_assert(std::uint32_t{SIMDBEZIER_MOST_SEGMENTS} == kMostSegments);
+static_assert(std::uint32_t{SIMDBEZIER_MOST_GRID_CELLS} == kMostGridCells);
+
 struct RateSpans {
   std::span<std::uint32_t> nu;
   std::span<std::uint32_t> nv;

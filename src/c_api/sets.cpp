@@ -11,6 +11,9 @@ namespace {
 
 constexpr Path kSet{"set"};
 
+static_assert(int{SIMDBEZIER_MOST_DEGREE} == kMostDegree);
+static_assert(int{SIMDBEZIER_MOST_COMPONENTS} == kMostComponents);
+
 /// What packing was refused for: an option where no point is at fault.
 template <typename PathOf>
 void require_packed(const PackReport& report, PathOf blamed) {

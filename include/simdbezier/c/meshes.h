@@ -44,6 +44,9 @@ SIMDBEZIER_API simdbezier_status simdbezier_write_strips_u16(const simdbezier_me
                                                              uint16_t* indices, size_t length,
                                                              int32_t threads);
 
+// kMostClusterTriangles, kMostClusterVertices.
+enum { SIMDBEZIER_MOST_CLUSTER_TRIANGLES = 128, SIMDBEZIER_MOST_CLUSTER_VERTICES = 128 };
+
 // MeshCluster.
 typedef struct simdbezier_cluster {
   uint32_t first_vertex;

@@ -69,6 +69,9 @@ SIMDBEZIER_API int32_t simdbezier_topology_is_turned(const simdbezier_topology* 
 SIMDBEZIER_API int32_t simdbezier_topology_is_repeated(const simdbezier_topology* topology,
                                                        size_t patch);
 
+// kMostSegments, of a patch in one direction; kMostGridCells, of simdbezier_certify_grids().
+enum { SIMDBEZIER_MOST_SEGMENTS = 4096, SIMDBEZIER_MOST_GRID_CELLS = 1 << 20 };
+
 // RateOptions.
 typedef struct simdbezier_rate_options {
   size_t struct_size;
@@ -79,7 +82,7 @@ typedef struct simdbezier_rate_options {
   size_t errors_length;
   double longest_edge;    // 0: no limit
   double normal_angle;    // 0: no limit
-  uint32_t most_segments; // 0: 4096
+  uint32_t most_segments; // 0: SIMDBEZIER_MOST_SEGMENTS
   int32_t threads;
 } simdbezier_rate_options;
 

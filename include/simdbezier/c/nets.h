@@ -109,8 +109,9 @@ SIMDBEZIER_API simdbezier_status simdbezier_spline_to_bezier(const simdbezier_sp
                                                              const simdbezier_mutable_nets* out,
                                                              const simdbezier_options* options);
 
-// control_boxes(), tight_boxes() (levels from 0 to 6): net p has [p * components + c] in low and
-// high. flatness(): one value a net.
+enum { SIMDBEZIER_MOST_BOX_LEVELS = 6 }; // kMostBoxLevels
+// control_boxes(), tight_boxes(): net p has [p * components + c] in low and high; levels from 0 to
+// SIMDBEZIER_MOST_BOX_LEVELS. flatness(): one value a net.
 SIMDBEZIER_API simdbezier_status simdbezier_control_boxes(const simdbezier_nets* nets,
                                                           simdbezier_values low,
                                                           simdbezier_values high,

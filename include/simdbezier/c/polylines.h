@@ -11,6 +11,8 @@
 
 SIMDBEZIER_BEGIN_C
 
+enum { SIMDBEZIER_MOST_POLYLINE_POINTS = 65537 }; // kMostPolylinePoints
+
 // FlattenOptions.
 typedef struct simdbezier_flatten_options {
   size_t struct_size;
@@ -19,7 +21,7 @@ typedef struct simdbezier_flatten_options {
   size_t tolerances_length;
   const double* errors; // simdbezier_curve_position_errors(), or null
   size_t errors_length;
-  uint32_t most_points; // 0: 65 537
+  uint32_t most_points; // 0: SIMDBEZIER_MOST_POLYLINE_POINTS
 } simdbezier_flatten_options;
 
 // choose_polylines(): points and deviation have one value a curve, and deviation may be null.

@@ -6,6 +6,9 @@
 
 SIMDBEZIER_BEGIN_C
 
+// kMostDegree, in each direction; kMostComponents, of a point without its weight.
+enum { SIMDBEZIER_MOST_DEGREE = 15, SIMDBEZIER_MOST_COMPONENTS = 16 };
+
 // ControlNets: component c of control point P[j][i] of net p is points[first + p * net_stride +
 // j * row_stride + i * point_stride + c * component_stride]; a weight stands behind the components.
 typedef struct simdbezier_nets {
@@ -18,9 +21,9 @@ typedef struct simdbezier_nets {
   ptrdiff_t row_stride;
   ptrdiff_t point_stride;
   ptrdiff_t component_stride;
-  int32_t degree_u; // 1 to 15
+  int32_t degree_u; // 1 to SIMDBEZIER_MOST_DEGREE
   int32_t degree_v;
-  int32_t components; // 1 to 16, without the weight
+  int32_t components; // 1 to SIMDBEZIER_MOST_COMPONENTS
   simdbezier_weights weights;
   simdbezier_scalar scalar;
 } simdbezier_nets;
@@ -219,15 +222,15 @@ SIMDBEZIER_API int32_t simdbezier_curve_set_has_local_origins(const simdbezier_c
 // ErrorBounds: absolute bounds a component, 0 where there is no such component.
 typedef struct simdbezier_error_bounds_of_patch {
   size_t struct_size;
-  double position[16];
-  double du[16];
-  double dv[16];
+  double position[SIMDBEZIER_MOST_COMPONENTS];
+  double du[SIMDBEZIER_MOST_COMPONENTS];
+  double dv[SIMDBEZIER_MOST_COMPONENTS];
 } simdbezier_error_bounds_of_patch;
 typedef struct simdbezier_error_bounds_of_curve {
   size_t struct_size;
-  double position[16];
-  double d1[16];
-  double d2[16];
+  double position[SIMDBEZIER_MOST_COMPONENTS];
+  double d1[SIMDBEZIER_MOST_COMPONENTS];
+  double d2[SIMDBEZIER_MOST_COMPONENTS];
 } simdbezier_error_bounds_of_curve;
 // error_bounds(). Return ok | null_input | null_output | bad_struct_size | bad_patch_range |
 // bad_value | unknown_isa | unsupported_isa.
