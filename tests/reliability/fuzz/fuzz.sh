@@ -45,6 +45,8 @@ cmake --build "$build" --target "${targets[@]/#/fuzz_}" || exit 1
 export OMP_WAIT_POLICY=passive
 export ASAN_OPTIONS=allocator_may_return_null=1:detect_stack_use_after_return=0
 export UBSAN_OPTIONS=print_stacktrace=1
+# LLVM's OpenMP runtime keeps its threads' memory until the process ends.
+export LSAN_OPTIONS=suppressions=$PWD/$here/leaks.supp:print_suppressions=0
 
 # field NAME: the last value behind NAME in the fuzzer's log.
 field() { grep -oE "$1:? +[0-9]+" "$log" | tail -n 1 | grep -oE '[0-9]+$' || echo 0; }

@@ -6,11 +6,13 @@
     tests/reliability/mutation/mutate.py --check     the planted ones' places exist (no build)
 
 The copy lies in build/mutate and is built without optimisation that takes long: first with the
-scalar kernels alone, which most mutations do not survive, then with vectors as well. A mutation
-that does not compile, or changes nothing in the library and the program, is replaced by the next.
+scalar kernels alone, which most mutations do not survive, then with those vectors that this
+machine has as well. A mutation that does not compile, or changes nothing in the library and the
+program, is replaced by the next; a planted one of an instruction set that is not here is named.
 A verdict begins with the mutation's number; --after K goes on behind number K of the same sources
 and the same seed, because many mutations take hours.
-Exit code: 0 where at least 19 of 20 were caught (all of the planted ones), else 1.
+Exit code: 0 where at least 19 of 20 were caught (all of the planted ones that change something),
+else 1.
 """
 import argparse
 import difflib
@@ -35,8 +37,8 @@ WORK = ROOT / 'build' / 'mutate'
 SOURCE = WORK / 'source'
 SHIPPED = ('include', 'kernels', 'src', 'tools')
 COPIED = SHIPPED + ('bench', 'tests', 'cmake', 'examples', 'docs')
-# Instruction sets of the two builds; what the first cannot see the second may.
-STAGES = (('scalar', 'scalar'), ('vectors', 'scalar;avx2;avx512'))
+# Instruction sets beside the scalar one, and what the processor says of itself where it has them.
+VECTORS = (('avx2', {'avx2', 'fma'}), ('avx512', {'avx512f', 'avx512bw', 'avx512dq', 'avx512vl'}))
 MOST_MEMORY = 1 << 34
 # Builds of their own, or checks of Release builds only.
 NOT_JUDGES = r'^(same_bits_|installed_tree|symbols_|mutation)|_NOT_BUILT$'
@@ -70,6 +72,13 @@ def copy_file(path, copy):
         shutil.copymode(path, copy)
 
 
+def stages_here():
+    """Names and instruction sets of the two builds; what the first cannot see the second may."""
+    flags = set(re.findall(r'\w+', pathlib.Path('/proc/cpuinfo').read_text()))
+    vectors = [name for name, needed in VECTORS if needed <= flags]
+    return ('scalar', 'scalar'), ('vectors', ';'.join(['scalar', *vectors]))
+
+
 class Stage:
     """One build of the copy, and the tests that pass in it when nothing is changed."""
 
@@ -82,6 +91,7 @@ class Stage:
                    '-DCMAKE_BUILD_TYPE=Release', '-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG',
                    '-DSIMDBEZIER_KERNEL_FLAGS=-O1', f'-DSIMDBEZIER_ISAS={isas}',
                    '-DSIMDBEZIER_BUILD_TESTS=ON', '-DSIMDBEZIER_BUILD_BENCH=OFF',
+                   '-DCMAKE_LINK_DEPENDS_NO_SHARED=ON', # tests load the changed library as they are
                    f'-DSIMDBEZIER_SHARED_DATA={data}', *launcher])
         if log.returncode != 0:
             sys.exit(log.stdout)
@@ -102,10 +112,13 @@ class Stage:
         return digest.hexdigest()
 
     def baseline(self):
-        """Seconds of each test that passes."""
+        """Seconds of each test that passes; those of the last run where nothing has changed since."""
         report = self.folder / 'baseline.xml'
-        run(['ctest', '--test-dir', self.folder, '-E', NOT_JUDGES, '--timeout', '600',
-             '--output-junit', report, '-j', str(os.cpu_count())])
+        judged = self.folder / 'baseline.digest'
+        if not judged.exists() or judged.read_text() != self.digest:
+            run(['ctest', '--test-dir', self.folder, '-E', NOT_JUDGES, '--timeout', '600',
+                 '--output-junit', report, '-j', str(os.cpu_count())])
+            judged.write_text(self.digest)
         cases = re.findall(r'<testcase name="([^"]*)"[^>]*time="([^"]*)" status="(\w+)"',
                            report.read_text())
         failed = [name for name, _, status in cases if status == 'fail']
@@ -218,10 +231,10 @@ def main():
     # A mutated size must not take the machine's memory.
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
     copy_sources()
-    stages = [Stage(*stage) for stage in STAGES]
+    stages = [Stage(*stage) for stage in stages_here()]
     mutations = planted if arguments.planted else random_mutations(arguments.seed)
     wanted = len(planted) if arguments.planted else arguments.count
-    caught, survivors = 0, []
+    caught, survivors, not_here = 0, [], []
     for number, mutation in enumerate(mutations[arguments.after:], arguments.after + 1):
         start = time.monotonic()
         verdict = judge(mutation, stages)
@@ -229,11 +242,15 @@ def main():
         print(f'{number}: {place(mutation)}: {mutation.kind}: {verdict}, {seconds:.0f} s')
         print(diff(mutation), flush=True)
         caught += verdict.startswith('caught')
-        if verdict == 'survived' or (arguments.planted and not verdict.startswith('caught')):
+        if arguments.planted and verdict == 'changes nothing':
+            not_here.append(mutation)
+        elif verdict == 'survived' or (arguments.planted and not verdict.startswith('caught')):
             survivors.append(mutation)
         if caught + len(survivors) == wanted:
             break
     print(f'{caught} of {caught + len(survivors)} caught')
+    for mutation in not_here:
+        print(f'changes nothing that runs on this machine: {mutation.kind}')
     for mutation in survivors:
         print(f'survived: {place(mutation)}\n{diff(mutation)}')
     limit = 0 if arguments.planted else wanted // 20
