@@ -72,6 +72,13 @@ def copy_file(path, copy):
         shutil.copymode(path, copy)
 
 
+def digest_of(paths):
+    digest = hashlib.sha256()
+    for path in paths:
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
 def stages_here():
     """Names and instruction sets of the two builds; what the first cannot see the second may."""
     flags = set(re.findall(r'\w+', pathlib.Path('/proc/cpuinfo').read_text()))
@@ -106,19 +113,17 @@ class Stage:
         return done.returncode == 0
 
     def binaries(self):
-        digest = hashlib.sha256()
-        for name in ('libsimdbezier.so', 'simdbezier'):
-            digest.update((self.folder / name).read_bytes())
-        return digest.hexdigest()
+        return digest_of(self.folder / name for name in ('libsimdbezier.so', 'simdbezier'))
 
     def baseline(self):
         """Seconds of each test that passes; those of the last run where nothing has changed since."""
         report = self.folder / 'baseline.xml'
         judged = self.folder / 'baseline.digest'
-        if not judged.exists() or judged.read_text() != self.digest:
+        sources = digest_of(path for path in sorted(SOURCE.rglob('*')) if path.is_file())
+        if not judged.exists() or judged.read_text() != sources:
             run(['ctest', '--test-dir', self.folder, '-E', NOT_JUDGES, '--timeout', '600',
                  '--output-junit', report, '-j', str(os.cpu_count())])
-            judged.write_text(self.digest)
+            judged.write_text(sources)
         cases = re.findall(r'<testcase name="([^"]*)"[^>]*time="([^"]*)" status="(\w+)"',
                            report.read_text())
         failed = [name for name, _, status in cases if status == 'fail']
