@@ -36,12 +36,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 WORK = ROOT / 'build' / 'mutate'
 SOURCE = WORK / 'source'
 SHIPPED = ('include', 'kernels', 'src', 'tools')
-COPIED = SHIPPED + ('bench', 'tests', 'cmake', 'examples', 'docs')
+NOT_COPIED = {'.git', 'build', 'out', '__pycache__'}
 # Instruction sets beside the scalar one, and what the processor says of itself where it has them.
 VECTORS = (('avx2', {'avx2', 'fma'}), ('avx512', {'avx512f', 'avx512bw', 'avx512dq', 'avx512vl'}))
 MOST_MEMORY = 1 << 34
-# Builds of their own, or checks of Release builds only.
-NOT_JUDGES = r'^(same_bits_|installed_tree|symbols_|mutation)|_NOT_BUILT$'
+# Builds of their own, checks of Release builds only, and of how sources look.
+NOT_JUDGES = r'^(same_bits_|installed_tree|packages|wheel|symbols_|mutation|format)|_NOT_BUILT$'
 # Tests that are asked first where a file of a folder was changed.
 NEAREST = (('tools/', r'^cli\.'), ('kernels/curve/', r'^curves\.'), ('kernels/nets/', r'^nets\.'),
            ('src/nets/', r'^nets\.'), ('kernels/shape/', r'^shapes\.'),
@@ -56,13 +56,10 @@ def run(command, **options):
 
 def copy_sources():
     """Only files that differ, so that ninja builds only those."""
-    for folder in COPIED:
-        for path in (ROOT / folder).rglob('*'):
-            copy = SOURCE / path.relative_to(ROOT)
-            if path.is_file() and '__pycache__' not in path.parts:
-                copy_file(path, copy)
-    for name in ('CMakeLists.txt', 'README.md', 'LICENSE', 'CHANGELOG.md'):
-        copy_file(ROOT / name, SOURCE / name)
+    for path in ROOT.rglob('*'):
+        part = path.relative_to(ROOT)
+        if NOT_COPIED.isdisjoint(part.parts) and path.is_file():
+            copy_file(path, SOURCE / part)
 
 
 def copy_file(path, copy):
