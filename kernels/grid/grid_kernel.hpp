@@ -14,6 +14,7 @@
 #include "kernels/grid/patch_sweeps.hpp"
 #include "kernels/grid/record_rows.hpp"
 #include "kernels/grid/small_grid_jets.hpp"
+#include "kernels/grid/small_grids_across.hpp"
 #include "kernels/grid/square_sweeps.hpp"
 #include "kernels/simd/register_pair.hpp"
 
@@ -182,6 +183,33 @@ SIMDBEZIER_INLINE void sweep_patches(const GridTask<T>& task, const ColumnSplit<
     sweep_tiles<kOutputs, kTells ? Known::watertight : Known::no_origins>(task, split, piece, patch,
                                                                           end);
   }
+}
+
+/// A task that is a small grid, if it is one and the instruction set has kernels for it: positions,
+/// and with them normals or derivatives.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_INLINE bool sweep_small_grid(const GridTask<T>& task) {
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  if constexpr (kFourGroups<vec<T>> && kUsual<kOutputs>) {
+    if (is_small_grid(task)) {
+      if constexpr (kOutputs == detail::kPosition) {
+        small_grid_positions(task);
+      } else {
+        sweep_small_jets<kOutputs == detail::kPositionNormal>(task);
+      }
+      return true;
+    }
+  }
+#elif defined(SIMDBEZIER_KERNELS_AVX2)
+  if constexpr (kUsual<kOutputs>) {
+    if (pays_across<kOutputs>(task) && is_small_grid(task)) {
+      sweep_small_grid_across<kOutputs>(task);
+      return true;
+    }
+  }
+#endif
+  static_cast<void>(task);
+  return false;
 }
 
 template <typename T, detail::OutputSet kOutputs>

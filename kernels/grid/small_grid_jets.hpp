@@ -151,24 +151,4 @@ __attribute__((noinline)) void sweep_small_jets(const GridTask<T>& shared_task) 
 
 #endif
 
-/// A task that is a small grid, if it is one and the instruction set has kernels for it: positions,
-/// and with them normals or derivatives.
-template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_INLINE bool sweep_small_grid(const GridTask<T>& task) {
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-  if constexpr (kFourGroups<vec<T>> && kUsual<kOutputs>) {
-    if (is_small_grid(task)) {
-      if constexpr (kOutputs == detail::kPosition) {
-        small_grid_positions(task);
-      } else {
-        sweep_small_jets<kOutputs == detail::kPositionNormal>(task);
-      }
-      return true;
-    }
-  }
-#endif
-  static_cast<void>(task);
-  return false;
-}
-
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -9,7 +9,8 @@
 //   border    group s, lane e   inner sample s of edge e: along the edge
 // One permutation makes 16 consecutive samples of these, and another one adds corners. The
 // operations of a sample are those of the tiles, and so are its bits. Positions stand here,
-// derivatives in grid/small_grid_jets.hpp.
+// derivatives in grid/small_grid_jets.hpp. Registers without four groups take other lanes:
+// grid/small_grids_across.hpp.
 #pragma once
 
 #include "kernels/drain/drain_kernel.hpp"
@@ -20,12 +21,6 @@
 #include "kernels/simd/fours.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
-
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-
-/// Whether registers have four groups of four lanes: floats of AVX-512.
-template <typename V>
-constexpr bool kFourGroups = kLanes<V> == 16;
 
 /// Whether the task's grid is a small one with edges of its own.
 template <typename T>
@@ -44,6 +39,12 @@ SIMDBEZIER_INLINE bool is_small_grid(const GridTask<T>& task) {
   }
   return small;
 }
+
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+
+/// Whether registers have four groups of four lanes: floats of AVX-512.
+template <typename V>
+constexpr bool kFourGroups = kLanes<V> == 16;
 
 /// The parameters of a small grid. Groups and lanes that are too many repeat the last edge.
 template <typename V>

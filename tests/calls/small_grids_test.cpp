@@ -1,6 +1,7 @@
 // Grids of a few samples, which have kernels of their own where rows and columns begin and end on
 // the patch's edges. They must give the scattered call's bits whatever the parameters in between,
 // and write nothing but their outputs.
+#include <bit>
 #include <cstddef>
 #include <iterator>
 #include <string>
@@ -54,8 +55,11 @@ std::vector<T> parameters(Row row, std::size_t n) {
   return x;
 }
 
+enum class Layout { planes, triples, vertices };
+
 constexpr GroupSet kChoices[] = {kP, kP | kN, kP | kDu | kDv, kP | kDu | kDv | kN, kN, kDu};
-constexpr std::size_t kPatches = 5;
+// More than a register has lanes, and no multiple of that.
+constexpr std::size_t kPatches = 11;
 
 template <typename T>
 class SmallGrids : public IsaTest {
@@ -92,26 +96,43 @@ private:
     scattered(set, samples.view(Parameters::centred), expected.outputs(), options);
     const Grid<T> of_grid{nu, nv, x.data(), y.data(), Parameters::centred};
     for (const GroupSet groups : kChoices) {
-      canvas_.reset(3 * kVectorGroups * (count + kGap));
-      Outputs<T> out;
-      for (std::size_t g = 0; g < kVectorGroups; ++g) {
-        if (holds(groups, g)) {
-          T* const first = canvas_.at(3 * g * (count + kGap));
-          *groups_of(out)[g] =
-              Vectors<T>::planes(first, first + (count + kGap), first + 2 * (count + kGap));
-        }
+      for (const Layout layout : {Layout::planes, Layout::triples, Layout::vertices}) {
+        const std::string name = std::to_string(nu) + "x" + std::to_string(nv) + ", rows " +
+                                 std::to_string(static_cast<int>(across)) + " and " +
+                                 std::to_string(static_cast<int>(along)) + ", groups " +
+                                 std::to_string(groups) + ", layout " +
+                                 std::to_string(static_cast<int>(layout));
+        compare(set, options, of_grid, groups, layout, expected, count, name);
       }
-      std::vector<SampleStatus> status(count);
-      out.status = status.data();
-      grid(set, of_grid, out, options);
-      const std::string name = std::to_string(nu) + "x" + std::to_string(nv) + ", rows " +
-                               std::to_string(static_cast<int>(across)) + " and " +
-                               std::to_string(static_cast<int>(along)) + ", groups " +
-                               std::to_string(groups);
-      EXPECT_EQ(canvas_.defects(out, expected, count), 0U) << name;
-      if (holds(groups, kVectorGroups - 1)) {
-        EXPECT_EQ(status, expected.status()) << name;
+    }
+  }
+
+  void compare(const PatchSet<T>& set, const Options& options, const Grid<T>& of_grid,
+               GroupSet groups, Layout layout, const Planes<T>& expected, std::size_t count,
+               const std::string& name) {
+    canvas_.reset(3 * kVectorGroups * (count + kGap));
+    Outputs<T> out;
+    const std::size_t vertex = 3 * static_cast<std::size_t>(std::popcount(groups));
+    std::size_t member = 0;
+    for (std::size_t g = 0; g < kVectorGroups; ++g) {
+      if (!holds(groups, g)) {
+        continue;
       }
+      T* const first = canvas_.at(3 * g * (count + kGap));
+      *groups_of(out)[g] =
+          layout == Layout::planes
+              ? Vectors<T>::planes(first, first + (count + kGap), first + 2 * (count + kGap))
+          : layout == Layout::triples
+              ? Vectors<T>::xyz(first)
+              : Vectors<T>::xyz(canvas_.at(member), static_cast<std::ptrdiff_t>(vertex));
+      member += 3;
+    }
+    std::vector<SampleStatus> status(count);
+    out.status = status.data();
+    grid(set, of_grid, out, options);
+    EXPECT_EQ(canvas_.defects(out, expected, count), 0U) << name;
+    if (holds(groups, kVectorGroups - 1)) {
+      EXPECT_EQ(status, expected.status()) << name;
     }
   }
 

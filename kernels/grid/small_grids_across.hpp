@@ -1,0 +1,379 @@
+// Small grids (grid/small_grids.hpp) where registers have no four groups: lanes are patches.
+//
+// Coefficients of a register of patches are turned on their way from memory, and samples on their
+// way back; in between no lane is idle, whatever the size of the grid. The last patches that do not
+// fill a register are computed together with some of those before them, once more.
+#pragma once
+
+#include "kernels/drain/drain_kernel.hpp"
+#include "kernels/grid/small_grids.hpp"
+#include "kernels/grid/tile_normals.hpp"
+#include "kernels/simd/structures_across.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+#if defined(SIMDBEZIER_KERNELS_AVX2)
+
+/// Samples of a small grid at the most.
+constexpr std::size_t kMostSmallSamples = kMostSmall * kMostSmall;
+
+/// The parameters of a small grid, each in all lanes. Those that are too many are never used.
+/// kInner: the compiler knows the grid as so many rows and columns between edges, the rows being
+/// pairs; 0: it does not.
+template <typename V, std::size_t kInner>
+struct SmallGridAcross {
+  using T = ScalarOf<V>;
+  static_assert(kMostInner == 4);
+
+  const T* x; ///< of all columns
+  std::size_t nu;
+  std::size_t nv;
+  bool mirrored; ///< rows are pairs Y and -Y
+  RowPoint<V> column[kMostInner];
+  RowPoint<V> row[kMostInner];
+  RowPoint<V> end[2] = {point(T(-0.5)), point(T(0.5))};
+
+  explicit SIMDBEZIER_INLINE SmallGridAcross(const GridTask<T>& task)
+      : x(task.x), nu(kInner > 0 ? kInner + 2 : task.nu),
+        nv(kInner > 0 ? kInner + 2 : task.runs[1].rows + std::size_t{2}),
+        mirrored(kInner > 0 || are_mirrored(task.runs[1].y, task.runs[1].rows)),
+        column{point(task.x[1]), point(task.x[2]), point(task.x[3]), point(task.x[4])},
+        row{point(task.runs[1].y[0]), point(task.runs[1].y[1]), point(task.runs[1].y[2]),
+            point(task.runs[1].y[3])} {}
+
+  [[nodiscard]] SIMDBEZIER_INLINE std::size_t samples() const { return nu * nv; }
+  /// f(i) for columns and rows between the edges.
+  template <typename F>
+  SIMDBEZIER_INLINE void for_columns(const F& f) const {
+    for_inner(nu - 2, f);
+  }
+  template <typename F>
+  SIMDBEZIER_INLINE void for_rows(const F& f) const {
+    for_inner(nv - 2, f);
+  }
+  /// f(r, value) for a cubic at all rows.
+  template <typename F>
+  SIMDBEZIER_INLINE void for_row_values(const V c[kOrder], const F& f) const {
+    const std::size_t rows = nv - 2;
+    const auto pair = [&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+      const Parts<V> parts = value_parts(c, row[r]);
+      f(r, parts.sum());
+      f(rows - 1 - r, parts.difference());
+    };
+    if constexpr (kInner > 0) {
+      repeat<kInner / 2>(pair);
+      if constexpr (kInner % 2 != 0) {
+        f(kInner / 2, row_value(c, row[kInner / 2]));
+      }
+    } else {
+      std::size_t r = 0;
+      for (; mirrored && r < rows / 2; ++r) {
+        pair(r);
+      }
+      for (const std::size_t behind = rows - r; r < behind; ++r) {
+        f(r, row_value(c, row[r]));
+      }
+    }
+  }
+
+private:
+  template <typename F>
+  static SIMDBEZIER_INLINE void for_inner(std::size_t count, const F& f) {
+    if constexpr (kInner > 0) {
+      repeat<kInner>(f);
+    } else {
+      for (std::size_t i = 0; i < count; ++i) {
+        f(i);
+      }
+    }
+  }
+  static SIMDBEZIER_INLINE RowPoint<V> point(T parameter) {
+    return RowPoint<V>(broadcast<V>(parameter));
+  }
+};
+
+/// One component of a register of patches.
+template <typename V>
+struct ComponentAcross {
+  using T = ScalarOf<V>;
+
+  V matrix[kOrder * kOrder]; ///< [power of X][power of Y]
+  V edge[kOrder * kEdges];   ///< [power][edge]
+  V corner[kEdges];
+
+  SIMDBEZIER_INLINE ComponentAcross(const GridTask<T>& task, std::size_t patch, std::size_t c) {
+    const Component<T> first(task, patch, c);
+    load(first.matrix, detail::kCoefficients, matrix);
+    load(first.edge, detail::kEdgeBlock, edge);
+    load(first.corner, detail::kEdgeBlock, corner);
+  }
+
+  SIMDBEZIER_INLINE void column(V x, V q[kOrder]) const {
+    for (std::size_t l = 0; l < kOrder; ++l) {
+      const V k[kOrder] = {matrix[l], matrix[kOrder + l], matrix[2 * kOrder + l],
+                           matrix[3 * kOrder + l]};
+      q[l] = horner(k, x);
+    }
+  }
+  SIMDBEZIER_INLINE void column(V x, V q[kOrder], V dq[kOrder]) const {
+    for (std::size_t l = 0; l < kOrder; ++l) {
+      const V k[kOrder] = {matrix[l], matrix[kOrder + l], matrix[2 * kOrder + l],
+                           matrix[3 * kOrder + l]};
+      q[l] = horner(k, x, dq[l]);
+    }
+  }
+  SIMDBEZIER_INLINE void edge_cubic(std::size_t number, V e[kOrder]) const {
+    for (std::size_t p = 0; p < kOrder; ++p) {
+      e[p] = edge[p * kEdges + number];
+    }
+  }
+
+private:
+  template <std::size_t kValues>
+  static SIMDBEZIER_INLINE void load(const T* from, std::size_t step, V (&values)[kValues]) {
+    repeat<kValues / kQuad<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+      load_across(from + k * kQuad<V>, step, values + k * kQuad<V>);
+    });
+  }
+};
+
+/// The positions of one component, row after row.
+template <typename V, std::size_t kInner>
+SIMDBEZIER_INLINE void positions_across(const ComponentAcross<V>& c,
+                                        const SmallGridAcross<V, kInner>& grid, V* sample) {
+  const std::size_t nu = grid.nu;
+  V* const last_row = sample + (grid.nv - 1) * nu;
+  V q[kOrder];
+  grid.for_columns([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+    c.column(grid.column[i].y, q);
+    V* const first = sample + nu + 1 + i;
+    grid.for_row_values(q, [&](std::size_t r, V value)
+                               SIMDBEZIER_INLINE_LAMBDA { first[r * nu] = value; });
+  });
+  repeat<2>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA {
+    V* const along = s == 0 ? sample : last_row;
+    c.edge_cubic(detail::kEdgeV0 + s, q);
+    grid.for_columns([&](std::size_t i)
+                         SIMDBEZIER_INLINE_LAMBDA { along[1 + i] = row_value(q, grid.column[i]); });
+    along[0] = c.corner[detail::corner_index(0, s)];
+    along[nu - 1] = c.corner[detail::corner_index(1, s)];
+    c.edge_cubic(detail::kEdgeU0 + s, q);
+    V* const first = sample + nu + s * (nu - 1);
+    grid.for_row_values(q, [&](std::size_t r, V value)
+                               SIMDBEZIER_INLINE_LAMBDA { first[r * nu] = value; });
+  });
+}
+
+/// Lane p of sample k to to[p * step + k].
+template <typename V>
+SIMDBEZIER_INLINE void put_across(const V* sample, std::size_t samples, ScalarOf<V>* to,
+                                  std::size_t step) {
+  constexpr std::size_t kTogether = kQuad<V>;
+  std::size_t k = 0;
+  for (; k + kTogether <= samples; k += kTogether) {
+    store_across(sample + k, to + k, step);
+  }
+  if (k < samples) { // some of them once more
+    store_across(sample + samples - kTogether, to + samples - kTogether, step);
+  }
+}
+
+/// Calls sweep(patch, new ones) for registers of patches; the task has at least one.
+template <typename T, typename Sweep>
+SIMDBEZIER_INLINE void for_patches_across(const GridTask<T>& task, const Sweep& sweep) {
+  constexpr std::size_t kL = kLanes<vec<T>>;
+  constexpr std::size_t kPrefetched = 4; // so far ahead is prefetch_patch()
+  for (std::size_t done = 0; done < task.patch_count;) {
+    const std::size_t left = task.patch_count - done;
+    const std::size_t fresh = left < kL ? left : kL;
+    if (task.prefetch) {
+      for (std::size_t p = 0; p < fresh; ++p) {
+        prefetch_patch(task, done + p + kL - kPrefetched);
+      }
+    }
+    sweep(done + fresh - kL, fresh);
+    done += fresh;
+  }
+}
+
+template <std::size_t kInner, typename T>
+__attribute__((noinline)) void sweep_positions_across(const GridTask<T>& shared_task) {
+  using V = vec<T>;
+  const GridTask<T> task = shared_task;
+  const SmallGridAcross<V, kInner> grid(task);
+  for_patches_across(task, [&](std::size_t patch, std::size_t fresh) SIMDBEZIER_INLINE_LAMBDA {
+    for (std::size_t c = 0; c < 3; ++c) {
+      V sample[kMostSmallSamples];
+      positions_across(ComponentAcross<V>(task, patch, c), grid, sample);
+      put_across(sample, grid.samples(),
+                 task.out[detail::kPositionGroup].component[c] + patch * task.patch_step,
+                 task.patch_step);
+    }
+    drain_some(task.drain, fresh * 3 * grid.samples());
+  });
+}
+
+/// Positions and first derivatives of one component, row after row.
+template <typename V>
+struct JetsAcross {
+  V p[kMostSmallSamples];
+  V du[kMostSmallSamples];
+  V dv[kMostSmallSamples];
+
+  template <std::size_t kInner>
+  SIMDBEZIER_INLINE void find(const ComponentAcross<V>& c, const SmallGridAcross<V, kInner>& grid) {
+    const std::size_t nu = grid.nu;
+    const std::size_t last_row = (grid.nv - 1) * nu;
+    V q[kOrder];
+    V dq[kOrder];
+    grid.for_columns([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+      c.column(grid.column[i].y, q, dq);
+      grid.for_rows([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+        const std::size_t at = (1 + r) * nu + 1 + i;
+        p[at] = row_value(q, grid.row[r], dv[at]);
+        du[at] = row_value(dq, grid.row[r]);
+      });
+      dv[1 + i] = row_slope(q, grid.end[0]);
+      dv[last_row + 1 + i] = row_slope(q, grid.end[1]);
+    });
+    repeat<2>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA {
+      const std::size_t along_u = s * last_row;
+      const std::size_t along_v = s * (nu - 1);
+      c.edge_cubic(detail::kEdgeV0 + s, q);
+      grid.for_columns([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+        p[along_u + 1 + i] = row_value(q, grid.column[i], du[along_u + 1 + i]);
+      });
+      p[along_u] = c.corner[detail::corner_index(0, s)];
+      p[along_u + nu - 1] = c.corner[detail::corner_index(1, s)];
+      du[along_u] = row_slope(q, grid.end[0]);
+      du[along_u + nu - 1] = row_slope(q, grid.end[1]);
+      V of_patch[kOrder]; // the edge's control points do not determine du
+      c.column(grid.end[s].y, of_patch, dq);
+      c.edge_cubic(detail::kEdgeU0 + s, q);
+      grid.for_rows([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+        const std::size_t at = (1 + r) * nu + along_v;
+        p[at] = row_value(q, grid.row[r], dv[at]);
+        du[at] = row_value(dq, grid.row[r]);
+      });
+      dv[along_v] = row_slope(q, grid.end[0]);
+      dv[last_row + along_v] = row_slope(q, grid.end[1]);
+    });
+  }
+};
+
+template <std::size_t kInner, typename T>
+__attribute__((noinline)) void sweep_derivatives_across(const GridTask<T>& shared_task) {
+  using V = vec<T>;
+  const GridTask<T> task = shared_task;
+  const SmallGridAcross<V, kInner> grid(task);
+  for_patches_across(task, [&](std::size_t patch, std::size_t fresh) SIMDBEZIER_INLINE_LAMBDA {
+    const std::size_t at = patch * task.patch_step;
+    for (std::size_t c = 0; c < 3; ++c) {
+      JetsAcross<V> jets;
+      jets.find(ComponentAcross<V>(task, patch, c), grid);
+      const auto put = [&](detail::Group group, const V* sample) SIMDBEZIER_INLINE_LAMBDA {
+        put_across(sample, grid.samples(), task.out[group].component[c] + at, task.patch_step);
+      };
+      put(detail::kPositionGroup, jets.p);
+      put(detail::kDuGroup, jets.du);
+      put(detail::kDvGroup, jets.dv);
+    }
+    drain_some(task.drain, fresh * 9 * grid.samples());
+  });
+}
+
+/// Normals of a register of patches that did not all pass the quick test.
+template <std::size_t kInner, typename V>
+__attribute__((noinline, cold)) void
+resolve_normals_across(const GridTask<ScalarOf<V>>& task, const SmallGridAcross<V, kInner>& grid,
+                       std::size_t patch, const V* squared, V floor) {
+  for (std::size_t k = 0; k < grid.samples(); ++k) {
+    const std::size_t row = k / grid.nu;
+    const V x = broadcast<V>(grid.x[k % grid.nu]);
+    const V y = row == 0 ? grid.end[0].y : row + 1 < grid.nv ? grid.row[row - 1].y : grid.end[1].y;
+    for (std::size_t p = 0; p < kLanes<V>; ++p) {
+      const Suspects suspects{p, 1, 1, 1, (patch + p) * task.patch_step + k, 0, 1};
+      resolve_normals(task, patch + p, suspects, x, y, squared[k], floor);
+    }
+  }
+}
+
+template <std::size_t kInner, typename T>
+__attribute__((noinline)) void sweep_normals_across(const GridTask<T>& shared_task) {
+  using V = vec<T>;
+  const GridTask<T> task = shared_task;
+  const SmallGridAcross<V, kInner> grid(task);
+  for_patches_across(task, [&](std::size_t patch, std::size_t fresh) SIMDBEZIER_INLINE_LAMBDA {
+    const std::size_t at = patch * task.patch_step;
+    const auto put = [&](detail::Group group, std::size_t c,
+                         const V* sample) SIMDBEZIER_INLINE_LAMBDA {
+      put_across(sample, grid.samples(), task.out[group].component[c] + at, task.patch_step);
+    };
+    JetsAcross<V> jets[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+      jets[c].find(ComponentAcross<V>(task, patch, c), grid);
+      put(detail::kPositionGroup, c, jets[c].p);
+    }
+    const V floor = load_vector<V>(task.normal_floor + patch);
+    V squared[kMostSmallSamples];
+    bool passed = true;
+    for (std::size_t k = 0; k < grid.samples(); ++k) {
+      NormalSamples<V> s;
+      for (std::size_t c = 0; c < 3; ++c) {
+        s.jet[c] = {jets[c].p[k], jets[c].du[k], jets[c].dv[k]};
+      }
+      s.cross();
+      for (std::size_t c = 0; c < 3; ++c) {
+        jets[c].p[k] = s.normal[c];
+      }
+      squared[k] = s.squared;
+      passed = passed && all_of<V>(s.squared > floor);
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      put(detail::kNormalGroup, c, jets[c].p);
+    }
+    if (!passed) [[unlikely]] {
+      resolve_normals_across(shared_task, grid, patch, squared, floor);
+    }
+    drain_some(task.drain, fresh * 6 * grid.samples());
+  });
+}
+
+/// Whether there is a register of patches, results go to planes, and rows are no whole registers,
+/// whose tangents tiles find as fast.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_INLINE bool pays_across(const GridTask<T>& task) {
+  constexpr std::size_t kL = kLanes<vec<T>>;
+  return task.patch_count >= kL && task.record <= 1 && !task.streaming &&
+         (kOutputs == detail::kPosition || task.nu != kL);
+}
+
+template <detail::OutputSet kOutputs, std::size_t kInner, typename T>
+SIMDBEZIER_INLINE void sweep_across(const GridTask<T>& task) {
+  if constexpr (kOutputs == detail::kPosition) {
+    sweep_positions_across<kInner>(task);
+  } else if constexpr (kOutputs == detail::kPositionNormal) {
+    sweep_normals_across<kInner>(task);
+  } else {
+    sweep_derivatives_across<kInner>(task);
+  }
+}
+
+/// A small grid of at least a register of patches.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_INLINE void sweep_small_grid_across(const GridTask<T>& task) {
+  if (task.nu == task.runs[1].rows + std::size_t{2} &&
+      are_mirrored(task.runs[1].y, task.runs[1].rows)) {
+    if (task.nu == 4) {
+      return sweep_across<kOutputs, 2>(task);
+    }
+    if (task.nu == 5) {
+      return sweep_across<kOutputs, 3>(task);
+    }
+  }
+  sweep_across<kOutputs, 0>(task);
+}
+
+#endif
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
