@@ -14,7 +14,7 @@
 #include "kernels/grid/patch_sweeps.hpp"
 #include "kernels/grid/record_rows.hpp"
 #include "kernels/grid/small_grid_jets.hpp"
-#include "kernels/grid/small_grids_across.hpp"
+#include "kernels/grid/small_jets_across.hpp"
 #include "kernels/grid/square_sweeps.hpp"
 #include "kernels/simd/register_pair.hpp"
 

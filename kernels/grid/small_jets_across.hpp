@@ -1,0 +1,175 @@
+// Small grids whose lanes are patches (grid/small_grids_across.hpp): positions with first
+// derivatives or normals.
+#pragma once
+
+#include "kernels/grid/small_grids_across.hpp"
+#include "kernels/grid/tile_normals.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+#if defined(SIMDBEZIER_KERNELS_AVX2)
+
+/// Positions and first derivatives of one component, row after row.
+template <typename V>
+struct JetsAcross {
+  V p[kMostSmallSamples];
+  V du[kMostSmallSamples];
+  V dv[kMostSmallSamples];
+
+  template <std::size_t kInner>
+  SIMDBEZIER_INLINE void find(const ComponentAcross<V>& c, const SmallGridAcross<V, kInner>& grid) {
+    const std::size_t nu = grid.nu;
+    const std::size_t last_row = (grid.nv - 1) * nu;
+    V q[kOrder];
+    V dq[kOrder];
+    grid.for_columns([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+      c.column(grid.column[i].y, q, dq);
+      grid.for_rows([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+        const std::size_t at = (1 + r) * nu + 1 + i;
+        p[at] = row_value(q, grid.row[r], dv[at]);
+        du[at] = row_value(dq, grid.row[r]);
+      });
+      dv[1 + i] = row_slope(q, grid.end[0]);
+      dv[last_row + 1 + i] = row_slope(q, grid.end[1]);
+    });
+    repeat<2>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA {
+      const std::size_t along_u = s * last_row;
+      const std::size_t along_v = s * (nu - 1);
+      c.edge_cubic(detail::kEdgeV0 + s, q);
+      grid.for_columns([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+        p[along_u + 1 + i] = row_value(q, grid.column[i], du[along_u + 1 + i]);
+      });
+      p[along_u] = c.corner[detail::corner_index(0, s)];
+      p[along_u + nu - 1] = c.corner[detail::corner_index(1, s)];
+      du[along_u] = row_slope(q, grid.end[0]);
+      du[along_u + nu - 1] = row_slope(q, grid.end[1]);
+      V of_patch[kOrder]; // the edge's control points do not determine du
+      c.column(grid.end[s].y, of_patch, dq);
+      c.edge_cubic(detail::kEdgeU0 + s, q);
+      grid.for_rows([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+        const std::size_t at = (1 + r) * nu + along_v;
+        p[at] = row_value(q, grid.row[r], dv[at]);
+        du[at] = row_value(dq, grid.row[r]);
+      });
+      dv[along_v] = row_slope(q, grid.end[0]);
+      dv[last_row + along_v] = row_slope(q, grid.end[1]);
+    });
+  }
+};
+
+template <std::size_t kInner, typename T>
+__attribute__((noinline)) void sweep_derivatives_across(const GridTask<T>& shared_task) {
+  using V = vec<T>;
+  const GridTask<T> task = shared_task;
+  const SmallGridAcross<V, kInner> grid(task);
+  for_patches_across(task, [&](std::size_t patch, std::size_t fresh) SIMDBEZIER_INLINE_LAMBDA {
+    const std::size_t at = patch * task.patch_step;
+    for (std::size_t c = 0; c < 3; ++c) {
+      JetsAcross<V> jets;
+      jets.find(ComponentAcross<V>(task, patch, c), grid);
+      const auto put = [&](detail::Group group, const V* sample) SIMDBEZIER_INLINE_LAMBDA {
+        put_across(sample, grid.samples(), task.out[group].component[c] + at, task.patch_step);
+      };
+      put(detail::kPositionGroup, jets.p);
+      put(detail::kDuGroup, jets.du);
+      put(detail::kDvGroup, jets.dv);
+    }
+    drain_some(task.drain, fresh * 9 * grid.samples());
+  });
+}
+
+/// Normals of a register of patches that did not all pass the quick test.
+template <std::size_t kInner, typename V>
+__attribute__((noinline, cold)) void
+resolve_normals_across(const GridTask<ScalarOf<V>>& task, const SmallGridAcross<V, kInner>& grid,
+                       std::size_t patch, const V* squared, V floor) {
+  for (std::size_t k = 0; k < grid.samples(); ++k) {
+    const std::size_t row = k / grid.nu;
+    const V x = broadcast<V>(grid.x[k % grid.nu]);
+    const V y = row == 0 ? grid.end[0].y : row + 1 < grid.nv ? grid.row[row - 1].y : grid.end[1].y;
+    for (std::size_t p = 0; p < kLanes<V>; ++p) {
+      const Suspects suspects{p, 1, 1, 1, (patch + p) * task.patch_step + k, 0, 1};
+      resolve_normals(task, patch + p, suspects, x, y, squared[k], floor);
+    }
+  }
+}
+
+template <std::size_t kInner, typename T>
+__attribute__((noinline)) void sweep_normals_across(const GridTask<T>& shared_task) {
+  using V = vec<T>;
+  const GridTask<T> task = shared_task;
+  const SmallGridAcross<V, kInner> grid(task);
+  for_patches_across(task, [&](std::size_t patch, std::size_t fresh) SIMDBEZIER_INLINE_LAMBDA {
+    const std::size_t at = patch * task.patch_step;
+    const auto put = [&](detail::Group group, std::size_t c,
+                         const V* sample) SIMDBEZIER_INLINE_LAMBDA {
+      put_across(sample, grid.samples(), task.out[group].component[c] + at, task.patch_step);
+    };
+    JetsAcross<V> jets[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+      jets[c].find(ComponentAcross<V>(task, patch, c), grid);
+      put(detail::kPositionGroup, c, jets[c].p);
+    }
+    const V floor = load_vector<V>(task.normal_floor + patch);
+    V squared[kMostSmallSamples];
+    bool passed = true;
+    for (std::size_t k = 0; k < grid.samples(); ++k) {
+      NormalSamples<V> s;
+      for (std::size_t c = 0; c < 3; ++c) {
+        s.jet[c] = {jets[c].p[k], jets[c].du[k], jets[c].dv[k]};
+      }
+      s.cross();
+      for (std::size_t c = 0; c < 3; ++c) {
+        jets[c].p[k] = s.normal[c];
+      }
+      squared[k] = s.squared;
+      passed = passed && all_of<V>(s.squared > floor);
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      put(detail::kNormalGroup, c, jets[c].p);
+    }
+    if (!passed) [[unlikely]] {
+      resolve_normals_across(shared_task, grid, patch, squared, floor);
+    }
+    drain_some(task.drain, fresh * 6 * grid.samples());
+  });
+}
+
+/// Whether there is a register of patches, results go to planes, and rows are no whole registers,
+/// whose tangents tiles find as fast.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_INLINE bool pays_across(const GridTask<T>& task) {
+  constexpr std::size_t kL = kLanes<vec<T>>;
+  return task.patch_count >= kL && task.record <= 1 && !task.streaming &&
+         (kOutputs == detail::kPosition || task.nu != kL);
+}
+
+template <detail::OutputSet kOutputs, std::size_t kInner, typename T>
+SIMDBEZIER_INLINE void sweep_across(const GridTask<T>& task) {
+  if constexpr (kOutputs == detail::kPosition) {
+    sweep_positions_across<kInner>(task);
+  } else if constexpr (kOutputs == detail::kPositionNormal) {
+    sweep_normals_across<kInner>(task);
+  } else {
+    sweep_derivatives_across<kInner>(task);
+  }
+}
+
+/// A small grid of at least a register of patches.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_INLINE void sweep_small_grid_across(const GridTask<T>& task) {
+  if (task.nu == task.runs[1].rows + std::size_t{2} &&
+      are_mirrored(task.runs[1].y, task.runs[1].rows)) {
+    if (task.nu == 4) {
+      return sweep_across<kOutputs, 2>(task);
+    }
+    if (task.nu == 5) {
+      return sweep_across<kOutputs, 3>(task);
+    }
+  }
+  sweep_across<kOutputs, 0>(task);
+}
+
+#endif
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
