@@ -187,6 +187,16 @@ TEST(MeshStatistics, ThatCannotBePrintedLeaveNoMesh) {
   }
 }
 
+// A mesh so small that no more than its last bytes are refused.
+TEST(MeshStatistics, AreNotPrintedWhereThereIsNoMesh) {
+  for (const std::string extension : kExtensions) {
+    const Outcome outcome = run({"tessellate", "builtin:teapot", "--grid", "2", "--stats=json",
+                                 "-o", "/dev/full", "--to", extension});
+    expect_failure(outcome, 1, "/dev/full: expected room to write");
+    EXPECT_EQ(outcome.out, "") << extension;
+  }
+}
+
 TEST(MeshToStandardOutput, IsTheFile) {
   for (const std::string extension : kExtensions) {
     const Outcome outcome =
