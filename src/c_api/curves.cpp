@@ -1,8 +1,7 @@
 // Curves of simdbezier.h.
 #include <simdbezier/iso_curves.hpp>
 
-#include "src/c_api/handles.hpp"
-#include "src/c_api/views.hpp"
+#include "src/c_api/evaluate_set.hpp"
 #include "src/nets/net_call.hpp"
 
 namespace simdbezier::c_api {
@@ -78,20 +77,12 @@ simdbezier_status evaluate_at(const char* function, const simdbezier_curve_set* 
                               const Where* given, const Path& path,
                               const simdbezier_curve_outputs* out,
                               const simdbezier_options* options) noexcept {
-  return answer(function, [&] {
-    with_set(set, kSet, [&]<typename T>(const CurveSet<T>& curves) {
-      const auto where = where_of<T>(given);
-      const CurveOutputs<T> to = outputs_of<T>(out);
-      const CallOptions how(options);
-      require_ok(evaluate(curves, where, to, *how), [&](Status status) {
-        const Path blamed = blamed_in_call(status, path);
-        return blamed.is_of(kOut) && blamed.member == nullptr
-                   ? blamed_output(to, status, sample_count(curves, where),
-                                   std::int64_t{curves.components()} - to.first_component)
-                   : blamed;
-      });
-    });
-  });
+  return evaluate_set(
+      function, set, path, options,
+      [&]<typename T>(std::type_identity<T>) {
+        return SetCall{where_of<T>(given), outputs_of<T>(out)};
+      },
+      [](const auto&... what) { return blamed_output(what...); });
 }
 
 template <typename Where>

@@ -3,8 +3,7 @@
 #include <simdbezier/evaluate.hpp>
 #include <simdbezier/tiles.hpp>
 
-#include "src/c_api/handles.hpp"
-#include "src/c_api/views.hpp"
+#include "src/c_api/evaluate_set.hpp"
 
 namespace simdbezier::c_api {
 namespace {
@@ -102,20 +101,12 @@ template <typename Where>
 simdbezier_status evaluate_at(const char* function, const simdbezier_patch_set* set,
                               const Where* given, const Path& path, const simdbezier_outputs* out,
                               const simdbezier_options* options) noexcept {
-  return answer(function, [&] {
-    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
-      const auto where = where_of<T>(given);
-      const Outputs<T> to = outputs_of<T>(out);
-      const CallOptions how(options);
-      require_ok(evaluate(patches, where, to, *how), [&](Status status) {
-        const Path blamed = blamed_in_call(status, path);
-        return blamed.is_of(kOut) && blamed.member == nullptr
-                   ? blamed_output(to, status, sample_count(patches, where),
-                                   std::int64_t{patches.components()} - to.first_component)
-                   : blamed;
-      });
-    });
-  });
+  return evaluate_set(
+      function, set, path, options,
+      [&]<typename T>(std::type_identity<T>) {
+        return SetCall{where_of<T>(given), outputs_of<T>(out)};
+      },
+      [](const auto&... what) { return blamed_output(what...); });
 }
 
 /// evaluate_derivatives() of grids and samples.

@@ -7,8 +7,6 @@
 #include <new>
 #include <stdexcept>
 
-#include <simdbezier/error_bounds.hpp>
-
 #include "src/calls/curve_input.hpp"
 #include "src/mesh/chord_bound.hpp"
 #include "src/runtime/fp_environment.hpp"
@@ -196,29 +194,6 @@ Status flatten_into(const ControlCurves<S>& curves, double tolerance, const Opti
 } // namespace
 } // namespace detail
 
-template <typename T>
-Status position_errors(const CurveSet<T>& set, std::span<double> out, Isa isa) noexcept {
-  if (out.size() < set.size()) {
-    return Status::output_too_small;
-  }
-  Isa chosen = Isa::automatic;
-  if (const Status status = resolve_isa(isa, chosen); !status) {
-    return status;
-  }
-  const detail::DefaultFpEnvironment environment;
-  for (std::size_t curve = 0; curve < set.size(); ++curve) {
-    double square = 0;
-    double norm = 0; // taken where squares overflow or vanish
-    for (const double error : error_bounds(set, curve, chosen).position) {
-      square += error * error;
-      norm = std::hypot(norm, error);
-    }
-    const bool usual = square > 0x1p-900 && square < 0x1p900;
-    out[curve] = (usual ? std::sqrt(square) : norm) * (1 + 0x1p-40);
-  }
-  return Status::ok;
-}
-
 template <typename S>
 FlattenReport choose_polylines(const ControlCurves<S>& curves, const FlattenOptions& options,
                                std::span<std::uint32_t> points,
@@ -277,10 +252,6 @@ Polylines<T> flatten(const ControlCurves<S>& curves, double tolerance,
   return none;
 }
 
-template SIMDBEZIER_API Status position_errors(const CurveSet<float>&, std::span<double>,
-                                               Isa) noexcept;
-template SIMDBEZIER_API Status position_errors(const CurveSet<double>&, std::span<double>,
-                                               Isa) noexcept;
 #define SIMDBEZIER_INSTANTIATE(S)                                                                  \
   template SIMDBEZIER_API FlattenReport choose_polylines(                                          \
       const ControlCurves<S>&, const FlattenOptions&, std::span<std::uint32_t>,                    \

@@ -1,10 +1,7 @@
 // See rates.hpp.
 #include <simdbezier/rates.hpp>
 
-#include <cmath>
 #include <new>
-
-#include <simdbezier/error_bounds.hpp>
 
 #include "src/mesh/net_points.hpp"
 #include "src/mesh/rate_call.hpp"
@@ -45,27 +42,6 @@ RateReport check(std::span<const ControlNets<S>> sets, const Topology& topology,
 
 } // namespace
 } // namespace detail
-
-template <typename T>
-Status position_errors(const PatchSet<T>& set, std::span<double> out, Isa isa) noexcept {
-  if (out.size() < set.size()) {
-    return Status::output_too_small;
-  }
-  Isa chosen = Isa::automatic;
-  if (const Status status = resolve_isa(isa, chosen); !status) {
-    return status;
-  }
-  const detail::DefaultFpEnvironment environment;
-  for (std::size_t patch = 0; patch < set.size(); ++patch) {
-    const auto& error = error_bounds(set, patch, chosen).position;
-    out[patch] = detail::length({error[0], error[1], error[2]}) * (1 + 0x1p-40);
-  }
-  return Status::ok;
-}
-template SIMDBEZIER_API Status position_errors(const PatchSet<float>&, std::span<double>,
-                                               Isa) noexcept;
-template SIMDBEZIER_API Status position_errors(const PatchSet<double>&, std::span<double>,
-                                               Isa) noexcept;
 
 template <typename S>
 RateReport certify_rates(std::span<const ControlNets<S>> sets, const Topology& topology,
