@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 namespace simdbezier::detail {
 namespace {
@@ -34,11 +35,18 @@ public:
 
   /// The corners of a patch that another one has as well.
   [[nodiscard]] Mask common_corners(std::size_t a, std::size_t b) const {
-    Mask corners = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      corners |= has_corner(b, corner(a, k)) << k;
-    }
-    return corners;
+    // Each of one against each of the other, four at once: these are most of all comparisons.
+    typedef std::uint32_t Four __attribute__((vector_size(16)));
+    Four own;
+    Four others;
+    std::memcpy(&own, &topology_.corners[kPatchCorners * a], sizeof own);
+    std::memcpy(&others, &topology_.corners[kPatchCorners * b], sizeof others);
+    const auto is_one = (own == others) |
+                        (own == __builtin_shufflevector(others, others, 1, 2, 3, 0)) |
+                        (own == __builtin_shufflevector(others, others, 2, 3, 0, 1)) |
+                        (own == __builtin_shufflevector(others, others, 3, 0, 1, 2));
+    const auto bits = is_one & Four{1, 2, 4, 8};
+    return static_cast<Mask>(bits[0] | bits[1] | bits[2] | bits[3]);
   }
   /// Whether two patches share more than one corner, or than one edge with its ends.
   [[nodiscard]] bool entangled(std::size_t a, std::size_t b, Mask corners) const {
@@ -75,12 +83,6 @@ private:
   }
   [[nodiscard]] std::uint32_t corner(std::size_t patch, std::size_t k) const {
     return topology_.corners[kPatchCorners * patch + k];
-  }
-  /// Without branches, because either is as likely.
-  [[nodiscard]] Mask has_corner(std::size_t patch, std::uint32_t which) const {
-    const auto* const at = &topology_.corners[kPatchCorners * patch];
-    return Mask{at[0] == which} | Mask{at[1] == which} | Mask{at[2] == which} |
-           Mask{at[3] == which};
   }
   [[nodiscard]] bool has_edge(std::size_t patch, std::uint32_t edge) const {
     const auto* const first = &topology_.sides[kPatchEdges * patch];
@@ -252,8 +254,11 @@ void mark_entangled(TopologyData& topology) {
       }
       marked = std::any_of(at.patches.begin() + at.first[corner],
                            at.patches.begin() + at.first[corner + 1], [&](std::uint32_t other) {
+                             if (other == patch) {
+                               return false;
+                             }
                              const Mask common = neighbours.common_corners(patch, other);
-                             return other != patch && (common & compared) == 0 &&
+                             return (common & compared) == 0 &&
                                     neighbours.entangled(patch, other, common);
                            });
       compared |= 1U << k;

@@ -9,23 +9,25 @@
 namespace simdbezier::detail {
 namespace {
 
-/// The first control point along a side, from a corner on, that is not the corner's: as a
-/// difference.
+/// The differences of a corner's control point from the first one in u, and in v, that is not the
+/// same.
 template <typename S>
-Point3 leaves(const ControlNets<S>& nets, std::size_t patch, std::size_t corner, bool in_u) {
+std::pair<Point3, Point3> leaves(const ControlNets<S>& nets, std::size_t patch,
+                                 std::size_t corner) {
   const bool at_u1 = corner % 2 != 0;
   const bool at_v1 = corner >= 2;
   const std::ptrdiff_t i = at_u1 ? nets.degree_u : 0;
   const std::ptrdiff_t j = at_v1 ? nets.degree_v : 0;
   const Point3 from = point_at(nets, patch, i, j);
-  const std::ptrdiff_t degree = in_u ? nets.degree_u : nets.degree_v;
-  Point3 difference{};
-  for (std::ptrdiff_t k = 1; k <= degree && !(length(difference) > 0); ++k) {
-    difference = (in_u ? point_at(nets, patch, at_u1 ? i - k : k, j)
-                       : point_at(nets, patch, i, at_v1 ? j - k : k)) -
-                 from;
+  Point3 in_u{};
+  for (std::ptrdiff_t k = 1; k <= nets.degree_u && !has_length(in_u); ++k) {
+    in_u = point_at(nets, patch, at_u1 ? i - k : k, j) - from;
   }
-  return difference;
+  Point3 in_v{};
+  for (std::ptrdiff_t k = 1; k <= nets.degree_v && !has_length(in_v); ++k) {
+    in_v = point_at(nets, patch, i, at_v1 ? j - k : k) - from;
+  }
+  return {in_u, in_v};
 }
 
 /// Whether patch b read in one of eight ways has the values of patch a.
@@ -111,8 +113,7 @@ bool NetCorners<S>::side_within(std::size_t side, double distance) const {
 template <typename S>
 bool NetCorners<S>::sides_leave_together(std::size_t patch, std::size_t corner) const noexcept {
   const Place at = place(patch);
-  Point3 a = leaves(*at.nets, at.patch, corner, true);
-  Point3 b = leaves(*at.nets, at.patch, corner, false);
+  auto [a, b] = leaves(*at.nets, at.patch, corner);
   const auto is_usual = [](const Point3& d) { return dot(d, d) > 0x1p-200 && dot(d, d) < 0x1p200; };
   if (!is_usual(a) || !is_usual(b)) { // products of squares would overflow or vanish
     int exponent = 0;
@@ -180,29 +181,52 @@ void mark_repeated_of(const NetCorners<S>& nets, std::span<const std::uint32_t> 
   }
 }
 
+/// Numbers of a patch's edges, ascending; ~0 for sides that are points.
+using FourEdges = std::array<std::uint32_t, kPatchEdges>;
+
+FourEdges edges_of(const TopologyData& topology, std::size_t patch) {
+  FourEdges edges;
+  for (std::size_t k = 0; k < kPatchEdges; ++k) {
+    const Side& side = topology.sides[kPatchEdges * patch + k];
+    edges[k] = side.collapsed() ? ~0U : side.edge();
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+/// Whether another patch has the same four edges, or may have: one would be at each of the edges,
+/// and so at the one with the fewest sides. Patches all of whose sides are points may be the same.
+bool may_be_repeated(const TopologyData& topology, std::size_t patch) {
+  constexpr std::size_t kMostCompared = 64;
+  std::span<const std::uint32_t> fewest;
+  for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
+    if (!topology.sides[side].collapsed()) {
+      const auto sides = topology.sides_of(topology.sides[side].edge());
+      fewest = fewest.empty() || sides.size() < fewest.size() ? sides : fewest;
+    }
+  }
+  if (fewest.empty() || fewest.size() > kMostCompared) {
+    return true;
+  }
+  const FourEdges own = edges_of(topology, patch);
+  return std::any_of(fewest.begin(), fewest.end(), [&](std::uint32_t side) {
+    return side / kPatchEdges != patch && edges_of(topology, side / kPatchEdges) == own;
+  });
+}
+
 } // namespace
 
 template <typename S>
 void mark_repeated(const NetCorners<S>& nets, TopologyData& topology) {
   // Only patches with the same four edges can be the same.
   struct Candidate {
-    std::array<std::uint32_t, kPatchEdges> edges;
+    FourEdges edges;
     std::uint32_t patch;
   };
   std::vector<Candidate> candidates;
   for (std::uint32_t patch = 0; patch < topology.patches(); ++patch) {
-    Candidate candidate{{}, patch};
-    bool alone = true;
-    for (std::size_t k = 0; k < kPatchEdges; ++k) {
-      const Side& side = topology.sides[kPatchEdges * patch + k];
-      candidate.edges[k] = side.collapsed() ? ~0U : side.edge();
-      alone = alone && (side.collapsed() || topology.sides_of(side.edge()).size() == 1);
-    }
-    const bool point = std::all_of(candidate.edges.begin(), candidate.edges.end(),
-                                   [](std::uint32_t edge) { return edge == ~0U; });
-    if (!alone || point) {
-      std::sort(candidate.edges.begin(), candidate.edges.end());
-      candidates.push_back(candidate);
+    if (may_be_repeated(topology, patch)) {
+      candidates.push_back({edges_of(topology, patch), patch});
     }
   }
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {

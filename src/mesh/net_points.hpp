@@ -30,6 +30,12 @@ inline bool is_finite(const Point3& a) noexcept { // a sum of large values would
   return std::isfinite(a.x[0]) && std::isfinite(a.x[1]) && std::isfinite(a.x[2]);
 }
 
+/// Whether length() is above 0.
+inline bool has_length(const Point3& a) noexcept {
+  const bool has_square = dot(a, a) > 0;
+  return has_square || (is_finite(a) && (a.x[0] != 0 || a.x[1] != 0 || a.x[2] != 0));
+}
+
 /// Scaled by a power of two, so that its largest value is between 1 and 2; vectors of 0 and those
 /// that are not finite stay as they are.
 inline Point3 scaled_to_one(const Point3& a, int& exponent) noexcept {
@@ -66,12 +72,15 @@ template <typename S>
 Point3 point_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t i,
                 std::ptrdiff_t j) noexcept {
   const S* const values = values_at(nets, patch, i, j);
-  const double divisor = nets.weights == Weights::homogeneous
-                             ? static_cast<double>(values[3 * nets.component_stride])
-                             : 1;
   Point3 point;
   for (std::ptrdiff_t c = 0; c < 3; ++c) {
-    point.x[c] = static_cast<double>(values[c * nets.component_stride]) / divisor;
+    point.x[c] = static_cast<double>(values[c * nets.component_stride]);
+  }
+  if (nets.weights == Weights::homogeneous) {
+    const auto divisor = static_cast<double>(values[3 * nets.component_stride]);
+    for (double& x : point.x) {
+      x /= divisor;
+    }
   }
   return point;
 }
