@@ -132,20 +132,14 @@ void WeldedMesh<T>::pack_all() {
   file_.reset();
 }
 
-// Cells where two sides of a patch are one edge have fewer triangles than the layout counts, which
-// the faces themselves show.
 template <typename T>
 void WeldedMesh<T>::count_faces() {
+  faces_ = layout_.size().triangles;
   if (arguments_.mesh.quads) {
     PolygonSize size;
     check(polygon_size(layout_, size, arguments_.threads));
     faces_ = size.polygons;
     among_quads_ = 4 * size.polygons - size.indices;
-    return;
-  }
-  for (Block block = block_from(0); block.count > 0;
-       block = block_from(block.first + block.count)) {
-    faces_ += faces(block).size() / 3;
   }
 }
 
@@ -246,14 +240,7 @@ std::span<const std::uint32_t> WeldedMesh<T>::faces(const Block& block) {
                        layout_.first_triangle(block.first)));
   check(write_triangles<std::uint32_t>(layout_, corners_, arguments_.threads,
                                        {block.first, block.count}));
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < corners_.size(); k += 3) {
-    if (corners_[k] != corners_[k + 1]) { // equal ones fill the place of a missing triangle
-      std::copy_n(&corners_[k], 3, &corners_[kept]);
-      kept += 3;
-    }
-  }
-  return std::span(corners_).first(kept);
+  return corners_;
 }
 
 template <typename T>

@@ -63,8 +63,8 @@ private:
 /// edge of the mesh with more than two triangles, a cell that two corners want to be cut
 /// differently. All other rates stay, also those of patches that repeat an earlier one, whose
 /// triangles coincide with its own, and of patches of which two neighbouring sides are one edge,
-/// since more cells would not help these. Patches whose four sides are one point get 3 x 3
-/// cells.
+/// since more cells would not help these. Between opposite sides that are points there are at least
+/// two cells, and three where a third side is a point, too.
 ///
 /// nu, nv:   one value a patch.
 /// raised:   the number of patches that changed.
@@ -81,8 +81,10 @@ private:
 /// points of edges that it owns (v0, v1, u0, u1, in the direction of its parameter), then its inner
 /// points row by row. The lowest of the patches that share a vertex owns it, on its first edge.
 ///
-/// Rates that separate_vertices() has not seen may leave patches whose sides are points without a
-/// triangle: those all of whose points are one vertex.
+/// Triangles with one vertex twice do not exist and do not count: cells at sides that are points,
+/// or between neighbouring sides that are one edge, have fewer than two. Rates that
+/// separate_vertices() has not seen may leave patches whose sides are points without a triangle:
+/// those all of whose points are one vertex.
 ///
 /// layout:     replaced on ok, left as it was otherwise.
 /// Allocation: about 40 bytes a patch and 8 an edge. Determinism: a function of its input alone.

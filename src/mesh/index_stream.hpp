@@ -36,10 +36,6 @@ public:
 
   /// Where the next numbers go.
   [[nodiscard]] Index* cursor() const noexcept { return cursor_; }
-  /// Where in the caller's memory a place of the buffer belongs.
-  [[nodiscard]] const Index* place_of(const Index* at) const noexcept {
-    return to_ + (at - buffer_);
-  }
   /// Numbers up to `end` are written; returns where at least kMostNumbers more can go.
   Index* make_room(Index* end) noexcept {
     cursor_ = end;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <new>
 
+#include "src/mesh/cells.hpp"
 #include "src/mesh/layout_builder.hpp"
 
 namespace simdbezier {
@@ -45,6 +46,35 @@ std::uint64_t triangles_of(const TopologyData& topology, const MeshData& mesh, s
     triangles -= mesh.rate(side);
   }
   return static_cast<std::uint64_t>(std::max<std::int64_t>(triangles, 0));
+}
+
+/// Counts what the cells of a patch become.
+struct TriangleCounter {
+  std::uint64_t triangles = 0;
+
+  void triangle(std::uint32_t, std::uint32_t, std::uint32_t) { ++triangles; }
+  void cell(const CellCorners&, bool) { triangles += 2; }
+  void cells(const CellCorners&, const CellSteps&, std::uint32_t count, bool) {
+    triangles += 2 * std::uint64_t{count};
+  }
+};
+
+/// Patches that touch themselves may have cells with one vertex twice, so that they have fewer
+/// triangles than triangles_of() says. Of all patches that may be such, they are counted.
+void count_entangled(const TopologyData& topology, MeshData& mesh) {
+  PatchBoundary boundary(mesh);
+  std::uint64_t counted = 0; // without correction
+  for (std::size_t patch = 0; patch < topology.patches(); ++patch) {
+    std::uint64_t triangles = mesh.triangles[patch + 1] - counted;
+    counted = mesh.triangles[patch + 1];
+    if ((topology.flags[patch] & kEntangled) != 0) {
+      TriangleCounter counter;
+      boundary.move_to(patch);
+      CellCutter(mesh, boundary, patch).cut(counter);
+      triangles = counter.triangles;
+    }
+    mesh.triangles[patch + 1] = mesh.triangles[patch] + triangles;
+  }
 }
 
 std::size_t boundary_samples(const TopologyData& topology, const MeshData& mesh,
@@ -116,6 +146,10 @@ Status number_vertices(std::span<const std::uint32_t> corner_groups, MeshData& m
     }
   }
   mesh.vertices = static_cast<std::uint32_t>(vertices);
+  if (std::any_of(topology.flags.begin(), topology.flags.end(),
+                  [](std::uint8_t flags) { return (flags & kEntangled) != 0; })) {
+    count_entangled(topology, mesh);
+  }
   return Status::ok;
 }
 

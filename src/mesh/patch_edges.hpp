@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,15 @@ struct MeshEdge {
   friend auto operator<=>(const MeshEdge&, const MeshEdge&) = default;
 };
 
+/// The only triangle of a patch. All of its edges may be segments of the patch's sides, so that
+/// they do not tell it from that of another patch with the same ones.
+struct OnlyTriangle {
+  std::array<std::uint32_t, 3> vertices; ///< ascending
+  std::uint32_t patch;
+
+  friend auto operator<=>(const OnlyTriangle&, const OnlyTriangle&) = default;
+};
+
 /// All diagonals from (0,0) to (1,1), or from (1,0) to (0,1).
 inline constexpr std::uint16_t kCuts[] = {0, 0x1ff};
 
@@ -28,6 +38,18 @@ class PatchEdges {
 public:
   PatchEdges(MeshData& mesh, PatchBoundary& boundary) : mesh_(mesh), boundary_(boundary) {}
 
+  /// Appends the patch's triangle if it has a single one.
+  void append(std::uint32_t patch, std::vector<OnlyTriangle>& triangles) {
+    if (mesh_.triangles[patch + 1] - mesh_.triangles[patch] != 1) {
+      return;
+    }
+    boundary_.move_to(patch);
+    mesh_.diagonals[patch] = kCuts[0];
+    cut(patch, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      triangles.push_back({{a, b, c}, patch});
+      std::sort(triangles.back().vertices.begin(), triangles.back().vertices.end());
+    });
+  }
   void append(std::uint32_t patch, std::vector<MeshEdge>& edges) {
     boundary_.move_to(patch);
     add_segments(patch, edges);
@@ -99,18 +121,23 @@ private:
 
   /// The edges of all triangles, by points of the patch.
   void add_points(std::uint32_t patch) {
-    PairSink sink{points_};
+    cut(patch, [this](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      points_.push_back(pair_of(a, b));
+      points_.push_back(pair_of(b, c));
+      points_.push_back(pair_of(c, a));
+    });
+  }
+  /// visit(a, b, c) for all triangles of a patch.
+  template <typename Visit>
+  void cut(std::uint32_t patch, const Visit& visit) {
+    TriangleVisitor<Visit> sink{visit};
     CellCutter(mesh_, boundary_, patch).cut(sink);
   }
-  /// The edges of triangles.
-  struct PairSink {
-    std::vector<std::uint64_t>& pairs;
+  template <typename Visit>
+  struct TriangleVisitor {
+    const Visit& visit;
 
-    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-      pairs.push_back(pair_of(a, b));
-      pairs.push_back(pair_of(b, c));
-      pairs.push_back(pair_of(c, a));
-    }
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) { visit(a, b, c); }
     void cell(const CellCorners& c, bool falling) {
       put_halves(c, falling, [&](auto... vertices) { triangle(vertices...); });
     }

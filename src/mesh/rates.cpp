@@ -1,6 +1,7 @@
 // See rates.hpp.
 #include <simdbezier/rates.hpp>
 
+#include <algorithm>
 #include <new>
 
 #include "src/mesh/net_points.hpp"
@@ -87,6 +88,11 @@ RateReport choose_rates(std::span<const ControlNets<S>> sets, const Topology& to
       report = call.settle(changed);
     }
     settled = settled && !changed;
+  }
+  for (std::size_t patch = 0; report && patch < out.nu.size(); ++patch) {
+    if (std::max(out.nu[patch], out.nv[patch]) > options.most_segments) {
+      return {Status::bad_tolerance, patch};
+    }
   }
   if (report && !settled) {
     return call.certify();

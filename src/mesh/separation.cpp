@@ -64,19 +64,21 @@ private:
     }
   }
 
-  /// Opposite sides that are points have a row of vertices between them; where all sides are, two
-  /// rows, so that there are triangles.
+  /// Opposite sides that are points have a row of vertices between them. Where a third side is a
+  /// point they are one and the same, and a single row would have two edges from each of its
+  /// vertices to it; where all four are, there would be no triangles.
   void raise_between_points() {
     for (std::size_t patch = 0; patch < nu_.size(); ++patch) {
       const Side* const sides = &data_.sides[kPatchEdges * patch];
       const bool in_v = sides[0].collapsed() && sides[1].collapsed();
       const bool in_u = sides[2].collapsed() && sides[3].collapsed();
-      const std::uint32_t least = in_u && in_v ? 3 : 2;
+      const auto points = std::count_if(sides, sides + kPatchEdges,
+                                        [](const Side& side) { return side.collapsed(); });
       if (in_v) {
-        raise(patch, false, least);
+        raise(patch, false, points > 2 ? 3 : 2);
       }
       if (in_u) {
-        raise(patch, true, least);
+        raise(patch, true, points > 2 ? 3 : 2);
       }
     }
   }
@@ -94,26 +96,30 @@ private:
     return (data_.flags[patch] & kEntangled) != 0 && std::min(nu_[patch], nv_[patch]) <= kFewCells;
   }
 
-  /// All edges of patches in doubt, with either diagonal: which ones there will be is not known
-  /// yet.
-  [[nodiscard]] std::vector<MeshEdge> edges_in_doubt() const {
-    std::vector<MeshEdge> edges;
+  /// What of patches in doubt may coincide.
+  struct Doubts {
+    std::vector<MeshEdge> edges; ///< with either diagonal: which it will be is not known yet
+    std::vector<OnlyTriangle> triangles;
+  };
+  [[nodiscard]] Doubts find_doubts() const {
+    Doubts doubts;
     bool any = false;
     for (std::size_t patch = 0; patch < nu_.size() && !any; ++patch) {
       any = in_doubt(patch);
     }
     MeshData mesh;
     if (!any || build_layout(topology_, {nu_, nv_, {}}, mesh) != Status::ok) {
-      return edges; // nothing, or too many vertices, which the layout will report
+      return doubts; // nothing, or too many vertices, which the layout will report
     }
     PatchBoundary boundary(mesh);
     PatchEdges own(mesh, boundary);
     for (std::uint32_t patch = 0; patch < nu_.size(); ++patch) {
       if (in_doubt(patch)) {
-        own.append(patch, edges);
+        own.append(patch, doubts.triangles);
+        own.append(patch, doubts.edges);
       }
     }
-    return edges;
+    return doubts;
   }
 
   /// Whether two neighbouring sides are one edge, folded at their corner: the cell there has one
@@ -133,18 +139,26 @@ private:
     return false;
   }
 
-  /// Raises both rates of all patches with edges that coincide, where that helps; returns whether
-  /// there were any.
-  bool raise_coinciding() {
-    doubtful_.clear();
-    std::vector<MeshEdge> edges = edges_in_doubt();
-    std::sort(edges.begin(), edges.end());
-    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-      while (end < edges.size() && edges[end].vertices == edges[begin].vertices) {
+  /// Calls visit(those) for all that have the same vertices.
+  template <typename Value, typename Visit>
+  static void for_same_vertices(std::vector<Value>& all, const Visit& visit) {
+    std::sort(all.begin(), all.end());
+    for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+      while (end < all.size() && all[end].vertices == all[begin].vertices) {
         ++end;
       }
-      add_coinciding(std::span(edges).subspan(begin, end - begin));
+      visit(std::span(all).subspan(begin, end - begin));
     }
+  }
+
+  /// Raises both rates of all patches with edges or triangles that coincide, where that helps;
+  /// returns whether there were any.
+  bool raise_coinciding() {
+    doubtful_.clear();
+    Doubts doubts = find_doubts();
+    for_same_vertices(doubts.edges, [this](std::span<MeshEdge> same) { add_coinciding(same); });
+    for_same_vertices(doubts.triangles,
+                      [this](std::span<OnlyTriangle> same) { add_coinciding(same); });
     std::sort(doubtful_.begin(), doubtful_.end());
     doubtful_.erase(std::unique(doubtful_.begin(), doubtful_.end()), doubtful_.end());
     std::erase_if(doubtful_, [&](std::uint32_t patch) { return is_folded(patch); });
@@ -177,6 +191,17 @@ private:
         if (same[k].patch == same[k - 1].patch && same[k].place != same[k - 1].place) {
           doubtful_.push_back(same[k].patch);
         }
+      }
+    }
+  }
+
+  /// Adds the patches that consist of the same triangle, unless one repeats the other.
+  void add_coinciding(std::span<const OnlyTriangle> same) {
+    const auto model = [&](const OnlyTriangle& one) { return data_.original_of(one.patch); };
+    if (std::any_of(same.begin(), same.end(),
+                    [&](const OnlyTriangle& one) { return model(one) != model(same.front()); })) {
+      for (const OnlyTriangle& one : same) {
+        doubtful_.push_back(one.patch);
       }
     }
   }

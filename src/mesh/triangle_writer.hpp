@@ -13,7 +13,7 @@ class TriangleWriter {
 public:
   /// to: where the first patch's triangles begin.
   TriangleWriter(const MeshData& mesh, const KernelTable<float>& table, Index* to, bool streaming)
-      : mesh_(mesh), sides_(mesh), boundary_(mesh), stream_(table, to, streaming), to_(to) {}
+      : mesh_(mesh), sides_(mesh), boundary_(mesh), stream_(table, to, streaming) {}
 
   void write(std::size_t first, std::size_t last) {
     Index* to = stream_.cursor();
@@ -23,7 +23,6 @@ public:
       to = !sides_.move_to(patch) ? write_any(patch, turned)
            : turned               ? write_regular<true>(patch, to)
                                   : write_regular<false>(patch, to);
-      to = fill(to, to_ + 3 * (mesh_.triangles[patch + 1] - mesh_.triangles[first]));
     }
     stream_.finish(to);
   }
@@ -40,21 +39,10 @@ private:
     return sink.end();
   }
 
-  /// Where neighbouring sides of a patch are one edge, cells between them have fewer triangles than
-  /// were counted: the last vertex fills the places of missing ones.
-  Index* fill(Index* to, const Index* end) {
-    while (stream_.place_of(to) < end) {
-      std::fill_n(to, 3, static_cast<Index>(mesh_.vertices - 1));
-      to = stream_.make_room(to + 3);
-    }
-    return to;
-  }
-
   const MeshData& mesh_;
   LinearSides sides_;
   PatchBoundary boundary_;
   IndexStream<Index> stream_;
-  Index* to_;
 };
 
 } // namespace simdbezier::detail

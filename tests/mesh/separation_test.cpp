@@ -1,11 +1,13 @@
 // Rates that are raised so that meshes are surfaces, and rates that stay as they are.
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/rates.hpp>
 
 #include "tests/mesh/mesh_models.hpp"
 #include "tests/mesh/triangle_census.hpp"
@@ -25,7 +27,10 @@ struct SeparatedMesh {
   TriangleCensus census;
 
   SeparatedMesh(const ControlNets<double>& nets, std::uint32_t rate_u, std::uint32_t rate_v)
-      : nu(nets.count, rate_u), nv(nets.count, rate_v) {
+      : SeparatedMesh(nets, std::vector(nets.count, rate_u), std::vector(nets.count, rate_v)) {}
+  SeparatedMesh(const ControlNets<double>& nets, std::vector<std::uint32_t> rates_u,
+                std::vector<std::uint32_t> rates_v)
+      : nu(std::move(rates_u)), nv(std::move(rates_v)) {
     EXPECT_EQ(find_topology(nets, topology), Status::ok);
     EXPECT_EQ(separate_vertices(topology, nu, nv, raised), Status::ok);
     MeshLayout layout;
@@ -175,6 +180,73 @@ TEST(Separation, gives_patches_between_points_triangles) {
                       mesh.census.degenerate + mesh.census.unused,
                   0U);
       }
+    }
+  }
+}
+
+/// A patch with some sides that are the origin (1: v0, 2: v1, 4: u0, 8: u1). Control points of the
+/// other sides depend on them alone.
+PatchPoints patch_with_points(unsigned points, double height) {
+  PatchPoints patch;
+  for (std::size_t j = 0; j < 4; ++j) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const bool at_origin = ((points & 1) != 0 && j == 0) || ((points & 2) != 0 && j == 3) ||
+                             ((points & 4) != 0 && i == 0) || ((points & 8) != 0 && i == 3);
+      const bool inside = (i == 1 || i == 2) && (j == 1 || j == 2);
+      const auto x = static_cast<double>(i);
+      const auto y = static_cast<double>(j);
+      patch[j][i] = at_origin ? Point{} : Point{2 + x * (y + 1), 3 - y * y, inside ? height : 0};
+    }
+  }
+  return patch;
+}
+
+/// Two patches on one boundary, three or two of whose sides are one point, with all small rates of
+/// either: what coincides does so in one pair of them and not in the next.
+TEST(Separation, takes_two_patches_on_one_boundary_of_few_edges_apart) {
+  for (const unsigned points : {7U, 11U, 13U, 14U, 5U, 6U, 9U, 10U}) {
+    const MeshModel lens{"lens", {patch_with_points(points, 1), patch_with_points(points, -1)}};
+    const std::vector<double> values = lens.values();
+    const auto nets = ControlNets<double>::packed(std::span<const double>(values));
+    constexpr std::uint32_t kMost = 4;
+    for (std::uint32_t code = 0; code < kMost * kMost * kMost * kMost; ++code) {
+      const std::vector<std::uint32_t> nu = {1 + code % kMost, 1 + code / kMost % kMost};
+      const std::vector<std::uint32_t> nv = {1 + code / (kMost * kMost) % kMost,
+                                             1 + code / (kMost * kMost * kMost)};
+      SCOPED_TRACE(std::to_string(points) + ": " + std::to_string(nu[0]) + " x " +
+                   std::to_string(nv[0]) + ", " + std::to_string(nu[1]) + " x " +
+                   std::to_string(nv[1]));
+      const SeparatedMesh mesh(nets, nu, nv);
+      EXPECT_EQ(mesh.topology.counts().open_edges, 0U);
+      EXPECT_EQ(mesh.census.euler, 2);
+      EXPECT_EQ(mesh.census.open + mesh.census.crowded + mesh.census.repeated +
+                    mesh.census.degenerate + mesh.census.unused,
+                0U);
+    }
+  }
+}
+
+TEST(Separation, is_refused_beyond_the_most_segments) {
+  for (const MeshModel& model : mesh_models()) {
+    if (model.name != "torus 1 x 1") {
+      continue;
+    }
+    const std::vector<double> values = model.values();
+    const auto nets = ControlNets<double>::packed(std::span<const double>(values));
+    Topology topology;
+    ASSERT_EQ(find_topology(nets, topology), Status::ok);
+    std::uint32_t nu = 0;
+    std::uint32_t nv = 0;
+    std::uint16_t diagonals = 0;
+    for (const std::uint32_t most : {1U, 2U, 3U, 8U}) {
+      RateOptions options;
+      options.tolerance = 100;
+      options.most_segments = most;
+      const RateReport report =
+          choose_rates(std::span(&nets, 1), topology, options,
+                       {std::span(&nu, 1), std::span(&nv, 1), std::span(&diagonals, 1), {}});
+      EXPECT_EQ(report.status, most < 3 ? Status::bad_tolerance : Status::ok) << most;
+      EXPECT_TRUE(most < 3 || nu * nv == 9) << nu << " x " << nv;
     }
   }
 }
