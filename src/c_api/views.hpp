@@ -2,6 +2,7 @@
 // null pointers, lengths, types, numbers that stand for names.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -241,7 +242,8 @@ std::span<const T> sample_parameters(const void* first, std::size_t length,
 }
 
 inline SetRange range_of(std::size_t first, std::size_t count) {
-  return {first, count == 0 ? SetRange::kToTheEnd : count};
+  // The largest count is no set's, and must not be taken for the number that means all the rest.
+  return {first, count == 0 ? SetRange::kToTheEnd : std::min(count, SetRange::kToTheEnd - 1)};
 }
 
 /// One vector output of a call, where it is wanted, that a status is about.

@@ -203,7 +203,8 @@ public:
   Status resolve() noexcept {
     return request_.resolve(set_, grid_.patches, format_.first_component, options_);
   }
-  Status check() noexcept {
+  /// What of check() needs no memory: all but the parameters.
+  Status measure() noexcept {
     const std::size_t dimension = request_.components.dimension;
     const bool curvature = format_.outputs.holds(Output::curvature);
     const std::size_t values =
@@ -214,13 +215,17 @@ public:
     if (!request_.components.space() && (curvature || format_.outputs.holds(Output::normal))) {
       return Status::bad_components;
     }
-    const Status planned = plan_.build(grid_);
-    if (!planned || empty()) {
-      return planned;
+    const Status valid = GridPlan<T>::check(grid_);
+    if (!valid || empty()) {
+      return valid;
     }
     return choose_shape<T>(grid_.nu, grid_.nv, request_.count, values, format_, shape_)
                ? Status::ok
                : Status::size_overflow;
+  }
+  Status check() noexcept {
+    const Status measured = measure();
+    return measured && !empty() ? plan_.build(grid_) : measured;
   }
   [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
   [[nodiscard]] TilesWork<T> plan() const noexcept {
@@ -231,7 +236,7 @@ public:
             shape_,
             function_};
   }
-  /// The most samples of a tile, known after check().
+  /// The most samples of a tile, known after measure().
   [[nodiscard]] std::size_t samples() const noexcept { return shape_.samples; }
 
 private:
@@ -261,7 +266,7 @@ std::size_t largest_tile(const PatchSet<T>& set, const Grid<T>& grid,
   const auto nothing = [](const Tile<T>&) {};
   const Options options;
   detail::TilesCall<T> call(set, grid, format, nothing, options);
-  return call.resolve() && call.check() ? call.samples() : 0;
+  return call.resolve() && call.measure() ? call.samples() : 0;
 }
 
 #define SIMDBEZIER_INSTANTIATE(T)                                                                  \

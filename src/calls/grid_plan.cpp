@@ -43,12 +43,17 @@ T half_centred(T value, Parameters parameters) noexcept {
 }
 
 template <typename T>
-Status GridPlan<T>::build(const Grid<T>& grid, T* memory) noexcept {
+Status GridPlan<T>::check(const Grid<T>& grid) noexcept {
   if (grid.nu < (grid.u == nullptr ? 2U : 1U) || grid.nv < (grid.v == nullptr ? 2U : 1U)) {
     return Status::bad_grid;
   }
-  if (grid.nu > kMost || grid.nv > kMost) {
-    return Status::size_overflow;
+  return grid.nu > kMost || grid.nv > kMost ? Status::size_overflow : Status::ok;
+}
+
+template <typename T>
+Status GridPlan<T>::build(const Grid<T>& grid, T* memory) noexcept {
+  if (const Status status = check(grid); !status) {
+    return status;
   }
   ++generation_;
   nu_ = grid.nu;

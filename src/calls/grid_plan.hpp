@@ -35,6 +35,8 @@ public:
     return nu <= kInline && nv <= kInline;
   }
 
+  /// ok | bad_grid | size_overflow
+  [[nodiscard]] static Status check(const Grid<T>& grid) noexcept;
   /// Checks the grid and fills the plan. Returns ok | bad_grid | size_overflow | out_of_memory (not
   /// if `memory` has room for the grid's memory_values()).
   [[nodiscard]] Status build(const Grid<T>& grid, T* memory = nullptr) noexcept;

@@ -217,6 +217,8 @@ const Refusal<World> kCases[] = {
      }},
     {SIMDBEZIER_BAD_PATCH_RANGE, "grid",
      [](World& w) { return w.grid.patch_count = 3, w.evaluate(); }},
+    {SIMDBEZIER_BAD_PATCH_RANGE, "grid",
+     [](World& w) { return w.grid.patch_count = SIZE_MAX, w.evaluate(); }},
     {SIMDBEZIER_BAD_PATCH_INDEX, "samples",
      [](World& w) { return w.patch[1] = 2, w.evaluate_samples(); }},
     {SIMDBEZIER_OVERLAPPING_OUTPUTS, "out",

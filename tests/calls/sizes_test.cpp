@@ -233,6 +233,8 @@ TEST(LargestTile, is_the_largest_that_comes) {
     EXPECT_EQ(largest_tile(patches(), grid, format), largest) << most;
   }
   EXPECT_EQ(largest_tile(patches(), Grid<float>::uniform(1, 5), {}), 0U);
+  // Nothing is formed to measure a grid: these parameters would fill 16 GiB.
+  EXPECT_EQ(largest_tile(patches(), Grid<float>::uniform(2, 0xffff0000), {}), 2048U);
   EXPECT_EQ(largest_tile(patches(), Grid<float>::uniform(4, 4), {.outputs = {}}), 0U);
 }
 
