@@ -10,10 +10,11 @@ namespace {
 
 const OutputNames kOutputs{{"position", "d1", "d2", "tangent"}, {"curvature"}};
 
-class PyCurveSet {
+class PyCurveSet : public EmptyUntilConstructed {
 public:
   PyCurveSet(const py::object& points, const py::object& weights, const py::object& dtype,
-             bool local_origin, const py::object& relative_to, int threads) {
+             const py::object& local_origin, const py::object& relative_to,
+             const py::object& threads) {
     const AnyPointViews<ControlCurves> any = control_curves(points, weights);
     const PackOptions options = pack_options(local_origin, relative_to, threads);
     const bool is_float = wants_float(dtype, any.index() == 0);
@@ -42,7 +43,7 @@ public:
   }
 
   [[nodiscard]] py::dict evaluate_grid(const py::object& n, const py::object& outputs,
-                                       const py::object& out, int threads) const {
+                                       const py::object& out, const py::object& threads) const {
     const std::size_t count = integer(n, 2, "n");
     return std::visit(
         [&]<typename T>(const CurveSet<T>& set) {
@@ -57,7 +58,7 @@ public:
 
   [[nodiscard]] py::dict evaluate(const py::object& curve, const py::object& t,
                                   const py::object& outputs, const py::object& out,
-                                  int threads) const {
+                                  const py::object& threads) const {
     return std::visit(
         [&]<typename T>(const CurveSet<T>& set) {
           const py::array_t<T> ts = parameters<T>(t, "t");
@@ -75,10 +76,7 @@ public:
   }
 
   [[nodiscard]] py::dict error_bounds(const py::object& curve) const {
-    const std::size_t index = integer(curve, 0, "curve");
-    if (index >= size()) {
-      throw_index_error("curve", "the set has " + plural(size(), "curve", "curves"));
-    }
+    const std::size_t index = element_of(size(), curve, "curve", plural(size(), "curve", "curves"));
     const CurveErrorBounds bounds =
         std::visit([&](const auto& set) { return simdbezier::error_bounds(set, index); }, set_);
     py::dict result;
@@ -104,14 +102,15 @@ private:
       const py::gil_scoped_release release;
       report = pack(curves, packed, options);
     }
-    require_ok(report, "points");
+    require_ok(report, "points", "relative_to");
     set_ = std::move(packed);
   }
 
   template <typename T, typename Where>
   static py::dict evaluate_at(const CurveSet<T>& set, const Where& where,
                               const std::vector<py::ssize_t>& samples, const py::object& outputs,
-                              const py::object& out, const NamedArrays& inputs, int threads) {
+                              const py::object& out, const NamedArrays& inputs,
+                              const py::object& threads) {
     const int components = set.components();
     const std::vector<std::string> wanted = wanted_outputs(kOutputs, outputs, out);
     for (const std::string& name : wanted) {
@@ -122,7 +121,7 @@ private:
     }
     const OutputArrays<T> arrays(kOutputs, wanted, out, samples, components, inputs);
     Options options;
-    options.threads = threads;
+    options.threads = thread_count(threads);
     const auto evaluate = [&](CurveOutputs<T>& to) {
       to.curvature = arrays.values("curvature");
       const py::gil_scoped_release release;
@@ -144,8 +143,8 @@ void add_curve_set(py::module_& module) {
   py::class_<PyCurveSet>(module, "CurveSet",
                          "Bezier curves of one degree, packed to be evaluated many times. "
                          "Immutable.")
-      .def(py::init<const py::object&, const py::object&, const py::object&, bool,
-                    const py::object&, int>(),
+      .def(py::init<const py::object&, const py::object&, const py::object&, const py::object&,
+                    const py::object&, const py::object&>(),
            py::arg("points"), py::arg("weights") = py::none(), py::arg("dtype") = py::none(),
            py::kw_only(), py::arg("local_origin") = false, py::arg("relative_to") = py::none(),
            py::arg("threads") = 0)
@@ -158,7 +157,8 @@ void add_curve_set(py::module_& module) {
       .def("evaluate_grid", &PyCurveSet::evaluate_grid, py::arg("n"), py::arg("outputs") = position,
            py::arg("out") = py::none(), py::arg("threads") = 0,
            "Every curve at n uniform parameters, ends included: a dict of arrays (curves, n, "
-           "components). Arrays in `out` are written to, whatever their strides, and returned.")
+           "components). Arrays in `out` are written to without a copy, where samples are evenly "
+           "spaced, and returned.")
       .def("evaluate", &PyCurveSet::evaluate, py::arg("curve"), py::arg("t"),
            py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
            "Single samples in any order: a dict of arrays (samples, components). `curve` is one "

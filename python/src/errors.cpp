@@ -55,17 +55,20 @@ void require_ok(Status status, const std::string& argument) {
   }
 }
 
-void require_ok(const PackReport& report, const std::string& points) {
+void require_ok(const PackReport& report, const std::string& points, const std::string& parameter) {
   if (report) {
     return;
   }
   switch (report.status.code()) {
   case Status::non_finite_input:
   case Status::coefficient_overflow:
-    throw_value_error(report.point < 0 ? "a parameter" : points,
-                      std::string(to_string(report.status)) + " (patch " +
-                          std::to_string(report.patch) + ", point " + std::to_string(report.point) +
-                          ", component " + std::to_string(report.component) + ")");
+    if (report.point < 0) {
+      require_ok(report.status, parameter);
+    }
+    throw_value_error(points, std::string(to_string(report.status)) + " (patch " +
+                                  std::to_string(report.patch) + ", point " +
+                                  std::to_string(report.point) + ", component " +
+                                  std::to_string(report.component) + ")");
   case Status::bad_weight:
     throw_value_error("weights", std::string(to_string(report.status)) + " (patch " +
                                      std::to_string(report.patch) + ", point " +

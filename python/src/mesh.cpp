@@ -12,7 +12,7 @@
 namespace simdbezier::python {
 namespace {
 
-class PyMesh {
+class PyMesh : public EmptyUntilConstructed {
 public:
   template <typename T>
   explicit PyMesh(Mesh<T>&& mesh) : mesh_(std::move(mesh)) {}
@@ -68,18 +68,6 @@ auto property(Read read) {
   };
 }
 
-double number(const py::object& value, const char* argument) {
-  if (value.is_none()) {
-    return std::numeric_limits<double>::infinity();
-  }
-  const double found = PyFloat_AsDouble(value.ptr());
-  if (found == -1.0 && PyErr_Occurred() != nullptr) {
-    PyErr_Clear();
-    throw_type_error(argument, "expected a number, found " + py::repr(value).cast<std::string>());
-  }
-  return found;
-}
-
 /// One tolerance, or one a patch.
 void set_tolerance(const py::object& tolerance, py::array_t<double>& several,
                    MeshOptions& options) {
@@ -90,7 +78,8 @@ void set_tolerance(const py::object& tolerance, py::array_t<double>& several,
     several = parameters<double>(tolerance, "tolerance");
     options.tolerances = span_of(several);
   } else {
-    options.tolerance = number(tolerance, "tolerance");
+    options.tolerance = number_or_infinity(tolerance, "tolerance");
+    require_positive(options.tolerance, false, "tolerance");
   }
 }
 
@@ -116,9 +105,11 @@ void set_grid(const py::object& grid, MeshOptions& options) {
 }
 
 std::string blamed(Status status, const MeshOptions& options) {
+  const bool relative = std::isfinite(options.relative_tolerance);
+  const bool absolute = std::isfinite(options.tolerance) || !options.tolerances.empty();
   switch (status.code()) {
-  case Status::bad_tolerance:
-    return std::isfinite(options.relative_tolerance) ? "relative" : "tolerance";
+  case Status::bad_tolerance: // all else that it is about has been checked
+    return relative && absolute ? "tolerance or relative" : relative ? "relative" : "tolerance";
   case Status::bad_grid:
     return "grid";
   case Status::bad_rates:
@@ -148,28 +139,39 @@ PyMesh tessellated(const PointViews<S, ControlNets>& nets, const MeshOptions& op
   return PyMesh(std::move(mesh));
 }
 
+/// `value` where it is above 0, or may be 0 and is.
+double positive(double value, bool or_zero, const char* argument) {
+  require_positive(value, or_zero, argument);
+  return value;
+}
+
 PyMesh tessellate_points(const py::object& points, const py::object& tolerance,
                          const py::object& weights, const py::object& relative,
-                         const py::object& grid, const py::object& crease, bool normals,
-                         bool parameters, bool orient, bool flip, double snap, double point_size,
-                         bool drop_repeated, const py::object& longest_edge,
-                         const py::object& dtype, int threads) {
+                         const py::object& grid, const py::object& crease,
+                         const py::object& normals, const py::object& parameters,
+                         const py::object& orient, const py::object& flip, const py::object& snap,
+                         const py::object& point_size, const py::object& drop_repeated,
+                         const py::object& longest_edge, const py::object& dtype,
+                         const py::object& threads) {
   const AnyPointViews<ControlNets> any = control_nets(points, weights);
   MeshOptions options;
   py::array_t<double> tolerances;
   set_tolerance(tolerance, tolerances, options);
-  options.relative_tolerance = number(relative, "relative");
+  options.relative_tolerance =
+      positive(number_or_infinity(relative, "relative"), false, "relative");
   set_grid(grid, options);
-  options.crease_angle = number(crease, "crease") * std::numbers::pi / 180;
-  options.longest_edge = number(longest_edge, "longest_edge");
-  options.normals = normals;
-  options.parameters = parameters;
-  options.orient = orient;
-  options.flip = flip;
-  options.snap = snap;
-  options.point_size = point_size;
-  options.drop_repeated = drop_repeated;
-  options.threads = threads;
+  options.crease_angle =
+      positive(number_or_infinity(crease, "crease"), true, "crease") * std::numbers::pi / 180;
+  options.longest_edge =
+      positive(number_or_infinity(longest_edge, "longest_edge"), false, "longest_edge");
+  options.normals = flag(normals, "normals");
+  options.parameters = flag(parameters, "parameters");
+  options.orient = flag(orient, "orient");
+  options.flip = flag(flip, "flip");
+  options.snap = positive(number(snap, "snap"), true, "snap");
+  options.point_size = positive(number(point_size, "point_size"), true, "point_size");
+  options.drop_repeated = flag(drop_repeated, "drop_repeated");
+  options.threads = thread_count(threads);
   if (tolerance.is_none() && relative.is_none() && grid.is_none()) {
     throw_type_error("tolerance", "how fine the mesh is has to be said by tolerance, relative or "
                                   "grid");

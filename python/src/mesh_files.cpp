@@ -76,6 +76,14 @@ void save_mesh(const Mesh<T>& mesh, const std::string& path) {
     throw_value_error("path", "expected a name that ends in .obj, .ply, .stl or .glb, found '" +
                                   path + "'");
   }
+  const auto& triangles = mesh.triangles;
+  const auto is_outside = [&](const auto& triangle) {
+    return std::max({triangle[0], triangle[1], triangle[2]}) >= mesh.positions.size();
+  };
+  if (std::any_of(triangles.begin(), triangles.end(), is_outside)) { // they may be written to
+    const py::gil_scoped_acquire acquire;
+    throw_value_error("triangles", "has the number of a vertex that is not there");
+  }
   try {
     const auto writer = tools::make_mesh_writer<T>(path, *format, contents_of(mesh));
     std::vector<T> values;

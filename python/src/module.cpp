@@ -8,25 +8,11 @@
 
 namespace simdbezier::python {
 
-std::size_t integer(const py::object& value, std::size_t least, const std::string& argument) {
-  if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
-    throw_type_error(argument, "expected an integer, found " + py::repr(value).cast<std::string>());
-  }
-  const py::ssize_t number = PyNumber_AsSsize_t(value.ptr(), nullptr); // what is larger is clipped
-  if (number == -1 && PyErr_Occurred() != nullptr) {
-    throw py::error_already_set();
-  }
-  if (number < static_cast<py::ssize_t>(least)) {
-    throw_value_error(argument, "expected " + std::to_string(least) + " or more, found " +
-                                    py::str(value).cast<std::string>());
-  }
-  return static_cast<std::size_t>(number);
-}
-
-PackOptions pack_options(bool local_origin, const py::object& relative_to, int threads) {
+PackOptions pack_options(const py::object& local_origin, const py::object& relative_to,
+                         const py::object& threads) {
   PackOptions options;
-  options.local_origin = local_origin;
-  options.threads = threads;
+  options.local_origin = flag(local_origin, "local_origin");
+  options.threads = thread_count(threads);
   if (!relative_to.is_none()) {
     const py::array any = float_array(relative_to, 1, "relative_to");
     const auto point = contiguous<double>(any, "relative_to");

@@ -1,8 +1,11 @@
 // The parts of the module, and what they share.
 #pragma once
 
+#include <cstring>
+#include <new>
 #include <string>
 
+#include "python/src/arguments.hpp"
 #include "python/src/arrays.hpp"
 
 namespace simdbezier::python {
@@ -12,13 +15,19 @@ void add_curve_set(py::module_& module);
 void add_nets(py::module_& module);
 void add_mesh(py::module_& module);
 
-/// An integer from `least` on; booleans and floats are none.
-[[nodiscard]] std::size_t integer(const py::object& value, std::size_t least,
-                                  const std::string& argument);
-
 /// How sets are packed, from the keywords that patches and curves share.
-[[nodiscard]] PackOptions pack_options(bool local_origin, const py::object& relative_to,
-                                       int threads);
+[[nodiscard]] PackOptions pack_options(const py::object& local_origin,
+                                       const py::object& relative_to, const py::object& threads);
+
+/// A base of what the module's objects hold. Python code that calls __new__ and not __init__ makes
+/// objects for which pybind11 takes memory without constructing anything in it; bytes of 0 are a
+/// set or mesh that is empty.
+struct EmptyUntilConstructed {
+  static void* operator new(std::size_t bytes) {
+    return std::memset(::operator new(bytes), 0, bytes);
+  }
+  static void operator delete(void* memory) noexcept { ::operator delete(memory); }
+};
 
 /// "degree 3", "degrees 3 x 2, rational".
 [[nodiscard]] std::string plural(std::size_t count, const std::string& one,

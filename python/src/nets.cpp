@@ -1,5 +1,6 @@
 // Operations on control nets: arrays (patches, rows, columns, components) in and out.
 #include <array>
+#include <limits>
 
 #include <simdbezier/bases.hpp>
 #include <simdbezier/bounds.hpp>
@@ -68,7 +69,7 @@ py::object operate(const py::object& points, const py::object& weights, Degrees 
           const py::gil_scoped_release release;
           report = call(in, out);
         }
-        require_ok(report, "points");
+        require_ok(report, "points", "points");
         if constexpr (N == 1) {
           return given_back(arrays[0], in);
         } else {
@@ -96,52 +97,78 @@ int lowered(int degree) { return degree > 1 ? degree - 1 : 1; }
 
 py::object elevated(const py::object& points, const py::object& degree_u,
                     const py::object& degree_v, const py::object& weights) {
-  const auto u = static_cast<int>(std::min<std::size_t>(integer(degree_u, 1, "degree_u"), 99));
-  const auto v = static_cast<int>(std::min<std::size_t>(integer(degree_v, 1, "degree_v"), 99));
   const auto degrees = [&](const auto& nets) {
-    const auto check = [](int wanted, int found, const char* argument) {
-      if (wanted < found || wanted > kMostDegree) {
+    const auto check = [](const py::object& wanted, int found, const char* argument) {
+      const std::size_t degree = integer(wanted, 1, argument);
+      if (degree < static_cast<std::size_t>(found) || degree > std::size_t{kMostDegree}) {
         throw_value_error(argument, "expected " + std::to_string(found) + " to " +
                                         std::to_string(kMostDegree) + ", found " +
-                                        std::to_string(wanted));
+                                        py::str(wanted).cast<std::string>());
       }
+      return static_cast<int>(degree);
     };
-    check(u, nets.degree_u, "degree_u");
-    check(v, nets.degree_v, "degree_v");
-    return std::pair(u, v);
+    const int u = check(degree_u, nets.degree_u, "degree_u");
+    return std::pair(u, check(degree_v, nets.degree_v, "degree_v"));
   };
   return operate<1>(points, weights, degrees, [](const auto& nets, const auto& out) {
     return simdbezier::elevate(nets, out[0]);
   });
 }
 
-py::object split_in_u(const py::object& points, double u, const py::object& weights) {
-  return operate<2>(points, weights, kSame,
+/// A parameter that nets are cut at.
+struct Cut {
+  const char* argument;
+  double at;
+
+  Cut(const py::object& value, const char* name) : argument(name), at(number(value, name)) {}
+};
+
+/// Degrees of parts: those of the whole. Checks the parameters, whose type is that of the points.
+template <typename... Cuts>
+auto same_cut_at(const Cuts&... cuts) {
+  return [cuts...]<typename S>(const ControlNets<S>& nets) {
+    constexpr auto kMost = static_cast<double>(std::numeric_limits<S>::max());
+    (require_finite(cuts.at, kMost, cuts.argument), ...);
+    return kSame(nets);
+  };
+}
+
+py::object split_in_u(const py::object& points, const py::object& u, const py::object& weights) {
+  const Cut cut(u, "u");
+  return operate<2>(points, weights, same_cut_at(cut),
                     [&]<typename S>(const ControlNets<S>& nets, const auto& out) {
-                      return split_u(nets, static_cast<S>(u), out[0], out[1]);
+                      return split_u(nets, static_cast<S>(cut.at), out[0], out[1]);
                     });
 }
 
-py::object split_in_v(const py::object& points, double v, const py::object& weights) {
-  return operate<2>(points, weights, kSame,
+py::object split_in_v(const py::object& points, const py::object& v, const py::object& weights) {
+  const Cut cut(v, "v");
+  return operate<2>(points, weights, same_cut_at(cut),
                     [&]<typename S>(const ControlNets<S>& nets, const auto& out) {
-                      return split_v(nets, static_cast<S>(v), out[0], out[1]);
+                      return split_v(nets, static_cast<S>(cut.at), out[0], out[1]);
                     });
 }
 
-py::object split_in_four(const py::object& points, double u, double v, const py::object& weights) {
-  return operate<4>(points, weights, kSame,
+py::object split_in_four(const py::object& points, const py::object& u, const py::object& v,
+                         const py::object& weights) {
+  const Cut cut_u(u, "u");
+  const Cut cut_v(v, "v");
+  return operate<4>(points, weights, same_cut_at(cut_u, cut_v),
                     [&]<typename S>(const ControlNets<S>& nets, const auto& out) {
-                      return split(nets, static_cast<S>(u), static_cast<S>(v), out);
+                      return split(nets, static_cast<S>(cut_u.at), static_cast<S>(cut_v.at), out);
                     });
 }
 
-py::object segment_of(const py::object& points, double u0, double u1, double v0, double v1,
-                      const py::object& weights) {
-  return operate<1>(points, weights, kSame,
+py::object segment_of(const py::object& points, const py::object& u0, const py::object& u1,
+                      const py::object& v0, const py::object& v1, const py::object& weights) {
+  const Cut low_u(u0, "u0");
+  const Cut high_u(u1, "u1");
+  const Cut low_v(v0, "v0");
+  const Cut high_v(v1, "v1");
+  return operate<1>(points, weights, same_cut_at(low_u, high_u, low_v, high_v),
                     [&]<typename S>(const ControlNets<S>& nets, const auto& out) {
-                      const SubPatch<S> piece{static_cast<S>(u0), static_cast<S>(u1),
-                                              static_cast<S>(v0), static_cast<S>(v1)};
+                      const SubPatch<S> piece{static_cast<S>(low_u.at), static_cast<S>(high_u.at),
+                                              static_cast<S>(low_v.at), static_cast<S>(high_v.at)};
                       return segment(nets, piece, out[0]);
                     });
 }
@@ -162,7 +189,7 @@ py::object boxes(const py::object& points, const py::object& weights, Call call)
           const py::gil_scoped_release release;
           report = call(in, out);
         }
-        require_ok(report, "points");
+        require_ok(report, "points", "points");
         return py::make_tuple(low, high);
       },
       any);
@@ -191,7 +218,7 @@ py::object flatness_of(const py::object& points, const py::object& weights) {
           const py::gil_scoped_release release;
           report = flatness(in, out);
         }
-        require_ok(report, "points");
+        require_ok(report, "points", "points");
         return values;
       },
       any);

@@ -28,7 +28,13 @@ public:
     if (!py::isinstance<py::str>(given)) {
       throw_type_error(argument, "expected names, found " + py::repr(given).cast<std::string>());
     }
-    const auto name = given.cast<std::string>();
+    std::string name;
+    try {
+      name = given.cast<std::string>();
+    } catch (const py::cast_error&) { // what is no valid Unicode has no bytes
+      throw_value_error(argument,
+                        py::repr(given).cast<std::string>() + " is none of " + all_names(known_));
+    }
     if (!known_.is_vector(name) && !known_.is_value(name) && name != "status") {
       throw_value_error(argument, "'" + name + "' is none of " + all_names(known_));
     }

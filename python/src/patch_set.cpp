@@ -11,10 +11,11 @@ namespace {
 const OutputNames kOutputs{{"position", "du", "dv", "duu", "duv", "dvv", "normal"},
                            {"gaussian", "mean", "minimum", "maximum"}};
 
-class PyPatchSet {
+class PyPatchSet : public EmptyUntilConstructed {
 public:
   PyPatchSet(const py::object& points, const py::object& weights, const py::object& dtype,
-             bool local_origin, const py::object& relative_to, int threads) {
+             const py::object& local_origin, const py::object& relative_to,
+             const py::object& threads) {
     const AnyPointViews<ControlNets> any = control_nets(points, weights);
     const PackOptions options = pack_options(local_origin, relative_to, threads);
     const bool is_float = wants_float(dtype, any.index() == 0);
@@ -35,16 +36,13 @@ public:
     return set_.index() == 0 ? py::dtype::of<float>() : py::dtype::of<double>();
   }
   [[nodiscard]] PatchShape shape(const py::object& patch) const {
-    const std::size_t index = integer(patch, 0, "patch");
-    if (index >= size()) {
-      throw_index_error("patch", "the set has " + plural(size(), "patch", "patches"));
-    }
+    const std::size_t index = index_of(patch);
     return std::visit([&](const auto& set) { return set.shape(index); }, set_);
   }
 
   [[nodiscard]] py::dict evaluate_grid(const py::object& nu, const py::object& nv,
                                        const py::object& outputs, const py::object& out,
-                                       int threads) const {
+                                       const py::object& threads) const {
     const std::size_t columns = integer(nu, 2, "nu");
     const std::size_t rows = integer(nv, 2, "nv");
     return std::visit(
@@ -61,7 +59,7 @@ public:
 
   [[nodiscard]] py::dict evaluate(const py::object& patch, const py::object& u, const py::object& v,
                                   const py::object& outputs, const py::object& out,
-                                  int threads) const {
+                                  const py::object& threads) const {
     return std::visit(
         [&]<typename T>(const PatchSet<T>& set) {
           const py::array_t<T> us = parameters<T>(u, "u");
@@ -79,7 +77,7 @@ public:
 
   [[nodiscard]] py::dict error_bounds(const py::object& patch) const {
     const PatchShape of = shape(patch);
-    const std::size_t index = integer(patch, 0, "patch");
+    const std::size_t index = index_of(patch);
     const ErrorBounds bounds =
         std::visit([&](const auto& set) { return simdbezier::error_bounds(set, index); }, set_);
     py::dict result;
@@ -108,6 +106,10 @@ public:
   }
 
 private:
+  [[nodiscard]] std::size_t index_of(const py::object& patch) const {
+    return element_of(size(), patch, "patch", plural(size(), "patch", "patches"));
+  }
+
   template <typename T, typename S>
   void pack_as(const PointViews<S, ControlNets>& nets, const PackOptions& options) {
     PatchSet<T> packed;
@@ -116,7 +118,7 @@ private:
       const py::gil_scoped_release release;
       report = pack(std::span<const ControlNets<S>>(nets.views), packed, options);
     }
-    require_ok(report, "points");
+    require_ok(report, "points", "relative_to");
     set_ = std::move(packed);
   }
 
@@ -130,7 +132,8 @@ private:
   template <typename T, typename Where>
   static py::dict evaluate_at(const PatchSet<T>& set, const Where& where,
                               const std::vector<py::ssize_t>& samples, const py::object& outputs,
-                              const py::object& out, const NamedArrays& inputs, int threads) {
+                              const py::object& out, const NamedArrays& inputs,
+                              const py::object& threads) {
     const std::vector<std::string> wanted = wanted_outputs(kOutputs, outputs, out);
     for (const std::string& name : wanted) {
       if (set.components() != 3 && (name == "normal" || kOutputs.is_value(name))) {
@@ -140,7 +143,7 @@ private:
     }
     const OutputArrays<T> arrays(kOutputs, wanted, out, samples, set.components(), inputs);
     Options options;
-    options.threads = threads;
+    options.threads = thread_count(threads);
     const auto evaluate = [&](Outputs<T>& to) {
       to.curvature = {arrays.values("gaussian"), arrays.values("mean"), arrays.values("minimum"),
                       arrays.values("maximum")};
@@ -162,8 +165,8 @@ void add_patch_set(py::module_& module) {
   const py::tuple position = py::make_tuple("position");
   py::class_<PyPatchSet>(module, "PatchSet",
                          "Bezier patches, packed to be evaluated many times. Immutable.")
-      .def(py::init<const py::object&, const py::object&, const py::object&, bool,
-                    const py::object&, int>(),
+      .def(py::init<const py::object&, const py::object&, const py::object&, const py::object&,
+                    const py::object&, const py::object&>(),
            py::arg("points"), py::arg("weights") = py::none(), py::arg("dtype") = py::none(),
            py::kw_only(), py::arg("local_origin") = false, py::arg("relative_to") = py::none(),
            py::arg("threads") = 0)
@@ -185,7 +188,8 @@ void add_patch_set(py::module_& module) {
       .def("evaluate_grid", &PyPatchSet::evaluate_grid, py::arg("nu"), py::arg("nv"),
            py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
            "Every patch on a uniform grid, ends included: a dict of arrays (patches, nv, nu, "
-           "components). Arrays in `out` are written to, whatever their strides, and returned.")
+           "components). Arrays in `out` are written to without a copy, where samples are evenly "
+           "spaced, and returned.")
       .def("evaluate", &PyPatchSet::evaluate, py::arg("patch"), py::arg("u"), py::arg("v"),
            py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
            "Single samples in any order: a dict of arrays (samples, components). `patch` is one "

@@ -74,11 +74,19 @@ CASES = [
     (TypeError, 'dtype', lambda: simdbezier.PatchSet(POINTS, dtype=np.int32)),
     (TypeError, 'dtype', lambda: simdbezier.PatchSet(POINTS, dtype='nonsense')),
     (ValueError, 'relative_to', lambda: simdbezier.PatchSet(POINTS, relative_to=[0] * 4)),
+    (ValueError, 'relative_to', lambda: simdbezier.PatchSet(POINTS, relative_to=[np.nan, 0, 0])),
+    (ValueError, 'relative_to', lambda: simdbezier.CurveSet(POINTS[0], relative_to=[np.nan])),
+    (TypeError, 'local_origin', lambda: simdbezier.PatchSet(POINTS, local_origin='middle')),
+    (TypeError, 'threads', lambda: simdbezier.CurveSet(POINTS[0], threads=None)),
     # Which samples.
     (ValueError, 'nu', lambda: PATCHES.evaluate_grid(1, 3)),
     (ValueError, 'nv', lambda: PATCHES.evaluate_grid(5, -3)),
     (TypeError, 'nu', lambda: PATCHES.evaluate_grid(5.0, 3)),
     (TypeError, 'nv', lambda: PATCHES.evaluate_grid(5, '3')),
+    (TypeError, 'nu', lambda: PATCHES.evaluate_grid(np.array([3]), 3)),
+    (TypeError, 'threads', lambda: PATCHES.evaluate_grid(5, 3, threads='x')),
+    (ValueError, 'threads', lambda: PATCHES.evaluate_grid(5, 3, threads=2**31)),
+    (TypeError, 'threads', lambda: CURVES.evaluate_grid(5, threads=2.0)),
     (ValueError, 'nu or nv', lambda: PATCHES.evaluate_grid(2**62, 2**62)),
     (ValueError, 'n: the samples', lambda: CURVES.evaluate_grid(2**70)),
     (ValueError, 'v', lambda: PATCHES.evaluate([0, 1], [0.5, 0.5], [0.5])),
@@ -95,14 +103,19 @@ CASES = [
     (ValueError, 'curve', lambda: CURVES.evaluate([2], [0.5])),
     (ValueError, 'n', lambda: CURVES.evaluate_grid(0)),
     (IndexError, 'patch', lambda: PATCHES.error_bounds(2)),
-    (ValueError, 'patch', lambda: PATCHES.error_bounds(-1)),
+    (IndexError, 'patch', lambda: PATCHES.error_bounds(-1)),
+    (IndexError, 'patch', lambda: PATCHES.degrees(-1)),
+    (IndexError, 'patch', lambda: PATCHES.is_rational(2**70)),
     (IndexError, 'curve', lambda: CURVES.error_bounds(2)),
+    (IndexError, 'curve', lambda: CURVES.error_bounds(-1)),
     # Which outputs.
     (ValueError, 'outputs', lambda: PATCHES.evaluate_grid(5, 3, ('position', 'colour'))),
     (ValueError, 'outputs', lambda: PATCHES.evaluate_grid(5, 3, ())),
     (ValueError, 'outputs', lambda: PATCHES.evaluate_grid(5, 3, 'status')),
     (TypeError, 'outputs', lambda: PATCHES.evaluate_grid(5, 3, 3)),
     (TypeError, 'outputs', lambda: PATCHES.evaluate_grid(5, 3, [3])),
+    (ValueError, 'outputs', lambda: PATCHES.evaluate_grid(5, 3, ('\udcff',))),
+    (ValueError, 'out', lambda: grid(**{'\udcff': fresh()})),
     (ValueError, 'outputs',
      lambda: simdbezier.PatchSet(POINTS[..., :2]).evaluate_grid(3, 3, 'normal')),
     (ValueError, 'outputs',
@@ -150,6 +163,19 @@ CASES = [
     (TypeError, 'tolerance', lambda: simdbezier.tessellate(POINTS, tolerance='fine')),
     (ValueError, 'tolerance', lambda: simdbezier.tessellate(POINTS, tolerance=[1e-3] * 3)),
     (ValueError, 'relative', lambda: simdbezier.tessellate(POINTS, relative=-1)),
+    (ValueError, 'relative', lambda: simdbezier.tessellate(POINTS, 0.1, relative=np.nan)),
+    (ValueError, 'tolerance', lambda: simdbezier.tessellate(POINTS, -1.0, relative=0.1)),
+    (ValueError, 'tolerance or relative', lambda: simdbezier.tessellate(POINTS, 1e-9, relative=0.1)),
+    (ValueError, 'crease', lambda: simdbezier.tessellate(POINTS, 0.1, crease=np.nan)),
+    (ValueError, 'crease', lambda: simdbezier.tessellate(POINTS, grid=4, crease=-5)),
+    (ValueError, 'snap', lambda: simdbezier.tessellate(POINTS, 0.1, snap=np.nan)),
+    (ValueError, 'snap', lambda: simdbezier.tessellate(POINTS, grid=4, snap=-1)),
+    (TypeError, 'snap', lambda: simdbezier.tessellate(POINTS, 0.1, snap=None)),
+    (ValueError, 'point_size', lambda: simdbezier.tessellate(POINTS, 0.1, point_size=-1)),
+    (ValueError, 'longest_edge', lambda: simdbezier.tessellate(POINTS, 0.1, longest_edge=0)),
+    (ValueError, 'longest_edge', lambda: simdbezier.tessellate(POINTS, grid=4, longest_edge=np.nan)),
+    (TypeError, 'normals', lambda: simdbezier.tessellate(POINTS, 0.1, normals='smooth')),
+    (TypeError, 'threads', lambda: simdbezier.tessellate(POINTS, 0.1, threads='all')),
     (ValueError, 'grid', lambda: simdbezier.tessellate(POINTS, grid=1)),
     (ValueError, 'grid', lambda: simdbezier.tessellate(POINTS, grid=(3, 3, 3))),
     (TypeError, 'grid', lambda: simdbezier.tessellate(POINTS, grid=3.5)),
@@ -164,7 +190,13 @@ CASES = [
     (OSError, '/nowhere/', lambda: simdbezier.tessellate(POINTS, grid=3).save('/nowhere/x.ply')),
     (ValueError, 'degree_u', lambda: simdbezier.elevate(POINTS, 2, 3)),
     (ValueError, 'degree_v', lambda: simdbezier.elevate(POINTS, 3, 16)),
-    (ValueError, 'a parameter', lambda: simdbezier.split_u(POINTS, np.nan)),
+    (ValueError, 'degree_u: expected 3 to 15, found 1000', lambda: simdbezier.elevate(POINTS, 10**30, 4)),
+    (ValueError, 'u:', lambda: simdbezier.split_u(POINTS, np.nan)),
+    (ValueError, 'u:', lambda: simdbezier.split_u(POINTS, 1e39)),
+    (TypeError, 'u:', lambda: simdbezier.split_u(POINTS, 'half')),
+    (ValueError, 'v:', lambda: simdbezier.split(POINTS, 0.5, np.inf)),
+    (ValueError, 'u1:', lambda: simdbezier.segment(POINTS, 0, np.nan, 0, 1)),
+    (TypeError, 'v0:', lambda: simdbezier.segment(POINTS, 0, 1, None, 1)),
     (ValueError, 'levels', lambda: simdbezier.tight_boxes(POINTS, 7)),
 ]
 
@@ -174,6 +206,26 @@ def test_it_is_refused_by_name(error, argument, call):
     with pytest.raises(error) as caught:
         call()
     assert str(caught.value).startswith(argument)
+
+
+@pytest.mark.parametrize('name', ['obj', 'ply', 'stl', 'glb'])
+def test_a_mesh_with_vertices_that_are_not_there_is_not_saved(name, tmp_path):
+    mesh = simdbezier.tessellate(POINTS, grid=3)
+    mesh.triangles[-1, 1] = len(mesh.positions)
+    with pytest.raises(ValueError, match='^triangles: '):
+        mesh.save(tmp_path / f'mesh.{name}')
+    assert not list(tmp_path.iterdir())
+
+
+def test_objects_that_were_not_initialised_are_empty():
+    patches = simdbezier.PatchSet.__new__(simdbezier.PatchSet)
+    curves = simdbezier.CurveSet.__new__(simdbezier.CurveSet)
+    mesh = simdbezier.Mesh.__new__(simdbezier.Mesh)
+    for one in patches, curves, mesh:
+        repr(one)
+    assert len(patches) == len(curves) == len(mesh.positions) == len(mesh.triangles) == 0
+    assert patches.evaluate_grid(3, 5)['position'].shape == (0, 5, 3, 3)
+    assert curves.evaluate_grid(3)['position'].shape == (0, 3, 3)
 
 
 def test_nothing_is_written_on_an_error():
