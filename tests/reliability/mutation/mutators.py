@@ -41,6 +41,17 @@ def changed_decimal(match):
     return [repr(value * 1.25) if value else '1.0']
 
 
+# What stands before the length of an array that is declared: one element more changes nothing.
+DECLARED = re.compile(r'(?:^|[;({,]) *(?:(?:inline|static|constexpr|const|mutable|thread_local'
+                      r'|alignas\([^)]*\)) )*(?!(?:return|case|delete|throw) )'
+                      r'[A-Za-z_][\w:<>]* [*&]?\w+$')
+
+
+def next_element(match):
+    line = match.string[match.string.rfind('\n', 0, match.start()) + 1:match.start()]
+    return [] if DECLARED.search(line) else [f'[({match[1]}) + 1]']
+
+
 def constant(text):
     return lambda match: [text]
 
@@ -66,7 +77,7 @@ RULES = [
     ('constant', re.compile(r'(?<![\w.])\d+(?![\w.\'])'), changed_integer),
     ('constant', re.compile(r'(?<![\w.])\d+\.\d+(?![\w.])'), changed_decimal),
     ('index', re.compile(r'(?<=[\w)\]])\[([\w .>+*/-]+)\](?!\])'),
-     lambda match: [f'[({match[1]}) + 1]']),
+     next_element),
     # A whole assignment or call on a line of its own.
     ('statement', re.compile(r'(?<=[;{}]\n)[ ]+(?!return|break|continue|throw|goto|delete|co_)'
                              r'(?:[\w.>:\[\]()*-]+ (?:[-+*/|&^]?=) [^;{}\n]+|(?:\+\+|--)[\w.>-]+'
