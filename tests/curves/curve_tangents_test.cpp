@@ -135,6 +135,25 @@ TEST_P(CurveTangents, KnownOnes) {
   }
 }
 
+/// Integers up to 2^52 on a line, so that the curvature at 0 is 0. One of them is larger by 1, and
+/// it is infinite: products in double cannot tell the one from the other.
+TEST_P(CurveTangents, OneBitBendsALine) {
+  constexpr double kHalf = 0x1p51 + 1;
+  constexpr double kEnd = 0x1p52 + 1;
+  for (std::size_t beside = 0; beside < 4; ++beside) {
+    CurveBatch<double> batch{
+        1, 3, 3, Weights::none, {1, 1, 1, 1, 1, 1, kHalf, kHalf, 1, kEnd, kEnd, 1}};
+    if (beside < 3) {
+      batch.at(0, 3, beside) += 1;
+    }
+    CurveResults<double> results(2, 3);
+    evaluate(packed<double>(batch), CurveGrid<double>::uniform(2), results.outputs());
+    EXPECT_EQ(results.status[0], SampleStatus::limit) << beside;
+    EXPECT_NEAR(results.at(3, 0, 0), kRoot, 1e-12) << beside;
+    EXPECT_EQ(results.curvature(0), beside < 3 ? kInfinity : 0) << beside;
+  }
+}
+
 /// (0,0,0), (s,0,0), (1,1,0): the curvature at 0 is 1 / (2 s^2), however small s is.
 TEST_P(CurveTangents, TinyStepsHaveTangentsAndCurvatures) {
   for (const int exponent : {-100, -300, -360, -500, -600, -1000}) {
