@@ -16,6 +16,8 @@ struct SetCall {
   Where where;
   Outputs out;
 };
+template <typename Where, typename Outputs>
+SetCall(Where, Outputs) -> SetCall<Where, Outputs>; // clang 14 deduces none for aggregates
 
 /// read(std::type_identity<T>): the SetCall of a set of T. path: the argument that says where.
 /// blame(out, status, samples, components): which output is at fault.
