@@ -73,12 +73,13 @@ void require_finite(double value, double most, const char* argument) {
   }
 }
 
-void require_positive(double value, bool or_zero, const char* argument) {
+double positive(double value, bool or_zero, const char* argument) {
   if (!(value > 0 || (or_zero && value == 0))) {
     throw_value_error(argument, std::string("expected a number ") +
                                     (or_zero ? "of 0 or more" : "above 0") + ", found " +
                                     py::str(py::float_(value)).cast<std::string>());
   }
+  return value;
 }
 
 bool flag(const py::object& value, const char* argument) {

@@ -22,8 +22,8 @@ namespace simdbezier::python {
 [[nodiscard]] double number_or_infinity(const py::object& value, const char* argument);
 /// Throws where a number is not finite, or above `most` in magnitude.
 void require_finite(double value, double most, const char* argument);
-/// Throws where a number is not above 0, or is 0 where that is not allowed; infinity is above.
-void require_positive(double value, bool or_zero, const char* argument);
+/// `value`, which has to be above 0, or may be 0 as well; infinity is above.
+double positive(double value, bool or_zero, const char* argument);
 
 [[nodiscard]] bool flag(const py::object& value, const char* argument);
 /// `threads`, as Options have it.

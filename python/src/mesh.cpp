@@ -78,8 +78,7 @@ void set_tolerance(const py::object& tolerance, py::array_t<double>& several,
     several = parameters<double>(tolerance, "tolerance");
     options.tolerances = span_of(several);
   } else {
-    options.tolerance = number_or_infinity(tolerance, "tolerance");
-    require_positive(options.tolerance, false, "tolerance");
+    options.tolerance = positive(number_or_infinity(tolerance, "tolerance"), false, "tolerance");
   }
 }
 
@@ -137,12 +136,6 @@ PyMesh tessellated(const PointViews<S, ControlNets>& nets, const MeshOptions& op
   }
   require_ok(mesh.status, blamed(mesh.status, options));
   return PyMesh(std::move(mesh));
-}
-
-/// `value` where it is above 0, or may be 0 and is.
-double positive(double value, bool or_zero, const char* argument) {
-  require_positive(value, or_zero, argument);
-  return value;
 }
 
 PyMesh tessellate_points(const py::object& points, const py::object& tolerance,
