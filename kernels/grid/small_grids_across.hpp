@@ -178,6 +178,15 @@ SIMDBEZIER_INLINE void put_across(const V* sample, std::size_t samples, ScalarOf
   }
 }
 
+/// Samples of one component of a register of patches to the planes of a group.
+template <typename V>
+SIMDBEZIER_INLINE void put_across(const GridTask<ScalarOf<V>>& task, detail::Group group,
+                                  std::size_t c, std::size_t patch, const V* sample,
+                                  std::size_t samples) {
+  put_across(sample, samples, task.out[group].component[c] + patch * task.patch_step,
+             task.patch_step);
+}
+
 /// Calls sweep(patch, new ones) for registers of patches; the task has at least one.
 template <typename T, typename Sweep>
 SIMDBEZIER_INLINE void for_patches_across(const GridTask<T>& task, const Sweep& sweep) {
@@ -205,9 +214,7 @@ __attribute__((noinline)) void sweep_positions_across(const GridTask<T>& shared_
     for (std::size_t c = 0; c < 3; ++c) {
       V sample[kMostSmallSamples];
       positions_across(ComponentAcross<V>(task, patch, c), grid, sample);
-      put_across(sample, grid.samples(),
-                 task.out[detail::kPositionGroup].component[c] + patch * task.patch_step,
-                 task.patch_step);
+      put_across(task, detail::kPositionGroup, c, patch, sample, grid.samples());
     }
     drain_some(task.drain, fresh * 3 * grid.samples());
   });

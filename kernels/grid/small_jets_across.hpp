@@ -63,16 +63,12 @@ __attribute__((noinline)) void sweep_derivatives_across(const GridTask<T>& share
   const GridTask<T> task = shared_task;
   const SmallGridAcross<V, kInner> grid(task);
   for_patches_across(task, [&](std::size_t patch, std::size_t fresh) SIMDBEZIER_INLINE_LAMBDA {
-    const std::size_t at = patch * task.patch_step;
     for (std::size_t c = 0; c < 3; ++c) {
       JetsAcross<V> jets;
       jets.find(ComponentAcross<V>(task, patch, c), grid);
-      const auto put = [&](detail::Group group, const V* sample) SIMDBEZIER_INLINE_LAMBDA {
-        put_across(sample, grid.samples(), task.out[group].component[c] + at, task.patch_step);
-      };
-      put(detail::kPositionGroup, jets.p);
-      put(detail::kDuGroup, jets.du);
-      put(detail::kDvGroup, jets.dv);
+      put_across(task, detail::kPositionGroup, c, patch, jets.p, grid.samples());
+      put_across(task, detail::kDuGroup, c, patch, jets.du, grid.samples());
+      put_across(task, detail::kDvGroup, c, patch, jets.dv, grid.samples());
     }
     drain_some(task.drain, fresh * 9 * grid.samples());
   });
@@ -100,15 +96,10 @@ __attribute__((noinline)) void sweep_normals_across(const GridTask<T>& shared_ta
   const GridTask<T> task = shared_task;
   const SmallGridAcross<V, kInner> grid(task);
   for_patches_across(task, [&](std::size_t patch, std::size_t fresh) SIMDBEZIER_INLINE_LAMBDA {
-    const std::size_t at = patch * task.patch_step;
-    const auto put = [&](detail::Group group, std::size_t c,
-                         const V* sample) SIMDBEZIER_INLINE_LAMBDA {
-      put_across(sample, grid.samples(), task.out[group].component[c] + at, task.patch_step);
-    };
     JetsAcross<V> jets[3];
     for (std::size_t c = 0; c < 3; ++c) {
       jets[c].find(ComponentAcross<V>(task, patch, c), grid);
-      put(detail::kPositionGroup, c, jets[c].p);
+      put_across(task, detail::kPositionGroup, c, patch, jets[c].p, grid.samples());
     }
     const V floor = load_vector<V>(task.normal_floor + patch);
     V squared[kMostSmallSamples];
@@ -126,7 +117,7 @@ __attribute__((noinline)) void sweep_normals_across(const GridTask<T>& shared_ta
       passed = passed && all_of<V>(s.squared > floor);
     }
     for (std::size_t c = 0; c < 3; ++c) {
-      put(detail::kNormalGroup, c, jets[c].p);
+      put_across(task, detail::kNormalGroup, c, patch, jets[c].p, grid.samples());
     }
     if (!passed) [[unlikely]] {
       resolve_normals_across(shared_task, grid, patch, squared, floor);
