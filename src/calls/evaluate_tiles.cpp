@@ -72,6 +72,7 @@ public:
 
   [[nodiscard]] Outputs<T> place(unsigned char* memory) const noexcept {
     Outputs<T> out;
+    out.first_component = format_.first_component;
     const std::size_t members = vector_values(format_.outputs, dimension_);
     std::size_t at = 0;
     std::size_t member = 0;
