@@ -72,8 +72,9 @@ template <typename V>
 SIMDBEZIER_INLINE MaskOf<V> is_triangle_within(V a, V c, V d, V t) {
   const SortedTerms<V> terms(a, c, d);
   const V divisor = terms.divisor();
-  return (terms.largest * broadcast<V>(ScalarOf<V>(0.125)) <= t) &
-         (terms.obtuse() | (terms.least * terms.middle * terms.largest <= t * (divisor + divisor)));
+  const MaskOf<V> side = terms.largest * broadcast<V>(ScalarOf<V>(0.125)) <= t;
+  const MaskOf<V> circle = terms.least * terms.middle * terms.largest <= t * (divisor + divisor);
+  return side & (circle | terms.obtuse());
 }
 
 /// The square of a vector along a diagonal, as a quadratic form of the steps.
