@@ -2,6 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
 
 #include <simdbezier/isa.hpp>
 
@@ -20,6 +23,19 @@ inline constexpr Isa kEveryIsa[] = {Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx5
 /// Whether one that is available belongs to the class of results.
 [[nodiscard]] inline bool has_class(bool fused) {
   return std::ranges::count(available_isas(), fused, fuses_multiply_add) > 0;
+}
+
+/// The widest available instruction set of each class of results, narrow ones first.
+[[nodiscard]] inline std::vector<Isa> widest_of_each_class() {
+  const std::span<const Isa> available = available_isas();
+  std::vector<Isa> widest;
+  for (std::size_t k = 0; k < available.size(); ++k) {
+    if (k + 1 == available.size() ||
+        fuses_multiply_add(available[k]) != fuses_multiply_add(available[k + 1])) {
+      widest.push_back(available[k]);
+    }
+  }
+  return widest;
 }
 
 } // namespace simdbezier::tests

@@ -1,20 +1,26 @@
 # See CMakeLists.txt beside this file. OTHER is gcc, clang or aarch64.
 #
-# At -O1, unless SIMDBEZIER_LONG_TESTS is in the environment, as in ./run accuracy: the
-# kernels of a Release build take more than twice the time to compile. What differs between compilers
-# and machines (contraction, order of evaluation, instructions that stand for one another) shows at any
-# level; what only shows at -O3 are faults of the other optimiser.
+# At -O1, and with the widest instruction set of each class that this machine has, unless
+# SIMDBEZIER_LONG_TESTS is in the environment, as in ./run accuracy: all kernels of a Release build take
+# more than three times as long to compile. What differs between compilers and machines (contraction,
+# order of evaluation, instructions that stand for one another) shows at any level and in any width;
+# what only shows at -O3 are faults of the other optimiser.
+include(${CMAKE_CURRENT_LIST_DIR}/../../support/run.cmake)
 set(configure -DBUILD_SHARED_LIBS=OFF -DSIMDBEZIER_BUILD_TOOLS=OFF -DSIMDBEZIER_BUILD_BENCH=OFF
-              -DSIMDBEZIER_BUILD_EXAMPLES=OFF)
+              -DSIMDBEZIER_BUILD_EXAMPLES=OFF -DSIMDBEZIER_WERROR=ON)
 if(DEFINED ENV{SIMDBEZIER_LONG_TESTS})
   list(APPEND configure -DCMAKE_BUILD_TYPE=Release)
 else() # a Debug build has its kernels at -O1
   list(APPEND configure -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -DNDEBUG")
+  run(${HASH} --widest)
+  set(ISAS "${output}")
 endif()
 set(emulator)
 set(link)
 if(NOT OTHER STREQUAL "aarch64")
-  list(APPEND configure "-DSIMDBEZIER_ISAS=${ISAS}")
+  # A list as an argument would become several of them.
+  file(WRITE ${WORK}/isas.cmake "set(SIMDBEZIER_ISAS \"${ISAS}\" CACHE STRING \"\" FORCE)\n")
+  list(APPEND configure -C ${WORK}/isas.cmake)
 endif()
 set(compiler_of_gcc g++)
 set(compiler_of_clang clang++)
@@ -39,8 +45,6 @@ if(OTHER STREQUAL "aarch64")
   list(APPEND configure -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64
        -DSIMDBEZIER_XSIMD_INCLUDE_DIR=${WORK}/include)
 endif()
-
-include(${CMAKE_CURRENT_LIST_DIR}/../../support/run.cmake)
 
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_CXX_COMPILER=${compiler}
     ${configure})

@@ -4,14 +4,16 @@
 //     fma f32 grid 36747169f86be505
 //
 // Every instruction set of a class must give the class's hash; exit 1 where one does not.
-// With --isa the lines of single instruction sets are printed as well.
+// With --isa the lines of single instruction sets are printed as well. --widest prints the names of
+// the widest instruction sets of each class, and no hash.
 #include <cstdio>
-#include <cstring>
 #include <iterator>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "tests/properties/bits/further_hashes.hpp"
+#include "tests/support/isas.hpp"
 
 namespace simdbezier::tests {
 namespace {
@@ -172,7 +174,16 @@ void run(const char* type, Report& report) {
 
 int main(int argc, char** argv) {
   using namespace simdbezier::tests;
-  Report report(argc > 1 && std::strcmp(argv[1], "--isa") == 0);
+  const std::string_view option = argc > 1 ? argv[1] : "";
+  if (option == "--widest") {
+    const char* before = "";
+    for (const simdbezier::Isa isa : widest_of_each_class()) {
+      std::printf("%s%s", before, simdbezier::to_string(isa).data());
+      before = ";";
+    }
+    return 0;
+  }
+  Report report(option == "--isa");
   run<float>("f32", report);
   run<double>("f64", report);
   return report.finish();

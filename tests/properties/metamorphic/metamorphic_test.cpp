@@ -4,6 +4,7 @@
 
 #include "tests/properties/metamorphic/comparison.hpp"
 #include "tests/support/isa_fixture.hpp"
+#include "tests/support/isas.hpp"
 #include "tests/support/long_form.hpp"
 
 namespace simdbezier::tests::metamorphic_test {
@@ -187,15 +188,8 @@ TEST_P(Metamorphic, OneWrongValueIsNoticed) {
 /// (tests/properties/bits); all of them in the long form.
 [[nodiscard]] std::vector<Isa> tested_isas() {
   const std::span<const Isa> available = available_isas();
-  std::vector<Isa> tested;
-  for (std::size_t k = 0; k < available.size(); ++k) {
-    const bool widest = k + 1 == available.size() ||
-                        fuses_multiply_add(available[k]) != fuses_multiply_add(available[k + 1]);
-    if (widest || long_form()) {
-      tested.push_back(available[k]);
-    }
-  }
-  return tested;
+  return long_form() ? std::vector<Isa>(available.begin(), available.end())
+                     : widest_of_each_class();
 }
 INSTANTIATE_TEST_SUITE_P(Isa, Metamorphic, ::testing::ValuesIn(tested_isas()), isa_test_name);
 
