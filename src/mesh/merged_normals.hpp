@@ -43,9 +43,9 @@ struct PointBlock {
     }
   }
   static Values square_root(const Values& values) noexcept {
-    Values root;
+    Values root = values; // g++ at -O1 warns of one that is set lane by lane
     for (std::size_t k = 0; k < kPoints; ++k) {
-      root[k] = std::sqrt(values[k]);
+      root[k] = std::sqrt(root[k]);
     }
     return root;
   }
