@@ -1,7 +1,5 @@
 // What a tile function is handed through simdbezier.h is what a C++ one is handed, to the last
 // member.
-#include <algorithm>
-
 #include "tests/c_api/c_values.hpp"
 
 namespace simdbezier::tests::tiles_test {
@@ -9,6 +7,18 @@ namespace {
 
 /// Everything that tiles say, one number after the other.
 using Facts = std::vector<double>;
+
+/// Where a tile lies; the members have the same names in C and C++.
+template <typename AnyTile>
+Facts place_of(const AnyTile& tile) {
+  Facts facts;
+  for (const std::size_t size : {tile.first_patch, tile.patch_count, tile.first_row, tile.row_count,
+                                 tile.nu, tile.samples}) {
+    facts.push_back(static_cast<double>(size));
+  }
+  facts.push_back(tile.worker);
+  return facts;
+}
 
 template <typename T>
 void add_vectors(Facts& facts, const T* x, const T* y, const T* z, std::ptrdiff_t stride,
@@ -22,12 +32,7 @@ void add_vectors(Facts& facts, const T* x, const T* y, const T* z, std::ptrdiff_
 
 template <typename T>
 Facts facts_of(const Tile<T>& tile) {
-  Facts facts;
-  for (const std::size_t size : {tile.first_patch, tile.patch_count, tile.first_row, tile.row_count,
-                                 tile.nu, tile.samples}) {
-    facts.push_back(static_cast<double>(size));
-  }
-  facts.push_back(tile.worker);
+  Facts facts = place_of(tile);
   facts.push_back(tile.out.first_component);
   for (std::size_t group = 0; group < kVectorOutputs; ++group) {
     const Vectors<T>& vectors = tile.out[static_cast<Output>(group)];
@@ -56,12 +61,7 @@ Facts facts_of(const simdbezier_tile& tile) {
   EXPECT_EQ(tile.struct_size, sizeof tile);
   const simdbezier_outputs& out = *tile.out;
   EXPECT_EQ(out.struct_size, sizeof out);
-  Facts facts;
-  for (const std::size_t size : {tile.first_patch, tile.patch_count, tile.first_row, tile.row_count,
-                                 tile.nu, tile.samples}) {
-    facts.push_back(static_cast<double>(size));
-  }
-  facts.push_back(tile.worker);
+  Facts facts = place_of(tile);
   facts.push_back(out.first_component);
   for (const simdbezier_vectors* vectors :
        {&out.position, &out.du, &out.dv, &out.duu, &out.duv, &out.dvv, &out.normal}) {

@@ -2,7 +2,7 @@
 #
 # At -O1, and with the widest instruction set of each class that this machine has, unless
 # SIMDBEZIER_LONG_TESTS is in the environment, as in ./run accuracy: all kernels of a Release build take
-# more than three times as long to compile. What differs between compilers and machines (contraction,
+# more than twice as long to compile. What differs between compilers and machines (contraction,
 # order of evaluation, instructions that stand for one another) shows at any level and in any width;
 # what only shows at -O3 are faults of the other optimiser.
 include(${CMAKE_CURRENT_LIST_DIR}/../../support/run.cmake)
