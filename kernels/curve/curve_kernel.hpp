@@ -67,9 +67,9 @@ SIMDBEZIER_INLINE void for_curves(const CurveTask<T>& task, CurveBlock block, st
 /// Values and derivatives of one component of some curves.
 template <typename V, std::size_t kKnownOrder, std::size_t kDepth, bool kMixed, bool kHalves,
           typename T>
-SIMDBEZIER_INLINE void sweep_component(const CurveTask<T>& task, const CurveShape& shape,
-                                       CurveBlock block, std::size_t first,
-                                       const CurvePoints<V, kHalves>& points, std::size_t slot) {
+SIMDBEZIER_PART void sweep_component(const CurveTask<T>& task, const CurveShape& shape,
+                                     CurveBlock block, std::size_t first,
+                                     const CurvePoints<V, kHalves>& points, std::size_t slot) {
   T* const position = task.out[detail::kCurvePosition].component[slot];
   T* const d1 = task.out[detail::kCurveD1].component[slot];
   T* const d2 = task.out[detail::kCurveD2].component[slot];
@@ -102,8 +102,8 @@ SIMDBEZIER_INLINE void sweep_component(const CurveTask<T>& task, const CurveShap
 }
 
 template <typename T>
-SIMDBEZIER_INLINE void store_ends(const CurveTask<T>& task, const CurveShape& shape,
-                                  CurveBlock block, std::size_t slot) {
+SIMDBEZIER_PART void store_ends(const CurveTask<T>& task, const CurveShape& shape, CurveBlock block,
+                                std::size_t slot) {
   const T* const values = task.values + (shape.cells() - 1) * shape.cell_values() +
                           (task.first_component + slot) * shape.channel_values() + shape.ends_at() +
                           1;
@@ -114,14 +114,14 @@ SIMDBEZIER_INLINE void store_ends(const CurveTask<T>& task, const CurveShape& sh
 }
 
 template <typename T>
-SIMDBEZIER_INLINE bool wants_slot(const CurveTask<T>& task, std::size_t slot) {
+SIMDBEZIER_PART bool wants_slot(const CurveTask<T>& task, std::size_t slot) {
   return task.out[detail::kCurvePosition].component[slot] != nullptr ||
          task.out[detail::kCurveD1].component[slot] != nullptr ||
          task.out[detail::kCurveD2].component[slot] != nullptr;
 }
 
 template <typename T>
-SIMDBEZIER_INLINE std::size_t values_per_sample(const CurveTask<T>& task) {
+SIMDBEZIER_PART std::size_t values_per_sample(const CurveTask<T>& task) {
   std::size_t values = 0;
   for (const auto& planes : task.out) {
     values += planes.wanted() ? 3 : 0;
@@ -130,7 +130,7 @@ SIMDBEZIER_INLINE std::size_t values_per_sample(const CurveTask<T>& task) {
 }
 
 template <std::size_t kKnownOrder, bool kHalves, std::size_t kDepth, typename T>
-__attribute__((noinline)) void sweep_components(const CurveTask<T>& shared_task) {
+SIMDBEZIER_KERNEL void sweep_components(const CurveTask<T>& shared_task) {
   using V = vec<T>;
   // Copies, because stores through vector types might change anything that others can see.
   const CurveTask<T> task = shared_task;
@@ -157,7 +157,7 @@ __attribute__((noinline)) void sweep_components(const CurveTask<T>& shared_task)
 }
 
 template <std::size_t kKnownOrder, bool kHalves, bool kRational, std::size_t kDepth, typename T>
-__attribute__((noinline)) void sweep_samples(const CurveTask<T>& shared_task) {
+SIMDBEZIER_KERNEL void sweep_samples(const CurveTask<T>& shared_task) {
   using V = vec<T>;
   const CurveTask<T> task = shared_task;
   CurveShape shape = *shared_task.shape;
@@ -176,7 +176,7 @@ __attribute__((noinline)) void sweep_samples(const CurveTask<T>& shared_task) {
 }
 
 template <bool kRational, std::size_t kDepth, typename T>
-SIMDBEZIER_INLINE void sweep_any_degree(const CurveTask<T>& task) {
+SIMDBEZIER_PART void sweep_any_degree(const CurveTask<T>& task) {
   if (task.shape->cells() == 1) {
     sweep_samples<0, false, kRational, kDepth>(task);
   } else {
@@ -187,7 +187,7 @@ SIMDBEZIER_INLINE void sweep_any_degree(const CurveTask<T>& task) {
 /// Where components meet, few degrees are compiled on their own: circles and cubics, and tangents
 /// of polynomial cubics. First derivatives are rarely wanted without second ones elsewhere.
 template <bool kRational, typename T>
-SIMDBEZIER_INLINE void sweep_joint(const CurveTask<T>& task) {
+SIMDBEZIER_PART void sweep_joint(const CurveTask<T>& task) {
   const std::size_t depth = depth_of(task);
   if constexpr (kRational && !kCompact) {
     if (depth == 0 && task.shape->degree == 2) {
@@ -213,7 +213,7 @@ SIMDBEZIER_INLINE void sweep_joint(const CurveTask<T>& task) {
 /// Components that do not need each other. Positions have code for every degree of one cell, which
 /// is up to twice as fast; of derivatives cubics have.
 template <std::size_t kDepth, typename T>
-SIMDBEZIER_INLINE void sweep_apart(const CurveTask<T>& task) {
+SIMDBEZIER_PART void sweep_apart(const CurveTask<T>& task) {
   const int degree = task.shape->degree;
   if constexpr (kDepth == 0) {
     switch (degree) {
@@ -242,7 +242,7 @@ SIMDBEZIER_INLINE void sweep_apart(const CurveTask<T>& task) {
 }
 
 template <typename T>
-void curve_grid_kernel(CurveTask<T>& task) {
+SIMDBEZIER_KERNEL void curve_grid_kernel(CurveTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
   if (task.shape->rational) {
     return sweep_joint<true>(task);

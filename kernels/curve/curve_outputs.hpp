@@ -45,9 +45,8 @@ SIMDBEZIER_INLINE void prefetch_values(const T* values, std::size_t count) {
 
 /// Lane by lane, for those that did not pass the quick test. Rare, so kept out of line.
 template <typename V, typename Task>
-__attribute__((noinline, cold)) void resolve_lanes(const Task& task, const CurveShape& shape,
-                                                   const CurveRange<V>& range, V x, V squared,
-                                                   V floor) {
+SIMDBEZIER_RARE void resolve_lanes(const Task& task, const CurveShape& shape,
+                                   const CurveRange<V>& range, V x, V squared, V floor) {
   using T = ScalarOf<V>;
   alignas(64) T lanes[3][kLanes<V>];
   store_vector(lanes[0], x);

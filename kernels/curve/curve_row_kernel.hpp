@@ -32,13 +32,13 @@ struct RowRings {
   LineRing<T> ring[kStreams];
   std::size_t lines_per_step = 0;
 
-  SIMDBEZIER_INLINE void pass_on() {
+  SIMDBEZIER_PART void pass_on() {
     std::size_t lines = lines_per_step;
     for (std::size_t k = 0; k < kStreams && lines > 0; ++k) {
       lines = ring[k].pass_on(lines);
     }
   }
-  [[nodiscard]] SIMDBEZIER_INLINE CurveRows<kTriples, T> batch() const {
+  [[nodiscard]] SIMDBEZIER_PART CurveRows<kTriples, T> batch() const {
     CurveRows<kTriples, T> rows;
     for (std::size_t k = 0; k < kStreams; ++k) {
       rows.first[k] = ring[k].batch();
@@ -55,7 +55,7 @@ inline constexpr std::size_t kAcross = ~std::size_t(0);
 /// Curves [begin, end) to rows, `batch` at a time; rings: passed on meanwhile, null where there are
 /// none. A function of its own, because it is large and there are several ways to it.
 template <std::size_t kKnownOrder, std::size_t kWay, bool kTriples, typename T>
-__attribute__((noinline)) void
+SIMDBEZIER_KERNEL void
 fill_rows(const CurveTask<T>& shared_task, std::size_t begin, std::size_t end, std::size_t batch,
           const CurveRows<kTriples, T>& shared_rows, bool streaming, RowRings<kTriples, T>* rings) {
   // Copies, because stores through vector types might change anything that others can see.
@@ -109,8 +109,8 @@ constexpr RowFiller<kTriples, T> row_filler() {
 
 /// Straight to the caller's memory.
 template <bool kTriples, typename T>
-SIMDBEZIER_INLINE void write_rows(const CurveTask<T>& task, const CurveRows<kTriples, T>& out,
-                                  const RowFiller<kTriples, T>& way, T* memory) {
+SIMDBEZIER_PART void write_rows(const CurveTask<T>& task, const CurveRows<kTriples, T>& out,
+                                const RowFiller<kTriples, T>& way, T* memory) {
   constexpr std::size_t kAll = kLanes<vec<T>>;
   const std::size_t row = out.row(task.n);
   const std::size_t count = task.curve_count;
@@ -135,8 +135,8 @@ SIMDBEZIER_INLINE void write_rows(const CurveTask<T>& task, const CurveRows<kTri
 
 /// By way of rings, past the caches.
 template <bool kTriples, typename T>
-SIMDBEZIER_INLINE void stream_rows(const CurveTask<T>& task, const CurveRows<kTriples, T>& out,
-                                   const RowFiller<kTriples, T>& way, T* memory) {
+SIMDBEZIER_PART void stream_rows(const CurveTask<T>& task, const CurveRows<kTriples, T>& out,
+                                 const RowFiller<kTriples, T>& way, T* memory) {
   const std::size_t row = out.row(task.n);
   const std::size_t groups = kRowBatch<T> / (3 * task.n * kLineCurves<T>);
   const std::size_t batch = std::max<std::size_t>(groups, 1) * kLineCurves<T>;
@@ -164,7 +164,7 @@ SIMDBEZIER_INLINE void stream_rows(const CurveTask<T>& task, const CurveRows<kTr
 /// in the caches for triples alone; other rows of fewer samples than a register with curves in its
 /// lanes. aligned: all streams begin on a line.
 template <bool kTriples, typename T>
-SIMDBEZIER_INLINE RowFiller<kTriples, T> choose_filler(const CurveTask<T>& task, bool aligned) {
+SIMDBEZIER_PART RowFiller<kTriples, T> choose_filler(const CurveTask<T>& task, bool aligned) {
   constexpr std::size_t kAll = kLanes<vec<T>>;
   const bool cubic = task.shape->degree == 3;
   if constexpr (kAll * sizeof(T) >= 32) {
@@ -192,7 +192,7 @@ SIMDBEZIER_INLINE RowFiller<kTriples, T> choose_filler(const CurveTask<T>& task,
 }
 
 template <bool kTriples, typename T>
-__attribute__((noinline)) void evaluate_rows(const CurveTask<T>& task) {
+SIMDBEZIER_KERNEL void evaluate_rows(const CurveTask<T>& task) {
   CurveRows<kTriples, T> out;
   bool aligned = true;
   for (std::size_t k = 0; k < out.kStreams; ++k) {
@@ -212,7 +212,7 @@ __attribute__((noinline)) void evaluate_rows(const CurveTask<T>& task) {
 }
 
 template <typename T>
-SIMDBEZIER_INLINE void evaluate_rows(const CurveTask<T>& task) {
+SIMDBEZIER_PART void evaluate_rows(const CurveTask<T>& task) {
   task.triples != nullptr ? evaluate_rows<true>(task) : evaluate_rows<false>(task);
 }
 

@@ -20,7 +20,7 @@ struct CurveRows {
   T* first[kStreams];
 
   static constexpr std::size_t row(std::size_t n) { return kTriples ? 3 * n : n; }
-  SIMDBEZIER_INLINE CurveRows at(std::size_t values) const {
+  SIMDBEZIER_PART CurveRows at(std::size_t values) const {
     CurveRows rows;
     for (std::size_t k = 0; k < kStreams; ++k) {
       rows.first[k] = first[k] + values;

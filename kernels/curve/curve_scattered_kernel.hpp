@@ -11,8 +11,8 @@ using detail::ScatteredCurveTask;
 
 /// Samples [first, first + own) of a task, all of one curve.
 template <bool kHalves, bool kRational, std::size_t kDepth, typename T>
-SIMDBEZIER_INLINE void evaluate_samples(const ScatteredCurveTask<T>& task, const CurveShape& shape,
-                                        std::size_t first, std::size_t own) {
+SIMDBEZIER_PART void evaluate_samples(const ScatteredCurveTask<T>& task, const CurveShape& shape,
+                                      std::size_t first, std::size_t own) {
   using V = vec<T>;
   V t;
   if (own < kLanes<V>) {
@@ -34,8 +34,8 @@ SIMDBEZIER_INLINE void evaluate_samples(const ScatteredCurveTask<T>& task, const
 }
 
 template <typename T>
-SIMDBEZIER_INLINE void prefetch_curve(const ScatteredCurveTask<T>& task, const CurveShape& shape,
-                                      std::size_t k) {
+SIMDBEZIER_PART void prefetch_curve(const ScatteredCurveTask<T>& task, const CurveShape& shape,
+                                    std::size_t k) {
   constexpr std::size_t kAhead = 12;
   if (k + kAhead < task.count) {
     // Values do not begin at lines.
@@ -45,7 +45,7 @@ SIMDBEZIER_INLINE void prefetch_curve(const ScatteredCurveTask<T>& task, const C
 }
 
 template <bool kHalves, bool kRational, std::size_t kDepth, typename T>
-__attribute__((noinline)) void scatter_samples(const ScatteredCurveTask<T>& shared_task) {
+SIMDBEZIER_KERNEL void scatter_samples(const ScatteredCurveTask<T>& shared_task) {
   const ScatteredCurveTask<T> task = shared_task;
   CurveShape shape = *shared_task.shape;
   shape.rational = kRational;
@@ -65,7 +65,7 @@ __attribute__((noinline)) void scatter_samples(const ScatteredCurveTask<T>& shar
 }
 
 template <bool kHalves, bool kRational, typename T>
-SIMDBEZIER_INLINE void scatter_depth(const ScatteredCurveTask<T>& task) {
+SIMDBEZIER_PART void scatter_depth(const ScatteredCurveTask<T>& task) {
   if (depth_of(task) == 0) {
     scatter_samples<kHalves, kRational, 0>(task);
   } else {
@@ -74,7 +74,7 @@ SIMDBEZIER_INLINE void scatter_depth(const ScatteredCurveTask<T>& task) {
 }
 
 template <bool kHalves, typename T>
-SIMDBEZIER_INLINE void scatter_cells(const ScatteredCurveTask<T>& task) {
+SIMDBEZIER_PART void scatter_cells(const ScatteredCurveTask<T>& task) {
   if (task.shape->rational) {
     scatter_depth<kHalves, true>(task);
   } else {
@@ -83,7 +83,7 @@ SIMDBEZIER_INLINE void scatter_cells(const ScatteredCurveTask<T>& task) {
 }
 
 template <typename T>
-void scattered_curve_kernel(ScatteredCurveTask<T>& task) {
+SIMDBEZIER_KERNEL void scattered_curve_kernel(ScatteredCurveTask<T>& task) {
   if (task.shape->cells() == 2) {
     scatter_cells<true>(task);
   } else {

@@ -28,7 +28,7 @@ public:
   static constexpr std::size_t kMostValues = 3 * (kMostOrderAcross + 3);
 
   /// values: of the first component of the first curve.
-  SIMDBEZIER_INLINE CurveColumns(const CurveShape& shape, const T* values, std::size_t stride)
+  SIMDBEZIER_PART CurveColumns(const CurveShape& shape, const T* values, std::size_t stride)
       : order_(shape.order()), channel_(shape.channel_values()), origins_(shape.origins) {
     const std::size_t count = 3 * channel_;
     for (std::size_t k = 0; k + kQuad<V> < count; k += kQuad<V>) {
@@ -39,8 +39,7 @@ public:
   }
 
   /// One component of kAcrossStep samples. any_end: some of them may be ends.
-  SIMDBEZIER_INLINE void evaluate(std::size_t component, const T* x, bool any_end,
-                                  V* result) const {
+  SIMDBEZIER_PART void evaluate(std::size_t component, const T* x, bool any_end, V* result) const {
     const V* const c = value_ + component * channel_;
     repeat<kAcrossStep>([&](std::size_t j) SIMDBEZIER_INLINE_LAMBDA {
       const auto coefficient = [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return c[k]; };
@@ -70,7 +69,7 @@ private:
 };
 
 template <typename T>
-SIMDBEZIER_INLINE bool any_end(const T* x) {
+SIMDBEZIER_PART bool any_end(const T* x) {
   bool any = false;
   for (std::size_t j = 0; j < kAcrossStep; ++j) {
     any |= x[j] == T(-0.5) || x[j] == T(0.5);
@@ -80,7 +79,7 @@ SIMDBEZIER_INLINE bool any_end(const T* x) {
 
 /// kCount values of every curve, to rows.
 template <std::size_t kCount, typename V>
-SIMDBEZIER_INLINE void store_samples(const V* values, ScalarOf<V>* to, std::size_t stride) {
+SIMDBEZIER_PART void store_samples(const V* values, ScalarOf<V>* to, std::size_t stride) {
   repeat<kCount / kQuad<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
     store_across(values + k * kQuad<V>, to + k * kQuad<V>, stride);
   });

@@ -9,7 +9,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// One more sample than whole registers hold, on the curves' end, as in grids of 17 or 33: the
 /// positions there are stored values.
 template <typename V, typename T>
-SIMDBEZIER_INLINE bool ends_alone(const CurveTask<T>& task) {
+SIMDBEZIER_PART bool ends_alone(const CurveTask<T>& task) {
   return task.n % kLanes<V> == 1 && task.n > kLanes<V> && task.x[task.n - 1] == T(0.5);
 }
 

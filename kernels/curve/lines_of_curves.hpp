@@ -17,7 +17,7 @@ inline constexpr std::size_t kLineSamples = 64 / sizeof(T);
 /// How many curves a register holds of rows of n samples: 1 where a row is a register or more, 0
 /// where rows are not written by lines. Rows of one register that is a line need no such help.
 template <typename T>
-SIMDBEZIER_INLINE std::size_t curves_in_register(std::size_t n) {
+SIMDBEZIER_PART std::size_t curves_in_register(std::size_t n) {
   constexpr std::size_t kAll = kLanes<vec<T>>;
   if (n < 4 || kLineSamples<T> % n != 0 || (kLineWide<vec<T>> && n == kAll)) {
     return 0;
@@ -50,11 +50,11 @@ public:
   }
 
   /// Curves of one line.
-  [[nodiscard]] SIMDBEZIER_INLINE std::size_t curves() const { return kLineSamples<T> / n_; }
+  [[nodiscard]] SIMDBEZIER_PART std::size_t curves() const { return kLineSamples<T> / n_; }
 
   /// The curves whose first component's values begin at `from` and a stride behind each other.
-  SIMDBEZIER_INLINE void put(const T* from, const CurveRows<kTriples, T>& rows,
-                             bool streaming) const {
+  SIMDBEZIER_PART void put(const T* from, const CurveRows<kTriples, T>& rows,
+                           bool streaming) const {
     LinePart<T> value[kParts][3];
     repeat<kParts>([&](std::size_t part) SIMDBEZIER_INLINE_LAMBDA {
       const T* const curve = from + place_[part];
@@ -83,7 +83,7 @@ public:
 
 private:
   /// One place for both kinds of stores: twice the code would gain nothing.
-  static SIMDBEZIER_INLINE void store(T* to, LinePart<T> value, bool streaming) {
+  static SIMDBEZIER_PART void store(T* to, LinePart<T> value, bool streaming) {
     if (streaming) {
       store_any<true>(to, value);
     } else {
@@ -92,7 +92,7 @@ private:
   }
 
   /// One component: coefficients, then both ends.
-  SIMDBEZIER_INLINE V position(const T* values, V x) const {
+  SIMDBEZIER_PART V position(const T* values, V x) const {
     const V coefficients = join_fours<kCurves, V>(values, stride_);
     V power[kOrderOfCubics];
     split_fours(coefficients, power);
@@ -113,9 +113,9 @@ private:
 
 /// Curves [begin, end) to rows. Streaming: rows begin on a line.
 template <std::size_t kCurves, bool kTriples, typename T>
-SIMDBEZIER_INLINE void fill_lines(const CurveTask<T>& task, const CurveShape& shape,
-                                  std::size_t begin, std::size_t end, CurveRows<kTriples, T> rows,
-                                  bool streaming) {
+SIMDBEZIER_PART void fill_lines(const CurveTask<T>& task, const CurveShape& shape,
+                                std::size_t begin, std::size_t end, CurveRows<kTriples, T> rows,
+                                bool streaming) {
   constexpr std::size_t kValues = (kTriples ? 3 : 1) * kLineSamples<T>; // of each stream
   constexpr std::size_t kCubic = 3 * 6;
   constexpr std::size_t kMostStride = kMostComponents * 6;

@@ -13,8 +13,8 @@ using detail::DerivativeTask;
 enum Side : std::size_t { kInside, kLowEnd, kHighEnd, kSides };
 
 template <typename T>
-SIMDBEZIER_INLINE Cell<T> cell_of(const DerivativeTask<T>& task, std::size_t patch,
-                                  std::size_t index) {
+SIMDBEZIER_PART Cell<T> cell_of(const DerivativeTask<T>& task, std::size_t patch,
+                                std::size_t index) {
   const NetShape& shape = *task.shape;
   const std::size_t at = patch * shape.cells() + index;
   return {task.coefficients + at * shape.cell_coefficients(), task.edges + at * shape.cell_edges(),
@@ -63,21 +63,21 @@ public:
   }
 
 private:
-  [[nodiscard]] SIMDBEZIER_INLINE std::size_t highest_u() const {
+  [[nodiscard]] SIMDBEZIER_PART std::size_t highest_u() const {
     return static_cast<std::size_t>(orders_.highest_u);
   }
-  [[nodiscard]] SIMDBEZIER_INLINE std::size_t highest_v(std::size_t a) const {
+  [[nodiscard]] SIMDBEZIER_PART std::size_t highest_v(std::size_t a) const {
     return static_cast<std::size_t>(orders_.highest_v[a]);
   }
-  [[nodiscard]] SIMDBEZIER_INLINE std::size_t edge_u() const {
+  [[nodiscard]] SIMDBEZIER_PART std::size_t edge_u() const {
     return side_u_ == kLowEnd ? detail::kEdgeU0 : detail::kEdgeU1;
   }
-  [[nodiscard]] SIMDBEZIER_INLINE std::size_t edge_v() const {
+  [[nodiscard]] SIMDBEZIER_PART std::size_t edge_v() const {
     return side_v_ == kLowEnd ? detail::kEdgeV0 : detail::kEdgeV1;
   }
 
   /// From the patch's own coefficients, whatever the sides are.
-  __attribute__((noinline)) void table(std::size_t channel, TaylorTable<V>& to) const {
+  SIMDBEZIER_KERNEL void table(std::size_t channel, TaylorTable<V>& to) const {
     const T* const matrix = cell_.coefficients + channel * shape_.matrix();
     const std::size_t order_v = shape_.order_v();
     V power[detail::kMostOrder][kMostDerivatives]; // [power of Y][order in u]
@@ -103,8 +103,8 @@ private:
     }
   }
 
-  __attribute__((noinline)) void edge(std::size_t channel, std::size_t number, std::size_t order,
-                                      V t, std::size_t highest, V* to) const {
+  SIMDBEZIER_KERNEL void edge(std::size_t channel, std::size_t number, std::size_t order, V t,
+                              std::size_t highest, V* to) const {
     const T* const powers = cell_.edges + channel * shape_.edge_powers() * 4 + number;
     taylor_row(
         order, t, [&](std::size_t k) { return broadcast<V>(powers[k * 4]); }, highest, to);
@@ -129,14 +129,14 @@ private:
       negate(minus_w_v_, highest_u());
     }
   }
-  static SIMDBEZIER_INLINE void negate(V* row, std::size_t highest) {
+  static SIMDBEZIER_PART void negate(V* row, std::size_t highest) {
     for (std::size_t d = 0; d <= highest; ++d) {
       row[d] = negated(row[d]);
     }
   }
 
   /// Positions are relative to origins; corners are stored.
-  SIMDBEZIER_INLINE void place(std::size_t component, V& position) const {
+  SIMDBEZIER_PART void place(std::size_t component, V& position) const {
     if (side_u_ != kInside && side_v_ != kInside) {
       const std::size_t corner =
           detail::corner_index(side_u_ == kHighEnd ? 1 : 0, side_v_ == kHighEnd ? 1 : 0);
@@ -149,20 +149,20 @@ private:
       position = position + broadcast<V>(corner_u(component));
     }
   }
-  SIMDBEZIER_INLINE V origin(std::size_t component, std::size_t which) const {
+  SIMDBEZIER_PART V origin(std::size_t component, std::size_t which) const {
     return broadcast<V>(cell_.origins[component * detail::kOriginsPerComponent + which]);
   }
   /// What is added to positions on an edge u = const where derivatives by u use them.
-  SIMDBEZIER_INLINE V relative_origin_u(std::size_t component) const {
+  SIMDBEZIER_PART V relative_origin_u(std::size_t component) const {
     return point_u_ ? broadcast<V>(corner_u(component))
                     : origin(component, detail::kRelativeOriginsAt + edge_u() - detail::kEdgeU0);
   }
   /// The corner where an edge u = const begins; for the weight's channel, the edge's mark.
-  SIMDBEZIER_INLINE T corner_u(std::size_t channel) const {
+  SIMDBEZIER_PART T corner_u(std::size_t channel) const {
     return cell_.edges[shape_.corners_at() + channel * 4 + edge_u() - detail::kEdgeU0];
   }
   /// The origin of the edge u = const, if the samples are on one.
-  SIMDBEZIER_INLINE V origin_u(std::size_t component) const {
+  SIMDBEZIER_PART V origin_u(std::size_t component) const {
     return origin(component, side_u_ == kInside ? 0 : detail::kEdgeOriginsAt + edge_u());
   }
 

@@ -59,7 +59,7 @@ SIMDBEZIER_INLINE void taylor_row(std::size_t order, V t, const Coefficient& c, 
 
 /// h becomes s = h / w, orders 0 … highest; the weight's derivatives come negated.
 template <typename V>
-SIMDBEZIER_INLINE void divide_row(const V* minus_w, V inverse, std::size_t highest, V* h) {
+SIMDBEZIER_PART void divide_row(const V* minus_w, V inverse, std::size_t highest, V* h) {
   for (std::size_t d = 0; d <= highest; ++d) {
     V sum = h[d];
     for (std::size_t i = d; i > 0; --i) {
@@ -73,9 +73,9 @@ SIMDBEZIER_INLINE void divide_row(const V* minus_w, V inverse, std::size_t highe
 /// sum is that of Quotient, for equal bits. to_patch: null, or what to add to the position where
 /// derivatives by u use it; see ColumnPolynomials.
 template <typename V>
-SIMDBEZIER_INLINE void divide_table(const TaylorTable<V>& minus_w, V inverse,
-                                    const detail::DerivativeOrders& orders, const V* to_patch,
-                                    TaylorTable<V>& h) {
+SIMDBEZIER_PART void divide_table(const TaylorTable<V>& minus_w, V inverse,
+                                  const detail::DerivativeOrders& orders, const V* to_patch,
+                                  TaylorTable<V>& h) {
   V position = h[0][0];
   for (int a = 0; a <= orders.highest_u; ++a) {
     if (a == 1) {
@@ -105,7 +105,7 @@ constexpr double kFactorials[kMostDerivatives] = {
 /// What turns the Taylor coefficients of a cell into derivatives by u and v: a! b!, rounded once in
 /// double and once in T, and 2 for every order in a direction that has two cells.
 template <typename T>
-SIMDBEZIER_INLINE T derivative_factor(int order_u, int order_v, const detail::NetShape& shape) {
+SIMDBEZIER_PART T derivative_factor(int order_u, int order_v, const detail::NetShape& shape) {
   const int doublings = (shape.cells_u() == 2 ? order_u : 0) + (shape.cells_v() == 2 ? order_v : 0);
   return static_cast<T>(kFactorials[order_u] * kFactorials[order_v] *
                         static_cast<double>(std::uint64_t{1} << doublings));

@@ -22,7 +22,7 @@ struct LocalParameter {
   T value;
   Side side = kInside;
 
-  SIMDBEZIER_INLINE LocalParameter(T half_centred, std::size_t cells, bool watertight)
+  SIMDBEZIER_PART LocalParameter(T half_centred, std::size_t cells, bool watertight)
       : value(half_centred) {
     if (cells == 2) {
       const bool low = half_centred < T(0);
@@ -59,7 +59,7 @@ public:
   }
 
 private:
-  SIMDBEZIER_INLINE void add(std::size_t k) {
+  SIMDBEZIER_PART void add(std::size_t k) {
     const LocalParameter<T> u(task_.x[k], task_.shape->cells_u(), task_.watertight);
     const LocalParameter<T> v(task_.y[k], task_.shape->cells_v(), task_.watertight);
     const std::size_t cell = v.cell * task_.shape->cells_u() + u.cell;
@@ -80,7 +80,7 @@ private:
     }
   }
 
-  __attribute__((noinline)) void evaluate(std::size_t place) {
+  SIMDBEZIER_KERNEL void evaluate(std::size_t place) {
     AlikeSamples<T>& samples = waiting_[place];
     for (std::size_t i = samples.count; i < kLanes<V>; ++i) { // so that these lanes trap nothing
       samples.x[i] = samples.x[0];
@@ -103,8 +103,8 @@ private:
     occupied_ &= ~(std::uint64_t{1} << place);
   }
 
-  SIMDBEZIER_INLINE void store(const AlikeSamples<T>& samples, std::size_t c, MaskOf<V> finite,
-                               const TaylorTable<V>& derivatives) const {
+  SIMDBEZIER_PART void store(const AlikeSamples<T>& samples, std::size_t c, MaskOf<V> finite,
+                             const TaylorTable<V>& derivatives) const {
     for (std::size_t d = 0; d < task_.derivative_count; ++d) {
       const PartialDerivative<T>& wanted = task_.derivatives[d];
       const V factor =
@@ -127,7 +127,7 @@ private:
 };
 
 template <typename T>
-void derivative_kernel(DerivativeTask<T>& task) {
+SIMDBEZIER_KERNEL void derivative_kernel(DerivativeTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
   DerivativeKernel<T> kernel(task);
   kernel.run();

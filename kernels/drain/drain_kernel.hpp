@@ -35,7 +35,7 @@ SIMDBEZIER_INLINE void drain_packed(const DrainStream<T>& s, std::size_t steps) 
 }
 
 template <bool kStreaming, typename T>
-__attribute__((noinline)) void drain_nonuples(const DrainStream<T>& s, std::size_t steps) {
+SIMDBEZIER_KERNEL void drain_nonuples(const DrainStream<T>& s, std::size_t steps) {
   drain_packed<kStreaming, 9>(s, steps);
 }
 
@@ -76,7 +76,7 @@ SIMDBEZIER_INLINE void drain_records(const DrainStream<T>& s, std::size_t at, T*
 /// Records without gaps by way of a buffer, so that they leave in whole lines. Two buffers: a line
 /// read back at once would wait for the small stores that made it.
 template <typename T>
-__attribute__((noinline)) void drain_buffered(const DrainStream<T>& s, std::size_t steps) {
+SIMDBEZIER_KERNEL void drain_buffered(const DrainStream<T>& s, std::size_t steps) {
   alignas(64) T buffer[2][kDrainStep<T> * detail::kMostMembers];
   const std::size_t step = kDrainStep<T> * s.members;
   for (std::size_t k = 0; k <= steps; ++k) {
@@ -93,7 +93,7 @@ __attribute__((noinline)) void drain_buffered(const DrainStream<T>& s, std::size
 }
 
 template <typename T>
-__attribute__((noinline)) void drain_with_gaps(const DrainStream<T>& s, std::size_t steps) {
+SIMDBEZIER_KERNEL void drain_with_gaps(const DrainStream<T>& s, std::size_t steps) {
   for (std::size_t k = 0; k < steps * kDrainStep<T>; k += kDrainStep<T>) {
     drain_records(s, s.at + k, s.to + static_cast<std::ptrdiff_t>(k) * s.stride, s.stride);
   }
@@ -116,7 +116,7 @@ SIMDBEZIER_INLINE void drain_steps(const DrainStream<T>& s, std::size_t steps) {
 /// Passes on as many values as are owed. It is out of line, so that the registers of a kernel's
 /// rows wait in the first-level cache meanwhile, which is cheaper than keeping some free for this.
 template <typename T>
-__attribute__((noinline)) void drain_owed(DrainQueue<T>& queue) {
+SIMDBEZIER_KERNEL void drain_owed(DrainQueue<T>& queue) {
   while (queue.current < queue.streams) {
     DrainStream<T>& stream = queue.stream[queue.current];
     const std::size_t step = kDrainStep<T> * stream.members;
@@ -152,7 +152,7 @@ SIMDBEZIER_INLINE void drain_some(DrainQueue<T>* drain, std::size_t values) {
 
 /// Passes on all that is left.
 template <typename T>
-void drain_all(DrainQueue<T>& queue) {
+SIMDBEZIER_KERNEL void drain_all(DrainQueue<T>& queue) {
   for (; queue.current < queue.streams; ++queue.current) {
     DrainStream<T>& stream = queue.stream[queue.current];
     drain_steps(stream, stream.steps);

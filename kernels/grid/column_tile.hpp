@@ -24,18 +24,18 @@ struct SharedCorners {
   PairSelector<V> at_v0;
   PairSelector<V> at_v1;
 
-  static SIMDBEZIER_INLINE MaskOf<V> first_half() {
+  static SIMDBEZIER_PART MaskOf<V> first_half() {
     const ScalarOf<V> halves[2] = {0, 1};
     return RowGroups<2, V>::spread(halves) == broadcast<V>(ScalarOf<V>(0));
   }
-  SIMDBEZIER_INLINE SharedCorners(V x, MaskOf<V> half)
+  SIMDBEZIER_PART SharedCorners(V x, MaskOf<V> half)
       : at_v0((x == broadcast<V>(ScalarOf<V>(-0.5))) & half,
               (x == broadcast<V>(ScalarOf<V>(0.5))) & half),
         at_v1((x == broadcast<V>(ScalarOf<V>(-0.5))) & !half,
               (x == broadcast<V>(ScalarOf<V>(0.5))) & !half) {}
-  explicit SIMDBEZIER_INLINE SharedCorners(V x) : SharedCorners(x, first_half()) {}
+  explicit SIMDBEZIER_PART SharedCorners(V x) : SharedCorners(x, first_half()) {}
 
-  SIMDBEZIER_INLINE V replace(V value, const ScalarOf<V>* corner) const {
+  SIMDBEZIER_PART V replace(V value, const ScalarOf<V>* corner) const {
     return at_v0.replace(at_v1.replace(value, corner + detail::corner_index(0, 1)),
                          corner + detail::corner_index(0, 0));
   }
@@ -43,7 +43,7 @@ struct SharedCorners {
 
 struct NoSharedCorners {
   template <typename V>
-  explicit SIMDBEZIER_INLINE NoSharedCorners(V /*x*/) {}
+  explicit SIMDBEZIER_PART NoSharedCorners(V /*x*/) {}
 };
 
 template <std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams = false>
@@ -71,15 +71,15 @@ struct ColumnTile {
   Column<V> column;
   std::conditional_t<kShared, SharedCorners<V>, NoSharedCorners> corners;
 
-  SIMDBEZIER_INLINE ColumnTile(const T* x, std::size_t first_column, std::size_t active_columns,
-                               bool own_edges)
+  SIMDBEZIER_PART ColumnTile(const T* x, std::size_t first_column, std::size_t active_columns,
+                             bool own_edges)
       : first(first_column), active(active_columns), watertight(own_edges),
         column(Groups::repeat(x + first_column), own_edges), corners(column.x) {}
 
   /// The first `rows` rows of `value`, `step` samples from one to the next. extra: what follows
   /// them in kExtra tiles.
-  SIMDBEZIER_INLINE void store(T* to, std::size_t step, V value, std::size_t rows,
-                               const T* extra) const {
+  SIMDBEZIER_PART void store(T* to, std::size_t step, V value, std::size_t rows,
+                             const T* extra) const {
     if constexpr (kRows == kLanes<V>) {
       store_vector(to, value);
     } else if constexpr (kRows == 1) {
@@ -102,7 +102,7 @@ struct ColumnTile {
     }
   }
   /// kRows rows in reverse order, from the one at `to` back.
-  SIMDBEZIER_INLINE void store_mirrored(T* to, std::size_t step, V value, const T* extra) const {
+  SIMDBEZIER_PART void store_mirrored(T* to, std::size_t step, V value, const T* extra) const {
     if constexpr (kRows == 1) {
       keep_stores_apart();
       store(to, step, value, 1, extra);
@@ -113,18 +113,18 @@ struct ColumnTile {
       store_lanes_from<kColumns, kColumns>(to - step, value, columns());
     }
   }
-  SIMDBEZIER_INLINE void store_if_wanted(T* plane, std::size_t at, std::size_t step, V value,
-                                         std::size_t rows) const {
+  SIMDBEZIER_PART void store_if_wanted(T* plane, std::size_t at, std::size_t step, V value,
+                                       std::size_t rows) const {
     if (plane != nullptr) {
       store(plane + at, step, value, rows, nullptr);
     }
   }
 
   /// First of the lanes in which an edge v = const stands.
-  static SIMDBEZIER_INLINE std::size_t edge_lane(RowKind kind) {
+  static SIMDBEZIER_PART std::size_t edge_lane(RowKind kind) {
     return kShared && kind == RowKind::edge_v1 ? kLanes<V> / 2 : 0;
   }
-  SIMDBEZIER_INLINE void store_edge(T* to, V value, RowKind kind, const T* extra) const {
+  SIMDBEZIER_PART void store_edge(T* to, V value, RowKind kind, const T* extra) const {
     if constexpr (!kShared) {
       store(to, 0, value, 1, extra);
       return;
@@ -137,21 +137,20 @@ struct ColumnTile {
       move_value(to + kColumns, extra);
     }
   }
-  SIMDBEZIER_INLINE void store_mirrored_if_wanted(T* plane, std::size_t at, std::size_t step,
-                                                  V value) const {
+  SIMDBEZIER_PART void store_mirrored_if_wanted(T* plane, std::size_t at, std::size_t step,
+                                                V value) const {
     if (plane != nullptr) {
       store_mirrored(plane + at, step, value, nullptr);
     }
   }
-  SIMDBEZIER_INLINE void store_edge_if_wanted(T* plane, std::size_t at, V value,
-                                              RowKind kind) const {
+  SIMDBEZIER_PART void store_edge_if_wanted(T* plane, std::size_t at, V value, RowKind kind) const {
     if (plane != nullptr) {
       store_edge(plane + at, value, kind, nullptr);
     }
   }
 
   /// Positions on the edge `edge`, or on both where they share a register; and du.
-  SIMDBEZIER_INLINE V edge_rows(const Component<T>& c, std::size_t edge, V& du) const {
+  SIMDBEZIER_PART V edge_rows(const Component<T>& c, std::size_t edge, V& du) const {
     if constexpr (!kShared) {
       return edge_position(c, column, edge, du);
     } else {
@@ -160,7 +159,7 @@ struct ColumnTile {
       return finish(c, row_value(k, RowPoint<V>(column.x), du));
     }
   }
-  SIMDBEZIER_INLINE V edge_rows(const Component<T>& c, std::size_t edge) const {
+  SIMDBEZIER_PART V edge_rows(const Component<T>& c, std::size_t edge) const {
     if constexpr (!kShared) {
       return edge_position(c, column, edge);
     } else {
@@ -169,7 +168,7 @@ struct ColumnTile {
       return finish(c, row_value(k, RowPoint<V>(column.x)));
     }
   }
-  SIMDBEZIER_INLINE V edge_rows_second(const Component<T>& c, std::size_t edge) const {
+  SIMDBEZIER_PART V edge_rows_second(const Component<T>& c, std::size_t edge) const {
     if constexpr (!kShared) {
       return edge_second(c, column, edge);
     } else {
@@ -179,7 +178,7 @@ struct ColumnTile {
     }
   }
   /// The Y of these edges.
-  static SIMDBEZIER_INLINE V edge_y(std::size_t edge) {
+  static SIMDBEZIER_PART V edge_y(std::size_t edge) {
     constexpr T kBoth[2] = {T(-0.5), T(0.5)};
     if constexpr (kShared) {
       return RowGroups<2, V>::spread(kBoth);
@@ -190,21 +189,21 @@ struct ColumnTile {
 private:
   /// Both halves of a line must be stored one after the other, or processors take twice as long for
   /// them; compilers would store a half of a row between those of its mirror image.
-  static SIMDBEZIER_INLINE void keep_stores_apart() {
+  static SIMDBEZIER_PART void keep_stores_apart() {
     if constexpr (kLanes<V> != kLanes<vec<T>>) {
       asm volatile("" ::: "memory");
     }
   }
 
   /// As `active`; known to the compiler where all exist.
-  SIMDBEZIER_INLINE std::size_t columns() const { return kWhole ? kColumns : active; }
+  SIMDBEZIER_PART std::size_t columns() const { return kWhole ? kColumns : active; }
 
-  static SIMDBEZIER_INLINE void shared_edges(const Component<T>& c, V k[kOrder]) {
+  static SIMDBEZIER_PART void shared_edges(const Component<T>& c, V k[kOrder]) {
     for (std::size_t i = 0; i < kOrder; ++i) {
       k[i] = RowGroups<2, V>::spread(c.edge + i * kEdges + detail::kEdgeV0);
     }
   }
-  SIMDBEZIER_INLINE V finish(const Component<T>& c, V value) const {
+  SIMDBEZIER_PART V finish(const Component<T>& c, V value) const {
     if (c.origins != nullptr) [[unlikely]] {
       constexpr std::size_t kAt = detail::kEdgeOriginsAt + detail::kEdgeV0;
       value = value + RowGroups<2, V>::spread(c.origin() + kAt);

@@ -27,7 +27,7 @@ struct ColumnSplit {
   std::size_t rest; ///< behind them
   bool column;      ///< and one more behind these
 
-  SIMDBEZIER_INLINE ColumnSplit(std::size_t nu, bool single_columns)
+  SIMDBEZIER_PART ColumnSplit(std::size_t nu, bool single_columns)
       : full(nu / kLanes<V> * kLanes<V>), rest(nu - full), column(false) {
     if (single_columns && full > 0 && rest == 1) {
       --rest;
@@ -62,7 +62,7 @@ struct TileSweeper {
   std::size_t end;
 
   template <typename SomeTile>
-  SIMDBEZIER_INLINE void sweep(std::size_t first, std::size_t columns) const {
+  SIMDBEZIER_PART void sweep(std::size_t first, std::size_t columns) const {
     sweep_tile<kOutputs, kKnown, SomeTile>(task, piece, first, columns, patch, end);
   }
 };
@@ -89,8 +89,8 @@ SIMDBEZIER_INLINE void sweep_rest(const Sweeper& tiles, std::size_t first, std::
 /// All tiles of patches [patch, end), for tasks of which nothing is known and for rarer outputs:
 /// whole registers and a masked one.
 template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_INLINE void sweep_registers(const GridTask<T>& task, const RowPiece<T>& piece,
-                                       std::size_t patch, std::size_t end) {
+SIMDBEZIER_PART void sweep_registers(const GridTask<T>& task, const RowPiece<T>& piece,
+                                     std::size_t patch, std::size_t end) {
   using V = vec<T>;
   constexpr std::size_t kL = kLanes<V>;
   const TileSweeper<kOutputs, Known::nothing, T> tiles{task, piece, patch, end};
@@ -116,8 +116,8 @@ SIMDBEZIER_INLINE void sweep_registers(const GridTask<T>& task, const RowPiece<T
 
 /// All tiles of patches [patch, end), of tasks without origins.
 template <detail::OutputSet kOutputs, Known kKnown, typename T>
-SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
-                                   const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
+SIMDBEZIER_PART void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
+                                 const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
   using V = vec<T>;
   constexpr std::size_t kL = kLanes<V>;
   const TileSweeper<kOutputs, kKnown, T> tiles{task, piece, patch, end};
@@ -156,8 +156,8 @@ SIMDBEZIER_INLINE void sweep_tiles(const GridTask<T>& task, const ColumnSplit<ve
 /// Patches [patch, end) on the rows of a piece. Registers of 64 bytes have tiles for either kind of
 /// edges; shorter ones ask at run time, since twice the code would be too much for what it gains.
 template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_INLINE void sweep_patches(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
-                                     const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
+SIMDBEZIER_PART void sweep_patches(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
+                                   const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
   if constexpr (!kUsual<kOutputs>) {
     sweep_registers<kOutputs>(task, piece, patch, end);
   } else {
@@ -188,7 +188,7 @@ SIMDBEZIER_INLINE void sweep_patches(const GridTask<T>& task, const ColumnSplit<
 /// A task that is a small grid, if it is one and the instruction set has kernels for it: positions,
 /// and with them normals or derivatives.
 template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_INLINE bool sweep_small_grid(const GridTask<T>& task) {
+SIMDBEZIER_PART bool sweep_small_grid(const GridTask<T>& task) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
   if constexpr (kFourGroups<vec<T>> && kUsual<kOutputs>) {
     if (is_small_grid(task)) {
@@ -213,7 +213,7 @@ SIMDBEZIER_INLINE bool sweep_small_grid(const GridTask<T>& task) {
 }
 
 template <typename T, detail::OutputSet kOutputs>
-void grid_kernel(GridTask<T>& task) {
+SIMDBEZIER_KERNEL void grid_kernel(GridTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
   if (sweep_small_grid<kOutputs>(task)) {
     return;

@@ -18,7 +18,7 @@ enum class Known {
 };
 
 template <Known kKnown, typename T>
-SIMDBEZIER_INLINE void assume(GridTask<T>& task) {
+SIMDBEZIER_PART void assume(GridTask<T>& task) {
   if constexpr (kKnown != Known::nothing) {
     task.origins = nullptr;
   }
@@ -27,15 +27,15 @@ SIMDBEZIER_INLINE void assume(GridTask<T>& task) {
   }
 }
 template <Known kKnown, typename T>
-SIMDBEZIER_INLINE bool is_watertight(const GridTask<T>& task) {
+SIMDBEZIER_PART bool is_watertight(const GridTask<T>& task) {
   return kKnown == Known::watertight || (kKnown != Known::open && task.watertight);
 }
 
 /// Positions and normals, of a tile and the column behind it.
 template <bool kAny, Known kKnown, typename Piece, typename SomeTile, typename T>
-SIMDBEZIER_INLINE void sweep_normal_patches(const GridTask<T>& shared_task, const Piece& piece,
-                                            const SomeTile& tile, std::size_t patch,
-                                            std::size_t last_patch) {
+SIMDBEZIER_PART void sweep_normal_patches(const GridTask<T>& shared_task, const Piece& piece,
+                                          const SomeTile& tile, std::size_t patch,
+                                          std::size_t last_patch) {
   using V = typename SomeTile::Vector;
   // Copies, because stores through vector types might change anything that others can see.
   GridTask<T> task = shared_task;
@@ -73,9 +73,9 @@ SIMDBEZIER_INLINE void sweep_normal_patches(const GridTask<T>& shared_task, cons
 
 /// Positions and derivatives, component by component, of a tile and the column behind it.
 template <detail::OutputSet kOutputs, typename Piece, typename SomeTile, typename T>
-SIMDBEZIER_INLINE void sweep_component_patches(const GridTask<T>& task, const Piece& piece,
-                                               const SomeTile& tile, std::size_t patch,
-                                               std::size_t last_patch) {
+SIMDBEZIER_PART void sweep_component_patches(const GridTask<T>& task, const Piece& piece,
+                                             const SomeTile& tile, std::size_t patch,
+                                             std::size_t last_patch) {
   using V = vec<T>;
   constexpr std::size_t kPlanes = kOutputs == detail::kPosition ? 1 : 3;
   const SingleColumnTile<V> column(task.x, tile.first + (SomeTile::kBuffered ? tile.active : 0), 1,
@@ -133,9 +133,9 @@ constexpr bool kUsual = kOutputs == detail::kPosition || kOutputs == detail::kPo
 /// One tile of consecutive patches. It is a function of its own because values that other tiles
 /// keep in registers would leave it too few.
 template <detail::OutputSet kOutputs, Known kKnown, typename SomeTile, typename Piece, typename T>
-__attribute__((noinline)) void sweep_tile(const GridTask<T>& shared_task, const Piece& shared_piece,
-                                          std::size_t first_column, std::size_t columns,
-                                          std::size_t patch, std::size_t last_patch) {
+SIMDBEZIER_KERNEL void sweep_tile(const GridTask<T>& shared_task, const Piece& shared_piece,
+                                  std::size_t first_column, std::size_t columns, std::size_t patch,
+                                  std::size_t last_patch) {
   Piece piece = shared_piece;
   if constexpr (kKnown == Known::open) {
     piece.lead = piece.trail = false; // a constant for the compiler

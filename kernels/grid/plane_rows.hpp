@@ -18,24 +18,24 @@ class PlaneRows {
   using T = ScalarOf<V>;
 
 public:
-  SIMDBEZIER_INLINE PlaneRows(const Tile& tile, T* to, std::size_t nu, Extra extra)
+  SIMDBEZIER_PART PlaneRows(const Tile& tile, T* to, std::size_t nu, Extra extra)
       : tile_(tile), to_(to), nu_(nu), extra_(extra) {}
 
-  SIMDBEZIER_INLINE void edge(V value, RowKind kind, RowPlace place) {
+  SIMDBEZIER_PART void edge(V value, RowKind kind, RowPlace place) {
     tile_.store_edge(to_ + place.at, value, kind, extra_ + place.row);
   }
-  SIMDBEZIER_INLINE void rows(V value, RowPlace place, std::size_t count) {
+  SIMDBEZIER_PART void rows(V value, RowPlace place, std::size_t count) {
     tile_.store(to_ + place.at, nu_, value, count, extra_ + place.row);
   }
-  SIMDBEZIER_INLINE void mirrored(V value, RowPlace place) {
+  SIMDBEZIER_PART void mirrored(V value, RowPlace place) {
     tile_.store_mirrored(to_ + place.at, nu_, value, extra_ + place.row);
   }
-  SIMDBEZIER_INLINE void finish() {}
+  SIMDBEZIER_PART void finish() {}
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
   /// The first two rows and the last two of a square. edges: its first row and its last one;
   /// beside: the rows next to these.
-  SIMDBEZIER_INLINE void borders(V edges, V beside) {
+  SIMDBEZIER_PART void borders(V edges, V beside) {
     store_vector(to_, first_rows(edges, beside));
     store_vector(to_ + (Piece::rows() - 2) * nu_, second_rows(beside, edges));
   }
@@ -62,27 +62,27 @@ class PlaneRows<Piece, Tile, Extra, true> {
   using Register = vec<T>;
 
 public:
-  SIMDBEZIER_INLINE PlaneRows(const Tile& tile, T* to, std::size_t /*nu*/, Extra extra)
+  SIMDBEZIER_PART PlaneRows(const Tile& tile, T* to, std::size_t /*nu*/, Extra extra)
       : columns_(Piece::columns(tile.active)), stream_(to), extra_(extra) {}
 
-  SIMDBEZIER_INLINE void edge(V value, RowKind kind, RowPlace /*place*/) {
+  SIMDBEZIER_PART void edge(V value, RowKind kind, RowPlace /*place*/) {
     put(value);
     if constexpr (Tile::kBuffered) {
       stream_.put_lane(extra_->edges, kind == RowKind::edge_v1 ? kLanes<Register> / 2 : 0);
     }
   }
-  SIMDBEZIER_INLINE void rows(V value, RowPlace place, std::size_t /*count*/) {
+  SIMDBEZIER_PART void rows(V value, RowPlace place, std::size_t /*count*/) {
     put(value);
     if constexpr (Tile::kBuffered) {
       const std::size_t at = place.row - 1;
       stream_.put_lane(extra_->middle[at / kLanes<Register>], at % kLanes<Register>);
     }
   }
-  SIMDBEZIER_INLINE void mirrored(V /*value*/, RowPlace /*place*/) {}
-  SIMDBEZIER_INLINE void finish() { stream_.finish(); }
+  SIMDBEZIER_PART void mirrored(V /*value*/, RowPlace /*place*/) {}
+  SIMDBEZIER_PART void finish() { stream_.finish(); }
 
 private:
-  SIMDBEZIER_INLINE void put(V value) {
+  SIMDBEZIER_PART void put(V value) {
     if constexpr (Tile::kEveryLane) {
       stream_.put(value);
     } else {

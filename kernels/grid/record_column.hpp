@@ -16,18 +16,18 @@ struct RecordColumn {
   alignas(64) T triple[Groups::kCount][3 * kRows];
 
   /// Where a row stands in here.
-  static SIMDBEZIER_INLINE std::size_t edge(std::size_t edge) {
+  static SIMDBEZIER_PART std::size_t edge(std::size_t edge) {
     return edge == detail::kEdgeV0 ? 0 : kLanes<V> / 2;
   }
-  static SIMDBEZIER_INLINE std::size_t middle(std::size_t row) { return kLanes<V> + row; }
+  static SIMDBEZIER_PART std::size_t middle(std::size_t row) { return kLanes<V> + row; }
 
-  SIMDBEZIER_INLINE void store(const V* value, std::size_t at) {
+  SIMDBEZIER_PART void store(const V* value, std::size_t at) {
     Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
       store_triples(value + 3 * g, triple[g] + 3 * at, false);
     });
   }
   /// Behind the register that begins at `places`.
-  SIMDBEZIER_INLINE void move_to(const RecordPlaces<kOutputs, T>& places, std::size_t row) const {
+  SIMDBEZIER_PART void move_to(const RecordPlaces<kOutputs, T>& places, std::size_t row) const {
     Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
       __builtin_memcpy(places.to[g] + kLanes<V> * places.record, triple[g] + 3 * row,
                        3 * sizeof(T));
@@ -35,9 +35,8 @@ struct RecordColumn {
   }
 
   /// The rows of `piece`, whose first one begins with sample `at` of the task.
-  __attribute__((noinline)) void sweep(const GridTask<T>& task, const RowPiece<T>& piece,
-                                       const SingleColumnTile<V>& tile, std::size_t patch,
-                                       std::size_t at) {
+  SIMDBEZIER_KERNEL void sweep(const GridTask<T>& task, const RowPiece<T>& piece,
+                               const SingleColumnTile<V>& tile, std::size_t patch, std::size_t at) {
     using Sweep = RecordSweep<kOutputs, SingleColumnTile<V>>;
     const Sweep sweep(task, tile, patch);
     const V floor = floor_inside(tile.column.x, broadcast<V>(task.normal_floor[patch]));

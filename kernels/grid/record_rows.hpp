@@ -49,41 +49,40 @@ struct RecordRows {
   std::size_t lead;  ///< row on an edge; no row where there is none
   std::size_t trail; ///< likewise
 
-  SIMDBEZIER_INLINE RecordRows(const GridTask<T>& task, const GridTask<T>& the_shared_task,
-                               const RowPiece<T>& the_piece,
-                               const ColumnTile<1, true, false, V>& tile, std::size_t the_patch,
-                               std::size_t first)
+  SIMDBEZIER_PART RecordRows(const GridTask<T>& task, const GridTask<T>& the_shared_task,
+                             const RowPiece<T>& the_piece,
+                             const ColumnTile<1, true, false, V>& tile, std::size_t the_patch,
+                             std::size_t first)
       : sweep(task, tile, the_patch), shared_task(the_shared_task), piece(the_piece),
         patch(the_patch), at(first), lead(piece.lead ? 0 : ~std::size_t(0)),
         trail(piece.trail ? piece.rows() - 1 : ~std::size_t(0)) {}
 
-  [[nodiscard]] SIMDBEZIER_INLINE Cursor start(const GridTask<T>& task,
-                                               const Column* column) const {
+  [[nodiscard]] SIMDBEZIER_PART Cursor start(const GridTask<T>& task, const Column* column) const {
     return {lead == 0 ? lead : trail, trail, piece.middle.y, column, {task, at}};
   }
 
   /// kEdges where the row is on none.
-  [[nodiscard]] SIMDBEZIER_INLINE std::size_t edge(std::size_t row) const {
+  [[nodiscard]] SIMDBEZIER_PART std::size_t edge(std::size_t row) const {
     return row == lead    ? edge_of(piece.lead_kind)
            : row == trail ? edge_of(piece.trail_kind)
                           : kEdges;
   }
   /// Of rows that are on no edge.
-  [[nodiscard]] SIMDBEZIER_INLINE std::size_t middle(std::size_t row) const {
+  [[nodiscard]] SIMDBEZIER_PART std::size_t middle(std::size_t row) const {
     return row - (piece.lead ? 1 : 0);
   }
-  SIMDBEZIER_INLINE V compute_edge(std::size_t row, Samples& s) const {
+  SIMDBEZIER_PART V compute_edge(std::size_t row, Samples& s) const {
     sweep.edge(edge(row), s);
     s.assign();
     return sweep.tile.edge_y(edge(row));
   }
-  SIMDBEZIER_INLINE V compute_middle(const T* y, Samples& s) const {
+  SIMDBEZIER_PART V compute_middle(const T* y, Samples& s) const {
     const auto point = RowPowers<T>::template point<1, V>(y);
     sweep.interior(point, s);
     s.assign();
     return point.y;
   }
-  SIMDBEZIER_INLINE void compute_next(Cursor& next, std::size_t row, Samples& s) const {
+  SIMDBEZIER_PART void compute_next(Cursor& next, std::size_t row, Samples& s) const {
     if (row == next.next_edge) [[unlikely]] {
       next.next_edge = next.trail;
       compute_edge(row, s);
@@ -92,7 +91,7 @@ struct RecordRows {
     }
   }
 
-  SIMDBEZIER_INLINE void end_row(Cursor& next, std::size_t row) const {
+  SIMDBEZIER_PART void end_row(Cursor& next, std::size_t row) const {
     if (next.column != nullptr) {
       const std::size_t e = edge(row);
       next.column->move_to(next.places, e < kEdges ? Column::edge(e) : Column::middle(middle(row)));
@@ -100,7 +99,7 @@ struct RecordRows {
     next.places.next_row();
   }
 
-  SIMDBEZIER_INLINE void put(Cursor next) const {
+  SIMDBEZIER_PART void put(Cursor next) const {
     const std::size_t rows = piece.rows();
     for (std::size_t row = 0; row < rows; ++row) {
       Samples s;
@@ -112,7 +111,7 @@ struct RecordRows {
 
   /// With normals, in two passes. Root and division take as long as all else, and processors do not
   /// look far enough ahead to begin with the rows behind meanwhile.
-  SIMDBEZIER_INLINE void put_normals(Cursor next) const {
+  SIMDBEZIER_PART void put_normals(Cursor next) const {
     alignas(64) Waiting waiting;
     const std::size_t rows = piece.rows();
     // Streaming stores leave slowly, and all the time.
@@ -129,8 +128,8 @@ struct RecordRows {
 
 private:
   /// position: where the next row's positions go, unless they are members of vertices.
-  SIMDBEZIER_INLINE void begin_normals(Cursor& next, Waiting& waiting, std::size_t row,
-                                       std::size_t last, T*& position) const {
+  SIMDBEZIER_PART void begin_normals(Cursor& next, Waiting& waiting, std::size_t row,
+                                     std::size_t last, T*& position) const {
     const bool vertices = next.places.record > 3;
     T(*wait)[kLanes<V>] = waiting[0];
     for (; row < last; ++row, wait += 7) {
@@ -151,8 +150,8 @@ private:
     }
   }
 
-  SIMDBEZIER_INLINE void finish_normals(Cursor& next, const Waiting& waiting, std::size_t row,
-                                        std::size_t last) const {
+  SIMDBEZIER_PART void finish_normals(Cursor& next, const Waiting& waiting, std::size_t row,
+                                      std::size_t last) const {
     const V floor =
         floor_inside(sweep.tile.column.x, broadcast<V>(shared_task.normal_floor[patch]));
     const bool outside = piece.middle.kind == RowKind::outside;
@@ -180,8 +179,8 @@ private:
     }
   }
 
-  SIMDBEZIER_INLINE void look_again(std::size_t row, V floor, bool outside,
-                                    std::size_t record) const {
+  SIMDBEZIER_PART void look_again(std::size_t row, V floor, bool outside,
+                                  std::size_t record) const {
     const bool on_edge = edge(row) < kEdges;
     Samples s;
     const V y = on_edge ? compute_edge(row, s) : compute_middle(piece.middle.y + middle(row), s);
@@ -194,9 +193,9 @@ private:
 /// A register of columns of consecutive patches, and the column behind it where it is the only one;
 /// as sweep_tile().
 template <detail::OutputSet kOutputs, typename T>
-__attribute__((noinline)) void
-sweep_records(const GridTask<T>& shared_task, const RowPiece<T>& shared_piece,
-              std::size_t first_column, std::size_t patch, std::size_t last_patch) {
+SIMDBEZIER_KERNEL void sweep_records(const GridTask<T>& shared_task,
+                                     const RowPiece<T>& shared_piece, std::size_t first_column,
+                                     std::size_t patch, std::size_t last_patch) {
   using V = vec<T>;
   const bool extra = first_column + kLanes<V> + 1 == shared_task.nu;
   GridTask<T> task = shared_task;
@@ -227,8 +226,8 @@ sweep_records(const GridTask<T>& shared_task, const RowPiece<T>& shared_piece,
 
 /// All columns of patches [patch, end), at least a register of them.
 template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_INLINE void sweep_record_tiles(const GridTask<T>& task, const RowPiece<T>& piece,
-                                          std::size_t patch, std::size_t end) {
+SIMDBEZIER_PART void sweep_record_tiles(const GridTask<T>& task, const RowPiece<T>& piece,
+                                        std::size_t patch, std::size_t end) {
   constexpr std::size_t kL = kLanes<vec<T>>;
   for (std::size_t first = 0; first + 1 < task.nu; first += kL) {
     const std::size_t last = task.nu - kL;

@@ -31,7 +31,7 @@ struct RecordPlaces {
   std::size_t step;      ///< values from one row to the next
   bool streaming;
 
-  SIMDBEZIER_INLINE RecordPlaces(const GridTask<T>& task, std::size_t at)
+  SIMDBEZIER_PART RecordPlaces(const GridTask<T>& task, std::size_t at)
       : record(task.record), step(task.nu * task.record), streaming(task.streaming) {
     Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
       to[g] = task.out[Groups::kGroup[g]].component[0] + at * record;
@@ -40,7 +40,7 @@ struct RecordPlaces {
 
   /// A register of samples: value[3 g + c] is component c of group g.
   template <typename V>
-  SIMDBEZIER_INLINE void store(const V* value) const {
+  SIMDBEZIER_PART void store(const V* value) const {
     if constexpr (Groups::kCount > 1) {
       if (record > 3) {
         LinePart<T> part[3 * Groups::kCount];
@@ -53,7 +53,7 @@ struct RecordPlaces {
       store_triples(value + 3 * g, to[g], streaming);
     });
   }
-  SIMDBEZIER_INLINE void next_row() {
+  SIMDBEZIER_PART void next_row() {
     Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA { to[g] += step; });
   }
 };
@@ -69,8 +69,7 @@ struct RecordSweep {
   Component<T> component[3];
   JetColumns<V, false> columns[3];
 
-  SIMDBEZIER_INLINE RecordSweep(const GridTask<T>& task, const SomeTile& the_tile,
-                                std::size_t patch)
+  SIMDBEZIER_PART RecordSweep(const GridTask<T>& task, const SomeTile& the_tile, std::size_t patch)
       : tile(the_tile), component{{task, patch, 0}, component[0].next(), component[1].next()} {
     for (std::size_t c = 0; c < 3; ++c) {
       columns[c].build(component[c], tile);
@@ -84,7 +83,7 @@ struct RecordSweep {
     V squared;
 
     /// All values, except that normals do not have unit length yet.
-    SIMDBEZIER_INLINE void assign() {
+    SIMDBEZIER_PART void assign() {
       for (std::size_t c = 0; c < 3; ++c) {
         value[c] = jet[c].p;
         if constexpr (kOutputs == detail::kPositionDerivatives) {
@@ -98,33 +97,33 @@ struct RecordSweep {
         squared = cross_product(du, dv, value + 3);
       }
     }
-    SIMDBEZIER_INLINE void finish() {
+    SIMDBEZIER_PART void finish() {
       assign();
       if constexpr (Groups::kNormals) {
         normalise(value + 3, squared);
       }
     }
   };
-  SIMDBEZIER_INLINE void interior(const RowPoint<V>& at, Samples& s) const {
+  SIMDBEZIER_PART void interior(const RowPoint<V>& at, Samples& s) const {
     for (std::size_t c = 0; c < 3; ++c) {
       s.jet[c] = columns[c].interior(at);
     }
   }
-  SIMDBEZIER_INLINE void edge(std::size_t edge, Samples& s) const {
+  SIMDBEZIER_PART void edge(std::size_t edge, Samples& s) const {
     for (std::size_t c = 0; c < 3; ++c) {
       s.jet[c] = columns[c].edge(component[c], tile, edge);
     }
   }
 
-  [[nodiscard]] static SIMDBEZIER_INLINE bool unusual(const Samples& s, V floor) {
+  [[nodiscard]] static SIMDBEZIER_PART bool unusual(const Samples& s, V floor) {
     if constexpr (Groups::kNormals) {
       return !all_of<V>(s.squared > floor);
     }
     return false;
   }
   /// The second look at unusual normals, after they have been stored.
-  SIMDBEZIER_INLINE void resolve(const GridTask<T>& task, std::size_t patch, const Suspects& which,
-                                 const Samples& s, V y, V floor) const {
+  SIMDBEZIER_PART void resolve(const GridTask<T>& task, std::size_t patch, const Suspects& which,
+                               const Samples& s, V y, V floor) const {
     if constexpr (Groups::kNormals) {
       resolve_normals(task, patch, which, tile.column.x, y, s.squared, floor);
     }

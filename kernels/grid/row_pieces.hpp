@@ -15,11 +15,11 @@ using detail::GridTask;
 using detail::RowKind;
 using detail::RowRun;
 
-SIMDBEZIER_INLINE bool is_edge(RowKind kind) {
+SIMDBEZIER_PART bool is_edge(RowKind kind) {
   return kind == RowKind::edge_v0 || kind == RowKind::edge_v1;
 }
 
-SIMDBEZIER_INLINE std::size_t edge_of(RowKind kind) {
+SIMDBEZIER_PART std::size_t edge_of(RowKind kind) {
   return kind == RowKind::edge_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
 }
 
@@ -32,7 +32,7 @@ template <typename T>
 class RowPowers {
 public:
   /// y: as RowRun::y.
-  SIMDBEZIER_INLINE const T* fill(const T* y, std::size_t rows) {
+  SIMDBEZIER_PART const T* fill(const T* y, std::size_t rows) {
     using V = vec<T>;
     for (std::size_t k = 0; k < rows; k += kLanes<V>) {
       const RowPoint<V> at(load_vector<V>(y + k));
@@ -47,7 +47,7 @@ public:
   /// For a register of kRows rows, the first of which has its parameter at y. With several rows,
   /// powers are computed anew, since stored ones would have to be spread over the lanes.
   template <std::size_t kRows, typename V>
-  static SIMDBEZIER_INLINE RowPoint<V> point(const T* y) {
+  static SIMDBEZIER_PART RowPoint<V> point(const T* y) {
     if constexpr (kRows > 1) {
       return RowPoint<V>(RowGroups<kRows, V>::spread(y));
     } else {
@@ -63,7 +63,7 @@ private:
 
 /// Whether the rows are pairs Y and -Y, from both ends on.
 template <typename T>
-SIMDBEZIER_INLINE bool are_mirrored(const T* y, std::size_t rows) {
+SIMDBEZIER_PART bool are_mirrored(const T* y, std::size_t rows) {
   bool mirrored = true;
   for (std::size_t k = 0; k < rows / 2 && mirrored; ++k) {
     mirrored = y[k] == -y[rows - 1 - k];
@@ -87,11 +87,11 @@ struct RowPiece {
   bool trail = false;
   RowKind trail_kind = RowKind::edge_v1;
 
-  [[nodiscard]] SIMDBEZIER_INLINE std::size_t rows() const {
+  [[nodiscard]] SIMDBEZIER_PART std::size_t rows() const {
     return std::size_t{middle.rows} + (lead ? 1 : 0) + (trail ? 1 : 0);
   }
   /// The columns of a grid whose task says nu; SquarePiece knows them.
-  static SIMDBEZIER_INLINE std::size_t columns(std::size_t nu) { return nu; }
+  static SIMDBEZIER_PART std::size_t columns(std::size_t nu) { return nu; }
 };
 
 /// The same where rows lie across lines and are as wide as their tile, which writes them as a
@@ -99,21 +99,21 @@ struct RowPiece {
 template <typename T>
 struct AcrossPiece : RowPiece<T> {
   static constexpr bool kAcross = true;
-  explicit SIMDBEZIER_INLINE AcrossPiece(const RowPiece<T>& piece) : RowPiece<T>(piece) {}
+  explicit SIMDBEZIER_PART AcrossPiece(const RowPiece<T>& piece) : RowPiece<T>(piece) {}
 };
 
 /// Cuts the rows of a task into pieces.
 template <typename T>
 class RowPieces {
 public:
-  explicit SIMDBEZIER_INLINE RowPieces(const GridTask<T>& task)
+  explicit SIMDBEZIER_PART RowPieces(const GridTask<T>& task)
       : run_(task.runs), last_(task.runs + task.run_count), left_(run_->rows),
         watertight_(task.watertight) {}
 
-  [[nodiscard]] SIMDBEZIER_INLINE bool more() const { return run_ != last_; }
+  [[nodiscard]] SIMDBEZIER_PART bool more() const { return run_ != last_; }
 
   /// powers: has to live as long as the piece is used.
-  SIMDBEZIER_INLINE RowPiece<T> next(RowPowers<T>& powers) {
+  SIMDBEZIER_PART RowPiece<T> next(RowPowers<T>& powers) {
     RowPiece<T> piece;
     piece.first = row_;
     piece.lead = take_edge(piece.lead_kind);
@@ -135,10 +135,8 @@ public:
 
 private:
   /// Where edges are not special, they are as good as any row.
-  [[nodiscard]] SIMDBEZIER_INLINE bool at_edge() const {
-    return watertight_ && is_edge(run_->kind);
-  }
-  SIMDBEZIER_INLINE bool take_edge(RowKind& kind) {
+  [[nodiscard]] SIMDBEZIER_PART bool at_edge() const { return watertight_ && is_edge(run_->kind); }
+  SIMDBEZIER_PART bool take_edge(RowKind& kind) {
     if (!more() || !at_edge()) {
       return false;
     }
@@ -146,7 +144,7 @@ private:
     take(1);
     return true;
   }
-  SIMDBEZIER_INLINE std::size_t take(std::size_t rows) {
+  SIMDBEZIER_PART std::size_t take(std::size_t rows) {
     left_ -= rows;
     if (left_ == 0 && ++run_ != last_) {
       left_ = run_->rows;
@@ -166,7 +164,7 @@ struct RowPlace {
   std::size_t at; ///< its first sample
   std::size_t row;
 
-  SIMDBEZIER_INLINE RowPlace behind(std::size_t rows, std::size_t nu) const {
+  SIMDBEZIER_PART RowPlace behind(std::size_t rows, std::size_t nu) const {
     return {at + rows * nu, row + rows};
   }
 };

@@ -19,11 +19,11 @@ struct SidePoints {
   RowPoint<V> point;
   RowPoint<V> end;
 
-  SIMDBEZIER_INLINE SidePoints(V parameters, V of_side)
+  SIMDBEZIER_PART SidePoints(V parameters, V of_side)
       : along(parameters), across(of_side), point(parameters), end(of_side) {}
 
   /// One component's position, and the derivative along the side.
-  SIMDBEZIER_INLINE V position(const Component<T>& c, std::size_t edge, V& slope) const {
+  SIMDBEZIER_PART V position(const Component<T>& c, std::size_t edge, V& slope) const {
     V k[kOrder];
     edge_cubic(c, edge, k);
     const V value = row_value(k, point, slope);
@@ -33,7 +33,7 @@ struct SidePoints {
     return value;
   }
   /// The derivative across the side, which its control points do not determine.
-  SIMDBEZIER_INLINE V slope_across(const Component<T>& c) const {
+  SIMDBEZIER_PART V slope_across(const Component<T>& c) const {
     V q[kOrder];
     if constexpr (kAlongU) {
       for (std::size_t l = 0; l < kOrder; ++l) {
@@ -50,7 +50,7 @@ struct SidePoints {
 
 private:
   /// The u derivative's polynomial in Y, on one column for all lanes.
-  SIMDBEZIER_INLINE void column_slopes(const Component<T>& c, V dq[kOrder]) const {
+  SIMDBEZIER_PART void column_slopes(const Component<T>& c, V dq[kOrder]) const {
     V k[kOrder];
     if constexpr (kHasFours<V>) { // all four powers of Y at once
       load_fours(c.matrix, k);
@@ -66,9 +66,9 @@ private:
 
 /// Points [first, first + count), a register of them at most.
 template <bool kAlongU, typename T>
-SIMDBEZIER_INLINE void side_register(const detail::SideTask<T>& task,
-                                     const detail::SideTask<T>& shared_task, std::size_t first,
-                                     std::size_t count) {
+SIMDBEZIER_PART void side_register(const detail::SideTask<T>& task,
+                                   const detail::SideTask<T>& shared_task, std::size_t first,
+                                   std::size_t count) {
   using V = vec<T>;
   const auto store = [&](const detail::Planes<T>& planes, std::size_t c, V value)
                          SIMDBEZIER_INLINE_LAMBDA {
@@ -113,7 +113,7 @@ SIMDBEZIER_INLINE void side_register(const detail::SideTask<T>& task,
 }
 
 template <typename T>
-void side_kernel(detail::SideTask<T>& shared_task) {
+SIMDBEZIER_KERNEL void side_kernel(detail::SideTask<T>& shared_task) {
   constexpr std::size_t kL = kLanes<vec<T>>;
   shared_task.executed = Isa::SIMDBEZIER_ISA;
   // A copy, because stores through vector types might change anything that others can see.

@@ -33,8 +33,8 @@ struct SmallJets {
   V corner;
   V third;
 
-  SIMDBEZIER_INLINE SmallJets(const Component<T>& c, const SmallGrid<V>& grid,
-                              const SmallEnds<V>& ends) {
+  SIMDBEZIER_PART SmallJets(const Component<T>& c, const SmallGrid<V>& grid,
+                            const SmallEnds<V>& ends) {
     V k[kOrder];
     V q[kOrder];
     V dq[kOrder];
@@ -59,9 +59,9 @@ struct SmallJets {
 
 /// Normals of 16 consecutive samples that did not all pass the quick test.
 template <typename V>
-__attribute__((noinline, cold)) void resolve_small_normals(const GridTask<ScalarOf<V>>& task,
-                                                           std::size_t patch, std::size_t first,
-                                                           std::size_t active, V squared, V floor) {
+SIMDBEZIER_RARE void resolve_small_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch,
+                                           std::size_t first, std::size_t active, V squared,
+                                           V floor) {
   using T = ScalarOf<V>;
   alignas(64) T x[kLanes<V>] = {};
   alignas(64) T y[kLanes<V>] = {};
@@ -85,7 +85,7 @@ struct SmallSamples {
   Assembly du[kMost];
   Assembly dv[kMost];
 
-  explicit SIMDBEZIER_INLINE SmallSamples(std::size_t nu, std::size_t nv)
+  explicit SIMDBEZIER_PART SmallSamples(std::size_t nu, std::size_t nv)
       : registers((nu * nv + kLanes<V> - 1) / kLanes<V>), samples(nu * nv) {
     const SmallGridTables& tables = kSmallGrids.of(nu, nv);
     for (std::size_t r = 0; r < registers; ++r) {
@@ -94,10 +94,10 @@ struct SmallSamples {
       dv[r] = Assembly(tables.dv.of_register(r));
     }
   }
-  [[nodiscard]] SIMDBEZIER_INLINE std::size_t active(std::size_t r) const {
+  [[nodiscard]] SIMDBEZIER_PART std::size_t active(std::size_t r) const {
     return r + 1 < registers ? kLanes<V> : samples - r * kLanes<V>;
   }
-  SIMDBEZIER_INLINE Jet<V> jet(std::size_t r, const SmallJets<V>& of) const {
+  SIMDBEZIER_PART Jet<V> jet(std::size_t r, const SmallJets<V>& of) const {
     return {position[r].with_quad(of.inner.p, of.border.p, of.corner),
             du[r](of.inner.du, of.border.du, of.third), dv[r](of.inner.dv, of.border.dv, of.third)};
   }
@@ -105,7 +105,7 @@ struct SmallSamples {
 
 /// Positions with normals, or with du and dv.
 template <bool kNormals, typename T>
-__attribute__((noinline)) void sweep_small_jets(const GridTask<T>& shared_task) {
+SIMDBEZIER_KERNEL void sweep_small_jets(const GridTask<T>& shared_task) {
   using V = vec<T>;
   const GridTask<T> task = shared_task;
   const SmallGrid<V> grid(task);

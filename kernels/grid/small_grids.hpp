@@ -24,7 +24,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 /// Whether the task's grid is a small one with edges of its own.
 template <typename T>
-SIMDBEZIER_INLINE bool is_small_grid(const GridTask<T>& task) {
+SIMDBEZIER_PART bool is_small_grid(const GridTask<T>& task) {
   if (!task.watertight || task.origins != nullptr || task.nu < kLeastSmall ||
       task.nu > kMostSmall || task.run_count != 3) {
     return false;
@@ -59,13 +59,13 @@ struct SmallGrid {
   RowPoint<V> y;       ///< of row r, in lane r of all groups
   RowPoint<V> along;   ///< of sample s, in group s: X on edges v = const, Y on u = const
 
-  explicit SIMDBEZIER_INLINE SmallGrid(const GridTask<T>& task)
+  explicit SIMDBEZIER_PART SmallGrid(const GridTask<T>& task)
       : rows(task.runs[1].rows), samples(task.nu * (rows + 2)), edges_v(lanes_of_edges_v()),
         x(Groups::spread(task.x + 1)), y(Groups::repeat(task.runs[1].y)),
         along(select_where<V>(edges_v, x, Groups::spread(task.runs[1].y))) {}
 
 private:
-  static SIMDBEZIER_INLINE MaskOf<V> lanes_of_edges_v() {
+  static SIMDBEZIER_PART MaskOf<V> lanes_of_edges_v() {
     static_assert(detail::kEdgeV0 < 2 && detail::kEdgeV1 < 2);
     constexpr T kFirstTwo[kEdges] = {0, 0, 1, 1};
     return repeat_four<V>(kFirstTwo) == broadcast<V>(T(0));
@@ -74,7 +74,7 @@ private:
 
 /// kFull: whole registers of samples, before the last one.
 template <std::size_t kFull, typename T>
-__attribute__((noinline)) void sweep_small_positions(const GridTask<T>& shared_task) {
+SIMDBEZIER_KERNEL void sweep_small_positions(const GridTask<T>& shared_task) {
   using V = vec<T>;
   const GridTask<T> task = shared_task;
   const SmallGrid<V> grid(task);
@@ -110,7 +110,7 @@ __attribute__((noinline)) void sweep_small_positions(const GridTask<T>& shared_t
 }
 
 template <typename T>
-SIMDBEZIER_INLINE void small_grid_positions(const GridTask<T>& task) {
+SIMDBEZIER_PART void small_grid_positions(const GridTask<T>& task) {
   const std::size_t samples = task.nu * (task.runs[1].rows + 2);
   if (samples <= 16) {
     sweep_small_positions<0>(task);

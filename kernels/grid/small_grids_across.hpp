@@ -33,7 +33,7 @@ struct SmallGridAcross {
   RowPoint<V> row[kMostInner];
   RowPoint<V> end[2] = {point(T(-0.5)), point(T(0.5))};
 
-  explicit SIMDBEZIER_INLINE SmallGridAcross(const GridTask<T>& task)
+  explicit SIMDBEZIER_PART SmallGridAcross(const GridTask<T>& task)
       : x(task.x), nu(kInner > 0 ? kInner + 2 : task.nu),
         nv(kInner > 0 ? kInner + 2 : task.runs[1].rows + std::size_t{2}),
         mirrored(kInner > 0 || are_mirrored(task.runs[1].y, task.runs[1].rows)),
@@ -41,7 +41,7 @@ struct SmallGridAcross {
         row{point(task.runs[1].y[0]), point(task.runs[1].y[1]), point(task.runs[1].y[2]),
             point(task.runs[1].y[3])} {}
 
-  [[nodiscard]] SIMDBEZIER_INLINE std::size_t samples() const { return nu * nv; }
+  [[nodiscard]] SIMDBEZIER_PART std::size_t samples() const { return nu * nv; }
   /// f(i) for columns and rows between the edges.
   template <typename F>
   SIMDBEZIER_INLINE void for_columns(const F& f) const {
@@ -87,7 +87,7 @@ private:
       }
     }
   }
-  static SIMDBEZIER_INLINE RowPoint<V> point(T parameter) {
+  static SIMDBEZIER_PART RowPoint<V> point(T parameter) {
     return RowPoint<V>(broadcast<V>(parameter));
   }
 };
@@ -101,28 +101,28 @@ struct ComponentAcross {
   V edge[kOrder * kEdges];   ///< [power][edge]
   V corner[kEdges];
 
-  SIMDBEZIER_INLINE ComponentAcross(const GridTask<T>& task, std::size_t patch, std::size_t c) {
+  SIMDBEZIER_PART ComponentAcross(const GridTask<T>& task, std::size_t patch, std::size_t c) {
     const Component<T> first(task, patch, c);
     load(first.matrix, detail::kCoefficients, matrix);
     load(first.edge, detail::kEdgeBlock, edge);
     load(first.corner, detail::kEdgeBlock, corner);
   }
 
-  SIMDBEZIER_INLINE void column(V x, V q[kOrder]) const {
+  SIMDBEZIER_PART void column(V x, V q[kOrder]) const {
     for (std::size_t l = 0; l < kOrder; ++l) {
       const V k[kOrder] = {matrix[l], matrix[kOrder + l], matrix[2 * kOrder + l],
                            matrix[3 * kOrder + l]};
       q[l] = horner(k, x);
     }
   }
-  SIMDBEZIER_INLINE void column(V x, V q[kOrder], V dq[kOrder]) const {
+  SIMDBEZIER_PART void column(V x, V q[kOrder], V dq[kOrder]) const {
     for (std::size_t l = 0; l < kOrder; ++l) {
       const V k[kOrder] = {matrix[l], matrix[kOrder + l], matrix[2 * kOrder + l],
                            matrix[3 * kOrder + l]};
       q[l] = horner(k, x, dq[l]);
     }
   }
-  SIMDBEZIER_INLINE void edge_cubic(std::size_t number, V e[kOrder]) const {
+  SIMDBEZIER_PART void edge_cubic(std::size_t number, V e[kOrder]) const {
     for (std::size_t p = 0; p < kOrder; ++p) {
       e[p] = edge[p * kEdges + number];
     }
@@ -130,7 +130,7 @@ struct ComponentAcross {
 
 private:
   template <std::size_t kValues>
-  static SIMDBEZIER_INLINE void load(const T* from, std::size_t step, V (&values)[kValues]) {
+  static SIMDBEZIER_PART void load(const T* from, std::size_t step, V (&values)[kValues]) {
     repeat<kValues / kQuad<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
       load_across(from + k * kQuad<V>, step, values + k * kQuad<V>);
     });
@@ -139,8 +139,8 @@ private:
 
 /// The positions of one component, row after row.
 template <typename V, std::size_t kInner>
-SIMDBEZIER_INLINE void positions_across(const ComponentAcross<V>& c,
-                                        const SmallGridAcross<V, kInner>& grid, V* sample) {
+SIMDBEZIER_PART void positions_across(const ComponentAcross<V>& c,
+                                      const SmallGridAcross<V, kInner>& grid, V* sample) {
   const std::size_t nu = grid.nu;
   V* const last_row = sample + (grid.nv - 1) * nu;
   V q[kOrder];
@@ -166,8 +166,8 @@ SIMDBEZIER_INLINE void positions_across(const ComponentAcross<V>& c,
 
 /// Lane p of sample k to to[p * step + k].
 template <typename V>
-SIMDBEZIER_INLINE void put_across(const V* sample, std::size_t samples, ScalarOf<V>* to,
-                                  std::size_t step) {
+SIMDBEZIER_PART void put_across(const V* sample, std::size_t samples, ScalarOf<V>* to,
+                                std::size_t step) {
   constexpr std::size_t kTogether = kQuad<V>;
   std::size_t k = 0;
   for (; k + kTogether <= samples; k += kTogether) {
@@ -180,9 +180,9 @@ SIMDBEZIER_INLINE void put_across(const V* sample, std::size_t samples, ScalarOf
 
 /// Samples of one component of a register of patches to the planes of a group.
 template <typename V>
-SIMDBEZIER_INLINE void put_across(const GridTask<ScalarOf<V>>& task, detail::Group group,
-                                  std::size_t c, std::size_t patch, const V* sample,
-                                  std::size_t samples) {
+SIMDBEZIER_PART void put_across(const GridTask<ScalarOf<V>>& task, detail::Group group,
+                                std::size_t c, std::size_t patch, const V* sample,
+                                std::size_t samples) {
   put_across(sample, samples, task.out[group].component[c] + patch * task.patch_step,
              task.patch_step);
 }
@@ -206,7 +206,7 @@ SIMDBEZIER_INLINE void for_patches_across(const GridTask<T>& task, const Sweep& 
 }
 
 template <std::size_t kInner, typename T>
-__attribute__((noinline)) void sweep_positions_across(const GridTask<T>& shared_task) {
+SIMDBEZIER_KERNEL void sweep_positions_across(const GridTask<T>& shared_task) {
   using V = vec<T>;
   const GridTask<T> task = shared_task;
   const SmallGridAcross<V, kInner> grid(task);

@@ -17,7 +17,7 @@ struct JetsAcross {
   V dv[kMostSmallSamples];
 
   template <std::size_t kInner>
-  SIMDBEZIER_INLINE void find(const ComponentAcross<V>& c, const SmallGridAcross<V, kInner>& grid) {
+  SIMDBEZIER_PART void find(const ComponentAcross<V>& c, const SmallGridAcross<V, kInner>& grid) {
     const std::size_t nu = grid.nu;
     const std::size_t last_row = (grid.nv - 1) * nu;
     V q[kOrder];
@@ -58,7 +58,7 @@ struct JetsAcross {
 };
 
 template <std::size_t kInner, typename T>
-__attribute__((noinline)) void sweep_derivatives_across(const GridTask<T>& shared_task) {
+SIMDBEZIER_KERNEL void sweep_derivatives_across(const GridTask<T>& shared_task) {
   using V = vec<T>;
   const GridTask<T> task = shared_task;
   const SmallGridAcross<V, kInner> grid(task);
@@ -76,9 +76,9 @@ __attribute__((noinline)) void sweep_derivatives_across(const GridTask<T>& share
 
 /// Normals of a register of patches that did not all pass the quick test.
 template <std::size_t kInner, typename V>
-__attribute__((noinline, cold)) void
-resolve_normals_across(const GridTask<ScalarOf<V>>& task, const SmallGridAcross<V, kInner>& grid,
-                       std::size_t patch, const V* squared, V floor) {
+SIMDBEZIER_RARE void resolve_normals_across(const GridTask<ScalarOf<V>>& task,
+                                            const SmallGridAcross<V, kInner>& grid,
+                                            std::size_t patch, const V* squared, V floor) {
   for (std::size_t k = 0; k < grid.samples(); ++k) {
     const std::size_t row = k / grid.nu;
     const V x = broadcast<V>(grid.x[k % grid.nu]);
@@ -91,7 +91,7 @@ resolve_normals_across(const GridTask<ScalarOf<V>>& task, const SmallGridAcross<
 }
 
 template <std::size_t kInner, typename T>
-__attribute__((noinline)) void sweep_normals_across(const GridTask<T>& shared_task) {
+SIMDBEZIER_KERNEL void sweep_normals_across(const GridTask<T>& shared_task) {
   using V = vec<T>;
   const GridTask<T> task = shared_task;
   const SmallGridAcross<V, kInner> grid(task);
@@ -129,14 +129,14 @@ __attribute__((noinline)) void sweep_normals_across(const GridTask<T>& shared_ta
 /// Whether there is a register of patches, results go to planes, and rows are no whole registers,
 /// whose tangents tiles find as fast.
 template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_INLINE bool pays_across(const GridTask<T>& task) {
+SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
   constexpr std::size_t kL = kLanes<vec<T>>;
   return task.patch_count >= kL && task.record <= 1 && !task.streaming &&
          (kOutputs == detail::kPosition || task.nu != kL);
 }
 
 template <detail::OutputSet kOutputs, std::size_t kInner, typename T>
-SIMDBEZIER_INLINE void sweep_across(const GridTask<T>& task) {
+SIMDBEZIER_PART void sweep_across(const GridTask<T>& task) {
   if constexpr (kOutputs == detail::kPosition) {
     sweep_positions_across<kInner>(task);
   } else if constexpr (kOutputs == detail::kPositionNormal) {
@@ -148,7 +148,7 @@ SIMDBEZIER_INLINE void sweep_across(const GridTask<T>& task) {
 
 /// A small grid of at least a register of patches.
 template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_INLINE void sweep_small_grid_across(const GridTask<T>& task) {
+SIMDBEZIER_PART void sweep_small_grid_across(const GridTask<T>& task) {
   if (task.nu == task.runs[1].rows + std::size_t{2} &&
       are_mirrored(task.runs[1].y, task.runs[1].rows)) {
     if (task.nu == 4) {

@@ -20,11 +20,11 @@ struct SquareColumn {
   using Plane = const ColumnLanes<V, kSide>*;
   ColumnLanes<V, kSide> planes[kPlanes];
 
-  SIMDBEZIER_INLINE Plane plane(std::size_t k) const { return planes + k; }
+  SIMDBEZIER_PART Plane plane(std::size_t k) const { return planes + k; }
 
   template <typename T, bool kAcross>
-  SIMDBEZIER_INLINE void find_position(const SquarePiece<T, kSide, kAcross>& piece,
-                                       const Component<T>& c, const SingleColumnTile<V>& tile) {
+  SIMDBEZIER_PART void find_position(const SquarePiece<T, kSide, kAcross>& piece,
+                                     const Component<T>& c, const SingleColumnTile<V>& tile) {
     V q[kOrder];
     tile_polynomial(c, tile, q);
     planes[0].edges = tile.edge_rows(c, 0);
@@ -34,8 +34,8 @@ struct SquareColumn {
     }
   }
   template <typename T, bool kAcross>
-  SIMDBEZIER_INLINE void find_derivatives(const SquarePiece<T, kSide, kAcross>& piece,
-                                          const Component<T>& c, const SingleColumnTile<V>& tile) {
+  SIMDBEZIER_PART void find_derivatives(const SquarePiece<T, kSide, kAcross>& piece,
+                                        const Component<T>& c, const SingleColumnTile<V>& tile) {
     JetColumns<V, false> columns;
     columns.build(c, tile);
     const Jet<V> edges = columns.edge(c, tile, 0);

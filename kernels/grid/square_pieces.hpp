@@ -24,12 +24,12 @@ struct SquarePiece {
     static constexpr RowKind kind = RowKind::interior;
   } middle;
 
-  explicit SIMDBEZIER_INLINE SquarePiece(const T* middle_y) : middle{middle_y} {}
+  explicit SIMDBEZIER_PART SquarePiece(const T* middle_y) : middle{middle_y} {}
   static constexpr std::size_t rows() { return kSide; }
   static constexpr std::size_t columns(std::size_t /*nu*/) { return kSide; }
 
   /// Whether `piece` is one.
-  static SIMDBEZIER_INLINE bool is(const RowPiece<T>& piece, std::size_t nu) {
+  static SIMDBEZIER_PART bool is(const RowPiece<T>& piece, std::size_t nu) {
     return nu == kSide && piece.first == 0 && piece.middle.rows == kMiddle && piece.lead &&
            piece.trail && piece.lead_kind == RowKind::edge_v0 &&
            piece.trail_kind == RowKind::edge_v1 && piece.middle.kind == RowKind::interior &&
@@ -81,7 +81,7 @@ SIMDBEZIER_INLINE void for_rows(const SquarePiece<T, kSide, kAcross>& piece, std
 
 /// Y of the rows beside both edges of a square: a half of the register each.
 template <typename V, typename T, std::size_t kSide, bool kAcross>
-SIMDBEZIER_INLINE RowPoint<V> rows_beside_edges(const SquarePiece<T, kSide, kAcross>& piece) {
+SIMDBEZIER_PART RowPoint<V> rows_beside_edges(const SquarePiece<T, kSide, kAcross>& piece) {
   const T ends[2] = {piece.middle.y[0], piece.middle.y[kSide - 3]};
   return RowPoint<V>(RowGroups<2, V>::spread(ends));
 }

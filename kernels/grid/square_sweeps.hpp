@@ -16,9 +16,9 @@ constexpr bool kSweepsTwice = (kOutputs == detail::kPosition && sizeof(T) * kLan
 
 /// All tiles of patches [patch, end) of a grid of kSide x kSide: the choices of sweep_tiles().
 template <detail::OutputSet kOutputs, std::size_t kSide, bool kAcross, typename T>
-SIMDBEZIER_INLINE void sweep_square(const GridTask<T>& task,
-                                    const SquarePiece<T, kSide, kAcross>& piece, std::size_t patch,
-                                    std::size_t end) {
+SIMDBEZIER_PART void sweep_square(const GridTask<T>& task,
+                                  const SquarePiece<T, kSide, kAcross>& piece, std::size_t patch,
+                                  std::size_t end) {
   using V = vec<T>;
   constexpr std::size_t kL = kLanes<V>;
   constexpr std::size_t kRest = kSide % kL;
@@ -68,7 +68,7 @@ constexpr bool kIsStraight = kSide <= 17 && (kOutputs != detail::kPositionNormal
 
 /// Whether all planes begin where lines do.
 template <typename T>
-SIMDBEZIER_INLINE bool planes_begin_lines(const GridTask<T>& task) {
+SIMDBEZIER_PART bool planes_begin_lines(const GridTask<T>& task) {
   std::uintptr_t bits = 0;
   for (const auto& group : task.out) {
     for (const T* const plane : group.component) {
@@ -81,8 +81,8 @@ SIMDBEZIER_INLINE bool planes_begin_lines(const GridTask<T>& task) {
 /// Sweeps the patches as streams if their rows lie across lines, and one tile without a column
 /// behind it is as wide as they are. Positions in a part of a register gain nothing by this.
 template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_INLINE bool sweep_across_lines(const GridTask<T>& task, const RowPiece<T>& piece,
-                                          std::size_t patch, std::size_t end) {
+SIMDBEZIER_PART bool sweep_across_lines(const GridTask<T>& task, const RowPiece<T>& piece,
+                                        std::size_t patch, std::size_t end) {
   using V = vec<T>;
   constexpr std::size_t kL = kLanes<V>;
   constexpr bool kDerivatives = kOutputs == detail::kPositionDerivatives;
@@ -115,9 +115,8 @@ SIMDBEZIER_INLINE bool sweep_across_lines(const GridTask<T>& task, const RowPiec
 
 /// Sweeps the patches if `piece` is a square with one of these sides, and there is code for it.
 template <detail::OutputSet kOutputs, std::size_t... kSides, typename T>
-SIMDBEZIER_INLINE bool sweep_square_of(std::index_sequence<kSides...>, const GridTask<T>& task,
-                                       const RowPiece<T>& piece, std::size_t patch,
-                                       std::size_t end) {
+SIMDBEZIER_PART bool sweep_square_of(std::index_sequence<kSides...>, const GridTask<T>& task,
+                                     const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
   const auto sweep =
       [&]<std::size_t kSide>(std::integral_constant<std::size_t, kSide>) SIMDBEZIER_INLINE_LAMBDA {
         if (!SquarePiece<T, kSide, false>::is(piece, task.nu)) {

@@ -15,7 +15,7 @@ struct ColumnPlanes {
   static constexpr std::size_t kPlane = kBufferRows + 2 * detail::kMaxLanes;
   const T* first;
 
-  SIMDBEZIER_INLINE const T* plane(std::size_t k) const { return first + k * kPlane; }
+  SIMDBEZIER_PART const T* plane(std::size_t k) const { return first + k * kPlane; }
 };
 
 /// A column on its way to the rows' ends: one plane for each of `kPlanes` outputs.
@@ -25,13 +25,13 @@ struct ColumnBuffer {
 
   /// Where the piece's first row goes: registers of rows behind a lead are lines of the buffer.
   template <typename Piece>
-  SIMDBEZIER_INLINE T* first(std::size_t k, const Piece& piece) {
+  SIMDBEZIER_PART T* first(std::size_t k, const Piece& piece) {
     return values + k * ColumnPlanes<T>::kPlane + (piece.lead ? detail::kMaxLanes - 1 : 0);
   }
   /// The planes to read single values from. Without own_address(), compilers would take them out of
   /// the registers that they came from, which costs more.
   template <typename Piece>
-  SIMDBEZIER_INLINE ColumnPlanes<T> planes(const Piece& piece) {
+  SIMDBEZIER_PART ColumnPlanes<T> planes(const Piece& piece) {
     return {own_address(first(0, piece))};
   }
 };
@@ -42,8 +42,8 @@ using SingleColumnTile = ColumnTile<kLanes<V>, true, false, V>;
 
 /// The polynomials in Y of a tile's columns.
 template <typename SomeTile, typename V>
-SIMDBEZIER_INLINE void tile_polynomial(const Component<ScalarOf<V>>& c, const SomeTile& tile,
-                                       V q[kOrder]) {
+SIMDBEZIER_PART void tile_polynomial(const Component<ScalarOf<V>>& c, const SomeTile& tile,
+                                     V q[kOrder]) {
   if constexpr (SomeTile::kSingle) {
     single_column_polynomial(c, tile.column, q);
   } else {
@@ -113,7 +113,7 @@ struct JetColumns {
   LocalOrigin<V> origin;
 
   template <typename SomeTile>
-  SIMDBEZIER_INLINE void build(const Component<ScalarOf<V>>& c, const SomeTile& tile) {
+  SIMDBEZIER_PART void build(const Component<ScalarOf<V>>& c, const SomeTile& tile) {
     if constexpr (SomeTile::kSingle) {
       single_column_polynomial(c, tile.column, q, dq);
     } else {
@@ -123,7 +123,7 @@ struct JetColumns {
       origin = column_origin(c, tile.column);
     }
   }
-  SIMDBEZIER_INLINE Jet<V> interior(const RowPoint<V>& at) const {
+  SIMDBEZIER_PART Jet<V> interior(const RowPoint<V>& at) const {
     Jet<V> jet;
     jet.p = row_value(q, at, jet.dv);
     jet.du = row_value(dq, at);
@@ -133,7 +133,7 @@ struct JetColumns {
     return jet;
   }
   /// The same at -y as well.
-  SIMDBEZIER_INLINE void pair(const RowPoint<V>& at, Jet<V>& jet, Jet<V>& mirrored) const {
+  SIMDBEZIER_PART void pair(const RowPoint<V>& at, Jet<V>& jet, Jet<V>& mirrored) const {
     Parts<V> slope;
     const Parts<V> value = value_parts(q, at, slope);
     jet.p = value.sum();
@@ -150,8 +150,8 @@ struct JetColumns {
   }
   /// On the edge v = const number `edge`, or on both where they share a register.
   template <typename SomeTile>
-  SIMDBEZIER_INLINE Jet<V> edge(Component<ScalarOf<V>> c, const SomeTile& tile,
-                                std::size_t edge) const {
+  SIMDBEZIER_PART Jet<V> edge(Component<ScalarOf<V>> c, const SomeTile& tile,
+                              std::size_t edge) const {
     if constexpr (!kAsks) {
       c.origins = nullptr;
     }
@@ -234,11 +234,11 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
 
 /// Groups with null planes are computed and dropped.
 template <std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
-SIMDBEZIER_INLINE void sweep_second(const GridTask<ScalarOf<V>>& task,
-                                    const RowPiece<ScalarOf<V>>& piece,
-                                    const Component<ScalarOf<V>>& c,
-                                    const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
-                                    std::size_t component, std::size_t first) {
+SIMDBEZIER_PART void sweep_second(const GridTask<ScalarOf<V>>& task,
+                                  const RowPiece<ScalarOf<V>>& piece,
+                                  const Component<ScalarOf<V>>& c,
+                                  const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
+                                  std::size_t component, std::size_t first) {
   using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
   SecondColumns<V> columns;

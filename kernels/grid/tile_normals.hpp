@@ -13,7 +13,7 @@ struct NormalSamples {
   V normal[3];
   V squared;
 
-  SIMDBEZIER_INLINE void cross() {
+  SIMDBEZIER_PART void cross() {
     const V du[3] = {jet[0].du, jet[1].du, jet[2].du};
     const V dv[3] = {jet[0].dv, jet[1].dv, jet[2].dv};
     squared = cross_product(du, dv, normal);
@@ -50,7 +50,7 @@ struct NormalSweep {
     }
   }
 
-  SIMDBEZIER_INLINE void interior(const T* y, RowPlace place, std::size_t rows, V floor) const {
+  SIMDBEZIER_PART void interior(const T* y, RowPlace place, std::size_t rows, V floor) const {
     const auto at = RowPowers<T>::template point<kRows, V>(y);
     Tangents tangents;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -59,7 +59,7 @@ struct NormalSweep {
     finish<false>(tangents, y, place, rows, floor);
   }
   /// kRows rows and their mirror images.
-  SIMDBEZIER_INLINE void pair(const T* y, RowPlace place, RowPlace mirror, V floor) const {
+  SIMDBEZIER_PART void pair(const T* y, RowPlace place, RowPlace mirror, V floor) const {
     const auto at = RowPowers<T>::template point<kRows, V>(y);
     Tangents tangents;
     Tangents mirrored_tangents;
@@ -75,7 +75,7 @@ struct NormalSweep {
   }
 
   /// On the edge v = const number `edge`, or on both where they share a register.
-  SIMDBEZIER_INLINE NormalSamples<V> edge(std::size_t edge) const {
+  SIMDBEZIER_PART NormalSamples<V> edge(std::size_t edge) const {
     NormalSamples<V> s;
     for (std::size_t c = 0; c < 3; ++c) {
       s.jet[c] = columns[c].edge(component[c], tile, edge);
@@ -84,8 +84,8 @@ struct NormalSweep {
     return s;
   }
 
-  SIMDBEZIER_INLINE void store_edge(const NormalSamples<V>& s, RowKind kind, std::size_t at,
-                                    std::size_t row, V floor) const {
+  SIMDBEZIER_PART void store_edge(const NormalSamples<V>& s, RowKind kind, std::size_t at,
+                                  std::size_t row, V floor) const {
     for (std::size_t c = 0; c < 3; ++c) {
       if constexpr (kAny) {
         tile.store_edge_if_wanted(plane(detail::kPositionGroup, c), at, s.jet[c].p, kind);
@@ -119,8 +119,8 @@ private:
 
   /// One component; kMirrored: rows come from `place` back.
   template <bool kMirrored>
-  SIMDBEZIER_INLINE void store_jet(std::size_t c, const Jet<V>& jet, RowPlace place,
-                                   std::size_t rows, Tangents& tangents) const {
+  SIMDBEZIER_PART void store_jet(std::size_t c, const Jet<V>& jet, RowPlace place, std::size_t rows,
+                                 Tangents& tangents) const {
     tangents.du[c] = jet.du;
     tangents.dv[c] = jet.dv;
     store_rows<kMirrored>(detail::kPositionGroup, c, 0, jet.p, place, rows);
@@ -132,8 +132,8 @@ private:
 
   /// Normals of rows whose other outputs have been stored.
   template <bool kMirrored>
-  SIMDBEZIER_INLINE void finish(const Tangents& tangents, const T* y, RowPlace place,
-                                std::size_t rows, V floor) const {
+  SIMDBEZIER_PART void finish(const Tangents& tangents, const T* y, RowPlace place,
+                              std::size_t rows, V floor) const {
     if (kAny && !task.out[detail::kNormalGroup].wanted()) {
       return;
     }
@@ -155,8 +155,8 @@ private:
 
   /// first: plane of the column behind the tile that belongs to component 0.
   template <bool kMirrored>
-  SIMDBEZIER_INLINE void store_rows(std::size_t group, std::size_t c, std::size_t first, V value,
-                                    RowPlace place, std::size_t rows) const {
+  SIMDBEZIER_PART void store_rows(std::size_t group, std::size_t c, std::size_t first, V value,
+                                  RowPlace place, std::size_t rows) const {
     T* const to = plane(group, c);
     if (kAny && to == nullptr) {
       return;
@@ -169,18 +169,18 @@ private:
     }
   }
 
-  SIMDBEZIER_INLINE T* plane(std::size_t group, std::size_t c) const {
+  SIMDBEZIER_PART T* plane(std::size_t group, std::size_t c) const {
     return task.out[group].component[c];
   }
 };
 
 template <bool kAny, bool kAsks, typename Piece, std::size_t kRows, bool kWhole, bool kExtra,
           typename V, bool kStreams>
-SIMDBEZIER_INLINE void sweep_normals(const GridTask<ScalarOf<V>>& task,
-                                     const GridTask<ScalarOf<V>>& shared_task, const Piece& piece,
-                                     const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
-                                     std::size_t patch, std::size_t first, std::size_t status_step,
-                                     ColumnPlanes<ScalarOf<V>> extra) {
+SIMDBEZIER_PART void sweep_normals(const GridTask<ScalarOf<V>>& task,
+                                   const GridTask<ScalarOf<V>>& shared_task, const Piece& piece,
+                                   const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
+                                   std::size_t patch, std::size_t first, std::size_t status_step,
+                                   ColumnPlanes<ScalarOf<V>> extra) {
   using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
   const NormalSweep<kRows, kWhole, kExtra, kAny, kAsks, V, kStreams> sweep(

@@ -156,8 +156,8 @@ struct SecondSquares {
 /// S_uu: second differences in u times 6, over quarters, raised in u. The others likewise. One
 /// component at a time: it stays in registers.
 template <bool kFirst, typename V>
-__attribute__((noinline)) void form_uu(RateScratch<V>& scratch, V SpaceVector<V>::*c,
-                                       SecondSquares<V>& squares) {
+SIMDBEZIER_KERNEL void form_uu(RateScratch<V>& scratch, V SpaceVector<V>::*c,
+                               SecondSquares<V>& squares) {
   const V six = broadcast<V>(ScalarOf<V>(6));
   V uu[8];
   for (std::size_t k = 0; k < 8; ++k) {
@@ -175,8 +175,8 @@ __attribute__((noinline)) void form_uu(RateScratch<V>& scratch, V SpaceVector<V>
   }
 }
 template <bool kFirst, typename V>
-__attribute__((noinline)) void form_uv(RateScratch<V>& scratch, V SpaceVector<V>::*c,
-                                       SecondSquares<V>& squares) {
+SIMDBEZIER_KERNEL void form_uv(RateScratch<V>& scratch, V SpaceVector<V>::*c,
+                               SecondSquares<V>& squares) {
   const V nine = broadcast<V>(ScalarOf<V>(9));
   V uv[9];
   for (std::size_t k = 0; k < 9; ++k) {
@@ -200,8 +200,8 @@ __attribute__((noinline)) void form_uv(RateScratch<V>& scratch, V SpaceVector<V>
   }
 }
 template <bool kFirst, typename V>
-__attribute__((noinline)) void form_vv(RateScratch<V>& scratch, V SpaceVector<V>::*c,
-                                       SecondSquares<V>& squares) {
+SIMDBEZIER_KERNEL void form_vv(RateScratch<V>& scratch, V SpaceVector<V>::*c,
+                               SecondSquares<V>& squares) {
   const V six = broadcast<V>(ScalarOf<V>(6));
   V vv[8];
   for (std::size_t k = 0; k < 8; ++k) {

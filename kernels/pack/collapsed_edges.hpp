@@ -86,7 +86,7 @@ private:
   }
 
   /// Packs the edge in every cell that has a part of it.
-  __attribute__((noinline, cold)) void pack_edge(std::size_t patch, std::size_t edge) const {
+  SIMDBEZIER_RARE void pack_edge(std::size_t patch, std::size_t edge) const {
     const detail::NetShape& shape = task_.shape;
     const Side side(edge);
     const std::size_t across = side.along_u ? shape.cells_v() : shape.cells_u();

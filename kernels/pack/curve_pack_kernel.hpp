@@ -214,7 +214,7 @@ private:
       }
     }
   }
-  __attribute__((noinline, cold)) void pack_point(T* const first, std::size_t cell) const {
+  SIMDBEZIER_RARE void pack_point(T* const first, std::size_t cell) const {
     T* values = first + cell * shape_.cell_values();
     for (std::size_t c = 0; c <= components_; ++c, values += shape_.channel_values()) {
       const T point = first[c * shape_.channel_values() + shape_.ends_at()];

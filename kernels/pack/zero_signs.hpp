@@ -97,8 +97,8 @@ SIMDBEZIER_INLINE void keep_even_part_from_zero(T* c, std::size_t step, int degr
 
 /// The four edges of every channel of one cell, in the blocks of `count` patches.
 template <typename T>
-__attribute__((noinline, cold)) void keep_edges_from_zero(const detail::NetShape& shape, T* blocks,
-                                                          std::size_t count) {
+SIMDBEZIER_RARE void keep_edges_from_zero(const detail::NetShape& shape, T* blocks,
+                                          std::size_t count) {
   for (std::size_t p = 0; p < count; ++p, blocks += shape.cells() * shape.cell_edges()) {
     for (std::size_t c = 0; c < shape.channels(); ++c) {
       for (std::size_t e = 0; e < detail::kEdges; ++e) {

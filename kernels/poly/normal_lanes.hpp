@@ -39,9 +39,8 @@ SIMDBEZIER_INLINE V floor_inside(V t, V floor) {
 /// Lane by lane, for those that did not pass. Rare, so kept out of line; vectors come by value, or
 /// the fast path would have to keep them in memory.
 template <typename V>
-__attribute__((noinline, cold)) void resolve_normals(const detail::SampleTask<ScalarOf<V>>& task,
-                                                     std::size_t patch, Suspects s, V x, V y,
-                                                     V squared, V floor) {
+SIMDBEZIER_RARE void resolve_normals(const detail::SampleTask<ScalarOf<V>>& task, std::size_t patch,
+                                     Suspects s, V x, V y, V squared, V floor) {
   using T = ScalarOf<V>;
   const V vectors[4] = {squared, floor, x, y};
   alignas(64) T lanes[4][kLanes<V>];

@@ -12,13 +12,13 @@ using detail::ScatteredTask;
 /// Exact where the parameter is centred, rounded once where it is not: one of shift and scale
 /// leaves values as they are, so that one operation does.
 template <typename V>
-SIMDBEZIER_INLINE V half_centred(const ScatteredTask<ScalarOf<V>>& task, V given) {
+SIMDBEZIER_PART V half_centred(const ScatteredTask<ScalarOf<V>>& task, V given) {
   return madd(given, broadcast<V>(task.scale), broadcast<V>(-task.shift));
 }
 
 /// As above; nan where the parameter is not finite.
 template <typename T>
-SIMDBEZIER_INLINE T finite_half_centred(const ScatteredTask<T>& task, T given) {
+SIMDBEZIER_PART T finite_half_centred(const ScatteredTask<T>& task, T given) {
   return given - given == T(0) ? half_centred(task, given) : static_cast<T>(__builtin_nan(""));
 }
 
@@ -31,7 +31,7 @@ struct Place {
   bool on_edge; ///< v = 0 or 1
   std::size_t edge;
 
-  SIMDBEZIER_INLINE Place(const ScatteredTask<T>& task, std::size_t k)
+  SIMDBEZIER_PART Place(const ScatteredTask<T>& task, std::size_t k)
       : patch(task.patch[k]), column(finite_half_centred(task, task.u[k]), task.watertight),
         y(finite_half_centred(task, task.v[k])),
         on_edge(task.watertight && (y == T(-0.5) || y == T(0.5))),
@@ -39,8 +39,8 @@ struct Place {
 };
 
 template <typename T>
-SIMDBEZIER_INLINE void store_point(const detail::Planes<T>& planes, std::size_t at,
-                                   const T value[3]) {
+SIMDBEZIER_PART void store_point(const detail::Planes<T>& planes, std::size_t at,
+                                 const T value[3]) {
   if (planes.wanted()) {
     for (int c = 0; c < 3; ++c) {
       planes.component[c][at] = value[c];
@@ -49,8 +49,8 @@ SIMDBEZIER_INLINE void store_point(const detail::Planes<T>& planes, std::size_t 
 }
 
 template <typename T>
-SIMDBEZIER_INLINE void store_normal(const ScatteredTask<T>& task, std::size_t k,
-                                    const Place<T>& place, const T du[3], const T dv[3]) {
+SIMDBEZIER_PART void store_normal(const ScatteredTask<T>& task, std::size_t k,
+                                  const Place<T>& place, const T du[3], const T dv[3]) {
   const T x = place.column.x;
   const T y = place.y;
   T n[3];
@@ -71,8 +71,8 @@ SIMDBEZIER_INLINE void store_normal(const ScatteredTask<T>& task, std::size_t k,
 
 /// Position and first derivatives.
 template <typename T>
-SIMDBEZIER_INLINE void evaluate_first(const ScatteredTask<T>& task, std::size_t k,
-                                      const Place<T>& place) {
+SIMDBEZIER_PART void evaluate_first(const ScatteredTask<T>& task, std::size_t k,
+                                    const Place<T>& place) {
   T p[3];
   T du[3];
   T dv[3];
@@ -98,8 +98,8 @@ SIMDBEZIER_INLINE void evaluate_first(const ScatteredTask<T>& task, std::size_t 
 }
 
 template <typename T>
-SIMDBEZIER_INLINE void evaluate_second(const ScatteredTask<T>& task, std::size_t k,
-                                       const Place<T>& place) {
+SIMDBEZIER_PART void evaluate_second(const ScatteredTask<T>& task, std::size_t k,
+                                     const Place<T>& place) {
   T duu[3];
   T duv[3];
   T dvv[3];
@@ -119,7 +119,7 @@ SIMDBEZIER_INLINE void evaluate_second(const ScatteredTask<T>& task, std::size_t
 
 /// Sample k from start to end: the outputs of order <= 1, or (kSecond) those of order 2.
 template <bool kSecond, typename T>
-__attribute__((noinline)) void evaluate_sample(const ScatteredTask<T>& task, std::size_t k) {
+SIMDBEZIER_KERNEL void evaluate_sample(const ScatteredTask<T>& task, std::size_t k) {
   const Place<T> place(task, k);
   if (task.status != nullptr && (place.column.x != place.column.x || place.y != place.y)) {
     task.status[k] = SampleStatus::non_finite;

@@ -15,9 +15,9 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <bool kPrefetch, Outcome kOutcome, typename V>
 class Ahead {
 public:
-  SIMDBEZIER_INLINE Ahead(const ScatteredTask<ScalarOf<V>>&, std::size_t, const std::uint32_t*) {}
+  SIMDBEZIER_PART Ahead(const ScatteredTask<ScalarOf<V>>&, std::size_t, const std::uint32_t*) {}
   template <std::size_t kGroup>
-  SIMDBEZIER_INLINE void ask() const {}
+  SIMDBEZIER_PART void ask() const {}
 };
 
 template <Outcome kOutcome, typename V>
@@ -25,8 +25,7 @@ class Ahead<true, kOutcome, V> {
 public:
   using T = ScalarOf<V>;
 
-  SIMDBEZIER_INLINE Ahead(const ScatteredTask<T>& task, std::size_t first,
-                          const std::uint32_t* patch)
+  SIMDBEZIER_PART Ahead(const ScatteredTask<T>& task, std::size_t first, const std::uint32_t* patch)
       : coefficients_(task.coefficients),
         floors_(kOutcome == kNormals && !(task.common_floor < kInfinity) ? task.normal_floor
                                                                          : nullptr),
@@ -35,7 +34,7 @@ public:
   /// Asks for the lines of kQuads patches. A few at a time: while more lines are under way than
   /// the processor can keep track of, nothing else is done.
   template <std::size_t kGroup>
-  SIMDBEZIER_INLINE void ask() const {
+  SIMDBEZIER_PART void ask() const {
     for (std::size_t i = kGroup * kQuads<V>; i < (kGroup + 1) * kQuads<V>; ++i) {
       const T* const from = coefficients_ + std::size_t{patch_[i]} * detail::kCoefficients;
       for (std::size_t value = 0; value < detail::kCoefficients; value += kLine) {
@@ -59,8 +58,8 @@ private:
 
 /// Horner in X for one group, all components.
 template <std::size_t kGroup, Outcome kOutcome, typename V>
-SIMDBEZIER_INLINE void evaluate_group(const ScalarOf<V>* coefficients, const std::uint32_t* patch,
-                                      V all_x, Polynomials<kOutcome, V> q[3]) {
+SIMDBEZIER_PART void evaluate_group(const ScalarOf<V>* coefficients, const std::uint32_t* patch,
+                                    V all_x, Polynomials<kOutcome, V> q[3]) {
   using T = ScalarOf<V>;
   constexpr std::size_t kParts = kOrder / kQuad<V>; // of a row of powers of Y
   const V x = lane_broadcast<kGroup>(all_x);
@@ -89,7 +88,7 @@ SIMDBEZIER_INLINE void evaluate_group(const ScalarOf<V>* coefficients, const std
 }
 
 template <Outcome kOutcome, typename V>
-SIMDBEZIER_INLINE void groups_to_powers(Polynomials<kOutcome, V>& q) {
+SIMDBEZIER_PART void groups_to_powers(Polynomials<kOutcome, V>& q) {
   for (std::size_t derivative = 0; derivative < kPolynomials<kOutcome>; ++derivative) {
     for (std::size_t l = 0; l < kOrder; l += kQuad<V>) {
       lane_transpose(q.power[derivative] + l);
@@ -103,14 +102,14 @@ template <typename V>
 struct FloorsOfMany {
   const ScatteredTask<ScalarOf<V>>& task;
   const std::uint32_t* patch;
-  SIMDBEZIER_INLINE V highest() const { return broadcast<V>(task.common_floor); }
-  SIMDBEZIER_INLINE V each() const { return gather_lanes<V>(task.normal_floor, patch, 1); }
+  SIMDBEZIER_PART V highest() const { return broadcast<V>(task.common_floor); }
+  SIMDBEZIER_PART V each() const { return gather_lanes<V>(task.normal_floor, patch, 1); }
 };
 
 /// patch: one index for each lane. kPrefetch: the lines of later samples are asked for.
 template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename V>
-SIMDBEZIER_INLINE void evaluate_mixed(const Block<V>& block, const std::uint32_t* patch,
-                                      WaitingNormals<kOutcome, V>& waiting) {
+SIMDBEZIER_PART void evaluate_mixed(const Block<V>& block, const std::uint32_t* patch,
+                                    WaitingNormals<kOutcome, V>& waiting) {
   const auto& task = block.task;
   waiting.take_root();
   Polynomials<kOutcome, V> q[3];

@@ -9,14 +9,14 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <typename V>
 struct FloorOfOne {
   const ScalarOf<V>& floor;
-  SIMDBEZIER_INLINE V highest() const { return broadcast<V>(floor); }
-  SIMDBEZIER_INLINE V each() const { return broadcast<V>(floor); }
+  SIMDBEZIER_PART V highest() const { return broadcast<V>(floor); }
+  SIMDBEZIER_PART V each() const { return broadcast<V>(floor); }
 };
 
 /// kRegisters blocks share every broadcast: with one of them, loads would be the limit.
 template <bool kOrigins, Outcome kOutcome, std::size_t kRegisters, typename V>
-SIMDBEZIER_INLINE void evaluate_run(const Block<V> block[kRegisters], std::size_t patch,
-                                    WaitingNormals<kOutcome, V>& waiting) {
+SIMDBEZIER_PART void evaluate_run(const Block<V> block[kRegisters], std::size_t patch,
+                                  WaitingNormals<kOutcome, V>& waiting) {
   const auto& task = block[0].task;
   Tangents<kOutcome, V> tangents[kRegisters];
   waiting.take_root();

@@ -31,7 +31,7 @@ struct Polynomials {
   V power[kPolynomials<kOutcome>][kOrder];
 
   /// Coefficient l of all of them: Horner in X.
-  SIMDBEZIER_INLINE void set(std::size_t l, const V k[kOrder], V x) {
+  SIMDBEZIER_PART void set(std::size_t l, const V k[kOrder], V x) {
     if constexpr (kOutcome == kPositions) {
       power[0][l] = horner(k, x);
     } else {
@@ -53,14 +53,13 @@ struct Block {
   V x;
   V y;
 
-  SIMDBEZIER_INLINE Block(const ScatteredTask<T>& the_task, std::size_t first_sample)
+  SIMDBEZIER_PART Block(const ScatteredTask<T>& the_task, std::size_t first_sample)
       : task(the_task), first(first_sample),
         x(half_centred(the_task, load_vector<V>(the_task.u + first_sample))),
         y(half_centred(the_task, load_vector<V>(the_task.v + first_sample))) {}
 
-  SIMDBEZIER_INLINE void store(T* plane, V value) const { store_vector(plane + first, value); }
-  SIMDBEZIER_INLINE void store_if_wanted(detail::Group group, std::size_t component,
-                                         V value) const {
+  SIMDBEZIER_PART void store(T* plane, V value) const { store_vector(plane + first, value); }
+  SIMDBEZIER_PART void store_if_wanted(detail::Group group, std::size_t component, V value) const {
     compute_here(value);
     T* const plane = task.out[group].component[component];
     if (plane != nullptr) {
@@ -69,7 +68,7 @@ struct Block {
   }
 
   /// Strictly inside of the patch: nothing special about any sample.
-  SIMDBEZIER_INLINE MaskOf<V> interior() const {
+  SIMDBEZIER_PART MaskOf<V> interior() const {
     const V half = broadcast<V>(T(0.5));
     return (x < half) & (x > -half) & (y < half) & (y > -half);
   }
@@ -81,8 +80,8 @@ struct Block {
 template <Outcome kOutcome, typename V>
 class WaitingNormals {
 public:
-  SIMDBEZIER_INLINE void take_root() {}
-  SIMDBEZIER_INLINE void store(const ScatteredTask<ScalarOf<V>>&) {}
+  SIMDBEZIER_PART void take_root() {}
+  SIMDBEZIER_PART void store(const ScatteredTask<ScalarOf<V>>&) {}
 };
 
 template <typename V>
@@ -91,7 +90,7 @@ public:
   using T = ScalarOf<V>;
 
   /// n = du x dv and |n|^2 of the samples from `first` on.
-  SIMDBEZIER_INLINE void put(const V n[3], V squared, std::size_t first) {
+  SIMDBEZIER_PART void put(const V n[3], V squared, std::size_t first) {
     for (std::size_t c = 0; c < 3; ++c) {
       n_[c] = n[c];
     }
@@ -101,13 +100,13 @@ public:
   }
 
   // The two steps of normalise(), with other work before and between them.
-  SIMDBEZIER_INLINE void take_root() {
+  SIMDBEZIER_PART void take_root() {
     if (waiting_) {
       length_ = square_root(length_);
       compute_here(length_);
     }
   }
-  SIMDBEZIER_INLINE void store(const ScatteredTask<T>& task) {
+  SIMDBEZIER_PART void store(const ScatteredTask<T>& task) {
     if (waiting_) {
       const V inverse = divide(broadcast<V>(T(1)), length_);
       for (std::size_t c = 0; c < 3; ++c) {
@@ -134,7 +133,7 @@ struct Tangents {
 /// Here the compiler knows whether there are origins: asking for them costs random samples a tenth
 /// of their speed and more.
 template <bool kOrigins, typename V>
-SIMDBEZIER_INLINE V with_origin(V p, V origin) {
+SIMDBEZIER_PART V with_origin(V p, V origin) {
   if constexpr (kOrigins) {
     p = p + origin;
   }
@@ -143,8 +142,8 @@ SIMDBEZIER_INLINE V with_origin(V p, V origin) {
 
 /// One component, from its columns' polynomials in Y.
 template <bool kOrigins, Outcome kOutcome, typename V>
-SIMDBEZIER_INLINE void finish_component(const Block<V>& block, const Polynomials<kOutcome, V>& q,
-                                        std::size_t c, V origin, Tangents<kOutcome, V>& tangents) {
+SIMDBEZIER_PART void finish_component(const Block<V>& block, const Polynomials<kOutcome, V>& q,
+                                      std::size_t c, V origin, Tangents<kOutcome, V>& tangents) {
   const RowPoint<V> at(block.y);
   if constexpr (kOutcome == kPositions) {
     block.store(block.task.out[detail::kPositionGroup].component[c],
@@ -165,9 +164,8 @@ SIMDBEZIER_INLINE void finish_component(const Block<V>& block, const Polynomials
 /// The samples of a block that the interior's formula does not fit, or whose normal did not pass
 /// the quick test. Vectors come by value, or the fast path would have to keep them in memory.
 template <bool kSecond, typename V>
-__attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf<V>>& task,
-                                                    std::size_t first, V x, V y, V squared,
-                                                    V floor) {
+SIMDBEZIER_RARE void evaluate_again(const ScatteredTask<ScalarOf<V>>& task, std::size_t first, V x,
+                                    V y, V squared, V floor) {
   using T = ScalarOf<V>;
   const V vectors[4] = {x, y, squared, floor};
   alignas(64) T lanes[4][kLanes<V>];
@@ -188,8 +186,8 @@ __attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf
 
 /// As above for outputs without normals: for these the formula holds outside of the patch as well.
 template <bool kSecond, typename V>
-__attribute__((noinline, cold)) void evaluate_again(const ScatteredTask<ScalarOf<V>>& task,
-                                                    std::size_t first, V x, V y) {
+SIMDBEZIER_RARE void evaluate_again(const ScatteredTask<ScalarOf<V>>& task, std::size_t first, V x,
+                                    V y) {
   using T = ScalarOf<V>;
   alignas(64) T lanes[2][kLanes<V>];
   store_vector(lanes[0], x);

@@ -19,9 +19,8 @@ inline std::uint32_t highest_index(const std::uint32_t* index, std::size_t count
 /// The last samples, fewer than a register: by way of a register of each array, whose other lanes
 /// are the middle of the last patch. second: evaluate() computes second derivatives.
 template <typename T>
-__attribute__((noinline)) void evaluate_rest(const ScatteredTask<T>& task, std::size_t first,
-                                             bool second,
-                                             void (*evaluate)(const ScatteredTask<T>&)) {
+SIMDBEZIER_KERNEL void evaluate_rest(const ScatteredTask<T>& task, std::size_t first, bool second,
+                                     void (*evaluate)(const ScatteredTask<T>&)) {
   constexpr std::size_t kN = kLanes<vec<T>>;
   const std::size_t active = task.count - first;
   std::uint32_t patch[kN];
@@ -72,7 +71,7 @@ void evaluate_block(const ScatteredTask<T>& task);
 /// are in the cache costs a third of the speed, and to ask at run time up to a tenth. Sets with
 /// origins are always prefetched.
 template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename V>
-SIMDBEZIER_INLINE void evaluate_samples(const ScatteredTask<ScalarOf<V>>& task) {
+SIMDBEZIER_PART void evaluate_samples(const ScatteredTask<ScalarOf<V>>& task) {
   constexpr std::size_t kWide = kOutcome == kPositions ? 2 : 1; // registers for a long run
   constexpr std::size_t kN = kLanes<V>;
   WaitingNormals<kOutcome, V> waiting;
@@ -105,12 +104,12 @@ SIMDBEZIER_INLINE void evaluate_samples(const ScatteredTask<ScalarOf<V>>& task) 
 }
 
 template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename T>
-__attribute__((noinline)) void evaluate_block(const ScatteredTask<T>& task) {
+SIMDBEZIER_KERNEL void evaluate_block(const ScatteredTask<T>& task) {
   evaluate_samples<kOrigins, kOutcome, kPrefetch, vec<T>>(task);
 }
 
 template <bool kOrigins, Outcome kOutcome, typename T>
-SIMDBEZIER_INLINE void evaluate_outcome(const ScatteredTask<T>& task) {
+SIMDBEZIER_PART void evaluate_outcome(const ScatteredTask<T>& task) {
   if (kOrigins || task.prefetch) {
     evaluate_block<kOrigins, kOutcome, true>(task);
   } else {
@@ -119,7 +118,7 @@ SIMDBEZIER_INLINE void evaluate_outcome(const ScatteredTask<T>& task) {
 }
 
 template <bool kOrigins, typename T>
-SIMDBEZIER_INLINE void evaluate_wanted(const ScatteredTask<T>& task) {
+SIMDBEZIER_PART void evaluate_wanted(const ScatteredTask<T>& task) {
   const auto wanted = [&](detail::Group group) __attribute__((always_inline)) {
     return task.out[group].wanted();
   };
@@ -133,7 +132,7 @@ SIMDBEZIER_INLINE void evaluate_wanted(const ScatteredTask<T>& task) {
 }
 
 template <typename T>
-void scattered_kernel(ScatteredTask<T>& task) {
+SIMDBEZIER_KERNEL void scattered_kernel(ScatteredTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
   const auto wanted = [&](detail::Group group) __attribute__((always_inline)) {
     return task.out[group].wanted();

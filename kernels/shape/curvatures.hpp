@@ -8,7 +8,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// 1 / x for x = power_of_two_below(…), without a division: flipping the exponent's bits gives 2 /
 /// x, for 0 and infinity as well.
 template <typename V>
-SIMDBEZIER_INLINE V inverse_of_power_of_two(V x) {
+SIMDBEZIER_PART V inverse_of_power_of_two(V x) {
   using T = ScalarOf<V>;
   if constexpr (!kIsScalar<V>) {
     return (x ^ V(static_cast<T>(__builtin_inf()))) * V(T(0.5));
@@ -27,7 +27,7 @@ struct ScaledTangent {
   V inverse;
   V value[3];
 
-  explicit SIMDBEZIER_INLINE ScaledTangent(const V tangent[3]) {
+  explicit SIMDBEZIER_PART ScaledTangent(const V tangent[3]) {
     V size = broadcast<V>(ScalarOf<V>(0));
     for (std::size_t c = 0; c < 3; ++c) {
       const V power = power_of_two_below(tangent[c]);
@@ -42,7 +42,7 @@ struct ScaledTangent {
 
 /// Gaussian, mean, smaller and larger principal curvature; see Curvatures.
 template <typename V>
-SIMDBEZIER_INLINE void curvatures(const SampleJet<V>& jet, V out[detail::kCurvatures]) {
+SIMDBEZIER_PART void curvatures(const SampleJet<V>& jet, V out[detail::kCurvatures]) {
   const ScaledTangent<V> du(jet.du);
   const ScaledTangent<V> dv(jet.dv);
   V n[3];

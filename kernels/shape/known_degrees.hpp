@@ -9,7 +9,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 /// How many planes outputs have: up to three components.
 template <typename T>
-SIMDBEZIER_INLINE std::size_t wanted_components(const GridTask<T>& task) {
+SIMDBEZIER_PART std::size_t wanted_components(const GridTask<T>& task) {
   const std::size_t left = static_cast<std::size_t>(task.shape->components) - task.first_component;
   return left < 3 ? left : 3;
 }
@@ -17,15 +17,15 @@ SIMDBEZIER_INLINE std::size_t wanted_components(const GridTask<T>& task) {
 /// The edge v = const that a run of rows is on; kEdges where it is on none, or edges are as good as
 /// any row.
 template <typename T>
-SIMDBEZIER_INLINE std::size_t own_edge(const GridTask<T>& task, const RowRun<T>& run) {
+SIMDBEZIER_PART std::size_t own_edge(const GridTask<T>& task, const RowRun<T>& run) {
   return task.watertight && is_edge(run.kind) ? edge_of(run.kind) : kEdges;
 }
 
 /// All rows of a register of columns. kFull: all lanes are columns.
 template <typename P, bool kFull, typename T>
-SIMDBEZIER_INLINE void sweep_rows(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
-                                  const typename ShapeColumns<P, vec<T>>::Edges& edges,
-                                  SampleRange<vec<T>> range) {
+SIMDBEZIER_PART void sweep_rows(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
+                                const typename ShapeColumns<P, vec<T>>::Edges& edges,
+                                SampleRange<vec<T>> range) {
   using V = vec<T>;
   const ColumnPolynomials<P, V> polynomials = columns.polynomials();
   const ColumnOrigins<V>* const origins = columns.origins();
@@ -58,7 +58,7 @@ SIMDBEZIER_INLINE void sweep_rows(const GridTask<T>& task, const ShapeColumns<P,
 
 /// The same for positions, of which edges need nothing that the columns give.
 template <typename P, bool kFull, typename T>
-SIMDBEZIER_INLINE void
+SIMDBEZIER_PART void
 sweep_positions(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
                 const typename ShapeColumns<P, vec<T>>::Edges& edges, SampleRange<vec<T>> range) {
   using V = vec<T>;
@@ -87,8 +87,8 @@ sweep_positions(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
 
 /// The columns from `first` on of one patch; components from `component` on.
 template <typename P, typename T>
-SIMDBEZIER_INLINE void sweep_columns(const GridTask<T>& task, const NetShape& shape,
-                                     std::size_t patch, std::size_t first, std::size_t component) {
+SIMDBEZIER_PART void sweep_columns(const GridTask<T>& task, const NetShape& shape,
+                                   std::size_t patch, std::size_t first, std::size_t component) {
   using V = vec<T>;
   const CellRow<T> cells(task, shape, patch, 0);
   const V x = load_vector<V>(task.x + first);
@@ -114,7 +114,7 @@ SIMDBEZIER_INLINE void sweep_columns(const GridTask<T>& task, const NetShape& sh
 }
 
 template <typename P, typename T>
-__attribute__((noinline)) void sweep_known(const GridTask<T>& shared_task) {
+SIMDBEZIER_KERNEL void sweep_known(const GridTask<T>& shared_task) {
   // Copies, because stores through vector types might change anything that others can see.
   const GridTask<T> task = shared_task;
   const NetShape shape = P::shape(*shared_task.shape);

@@ -15,7 +15,7 @@ struct CellColumns {
   bool any_low;
   bool any_high;
 
-  SIMDBEZIER_INLINE CellColumns(V half_centred, std::size_t cells, bool watertight)
+  SIMDBEZIER_PART CellColumns(V half_centred, std::size_t cells, bool watertight)
       : local(cells == 1 ? half_centred : cell_parameter(half_centred), watertight),
         low(half_centred < broadcast<V>(ScalarOf<V>(0))), any_low(cells == 1 || any_of<V>(low)),
         any_high(cells == 2 && !all_of<V>(low)) {}
@@ -23,7 +23,7 @@ struct CellColumns {
 
 /// The edge v = const of its cell that a local parameter is on; kEdges where it is on none.
 template <typename T>
-SIMDBEZIER_INLINE std::size_t edge_of_cell(T local) {
+SIMDBEZIER_PART std::size_t edge_of_cell(T local) {
   return local == T(-0.5) ? detail::kEdgeV0 : local == T(0.5) ? detail::kEdgeV1 : kEdges;
 }
 
@@ -51,18 +51,18 @@ struct CellRow {
   Cell<T> low;
   Cell<T> high;
 
-  SIMDBEZIER_INLINE CellRow(Cell<T> of_low, Cell<T> of_high) : low(of_low), high(of_high) {}
+  SIMDBEZIER_PART CellRow(Cell<T> of_low, Cell<T> of_high) : low(of_low), high(of_high) {}
   /// Task: any that holds the arrays of a set.
   template <typename Task>
-  SIMDBEZIER_INLINE CellRow(const Task& task, const NetShape& shape, std::size_t patch,
-                            std::size_t row)
+  SIMDBEZIER_PART CellRow(const Task& task, const NetShape& shape, std::size_t patch,
+                          std::size_t row)
       : low(cell(task, shape, patch, row * shape.cells_u())),
         high(cell(task, shape, patch, row * shape.cells_u() + shape.cells_u() - 1)) {}
 
 private:
   template <typename Task>
-  static SIMDBEZIER_INLINE Cell<T> cell(const Task& task, const NetShape& shape, std::size_t patch,
-                                        std::size_t index) {
+  static SIMDBEZIER_PART Cell<T> cell(const Task& task, const NetShape& shape, std::size_t patch,
+                                      std::size_t index) {
     const std::size_t at = patch * shape.cells() + index;
     return {task.coefficients + at * shape.cell_coefficients(),
             task.edges + at * shape.cell_edges(),
@@ -78,17 +78,17 @@ struct Channels {
   static constexpr std::size_t kWeight = kMost;
   static constexpr std::size_t kSlots = kMost + (kRational ? 1 : 0);
 
-  SIMDBEZIER_INLINE Channels(const NetShape& shape, std::size_t first_component)
+  SIMDBEZIER_PART Channels(const NetShape& shape, std::size_t first_component)
       : first_(first_component),
         count_(static_cast<std::size_t>(shape.components) - first_component),
         weight_(static_cast<std::size_t>(shape.components)) {}
   /// The packed channel of a slot.
-  SIMDBEZIER_INLINE std::size_t channel(std::size_t slot) const {
+  SIMDBEZIER_PART std::size_t channel(std::size_t slot) const {
     return slot == kWeight ? weight_ : first_ + slot;
   }
 
   /// Whether a slot belongs to a component of the patch, or to its weight.
-  SIMDBEZIER_INLINE bool exists(std::size_t slot) const {
+  SIMDBEZIER_PART bool exists(std::size_t slot) const {
     return kComponents != 0 || slot < count_ || slot == kWeight;
   }
   /// f(slot) for the components. Unrolled only where their number is known, because that keeps

@@ -20,13 +20,13 @@ class ShapeColumns {
 public:
   using Edges = ShapeEdges<P, V>;
 
-  SIMDBEZIER_INLINE ShapeColumns(const NetShape& shape, const CellColumns<V>& columns,
-                                 std::size_t first_component)
+  SIMDBEZIER_PART ShapeColumns(const NetShape& shape, const CellColumns<V>& columns,
+                               std::size_t first_component)
       : shape_(P::shape(shape)), columns_(columns), slots_(shape_, first_component),
         order_u_(shape_.order_u()), order_v_(shape_.order_v()) {}
 
   /// The columns in one row of cells, to which `edges` belong. room: as long as they are used.
-  SIMDBEZIER_INLINE void build(const CellRow<T>& row, const Edges& edges, ColumnOrigins<V>& room) {
+  SIMDBEZIER_PART void build(const CellRow<T>& row, const Edges& edges, ColumnOrigins<V>& room) {
     origins_ = nullptr;
     if (edges.has_origins() || edges.has_points()) [[unlikely]] {
       edges.find_origins(room);
@@ -44,7 +44,7 @@ public:
 
   /// build() of one sample (V = T) off the edges of its cell, in a set without origins: lanes are
   /// powers of Y. Reads up to a register behind the last coefficient, where the edges stand.
-  SIMDBEZIER_INLINE void build_across(const Cell<T>& cell) {
+  SIMDBEZIER_PART void build_across(const Cell<T>& cell) {
     using Lanes = vec<T>;
     const Lanes x = broadcast<Lanes>(columns_.local.x);
     const auto load = [](const T* c) SIMDBEZIER_INLINE_LAMBDA { return load_vector<Lanes>(c); };
@@ -60,15 +60,15 @@ public:
     });
   }
 
-  SIMDBEZIER_INLINE const ColumnPolynomials<P, V>& polynomials() const { return polynomials_; }
-  SIMDBEZIER_INLINE const typename P::Slots& slots() const { return slots_; }
-  SIMDBEZIER_INLINE typename P::OrderV order_v() const { return order_v_; }
+  SIMDBEZIER_PART const ColumnPolynomials<P, V>& polynomials() const { return polynomials_; }
+  SIMDBEZIER_PART const typename P::Slots& slots() const { return slots_; }
+  SIMDBEZIER_PART typename P::OrderV order_v() const { return order_v_; }
   /// The origins of the set, or of edges that are points; null where there are none.
-  SIMDBEZIER_INLINE const ColumnOrigins<V>* origins() const { return origins_; }
+  SIMDBEZIER_PART const ColumnOrigins<V>* origins() const { return origins_; }
 
   /// Samples at kRows local y, off the edges v = const.
   template <std::size_t kRows>
-  SIMDBEZIER_INLINE void evaluate(const V* y, SampleJet<V>* jet) const {
+  SIMDBEZIER_PART void evaluate(const V* y, SampleJet<V>* jet) const {
     polynomials_.template evaluate<kRows>(slots_, order_v_, y, origins_, jet);
     if (!P::kOneCell && shape_.cells_v() == 2) {
       for (std::size_t r = 0; r < kRows; ++r) {
@@ -80,8 +80,8 @@ public:
 private:
   /// kMixed: some lanes are in the low cell, and some in the high one; else all are in `low`.
   template <bool kMixed>
-  SIMDBEZIER_INLINE void build_slot(const Cell<T>& low, const Cell<T>& high, std::size_t slot,
-                                    Powers& to) const {
+  SIMDBEZIER_PART void build_slot(const Cell<T>& low, const Cell<T>& high, std::size_t slot,
+                                  Powers& to) const {
     const std::size_t first = slots_.channel(slot) * shape_.matrix();
     const T* const matrix = low.coefficients + first;
     const std::ptrdiff_t to_high = high.coefficients - low.coefficients;
@@ -158,7 +158,7 @@ private:
     }
   }
 
-  SIMDBEZIER_INLINE void scale_v(SampleJet<V>& jet) const {
+  SIMDBEZIER_PART void scale_v(SampleJet<V>& jet) const {
     slots_.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
       if constexpr (kDepth > 0) {
         jet.dv[slot] = jet.dv[slot] + jet.dv[slot];
@@ -170,8 +170,8 @@ private:
     });
   }
 
-  SIMDBEZIER_INLINE bool any_low() const { return P::kOneCell || columns_.any_low; }
-  SIMDBEZIER_INLINE bool any_high() const { return !P::kOneCell && columns_.any_high; }
+  SIMDBEZIER_PART bool any_low() const { return P::kOneCell || columns_.any_low; }
+  SIMDBEZIER_PART bool any_high() const { return !P::kOneCell && columns_.any_high; }
 
   NetShape shape_;
   const CellColumns<V>& columns_;
@@ -185,9 +185,8 @@ private:
 /// ShapeColumns::build() as a function, which grids and scattered samples share: for plans whose
 /// loops have polynomials in memory anyway.
 template <typename P, typename V>
-__attribute__((noinline)) void
-build_columns(ShapeColumns<P, V>& columns, const CellRow<ScalarOf<V>>& row,
-              const ShapeEdges<P, V>& edges, ColumnOrigins<V>& room) {
+SIMDBEZIER_KERNEL void build_columns(ShapeColumns<P, V>& columns, const CellRow<ScalarOf<V>>& row,
+                                     const ShapeEdges<P, V>& edges, ColumnOrigins<V>& room) {
   columns.build(row, edges, room);
 }
 

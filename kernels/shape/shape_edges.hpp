@@ -11,7 +11,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 /// From derivatives by the local X to those by u: factors 1, or 2 and 4.
 template <std::size_t kDepth, typename V>
-SIMDBEZIER_INLINE void scale_by_cells(Series<V>& s, std::size_t cells) {
+SIMDBEZIER_PART void scale_by_cells(Series<V>& s, std::size_t cells) {
   if (cells == 2) {
     if constexpr (kDepth > 0) {
       s.first = s.first + s.first;
@@ -29,16 +29,16 @@ class ShapeEdges {
 
 public:
   /// The edges of one row of cells. x: of the columns in the whole patch.
-  SIMDBEZIER_INLINE ShapeEdges(const NetShape& shape, const CellColumns<V>& columns, V x,
-                               bool watertight, std::size_t first_component, const CellRow<T>& row)
+  SIMDBEZIER_PART ShapeEdges(const NetShape& shape, const CellColumns<V>& columns, V x,
+                             bool watertight, std::size_t first_component, const CellRow<T>& row)
       : shape_(P::shape(shape)), columns_(columns), x_(x), watertight_(watertight),
         first_component_(first_component), slots_(shape_, first_component), row_(row) {}
 
   /// Whether the set has origins.
-  SIMDBEZIER_INLINE bool has_origins() const { return row_.low.origins != nullptr; }
+  SIMDBEZIER_PART bool has_origins() const { return row_.low.origins != nullptr; }
 
   /// Whether an edge u = const of this row of cells has the mark of a point, in a rational patch.
-  SIMDBEZIER_INLINE bool has_points() const {
+  SIMDBEZIER_PART bool has_points() const {
     if constexpr (P::kWeighted) {
       const std::size_t marks = shape_.corners_at() + slots_.channel(P::Slots::kWeight) * 4;
       return columns_.local.on_edge &&
@@ -49,14 +49,14 @@ public:
   }
 
   /// Finds origins; to be called where there are origins or points.
-  SIMDBEZIER_INLINE void find_origins(ColumnOrigins<V>& found) const {
+  SIMDBEZIER_PART void find_origins(ColumnOrigins<V>& found) const {
     ShapeEdges<typename P::AnyDegree, V>::all_origins(shape_, x_, watertight_, first_component_,
                                                       row_.low.edges, row_.low.origins,
                                                       row_.high.edges, row_.high.origins, found);
   }
 
   /// Replaces what an edge v = const has of its own: kEdgeV0 or kEdgeV1 of these cells.
-  SIMDBEZIER_INLINE void replace_row(std::size_t edge, SampleJet<V>& jet) const {
+  SIMDBEZIER_PART void replace_row(std::size_t edge, SampleJet<V>& jet) const {
     if constexpr (!P::kKnown) { // calls cost known degrees 10 to 25 %
       SampleJet<V> own;         // so that the caller's need not be in memory
       row_of_edge(edge, own);
@@ -68,10 +68,10 @@ public:
 
   /// find_origins() of edges that are made here, from single values: objects would have to be put
   /// together in memory, which the fast path pays as well.
-  static __attribute__((noinline, cold)) void
-  all_origins(NetShape shape, V x, bool watertight, std::size_t first_component, const T* low_edges,
-              const T* low_origins, const T* high_edges, const T* high_origins,
-              ColumnOrigins<V>& found) {
+  static SIMDBEZIER_RARE void all_origins(NetShape shape, V x, bool watertight,
+                                          std::size_t first_component, const T* low_edges,
+                                          const T* low_origins, const T* high_edges,
+                                          const T* high_origins, ColumnOrigins<V>& found) {
     const CellColumns<V> columns(x, P::kOneCell ? 1 : shape.cells_u(), watertight);
     const CellRow<T> row({nullptr, low_edges, low_origins}, {nullptr, high_edges, high_origins});
     const ShapeEdges edges(shape, columns, x, watertight, first_component, row);
@@ -85,7 +85,7 @@ public:
   }
 
   /// What replace_row() replaces.
-  static SIMDBEZIER_INLINE void copy_row(const SampleJet<V>& from, SampleJet<V>& jet) {
+  static SIMDBEZIER_PART void copy_row(const SampleJet<V>& from, SampleJet<V>& jet) {
     for (std::size_t c = 0; c < P::Slots::kMost; ++c) {
       jet.position[c] = from.position[c];
       if constexpr (kDepth > 0) {
@@ -98,11 +98,11 @@ public:
   }
 
 private:
-  __attribute__((noinline)) void row_of_edge(std::size_t edge, SampleJet<V>& jet) const {
+  SIMDBEZIER_KERNEL void row_of_edge(std::size_t edge, SampleJet<V>& jet) const {
     compute_row(edge, jet);
   }
 
-  SIMDBEZIER_INLINE void compute_row(std::size_t edge, SampleJet<V>& jet) const {
+  SIMDBEZIER_PART void compute_row(std::size_t edge, SampleJet<V>& jet) const {
     Series<V> weight;
     if constexpr (P::kWeighted) {
       weight = edge_series(P::Slots::kWeight, edge);
@@ -133,7 +133,7 @@ private:
     });
   }
 
-  SIMDBEZIER_INLINE void find_origin(std::size_t slot, ColumnOrigins<V>& found) const {
+  SIMDBEZIER_PART void find_origin(std::size_t slot, ColumnOrigins<V>& found) const {
     const std::size_t at = origin_at(slot);
     const bool on_edge = columns_.local.on_edge;
     const V inside = chosen(at, &Cell<T>::origins);
@@ -148,7 +148,7 @@ private:
   }
   /// The points of lanes on edges u = const that are points, in sets without origins: numerators
   /// are zero there, and points stand in the corners. Other lanes get -0, which adds nothing.
-  SIMDBEZIER_INLINE void find_point(std::size_t slot, ColumnOrigins<V>& found) const {
+  SIMDBEZIER_PART void find_point(std::size_t slot, ColumnOrigins<V>& found) const {
     const V zero = broadcast<V>(T(0));
     const std::size_t corners = shape_.corners_at();
     const V marks =
@@ -157,11 +157,11 @@ private:
     found.position[slot] = found.to_patch[slot] =
         select_where<V>(marks > zero, point, broadcast<V>(T(-0.0)));
   }
-  SIMDBEZIER_INLINE std::size_t origin_at(std::size_t slot) const {
+  SIMDBEZIER_PART std::size_t origin_at(std::size_t slot) const {
     return slots_.channel(slot) * detail::kOriginsPerComponent;
   }
 
-  static SIMDBEZIER_INLINE void negate_slopes(Series<V>& w) {
+  static SIMDBEZIER_PART void negate_slopes(Series<V>& w) {
     if constexpr (kDepth > 0) {
       w.first = negated(w.first);
     }
@@ -169,8 +169,8 @@ private:
       w.second = negated(w.second);
     }
   }
-  static SIMDBEZIER_INLINE Series<V> divided(const Quotient<V>& q, const Series<V>& h,
-                                             const Series<V>& w) {
+  static SIMDBEZIER_PART Series<V> divided(const Quotient<V>& q, const Series<V>& h,
+                                           const Series<V>& w) {
     Series<V> s;
     s.value = q.value(h.value);
     if constexpr (kDepth > 0) {
@@ -182,7 +182,7 @@ private:
     return s;
   }
 
-  SIMDBEZIER_INLINE Series<V> edge_series(std::size_t slot, std::size_t edge) const {
+  SIMDBEZIER_PART Series<V> edge_series(std::size_t slot, std::size_t edge) const {
     const std::size_t at = slots_.channel(slot) * shape_.edge_powers() * 4 + edge;
     const typename P::OrderU order(shape_.order_u());
     Series<V> s =
@@ -196,7 +196,7 @@ private:
   }
 
   /// A value of each lane's cell.
-  SIMDBEZIER_INLINE V chosen(std::size_t at, const T* Cell<T>::*values) const {
+  SIMDBEZIER_PART V chosen(std::size_t at, const T* Cell<T>::*values) const {
     if constexpr (P::kOneCell) {
       return broadcast<V>((row_.low.*values)[at]);
     } else {
@@ -205,7 +205,7 @@ private:
     }
   }
   /// The lanes on edges u = const get a value of their cell's: of the pair at `at`.
-  SIMDBEZIER_INLINE V replaced(V inside, std::size_t at, const T* Cell<T>::*values) const {
+  SIMDBEZIER_PART V replaced(V inside, std::size_t at, const T* Cell<T>::*values) const {
     const PairSelector<V>& edges = columns_.local.edges;
     const V low = edges.replace(inside, row_.low.*values + at);
     if constexpr (P::kOneCell) {

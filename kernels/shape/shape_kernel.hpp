@@ -7,7 +7,7 @@
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 template <typename Task>
-SIMDBEZIER_INLINE std::size_t highest_derivative(const Task& task) {
+SIMDBEZIER_PART std::size_t highest_derivative(const Task& task) {
   bool second = task.out[detail::kDuuGroup].wanted() || task.out[detail::kDuvGroup].wanted() ||
                 task.out[detail::kDvvGroup].wanted();
   for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
@@ -112,7 +112,7 @@ SIMDBEZIER_INLINE void with_depth(const Task& task, const Run& run) {
 }
 
 template <typename T>
-void shape_grid_kernel(GridTask<T>& task) {
+SIMDBEZIER_KERNEL void shape_grid_kernel(GridTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
   with_depth(task, [&]<std::size_t kDepth, bool kRational>() {
     with_grid_plan<kDepth, kRational>(task, [&]<typename P>() {
@@ -126,7 +126,7 @@ void shape_grid_kernel(GridTask<T>& task) {
 }
 
 template <typename T>
-void shape_scattered_kernel(ScatteredTask<T>& task) {
+SIMDBEZIER_KERNEL void shape_scattered_kernel(ScatteredTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
   with_depth(task, [&]<std::size_t kDepth, bool kRational>() {
     scatter_shape<AnyPlan<kDepth, kRational>>(task);

@@ -20,7 +20,7 @@ struct SampleRange {
   V y;
   V floor; ///< |du x dv|^2 at or below it is for the second look; see patch_floor()
 
-  SIMDBEZIER_INLINE void store(ScalarOf<V>* plane, V value) const {
+  SIMDBEZIER_PART void store(ScalarOf<V>* plane, V value) const {
     if (active == kLanes<V>) {
       store_vector(plane + at, value);
     } else {
@@ -31,15 +31,15 @@ struct SampleRange {
 
 /// The floor of all samples of a patch; those of a rational one have floors of their own above it.
 template <typename P, typename V>
-SIMDBEZIER_INLINE V patch_floor(const SampleTask<ScalarOf<V>>& task, std::size_t patch) {
+SIMDBEZIER_PART V patch_floor(const SampleTask<ScalarOf<V>>& task, std::size_t patch) {
   using T = ScalarOf<V>;
   return broadcast<V>(P::kWeighted ? kLeastSquare<T> : task.normal_floor[patch]);
 }
 
 /// The floor of samples on a rational patch; see ShapeFloor.
 template <typename V>
-SIMDBEZIER_INLINE V rational_floor(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
-                                   const SampleJet<V>& jet, V squared) {
+SIMDBEZIER_PART V rational_floor(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
+                                 const SampleJet<V>& jet, V squared) {
   using T = ScalarOf<V>;
   const T* const sizes = task.normal_floor + 2 * range.patch;
   const V inverse2 = jet.inverse_weight * jet.inverse_weight;
@@ -56,8 +56,8 @@ SIMDBEZIER_INLINE V rational_floor(const SampleTask<ScalarOf<V>>& task, const Sa
 
 /// The second look at samples whose |du x dv|^2 is not above their floor.
 template <typename P, typename V>
-SIMDBEZIER_INLINE void look_again(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
-                                  const SampleJet<V>& jet, V squared) {
+SIMDBEZIER_PART void look_again(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
+                                const SampleJet<V>& jet, V squared) {
   V floor = range.floor;
   if constexpr (P::kWeighted) {
     floor = rational_floor(task, range, jet, squared);
@@ -69,8 +69,8 @@ SIMDBEZIER_INLINE void look_again(const SampleTask<ScalarOf<V>>& task, const Sam
 }
 
 template <typename P, typename V>
-SIMDBEZIER_INLINE void store_normals(const SampleTask<ScalarOf<V>>& task,
-                                     const SampleRange<V>& range, const SampleJet<V>& jet) {
+SIMDBEZIER_PART void store_normals(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
+                                   const SampleJet<V>& jet) {
   V n[3];
   const V squared = cross_product(jet.du, jet.dv, n);
   normalise(n, squared);
@@ -81,8 +81,8 @@ SIMDBEZIER_INLINE void store_normals(const SampleTask<ScalarOf<V>>& task,
 }
 
 template <typename P, typename V>
-SIMDBEZIER_INLINE void store_group(const SampleTask<ScalarOf<V>>& task, detail::Group group,
-                                   const SampleRange<V>& range, const V value[3]) {
+SIMDBEZIER_PART void store_group(const SampleTask<ScalarOf<V>>& task, detail::Group group,
+                                 const SampleRange<V>& range, const V value[3]) {
   repeat<P::Slots::kMost>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
     ScalarOf<V>* const plane = task.out[group].component[range.first_plane + c];
     if ((P::kKnown && P::kDepth == 0) || plane != nullptr) {
@@ -93,8 +93,8 @@ SIMDBEZIER_INLINE void store_group(const SampleTask<ScalarOf<V>>& task, detail::
 
 /// Curvatures become nan afterwards where a sample has no normal, or only a limit of one.
 template <typename P, typename V>
-SIMDBEZIER_INLINE void store_curvatures(const SampleTask<ScalarOf<V>>& task,
-                                        const SampleRange<V>& range, const SampleJet<V>& jet) {
+SIMDBEZIER_PART void store_curvatures(const SampleTask<ScalarOf<V>>& task,
+                                      const SampleRange<V>& range, const SampleJet<V>& jet) {
   bool wanted = false;
   for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
     wanted = wanted || task.curvature[k] != nullptr;
@@ -115,8 +115,8 @@ SIMDBEZIER_INLINE void store_curvatures(const SampleTask<ScalarOf<V>>& task,
 
 /// All outputs that a task wants and a kernel of this plan computes.
 template <typename P, typename V>
-SIMDBEZIER_INLINE void store_sample(const SampleTask<ScalarOf<V>>& task,
-                                    const SampleRange<V>& range, const SampleJet<V>& jet) {
+SIMDBEZIER_PART void store_sample(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
+                                  const SampleJet<V>& jet) {
   store_group<P>(task, detail::kPositionGroup, range, jet.position);
   if constexpr (P::kDepth > 0) {
     store_group<P>(task, detail::kDuGroup, range, jet.du);
@@ -136,8 +136,8 @@ SIMDBEZIER_INLINE void store_sample(const SampleTask<ScalarOf<V>>& task,
 /// The same as a function, which grids and scattered samples share: for plans whose loops have jets
 /// in memory anyway.
 template <typename P, typename V>
-__attribute__((noinline)) void store_shared(const SampleTask<ScalarOf<V>>& task,
-                                            const SampleRange<V>& range, const SampleJet<V>& jet) {
+SIMDBEZIER_KERNEL void store_shared(const SampleTask<ScalarOf<V>>& task,
+                                    const SampleRange<V>& range, const SampleJet<V>& jet) {
   store_sample<P>(task, range, jet);
 }
 

@@ -19,8 +19,8 @@ class ColumnSweep {
   using Columns = ShapeColumns<P, V>;
 
 public:
-  SIMDBEZIER_INLINE ColumnSweep(const GridTask<T>& task, const NetShape& shape, std::size_t patch,
-                                std::size_t first)
+  SIMDBEZIER_PART ColumnSweep(const GridTask<T>& task, const NetShape& shape, std::size_t patch,
+                              std::size_t first)
       : task_(task), x_(load_vector<V>(task.x + first), shape.cells_u(), task.watertight),
         columns_(shape, x_, task.first_component) {
     const std::size_t left = task.nu - first;
@@ -64,7 +64,7 @@ private:
   /// sums of second derivatives fill the registers.
   static constexpr std::size_t kRows = sizeof(V) == 64 ? (P::kDepth < 2 ? 4 : 2) : 4 >> P::kDepth;
 
-  SIMDBEZIER_INLINE void add(const Row& row, const typename Columns::Edges& edges) {
+  SIMDBEZIER_PART void add(const Row& row, const typename Columns::Edges& edges) {
     if (P::kDepth == 0 && edge_of(row) < kEdges) { // nothing there comes from the columns
       SampleJet<V> jet;
       put(row, edges, jet);
@@ -77,7 +77,7 @@ private:
   }
 
   /// What is evaluated beyond the rows that wait is rows before, which are not stored again.
-  __attribute__((noinline)) void put_waiting(const typename Columns::Edges& edges) {
+  SIMDBEZIER_KERNEL void put_waiting(const typename Columns::Edges& edges) {
     V local[kRows];
     repeat<kRows>([&](std::size_t r)
                       SIMDBEZIER_INLINE_LAMBDA { local[r] = broadcast<V>(rows_[r].local); });
@@ -89,8 +89,8 @@ private:
     waiting_ = 0;
   }
 
-  SIMDBEZIER_INLINE void put(const Row& row, const typename Columns::Edges& edges,
-                             SampleJet<V>& jet) {
+  SIMDBEZIER_PART void put(const Row& row, const typename Columns::Edges& edges,
+                           SampleJet<V>& jet) {
     if (const std::size_t edge = edge_of(row); edge < kEdges) {
       edges.replace_row(edge, jet);
     }
@@ -103,7 +103,7 @@ private:
       store_shared<P>(task_, range_, jet);
     }
   }
-  SIMDBEZIER_INLINE std::size_t edge_of(const Row& row) const {
+  SIMDBEZIER_PART std::size_t edge_of(const Row& row) const {
     return task_.watertight ? edge_of_cell(row.local) : kEdges;
   }
 
@@ -119,7 +119,7 @@ private:
 };
 
 template <typename P, typename T>
-__attribute__((noinline)) void sweep_shape(const GridTask<T>& shared_task) {
+SIMDBEZIER_KERNEL void sweep_shape(const GridTask<T>& shared_task) {
   // Copies, because stores through vector types might change anything that others can see.
   const GridTask<T> task = shared_task;
   const NetShape shape = P::shape(*shared_task.shape);

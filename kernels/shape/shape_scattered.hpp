@@ -12,7 +12,7 @@ using detail::ScatteredTask;
 
 /// The lanes of `yes` keep what `jet` has, the others get what `other` has.
 template <typename P, typename V>
-SIMDBEZIER_INLINE void keep_lanes(MaskOf<V> yes, const SampleJet<V>& other, SampleJet<V>& jet) {
+SIMDBEZIER_PART void keep_lanes(MaskOf<V> yes, const SampleJet<V>& other, SampleJet<V>& jet) {
   const auto keep = [&](V(&to)[3], const V(&from)[3]) SIMDBEZIER_INLINE_LAMBDA {
     for (std::size_t c = 0; c < 3; ++c) {
       to[c] = select_where<V>(yes, to[c], from[c]);
@@ -37,10 +37,10 @@ SIMDBEZIER_INLINE void keep_lanes(MaskOf<V> yes, const SampleJet<V>& other, Samp
 /// edge: the edge v = const of the cells that all of them are on; kEdges where it is none. It is
 /// out of line because it is large and has several callers.
 template <typename P, typename V>
-__attribute__((noinline)) void evaluate_row(const ScatteredTask<ScalarOf<V>>& task,
-                                            const NetShape& shape, std::size_t patch,
-                                            std::size_t cell, const CellColumns<V>& columns, V x,
-                                            V y, std::size_t edge, SampleJet<V>& jet) {
+SIMDBEZIER_KERNEL void evaluate_row(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
+                                    std::size_t patch, std::size_t cell,
+                                    const CellColumns<V>& columns, V x, V y, std::size_t edge,
+                                    SampleJet<V>& jet) {
   using T = ScalarOf<V>;
   const CellRow<T> cells(task, shape, patch, cell);
   const typename ShapeColumns<P, V>::Edges edges(shape, columns, x, task.watertight,
@@ -57,9 +57,9 @@ __attribute__((noinline)) void evaluate_row(const ScatteredTask<ScalarOf<V>>& ta
 /// Samples of one patch at half-centred x, y; edge: as above, for samples that are all the same
 /// one.
 template <typename P, typename V>
-SIMDBEZIER_INLINE void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
-                                      std::size_t patch, V x, V y, std::size_t edge,
-                                      SampleJet<V>& jet) {
+SIMDBEZIER_PART void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
+                                    std::size_t patch, V x, V y, std::size_t edge,
+                                    SampleJet<V>& jet) {
   const CellColumns<V> columns(x, shape.cells_u(), task.watertight);
   const CellColumns<V> rows(y, shape.cells_v(), task.watertight);
   const bool both = rows.any_low && rows.any_high;
@@ -73,8 +73,8 @@ SIMDBEZIER_INLINE void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, co
 
 /// What the normals of scattered samples are tested with.
 template <typename P, typename V>
-SIMDBEZIER_INLINE V sample_floor(const ScatteredTask<ScalarOf<V>>& task,
-                                 const SampleRange<V>& range) {
+SIMDBEZIER_PART V sample_floor(const ScatteredTask<ScalarOf<V>>& task,
+                               const SampleRange<V>& range) {
   const V floor = patch_floor<P, V>(task, range.patch);
   return floor_inside(range.y, floor_inside(range.x, floor));
 }
@@ -84,9 +84,9 @@ SIMDBEZIER_INLINE V sample_floor(const ScatteredTask<ScalarOf<V>>& task,
 /// samples that are not finite. alone: this is that call, and count is 1. A register has one
 /// formula, which is that of samples off these edges unless it is called for a sample alone.
 template <typename P, typename T>
-__attribute__((noinline)) std::uint32_t evaluate_together(const ScatteredTask<T>& task,
-                                                          const NetShape& shape, std::size_t k,
-                                                          std::size_t count, bool alone) {
+SIMDBEZIER_KERNEL std::uint32_t evaluate_together(const ScatteredTask<T>& task,
+                                                  const NetShape& shape, std::size_t k,
+                                                  std::size_t count, bool alone) {
   using V = vec<T>;
   alignas(64) T x[kLanes<V>];
   alignas(64) T y[kLanes<V>];
@@ -120,8 +120,8 @@ __attribute__((noinline)) std::uint32_t evaluate_together(const ScatteredTask<T>
 /// False, and nothing is done, where it is on an edge of its cell or not finite, or the set has
 /// origins.
 template <typename P, typename T>
-__attribute__((noinline)) bool evaluate_single(const ScatteredTask<T>& task, const NetShape& shape,
-                                               std::size_t k) {
+SIMDBEZIER_KERNEL bool evaluate_single(const ScatteredTask<T>& task, const NetShape& shape,
+                                       std::size_t k) {
   const T x = finite_half_centred(task, task.u[k]);
   const T y = finite_half_centred(task, task.v[k]);
   const CellColumns<T> column(x, shape.cells_u(), task.watertight);
@@ -143,8 +143,8 @@ __attribute__((noinline)) bool evaluate_single(const ScatteredTask<T>& task, con
 
 /// Asks for the coefficients of a sample that comes soon.
 template <typename T>
-SIMDBEZIER_INLINE void prefetch_sample(const ScatteredTask<T>& task, const NetShape& shape,
-                                       std::size_t k) {
+SIMDBEZIER_PART void prefetch_sample(const ScatteredTask<T>& task, const NetShape& shape,
+                                     std::size_t k) {
   constexpr std::size_t kAhead = 8;
   constexpr std::size_t kLine = 64 / sizeof(T);
   if (k + kAhead < task.count) {
@@ -160,7 +160,7 @@ SIMDBEZIER_INLINE void prefetch_sample(const ScatteredTask<T>& task, const NetSh
 }
 
 template <typename P, typename T>
-__attribute__((noinline)) void scatter_shape(const ScatteredTask<T>& task) {
+SIMDBEZIER_KERNEL void scatter_shape(const ScatteredTask<T>& task) {
   using V = vec<T>;
   const NetShape shape = P::shape(*task.shape);
   constexpr std::size_t kFew = 3; // samples that take longer together than one after the other

@@ -24,9 +24,23 @@
 /// Every symbol of this object lives in here, so that the linker cannot merge it with another's.
 #define SIMDBEZIER_ISA_NAMESPACE SIMDBEZIER_PASTE(isa_, SIMDBEZIER_ISA)
 
+// Three kinds of functions. A KERNEL is compiled as a function of its own, with all its PARTs in
+// it. What is INLINE goes into whatever calls it at once: formulas, and what takes or is a
+// callable, so that captured variables are in registers before the PARTs come together. g++
+// optimises a function that is always inlined once for each level above it, which would be half of
+// the compile time if PARTs were; clang does not, and its flatten reaches one level only.
+#if defined(__clang__)
+#define SIMDBEZIER_KERNEL __attribute__((noinline))
+#define SIMDBEZIER_PART inline __attribute__((always_inline))
+#else
+#define SIMDBEZIER_KERNEL __attribute__((noinline, flatten))
+#define SIMDBEZIER_PART inline
+#endif
 #define SIMDBEZIER_INLINE inline __attribute__((always_inline))
 /// The same for lambdas: [&](int a) SIMDBEZIER_INLINE_LAMBDA { … }
 #define SIMDBEZIER_INLINE_LAMBDA __attribute__((always_inline))
+/// A kernel that seldom runs: small rather than fast, and out of the way of the others.
+#define SIMDBEZIER_RARE SIMDBEZIER_KERNEL __attribute__((cold))
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
