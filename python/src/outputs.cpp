@@ -10,15 +10,17 @@
 namespace simdbezier::python {
 namespace {
 
-std::string all_names(const OutputNames& known) {
+/// What can be asked for alone: a status belongs to another output.
+std::string main_names(const OutputNames& known) {
   std::string text;
   for (const auto* const list : {&known.vectors, &known.values}) {
     for (const std::string& name : *list) {
-      text += name + ", ";
+      text += (text.empty() ? "" : ", ") + name;
     }
   }
-  return text + "status";
+  return text;
 }
+std::string all_names(const OutputNames& known) { return main_names(known) + ", status"; }
 
 class Wanted {
 public:
@@ -45,7 +47,7 @@ public:
   [[nodiscard]] std::vector<std::string> names() const {
     const bool only_status = names_.size() == 1 && names_.front() == "status";
     if (names_.empty() || only_status) {
-      throw_value_error("outputs", "expected at least one of " + all_names(known_));
+      throw_value_error("outputs", "expected at least one of " + main_names(known_));
     }
     return names_;
   }

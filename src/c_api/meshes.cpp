@@ -1,4 +1,5 @@
 // Meshes in one call, and plans of them, of simdbezier.h.
+#include <cmath>
 #include <limits>
 
 #include <simdbezier/mesh.hpp>
@@ -42,16 +43,42 @@ MeshOptions mesh_options_of(const simdbezier_mesh_options* given) {
   return options;
 }
 
+/// The member that bad_tolerance is about: one that has no meaning, or how fine the mesh is to be.
+const char* blamed_measure(const MeshOptions& options) {
+  const struct {
+    const char* name;
+    bool holds;
+  } members[] = {{"tolerance", options.tolerance > 0},
+                 {"relative_tolerance", options.relative_tolerance > 0},
+                 {"pixels", options.pixels > 0},
+                 {"longest_edge", options.longest_edge > 0},
+                 {"normal_angle", options.normal_angle > 0},
+                 {"point_size", options.point_size >= 0},
+                 {"snap", options.snap >= 0},
+                 {"crease_angle", options.crease_angle >= 0},
+                 {"tolerances", options.tolerances.empty()},
+                 {"tolerance", !std::isfinite(options.tolerance)},
+                 {"relative_tolerance", !std::isfinite(options.relative_tolerance)},
+                 {"pixels or camera", !std::isfinite(options.pixels)}};
+  for (const auto& member : members) {
+    if (!member.holds) {
+      return member.name;
+    }
+  }
+  return "tolerance";
+}
+
 template <typename S>
-Path blamed_in_tessellation(Status status, std::span<const ControlNets<S>> nets,
-                            std::size_t patch) {
+Path blamed_in_tessellation(Status status, const MeshOptions& options,
+                            std::span<const ControlNets<S>> nets, std::size_t patch) {
+  const bool few = options.nu < 2 || options.nv < 2;
   switch (status.code()) {
   case Status::bad_tolerance:
-    return kOptions / "tolerance";
+    return kOptions / blamed_measure(options);
   case Status::bad_grid:
-    return kOptions / "nu or nv";
+    return kOptions / (few ? "nu or nv" : "nu and nv beside a tolerance");
   case Status::bad_rates:
-    return kOptions / "tolerances";
+    return kOptions / (options.nu != 0 ? "nu or nv" : "tolerances");
   case Status::not_orientable:
     return kOptions / "orient";
   default:
@@ -109,7 +136,7 @@ simdbezier_status make(const char* function, const simdbezier_nets* nets, std::s
         auto made = call.template operator()<T>(views, how);
         if (!made) {
           throw Fault{code_of(made.status),
-                      blamed_in_tessellation(made.status, views, made.fault_patch),
+                      blamed_in_tessellation(made.status, how, views, made.fault_patch),
                       made.fault_patch};
         }
         give(handle, std::move(made));

@@ -1,9 +1,12 @@
 // Operations on control nets of simdbezier.h.
+#include <cmath>
+
 #include <simdbezier/bases.hpp>
 #include <simdbezier/bounds.hpp>
 #include <simdbezier/nets.hpp>
 
 #include "src/c_api/views.hpp"
+#include "src/nets/net_call.hpp"
 
 namespace simdbezier::c_api {
 namespace {
@@ -18,6 +21,7 @@ template <typename T>
 UnitParameter<T> parameter_of(const simdbezier_parameter& given, const Path& path) {
   if (given.denominator == 0) {
     const T value = static_cast<T>(given.value);
+    require(std::isfinite(value), SIMDBEZIER_NON_FINITE_INPUT, path);
     return given.from_end != 0 ? UnitParameter<T>::from_end(value) : UnitParameter<T>(value);
   }
   const bool integer = given.value >= INT32_MIN && given.value <= INT32_MAX &&
@@ -27,11 +31,28 @@ UnitParameter<T> parameter_of(const simdbezier_parameter& given, const Path& pat
   return given.from_end != 0 ? there.mirrored() : there;
 }
 
-/// What an operation was refused for: faults of outputs are those of `out`.
-Path blamed(Status status, const Path& out) {
-  const bool output = status == Status::null_output || status == Status::output_too_small ||
-                      status == Status::overlapping_outputs || status == Status::bad_patch_range;
-  return blamed_nets(status, output ? out : kNets);
+/// What an operation was refused for: faults of outputs are those of `out`. What nets and outputs
+/// may both have is an output's fault where the nets are sound.
+Path blamed(Status status, bool sound, const Path& out) {
+  switch (status.code()) {
+  case Status::null_output:
+  case Status::output_too_small:
+  case Status::overlapping_outputs:
+  case Status::bad_patch_range:
+    return blamed_nets(status, out);
+  case Status::bad_components:
+    return sound ? out / "components or weights" : blamed_nets(status, kNets);
+  case Status::bad_degree:
+  case Status::bad_stride:
+  case Status::size_overflow:
+    return blamed_nets(status, sound ? out : kNets);
+  default:
+    return blamed_nets(status, kNets);
+  }
+}
+template <typename T>
+bool is_sound(const ControlNets<T>& nets) noexcept {
+  return detail::check_input(nets) == Status::ok;
 }
 
 /// body(ControlNets<T>, options) of the nets' type; `out` names the outputs.
@@ -42,8 +63,8 @@ simdbezier_status operate(const char* function, const simdbezier_nets* nets,
     const simdbezier_nets given = read(nets, kNets);
     const CallOptions how(options);
     with_scalar(given.scalar, kNets / "scalar", [&]<typename T>() {
-      require_ok(body(nets_of<T>(given, kNets), *how),
-                 [&](Status status) { return blamed(status, out); });
+      const ControlNets<T> in = nets_of<T>(given, kNets);
+      require_ok(body(in, *how), [&](Status status) { return blamed(status, is_sound(in), out); });
     });
   });
 }
@@ -85,7 +106,12 @@ simdbezier_status change_basis(const char* function, simdbezier_basis basis,
   return operate(function, nets, options, kOut,
                  [&]<typename T>(const ControlNets<T>& in, const Options& how) {
                    const auto from = choice<Basis>(basis, 5, {"basis"});
-                   return call(from, in, output_of<T>(out, kOut), how);
+                   const MutableNets<T> to = output_of<T>(out, kOut);
+                   const auto report = call(from, in, to, how);
+                   const bool alike = to.degree_u == in.degree_u && to.degree_v == in.degree_v;
+                   require(!alike || report.status != Status::bad_degree, SIMDBEZIER_BAD_DEGREE,
+                           kNets / "degree_u or degree_v"); // of another basis than powers
+                   return report;
                  });
 }
 
@@ -244,7 +270,7 @@ simdbezier_status simdbezier_spline_to_bezier(const simdbezier_spline_mesh* mesh
     with_scalar(given.scalar, path / "scalar", [&]<typename T>() {
       require_ok(spline_to_bezier(mesh_of<T>(given, path), output_of<T>(out, kOut), *how),
                  [&](Status status) {
-                   const Path found = blamed(status, kOut);
+                   const Path found = blamed(status, false, kOut);
                    const bool of_mesh = found.is_of(kNets) || status == Status::bad_grid;
                    return of_mesh ? path : found;
                  });

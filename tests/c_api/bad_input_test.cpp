@@ -1,5 +1,7 @@
 // What a caller of simdbezier.h may get wrong: the status, the argument that is named, and nothing
 // written.
+#include <cmath>
+
 #include "tests/c_api/c_refusal.hpp"
 #include "tests/c_api/c_world.hpp"
 
@@ -183,6 +185,42 @@ const Refusal<World> kCases[] = {
     {SIMDBEZIER_BAD_VALUE, "u",
      [](World& w) {
        return simdbezier_split_u(&w.nets, simdbezier_fraction(1, -2), &w.low, &w.high, nullptr);
+     }},
+    {SIMDBEZIER_NON_FINITE_INPUT, "u",
+     [](World& w) {
+       return simdbezier_split_u(&w.nets, simdbezier_at(kNan), &w.low, &w.high, nullptr);
+     }},
+    {SIMDBEZIER_NON_FINITE_INPUT, "v1",
+     [](World& w) {
+       return simdbezier_segment(&w.nets, simdbezier_at(0), simdbezier_at(1), simdbezier_at(0),
+                                 simdbezier_at(HUGE_VAL), &w.low, nullptr);
+     }},
+    {SIMDBEZIER_BAD_DEGREE, "low or high->degree_u or degree_v",
+     [](World& w) { return w.low.degree_u = 2, w.split(); }},
+    {SIMDBEZIER_BAD_COMPONENTS, "low or high->components or weights",
+     [](World& w) { return w.high.weights = SIMDBEZIER_HOMOGENEOUS, w.split(); }},
+    {SIMDBEZIER_BAD_COMPONENTS, "out->components or weights",
+     [](World& w) { return w.low.components = 2, simdbezier_reverse_u(&w.nets, &w.low, nullptr); }},
+    {SIMDBEZIER_BAD_STRIDE, "out",
+     [](World& w) { return w.low.row_stride = 3, simdbezier_reverse_u(&w.nets, &w.low, nullptr); }},
+    {SIMDBEZIER_BAD_STRIDE, "low or high",
+     [](World& w) { return w.low.net_stride = 0, w.split(); }},
+    {SIMDBEZIER_BAD_STRIDE, "nets", [](World& w) { return w.nets.point_stride = 0, w.split(); }},
+    {SIMDBEZIER_BAD_DEGREE, "out->degree_u or degree_v",
+     [](World& w) { return w.low.degree_v = 2, simdbezier_elevate(&w.nets, &w.low, nullptr); }},
+    {SIMDBEZIER_BAD_DEGREE, "nets->degree_u or degree_v",
+     [](World& w) { return w.nets.degree_u = 16, simdbezier_elevate(&w.nets, &w.low, nullptr); }},
+    {SIMDBEZIER_BAD_DEGREE, "nets->degree_u or degree_v",
+     [](World& w) {
+       w.nets = simdbezier_packed_nets_f32(w.values.data(), w.values.size(), 1, 3, 3, 0);
+       w.low = simdbezier_packed_mutable_nets_f32(w.room.data(), w.room.size(), 1, 3, 3, 0);
+       w.low.count = w.nets.count;
+       return simdbezier_to_bezier(SIMDBEZIER_BASIS_B_SPLINE, &w.nets, &w.low, nullptr);
+     }},
+    {SIMDBEZIER_BAD_DEGREE, "out->degree_u or degree_v",
+     [](World& w) {
+       w.low.degree_u = 2;
+       return simdbezier_to_bezier(SIMDBEZIER_BASIS_B_SPLINE, &w.nets, &w.low, nullptr);
      }},
     {SIMDBEZIER_BAD_VALUE, "basis",
      [](World& w) { return simdbezier_to_bezier(5, &w.nets, &w.low, nullptr); }},

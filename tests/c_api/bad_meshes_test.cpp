@@ -14,6 +14,39 @@ const Refusal<MeshWorld> kModels[] = {
      [](MeshWorld& w) { return w.topology_options.point_size = -1, w.join(); }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->tolerance",
      [](MeshWorld& w) { return w.mesh_options.tolerance = 0, w.tessellate(); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->tolerance",
+     [](MeshWorld& w) { return w.mesh_options.tolerance = 1e-30, w.tessellate(); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->relative_tolerance",
+     [](MeshWorld& w) { return w.mesh_options.relative_tolerance = -1, w.tessellate(); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->relative_tolerance",
+     [](MeshWorld& w) {
+       w.mesh_options.tolerance = 0;
+       return w.mesh_options.relative_tolerance = 1e-30, w.plan();
+     }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->tolerances",
+     [](MeshWorld& w) {
+       w.mesh_options.tolerances = w.numbers;
+       return w.mesh_options.tolerances_length = 2, w.numbers[1] = -1, w.tessellate();
+     }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->longest_edge",
+     [](MeshWorld& w) { return w.mesh_options.longest_edge = -1, w.tessellate(); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->normal_angle",
+     [](MeshWorld& w) { return w.mesh_options.normal_angle = kNan, w.tessellate(); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->point_size",
+     [](MeshWorld& w) { return w.mesh_options.point_size = kNan, w.tessellate(); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->snap",
+     [](MeshWorld& w) { return w.mesh_options.snap = -1, w.plan(); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->crease_angle",
+     [](MeshWorld& w) { return w.mesh_options.crease_angle = -1, w.tessellate(); }},
+    {SIMDBEZIER_BAD_TOLERANCE, "options->crease_angle",
+     [](MeshWorld& w) { return w.mesh_options.crease_angle = kNan, w.tessellate(); }},
+    {SIMDBEZIER_BAD_GRID, "options->nu and nv beside a tolerance",
+     [](MeshWorld& w) { return w.mesh_options.nu = 4, w.mesh_options.nv = 4, w.tessellate(); }},
+    {SIMDBEZIER_BAD_RATES, "options->nu or nv",
+     [](MeshWorld& w) {
+       w.mesh_options.tolerance = 0;
+       return w.mesh_options.nu = 5000, w.mesh_options.nv = 4, w.tessellate();
+     }},
     {SIMDBEZIER_NULL_INPUT, "options",
      [](MeshWorld& w) {
        return simdbezier_tessellate(&w.nets, 1, SIMDBEZIER_F32, nullptr, &w.made_mesh);

@@ -165,6 +165,9 @@ CASES = [
     (ValueError, 'relative', lambda: simdbezier.tessellate(POINTS, relative=-1)),
     (ValueError, 'relative', lambda: simdbezier.tessellate(POINTS, 0.1, relative=np.nan)),
     (ValueError, 'tolerance', lambda: simdbezier.tessellate(POINTS, -1.0, relative=0.1)),
+    (ValueError, 'grid: expected without', lambda: simdbezier.tessellate(POINTS, 0.1, grid=4)),
+    (ValueError, 'grid: expected without',
+     lambda: simdbezier.tessellate(POINTS, grid=4, longest_edge=1)),
     (ValueError, 'tolerance or relative', lambda: simdbezier.tessellate(POINTS, 1e-9, relative=0.1)),
     (ValueError, 'crease', lambda: simdbezier.tessellate(POINTS, 0.1, crease=np.nan)),
     (ValueError, 'crease', lambda: simdbezier.tessellate(POINTS, grid=4, crease=-5)),
@@ -215,6 +218,11 @@ def test_a_mesh_with_vertices_that_are_not_there_is_not_saved(name, tmp_path):
     with pytest.raises(ValueError, match='^triangles: '):
         mesh.save(tmp_path / f'mesh.{name}')
     assert not list(tmp_path.iterdir())
+
+
+def test_a_status_alone_is_told_what_it_may_go_with():
+    with pytest.raises(ValueError, match='^outputs: .* position, du, .* maximum$'):
+        PATCHES.evaluate_grid(5, 3, 'status')
 
 
 def test_objects_that_were_not_initialised_are_empty():
