@@ -1,12 +1,11 @@
 #include <tools/evaluator_process.hpp>
 
-#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 
 #include <dlfcn.h>
 #include <poll.h>
@@ -17,6 +16,7 @@
 
 #include <simdbezier/evaluator_plugin.h>
 
+#include <tools/evaluator_arrays.hpp>
 #include <tools/failure.hpp>
 
 namespace simdbezier::tools {
@@ -58,47 +58,11 @@ struct EvaluatorProcess::Shared {
   bool has[3];
   char name[64];
   char error[512];
-  std::size_t used; // of the bytes that follow
 
-  Request& start() {
-    used = sizeof(Shared);
-    return request = {};
-  }
   unsigned char* base() { return reinterpret_cast<unsigned char*>(this); }
   template <typename T>
   T* at(std::size_t place) {
     return place == 0 ? nullptr : reinterpret_cast<T*>(base() + place);
-  }
-  // Room for values, apart from the last one's by a line.
-  template <typename T>
-  std::size_t place(std::size_t count) {
-    if (count == 0) {
-      return 0;
-    }
-    const std::size_t begin = (used + 127) / 64 * 64;
-    if (count > (kSharedBytes - begin) / sizeof(T)) {
-      bad_usage("an evaluator was given more samples than there is memory for");
-    }
-    used = begin + count * sizeof(T);
-    return begin;
-  }
-  template <typename T>
-  std::size_t copy_in(std::span<const T> values) {
-    const std::size_t begin = place<T>(values.size());
-    std::copy(values.begin(), values.end(), at<T>(begin));
-    return begin;
-  }
-  template <typename T>
-  std::size_t output(std::span<T> values) {
-    const std::size_t begin = place<T>(values.size());
-    std::fill_n(at<T>(begin), values.size(), std::numeric_limits<T>::quiet_NaN());
-    return begin;
-  }
-  template <typename T>
-  void copy_out(std::span<T> position, std::span<T> du, std::span<T> dv) {
-    std::copy_n(at<T>(request.at.position), position.size(), position.begin());
-    std::copy_n(at<T>(request.at.du), du.size(), du.begin());
-    std::copy_n(at<T>(request.at.dv), dv.size(), dv.begin());
   }
 };
 
@@ -129,6 +93,17 @@ int run_request(const Loaded& loaded, Shared& shared) {
   }
 }
 
+// Names are parts of rows' names and of JSON: what is not a letter, a digit or one of . + - becomes
+// an underscore.
+std::string plain_name(std::string name) {
+  for (char& letter : name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+                       std::strchr(".+-_", letter) != nullptr;
+    letter = plain ? letter : '_';
+  }
+  return name;
+}
+
 // Leaves what it found, or an error, in the shared memory.
 Loaded load(const std::string& file, Shared& shared) {
   Loaded loaded;
@@ -142,9 +117,10 @@ Loaded load(const std::string& file, Shared& shared) {
   find(library, "sbe_grid_f32", loaded.grid_f32);
   decltype(&sbe_name) name = nullptr;
   find(library, "sbe_name", name);
-  const std::string called =
-      name != nullptr ? std::string(name()) : std::filesystem::path(file).stem().string();
-  std::strncpy(shared.name, called.c_str(), sizeof shared.name - 1);
+  const char* const called = name != nullptr ? name() : nullptr;
+  const bool has_name = called != nullptr && *called != '\0';
+  const std::string known = has_name ? called : std::filesystem::path(file).stem().string();
+  std::strncpy(shared.name, plain_name(known).c_str(), sizeof shared.name - 1);
   shared.has[0] = loaded.f32 != nullptr;
   shared.has[1] = loaded.f64 != nullptr;
   shared.has[2] = loaded.grid_f32 != nullptr;
@@ -154,6 +130,7 @@ Loaded load(const std::string& file, Shared& shared) {
 // The child's life: loads, then answers every byte with a byte, until there are no more.
 [[noreturn]] void serve(const std::string& file, Shared& shared, int requests, int answers) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  dup2(STDERR_FILENO, STDOUT_FILENO); // what it prints is not part of a report
   const Loaded loaded = load(file, shared);
   char byte = 0;
   while (write(answers, &byte, 1) == 1 && read(requests, &byte, 1) == 1) {
@@ -195,7 +172,7 @@ EvaluatorProcess::EvaluatorProcess(const std::string& file) : shared_(map_shared
   from_child_ = answers[0];
   std::signal(SIGPIPE, SIG_IGN); // a dead child is found by what it does not answer
   try {
-    wait_for_answer("dlopen");
+    wait_for_answer("loading it, or sbe_name(),");
   } catch (const EvaluatorDied& died) {
     bad_input(died.what());
   }
@@ -223,13 +200,18 @@ EvaluatorProcess::~EvaluatorProcess() {
 void EvaluatorProcess::bury(const std::string& what) {
   kill(child_, SIGKILL);
   waitpid(child_, nullptr, 0);
+  mourn(what);
+}
+
+void EvaluatorProcess::mourn(const std::string& what) {
   child_ = -1;
-  throw EvaluatorDied(facts_.file + ": " + what);
+  cause_ = facts_.file + ": " + what;
+  throw EvaluatorDied(cause_);
 }
 
 void EvaluatorProcess::send(const char* function) {
   if (child_ < 0) {
-    throw EvaluatorDied(facts_.file + ": is dead");
+    throw EvaluatorDied(cause_ + " (before)");
   }
   const char byte = 1;
   if (write(to_child_, &byte, 1) != 1) {
@@ -254,46 +236,54 @@ void EvaluatorProcess::wait_for_answer(const char* function) {
   }
   int status = 0;
   waitpid(child_, &status, 0);
-  child_ = -1;
   const std::string how = WIFSIGNALED(status) ? std::string(strsignal(WTERMSIG(status)))
                                               : "exit code " + std::to_string(WEXITSTATUS(status));
-  throw EvaluatorDied(facts_.file + ": " + function + " ended its process: " + how);
+  mourn(std::string(function) + " ended its process: " + how);
+}
+
+int EvaluatorProcess::ask(const char* function, const EvaluatorArrays& arrays) {
+  send(function);
+  if (const std::string fault = arrays.fault(); !fault.empty()) {
+    bury(function + (" " + fault));
+  }
+  arrays.copy_out();
+  return shared_->request.answer;
 }
 
 template <typename T>
 int EvaluatorProcess::evaluate(const PatchTask<T>& task) {
-  Shared& shared = *shared_;
-  Request& request = shared.start();
+  EvaluatorArrays arrays({shared_->base(), kSharedBytes}, sizeof(Shared));
   constexpr bool kSingle = sizeof(T) == sizeof(float);
+  Request& request = shared_->request = {};
   request.function = kSingle ? Function::f32 : Function::f64;
   request.degree_u = task.degree_u;
   request.degree_v = task.degree_v;
   request.n = task.u.size();
-  request.at = {shared.copy_in(task.net), shared.copy_in(task.weights), shared.copy_in(task.u),
-                shared.copy_in(task.v),   shared.output(task.position), shared.output(task.du),
-                shared.output(task.dv)};
-  send(kSingle ? "sbe_evaluate_f32" : "sbe_evaluate_f64");
-  shared.copy_out(task.position, task.du, task.dv);
-  return request.answer;
+  request.at.net = arrays.input("net", task.net);
+  request.at.weights = arrays.input("weights", task.weights);
+  request.at.u = arrays.input("u", task.u);
+  request.at.v = arrays.input("v", task.v);
+  request.at.position = arrays.output("position", task.position);
+  request.at.du = arrays.output("du", task.du);
+  request.at.dv = arrays.output("dv", task.dv);
+  return ask(kSingle ? "sbe_evaluate_f32" : "sbe_evaluate_f64", arrays);
 }
 
 template int EvaluatorProcess::evaluate(const PatchTask<float>&);
 template int EvaluatorProcess::evaluate(const PatchTask<double>&);
 
 int EvaluatorProcess::evaluate(const GridTask& task) {
-  Shared& shared = *shared_;
-  Request& request = shared.start();
+  EvaluatorArrays arrays({shared_->base(), kSharedBytes}, sizeof(Shared));
+  Request& request = shared_->request = {};
   request.function = Function::grid_f32;
   request.n = task.patches;
   request.nu = task.nu;
   request.nv = task.nv;
-  request.at.net = shared.copy_in(task.nets);
-  request.at.position = shared.output(task.position);
-  request.at.du = shared.output(task.du);
-  request.at.dv = shared.output(task.dv);
-  send("sbe_grid_f32");
-  shared.copy_out(task.position, task.du, task.dv);
-  return request.answer;
+  request.at.net = arrays.input("nets", task.nets);
+  request.at.position = arrays.output("position", task.position);
+  request.at.du = arrays.output("du", task.du);
+  request.at.dv = arrays.output("dv", task.dv);
+  return ask("sbe_grid_f32", arrays);
 }
 
 } // namespace simdbezier::tools

@@ -49,6 +49,8 @@ struct GridTask {
   std::span<float> dv;
 };
 
+class EvaluatorArrays;
+
 /// A running evaluator. To be made before a program starts threads: the process has none of them.
 class EvaluatorProcess {
 public:
@@ -60,7 +62,8 @@ public:
 
   [[nodiscard]] const EvaluatorFacts& facts() const noexcept { return facts_; }
 
-  /// What the function returned. Outputs that it does not write become nan. Throws EvaluatorDied.
+  /// What the function returned. Outputs that it does not write become nan. Throws EvaluatorDied,
+  /// also where it has written anywhere near its arrays but not into an output.
   template <typename T>
   int evaluate(const PatchTask<T>& task);
   int evaluate(const GridTask& task);
@@ -68,11 +71,14 @@ public:
   struct Shared; ///< memory that both processes see
 
 private:
+  int ask(const char* function, const EvaluatorArrays& arrays);
   void send(const char* function);
   void wait_for_answer(const char* function);
   [[noreturn]] void bury(const std::string& what);
+  [[noreturn]] void mourn(const std::string& what);
 
   EvaluatorFacts facts_;
+  std::string cause_; ///< of its death
   std::shared_ptr<Shared> shared_;
   int child_ = -1;
   int to_child_ = -1;

@@ -2,7 +2,7 @@
 // object with some of these functions, given by --evaluator FILE.so. docs/judge-your-own.md has
 // examples.
 //
-//     gcc -O2 -shared -fPIC mine.c -o mine.so
+//     gcc -O2 -shared -fPIC $(pkg-config --cflags simdbezier) mine.c -o mine.so
 //
 // All memory belongs to the caller and holds x y z triples side by side. Everything asked for is to
 // be written. A function returns 0; another number says that it does not evaluate such patches,
@@ -31,7 +31,8 @@ int sbe_evaluate_f64(const double* net, int degree_u, int degree_v, const double
 int sbe_grid_f32(const float* nets, size_t patches, size_t nu, size_t nv, float* position,
                  float* du, float* dv);
 
-// Optional: what rows and tables call the evaluator. Otherwise it has its file's name.
+// Optional: what rows and tables call the evaluator. Otherwise, and for null, it has its file's
+// name. Whatever is not a letter, a digit, or one of . + - becomes an underscore.
 const char* sbe_name(void);
 
 #ifdef __cplusplus

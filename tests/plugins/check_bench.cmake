@@ -6,5 +6,8 @@ expect("no_symbol.so: expected sbe_evaluate_f32 or sbe_evaluate_f64, found neith
        "grid/position/f32/shader_horner/8x8/cache/threads:1[^\n]*items_per_second"
        "crash/8x8[^\n]*ERROR[^\n]*crash.so: sbe_evaluate_f32 ended its process: Aborted"
        "nan/8x8[^\n]*ERROR[^\n]*nan.so: position is nan, or was not written, at sample 2 of patch 0"
+       "writes_behind/8x8[^\n]*ERROR[^\n]*sbe_evaluate_f32 wrote behind position"
+       "writes_before/8x8[^\n]*ERROR[^\n]*sbe_evaluate_f32 wrote before position"
+       "changes_input/8x8[^\n]*ERROR[^\n]*sbe_evaluate_f32 changed u"
        "refuses_late/8x8[^\n]*ERROR[^\n]*returned 5 for bicubic patches"
        "grid/position/f32/(avx2|avx512|sse2|neon64|scalar)/8x8/cache/threads:1[^\n]*items_per_second")

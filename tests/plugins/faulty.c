@@ -1,5 +1,6 @@
 // Evaluators with one fault each, made of the example by the macro FAULT_….
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #define sbe_evaluate_f32 evaluate_well
@@ -7,6 +8,15 @@
 #include "examples/evaluators/de_casteljau.c"
 #undef sbe_evaluate_f32
 #undef sbe_name
+
+#if defined(FAULT_ODD_NAME) // a line and a quote, and something on the standard output
+const char* sbe_name(void) {
+  puts("what a plug-in prints");
+  return "odd \"name\"/\n";
+}
+#elif defined(FAULT_NO_NAME)
+const char* sbe_name(void) { return NULL; }
+#endif
 
 #if !defined(FAULT_NO_SYMBOL)
 int sbe_evaluate_f32(const float* net, int degree_u, int degree_v, const float* weights,
@@ -28,6 +38,18 @@ int sbe_evaluate_f32(const float* net, int degree_u, int degree_v, const float* 
 #elif defined(FAULT_NAN)
   if (n > 3) {
     position[7] = NAN;
+  }
+#elif defined(FAULT_WRITES_BEHIND)
+  if (n > 3) {
+    position[3 * n] = 0;
+  }
+#elif defined(FAULT_WRITES_BEFORE)
+  if (n > 3) {
+    position[-1] = 0;
+  }
+#elif defined(FAULT_CHANGES_INPUT)
+  if (n > 3) {
+    ((float*)u)[2] = 1;
   }
 #elif defined(FAULT_REFUSES_LATE)
   if (n > 1) {

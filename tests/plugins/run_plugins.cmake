@@ -2,7 +2,7 @@
 # printed in `output`.
 function(run_plugins)
   set(evaluators "")
-  foreach(name de_casteljau shader_horner 40_units crash nan no_symbol refuses_late missing)
+  foreach(name de_casteljau shader_horner ${FAULTS} missing)
     list(APPEND evaluators --evaluator ${FOLDER}/${name}.so)
   endforeach()
   execute_process(COMMAND ${PROGRAM} ${ARGN} ${evaluators} RESULT_VARIABLE result
