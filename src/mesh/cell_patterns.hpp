@@ -10,6 +10,38 @@
 
 namespace simdbezier::detail {
 
+/// The corners at (0,0), (1,0), (0,1), (1,1) whose vertices are the six numbers of a cell, in the
+/// order of put_halves().
+struct CellOrder {
+  std::uint8_t corner[6];
+
+  constexpr CellOrder(bool falling, bool turned) : corner{} {
+    constexpr std::uint8_t kCorners[2][6] = {{1, 3, 0, 2, 0, 3}, {0, 1, 2, 3, 2, 1}};
+    for (std::size_t k = 0; k < 6; ++k) {
+      const std::size_t in_triangle = k % 3;
+      const std::size_t from = turned && in_triangle > 0 ? k + 3 - 2 * in_triangle : k;
+      corner[k] = kCorners[falling ? 1 : 0][from];
+    }
+  }
+};
+
+/// Sets the numbers of a cell that are vertices of some of its corners: bit k of kWhich is corner
+/// k.
+template <unsigned kWhich, bool kFalling, bool kTurned, typename Index>
+void put_corners(Index* cell, const std::uint32_t (&vertices)[4]) {
+  constexpr CellOrder kCell(kFalling, kTurned);
+  for (std::size_t k = 0; k < 6; ++k) {
+    if ((kWhich >> kCell.corner[k] & 1) != 0) {
+      cell[k] = static_cast<Index>(vertices[kCell.corner[k]]);
+    }
+  }
+}
+template <unsigned kWhich, bool kTurned, typename Index>
+void put_corners(Index* cell, const std::uint32_t (&vertices)[4], bool falling) {
+  falling ? put_corners<kWhich, true, kTurned>(cell, vertices)
+          : put_corners<kWhich, false, kTurned>(cell, vertices);
+}
+
 template <typename Index>
 class CellRun {
 public:
@@ -65,14 +97,9 @@ private:
     alignas(16) Index above_steps[kNumbers];
 
     constexpr Pattern(bool falling, bool turned) : above{}, below_steps{}, above_steps{} {
-      // Corners at (0,0), (1,0), (0,1), (1,1), in the order of put_halves().
-      constexpr std::uint32_t kCorners[2][6] = {{1, 3, 0, 2, 0, 3}, {0, 1, 2, 3, 2, 1}};
+      const CellOrder order(falling, turned);
       for (std::size_t k = 0; k < kNumbers; ++k) {
-        const std::size_t in_cell = k % 6;
-        const std::size_t in_triangle = in_cell % 3;
-        const std::size_t from =
-            turned && in_triangle > 0 ? in_cell + 3 - 2 * in_triangle : in_cell;
-        const std::uint32_t corner = kCorners[falling ? 1 : 0][from];
+        const std::uint32_t corner = order.corner[k % 6];
         const auto steps = static_cast<Index>(k / 6 + corner % 2);
         above[k] = corner >= 2 ? static_cast<Index>(-1) : Index{0};
         below_steps[k] = corner >= 2 ? Index{0} : steps;

@@ -166,6 +166,20 @@ private:
   std::uint16_t diagonals_;
 };
 
+/// Calls visit(i, n, falling) for cells i .. i + n - 1 of [begin, end) with like diagonals; `row`
+/// is of CellZones::falling_row().
+template <typename Visit>
+__attribute__((always_inline)) inline void for_like_cells(std::uint64_t row, std::uint32_t begin,
+                                                          std::uint32_t end, const Visit& visit) {
+  for (std::uint32_t i = begin; i < end;) {
+    const bool falling = (row >> i & 1) != 0;
+    const auto like = static_cast<std::uint32_t>(std::countr_zero((falling ? ~row : row) >> i));
+    const std::uint32_t n = std::min(like, end - i);
+    visit(i, n, falling);
+    i += n;
+  }
+}
+
 /// The cells of one patch.
 class CellCutter {
 public:

@@ -20,6 +20,7 @@ void count_segments(const TopologyData& topology, MeshData& mesh) {
   EdgeRates rates;
   std::vector<std::uint32_t> scratch;
   mesh.segments.resize(topology.edges());
+  bool has_unions = false;
   for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
     const auto sides = topology.sides_of(edge);
     if (sides.size() <= 2) {
@@ -32,7 +33,10 @@ void count_segments(const TopologyData& topology, MeshData& mesh) {
       mesh.segments[edge] = union_segments(rates, scratch);
     }
     mesh.most_segments = std::max(mesh.most_segments, mesh.segments[edge]);
+    const std::uint32_t most = mesh.segments[edge];
+    has_unions |= most != mesh.rate(sides.front()) || most != mesh.rate(sides.back());
   }
+  mesh.has_unions = has_unions;
 }
 
 /// The triangles of a patch: two a cell, one more for every vertex that its sides have besides its

@@ -6,95 +6,11 @@
 // a second. If there is none, what follows overwrites it.
 #pragma once
 
-#include <bit>
-
-#include "src/mesh/cell_patterns.hpp"
+#include "src/mesh/fan_writer.hpp"
 #include "src/mesh/index_stream.hpp"
 #include "src/mesh/linear_sides.hpp"
 
 namespace simdbezier::detail {
-
-/// A leg of a cell in a corner of the patch, from the corner on.
-struct CornerLeg {
-  std::uint32_t corner;
-  std::uint32_t zero; ///< the number that the corner would have as a point of the row
-  std::uint32_t step;
-  std::uint32_t segments;
-
-  /// The leg's other end.
-  [[nodiscard]] std::uint32_t far() const { return zero + segments * step; }
-};
-
-/// Its vertices one by one.
-class CornerChain {
-public:
-  explicit CornerChain(const CornerLeg& leg) : segments_(leg.segments) {
-    at_[0] = leg.corner;
-    for (std::uint32_t k = 1; k <= segments_; ++k) {
-      at_[k] = leg.zero + k * leg.step;
-    }
-  }
-  [[nodiscard]] Leg leg() const { return Leg({at_, segments_}, false); }
-
-private:
-  std::uint32_t segments_;
-  std::uint32_t at_[2 * UnionPlaces::kMost + 1];
-};
-
-/// Writes triangles with room behind them.
-template <typename Index, bool kTurned>
-class FanWriter {
-public:
-  explicit FanWriter(Index* to) : to_(to) {}
-
-  [[nodiscard]] Index* end() const { return to_; }
-  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    put(0, a, b, c);
-    to_ += 3;
-  }
-  /// A half of a cell whose first leg is a chain: `n` segments from vertex `first` on.
-  void fan_of_first(std::uint32_t first, std::uint32_t step, std::uint32_t n, std::uint32_t apex) {
-    put(0, first, first + step, apex);
-    put(1, first + step, first + 2 * step, apex);
-    for (std::uint32_t k = 2; k < n; ++k) {
-      put(k, first + k * step, first + (k + 1) * step, apex);
-    }
-    to_ += std::size_t{3} * n;
-  }
-  /// The same where the second leg is a chain.
-  void fan_of_second(std::uint32_t first, std::uint32_t step, std::uint32_t n, std::uint32_t apex) {
-    put(0, first, apex, first + step);
-    put(1, apex, first + 2 * step, first + step);
-    for (std::uint32_t k = 2; k < n; ++k) {
-      put(k, apex, first + (k + 1) * step, first + k * step);
-    }
-    to_ += std::size_t{3} * n;
-  }
-  /// The same of the legs in a corner, towards the corner.
-  void fan_of_first(const CornerLeg& leg, std::uint32_t apex) {
-    fan_of_first(leg.far(), 0 - leg.step, leg.segments, apex);
-    to_[kTurned ? -1 : -2] = static_cast<Index>(leg.corner);
-  }
-  void fan_of_second(const CornerLeg& leg, std::uint32_t apex) {
-    fan_of_second(leg.far(), 0 - leg.step, leg.segments, apex);
-    const bool single = leg.segments == 1;
-    to_[(single != kTurned) ? -1 : -2] = static_cast<Index>(leg.corner);
-  }
-  /// n cells side by side.
-  void cells(const CellRun<Index>& run, std::uint32_t base, std::uint32_t n) {
-    to_ = run.write(base, n, to_);
-  }
-
-private:
-  void put(std::size_t k, std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    Index* const to = to_ + 3 * k;
-    to[0] = static_cast<Index>(a);
-    to[1] = static_cast<Index>(kTurned ? c : b);
-    to[2] = static_cast<Index>(kTurned ? b : c);
-  }
-
-  Index* to_;
-};
 
 /// One patch.
 template <typename Index, bool kTurned>
@@ -128,7 +44,7 @@ private:
     const std::uint32_t first = inner(1, j);
     const std::uint32_t last = first + nu_ - 2;
     cell_at_u0(j, first, (row & 1) != 0, out);
-    for_runs(row, [&](std::uint32_t i, std::uint32_t n, bool falling) {
+    for_like_cells(row, 1, nu_ - 1, [&](std::uint32_t i, std::uint32_t n, bool falling) {
       out.cells(inner_cells_[falling ? 1 : 0], first + i - 1, n);
     });
     cell_at_u1(j, last, (row >> (nu_ - 1) & 1) != 0, out);
@@ -183,22 +99,11 @@ private:
   /// Cells at a side without further vertices.
   void plain_cells(std::uint32_t j, std::uint64_t row, const LinearSide& side, Writer& out) const {
     const CellSteps steps{j == 0 ? side.step : 1, j == 0 ? 1 : side.step};
-    for_runs(row, [&](std::uint32_t i, std::uint32_t n, bool falling) {
+    for_like_cells(row, 1, nu_ - 1, [&](std::uint32_t i, std::uint32_t n, bool falling) {
       const std::uint32_t below = j == 0 ? side.at(i) : inner(i, j);
       const std::uint32_t above = j == 0 ? inner(i, 1) : side.at(i);
       out.cells(CellRun<Index>(below, above, steps, falling, kTurned), 0, n);
     });
-  }
-  /// Calls visit(i, n, falling) for inner cells i .. i + n - 1 of a row with like diagonals.
-  template <typename Visit>
-  void for_runs(std::uint64_t row, const Visit& visit) const {
-    for (std::uint32_t i = 1; i + 1 < nu_;) {
-      const bool falling = (row >> i & 1) != 0;
-      const auto like = static_cast<std::uint32_t>(std::countr_zero((falling ? ~row : row) >> i));
-      const std::uint32_t n = std::min(like, nu_ - 1 - i);
-      visit(i, n, falling);
-      i += n;
-    }
   }
   void cell_at_v0(std::uint32_t i, bool falling, Writer& out) const {
     const std::uint32_t place = v0_.places[i];

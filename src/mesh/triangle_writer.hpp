@@ -1,7 +1,8 @@
-// The triangles of patches, one after the other: usual ones by RegularPatch, all others by
-// CellCutter.
+// The triangles of patches, one after the other: usual ones by PlainPatch and RegularPatch, all
+// others by CellCutter.
 #pragma once
 
+#include "src/mesh/plain_patch.hpp"
 #include "src/mesh/primitive_sinks.hpp"
 #include "src/mesh/regular_patch.hpp"
 
@@ -30,6 +31,10 @@ public:
 private:
   template <bool kTurned>
   Index* write_regular(std::size_t patch, Index* to) {
+    // Asked a mesh: some patches of others are plain as well, but which ones is hard to predict.
+    if (!mesh_.has_unions) {
+      return PlainPatch<Index, kTurned>(mesh_, patch, sides_).write(stream_, to);
+    }
     return RegularPatch<Index, kTurned>(mesh_, patch, sides_).write(stream_, to);
   }
   Index* write_any(std::size_t patch, bool turned) {

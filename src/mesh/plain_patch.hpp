@@ -1,0 +1,89 @@
+// The triangles of usual patches (see linear_sides.hpp) in a mesh whose edges have no points but
+// those of each side, such as one of a common grid.
+//
+// A row of cells is written as if its inner points went on at both ends. Then the vertices of the
+// sides u = 0 and u = 1 take their places.
+#pragma once
+
+#include "src/mesh/cell_patterns.hpp"
+#include "src/mesh/index_stream.hpp"
+#include "src/mesh/linear_sides.hpp"
+
+namespace simdbezier::detail {
+
+/// One patch.
+template <typename Index, bool kTurned>
+class PlainPatch {
+public:
+  PlainPatch(const MeshData& mesh, std::size_t patch, const LinearSides& sides)
+      : v0_(sides[0]), v1_(sides[1]), u0_(sides[2]), u1_(sides[3]), zones_(mesh, patch),
+        nu_(mesh.nu[patch]), nv_(mesh.nv[patch]),
+        inner_(mesh.inner[patch]), inner_cells_{{0, nu_ - 1, {1, 1}, false, kTurned},
+                                                {0, nu_ - 1, {1, 1}, true, kTurned}} {}
+
+  // Left to itself, g++ calls functions for a row or two of cells.
+  __attribute__((noinline, flatten)) Index* write(IndexStream<Index>& stream, Index* to) const {
+    for (std::uint32_t j = 0; j < nv_; ++j) {
+      const bool border = j == 0 || j + 1 == nv_;
+      const std::uint64_t falling = border ? falling_at_border(j) : zones_.falling_row(j);
+      Index* const row = to;
+      to = border ? border_row(j, falling, to) : inner_row(j, falling, to);
+      put_sides(j, falling, row, to);
+      to = stream.make_room(to);
+    }
+    return to;
+  }
+
+private:
+  /// The number of inner point (i, j), or what it would be at i = 0.
+  [[nodiscard]] std::uint32_t inner(std::uint32_t i, std::uint32_t j) const {
+    return inner_ + (j - 1) * (nu_ - 1) + i - 1;
+  }
+  /// zones_.falling_row() is of inner cells: corners may have diagonals of their own.
+  [[nodiscard]] std::uint64_t falling_at_border(std::uint32_t j) const {
+    const std::uint64_t last = std::uint64_t{1} << (nu_ - 1);
+    const std::uint64_t inner = zones_.falling_row(j) & ~(1 | last);
+    return inner | (zones_.falling(0, j) ? 1 : 0) | (zones_.falling(nu_ - 1, j) ? last : 0);
+  }
+  Index* inner_row(std::uint32_t j, std::uint64_t falling, Index* to) const {
+    for_like_cells(falling, 0, nu_, [&](std::uint32_t i, std::uint32_t n, bool falls) {
+      to = inner_cells_[falls ? 1 : 0].write(inner(i, j), n, to);
+    });
+    return to;
+  }
+  /// The first or the last row.
+  Index* border_row(std::uint32_t j, std::uint64_t falling, Index* to) const {
+    const CellSteps steps{j == 0 ? v0_.step : 1, j == 0 ? 1 : v1_.step};
+    for_like_cells(falling, 0, nu_, [&](std::uint32_t i, std::uint32_t n, bool falls) {
+      const std::uint32_t below = j == 0 ? v0_.at(i) : inner(i, j);
+      const std::uint32_t above = j == 0 ? inner(i, 1) : v1_.at(i);
+      to = CellRun<Index>(below, above, steps, falls, kTurned).write(0, n, to);
+    });
+    return to;
+  }
+  /// The vertices of the sides in the row's first and last cell.
+  void put_sides(std::uint32_t j, std::uint64_t falling, Index* begin, Index* end) const {
+    constexpr unsigned kLeft = 0b0101;
+    constexpr unsigned kRight = 0b1010;
+    const bool low = j == 0;
+    const bool high = j + 1 == nv_;
+    put_corners<kLeft, kTurned>(
+        begin, {low ? v0_.end[0] : u0_.at(j), 0, high ? v1_.end[0] : u0_.at(j + 1), 0},
+        (falling & 1) != 0);
+    put_corners<kRight, kTurned>(
+        end - 6, {0, low ? v0_.end[1] : u1_.at(j), 0, high ? v1_.end[1] : u1_.at(j + 1)},
+        (falling >> (nu_ - 1) & 1) != 0);
+  }
+
+  const LinearSide& v0_;
+  const LinearSide& v1_;
+  const LinearSide& u0_;
+  const LinearSide& u1_;
+  CellZones zones_;
+  std::uint32_t nu_;
+  std::uint32_t nv_;
+  std::uint32_t inner_;
+  CellRun<Index> inner_cells_[2]; ///< from vertex 0 on: rising, falling
+};
+
+} // namespace simdbezier::detail
