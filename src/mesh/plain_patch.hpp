@@ -5,21 +5,17 @@
 // sides u = 0 and u = 1 take their places.
 #pragma once
 
-#include "src/mesh/cell_patterns.hpp"
 #include "src/mesh/index_stream.hpp"
-#include "src/mesh/linear_sides.hpp"
+#include "src/mesh/usual_patch.hpp"
 
 namespace simdbezier::detail {
 
 /// One patch.
 template <typename Index, bool kTurned>
-class PlainPatch {
+class PlainPatch : UsualPatch {
 public:
   PlainPatch(const MeshData& mesh, std::size_t patch, const LinearSides& sides)
-      : v0_(sides[0]), v1_(sides[1]), u0_(sides[2]), u1_(sides[3]), zones_(mesh, patch),
-        nu_(mesh.nu[patch]), nv_(mesh.nv[patch]),
-        inner_(mesh.inner[patch]), inner_cells_{{0, nu_ - 1, {1, 1}, false, kTurned},
-                                                {0, nu_ - 1, {1, 1}, true, kTurned}} {}
+      : UsualPatch(mesh, patch, sides), inner_cells_(nu_) {}
 
   // Left to itself, g++ calls functions for a row or two of cells.
   __attribute__((noinline, flatten)) Index* write(IndexStream<Index>& stream, Index* to) const {
@@ -35,10 +31,6 @@ public:
   }
 
 private:
-  /// The number of inner point (i, j), or what it would be at i = 0.
-  [[nodiscard]] std::uint32_t inner(std::uint32_t i, std::uint32_t j) const {
-    return inner_ + (j - 1) * (nu_ - 1) + i - 1;
-  }
   /// zones_.falling_row() is of inner cells: corners may have diagonals of their own.
   [[nodiscard]] std::uint64_t falling_at_border(std::uint32_t j) const {
     const std::uint64_t last = std::uint64_t{1} << (nu_ - 1);
@@ -47,7 +39,7 @@ private:
   }
   Index* inner_row(std::uint32_t j, std::uint64_t falling, Index* to) const {
     for_like_cells(falling, 0, nu_, [&](std::uint32_t i, std::uint32_t n, bool falls) {
-      to = inner_cells_[falls ? 1 : 0].write(inner(i, j), n, to);
+      to = inner_cells_.run(falls).write(inner(i, j), n, to);
     });
     return to;
   }
@@ -75,15 +67,7 @@ private:
         (falling >> (nu_ - 1) & 1) != 0);
   }
 
-  const LinearSide& v0_;
-  const LinearSide& v1_;
-  const LinearSide& u0_;
-  const LinearSide& u1_;
-  CellZones zones_;
-  std::uint32_t nu_;
-  std::uint32_t nv_;
-  std::uint32_t inner_;
-  CellRun<Index> inner_cells_[2]; ///< from vertex 0 on: rising, falling
+  InnerCells<Index, kTurned> inner_cells_;
 };
 
 } // namespace simdbezier::detail

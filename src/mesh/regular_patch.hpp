@@ -8,19 +8,16 @@
 
 #include "src/mesh/fan_writer.hpp"
 #include "src/mesh/index_stream.hpp"
-#include "src/mesh/linear_sides.hpp"
+#include "src/mesh/usual_patch.hpp"
 
 namespace simdbezier::detail {
 
 /// One patch.
 template <typename Index, bool kTurned>
-class RegularPatch {
+class RegularPatch : UsualPatch {
 public:
   RegularPatch(const MeshData& mesh, std::size_t patch, const LinearSides& sides)
-      : v0_(sides[0]), v1_(sides[1]), u0_(sides[2]), u1_(sides[3]), zones_(mesh, patch),
-        nu_(mesh.nu[patch]), nv_(mesh.nv[patch]),
-        inner_(mesh.inner[patch]), inner_cells_{{0, nu_ - 1, {1, 1}, false, kTurned},
-                                                {0, nu_ - 1, {1, 1}, true, kTurned}} {}
+      : UsualPatch(mesh, patch, sides), inner_cells_(nu_) {}
 
   Index* write(IndexStream<Index>& stream, Index* to) const {
     to = stream.make_room(border_row(0, v0_, to));
@@ -33,11 +30,6 @@ public:
 private:
   using Writer = FanWriter<Index, kTurned>;
 
-  /// The number of inner point (i, j).
-  [[nodiscard]] std::uint32_t inner(std::uint32_t i, std::uint32_t j) const {
-    return inner_ + (j - 1) * (nu_ - 1) + (i - 1);
-  }
-
   Index* inner_row(std::uint32_t j, Index* to) const {
     Writer out(to);
     const std::uint64_t row = zones_.falling_row(j);
@@ -45,7 +37,7 @@ private:
     const std::uint32_t last = first + nu_ - 2;
     cell_at_u0(j, first, (row & 1) != 0, out);
     for_like_cells(row, 1, nu_ - 1, [&](std::uint32_t i, std::uint32_t n, bool falling) {
-      out.cells(inner_cells_[falling ? 1 : 0], first + i - 1, n);
+      out.cells(inner_cells_.run(falling), first + i - 1, n);
     });
     cell_at_u1(j, last, (row >> (nu_ - 1) & 1) != 0, out);
     return out.end();
@@ -175,15 +167,7 @@ private:
                   : CornerLeg{side.end[0], side.at(0), side.step, side.places[1]};
   }
 
-  const LinearSide& v0_;
-  const LinearSide& v1_;
-  const LinearSide& u0_;
-  const LinearSide& u1_;
-  CellZones zones_;
-  std::uint32_t nu_;
-  std::uint32_t nv_;
-  std::uint32_t inner_;
-  CellRun<Index> inner_cells_[2]; ///< from vertex 0 on: rising, falling
+  InnerCells<Index, kTurned> inner_cells_;
 };
 
 } // namespace simdbezier::detail
