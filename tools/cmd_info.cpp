@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include <tools/counts.hpp>
+#include <tools/edge_counts.hpp>
 #include <tools/grid_blocks.hpp>
 #include <tools/library_status.hpp>
 #include <tools/output_file.hpp>
 #include <tools/patch_box.hpp>
-#include <tools/topology.hpp>
 
 namespace simdbezier::tools {
 

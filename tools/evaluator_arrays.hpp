@@ -12,7 +12,7 @@ namespace simdbezier::tools {
 /// may change.
 class EvaluatorArrays {
 public:
-  /// Of `memory`, whose first `used` bytes are taken.
+  /// Takes `memory`, whose first `used` bytes hold something else: arrays are placed behind them.
   EvaluatorArrays(std::span<unsigned char> memory, std::size_t used);
 
   /// Where the copy of an array begins, or 0 for an empty one. Throws Failure where the memory is

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace simdbezier::tools {
 
@@ -19,6 +20,9 @@ private:
 
 [[noreturn]] inline void bad_input(const std::string& message) { throw Failure(1, message); }
 [[noreturn]] inline void bad_usage(const std::string& message) { throw Failure(2, message); }
+
+/// The word in quotes, short and printable, whatever it holds.
+[[nodiscard]] std::string in_quotes(std::string_view word);
 
 /// "FILE:LINE: expected …, found …".
 [[noreturn]] inline void bad_input_at(const std::string& file, std::size_t line,

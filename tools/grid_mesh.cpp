@@ -5,10 +5,10 @@
 #include <limits>
 #include <span>
 
+#include <tools/edge_counts.hpp>
 #include <tools/library_status.hpp>
 #include <tools/patch_box.hpp>
 #include <tools/patch_rounding.hpp>
-#include <tools/topology.hpp>
 
 namespace simdbezier::tools {
 

@@ -147,22 +147,26 @@ MeshFormat parse_format(const Words& words) {
 
 void parse_contents(const Words& words, MeshArguments& mesh) {
   mesh.format = parse_format(words);
-  // STL has normals of its facets only.
-  mesh.normals = !words.has("--no-normals") && mesh.format != MeshFormat::stl;
+  const MeshAbilities& can = mesh_abilities(mesh.format);
+  mesh.normals = !words.has("--no-normals") && can.normals;
   mesh.weld = !words.has("--no-weld");
   mesh.flip = words.has("--flip");
   mesh.orient = words.has("--orient");
   mesh.quads = words.has("--quads");
-  if (mesh.quads && mesh.format != MeshFormat::obj && mesh.format != MeshFormat::ply) {
-    bad_usage("--quads: expected an output in obj or ply, found " + mesh_format_name(mesh.format));
+  const auto expect = [&](const char* option, bool MeshAbilities::*ability) {
+    if (!(can.*ability)) {
+      bad_usage(option + (": expected an output in " + mesh_format_names("", ability)) +
+                ", found " + mesh_format_name(mesh.format));
+    }
+  };
+  if (mesh.quads) {
+    expect("--quads", &MeshAbilities::quads);
   }
   if (const auto bits = words.value("--quantise")) {
     if (*bits != "16" && *bits != "8") {
       refuse(2, words, "--quantise", in_quotes(*bits));
     }
-    if (mesh.format != MeshFormat::glb) {
-      bad_usage("--quantise: expected an output in glb, found " + mesh_format_name(mesh.format));
-    }
+    expect("--quantise", &MeshAbilities::quantised);
     mesh.storage = *bits == "16" ? VertexStorage::quantised_16 : VertexStorage::quantised_8;
   }
 }

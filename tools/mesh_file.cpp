@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <tools/failure.hpp>
 #include <tools/mesh_formats.hpp>
@@ -16,16 +17,17 @@ namespace {
 struct FormatEntry {
   const char* extension;
   const char* name; // with its article
-  bool quads;
+  MeshAbilities can;
   bool floats_only;
   std::uint64_t most_faces;
 };
 constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kMost32 = std::numeric_limits<std::uint32_t>::max();
 constexpr FormatEntry kFormats[] = {
-    {"obj", "an OBJ file", true, false, kAny},
-    {"ply", "a PLY file", true, false, kAny},
-    {"stl", "an STL file", false, true, std::numeric_limits<std::uint32_t>::max()},
-    {"glb", "a GLB file", false, true, kAny}};
+    {"obj", "an OBJ file", {.quads = true, .normals = true}, false, kAny},
+    {"ply", "a PLY file", {.quads = true, .normals = true}, false, kAny},
+    {"stl", "an STL file", {}, true, kMost32}, // which has normals of facets only
+    {"glb", "a GLB file", {.normals = true, .quantised = true}, true, kAny}};
 
 const FormatEntry& entry_of(MeshFormat format) {
   return kFormats[static_cast<std::size_t>(format)];
@@ -49,10 +51,11 @@ void check_contents(const std::string& path, MeshFormat format, const MeshConten
   expect_at_most(path, entry.name, "faces", entry.most_faces, contents.faces);
   if (format == MeshFormat::glb) {
     expect_at_most(path, entry.name, "numbered patches", kMostGlbPatches, contents.patches);
-  } else if (contents.storage != VertexStorage::full) {
+  }
+  if (contents.storage != VertexStorage::full && !entry.can.quantised) {
     bad_input(path + ": expected a GLB file for quantised vertices, found " + entry.name);
   }
-  if (contents.corners != 3 && !entry.quads) {
+  if (contents.corners != 3 && !entry.can.quads) {
     bad_input(path + ": expected triangles in " + entry.name + ", found quads");
   }
   if (entry.floats_only && contents.box) {
@@ -73,13 +76,28 @@ std::optional<MeshFormat> mesh_format_of(const std::string& path) {
 
 std::string mesh_format_name(MeshFormat format) { return entry_of(format).extension; }
 
-std::string mesh_format_names(const std::string& prefix) {
-  std::string names;
+const MeshAbilities& mesh_abilities(MeshFormat format) { return entry_of(format).can; }
+
+std::string mesh_format_names(const std::string& prefix, bool MeshAbilities::*ability) {
+  std::vector<std::string> wanted;
   for (const FormatEntry& entry : kFormats) {
-    names += names.empty() ? "" : (&entry == std::end(kFormats) - 1 ? " or " : ", ");
-    names += prefix + entry.extension;
+    if (ability == nullptr || entry.can.*ability) {
+      wanted.push_back(prefix + entry.extension);
+    }
+  }
+  std::string names;
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    names += (k == 0 ? "" : k + 1 == wanted.size() ? " or " : ", ") + wanted[k];
   }
   return names;
+}
+
+double largest_coordinate(const MeshBox& box) {
+  double largest = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    largest = std::max({largest, std::abs(box.low[c]), std::abs(box.high[c])});
+  }
+  return largest;
 }
 
 template <typename T>

@@ -19,15 +19,27 @@ enum class MeshFormat : std::uint8_t { obj, ply, stl, glb };
 /// The format that a file's name asks for by its extension.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::string& path);
 
+/// What a format can hold besides positions and triangles.
+struct MeshAbilities {
+  bool quads = false;
+  bool normals = false;
+  bool quantised = false; ///< see VertexStorage
+};
+[[nodiscard]] const MeshAbilities& mesh_abilities(MeshFormat format);
+
 /// "obj", …
 [[nodiscard]] std::string mesh_format_name(MeshFormat format);
-/// "obj, ply, … or glb", every name behind `prefix`.
-[[nodiscard]] std::string mesh_format_names(const std::string& prefix);
+/// "obj, ply, … or glb", every name behind `prefix`: all formats, or those with the ability.
+[[nodiscard]] std::string mesh_format_names(const std::string& prefix,
+                                            bool MeshAbilities::*ability = nullptr);
 
 struct MeshBox {
   std::array<double, 3> low = {};
   std::array<double, 3> high = {};
 };
+
+/// The largest absolute value of a coordinate in it.
+[[nodiscard]] double largest_coordinate(const MeshBox& box);
 
 /// How GLB stores vertices. Quantised: positions and uv in 16 bits, normals in 16 or 8 bits a
 /// component, which takes the extension KHR_mesh_quantization.

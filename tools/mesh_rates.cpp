@@ -56,7 +56,7 @@ bool asks_too_small_an_angle(const RatedPatches<T>& patches, RateOptions how,
   return report.status != Status::bad_tolerance || report.patch != patch;
 }
 
-// For a patch whose distance is too small.
+// Throws a Failure that says why the patch cannot keep its distance: rounding, or too many cells.
 [[noreturn]] void refuse_distance(const MeshArguments& mesh, const Tolerances& tolerances,
                                   std::size_t patch, double error, const std::string& name) {
   const double found = tolerances.of(patch);

@@ -48,10 +48,15 @@ void add_mesh(Entries& entries) {
         command},
        {"--orient", "", "", "Turns patches so that neighbours agree on the outside", command},
        {"--flip", "", "", "Turns all triangles and normals around", command},
-       {"--quads", "", "", "Quads where cells have four vertices (.obj and .ply)", command},
+       {"--quads", "", "",
+        "Quads where cells have four vertices (" + mesh_format_names(".", &MeshAbilities::quads) +
+            ")",
+        command},
        {"--no-normals", "", "", "Positions only", command},
        {"--quantise", "BITS", "16 or 8",
-        "Stores positions in 16 bits and normals in this many (.glb)", command},
+        "Stores positions in 16 bits and normals in this many (" +
+            mesh_format_names(".", &MeshAbilities::quantised) + ")",
+        command},
        {"--stats", "FORM", "text or json",
         "What was written, how long it took, and its certified deviation: text on stderr (the "
         "default) or JSON on standard output",

@@ -14,7 +14,6 @@
 
 #include <tools/counts.hpp>
 #include <tools/failure.hpp>
-#include <tools/text_input.hpp>
 
 namespace simdbezier::tools {
 

@@ -42,12 +42,4 @@ double diagonal_of(const MeshBox& box) {
   return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
 }
 
-double largest_coordinate(const MeshBox& box) {
-  double largest = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    largest = std::max({largest, std::abs(box.low[c]), std::abs(box.high[c])});
-  }
-  return largest;
-}
-
 } // namespace simdbezier::tools

@@ -12,7 +12,4 @@ namespace simdbezier::tools {
 /// The length of its diagonal.
 [[nodiscard]] double diagonal_of(const MeshBox& box);
 
-/// The largest absolute value of a coordinate in it.
-[[nodiscard]] double largest_coordinate(const MeshBox& box);
-
 } // namespace simdbezier::tools

@@ -11,7 +11,6 @@
 
 #include <tools/failure.hpp>
 #include <tools/output_file.hpp>
-#include <tools/text_input.hpp>
 
 namespace simdbezier::tools {
 

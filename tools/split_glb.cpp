@@ -87,7 +87,7 @@ void SplitGlb::complete_part() {
   part_ = std::move(next);
 }
 
-// The new ones first, then copies.
+// Writes the part's new vertices first, then its copies, as write_triangles() numbers them.
 void SplitGlb::write_vertices(GlbFile& file) {
   const std::size_t size = layout_.size;
   std::vector<std::byte> block(kBlockBytes / size * size);

@@ -103,21 +103,6 @@ std::optional<std::uint64_t> parse_integer(std::string_view word) {
   return value;
 }
 
-std::string in_quotes(std::string_view word) {
-  constexpr std::size_t kShown = 40;
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::string result = "'";
-  for (const char c : word.substr(0, kShown)) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code >= 0x20 && code < 0x7f) {
-      result.push_back(c);
-    } else {
-      result.append({'\\', 'x', kDigits[code >> 4], kDigits[code & 15]});
-    }
-  }
-  return result + (word.size() > kShown ? "…'" : "'");
-}
-
 std::string describe_non_number(std::string_view word) {
   const ParsedNumber number = parse_number(word);
   if (number.is_number && std::isnan(number.value)) { // with a payload or without: nan(1)

@@ -90,8 +90,6 @@ private:
 [[nodiscard]] std::optional<double> parse_finite(std::string_view word);
 /// The whole word as a non-negative integer.
 [[nodiscard]] std::optional<std::uint64_t> parse_integer(std::string_view word);
-/// The word in quotes, short and printable, whatever it holds.
-[[nodiscard]] std::string in_quotes(std::string_view word);
 /// What to say instead of a word that parse_finite() refused.
 [[nodiscard]] std::string describe_non_number(std::string_view word);
 

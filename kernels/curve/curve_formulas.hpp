@@ -75,7 +75,7 @@ public:
   }
 
 private:
-  /// Of each lane's own cell.
+  /// Gives each lane value k of its own cell; both cells' are loaded only where lanes are mixed.
   SIMDBEZIER_INLINE V chosen(std::size_t k) const {
     if constexpr (!kMixed) {
       return broadcast<V>(low_[k]);

@@ -43,7 +43,7 @@ SIMDBEZIER_INLINE void prefetch_values(const T* values, std::size_t count) {
   }
 }
 
-/// Lane by lane, for those that did not pass the quick test. Rare, so kept out of line.
+/// Decides each lane that did not pass the quick test by itself; out of line, because it is rare.
 template <typename V, typename Task>
 SIMDBEZIER_RARE void resolve_lanes(const Task& task, const CurveShape& shape,
                                    const CurveRange<V>& range, V x, V squared, V floor) {
@@ -90,7 +90,7 @@ SIMDBEZIER_INLINE V tangent_floor(ScalarOf<V> of_curve, V inverse, V squared) {
   return select_where<V>(squared < infinity, floor, infinity);
 }
 
-/// Of a planar curve, the third components are zero.
+/// Stores wanted tangents and curvatures; `jet` has zeros for the components that a curve lacks.
 template <bool kRational, typename V, typename Task>
 SIMDBEZIER_INLINE void store_tangents(const Task& task, const CurveShape& shape,
                                       const CurveRange<V>& range, V x, V inverse_weight,

@@ -107,7 +107,7 @@ constexpr RowFiller<kTriples, T> row_filler() {
           kWay != kAlong && kWay != kAcross};
 }
 
-/// Straight to the caller's memory.
+/// Writes rows in place; where lanes are curves, those too few for a register go through `memory`.
 template <bool kTriples, typename T>
 SIMDBEZIER_PART void write_rows(const CurveTask<T>& task, const CurveRows<kTriples, T>& out,
                                 const RowFiller<kTriples, T>& way, T* memory) {
@@ -133,7 +133,7 @@ SIMDBEZIER_PART void write_rows(const CurveTask<T>& task, const CurveRows<kTripl
   }
 }
 
-/// By way of rings, past the caches.
+/// Writes rows to rings that pass them on past the caches, since streaming stores take whole lines.
 template <bool kTriples, typename T>
 SIMDBEZIER_PART void stream_rows(const CurveTask<T>& task, const CurveRows<kTriples, T>& out,
                                  const RowFiller<kTriples, T>& way, T* memory) {

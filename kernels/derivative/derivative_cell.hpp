@@ -76,7 +76,7 @@ private:
     return side_v_ == kLowEnd ? detail::kEdgeV0 : detail::kEdgeV1;
   }
 
-  /// From the patch's own coefficients, whatever the sides are.
+  /// Finds a channel's Taylor table from the patch's own coefficients, whatever the sides are.
   SIMDBEZIER_KERNEL void table(std::size_t channel, TaylorTable<V>& to) const {
     const T* const matrix = cell_.coefficients + channel * shape_.matrix();
     const std::size_t order_v = shape_.order_v();

@@ -21,7 +21,7 @@ template <typename V>
 using TaylorTable = V[kMostDerivatives][kMostDerivatives];
 
 /// to[d] = d-th derivative of sum_k c(k) t^k over d!, d = 0 … highest, for order >= 2: a column,
-/// with the operations of horner_series() and so its bits.
+/// with the operations of horner_series_abreast() and so its bits.
 template <typename V, typename Coefficient>
 SIMDBEZIER_INLINE void taylor_series(std::size_t order, V t, const Coefficient& c,
                                      std::size_t highest, V* to) {

@@ -1,4 +1,4 @@
-// Of grids whose samples are records: the single column behind whole registers of columns.
+// Computes the one column that whole registers leave over in grids of records: lanes are its rows.
 #pragma once
 
 #include "kernels/grid/patch_sweeps.hpp"
@@ -26,7 +26,7 @@ struct RecordColumn {
       store_triples(value + 3 * g, triple[g] + 3 * at, false);
     });
   }
-  /// Behind the register that begins at `places`.
+  /// Copies what stands at `row` in here to behind the register at `places`: the row's last sample.
   SIMDBEZIER_PART void move_to(const RecordPlaces<kOutputs, T>& places, std::size_t row) const {
     Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
       __builtin_memcpy(places.to[g] + kLanes<V> * places.record, triple[g] + 3 * row,

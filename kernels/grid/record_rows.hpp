@@ -61,13 +61,13 @@ struct RecordRows {
     return {lead == 0 ? lead : trail, trail, piece.middle.y, column, {task, at}};
   }
 
-  /// kEdges where the row is on none.
+  /// Returns the edge v = const that a row is on, or kEdges, no edge's number, if it is on none.
   [[nodiscard]] SIMDBEZIER_PART std::size_t edge(std::size_t row) const {
     return row == lead    ? edge_of(piece.lead_kind)
            : row == trail ? edge_of(piece.trail_kind)
                           : kEdges;
   }
-  /// Of rows that are on no edge.
+  /// Numbers a row that is on no edge among such rows alone, as piece.middle.y and Column do.
   [[nodiscard]] SIMDBEZIER_PART std::size_t middle(std::size_t row) const {
     return row - (piece.lead ? 1 : 0);
   }

@@ -232,7 +232,7 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
   dv.finish();
 }
 
-/// Groups with null planes are computed and dropped.
+/// Sweeps one component's second derivatives; those with null planes are computed and dropped.
 template <std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams>
 SIMDBEZIER_PART void sweep_second(const GridTask<ScalarOf<V>>& task,
                                   const RowPiece<ScalarOf<V>>& piece,

@@ -126,7 +126,7 @@ SIMDBEZIER_INLINE void finish_terms(const QuarterNets<V>& nets, const CellSteps<
   }
 }
 
-/// Vectors that several quarters have in common are looked at once.
+/// Finds the terms of all quarters; vectors that quarters have in common are looked at only once.
 template <typename V>
 SIMDBEZIER_INLINE ZoneTerms<V> zone_terms(const QuarterNets<V>& nets, const LaneCells<V>& cells,
                                           const SecondTerms<V>& doubt) {

@@ -26,8 +26,8 @@ struct SecondVectors {
   }
 };
 
-/// Of each quarter, what its largest vectors along the two diagonals were made of. For cells of
-/// about the same shape these are most often the largest ones again.
+/// The second derivatives that make each quarter's largest vectors along the two diagonals. They
+/// are kept because for cells of about the same shape they most often make the largest ones again.
 template <typename V>
 struct LeadingVectors {
   SecondVectors<V> rising[4];

@@ -84,8 +84,8 @@ SIMDBEZIER_INLINE Wide normal_floor(Wide hodograph_u, Wide hodograph_v) {
   const MaskOf<Wide> in_range = (u >= lowest * lowest) & (u <= highest * highest) &
                                 (v >= lowest * lowest) & (v <= highest * highest) & (uv >= lowest) &
                                 (uv <= highest);
-  // The test of the second look (kKernelError) in one comparison: |N| > 2^-7 of the hodographs'
-  // powers of two, which are up to four times smaller than the hodographs' product.
+  // Above it |du x dv| > 2^-7 (double: 2^-20) of uv, and so > 2^-9 (2^-22) of the product of what
+  // |du| and |dv| stay below: errors, a few roundings of that product, turn the normal by little.
   const Wide floor = uv * uv * Wide(kSingle ? 0x1p-14 : 0x1p-40);
   return select_where<Wide>(in_range, floor, Wide(std::numeric_limits<double>::infinity()));
 }

@@ -22,7 +22,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// with the quotient's own roundings by K + 3. The error of the last division is left out: it makes
 /// du longer, but does not turn it. The test
 ///     |du x dv|^2 > 2 c^2 (E_u^2 |dv|^2 + E_v^2 |du|^2)  [>= c^2 (E_u |dv| + E_v |du|)^2]
-/// is the second look's own with c = 2^-10 (in double 2^-20, stricter): what passes is turned by
+/// has c = 2^-10 (in double 2^-20, stricter): what passes needs no second look, as it is turned by
 /// 2^-14 K (2^-33 K) at the most, up to the norms' factors. What passes has W / w < 2^10, as |du|
 /// <= m (D + 2 B R) / w: there w itself is known well enough.
 template <typename T>

@@ -7,7 +7,7 @@
 // as well: p(-Y) is E - Y O bit for bit, as the squares are the same and rounding to nearest is
 // odd.
 //
-// The rule stands in src/storage/even_odd.hpp, by the degree of the one-dimensional polynomial
+// The rule stands in src/storage/even_odd_rule.hpp, by the degree of the one-dimensional polynomial
 // alone. Columns (a patch's first direction) keep Horner's rule: nothing there is shared. Degrees 1
 // and 2 would gain nothing, and from degree 6 on rows Y and -Y lie in different cells
 // (net_shape.hpp).
@@ -20,7 +20,7 @@
 #pragma once
 
 #include "kernels/simd/operands.hpp"
-#include "src/storage/even_odd.hpp"
+#include "src/storage/even_odd_rule.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

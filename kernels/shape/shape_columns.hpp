@@ -102,7 +102,7 @@ private:
     }
   }
 
-  /// Of each lane's own cell.
+  /// Gives each lane the value of its own cell; high() is called only where lanes may be in either.
   template <bool kMixed, typename High>
   SIMDBEZIER_INLINE V chosen(V low, const High& high) const {
     if constexpr (kMixed) {

@@ -45,7 +45,7 @@ template <typename T>
 /// The type that a set is to have: `dtype`, or else that of the points.
 [[nodiscard]] bool wants_float(const py::object& dtype, bool points_are_float);
 
-/// Control nets of one type S, and the arrays that they are views of.
+/// Control nets or curves of one type S, and the arrays that they are views of.
 template <typename S, template <typename> class View>
 struct PointViews {
   std::vector<View<S>> views;
@@ -87,11 +87,11 @@ template <typename V>
   return {array.data(), static_cast<std::size_t>(array.size())};
 }
 
-/// Numbers of patches or curves: any integers, none negative.
+/// Numbers of patches or curves: any integers, none negative; a scalar is repeated `count` times.
 [[nodiscard]] py::array_t<std::uint32_t> indices(const py::object& values, std::size_t count,
                                                  const std::string& argument);
 
-/// `count` parameters of single samples.
+/// Parameters or tolerances as a contiguous array of T; refuses all but floats and integers.
 template <typename T>
 [[nodiscard]] py::array_t<T> parameters(const py::object& values, const std::string& argument) {
   const py::array any = float_array(values, -1, argument);

@@ -3,7 +3,7 @@
 #include <simdbezier/error_bounds.hpp>
 
 #include "python/src/module.hpp"
-#include "python/src/outputs.hpp"
+#include "python/src/wanted_outputs.hpp"
 
 namespace simdbezier::python {
 namespace {

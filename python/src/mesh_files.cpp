@@ -73,8 +73,8 @@ void save_mesh(const Mesh<T>& mesh, const std::string& path) {
   const auto format = tools::mesh_format_of(path);
   if (!format) {
     const py::gil_scoped_acquire acquire;
-    throw_value_error("path", "expected a name that ends in .obj, .ply, .stl or .glb, found '" +
-                                  path + "'");
+    throw_value_error("path", "expected a name that ends in " + tools::mesh_format_names(".") +
+                                  ", found '" + path + "'");
   }
   const auto& triangles = mesh.triangles;
   const auto is_outside = [&](const auto& triangle) {

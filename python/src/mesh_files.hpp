@@ -7,7 +7,7 @@
 
 namespace simdbezier::python {
 
-/// Throws py::value_error where the name's ending is no format's, and OSError where writing fails.
+/// Raises Python's ValueError (unknown ending, triangle out of the mesh) or OSError (failed write).
 template <typename T>
 void save_mesh(const Mesh<T>& mesh, const std::string& path);
 

@@ -5,8 +5,8 @@
 #include <new>
 #include <string>
 
-#include "python/src/arguments.hpp"
 #include "python/src/arrays.hpp"
+#include "python/src/call_arguments.hpp"
 
 namespace simdbezier::python {
 
@@ -29,7 +29,7 @@ struct EmptyUntilConstructed {
   static void operator delete(void* memory) noexcept { ::operator delete(memory); }
 };
 
-/// "degree 3", "degrees 3 x 2, rational".
+/// Joins a count and its noun in the right number: "1 patch", "2 patches".
 [[nodiscard]] std::string plural(std::size_t count, const std::string& one,
                                  const std::string& several);
 

@@ -7,7 +7,6 @@
 namespace simdbezier::c_api {
 namespace {
 
-constexpr Path kSet{"set"};
 constexpr Path kGrid{"grid"};
 constexpr Path kGrids{"grids"};
 constexpr Path kSamples{"samples"};
@@ -85,15 +84,6 @@ simdbezier_status evaluate_at(const char* function, const simdbezier_curve_set* 
       [](const auto&... what) { return blamed_output(what...); });
 }
 
-template <typename Where>
-std::size_t samples_at(const simdbezier_curve_set* set, const Where* given) noexcept {
-  return size_or_zero([&] {
-    return with_set(set, kSet, [&]<typename T>(const CurveSet<T>& curves) {
-      return sample_count(curves, where_of<T>(given));
-    });
-  });
-}
-
 /// iso_u() or iso_v() of a set.
 template <typename Call>
 simdbezier_status iso_curves(const char* function, const simdbezier_patch_set* patches,
@@ -102,7 +92,7 @@ simdbezier_status iso_curves(const char* function, const simdbezier_patch_set* p
   return answer(function, [&] {
     require_place(curves, {"curves"});
     const PackOptions how = pack_options_of(options);
-    with_set(patches, {"patches"}, [&]<typename T>(const PatchSet<T>& set) {
+    with_object(patches, {"patches"}, [&]<typename T>(const PatchSet<T>& set) {
       CurveSet<T> made;
       require_ok(call(set, made, how), [&](Status status) -> Path {
         if (status == Status::unsupported_isa) {
@@ -165,12 +155,12 @@ simdbezier_status simdbezier_evaluate_curve_samples(const simdbezier_curve_set* 
 
 size_t simdbezier_curve_grid_sample_count(const simdbezier_curve_set* set,
                                           const simdbezier_curve_grid* grid) {
-  return samples_at(set, grid);
+  return samples_at(set, [&]<typename T>(std::type_identity<T>) { return where_of<T>(grid); });
 }
 
 size_t simdbezier_curve_grids_sample_count(const simdbezier_curve_set* set,
                                            const simdbezier_curve_grids* grids) {
-  return samples_at(set, grids);
+  return samples_at(set, [&]<typename T>(std::type_identity<T>) { return where_of<T>(grids); });
 }
 
 simdbezier_status simdbezier_boundary_curves(const simdbezier_nets* nets, simdbezier_edge edge,

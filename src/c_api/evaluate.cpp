@@ -117,7 +117,7 @@ simdbezier_status derivatives_at(const char* function, const simdbezier_patch_se
                                  std::size_t length, int first_component,
                                  const simdbezier_options* options) noexcept {
   return answer(function, [&] {
-    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+    with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
       const auto where = where_of<T>(given);
       std::vector<PartialDerivative<T>> wanted;
       for (std::size_t k = 0; k < length; ++k) {
@@ -215,20 +215,12 @@ simdbezier_status simdbezier_evaluate_samples(const simdbezier_patch_set* set,
 }
 
 size_t simdbezier_grid_sample_count(const simdbezier_patch_set* set, const simdbezier_grid* grid) {
-  return size_or_zero([&] {
-    return with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
-      return sample_count(patches, where_of<T>(grid));
-    });
-  });
+  return samples_at(set, [&]<typename T>(std::type_identity<T>) { return where_of<T>(grid); });
 }
 
 size_t simdbezier_patch_grids_sample_count(const simdbezier_patch_set* set,
                                            const simdbezier_patch_grids* grids) {
-  return size_or_zero([&] {
-    return with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
-      return sample_count(patches, where_of<T>(grids));
-    });
-  });
+  return samples_at(set, [&]<typename T>(std::type_identity<T>) { return where_of<T>(grids); });
 }
 
 simdbezier_status
@@ -254,7 +246,7 @@ simdbezier_status simdbezier_evaluate_tiles(const simdbezier_patch_set* set,
                                             const simdbezier_options* options) {
   return answer(__func__, [&] {
     require(function != nullptr, SIMDBEZIER_NULL_INPUT, {"function"});
-    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+    with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
       const Grid<T> where = where_of<T>(grid);
       const TileFormat as = format_of(format);
       const CallOptions how(options);
@@ -277,7 +269,7 @@ simdbezier_status simdbezier_evaluate_tiles(const simdbezier_patch_set* set,
 size_t simdbezier_largest_tile(const simdbezier_patch_set* set, const simdbezier_grid* grid,
                                const simdbezier_tile_format* format) {
   return size_or_zero([&] {
-    return with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+    return with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
       return largest_tile(patches, where_of<T>(grid), format_of(format));
     });
   });

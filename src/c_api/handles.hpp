@@ -46,9 +46,9 @@ struct simdbezier_mesh {
 
 namespace simdbezier::c_api {
 
-/// body(set) with the C++ set behind a handle.
+/// body(object) with the C++ object behind a handle, of one of two number types.
 template <typename Handle, typename Body>
-auto with_set(const Handle* handle, const Path& path, Body body) {
+auto with_object(const Handle* handle, const Path& path, Body body) {
   require(handle != nullptr, SIMDBEZIER_NULL_INPUT, path);
   return std::visit(body, handle->of);
 }
@@ -105,7 +105,7 @@ inline Camera camera_of(const simdbezier_camera* given, const Path& path) {
   return camera;
 }
 
-/// Where a handle goes.
+/// Refuses null where a handle is to go.
 template <typename Handle>
 void require_place(Handle* const* handle, const Path& path) {
   require(handle != nullptr, SIMDBEZIER_NULL_OUTPUT, path);

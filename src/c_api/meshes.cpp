@@ -167,7 +167,7 @@ simdbezier_status simdbezier_mesh_look(const simdbezier_mesh* mesh,
                                        simdbezier_mesh_arrays* arrays) {
   return answer(__func__, [&] {
     require_writable(arrays, {"arrays"});
-    with_set(mesh, {"mesh"}, [&](const auto& of) { write(arrays, arrays_of(of)); });
+    with_object(mesh, {"mesh"}, [&](const auto& of) { write(arrays, arrays_of(of)); });
   });
 }
 
@@ -175,7 +175,7 @@ simdbezier_status simdbezier_mesh_count(const simdbezier_mesh* mesh,
                                         simdbezier_topology_counts* counts) {
   return answer(__func__, [&] {
     require_writable(counts, {"counts"});
-    with_set(mesh, {"mesh"}, [&](const auto& of) { write(counts, counts_of(of.counts)); });
+    with_object(mesh, {"mesh"}, [&](const auto& of) { write(counts, counts_of(of.counts)); });
   });
 }
 
@@ -204,6 +204,6 @@ simdbezier_status simdbezier_mesh_plan_count(const simdbezier_mesh_plan* plan,
                                              simdbezier_topology_counts* counts) {
   return answer(__func__, [&] {
     require_writable(counts, {"counts"});
-    with_set(plan, {"plan"}, [&](const auto& of) { write(counts, counts_of(of.counts)); });
+    with_object(plan, {"plan"}, [&](const auto& of) { write(counts, counts_of(of.counts)); });
   });
 }

@@ -75,15 +75,9 @@ simdbezier_status simdbezier_topology_count(const simdbezier_topology* topology,
 }
 
 int32_t simdbezier_topology_is_turned(const simdbezier_topology* topology, size_t patch) {
-  return topology != nullptr && patch < topology->of.counts().patches &&
-                 topology->of.is_turned(patch)
-             ? 1
-             : 0;
+  return topology != nullptr && topology->of.is_turned(patch) ? 1 : 0;
 }
 
 int32_t simdbezier_topology_is_repeated(const simdbezier_topology* topology, size_t patch) {
-  return topology != nullptr && patch < topology->of.counts().patches &&
-                 topology->of.is_repeated(patch)
-             ? 1
-             : 0;
+  return topology != nullptr && topology->of.is_repeated(patch) ? 1 : 0;
 }

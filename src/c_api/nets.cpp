@@ -1,6 +1,4 @@
 // Operations on control nets of simdbezier.h.
-#include <cmath>
-
 #include <simdbezier/bases.hpp>
 #include <simdbezier/bounds.hpp>
 #include <simdbezier/nets.hpp>
@@ -16,20 +14,6 @@ constexpr Path kOut{"out"};
 
 static_assert(SIMDBEZIER_BASIS_B_SPLINE == static_cast<int>(Basis::b_spline));
 static_assert(int{SIMDBEZIER_MOST_BOX_LEVELS} == kMostBoxLevels);
-
-template <typename T>
-UnitParameter<T> parameter_of(const simdbezier_parameter& given, const Path& path) {
-  if (given.denominator == 0) {
-    const T value = static_cast<T>(given.value);
-    require(std::isfinite(value), SIMDBEZIER_NON_FINITE_INPUT, path);
-    return given.from_end != 0 ? UnitParameter<T>::from_end(value) : UnitParameter<T>(value);
-  }
-  const bool integer = given.value >= INT32_MIN && given.value <= INT32_MAX &&
-                       given.value == static_cast<double>(static_cast<int>(given.value));
-  require(integer && given.denominator > 0, SIMDBEZIER_BAD_VALUE, path);
-  const auto there = UnitParameter<T>::fraction(static_cast<int>(given.value), given.denominator);
-  return given.from_end != 0 ? there.mirrored() : there;
-}
 
 /// What an operation was refused for: faults of outputs are those of `out`. What nets and outputs
 /// may both have is an output's fault where the nets are sound.

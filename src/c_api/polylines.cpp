@@ -115,6 +115,6 @@ simdbezier_status simdbezier_polylines_look(const simdbezier_polylines* polyline
                                             simdbezier_polyline_arrays* arrays) {
   return answer(__func__, [&] {
     require_writable(arrays, {"arrays"});
-    with_set(polylines, kPolylines, [&](const auto& of) { write(arrays, arrays_of(of)); });
+    with_object(polylines, kPolylines, [&](const auto& of) { write(arrays, arrays_of(of)); });
   });
 }

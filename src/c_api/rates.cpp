@@ -6,6 +6,7 @@
 
 #include "src/c_api/handles.hpp"
 #include "src/c_api/views.hpp"
+#include "src/nets/net_call.hpp"
 
 namespace simdbezier::c_api {
 namespace {
@@ -113,7 +114,7 @@ simdbezier_status simdbezier_choose_rates(const simdbezier_nets* nets, size_t le
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
       const RateReport report = choose_rates(views, joined, how, certified(out));
       require_rates(report, views, [&](Status status) {
-        const std::size_t patches = patches_of(views);
+        const std::size_t patches = detail::patches_of(views);
         if (status == Status::bad_tolerance) {
           return blamed_limit(how, report.patch);
         }
@@ -138,7 +139,7 @@ simdbezier_status simdbezier_certify_rates(const simdbezier_nets* nets, size_t l
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
       const RateReport report = certify_rates(views, joined, known, certified(out), threads);
       require_rates(report, views, [&](Status status) {
-        const std::size_t patches = patches_of(views);
+        const std::size_t patches = detail::patches_of(views);
         const bool of_errors = status == Status::bad_tolerance || !is_one_each(known, patches);
         return of_errors ? kErrors : blamed_rates(out, patches, joined);
       });
@@ -156,7 +157,7 @@ simdbezier_status simdbezier_certify_grids(const simdbezier_nets* nets, size_t l
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
       const RateReport report = certify_grids(views, nu, nv, known, out, threads);
       require_rates(report, views, [&](Status status) -> Path {
-        const std::size_t patches = patches_of(views);
+        const std::size_t patches = detail::patches_of(views);
         if (status == Status::bad_tolerance || !is_one_each(known, patches)) {
           return kErrors;
         }

@@ -46,7 +46,7 @@ simdbezier_status errors_of(const char* function, const Handle* set, simdbezier_
                             double* errors, std::size_t length) noexcept {
   return answer(function, [&] {
     const std::span<double> out = span_of(errors, length, {"errors"});
-    with_set(set, kSet, [&](const auto& members) {
+    with_object(set, kSet, [&](const auto& members) {
       require_ok(position_errors(members, out, resolved(isa)),
                  [](Status) { return Path{"length"}; });
     });
@@ -129,7 +129,7 @@ simdbezier_status simdbezier_patch_set_shape(const simdbezier_patch_set* set, si
                                              simdbezier_patch_shape* shape) {
   return answer(__func__, [&] {
     require_writable(shape, {"shape"});
-    with_set(set, kSet, [&](const auto& patches) {
+    with_object(set, kSet, [&](const auto& patches) {
       require_member(patches, patch, {"patch"});
       const PatchShape of = patches.shape(patch);
       write(shape, {0, of.degree_u, of.degree_v, of.components, of.rational ? 1 : 0});
@@ -166,7 +166,7 @@ simdbezier_status simdbezier_patch_error_bounds(const simdbezier_patch_set* set,
                                                 simdbezier_error_bounds_of_patch* bounds) {
   return answer(__func__, [&] {
     require_writable(bounds, {"bounds"});
-    with_set(set, kSet, [&](const auto& patches) {
+    with_object(set, kSet, [&](const auto& patches) {
       require_member(patches, patch, {"patch"});
       const ErrorBounds of = error_bounds(patches, patch, resolved(isa));
       simdbezier_error_bounds_of_patch known{};
@@ -183,7 +183,7 @@ simdbezier_status simdbezier_curve_error_bounds(const simdbezier_curve_set* set,
                                                 simdbezier_error_bounds_of_curve* bounds) {
   return answer(__func__, [&] {
     require_writable(bounds, {"bounds"});
-    with_set(set, kSet, [&](const auto& curves) {
+    with_object(set, kSet, [&](const auto& curves) {
       require_member(curves, curve, {"curve"});
       const CurveErrorBounds of = error_bounds(curves, curve, resolved(isa));
       simdbezier_error_bounds_of_curve known{};
@@ -199,8 +199,9 @@ simdbezier_status simdbezier_largest_position_bound(const simdbezier_patch_set* 
                                                     simdbezier_isa isa, double* bound) {
   return answer(__func__, [&] {
     require(bound != nullptr, SIMDBEZIER_NULL_OUTPUT, {"bound"});
-    with_set(set, kSet,
-             [&](const auto& patches) { *bound = largest_position_bound(patches, resolved(isa)); });
+    with_object(set, kSet, [&](const auto& patches) {
+      *bound = largest_position_bound(patches, resolved(isa));
+    });
   });
 }
 

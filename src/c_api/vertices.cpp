@@ -133,7 +133,7 @@ simdbezier_status simdbezier_evaluate_mesh(const simdbezier_patch_set* set,
                                            size_t patch_count) {
   return answer(__func__, [&] {
     const MeshLayout& numbers = object_of(layout, kLayout);
-    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+    with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
       const MeshOutputs<T> to = outputs_of<T>(out);
       const CallOptions how(options);
       const SetRange range = range_of(first_patch, patch_count);
@@ -153,7 +153,7 @@ simdbezier_status simdbezier_evaluate_mesh_attributes(const simdbezier_patch_set
   return answer(__func__, [&] {
     const MeshLayout& numbers = object_of(layout, kLayout);
     require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, kOut);
-    with_set(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
+    with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
       const Vectors<T> to = vectors_of<T>(*out, kOut);
       const CallOptions how(options);
       require_ok(evaluate_mesh_attributes(patches, numbers, to, first_component, *how,
@@ -173,7 +173,7 @@ simdbezier_status simdbezier_split_creases(const simdbezier_patch_set* set,
   return answer(__func__, [&] {
     require_place(split, {"split"});
     const MeshLayout& numbers = object_of(layout, kLayout);
-    with_set(set, kSet, [&](const auto& patches) {
+    with_object(set, kSet, [&](const auto& patches) {
       const CallOptions how(options);
       MeshLayout made;
       require_ok(split_creases(patches, numbers, angle, made, *how), [](Status status) {
@@ -218,7 +218,7 @@ simdbezier_status simdbezier_evaluate_formatted_mesh(const simdbezier_patch_set*
                                                      size_t first_patch, size_t patch_count) {
   return answer(__func__, [&] {
     const MeshLayout& numbers = object_of(layout, kLayout);
-    with_set(set, kSet, [&](const auto& patches) {
+    with_object(set, kSet, [&](const auto& patches) {
       const FormattedOutputs to = outputs_of(out);
       const CallOptions how(options);
       const SetRange range = range_of(first_patch, patch_count);

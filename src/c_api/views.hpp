@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -27,7 +28,7 @@ inline Destination destination_of(simdbezier_destination destination) {
   return choice<Destination>(destination, 3, kOptions / "destination");
 }
 
-/// Options, and the name of the kernel that ran, handed back to the caller.
+/// Options, and the instruction set that ran, handed back to the caller.
 class CallOptions {
 public:
   explicit CallOptions(const simdbezier_options* given) : given_(read_options(given, kOptions)) {
@@ -162,15 +163,6 @@ auto with_net_array(const simdbezier_nets* nets, std::size_t length, Body body) 
   });
 }
 
-template <typename S>
-std::size_t patches_of(std::span<const ControlNets<S>> nets) noexcept {
-  std::size_t patches = 0;
-  for (const ControlNets<S>& one : nets) {
-    patches += one.count;
-  }
-  return patches;
-}
-
 /// Which of several nets holds a patch.
 template <typename S>
 Path nets_with_patch(std::span<const ControlNets<S>> nets, std::size_t patch) {
@@ -267,5 +259,20 @@ bool is_at_fault(const Vectors<T>& vectors, Status status, std::size_t samples,
 
 /// What a status of an evaluation is about, where it is not one of the outputs.
 Path blamed_in_call(Status status, const Path& where);
+
+/// Where something is cut: a finite number, or a fraction of whole numbers.
+template <typename T>
+UnitParameter<T> parameter_of(const simdbezier_parameter& given, const Path& path) {
+  if (given.denominator == 0) {
+    const T value = static_cast<T>(given.value);
+    require(std::isfinite(value), SIMDBEZIER_NON_FINITE_INPUT, path);
+    return given.from_end != 0 ? UnitParameter<T>::from_end(value) : UnitParameter<T>(value);
+  }
+  const bool integer = given.value >= INT32_MIN && given.value <= INT32_MAX &&
+                       given.value == static_cast<double>(static_cast<int>(given.value));
+  require(integer && given.denominator > 0, SIMDBEZIER_BAD_VALUE, path);
+  const auto there = UnitParameter<T>::fraction(static_cast<int>(given.value), given.denominator);
+  return given.from_end != 0 ? there.mirrored() : there;
+}
 
 } // namespace simdbezier::c_api

@@ -60,9 +60,9 @@ struct Components {
     dimension = std::min<std::size_t>(static_cast<std::size_t>(of_set) - first, 3);
     return true;
   }
-  /// All three of points in space, which have normals.
+  /// Whether these are all three of points in space, which have normals.
   [[nodiscard]] bool space() const noexcept { return of_set == 3 && first == 0; }
-  /// All of points in space or in the plane, which have tangents.
+  /// Whether these are all of points in space or in the plane, which have tangents.
   [[nodiscard]] bool all_of_few() const noexcept {
     return first == 0 && (of_set == 2 || of_set == 3);
   }

@@ -27,7 +27,7 @@ public:
   [[nodiscard]] bool allocate() noexcept {
     return scratch_.allocate(std::max(plain_.scratch_bytes, streaming_.scratch_bytes), threads_);
   }
-  /// Patches or samples [begin, end).
+  /// Evaluates patches or samples [begin, end); returns the instruction set that ran.
   Isa run(Destination way, std::size_t begin, std::size_t end) const noexcept {
     const AnyWork& work = way == Destination::cache ? plain_ : streaming_;
     return run_units(begin * work.grain, end * work.grain, threads_, scratch_, work);

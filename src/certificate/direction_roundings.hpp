@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "src/storage/even_odd.hpp"
+#include "src/storage/even_odd_rule.hpp"
 
 namespace simdbezier::detail {
 

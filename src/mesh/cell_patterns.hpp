@@ -49,7 +49,7 @@ public:
   static constexpr std::uint32_t kTogether = 8 / sizeof(Index);
 
   /// The cell's first vertices below and above, and steps of 1 or -1 to the next ones.
-  CellRun(std::uint32_t below, std::uint32_t above, const CellSteps& steps, bool falling,
+  CellRun(std::uint32_t below, std::uint32_t above, const VertexSteps& steps, bool falling,
           bool turned) {
     const Pattern& pattern = kPatterns[falling ? 1 : 0][turned ? 1 : 0];
     const auto low = spread(below);

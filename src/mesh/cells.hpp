@@ -81,7 +81,7 @@ void cut_cell(const CellSides& cell, bool falling, Sink& sink) {
 }
 
 /// From the vertices of a cell to those of the next one: below and above.
-struct CellSteps {
+struct VertexSteps {
   std::uint32_t below;
   std::uint32_t above;
 
@@ -95,7 +95,7 @@ struct CellSteps {
 
 /// The cells of a row one by one, for sinks that have no better way.
 template <typename Sink>
-void put_cells(CellCorners first, const CellSteps& steps, std::uint32_t count, bool falling,
+void put_cells(CellCorners first, const VertexSteps& steps, std::uint32_t count, bool falling,
                Sink& sink) {
   for (; count > 0; --count, steps.advance(first)) {
     sink.cell(first, falling);

@@ -16,11 +16,8 @@ namespace {
 template <typename S>
 RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::span<double> deviation,
                    int threads) noexcept {
-  if (const Status status = check_input(nets); !status) {
+  if (const Status status = check_in_space(nets); !status) {
     return {status};
-  }
-  if (nets.components != 3) {
-    return {Status::bad_components};
   }
   if (const NetReport checked = find_fault(nets, threads); !checked) {
     return {checked.status, checked.patch};
@@ -58,10 +55,7 @@ template <typename S>
 RateReport certify_grids(std::span<const ControlNets<S>> sets, std::uint32_t nu, std::uint32_t nv,
                          std::span<const double> errors, std::span<double> deviation,
                          int threads) noexcept {
-  std::size_t patches = 0;
-  for (const ControlNets<S>& nets : sets) {
-    patches += nets.count;
-  }
+  const std::size_t patches = detail::patches_of(sets);
   const auto is_rate = [](std::uint32_t n) { return n >= 1 && n <= kMostGridCells; };
   if (!is_rate(nu) || !is_rate(nv) || deviation.size() != patches ||
       !(errors.empty() || errors.size() == patches)) {

@@ -21,7 +21,8 @@ public:
     make_room(1, 3);
     put(a, b, c);
   }
-  void cells(const CellCorners& first, const CellSteps& steps, std::uint32_t count, bool falling) {
+  void cells(const CellCorners& first, const VertexSteps& steps, std::uint32_t count,
+             bool falling) {
     put_cells(first, steps, count, falling, *this);
   }
   void cell(const CellCorners& c, bool falling) {

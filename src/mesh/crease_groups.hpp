@@ -59,7 +59,8 @@ public:
       : topology_(*mesh.topology.data()), always_(angle >= std::numbers::pi), never_(angle == 0),
         cosine_(std::cos(angle)), sine_(std::sin(angle)), normals_(normals), groups_(groups) {}
 
-  /// members_of: memory for one value a corner that is joined with others.
+  /// Gives groups to the patches at a corner, or at each point of an edge. sample_of_corner:
+  /// scratch for one value a corner that is joined with others.
   void group(const BoundaryEntry& entry, std::uint32_t* sample_of_corner) const noexcept {
     if (entry.corner) {
       group_corner(entry, sample_of_corner);
@@ -71,6 +72,13 @@ public:
   }
 
 private:
+  [[nodiscard]] Point3 normal(std::size_t sample) const noexcept {
+    Point3 n;
+    for (std::size_t c = 0; c < 3; ++c) {
+      n.x[c] = static_cast<double>(normals_.component[c][sample]);
+    }
+    return n;
+  }
   /// Whether two samples' normals may be merged.
   [[nodiscard]] bool join(std::size_t a, std::size_t b, bool against) const noexcept {
     if (always_ || never_) {
@@ -84,14 +92,7 @@ private:
     // would show the rounding of the normals' lengths instead.
     return dot(x, x) == 0 || dot(y, y) == 0 || std::sqrt(dot(z, z)) * cosine_ < along * sine_;
   }
-  [[nodiscard]] Point3 normal(std::size_t sample) const noexcept {
-    Point3 n;
-    for (std::size_t c = 0; c < 3; ++c) {
-      n.x[c] = static_cast<double>(normals_.component[c][sample]);
-    }
-    return n;
-  }
-  /// The same for normals at two sides of one edge.
+  /// join() of normals at two sides of one edge.
   [[nodiscard]] bool sides_join(std::uint32_t a, std::size_t sample_a, std::uint32_t b,
                                 std::size_t sample_b) const noexcept {
     const bool two = topology_.sides_of(topology_.sides[a].edge()).size() == 2;

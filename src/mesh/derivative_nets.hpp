@@ -97,10 +97,10 @@ struct SecondNets {
   VectorNet vv;
 };
 
-/// The second derivatives of a net of any degrees: empty nets where a derivative vanishes.
+/// The second derivatives of a net of any degrees: a net of one zero where a derivative vanishes.
 void form_second_nets(const VectorNet& net, SecondNets& to);
 
-/// The part of a net over [begin, 1] or over [0, end] in one direction, by de Casteljau's
+/// The part of a net over [t, 1] (keep_high) or [0, t] in one direction, by de Casteljau's
 /// algorithm.
 void cut_net(VectorNet& net, bool in_u, double t, bool keep_high);
 

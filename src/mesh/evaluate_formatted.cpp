@@ -179,11 +179,8 @@ Status quantisation_box(std::span<const ControlNets<S>> sets, VertexFormat forma
   detail::PointBox points;
   bool finite = true;
   for (const ControlNets<S>& nets : sets) {
-    if (const Status status = detail::check_input(nets); !status) {
+    if (const Status status = detail::check_in_space(nets); !status) {
       return status;
-    }
-    if (nets.components != 3) {
-      return Status::bad_components;
     }
     for (std::size_t patch = 0; patch < nets.count; ++patch) {
       detail::for_points(nets, patch, [&](const detail::Point3& point) {

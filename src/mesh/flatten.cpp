@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
-#include <stdexcept>
 
 #include "src/calls/curve_input.hpp"
 #include "src/mesh/chord_bound.hpp"
+#include "src/runtime/attempt.hpp"
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
@@ -235,21 +234,9 @@ template <typename T, typename S>
 Polylines<T> flatten(const ControlCurves<S>& curves, double tolerance,
                      const Options& options) noexcept {
   const detail::DefaultFpEnvironment environment;
-  Polylines<T> lines;
-  try {
-    lines.status = detail::flatten_into(curves, tolerance, options, lines);
-  } catch (const std::bad_alloc&) {
-    lines.status = Status::out_of_memory;
-  } catch (const std::length_error&) {
-    lines.status = Status::size_overflow;
-  }
-  if (lines) {
-    return lines;
-  }
-  Polylines<T> none;
-  none.status = lines.status;
-  none.fault_curve = lines.fault_curve;
-  return none;
+  return detail::attempt(&Polylines<T>::fault_curve, [&](Polylines<T>& lines) {
+    return detail::flatten_into(curves, tolerance, options, lines);
+  });
 }
 
 #define SIMDBEZIER_INSTANTIATE(S)                                                                  \

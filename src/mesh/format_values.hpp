@@ -41,7 +41,8 @@ void put_value(unsigned char*& to, Value value) noexcept {
   to += sizeof value;
 }
 
-/// A component of a position or a parameter; low and step: of positions.
+/// Writes a component of a position or a parameter. low, step: of whole numbers, whose value k
+/// stands for low + k * step.
 inline void put_component(VertexFormat format, double value, double low, double step,
                           unsigned char*& to) noexcept {
   switch (format) {

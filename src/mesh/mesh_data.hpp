@@ -29,7 +29,7 @@ struct MeshData {
   std::vector<std::size_t> side_first;
   std::vector<std::uint32_t> side_vertices;
   std::uint32_t most_segments = 0; ///< of one edge
-  bool has_unions = true; ///< whether an edge of one or two sides has points that a side has not
+  bool has_unions = true;          ///< whether an edge has points that one of its sides has not
   /// The rates of edges with many sides, each of which would otherwise look at all the others.
   struct CrowdedEdge {
     std::size_t edge;

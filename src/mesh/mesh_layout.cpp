@@ -58,7 +58,7 @@ struct TriangleCounter {
 
   void triangle(std::uint32_t, std::uint32_t, std::uint32_t) { ++triangles; }
   void cell(const CellCorners&, bool) { triangles += 2; }
-  void cells(const CellCorners&, const CellSteps&, std::uint32_t count, bool) {
+  void cells(const CellCorners&, const VertexSteps&, std::uint32_t count, bool) {
     triangles += 2 * std::uint64_t{count};
   }
 };

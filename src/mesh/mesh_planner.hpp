@@ -9,6 +9,7 @@
 #include <simdbezier/mesh.hpp>
 
 #include "src/mesh/net_points.hpp"
+#include "src/nets/net_call.hpp"
 
 namespace simdbezier::detail {
 
@@ -165,10 +166,7 @@ private:
     if (options_.tolerances.empty() && !pixels) {
       return Status::ok;
     }
-    std::size_t given = 0;
-    for (const ControlNets<S>& nets : given_) {
-      given += nets.count;
-    }
+    const std::size_t given = patches_of(given_);
     if (!options_.tolerances.empty() && options_.tolerances.size() != given) {
       return Status::bad_rates;
     }

@@ -54,7 +54,7 @@ private:
   }
   [[nodiscard]] double zone_bound(QuarterSet quarters, const CellCounts& cells, bool falling) const;
   [[nodiscard]] double corner_bound(std::size_t corner, const CellCounts& cells) const;
-  /// The same by Filip's bound alone, which is coarser and has a formula for the counts.
+  /// choose() by Filip's bound alone, which is coarser and has a formula for the counts.
   [[nodiscard]] CellCounts filip(double t, std::uint32_t most) const;
   /// A bound in the patch's own scale as one in space, rounded up.
   [[nodiscard]] double in_space(double bound) const;

@@ -141,7 +141,7 @@ private:
     void cell(const CellCorners& c, bool falling) {
       put_halves(c, falling, [&](auto... vertices) { triangle(vertices...); });
     }
-    void cells(const CellCorners& first, const CellSteps& steps, std::uint32_t count,
+    void cells(const CellCorners& first, const VertexSteps& steps, std::uint32_t count,
                bool falling) {
       put_cells(first, steps, count, falling, *this);
     }

@@ -74,17 +74,12 @@ Status pixel_tolerances(std::span<const ControlNets<S>> sets, const Camera& came
   if (!view.is_sound() || !detail::is_positive(pixels)) {
     return Status::bad_tolerance;
   }
-  std::size_t patches = 0;
   for (const ControlNets<S>& nets : sets) {
-    if (const Status status = detail::check_input(nets); !status) {
+    if (const Status status = detail::check_in_space(nets); !status) {
       return status;
     }
-    if (nets.components != 3) {
-      return Status::bad_components;
-    }
-    patches += nets.count;
   }
-  if (out.size() < patches) {
+  if (out.size() < detail::patches_of(sets)) {
     return Status::output_too_small;
   }
   std::size_t first = 0;

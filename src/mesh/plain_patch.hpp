@@ -43,13 +43,9 @@ private:
     });
     return to;
   }
-  /// The first or the last row.
   Index* border_row(std::uint32_t j, std::uint64_t falling, Index* to) const {
-    const CellSteps steps{j == 0 ? v0_.step : 1, j == 0 ? 1 : v1_.step};
     for_like_cells(falling, 0, nu_, [&](std::uint32_t i, std::uint32_t n, bool falls) {
-      const std::uint32_t below = j == 0 ? v0_.at(i) : inner(i, j);
-      const std::uint32_t above = j == 0 ? inner(i, 1) : v1_.at(i);
-      to = CellRun<Index>(below, above, steps, falls, kTurned).write(0, n, to);
+      to = border_cells<Index, kTurned>(i, j, falls).write(0, n, to);
     });
     return to;
   }

@@ -42,7 +42,8 @@ public:
     put_halves(c, falling, [&](auto... vertices) { put(vertices...); });
     to_ = stream_.make_room(to_);
   }
-  void cells(const CellCorners& first, const CellSteps& steps, std::uint32_t count, bool falling) {
+  void cells(const CellCorners& first, const VertexSteps& steps, std::uint32_t count,
+             bool falling) {
     constexpr std::uint32_t kMost = IndexStream<Index>::kMostNumbers / 6;
     CellCorners c = first;
     while (count > 0) {
@@ -89,7 +90,8 @@ public:
     indices_.put(first, turned_ ? fourth : second, third, turned_ ? second : fourth);
     sizes_.put(4);
   }
-  void cells(const CellCorners& first, const CellSteps& steps, std::uint32_t count, bool falling) {
+  void cells(const CellCorners& first, const VertexSteps& steps, std::uint32_t count,
+             bool falling) {
     put_cells(first, steps, count, falling, *this);
   }
   [[nodiscard]] std::size_t indices() const { return indices_.count(); }
@@ -133,7 +135,8 @@ public:
     last_[0] = c.at[1];
     last_[1] = c.at[3];
   }
-  void cells(const CellCorners& first, const CellSteps& steps, std::uint32_t count, bool falling) {
+  void cells(const CellCorners& first, const VertexSteps& steps, std::uint32_t count,
+             bool falling) {
     put_cells(first, steps, count, falling, *this);
   }
   void end_strip() {

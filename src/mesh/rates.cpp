@@ -17,12 +17,8 @@ RateReport check(std::span<const ControlNets<S>> sets, const Topology& topology,
                  std::span<const double> errors, const CertifiedRates& out) noexcept {
   std::size_t patches = 0;
   for (const ControlNets<S>& nets : sets) {
-    const Status status = check_input(nets);
-    if (status != Status::ok) {
+    if (const Status status = check_in_space(nets); !status) {
       return {status, patches};
-    }
-    if (nets.components != 3) {
-      return {Status::bad_components, patches};
     }
     patches += nets.count;
   }

@@ -79,7 +79,9 @@ private:
     Writer out(to);
     const std::uint64_t row = zones_.falling_row(j);
     if (side.segments == nu_) {
-      plain_cells(j, row, side, out);
+      for_like_cells(row, 1, nu_ - 1, [&](std::uint32_t i, std::uint32_t n, bool falling) {
+        out.cells(border_cells<Index, kTurned>(i, j, falling), 0, n);
+      });
     } else {
       for (std::uint32_t i = 1; i + 1 < nu_; ++i) {
         const bool falling = (row >> i & 1) != 0;
@@ -87,15 +89,6 @@ private:
       }
     }
     return corner_cell(nu_ - 1, j, out.end());
-  }
-  /// Cells at a side without further vertices.
-  void plain_cells(std::uint32_t j, std::uint64_t row, const LinearSide& side, Writer& out) const {
-    const CellSteps steps{j == 0 ? side.step : 1, j == 0 ? 1 : side.step};
-    for_like_cells(row, 1, nu_ - 1, [&](std::uint32_t i, std::uint32_t n, bool falling) {
-      const std::uint32_t below = j == 0 ? side.at(i) : inner(i, j);
-      const std::uint32_t above = j == 0 ? inner(i, 1) : side.at(i);
-      out.cells(CellRun<Index>(below, above, steps, falling, kTurned), 0, n);
-    });
   }
   void cell_at_v0(std::uint32_t i, bool falling, Writer& out) const {
     const std::uint32_t place = v0_.places[i];

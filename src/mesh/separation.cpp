@@ -124,7 +124,7 @@ private:
 
   /// Whether two neighbouring sides are one edge, folded at their corner: the cell there has one
   /// vertex at two of its corners, however many cells there are.
-  [[nodiscard]] bool is_folded(std::size_t patch) const {
+  [[nodiscard]] bool has_equal_sides(std::size_t patch) const {
     const Side* const sides = &data_.sides[kPatchEdges * patch];
     for (std::size_t k = 0; k < kPatchCorners; ++k) {
       const std::size_t in_u = k / 2;
@@ -161,7 +161,7 @@ private:
                       [this](std::span<OnlyTriangle> same) { add_coinciding(same); });
     std::sort(doubtful_.begin(), doubtful_.end());
     doubtful_.erase(std::unique(doubtful_.begin(), doubtful_.end()), doubtful_.end());
-    std::erase_if(doubtful_, [&](std::uint32_t patch) { return is_folded(patch); });
+    std::erase_if(doubtful_, [&](std::uint32_t patch) { return has_equal_sides(patch); });
     for (const std::uint32_t patch : doubtful_) {
       raise(patch, true, nu_[patch] + 1);
       raise(patch, false, nv_[patch] + 1);

@@ -2,12 +2,11 @@
 #include <simdbezier/mesh.hpp>
 
 #include <limits>
-#include <new>
-#include <stdexcept>
 
 #include <simdbezier/mesh_primitives.hpp>
 
 #include "src/mesh/mesh_planner.hpp"
+#include "src/runtime/attempt.hpp"
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
@@ -74,46 +73,23 @@ Status fill_mesh(const MeshPlan<T>& plan, const MeshOptions& options, std::size_
   return write_faces(plan, options, mesh);
 }
 
-/// Runs a step that may throw; an empty result with the status where it does not succeed.
-template <typename Result, typename Step>
-Result attempt(const Step& step) noexcept {
-  Result result;
-  try {
-    result.status = step(result);
-  } catch (const std::bad_alloc&) {
-    result.status = Status::out_of_memory;
-  } catch (const std::length_error&) {
-    result.status = Status::size_overflow;
-  }
-  if (result) {
-    return result;
-  }
-  Result none;
-  none.status = result.status;
-  none.fault_patch = result.fault_patch;
-  return none;
-}
-
 } // namespace
 } // namespace detail
 
 template <typename T, typename S>
 MeshPlan<T> plan_mesh(std::span<const ControlNets<S>> nets, const MeshOptions& options) noexcept {
   const detail::DefaultFpEnvironment environment;
-  return detail::attempt<MeshPlan<T>>(
-      [&](MeshPlan<T>& plan) { return detail::MeshPlanner<T, S>(nets, options, plan).run(); });
+  return detail::attempt(&MeshPlan<T>::fault_patch, [&](MeshPlan<T>& plan) {
+    return detail::MeshPlanner<T, S>(nets, options, plan).run();
+  });
 }
 
 template <typename T, typename S>
 Mesh<T> tessellate(std::span<const ControlNets<S>> nets, const MeshOptions& options) noexcept {
-  return detail::attempt<Mesh<T>>([&](Mesh<T>& mesh) {
+  return detail::attempt(&Mesh<T>::fault_patch, [&](Mesh<T>& mesh) {
     const MeshPlan<T> plan = plan_mesh<T>(nets, options);
     mesh.fault_patch = plan.fault_patch;
-    std::size_t given = 0;
-    for (const ControlNets<S>& view : nets) {
-      given += view.count;
-    }
-    return plan ? detail::fill_mesh(plan, options, given, mesh) : plan.status;
+    return plan ? detail::fill_mesh(plan, options, detail::patches_of(nets), mesh) : plan.status;
   });
 }
 

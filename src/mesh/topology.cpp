@@ -13,6 +13,7 @@
 #include "src/mesh/orientation.hpp"
 #include "src/mesh/snapping.hpp"
 #include "src/mesh/topology_data.hpp"
+#include "src/nets/net_call.hpp"
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
@@ -139,10 +140,7 @@ bool has_rounded_points(const NetCorners<S>& nets, const TopologyData& topology)
 template <typename S>
 Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& options,
              TopologyData& topology) {
-  std::size_t patches = 0;
-  for (const ControlNets<S>& nets : sets) {
-    patches += nets.count;
-  }
+  const std::size_t patches = patches_of(sets);
   std::vector<EdgeLink> links(kPatchEdges * patches);
   Options run;
   run.threads = options.threads;

@@ -17,6 +17,17 @@ protected:
     return inner_ + (j - 1) * (nu_ - 1) + i - 1;
   }
 
+  /// The row's cells from i on, in the first row (j = 0) or the last one, of which the points on
+  /// the side follow each other.
+  template <typename Index, bool kTurned>
+  [[nodiscard]] CellRun<Index> border_cells(std::uint32_t i, std::uint32_t j, bool falling) const {
+    const LinearSide& side = j == 0 ? v0_ : v1_;
+    const VertexSteps steps{j == 0 ? side.step : 1, j == 0 ? 1 : side.step};
+    const std::uint32_t below = j == 0 ? side.at(i) : inner(i, j);
+    const std::uint32_t above = j == 0 ? inner(i, 1) : side.at(i);
+    return {below, above, steps, falling, kTurned};
+  }
+
   const LinearSide& v0_;
   const LinearSide& v1_;
   const LinearSide& u0_;

@@ -235,8 +235,7 @@ Status check_sets(std::span<const ControlNets<S>> sets, const Values<EdgeLink>& 
   std::size_t patches = 0;
   constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / 512;
   for (const ControlNets<S>& nets : sets) {
-    const Status status = check_input(nets);
-    if (status != Status::ok) {
+    if (const Status status = check_input(nets); !status) {
       return status;
     }
     if (nets.count > kMost - patches) {

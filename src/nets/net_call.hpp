@@ -29,6 +29,23 @@ constexpr NetReport argument_fault(Status status) noexcept { return {status, 0, 
 template <typename S>
 Status check_input(const ControlNets<S>& nets) noexcept;
 
+/// check_input() of nets in space: also bad_components where points have not three components.
+template <typename S>
+Status check_in_space(const ControlNets<S>& nets) noexcept {
+  const Status status = check_input(nets);
+  return status == Status::ok && nets.components != 3 ? Status::bad_components : status;
+}
+
+/// The patches of all views.
+template <typename S>
+std::size_t patches_of(std::span<const ControlNets<S>> sets) noexcept {
+  std::size_t patches = 0;
+  for (const ControlNets<S>& nets : sets) {
+    patches += nets.count;
+  }
+  return patches;
+}
+
 /// Whether a view can be written: ok | null_output | bad_stride | size_overflow | output_too_small,
 /// as well as bad_patch_range, bad_degree and bad_components where the view is not what the
 /// operation writes.

@@ -69,7 +69,7 @@ struct Resolution {
   Isa isa;
 };
 
-/// Also for an empty SIMDBEZIER_ISA.
+/// What the environment asks for; the best one where it asks for nothing, or for an empty name.
 Resolution resolve_automatic() noexcept {
   const char* const wish = std::getenv("SIMDBEZIER_ISA");
   const std::optional<Isa> isa =
@@ -129,22 +129,26 @@ Status resolve_isa(Isa requested, Isa& chosen) noexcept {
 
 namespace detail {
 
-template <>
-const KernelTable<float>& kernel_table<float>(Isa isa) noexcept {
+namespace {
+
+const Tables& tables_of(Isa isa) noexcept {
   const Tables* found = kTables;
   for (const Tables& tables : kTables) {
     found = tables.f32->isa == isa ? &tables : found;
   }
-  return *found->f32;
+  return *found;
+}
+
+} // namespace
+
+template <>
+const KernelTable<float>& kernel_table<float>(Isa isa) noexcept {
+  return *tables_of(isa).f32;
 }
 
 template <>
 const KernelTable<double>& kernel_table<double>(Isa isa) noexcept {
-  const Tables* found = kTables;
-  for (const Tables& tables : kTables) {
-    found = tables.f64->isa == isa ? &tables : found;
-  }
-  return *found->f64;
+  return *tables_of(isa).f64;
 }
 
 } // namespace detail

@@ -28,9 +28,6 @@ TYPED_TEST(CCurves, OfCurves) {
   ASSERT_TRUE(pack(ControlCurves<T>::packed(values), set));
   const CCurveSet c_set =
       c_pack<T>(simdbezier_packed_curves_of(values.data(), values.size(), 3, 3, 0, kCScalar<T>));
-  EXPECT_EQ(simdbezier_curve_set_size(c_set.get()), 7U);
-  EXPECT_EQ(simdbezier_curve_set_degree(c_set.get()), 3);
-  EXPECT_EQ(simdbezier_curve_set_rational(c_set.get()), 0);
 
   std::vector<std::vector<T>> expected(4, std::vector<T>(3 * 7 * 6));
   std::vector<std::vector<T>> got = expected;
@@ -76,7 +73,21 @@ TYPED_TEST(CCurves, OfCurves) {
   samples.scalar = kCScalar<T>;
   expect_same(evaluate(set, CurveSamples<T>{n, t}, out),
               simdbezier_evaluate_curve_samples(c_set.get(), &samples, &c_out, nullptr));
+}
 
+TYPED_TEST(CCurves, AreWhatTheyWerePackedFrom) {
+  using T = TypeParam;
+  const std::vector<T> values = random_values<T>(5 * 3 * 4, 5);
+  CurveSet<T> set;
+  ASSERT_TRUE(pack(ControlCurves<T>::packed(values, 2, 3, Weights::cartesian), set));
+  const CCurveSet c_set =
+      c_pack<T>(simdbezier_packed_curves_of(values.data(), values.size(), 2, 3, 1, kCScalar<T>));
+  EXPECT_EQ(simdbezier_curve_set_size(c_set.get()), 5U);
+  EXPECT_EQ(simdbezier_curve_set_scalar(c_set.get()), kCScalar<T>);
+  EXPECT_EQ(simdbezier_curve_set_degree(c_set.get()), 2);
+  EXPECT_EQ(simdbezier_curve_set_components(c_set.get()), 3);
+  EXPECT_EQ(simdbezier_curve_set_rational(c_set.get()), 1);
+  EXPECT_EQ(simdbezier_curve_set_has_local_origins(c_set.get()), 0);
   const CurveErrorBounds bounds = error_bounds(set, 1);
   auto c_bounds = sized<simdbezier_error_bounds_of_curve>();
   EXPECT_C_OK(simdbezier_curve_error_bounds(c_set.get(), 1, 0, &c_bounds));
@@ -85,29 +96,34 @@ TYPED_TEST(CCurves, OfCurves) {
 
 TYPED_TEST(CCurves, OfIsoCurves) {
   using T = TypeParam;
-  CurveSet<T> curves;
-  ASSERT_TRUE(iso_u(this->set_, 0.3, curves));
-  simdbezier_curve_set* made = nullptr;
-  EXPECT_C_OK(simdbezier_iso_u(this->c_set_.get(), 0.3, nullptr, &made));
-  const CCurveSet c_curves(made);
-  std::vector<T> expected(3 * 5 * 9);
-  std::vector<T> got(expected.size());
-  CurveOutputs<T> out;
-  out.position = Vectors<T>::xyz(expected);
-  ASSERT_TRUE(evaluate(curves, CurveGrid<T>::uniform(9), out));
-  auto c_out = sized<simdbezier_curve_outputs>();
-  c_out.position = c_triples(got);
-  const simdbezier_curve_grid grid = simdbezier_uniform_curve_grid(9);
-  EXPECT_C_OK(simdbezier_evaluate_curve_grid(c_curves.get(), &grid, &c_out, nullptr));
-  expect_same_bits(got, expected, "iso-curves");
-
   const auto nets = ControlNets<T>::packed(this->values_, 4, 2, 3, Weights::cartesian);
-  std::vector<double> points(5 * 5 * 4);
-  std::vector<double> c_points(points.size());
-  ASSERT_TRUE(iso_v(nets, 0.6, Values<double>(points)));
   const simdbezier_nets c_view = c_nets(this->values_, 4, 2, SIMDBEZIER_CARTESIAN);
-  EXPECT_C_OK(simdbezier_iso_v_points(&c_view, 0.6, c_points.data(), c_points.size(), nullptr));
-  expect_same_bits(c_points, points, "points of iso-curves");
+  for (const bool in_u : {false, true}) {
+    CurveSet<T> curves;
+    ASSERT_TRUE(in_u ? iso_u(this->set_, 0.3, curves) : iso_v(this->set_, 0.3, curves));
+    simdbezier_curve_set* made = nullptr;
+    EXPECT_C_OK(
+        (in_u ? simdbezier_iso_u : simdbezier_iso_v)(this->c_set_.get(), 0.3, nullptr, &made));
+    const CCurveSet c_curves(made);
+    std::vector<T> expected(3 * 5 * 9);
+    std::vector<T> got(expected.size());
+    CurveOutputs<T> out;
+    out.position = Vectors<T>::xyz(expected);
+    ASSERT_TRUE(evaluate(curves, CurveGrid<T>::uniform(9), out));
+    auto c_out = sized<simdbezier_curve_outputs>();
+    c_out.position = c_triples(got);
+    const simdbezier_curve_grid grid = simdbezier_uniform_curve_grid(9);
+    EXPECT_C_OK(simdbezier_evaluate_curve_grid(c_curves.get(), &grid, &c_out, nullptr));
+    expect_same_bits(got, expected, in_u ? "iso_u()" : "iso_v()");
+
+    std::vector<double> points(5 * (in_u ? 3 : 5) * 4);
+    std::vector<double> c_points(points.size());
+    const Values<double> to(points);
+    ASSERT_TRUE(in_u ? iso_u(nets, 0.6, to) : iso_v(nets, 0.6, to));
+    EXPECT_C_OK((in_u ? simdbezier_iso_u_points : simdbezier_iso_v_points)(
+        &c_view, 0.6, c_points.data(), c_points.size(), nullptr));
+    expect_same_bits(c_points, points, "points of iso-curves");
+  }
 
   auto edge = sized<simdbezier_control_curves>();
   EXPECT_C_OK(simdbezier_boundary_curves(&c_view, SIMDBEZIER_EDGE_U1, &edge));

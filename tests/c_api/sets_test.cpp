@@ -32,6 +32,10 @@ TYPED_TEST(CSets, HavePositionErrorsOfEveryInstructionSet) {
     expect_same_bits(errors, expected, "errors of patches");
     different.insert(errors);
     classes.insert(fuses_multiply_add(isa));
+    EXPECT_EQ(simdbezier_fuses_multiply_add(c_isa) != 0, fuses_multiply_add(isa));
+    simdbezier_isa chosen = SIMDBEZIER_ISA_AUTOMATIC;
+    EXPECT_C_OK(simdbezier_resolve_isa(c_isa, &chosen));
+    EXPECT_EQ(chosen, c_isa);
     expected.resize(24);
     errors.resize(24);
     ASSERT_TRUE(position_errors(curves, std::span<double>(expected), isa));

@@ -253,11 +253,10 @@ TEST(Rates, turned_patches_have_turned_rates) {
       return choice;
     };
     const Choice original = choose(patch);
-    const Choice reversed = choose(turned(patch, false, true));
-    const Choice transposed = choose(turned(patch, true, false));
-    const double cells = 1.0 * original.nu[0] * original.nv[0];
-    EXPECT_EQ(cells, 1.0 * reversed.nu[0] * reversed.nv[0]);
-    EXPECT_EQ(cells, 1.0 * transposed.nu[0] * transposed.nv[0]);
+    for (const bool transpose : {false, true}) {
+      const Choice other = choose(turned(patch, transpose, !transpose));
+      EXPECT_EQ(original.nu[0] * original.nv[0], other.nu[0] * other.nv[0]) << transpose;
+    }
   }
 }
 
@@ -293,10 +292,8 @@ TEST(Rates, bad_input_is_a_status) {
   TestPatch broken = patch;
   broken.values[7] = nan;
   const ControlNets<double> bad = broken.nets();
-  EXPECT_EQ(
-      choose_rates(std::span<const ControlNets<double>>(&bad, 1), topology, options, choice.out())
-          .status,
-      Status::non_finite_input);
+  const std::span<const ControlNets<double>> of_bad(&bad, 1);
+  EXPECT_EQ(choose_rates(of_bad, topology, options, choice.out()).status, Status::non_finite_input);
 }
 
 } // namespace

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tools/edge_counts.hpp>
 #include <tools/teapot.hpp>
-#include <tools/topology.hpp>
 
 #include "tests/nets/net_batches.hpp"
 #include "tests/support/nets/data_files.hpp"

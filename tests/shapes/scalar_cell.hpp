@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "src/storage/patch_storage.hpp"
-#include "tests/support/even_odd.hpp"
+#include "tests/support/even_odd_model.hpp"
 
 namespace simdbezier::tests {
 

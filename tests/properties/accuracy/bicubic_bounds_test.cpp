@@ -14,7 +14,7 @@
 
 #include "tests/properties/accuracy/judge/bicubic_bounds.hpp"
 #include "tests/properties/accuracy/judge/tracked.hpp"
-#include "tests/support/even_odd.hpp"
+#include "tests/support/even_odd_model.hpp"
 
 namespace simdbezier::tests::bicubic_bounds_test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "src/certificate/direction_roundings.hpp"
 #include "tests/properties/accuracy/judge/tracked.hpp"
-#include "tests/support/even_odd.hpp"
+#include "tests/support/even_odd_model.hpp"
 
 namespace simdbezier::tests::roundings_test {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "tests/properties/accuracy/judge/shape_bounds.hpp"
 #include "tests/properties/accuracy/judge/tracked.hpp"
-#include "tests/support/even_odd.hpp"
+#include "tests/support/even_odd_model.hpp"
 
 namespace simdbezier::tests {
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <type_traits>
 
-#include "tests/support/even_odd.hpp"
+#include "tests/support/even_odd_model.hpp"
 #include "tests/support/nets/net.hpp"
 #include "tests/support/oracle/oracle_arithmetic.hpp"
 

@@ -21,7 +21,7 @@
 #include <cstddef>
 
 #include "tests/properties/accuracy/judge/bicubic_bounds.hpp"
-#include "tests/support/even_odd.hpp"
+#include "tests/support/even_odd_model.hpp"
 
 namespace simdbezier::tests {
 

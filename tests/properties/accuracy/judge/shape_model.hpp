@@ -14,7 +14,7 @@
 #include "tests/properties/accuracy/judge/evaluator.hpp"
 #include "tests/properties/accuracy/judge/model.hpp"
 #include "tests/properties/accuracy/judge/shape_bounds.hpp"
-#include "tests/support/even_odd.hpp"
+#include "tests/support/even_odd_model.hpp"
 #include "tests/support/oracle/oracle.hpp"
 
 namespace simdbezier::tests {

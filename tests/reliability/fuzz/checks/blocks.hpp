@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "tests/reliability/fuzz/inputs/byte_source.hpp"
+#include "tests/reliability/fuzz/inputs/fuzz_bytes.hpp"
 
 namespace simdbezier::fuzz {
 

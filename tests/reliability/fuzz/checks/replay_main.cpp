@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tests/reliability/fuzz/inputs/byte_source.hpp"
+#include "tests/reliability/fuzz/inputs/fuzz_bytes.hpp"
 #include "tests/reliability/fuzz/inputs/mutator.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "tests/reliability/fuzz/inputs/byte_source.hpp"
+#include "tests/reliability/fuzz/inputs/fuzz_bytes.hpp"
 
 namespace simdbezier::fuzz {
 

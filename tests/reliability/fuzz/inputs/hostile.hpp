@@ -8,7 +8,7 @@
 
 #include <simdbezier/simdbezier.hpp>
 
-#include "tests/reliability/fuzz/inputs/byte_source.hpp"
+#include "tests/reliability/fuzz/inputs/fuzz_bytes.hpp"
 
 namespace simdbezier::fuzz {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/reliability/fuzz/inputs/byte_source.hpp"
+#include "tests/reliability/fuzz/inputs/fuzz_bytes.hpp"
 
 namespace simdbezier::fuzz {
 

@@ -1,4 +1,4 @@
-#include "tests/program/mesh_files/welded_mesh.hpp"
+#include "tests/program/mesh_files/read_meshes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // See arguments.hpp.
-#include "python/src/arguments.hpp"
+#include "python/src/call_arguments.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include <tools/topology.hpp>
+#include <tools/edge_counts.hpp>
 
 #include <span>
 #include <vector>

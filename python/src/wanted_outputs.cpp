@@ -1,5 +1,5 @@
 // See outputs.hpp.
-#include "python/src/outputs.hpp"
+#include "python/src/wanted_outputs.hpp"
 
 #include <cstdint>
 #include <cstdlib>
