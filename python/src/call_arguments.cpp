@@ -1,4 +1,4 @@
-// See arguments.hpp.
+// See call_arguments.hpp.
 #include "python/src/call_arguments.hpp"
 
 #include <cmath>

@@ -169,8 +169,8 @@ PyMesh tessellate_points(const py::object& points, const py::object& tolerance,
     throw_type_error("tolerance", "how fine the mesh is has to be said by tolerance, relative or "
                                   "grid");
   }
-  const bool fine = tolerance.is_none() && relative.is_none() && longest_edge.is_none();
-  if (!grid.is_none() && !fine) {
+  const bool measured = !tolerance.is_none() || !relative.is_none() || !longest_edge.is_none();
+  if (!grid.is_none() && measured) {
     throw_value_error("grid", "expected without tolerance, relative and longest_edge");
   }
   const bool is_float = wants_float(dtype, any.index() == 0);

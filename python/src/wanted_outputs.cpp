@@ -1,4 +1,4 @@
-// See outputs.hpp.
+// See wanted_outputs.hpp.
 #include "python/src/wanted_outputs.hpp"
 
 #include <cstdint>

@@ -139,7 +139,7 @@ public:
     const std::uint32_t end = i < middle ? middle : nu_ % 2 != 0 && i == middle ? middle + 1 : nu_;
     return std::min(end, nu_ - 1);
   }
-  /// Bit i: whether inner cell i of a row is falling; for up to 64 cells a row.
+  /// Bit i: whether cell i of a row is falling; for up to 64 cells a row.
   [[nodiscard]] std::uint64_t falling_row(std::uint32_t j) const {
     const std::uint32_t zones = static_cast<std::uint32_t>(diagonals_) >> 3 * zone(j, nv_);
     const std::uint32_t middle = nu_ / 2;
@@ -148,7 +148,13 @@ public:
     const auto cells = [&](Zone where, std::uint64_t mask) {
       return (zones >> static_cast<std::uint32_t>(where) & 1) != 0 ? mask : 0;
     };
-    return cells(Zone::low, low) | cells(Zone::middle, centre) | cells(Zone::high, ~(low | centre));
+    const std::uint64_t row =
+        cells(Zone::low, low) | cells(Zone::middle, centre) | cells(Zone::high, ~(low | centre));
+    if (!has_forced_diagonal(flags_) || (j > 0 && j + 1 < nv_)) {
+      return row;
+    }
+    const std::uint64_t last = std::uint64_t{1} << (nu_ - 1);
+    return (row & ~(1 | last)) | (falling(0, j) ? 1 : 0) | (falling(nu_ - 1, j) ? last : 0);
   }
 
 private:

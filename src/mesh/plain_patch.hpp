@@ -21,7 +21,7 @@ public:
   __attribute__((noinline, flatten)) Index* write(IndexStream<Index>& stream, Index* to) const {
     for (std::uint32_t j = 0; j < nv_; ++j) {
       const bool border = j == 0 || j + 1 == nv_;
-      const std::uint64_t falling = border ? falling_at_border(j) : zones_.falling_row(j);
+      const std::uint64_t falling = zones_.falling_row(j);
       Index* const row = to;
       to = border ? border_row(j, falling, to) : inner_row(j, falling, to);
       put_sides(j, falling, row, to);
@@ -31,12 +31,6 @@ public:
   }
 
 private:
-  /// zones_.falling_row() is of inner cells: corners may have diagonals of their own.
-  [[nodiscard]] std::uint64_t falling_at_border(std::uint32_t j) const {
-    const std::uint64_t last = std::uint64_t{1} << (nu_ - 1);
-    const std::uint64_t inner = zones_.falling_row(j) & ~(1 | last);
-    return inner | (zones_.falling(0, j) ? 1 : 0) | (zones_.falling(nu_ - 1, j) ? last : 0);
-  }
   Index* inner_row(std::uint32_t j, std::uint64_t falling, Index* to) const {
     for_like_cells(falling, 0, nu_, [&](std::uint32_t i, std::uint32_t n, bool falls) {
       to = inner_cells_.run(falls).write(inner(i, j), n, to);

@@ -76,9 +76,8 @@ constexpr bool has_forced_diagonal(std::uint8_t flags) noexcept {
 enum ApartFlag : std::uint8_t { kApartCorner = 1, kApartSide = 16 };
 
 struct TopologyData {
-  std::vector<Side> sides; ///< [4 * patch + PatchEdge]
-  std::vector<std::uint32_t>
-      first; ///< where each edge begins in `members`, and where the last one ends
+  std::vector<Side> sides;          ///< [4 * patch + PatchEdge]
+  std::vector<std::uint32_t> first; ///< of each edge in `members`, and the end of the last one
   std::vector<std::uint32_t>
       members; ///< 4 * patch + PatchEdge of the sides of all edges, ascending
   std::vector<std::uint32_t> corners; ///< [4 * patch + corner]: the lowest number of those joined

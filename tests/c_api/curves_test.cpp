@@ -77,21 +77,25 @@ TYPED_TEST(CCurves, OfCurves) {
 
 TYPED_TEST(CCurves, AreWhatTheyWerePackedFrom) {
   using T = TypeParam;
-  const std::vector<T> values = random_values<T>(5 * 3 * 4, 5);
-  CurveSet<T> set;
-  ASSERT_TRUE(pack(ControlCurves<T>::packed(values, 2, 3, Weights::cartesian), set));
-  const CCurveSet c_set =
-      c_pack<T>(simdbezier_packed_curves_of(values.data(), values.size(), 2, 3, 1, kCScalar<T>));
-  EXPECT_EQ(simdbezier_curve_set_size(c_set.get()), 5U);
-  EXPECT_EQ(simdbezier_curve_set_scalar(c_set.get()), kCScalar<T>);
-  EXPECT_EQ(simdbezier_curve_set_degree(c_set.get()), 2);
-  EXPECT_EQ(simdbezier_curve_set_components(c_set.get()), 3);
-  EXPECT_EQ(simdbezier_curve_set_rational(c_set.get()), 1);
-  EXPECT_EQ(simdbezier_curve_set_has_local_origins(c_set.get()), 0);
-  const CurveErrorBounds bounds = error_bounds(set, 1);
-  auto c_bounds = sized<simdbezier_error_bounds_of_curve>();
-  EXPECT_C_OK(simdbezier_curve_error_bounds(c_set.get(), 1, 0, &c_bounds));
-  EXPECT_EQ(std::memcmp(c_bounds.d2, bounds.d2, sizeof bounds.d2), 0);
+  for (const int rational : {0, 1}) { // 7 cubics, or 7 rational parabolas
+    const int degree = 3 - rational;
+    const Weights weights = rational != 0 ? Weights::cartesian : Weights::none;
+    const std::vector<T> values = random_values<T>(7 * 3 * 4, 5);
+    CurveSet<T> set;
+    ASSERT_TRUE(pack(ControlCurves<T>::packed(values, degree, 3, weights), set));
+    const CCurveSet c_set = c_pack<T>(simdbezier_packed_curves_of(
+        values.data(), values.size(), degree, 3, rational, kCScalar<T>));
+    EXPECT_EQ(simdbezier_curve_set_size(c_set.get()), 7U);
+    EXPECT_EQ(simdbezier_curve_set_scalar(c_set.get()), kCScalar<T>);
+    EXPECT_EQ(simdbezier_curve_set_degree(c_set.get()), degree);
+    EXPECT_EQ(simdbezier_curve_set_components(c_set.get()), 3);
+    EXPECT_EQ(simdbezier_curve_set_rational(c_set.get()), rational);
+    EXPECT_EQ(simdbezier_curve_set_has_local_origins(c_set.get()), 0);
+    const CurveErrorBounds bounds = error_bounds(set, 1);
+    auto c_bounds = sized<simdbezier_error_bounds_of_curve>();
+    EXPECT_C_OK(simdbezier_curve_error_bounds(c_set.get(), 1, 0, &c_bounds));
+    EXPECT_EQ(std::memcmp(c_bounds.d2, bounds.d2, sizeof bounds.d2), 0);
+  }
 }
 
 TYPED_TEST(CCurves, OfIsoCurves) {
