@@ -150,14 +150,16 @@ public:
     };
     const std::uint64_t row =
         cells(Zone::low, low) | cells(Zone::middle, centre) | cells(Zone::high, ~(low | centre));
-    if (!has_forced_diagonal(flags_) || (j > 0 && j + 1 < nv_)) {
-      return row;
-    }
-    const std::uint64_t last = std::uint64_t{1} << (nu_ - 1);
-    return (row & ~(1 | last)) | (falling(0, j) ? 1 : 0) | (falling(nu_ - 1, j) ? last : 0);
+    return has_forced_diagonal(flags_) ? with_corners(row, j) : row;
   }
 
 private:
+  /// A row in which the first and the last cell may be corners. A function of its own, because it
+  /// is rare.
+  __attribute__((noinline)) std::uint64_t with_corners(std::uint64_t row, std::uint32_t j) const {
+    const std::uint64_t last = std::uint64_t{1} << (nu_ - 1);
+    return (row & ~(1 | last)) | (falling(0, j) ? 1 : 0) | (falling(nu_ - 1, j) ? last : 0);
+  }
   /// The zone of cell i of n.
   static std::uint32_t zone(std::uint32_t i, std::uint32_t n) {
     const Zone where = n % 2 != 0 && i == n / 2 ? Zone::middle
