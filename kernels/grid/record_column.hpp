@@ -26,10 +26,12 @@ struct RecordColumn {
       store_triples(value + 3 * g, triple[g] + 3 * at, false);
     });
   }
-  /// Copies what stands at `row` in here to behind the register at `places`: the row's last sample.
-  SIMDBEZIER_PART void move_to(const RecordPlaces<kOutputs, T>& places, std::size_t row) const {
+  /// Copies what stands at `row` in here to behind the register `at` values further on than
+  /// `places`: the row's last sample.
+  SIMDBEZIER_PART void move_to(const RecordPlaces<kOutputs, T>& places, std::size_t at,
+                               std::size_t row) const {
     Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
-      __builtin_memcpy(places.to[g] + kLanes<V> * places.record, triple[g] + 3 * row,
+      __builtin_memcpy(places.to[g] + at + kLanes<V> * places.record, triple[g] + 3 * row,
                        3 * sizeof(T));
     });
   }

@@ -21,6 +21,13 @@ inline constexpr bool kPutsRecords = !kIsScalar<V> && kNonuples;
 /// Rows whose normals wait for their length.
 constexpr std::size_t kWaitingRows = 20;
 
+/// Where rows that are mirror images of each other are computed together, and how many rows there
+/// have to be between the edges: positions alone, since six or nine values of two rows have too few
+/// registers. Longer registers stay with single rows until pairs have been measured there.
+template <detail::OutputSet kOutputs, typename V>
+inline constexpr bool kPairsRecords = kOutputs == detail::kPosition && !kLineWide<V>;
+constexpr std::size_t kLeastPaired = 6;
+
 /// The rows of a register of columns of one patch, and behind them `column` unless it is null.
 template <detail::OutputSet kOutputs, typename V>
 struct RecordRows {
@@ -94,7 +101,8 @@ struct RecordRows {
   SIMDBEZIER_PART void end_row(Cursor& next, std::size_t row) const {
     if (next.column != nullptr) {
       const std::size_t e = edge(row);
-      next.column->move_to(next.places, e < kEdges ? Column::edge(e) : Column::middle(middle(row)));
+      next.column->move_to(next.places, 0,
+                           e < kEdges ? Column::edge(e) : Column::middle(middle(row)));
     }
     next.places.next_row();
   }
@@ -104,9 +112,41 @@ struct RecordRows {
     for (std::size_t row = 0; row < rows; ++row) {
       Samples s;
       compute_next(next, row, s);
-      next.places.store(s.value);
+      next.places.store(s.value, 0);
       end_row(next, row);
     }
+  }
+
+  /// As put(); rows that are mirror images of each other are computed together.
+  SIMDBEZIER_PART void put_pairs(const RecordPlaces<kOutputs, T>& places,
+                                 const Column* column) const {
+    const auto store = [&](Samples& s, RowPlace place, std::size_t in_column)
+                           SIMDBEZIER_INLINE_LAMBDA {
+                             s.assign();
+                             places.store(s.value, place.at);
+                             if (column != nullptr) {
+                               column->move_to(places, place.at, in_column);
+                             }
+                           };
+    for_rows<RowOrder{1, true, 1}>(
+        piece, 0, places.step,
+        [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
+          Samples s;
+          sweep.edge(edge_of(kind), s);
+          store(s, place, Column::edge(edge_of(kind)));
+        },
+        [&](const T* y, RowPlace place, RowPlace mirror) SIMDBEZIER_INLINE_LAMBDA {
+          Samples s;
+          Samples mirrored;
+          sweep.pair(RowPowers<T>::template point<1, V>(y), s, mirrored);
+          store(s, place, Column::middle(middle(place.row)));
+          store(mirrored, mirror, Column::middle(middle(mirror.row)));
+        },
+        [&](const T* y, RowPlace place, std::size_t /*rows*/) SIMDBEZIER_INLINE_LAMBDA {
+          Samples s;
+          sweep.interior(RowPowers<T>::template point<1, V>(y), s);
+          store(s, place, Column::middle(middle(place.row)));
+        });
   }
 
   /// With normals, in two passes. Root and division take as long as all else, and processors do not
@@ -168,7 +208,7 @@ private:
         value[0] = load_vector<V>(wait[0]);
         value[1] = load_vector<V>(wait[1]);
         value[2] = load_vector<V>(wait[2]);
-        next.places.store(value);
+        next.places.store(value, 0);
       } else {
         store_triples(value + 3, next.places.to[1], next.places.streaming);
       }
@@ -200,7 +240,8 @@ SIMDBEZIER_KERNEL void sweep_records(const GridTask<T>& shared_task,
   const bool extra = first_column + kLanes<V> + 1 == shared_task.nu;
   GridTask<T> task = shared_task;
   assume<Known::watertight>(task);
-  const RowPiece<T> piece = shared_piece;
+  RowPiece<T> piece = shared_piece;
+  piece.mirrored = piece.mirrored && piece.middle.rows >= kLeastPaired;
   const ColumnTile<1, true, false, V> tile(task.x, first_column, kLanes<V>, task.watertight);
   const SingleColumnTile<V> column_tile(task.x, first_column + (extra ? kLanes<V> : 0), 1,
                                         task.watertight);
@@ -218,6 +259,8 @@ SIMDBEZIER_KERNEL void sweep_records(const GridTask<T>& shared_task,
     const auto start = rows.start(task, extra ? &column : nullptr);
     if constexpr (RecordGroups<kOutputs>::kNormals) {
       rows.put_normals(start);
+    } else if constexpr (kPairsRecords<kOutputs, V>) {
+      rows.put_pairs(RecordPlaces<kOutputs, T>(task, at), extra ? &column : nullptr);
     } else {
       rows.put(start);
     }

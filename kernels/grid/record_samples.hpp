@@ -38,19 +38,19 @@ struct RecordPlaces {
     });
   }
 
-  /// A register of samples: value[3 g + c] is component c of group g.
+  /// A register of samples, `at` values further on: value[3 g + c] is component c of group g.
   template <typename V>
-  SIMDBEZIER_PART void store(const V* value) const {
+  SIMDBEZIER_PART void store(const V* value, std::size_t at) const {
     if constexpr (Groups::kCount > 1) {
       if (record > 3) {
         LinePart<T> part[3 * Groups::kCount];
         __builtin_memcpy(&part, value, sizeof(part));
-        store_records(part, to[0], streaming);
+        store_records(part, to[0] + at, streaming);
         return;
       }
     }
     Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
-      store_triples(value + 3 * g, to[g], streaming);
+      store_triples(value + 3 * g, to[g] + at, streaming);
     });
   }
   SIMDBEZIER_PART void next_row() {
@@ -107,6 +107,12 @@ struct RecordSweep {
   SIMDBEZIER_PART void interior(const RowPoint<V>& at, Samples& s) const {
     for (std::size_t c = 0; c < 3; ++c) {
       s.jet[c] = columns[c].interior(at);
+    }
+  }
+  /// The same at -y as well.
+  SIMDBEZIER_PART void pair(const RowPoint<V>& at, Samples& s, Samples& mirrored) const {
+    for (std::size_t c = 0; c < 3; ++c) {
+      columns[c].pair(at, s.jet[c], mirrored.jet[c]);
     }
   }
   SIMDBEZIER_PART void edge(std::size_t edge, Samples& s) const {
