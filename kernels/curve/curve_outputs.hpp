@@ -126,20 +126,6 @@ SIMDBEZIER_INLINE std::size_t depth_of(const Task& task) {
   return task.out[detail::kCurveD1].wanted() || task.out[detail::kCurveTangent].wanted() ? 1 : 0;
 }
 
-/// The quotient rule: h and its derivatives become those of h / w. The weight's are negated.
-template <std::size_t kDepth, typename V>
-SIMDBEZIER_INLINE void divide_series(const Quotient<V>& quotient, const Series<V>& weight,
-                                     Series<V>& s) {
-  s.value = quotient.value(s.value);
-  if constexpr (kDepth > 0) {
-    s.first = quotient.first(s.first, s.value, weight.first);
-  }
-  if constexpr (kDepth > 1) {
-    s.second = quotient.second(s.second, s.value, s.first, s.first, weight.first, weight.first,
-                               weight.second);
-  }
-}
-
 /// f(slot) for three components: in a loop where their polynomials are loops as well.
 template <bool kUnrolled, typename F>
 SIMDBEZIER_INLINE void for_slots(const F& f) {

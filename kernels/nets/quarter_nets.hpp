@@ -153,30 +153,35 @@ struct SecondSquares {
   }
 };
 
-/// S_uu: second differences in u times 6, over quarters, raised in u. The others likewise. One
-/// component at a time: it stays in registers.
-template <bool kFirst, typename V>
-SIMDBEZIER_KERNEL void form_uu(RateScratch<V>& scratch, V SpaceVector<V>::*c,
-                               SecondSquares<V>& squares) {
+/// S_uu (or S_vv: kAlongV): second differences times 6, over quarters, raised in the direction that
+/// has lost two degrees. One component at a time: it stays in registers.
+template <bool kAlongV, bool kFirst, typename V>
+SIMDBEZIER_KERNEL void form_straight(RateScratch<V>& scratch, V SpaceVector<V>::*c,
+                                     SecondSquares<V>& squares) {
+  constexpr std::size_t kStep = kAlongV ? 4 : 1;
+  constexpr std::size_t kColumns = kAlongV ? 4 : 2;
   const V six = broadcast<V>(ScalarOf<V>(6));
-  V uu[8];
+  V second[8];
   for (std::size_t k = 0; k < 8; ++k) {
-    const SpaceVector<V>* const at = scratch.points + 4 * (k / 2) + k % 2;
-    uu[k] = six * ((at[2].*c - at[1].*c) - (at[1].*c - at[0].*c));
+    const SpaceVector<V>* const at = scratch.points + 4 * (k / kColumns) + k % kColumns;
+    second[k] = six * ((at[2 * kStep].*c - at[kStep].*c) - (at[kStep].*c - at[0].*c));
   }
-  squares.template add<kFirst>(uu, squares.whole_uu);
+  squares.template add<kFirst>(second, kAlongV ? squares.whole_vv : squares.whole_uu);
   V parts[21];
-  quarter_net<2, 4>(uu, parts);
-  squares.template add<kFirst>(parts, squares.uu);
-  for (std::size_t j = 0; j < 7; ++j) {
-    raise_halves<2>(parts + 3 * j, 1, [&](std::size_t i, V value) SIMDBEZIER_INLINE_LAMBDA {
-      scratch.nets.uu[7 * j + i].*c = value;
-    });
+  quarter_net<kColumns, 8 / kColumns>(second, parts);
+  squares.template add<kFirst>(parts, kAlongV ? squares.vv : squares.uu);
+  SpaceVector<V>* const net = kAlongV ? scratch.nets.vv : scratch.nets.uu;
+  for (std::size_t line = 0; line < 7; ++line) {
+    raise_halves<2>(parts + (kAlongV ? 1 : 3) * line, kAlongV ? 7 : 1,
+                    [&](std::size_t k, V value) SIMDBEZIER_INLINE_LAMBDA {
+                      net[kAlongV ? 7 * k + line : 7 * line + k].*c = value;
+                    });
   }
 }
+/// S_uv likewise, by differences in both directions times 9.
 template <bool kFirst, typename V>
-SIMDBEZIER_KERNEL void form_uv(RateScratch<V>& scratch, V SpaceVector<V>::*c,
-                               SecondSquares<V>& squares) {
+SIMDBEZIER_KERNEL void form_mixed(RateScratch<V>& scratch, V SpaceVector<V>::*c,
+                                  SecondSquares<V>& squares) {
   const V nine = broadcast<V>(ScalarOf<V>(9));
   V uv[9];
   for (std::size_t k = 0; k < 9; ++k) {
@@ -199,35 +204,15 @@ SIMDBEZIER_KERNEL void form_uv(RateScratch<V>& scratch, V SpaceVector<V>::*c,
     });
   }
 }
-template <bool kFirst, typename V>
-SIMDBEZIER_KERNEL void form_vv(RateScratch<V>& scratch, V SpaceVector<V>::*c,
-                               SecondSquares<V>& squares) {
-  const V six = broadcast<V>(ScalarOf<V>(6));
-  V vv[8];
-  for (std::size_t k = 0; k < 8; ++k) {
-    const SpaceVector<V>* const at = scratch.points + k;
-    vv[k] = six * ((at[8].*c - at[4].*c) - (at[4].*c - at[0].*c));
-  }
-  squares.template add<kFirst>(vv, squares.whole_vv);
-  V parts[21];
-  quarter_net<4, 2>(vv, parts);
-  squares.template add<kFirst>(parts, squares.vv);
-  for (std::size_t i = 0; i < 7; ++i) {
-    raise_halves<2>(parts + i, 7, [&](std::size_t j, V value) SIMDBEZIER_INLINE_LAMBDA {
-      scratch.nets.vv[7 * j + i].*c = value;
-    });
-  }
-}
-
 /// The quarters' nets, and the largest vectors of the whole patch.
 template <typename V>
 SIMDBEZIER_INLINE void form_quarters(RateScratch<V>& scratch, SecondTerms<V>& whole) {
   using S = SpaceVector<V>;
   SecondSquares<V> squares;
   const auto form = [&]<bool kFirst>(std::bool_constant<kFirst>, V S::*c) SIMDBEZIER_INLINE_LAMBDA {
-    form_uu<kFirst>(scratch, c, squares);
-    form_uv<kFirst>(scratch, c, squares);
-    form_vv<kFirst>(scratch, c, squares);
+    form_straight<false, kFirst>(scratch, c, squares);
+    form_mixed<kFirst>(scratch, c, squares);
+    form_straight<true, kFirst>(scratch, c, squares);
   };
   form(std::true_type(), &S::z);
   form(std::false_type(), &S::y);

@@ -114,7 +114,7 @@ private:
     slots_.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
       Series<V> at = edge_series(slot, edge);
       if constexpr (P::kWeighted) {
-        at = divided(quotient, at, weight);
+        divide_series<kDepth>(quotient, weight, at);
       }
       V position = at.value;
       if (has_origins()) {
@@ -169,19 +169,6 @@ private:
       w.second = negated(w.second);
     }
   }
-  static SIMDBEZIER_PART Series<V> divided(const Quotient<V>& q, const Series<V>& h,
-                                           const Series<V>& w) {
-    Series<V> s;
-    s.value = q.value(h.value);
-    if constexpr (kDepth > 0) {
-      s.first = q.first(h.first, s.value, w.first);
-    }
-    if constexpr (kDepth > 1) {
-      s.second = q.second(h.second, s.value, s.first, s.first, w.first, w.first, w.second);
-    }
-    return s;
-  }
-
   SIMDBEZIER_PART Series<V> edge_series(std::size_t slot, std::size_t edge) const {
     const std::size_t at = slots_.channel(slot) * shape_.edge_powers() * 4 + edge;
     const typename P::OrderU order(shape_.order_u());

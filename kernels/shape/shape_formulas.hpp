@@ -277,6 +277,20 @@ struct Quotient {
   }
 };
 
+/// The quotient rule: h and its derivatives become those of h / w. The weight's are negated.
+template <std::size_t kDepth, typename V>
+SIMDBEZIER_INLINE void divide_series(const Quotient<V>& quotient, const Series<V>& weight,
+                                     Series<V>& s) {
+  s.value = quotient.value(s.value);
+  if constexpr (kDepth > 0) {
+    s.first = quotient.first(s.first, s.value, weight.first);
+  }
+  if constexpr (kDepth > 1) {
+    s.second = quotient.second(s.second, s.value, s.first, s.first, weight.first, weight.first,
+                               weight.second);
+  }
+}
+
 /// |du x dv|^2 or |C'|^2 of rational patches and curves below this takes a second look: products on
 /// the way might have left the range of T.
 template <typename T>
