@@ -6,6 +6,7 @@
 
 #include "src/c_api/handles.hpp"
 #include "src/c_api/views.hpp"
+#include "src/mesh/mesh_measures.hpp"
 
 namespace simdbezier::c_api {
 namespace {
@@ -43,29 +44,17 @@ MeshOptions mesh_options_of(const simdbezier_mesh_options* given) {
   return options;
 }
 
-/// The member that bad_tolerance is about: one that has no meaning, or how fine the mesh is to be.
+/// The member that bad_tolerance is about: one that has no meaning, or says how fine the mesh is to
+/// be.
 const char* blamed_measure(const MeshOptions& options) {
-  const struct {
-    const char* name;
-    bool holds;
-  } members[] = {{"tolerance", options.tolerance > 0},
-                 {"relative_tolerance", options.relative_tolerance > 0},
-                 {"pixels", options.pixels > 0},
-                 {"longest_edge", options.longest_edge > 0},
-                 {"normal_angle", options.normal_angle > 0},
-                 {"point_size", options.point_size >= 0},
-                 {"snap", options.snap >= 0},
-                 {"crease_angle", options.crease_angle >= 0},
-                 {"tolerances", options.tolerances.empty()},
-                 {"tolerance", !std::isfinite(options.tolerance)},
-                 {"relative_tolerance", !std::isfinite(options.relative_tolerance)},
-                 {"pixels or camera", !std::isfinite(options.pixels)}};
-  for (const auto& member : members) {
-    if (!member.holds) {
-      return member.name;
-    }
+  if (const char* const meaningless = detail::meaningless_measure(options)) {
+    return meaningless;
   }
-  return "tolerance";
+  return !options.tolerances.empty()                 ? "tolerances"
+         : std::isfinite(options.tolerance)          ? "tolerance"
+         : std::isfinite(options.relative_tolerance) ? "relative_tolerance"
+         : std::isfinite(options.pixels)             ? "pixels or camera"
+                                                     : "tolerance";
 }
 
 template <typename S>

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <simdbezier/mesh.hpp>
 
+#include "src/mesh/mesh_measures.hpp"
 #include "src/mesh/net_points.hpp"
 #include "src/nets/net_call.hpp"
 
@@ -71,13 +71,13 @@ private:
     const bool toleranced = is_given(options_.tolerance) || is_given(options_.relative_tolerance) ||
                             is_given(options_.pixels) || is_given(options_.longest_edge) ||
                             is_given(options_.normal_angle) || !options_.tolerances.empty();
-    if (is_uniform()) {
-      return toleranced || options_.nu < 2 || options_.nv < 2 ? Status::bad_grid : Status::ok;
+    if (is_uniform() && (toleranced || options_.nu < 2 || options_.nv < 2)) {
+      return Status::bad_grid;
     }
-    const bool positive = options_.tolerance > 0 && options_.relative_tolerance > 0 &&
-                          options_.pixels > 0 && options_.longest_edge > 0 &&
-                          options_.normal_angle > 0;
-    return toleranced && positive ? Status::ok : Status::bad_tolerance;
+    if (meaningless_measure(options_) != nullptr) {
+      return Status::bad_tolerance;
+    }
+    return toleranced || is_uniform() ? Status::ok : Status::bad_tolerance;
   }
 
   Status join() {
@@ -194,8 +194,8 @@ private:
   Status lay_out() {
     const Status status =
         lay_out_mesh(plan_.topology, {plan_.nu, plan_.nv, diagonals_}, plan_.layout);
-    if (!status || !(options_.crease_angle < std::numeric_limits<double>::infinity())) {
-      return std::isnan(options_.crease_angle) ? Status(Status::bad_tolerance) : status;
+    if (!status || options_.crease_angle == kUnlimited) {
+      return status;
     }
     Options how;
     how.threads = options_.threads;
