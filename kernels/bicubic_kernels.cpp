@@ -3,6 +3,7 @@
 // sources of this folder are compiled the same way.
 #include "kernels/grid/grid_kernel.hpp"
 #include "kernels/grid/side_kernel.hpp"
+#include "kernels/grid/split_stores.hpp"
 #include "kernels/pack/bicubic_pack_kernel.hpp"
 #include "kernels/scattered/scattered_kernel.hpp"
 
@@ -27,6 +28,7 @@ constexpr detail::KernelTable<T> make_table() {
   table.fence = streaming_fence;
   if constexpr (!kCompact) {
     table.puts_records = kPutsRecords<vec<T>>;
+    table.store_registers = store_registers<T>;
     table.pack_f32 = pack_kernel<T, float>;
     table.pack_f64 = pack_kernel<T, double>;
     table.grid[detail::kPosition] = grid_kernel<T, detail::kPosition>;

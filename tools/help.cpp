@@ -37,7 +37,8 @@ constexpr std::string_view kExitCodes =
 constexpr std::string_view kEnvironment =
     "SIMDBEZIER_ISA=scalar|sse2|avx2|avx512|neon64 in the environment overrides the\n"
     "choice of instruction set, SIMDBEZIER_DESTINATION=memory|cache whether large\n"
-    "results go past the caches; OMP_NUM_THREADS limits what --threads 0 takes.\n"
+    "results go past the caches, SIMDBEZIER_SPLIT_STORES=slow|fast what is measured\n"
+    "otherwise; OMP_NUM_THREADS limits what --threads 0 takes.\n"
     "TMPDIR names the folder of temporary files where the output is a pipe.\n";
 
 // A term and what it means, in lines of at most kWidth.

@@ -12,11 +12,12 @@ namespace simdbezier::tools {
 namespace {
 
 // The library takes every other word for no wish.
-void check_destination() {
-  const char* const value = std::getenv("SIMDBEZIER_DESTINATION");
+void check_wish(const char* variable, std::string_view one, std::string_view other) {
+  const char* const value = std::getenv(variable);
   const std::string_view wish = value == nullptr ? "" : value;
-  if (!wish.empty() && wish != "automatic" && wish != "memory" && wish != "cache") {
-    bad_usage("SIMDBEZIER_DESTINATION: expected memory or cache, found " + in_quotes(wish));
+  if (!wish.empty() && wish != "automatic" && wish != one && wish != other) {
+    bad_usage(std::string(variable) + ": expected " + std::string(one) + " or " +
+              std::string(other) + ", found " + in_quotes(wish));
   }
 }
 
@@ -58,7 +59,8 @@ void check(Status status) {
 }
 
 Isa chosen_isa() {
-  check_destination();
+  check_wish("SIMDBEZIER_DESTINATION", "memory", "cache");
+  check_wish("SIMDBEZIER_SPLIT_STORES", "slow", "fast");
   Isa isa = Isa::automatic;
   check(resolve_isa(Isa::automatic, isa));
   return isa;

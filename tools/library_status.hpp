@@ -12,8 +12,8 @@ namespace simdbezier::tools {
 void check(Status status);
 
 /// The instruction set that evaluate calls will run on. Throws Failure (bad usage) naming the
-/// variable of the environment, SIMDBEZIER_ISA or SIMDBEZIER_DESTINATION, that asks for what is not
-/// there.
+/// variable of the environment, SIMDBEZIER_ISA, SIMDBEZIER_DESTINATION or SIMDBEZIER_SPLIT_STORES,
+/// that asks for what is not there.
 Isa chosen_isa();
 
 /// "simdbezier 1.2.3".

@@ -52,7 +52,7 @@ private:
 /// edge with the row beside it, then the rows between. If edges were stored by themselves, as in
 /// other tiles, all registers of the rows between them would lie across lines.
 template <typename Piece, typename Tile>
-constexpr bool kSweepsLines = kStreamsLines && (Piece::kKnown) && (Tile::kTileRows == 2);
+constexpr bool kSweepsLines = kStreamsLines && (Piece::kAcross) && (Tile::kTileRows == 2);
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 template <typename Piece, typename Tile, typename Extra>

@@ -128,7 +128,7 @@ struct RecordRows {
                                column->move_to(places, place.at, in_column);
                              }
                            };
-    for_rows<RowOrder{1, true, 1}>(
+    for_rows<RowOrder{1, RowPairs::always, 1}>(
         piece, 0, places.step,
         [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
           Samples s;

@@ -77,13 +77,14 @@ template <typename T>
 struct RowPiece {
   static constexpr bool kKnown = false;   ///< how many rows
   static constexpr bool kStraight = true; ///< as far as they are known
-  static constexpr bool kAcross = false;  ///< lie across lines, and are as wide as their tile
+  static constexpr bool kAcross = false;  ///< lie across lines, which are put together
 
   std::size_t first = 0; ///< row
   bool lead = false;     ///< whether there is a first row on an edge, and which
   RowKind lead_kind = RowKind::edge_v0;
   RowRun<T> middle{nullptr, 0, RowKind::interior}; ///< y: of RowPowers
   bool mirrored = false;                           ///< the middle is pairs of rows
+  bool whole_lines = false;                        ///< as GridTask has it
   bool trail = false;
   RowKind trail_kind = RowKind::edge_v1;
 
@@ -95,7 +96,7 @@ struct RowPiece {
 };
 
 /// The same where rows lie across lines and are as wide as their tile, which writes them as a
-/// stream.
+/// stream of whole lines.
 template <typename T>
 struct AcrossPiece : RowPiece<T> {
   static constexpr bool kAcross = true;
@@ -108,7 +109,7 @@ class RowPieces {
 public:
   explicit SIMDBEZIER_PART RowPieces(const GridTask<T>& task)
       : run_(task.runs), last_(task.runs + task.run_count), left_(run_->rows),
-        watertight_(task.watertight) {}
+        watertight_(task.watertight), whole_lines_(task.whole_lines) {}
 
   [[nodiscard]] SIMDBEZIER_PART bool more() const { return run_ != last_; }
 
@@ -116,6 +117,7 @@ public:
   SIMDBEZIER_PART RowPiece<T> next(RowPowers<T>& powers) {
     RowPiece<T> piece;
     piece.first = row_;
+    piece.whole_lines = whole_lines_;
     piece.lead = take_edge(piece.lead_kind);
     if (more() && !at_edge()) {
       piece.middle = {run_->y + (run_->rows - left_), 0, run_->kind};
@@ -156,6 +158,7 @@ private:
   const RowRun<T>* last_;
   std::size_t left_; ///< rows of *run_
   bool watertight_;
+  bool whole_lines_;
   std::size_t row_ = 0;
 };
 
@@ -169,10 +172,17 @@ struct RowPlace {
   }
 };
 
+/// Whether rows and their mirror images are computed together.
+enum class RowPairs {
+  never,
+  where_splits_are_cheap, ///< rows share cache lines: not where stores across lines are slow
+  always
+};
+
 /// How a tile sweeps its rows.
 struct RowOrder {
-  std::size_t rows;     ///< of a register
-  bool pairs;           ///< mirror images are computed together
+  std::size_t rows; ///< of a register
+  RowPairs pairs;
   std::size_t together; ///< registers that are computed one behind the other, without a loop
 };
 
@@ -195,8 +205,8 @@ SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::s
     place = place.behind(rows, nu);
     y += rows;
   };
-  if constexpr (kOrder.pairs) {
-    if (piece.mirrored) {
+  if constexpr (kOrder.pairs != RowPairs::never) {
+    if (piece.mirrored && (kOrder.pairs == RowPairs::always || !piece.whole_lines)) {
       RowPlace mirrored{trail.at - nu, trail.row - 1};
       for (; left >= 2 * kRows; left -= 2 * kRows) {
         pair(y, place, mirrored);

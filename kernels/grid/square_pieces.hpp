@@ -8,7 +8,8 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// A whole grid of kSide x kSide samples, whose first and last rows are edges and whose others are
 /// pairs. The compiler knows its size, so that sweeps are straight code, without counting, tests
 /// and addresses: 198 instead of 389 instructions for the positions of an 8 x 8 grid, 660 instead
-/// of 1022 for 17 x 17 (AVX-512). kLiesAcross: rows begin anywhere in cache lines.
+/// of 1022 for 17 x 17 (AVX-512). kLiesAcross: rows begin anywhere in cache lines, which are put
+/// together; otherwise rows that share lines are for machines where stores across lines are cheap.
 template <typename T, std::size_t kSide, bool kLiesAcross>
 struct SquarePiece {
   static constexpr bool kKnown = true;
@@ -46,8 +47,9 @@ SIMDBEZIER_INLINE void for_rows(const SquarePiece<T, kSide, kAcross>& piece, std
                                 const Interior& interior) {
   constexpr std::size_t kRows = kOrder.rows;
   constexpr std::size_t kMiddle = kSide - 2;
-  constexpr std::size_t kPairs = kOrder.pairs ? kMiddle / (2 * kRows) : 0; // registers
-  constexpr std::size_t kSingle = kMiddle - 2 * kPairs * kRows;            // rows
+  constexpr bool kInPairs = kOrder.pairs != RowPairs::never;
+  constexpr std::size_t kPairs = kInPairs ? kMiddle / (2 * kRows) : 0; // registers
+  constexpr std::size_t kSingle = kMiddle - 2 * kPairs * kRows;        // rows
   constexpr std::size_t kFull = kSingle / kRows;
   const T* const y = piece.middle.y;
   const RowPlace first{at + nu, 1};

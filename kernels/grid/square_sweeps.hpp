@@ -50,21 +50,28 @@ SIMDBEZIER_PART void sweep_square(const GridTask<T>& task,
   }
 }
 
-/// Whether such squares are written as streams where their rows lie across lines: a tile has whole
-/// rows. Normals, of three components at once, have no registers left for that.
+/// Whether such squares are put together to whole lines where their rows share lines and stores
+/// across lines are slow: a tile has whole rows. Normals, of three components at once, have no
+/// registers left for that.
 template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
 constexpr bool kIsStream = kStreamsLines && (kOutputs != detail::kPositionNormal) &&
-                           (kSide > kLanes<vec<T>> / 2) && (kSide <= 2 * kLanes<vec<T>> + 1);
+                           (kSide >= kLanes<vec<T>> / 2) && (kSide <= 2 * kLanes<vec<T>> + 1);
 
 /// Whether that pays in staging as well, which stays in the first-level cache: splitting stores
 /// costs less there.
 template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
-constexpr bool kIsStagedStream = (kOutputs == detail::kPositionDerivatives) &&
-                                 (kSide <= kLanes<vec<T>> + 1);
+constexpr bool kIsStagedStream = (kOutputs == detail::kPositionDerivatives ||
+                                  kSide * 2 == kLanes<vec<T>>)&&(kSide <= kLanes<vec<T>> + 1);
 
 /// Whether such squares are worth straight code: not where roots set the pace.
 template <detail::OutputSet kOutputs, std::size_t kSide>
 constexpr bool kIsStraight = kSide <= 17 && (kOutputs != detail::kPositionNormal || kSide != 16);
+
+/// Whether rows of such squares have a column or a part of a register behind whole ones, which
+/// straight code has for machines with cheap stores across lines. Normals are the same everywhere.
+template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
+constexpr bool kSharesLines = kOutputs != detail::kPositionNormal&& kSide % kLanes<vec<T>> != 0 &&
+                              kSide * 2 != kLanes<vec<T>>;
 
 /// Whether all planes begin where lines do.
 template <typename T>
@@ -78,8 +85,9 @@ SIMDBEZIER_PART bool planes_begin_lines(const GridTask<T>& task) {
   return bits % 64 == 0;
 }
 
-/// Sweeps the patches as streams if their rows lie across lines, and one tile without a column
-/// behind it is as wide as they are. Positions in a part of a register gain nothing by this.
+/// Sweeps the patches as streams of whole lines if their rows lie across lines, stores across lines
+/// are slow, and one tile without a column behind it is as wide as the rows. Positions in a part of
+/// a register gain nothing by this.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool sweep_across_lines(const GridTask<T>& task, const RowPiece<T>& piece,
                                         std::size_t patch, std::size_t end) {
@@ -88,7 +96,7 @@ SIMDBEZIER_PART bool sweep_across_lines(const GridTask<T>& task, const RowPiece<
   constexpr bool kDerivatives = kOutputs == detail::kPositionDerivatives;
   const std::size_t nu = task.nu;
   if constexpr (kDerivatives || kOutputs == detail::kPosition) {
-    if (task.drain != nullptr || (nu % kL == 0 && planes_begin_lines(task))) {
+    if (!task.whole_lines || task.drain != nullptr || (nu % kL == 0 && planes_begin_lines(task))) {
       return false;
     }
     const AcrossPiece<T> across(piece);
@@ -117,23 +125,27 @@ SIMDBEZIER_PART bool sweep_across_lines(const GridTask<T>& task, const RowPiece<
 template <detail::OutputSet kOutputs, std::size_t... kSides, typename T>
 SIMDBEZIER_PART bool sweep_square_of(std::index_sequence<kSides...>, const GridTask<T>& task,
                                      const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
-  const auto sweep =
-      [&]<std::size_t kSide>(std::integral_constant<std::size_t, kSide>) SIMDBEZIER_INLINE_LAMBDA {
-        if (!SquarePiece<T, kSide, false>::is(piece, task.nu)) {
-          return false;
-        }
-        if constexpr (kIsStream<kOutputs, kSide, T>) {
-          const bool pays = kIsStagedStream<kOutputs, kSide, T> || task.drain == nullptr;
-          if (pays && (kSide % kLanes<vec<T>> != 0 || !planes_begin_lines(task))) {
-            sweep_square<kOutputs>(task, SquarePiece<T, kSide, true>(piece.middle.y), patch, end);
-            return true;
-          }
-        }
-        if constexpr (kIsStraight<kOutputs, kSide>) {
-          sweep_square<kOutputs>(task, SquarePiece<T, kSide, false>(piece.middle.y), patch, end);
-        }
-        return kIsStraight<kOutputs, kSide>;
-      };
+  const auto sweep = [&]<std::size_t kSide>(
+                         std::integral_constant<std::size_t, kSide>) SIMDBEZIER_INLINE_LAMBDA {
+    if (!SquarePiece<T, kSide, false>::is(piece, task.nu)) {
+      return false;
+    }
+    const auto* const y = piece.middle.y;
+    if constexpr (kIsStream<kOutputs, kSide, T>) {
+      const bool pays = kIsStagedStream<kOutputs, kSide, T> || task.drain == nullptr;
+      if (task.whole_lines && pays && (kSide % kLanes<vec<T>> != 0 || !planes_begin_lines(task))) {
+        sweep_square<kOutputs>(task, SquarePiece<T, kSide, true>(y), patch, end);
+        return true;
+      }
+    }
+    if constexpr (kIsStraight<kOutputs, kSide>) {
+      if (kSharesLines<kOutputs, kSide, T> && task.whole_lines) {
+        return false;
+      }
+      sweep_square<kOutputs>(task, SquarePiece<T, kSide, false>(y), patch, end);
+    }
+    return kIsStraight<kOutputs, kSide>;
+  };
   return (sweep(std::integral_constant<std::size_t, kSides>{}) || ...);
 }
 

@@ -76,7 +76,7 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
     });
     return;
   }
-  constexpr RowOrder kRowOrder{kRows, Tile::kPairs && !Piece::kAcross,
+  constexpr RowOrder kRowOrder{kRows, Piece::kAcross ? RowPairs::never : Tile::kPairs,
                                kRows == 1 && Piece::kStraight ? 4 : 1};
   for_rows<kRowOrder>(
       piece, 0, nu,
@@ -205,7 +205,7 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
     });
     return;
   }
-  constexpr RowOrder kRowOrder{kRows, Tile::kPairs && !Piece::kAcross,
+  constexpr RowOrder kRowOrder{kRows, Piece::kAcross ? RowPairs::never : Tile::kJetPairs,
                                Piece::kKnown && Piece::kStraight ? 2 : 1};
   for_rows<kRowOrder>(
       piece, 0, nu,
@@ -247,7 +247,7 @@ SIMDBEZIER_PART void sweep_second(const GridTask<ScalarOf<V>>& task,
   T* const duv = task.out[detail::kDuvGroup].component[component];
   T* const dvv = task.out[detail::kDvvGroup].component[component];
   const std::size_t nu = task.nu;
-  constexpr RowOrder kRowOrder{kRows, Tile::kPairs, 1};
+  constexpr RowOrder kRowOrder{kRows, Tile::kOwnLines ? RowPairs::always : RowPairs::never, 1};
   for_rows<kRowOrder>(
       piece, first, nu,
       [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {

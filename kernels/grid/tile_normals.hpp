@@ -193,7 +193,7 @@ SIMDBEZIER_PART void sweep_normals(const GridTask<ScalarOf<V>>& task,
       shared = sweep.edge(0);
     }
   }
-  constexpr RowOrder kRowOrder{kRows, Tile::kNormalPairs, 1};
+  constexpr RowOrder kRowOrder{kRows, Tile::kNormalPairs ? RowPairs::always : RowPairs::never, 1};
   for_rows<kRowOrder>(
       piece, first, task.nu,
       [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {

@@ -54,10 +54,9 @@ private:
   ThreadScratch scratch_;
 };
 
-/// Half of the last cache: the consumer has other data, too.
-bool exceeds_caches(std::size_t bytes) noexcept { return bytes > last_level_cache() / 2; }
-
 } // namespace
+
+bool exceeds_caches(std::size_t bytes) noexcept { return bytes > last_level_cache() / 2; }
 
 Status run_work(const AnyWork& work, const Options& options) noexcept {
   return run_blocks(work.units, options, work.scratch_bytes, work);

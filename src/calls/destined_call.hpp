@@ -89,6 +89,9 @@ struct AnyWork {
 /// Returns ok | out_of_memory, before anything is written.
 [[nodiscard]] Status run_work(const AnyWork& work, const Options& options) noexcept;
 
+/// Whether so many bytes are more than half of the last cache: the consumer has other data, too.
+[[nodiscard]] bool exceeds_caches(std::size_t bytes) noexcept;
+
 /// What automatic means for `bytes` bytes where nothing has been measured.
 [[nodiscard]] Destination unmeasured_destination(std::size_t bytes) noexcept;
 

@@ -18,6 +18,10 @@ public:
            const OutputList<T>& out, const Options& options, Destination destination) noexcept
       : kernels_(set, request, out, options), first_patch_(request.first), patches_(request.count),
         plan_(plan), outputs_(out, destination) {
+    if (destination == Destination::cache &&
+        exceeds_caches(written_bytes(out, plan.nu() * plan.nv() * request.count))) {
+      kernels_.prefer_whole_lines();
+    }
     outputs_.put_directly(kernels_.direct_rows(plan.nu(), true));
     divide(Delivery<T>::chunk_samples(outputs_));
     chunk_samples_ = (strips_ > 1 ? strip_rows_ : together_ * plan.nv()) * plan.nu();
@@ -40,7 +44,7 @@ public:
       const GridPiece piece = piece_at(unit, end);
       const std::size_t after = unit + piece.patches;
       const GridPiece next = after < end ? piece_at(after, end) : piece;
-      const std::size_t sample = (unit / strips_ * plan_.nv() + piece.first_row) * plan_.nu();
+      const std::size_t sample = (patch_of(unit) * plan_.nv() + piece.first_row) * plan_.nu();
       evaluator.run(plan_, piece, {outputs_, delivery, sample}, &next);
       delivery.end(piece.patches * (piece.last_row - piece.first_row) * plan_.nu());
       unit = after;
@@ -54,6 +58,11 @@ private:
   /// may have half as many again, since a strip of a few rows costs as much as one of many.
   void divide(std::size_t samples) noexcept {
     const std::size_t patch_samples = plan_.nu() * plan_.nv();
+    if (!outputs_.staged() && patch_samples <= samples) { // without a division
+      strip_rows_ = plan_.nv();
+      together_ = ~std::size_t(0);
+      return;
+    }
     const bool rounds = outputs_.staged() && outputs_.streaming();
     const std::size_t rows = std::clamp<std::size_t>(samples / plan_.nu(), 1, plan_.nv());
     strips_ = std::max<std::size_t>((plan_.nv() + (rounds ? rows / 2 : rows - 1)) / rows, 1);
@@ -64,9 +73,14 @@ private:
     together_ = strips_ > 1 ? 1 : std::max<std::size_t>(together_, 1);
   }
 
+  /// Without a division where there is none to be made: small calls feel them.
+  [[nodiscard]] std::size_t patch_of(std::size_t unit) const noexcept {
+    return strips_ == 1 ? unit : unit / strips_;
+  }
   [[nodiscard]] GridPiece piece_at(std::size_t unit, std::size_t end) const noexcept {
-    const std::size_t first_row = unit % strips_ * strip_rows_;
-    return {first_patch_ + unit / strips_, std::min(together_, end - unit), first_row,
+    const std::size_t patch = patch_of(unit);
+    const std::size_t first_row = (unit - patch * strips_) * strip_rows_;
+    return {first_patch_ + patch, std::min(together_, end - unit), first_row,
             std::min(plan_.nv(), first_row + strip_rows_)};
   }
 

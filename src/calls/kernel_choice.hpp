@@ -5,6 +5,7 @@
 
 #include "src/calls/call.hpp"
 #include "src/output/output_plan.hpp"
+#include "src/runtime/line_costs.hpp"
 #include "src/storage/patch_storage.hpp"
 #include "src/tables/kernel_table.hpp"
 
@@ -42,6 +43,7 @@ struct PatchKernels {
   const KernelTable<T>* table;
   KernelChoice choice;
   bool watertight;
+  bool whole_lines; ///< as GridTask has it
   std::size_t first_component;
 
   template <typename Wishes>
@@ -49,7 +51,11 @@ struct PatchKernels {
                const Options& options) noexcept
       : set(&storage), table(request.table),
         choice(out, request.components, request.table->compact), watertight(options.watertight),
-        first_component(request.components.first) {}
+        whole_lines(splits_slowly(*request.table)), first_component(request.components.first) {}
+
+  /// For outputs that leave the caches by plain stores: whole lines are written there without being
+  /// read first.
+  void prefer_whole_lines() noexcept { whole_lines = true; }
 
   /// What kernels write to its final place by themselves, on grids of `nu` columns or more: all of
   /// it where one kernel knows all outputs, and all patches are bicubic. streamed: past the caches

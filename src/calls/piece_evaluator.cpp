@@ -73,9 +73,10 @@ void PieceEvaluator<T>::fill(Prepared& prepared, const PatchStorage<T>& set,
   task.status = to.status;
   task.patch_step = (piece.last_row - piece.first_row) * plan.nu();
   task.resolve_normal = resolve_normal<T>;
-  task.prefetch = set.count > second_level_cache() /
-                                  ((set.shape.coefficients() + set.shape.edges()) * sizeof(T));
+  task.prefetch =
+      set.count * (set.shape.coefficients() + set.shape.edges()) * sizeof(T) > second_level_cache();
   task.streaming = to.streaming;
+  task.whole_lines = kernels_.whole_lines;
   task.watertight = kernels_.watertight;
   task.record = to.record;
   task.drain = to.drain;

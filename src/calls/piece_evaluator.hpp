@@ -83,7 +83,7 @@ private:
   /// A task is copied in large pieces by the kernels, so with streaming stores it is written one
   /// piece ahead (see src/tables/drain_queue.hpp).
   struct Prepared {
-    GridTask<T> task{};
+    GridTask<T> task; ///< written by fill()
     RowRun<T>* runs = nullptr;
     std::size_t run_count = 0;
     const GridPlan<T>* plan = nullptr; ///< of runs, with the three below

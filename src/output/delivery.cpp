@@ -46,8 +46,11 @@ std::size_t Delivery<T>::scratch_bytes(std::size_t staged_planes, bool streaming
 template <typename T>
 Delivery<T>::Delivery(const OutputPlan<T>& plan, const KernelTable<T>& table, std::size_t samples,
                       void* scratch) noexcept
-    : plan_(plan), table_(table), plane_step_(plane_step<T>(samples)), expected_(~std::size_t(0)) {
+    : plan_(plan), table_(table), plane_step_(plane_step<T>(samples)) {
   staging_[0] = static_cast<T*>(scratch);
+  if (!plan.staged()) {
+    return;
+  }
   staging_[1] = plan.streaming() ? staging_[0] + plan.staged_planes() * plane_step_ : staging_[0];
   for (buffer_ = 2; buffer_-- > 0;) {
     for (std::size_t g = 0; g < kGroups; ++g) {
@@ -157,6 +160,9 @@ void Delivery<T>::end(std::size_t count) noexcept {
 /// The samples that still wait.
 template <typename T>
 void Delivery<T>::flush() noexcept {
+  if (expected_ == kNone) {
+    return;
+  }
   for (std::size_t k = 0; k < plan_.streams(); ++k) {
     put_single(k, -static_cast<std::ptrdiff_t>(state_[k].pending), state_[k].pending);
     state_[k].pending = 0;

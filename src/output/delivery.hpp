@@ -42,10 +42,11 @@ public:
 private:
   /// One stream between two chunks.
   struct State {
-    std::size_t next = 0;    ///< record that goes out next
-    std::size_t pending = 0; ///< records that wait in front of the planes
-    std::size_t peel = 0;    ///< records to go before the first whole line
+    std::size_t next;    ///< record that goes out next
+    std::size_t pending; ///< records that wait in front of the planes
+    std::size_t peel;    ///< records to go before the first whole line
   };
+  static constexpr std::size_t kNone = ~std::size_t(0);
 
   [[nodiscard]] T* plane(std::size_t index) const noexcept;
   void restart(std::size_t sample) noexcept;
@@ -54,11 +55,11 @@ private:
 
   const OutputPlan<T>& plan_;
   const KernelTable<T>& table_;
-  T* staging_[2];
+  T* staging_[2] = {};
   std::size_t plane_step_;
   std::size_t buffer_ = 0;
-  std::size_t expected_; ///< sample with which a chunk that continues this one begins
-  State state_[kMostMembers];
+  std::size_t expected_ = kNone; ///< sample with which a chunk that continues this one begins
+  State state_[kMostMembers];    ///< written once there is a chunk
   Planes<T> planes_[2][kGroups];
   DrainQueue<T> queue_;
 };

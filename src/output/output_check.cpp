@@ -14,12 +14,15 @@ template <typename T>
 struct Column {
   T* first;
   std::ptrdiff_t stride;
-  MemoryRange range;
+  const void* lowest;
+  std::size_t bytes;
+
+  [[nodiscard]] MemoryRange range() const noexcept { return {lowest, bytes}; }
 };
 
 template <typename T>
 struct Columns {
-  Column<T> column[kMostMembers + kCurvatures];
+  Column<T> column[kMostMembers + kCurvatures]; ///< the first `count` of them are written
   std::size_t count = 0;
 
   void add(T* first, std::ptrdiff_t stride, std::size_t samples) noexcept {
@@ -31,17 +34,14 @@ struct Columns {
     const auto address = reinterpret_cast<std::uintptr_t>(first);
     const std::uintptr_t lowest = last < 0 ? address + static_cast<std::uintptr_t>(last) : address;
     const auto span = static_cast<std::size_t>(last < 0 ? -last : last);
-    column[count].first = first;
-    column[count].stride = stride;
-    column[count].range = {reinterpret_cast<const void*>(lowest), span + sizeof(T)};
-    ++count;
+    column[count++] = {first, stride, reinterpret_cast<const void*>(lowest), span + sizeof(T)};
   }
 };
 
 /// Whether two columns put values into the same place.
 template <typename T>
 bool collide(const Column<T>& a, const Column<T>& b) noexcept {
-  if (!a.range.meets(b.range)) {
+  if (!a.range().meets(b.range())) {
     return false;
   }
   if (a.stride != b.stride) {
@@ -101,7 +101,7 @@ Status check_overlaps(const Columns<T>& columns, const MemoryRange& status,
   };
   bool bad = meets_input(status);
   for (std::size_t i = 0; i < columns.count; ++i) {
-    const MemoryRange& range = columns.column[i].range;
+    const MemoryRange range = columns.column[i].range();
     bad = bad || range.meets(status) || meets_input(range);
     for (std::size_t j = 0; j < i; ++j) {
       bad = bad || collide(columns.column[i], columns.column[j]);

@@ -57,11 +57,16 @@ void OutputPlan<T>::stage() noexcept {
     staged_index_[g] = stages ? staged++ : kGroups;
   }
   staged_planes_ = dimension_ * staged;
-  add_streams();
+  if (staged_planes_ > 0) {
+    add_streams();
+  }
 }
 
 template <typename T>
 void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
+  if (!staged()) {
+    return;
+  }
   const std::size_t record = stream_[0].members;
   const std::size_t line = 64 / sizeof(T);
   const bool known = record == 1 || record == 3 || record == staged_planes_;
@@ -69,7 +74,7 @@ void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
   const bool streams =
       (record == 1 ? rows.streamed : rows.streamed_records) && rows.row % line == 0;
   const bool stores = rows.records && all;
-  bool possible = staged() && rows.row >= rows.lanes && known && (streaming_ ? streams : stores);
+  bool possible = rows.row >= rows.lanes && known && (streaming_ ? streams : stores);
   for (std::size_t k = 0; possible && k < streams_; ++k) {
     const StreamShape<T>& shape = stream_[k];
     possible = shape.members == record && shape.stride == static_cast<std::ptrdiff_t>(record) &&
@@ -94,7 +99,6 @@ void OutputPlan<T>::write_directly() noexcept {
 /// Members that lie side by side in one vertex become one stream.
 template <typename T>
 void OutputPlan<T>::add_streams() noexcept {
-  std::fill_n(stream_, streams_, StreamShape<T>{});
   streams_ = 0;
   StagedColumn<T> columns[kMostMembers];
   std::size_t count = 0;
@@ -120,6 +124,7 @@ void OutputPlan<T>::add_streams() noexcept {
                        last->members < static_cast<std::size_t>(std::abs(member.stride));
     StreamShape<T>& shape = joins ? *last : stream_[streams_++];
     if (!joins) {
+      shape.members = 0;
       shape.first = member.first;
       shape.stride = member.stride;
     }

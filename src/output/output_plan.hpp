@@ -15,10 +15,10 @@ namespace simdbezier::detail {
 template <typename T>
 struct StreamShape {
   std::size_t plane[kMostMembers]; ///< staged planes, in the order of their places in the record
-  std::size_t members = 0;
-  T* first = nullptr;        ///< member 0 of record 0
-  std::ptrdiff_t stride = 0; ///< in elements
-  bool streaming = false;
+  std::size_t members;
+  T* first;              ///< member 0 of record 0
+  std::ptrdiff_t stride; ///< in elements
+  bool streaming;
 
   /// Records before the first one that begins a cache line; kDrainStep where none does.
   [[nodiscard]] std::size_t records_to_line(std::size_t record) const noexcept;
@@ -77,7 +77,7 @@ private:
   std::size_t record_ = 1;
   std::size_t staged_index_[kGroups];
   std::size_t streams_ = 0;
-  StreamShape<T> stream_[kMostMembers];
+  StreamShape<T> stream_[kMostMembers]; ///< the first streams_ of them are written
 };
 
 } // namespace simdbezier::detail

@@ -36,7 +36,8 @@ void run_share(std::size_t units, int worker, int workers, BlockBody body) {
 
 void for_blocks(std::size_t units, int threads, BlockBody body) noexcept {
   if (threads <= 1) {
-    run_share(units, 0, 1, body);
+    const DefaultFpEnvironment environment;
+    body(0, 0, units);
     return;
   }
   auto run = [&](int worker, int workers) { run_share(units, worker, workers, body); };

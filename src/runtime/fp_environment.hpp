@@ -12,15 +12,26 @@ namespace simdbezier::detail {
 
 #if defined(__x86_64__)
 // MXCSR directly: fesetenv would also reload the x87 state, which costs as much as a small patch.
+// It is written only where that changes something, since a write takes as long as twenty additions.
 class DefaultFpEnvironment {
 public:
-  DefaultFpEnvironment() noexcept : saved_(_mm_getcsr()) { _mm_setcsr(kDefault); }
-  ~DefaultFpEnvironment() { _mm_setcsr(saved_); }
+  DefaultFpEnvironment() noexcept : saved_(_mm_getcsr()) {
+    if ((saved_ & kControl) != kDefault) {
+      _mm_setcsr(kDefault);
+    }
+  }
+  /// The caller's flags of exceptions are restored as well.
+  ~DefaultFpEnvironment() {
+    if (_mm_getcsr() != saved_) {
+      _mm_setcsr(saved_);
+    }
+  }
   DefaultFpEnvironment(const DefaultFpEnvironment&) = delete;
   DefaultFpEnvironment& operator=(const DefaultFpEnvironment&) = delete;
 
 private:
   static constexpr unsigned kDefault = 0x1f80; // nearest, FTZ and DAZ off, exceptions masked
+  static constexpr unsigned kControl = 0xffc0; // all but the flags
   unsigned saved_;
 };
 #else

@@ -97,6 +97,7 @@ struct GridTask : SampleTask<T> {
   std::size_t run_count;
 
   bool streaming;       ///< rows are whole cache lines, to be stored past the caches
+  bool whole_lines;     ///< stores across lines are slow (src/runtime/line_costs.hpp)
   std::size_t record;   ///< values from one sample to the next: see OutputPlan::record()
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see drain_some()
 };
@@ -233,6 +234,9 @@ struct KernelTable {
   void (*side)(SideTask<T>& task);     ///< positions and normals of watertight sets; either is null
   void (*drain)(DrainQueue<T>& queue); ///< passes on all that is left
   void (*fence)();                     ///< completes streaming stores
+  /// Stores whole registers one behind the other, to see what stores across lines cost; null where
+  /// no kernel wants to know.
+  void (*store_registers)(T* to, std::size_t registers);
   std::uint32_t (*highest_index)(const std::uint32_t* index, std::size_t count);
   PackKernel<T, float> pack_f32;
   PackKernel<T, double> pack_f64;

@@ -1,8 +1,9 @@
 // SIMDBEZIER_ISA: every instruction set can be chosen, is what runs, and unknown ones are errors.
-// So are unknown words of SIMDBEZIER_DESTINATION.
+// So are unknown words of SIMDBEZIER_DESTINATION and SIMDBEZIER_SPLIT_STORES.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include <simdbezier/simdbezier.hpp>
 #include <tools/teapot.hpp>
@@ -103,23 +104,32 @@ TEST(InstructionSet, UnknownOrUnavailableIsBadUsage) {
   EXPECT_TRUE(folder.names().empty());
 }
 
-TEST(Destination, UnknownIsBadUsage) {
+TEST(MeasuredChoices, UnknownIsBadUsage) {
   const TemporaryFolder folder;
   const std::string out = folder.path("out.csv");
   const std::vector<std::vector<std::string>> commands = {
       {"info", "builtin:teapot"},
       {"tessellate", folder.path("absent.bez"), "-o", folder.path("out.ply")}, // before any work
       {"evaluate", "builtin:teapot", "-o", out}};
-  for (const std::string word : {"bogus", "Memory", "cache "}) {
-    for (const auto& command : commands) {
-      expect_failure(run(command, {.environment = {{"SIMDBEZIER_DESTINATION", word}}}), 2,
-                     "SIMDBEZIER_DESTINATION: expected memory or cache, found '" + word + "'");
+  struct Choice {
+    std::string variable;
+    std::string words[2];
+  };
+  const Choice choices[] = {{"SIMDBEZIER_DESTINATION", {"memory", "cache"}},
+                            {"SIMDBEZIER_SPLIT_STORES", {"slow", "fast"}}};
+  for (const auto& [variable, words] : choices) {
+    for (const std::string word : {std::string("bogus"), "M" + words[0], words[1] + " "}) {
+      for (const auto& command : commands) {
+        expect_failure(run(command, {.environment = {{variable, word}}}), 2,
+                       variable + ": expected " + words[0] + " or " + words[1] + ", found '" +
+                           word + "'");
+      }
     }
-  }
-  EXPECT_TRUE(folder.names().empty());
-  for (const std::string word : {"", "automatic", "memory", "cache"}) {
-    expect_silent_success(
-        run(commands.back(), {.environment = {{"SIMDBEZIER_DESTINATION", word}}}));
+    EXPECT_TRUE(folder.names().empty());
+    for (const std::string word : {std::string(), std::string("automatic"), words[0], words[1]}) {
+      expect_silent_success(run(commands.back(), {.environment = {{variable, word}}}));
+    }
+    std::filesystem::remove(out);
   }
 }
 

@@ -1,0 +1,72 @@
+// See src/runtime/line_costs.hpp.
+#include "src/runtime/line_costs.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <string_view>
+
+namespace simdbezier::detail {
+namespace {
+
+enum class Answer : unsigned char { unknown, fast, slow };
+
+Answer read_environment() noexcept {
+  const char* const word = std::getenv("SIMDBEZIER_SPLIT_STORES");
+  const std::string_view wish = word == nullptr ? "" : word;
+  return wish == "slow" ? Answer::slow : wish == "fast" ? Answer::fast : Answer::unknown;
+}
+
+/// Nanoseconds of the fastest of some runs, so that interruptions do not count.
+template <typename T>
+double time_of(const KernelTable<T>& table, T* to, std::size_t registers) noexcept {
+  constexpr int kRuns = 8;
+  constexpr int kRounds = 48;
+  double best = 1e300;
+  for (int run = 0; run < kRuns; ++run) {
+    const auto begin = std::chrono::steady_clock::now();
+    for (int round = 0; round < kRounds; ++round) {
+      table.store_registers(to, registers);
+    }
+    const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - begin;
+    best = std::min(best, time.count());
+  }
+  return best;
+}
+
+template <typename T>
+Answer measure(const KernelTable<T>& table) noexcept {
+  constexpr std::size_t kBytes = 4096; // stays in the first-level cache
+  alignas(64) T memory[kBytes / sizeof(T) + kMaxLanes] = {};
+  const std::size_t registers = kBytes / sizeof(T) / table.lanes;
+  const double within = time_of(table, memory, registers);
+  const double across = time_of(table, memory + 1, registers);
+  return across > 2 * within ? Answer::slow : Answer::fast;
+}
+
+} // namespace
+
+template <typename T>
+bool splits_slowly(const KernelTable<T>& table) noexcept {
+  if (table.store_registers == nullptr) {
+    return false;
+  }
+  static const Answer wish = read_environment();
+  if (wish != Answer::unknown) {
+    return wish == Answer::slow;
+  }
+  // Two threads may both measure, and then agree or not; either answer will do.
+  constexpr std::size_t kIsas = 8;
+  static std::atomic<Answer> answers[kIsas] = {};
+  std::atomic<Answer>& answer = answers[static_cast<std::size_t>(table.isa) % kIsas];
+  if (answer.load(std::memory_order_relaxed) == Answer::unknown) {
+    answer.store(measure(table), std::memory_order_relaxed);
+  }
+  return answer.load(std::memory_order_relaxed) == Answer::slow;
+}
+
+template bool splits_slowly(const KernelTable<float>&) noexcept;
+template bool splits_slowly(const KernelTable<double>&) noexcept;
+
+} // namespace simdbezier::detail
