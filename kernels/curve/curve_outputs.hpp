@@ -39,7 +39,7 @@ template <typename T>
 SIMDBEZIER_INLINE void prefetch_values(const T* values, std::size_t count) {
   constexpr std::size_t kLine = 64 / sizeof(T);
   for (std::size_t i = 0; i < count; i += kLine) {
-    __builtin_prefetch(values + i);
+    prefetch_line(values + i);
   }
 }
 

@@ -1,7 +1,7 @@
 // Patches that grid kernels will soon come to.
 #pragma once
 
-#include "kernels/simd/vector.hpp"
+#include "kernels/simd/operands.hpp"
 #include "src/storage/patch_storage.hpp"
 #include "src/tables/kernel_table.hpp"
 
@@ -17,11 +17,11 @@ SIMDBEZIER_PART void prefetch_patch(const GridTask<T>& task, std::size_t patch) 
   constexpr std::size_t kLine = 64 / sizeof(T);
   const T* const coefficients = task.coefficients + (patch + kAhead) * detail::kCoefficients;
   for (std::size_t k = 0; k < detail::kCoefficients; k += kLine) {
-    __builtin_prefetch(coefficients + k);
+    prefetch_line(coefficients + k);
   }
   const T* const edges = task.edges + (patch + kAhead) * detail::kEdgeBlock;
   for (std::size_t k = 0; k < detail::kEdgeBlock; k += kLine) {
-    __builtin_prefetch(edges + k);
+    prefetch_line(edges + k);
   }
 }
 

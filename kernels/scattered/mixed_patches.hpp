@@ -38,10 +38,10 @@ public:
     for (std::size_t i = kGroup * kQuads<V>; i < (kGroup + 1) * kQuads<V>; ++i) {
       const T* const from = coefficients_ + std::size_t{patch_[i]} * detail::kCoefficients;
       for (std::size_t value = 0; value < detail::kCoefficients; value += kLine) {
-        __builtin_prefetch(from + value);
+        prefetch_line(from + value);
       }
       if (floors_ != nullptr) {
-        __builtin_prefetch(floors_ + patch_[i]);
+        prefetch_line(floors_ + patch_[i]);
       }
     }
   }

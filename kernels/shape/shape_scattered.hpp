@@ -154,7 +154,7 @@ SIMDBEZIER_PART void prefetch_sample(const ScatteredTask<T>& task, const NetShap
     const std::size_t cell = task.patch[next] * shape.cells() + high_v * shape.cells_u() + high_u;
     const T* const from = task.coefficients + cell * shape.cell_coefficients();
     for (std::size_t i = 0; i < shape.cell_coefficients(); i += kLine) {
-      __builtin_prefetch(from + i);
+      prefetch_line(from + i);
     }
   }
 }

@@ -16,6 +16,13 @@ SIMDBEZIER_INLINE T* own_address(T* address) {
   return address;
 }
 
+/// Asks for the cache line at an address. Without the empty statement, whose effects are unknown,
+/// g++ takes functions that do nothing else for ones without an effect, and drops their calls.
+SIMDBEZIER_INLINE void prefetch_line(const void* address) {
+  asm volatile("" : "+r"(address));
+  __builtin_prefetch(address);
+}
+
 /// a * *t + c, with *t in all lanes. Where the instruction set can, *t is never in a register, and
 /// the result takes the place of a: with two operands in registers nothing has to be copied.
 template <typename V>

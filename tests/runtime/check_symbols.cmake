@@ -1,6 +1,7 @@
 # cmake -DNM=… -DOBJDUMP=… -DISA=avx2 -DOBJECTS=a.o;b.o -P check_symbols.cmake
-# Fails on a weak or global definition whose name does not carry the instruction set, and on
-# initialisers that would run on every machine.
+# Fails on a weak or global definition whose name does not carry the instruction set, on
+# initialisers that would run on every machine, and where a kernel's prefetches are missing, which
+# compilers drop from functions that seem to do nothing else.
 foreach(object IN LISTS OBJECTS)
   execute_process(COMMAND ${NM} --defined-only ${object} OUTPUT_VARIABLE symbols
                   COMMAND_ERROR_IS_FATAL ANY)
@@ -18,5 +19,22 @@ foreach(object IN LISTS OBJECTS)
                   COMMAND_ERROR_IS_FATAL ANY)
   if(sections MATCHES "\\.(init_array|ctors)")
     message(SEND_ERROR "${object}: has initialisers that run at load time")
+  endif()
+  set(prefetching)
+  if(object MATCHES "shape_kernels")
+    set(prefetching scatter_shape)
+  elseif(object MATCHES "bicubic_kernels" AND NOT ISA MATCHES "^(scalar|sse2)$")
+    set(prefetching sweep_tile evaluate_block)
+  endif()
+  if(prefetching)
+    execute_process(
+      COMMAND ${OBJDUMP} -d --no-show-raw-insn ${object}
+      COMMAND awk "/^[0-9a-f]+ </ { name = $2 } /\t(prefetch|prfm)/ { print name }"
+      OUTPUT_VARIABLE functions COMMAND_ERROR_IS_FATAL ANY)
+    foreach(function IN LISTS prefetching)
+      if(NOT functions MATCHES ${function})
+        message(SEND_ERROR "${object}: no prefetch in ${function}")
+      endif()
+    endforeach()
   endif()
 endforeach()
