@@ -2,7 +2,6 @@
 // Only the tables leave this object; they are constants, so nothing runs at load time. The other
 // sources of this folder are compiled the same way.
 #include "kernels/grid/grid_kernel.hpp"
-#include "kernels/grid/side_kernel.hpp"
 #include "kernels/grid/split_stores.hpp"
 #include "kernels/pack/bicubic_pack_kernel.hpp"
 #include "kernels/scattered/scattered_kernel.hpp"
@@ -16,6 +15,8 @@ extern const detail::CurveTable<float> curve_table_f32;
 extern const detail::CurveTable<double> curve_table_f64;
 extern const detail::NetTable<float> net_table_f32;
 extern const detail::NetTable<double> net_table_f64;
+extern const detail::MeshTable<float> mesh_table_f32;
+extern const detail::MeshTable<double> mesh_table_f64;
 
 template <typename T>
 constexpr detail::KernelTable<T> make_table() {
@@ -37,7 +38,6 @@ constexpr detail::KernelTable<T> make_table() {
     table.grid[detail::kAnyOutputs] = grid_kernel<T, detail::kAnyOutputs>;
     table.grid[detail::kSecondDerivatives] = grid_kernel<T, detail::kSecondDerivatives>;
     table.scattered = scattered_kernel<T>;
-    table.side = side_kernel<T>;
   }
   return table;
 }
@@ -47,6 +47,7 @@ constexpr detail::KernelTable<float> make_table_f32() {
   table.shapes = &shape_table_f32;
   table.curves = &curve_table_f32;
   table.nets = &net_table_f32;
+  table.meshes = kCompact ? nullptr : &mesh_table_f32;
   return table;
 }
 
@@ -55,6 +56,7 @@ constexpr detail::KernelTable<double> make_table_f64() {
   table.shapes = &shape_table_f64;
   table.curves = &curve_table_f64;
   table.nets = &net_table_f64;
+  table.meshes = kCompact ? nullptr : &mesh_table_f64;
   return table;
 }
 

@@ -8,6 +8,7 @@
 #include "src/runtime/line_costs.hpp"
 #include "src/storage/patch_storage.hpp"
 #include "src/tables/kernel_table.hpp"
+#include "src/tables/mesh_table.hpp"
 
 namespace simdbezier::detail {
 
@@ -90,14 +91,11 @@ struct PatchKernels {
     }
   }
 
-  /// False where there is no such kernel, and nothing has been done.
-  bool run(SideTask<T>& task) const noexcept {
-    if (choice.any_shape || !watertight || !task.shape->is_bicubic()) {
-      return false;
-    }
-    table->side(task);
-    return true;
+  /// Whether there is a kernel for edges between patches of this shape.
+  [[nodiscard]] bool has_edges(const NetShape& shape) const noexcept {
+    return !choice.any_shape && watertight && shape.is_bicubic();
   }
+  void run(EdgeTask<T>& task) const noexcept { table->meshes->edges(task); }
 
   void run(ScatteredTask<T>& task) const noexcept {
     if (choice.any_shape || !task.shape->is_bicubic()) {

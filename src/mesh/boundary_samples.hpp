@@ -95,43 +95,11 @@ public:
   }
   /// Evaluates the corners and edges that a patch owns.
   void add(std::size_t patch) noexcept {
-    for (std::size_t k = kPatchCorners * patch; k < kPatchCorners * (patch + 1); ++k) {
-      if (topology_.corners[k] == k) {
-        add_corner(static_cast<std::uint32_t>(k));
-      }
-    }
-    for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
-      if (topology_.owns_edge(side)) {
-        add_edge(topology_.sides[side].edge());
-      }
-    }
+    topology_.for_owned(
+        patch, [this](std::uint32_t corner) { add_corner(corner); },
+        [this](std::uint32_t edge) { add_edge(edge); });
   }
-
-  [[nodiscard]] std::span<const BoundaryEntry> entries() const noexcept {
-    return {entries_, entry_count_};
-  }
-  [[nodiscard]] std::size_t size() const noexcept { return count_; }
-  [[nodiscard]] const Planes<T>& positions() const noexcept { return positions_; }
-  [[nodiscard]] const Planes<T>& normals() const noexcept { return normals_; }
-
-private:
-  static std::size_t planes(const BoundaryWishes& wishes) noexcept {
-    return wishes.dimension + (wishes.normals ? 3 : 0);
-  }
-  /// Samples are read in blocks.
-  static std::size_t plane_values(const BoundaryWishes& wishes) noexcept {
-    return wishes.samples + PointBlock<T>::kPoints;
-  }
-  static std::size_t line_values(const MeshData& mesh) noexcept {
-    return mesh.most_segments + kMaxLanes;
-  }
-  template <typename Value>
-  static Value* take(unsigned char*& memory, std::size_t count) noexcept {
-    auto* const taken = reinterpret_cast<Value*>(memory);
-    memory += whole_lines(count * sizeof(Value));
-    return taken;
-  }
-
+  /// Some joined corners. lowest: the first of them.
   void add_corner(std::uint32_t lowest) noexcept {
     BoundaryEntry& entry = entries_[entry_count_++];
     entry = {lowest, true, static_cast<std::uint32_t>(count_), 1, 0};
@@ -173,6 +141,34 @@ private:
       }
       count_ += points;
     }
+  }
+
+  [[nodiscard]] std::span<const BoundaryEntry> entries() const noexcept {
+    return {entries_, entry_count_};
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return count_; }
+  /// What samples are made with.
+  [[nodiscard]] CornerCache<T>& corners() noexcept { return corners_; }
+  [[nodiscard]] UnionLines<T>& unions() noexcept { return unions_; }
+  [[nodiscard]] const Planes<T>& positions() const noexcept { return positions_; }
+  [[nodiscard]] const Planes<T>& normals() const noexcept { return normals_; }
+
+private:
+  static std::size_t planes(const BoundaryWishes& wishes) noexcept {
+    return wishes.dimension + (wishes.normals ? 3 : 0);
+  }
+  /// Samples are read in blocks.
+  static std::size_t plane_values(const BoundaryWishes& wishes) noexcept {
+    return wishes.samples + PointBlock<T>::kPoints;
+  }
+  static std::size_t line_values(const MeshData& mesh) noexcept {
+    return mesh.most_segments + kMaxLanes;
+  }
+  template <typename Value>
+  static Value* take(unsigned char*& memory, std::size_t count) noexcept {
+    auto* const taken = reinterpret_cast<Value*>(memory);
+    memory += whole_lines(count * sizeof(Value));
+    return taken;
   }
 
   void run_side(std::uint32_t side, const T* along, std::uint32_t points) noexcept {

@@ -6,39 +6,9 @@
 
 #include "src/mesh/boundary_samples.hpp"
 #include "src/mesh/merged_normals.hpp"
+#include "src/mesh/vertex_target.hpp"
 
 namespace simdbezier::detail {
-
-/// Attributes of vertices, in the caller's memory; null where not wanted.
-template <typename T>
-struct ParameterOutputs {
-  T* u = nullptr;
-  T* v = nullptr;
-  std::ptrdiff_t stride = 1;
-  std::uint32_t* patch = nullptr;
-
-  [[nodiscard]] bool wanted() const noexcept { return u != nullptr || patch != nullptr; }
-  void put(std::size_t vertex, std::uint32_t of_patch, T at_u, T at_v) const noexcept {
-    if (u != nullptr) {
-      u[static_cast<std::ptrdiff_t>(vertex) * stride] = at_u;
-      v[static_cast<std::ptrdiff_t>(vertex) * stride] = at_v;
-    }
-    if (patch != nullptr) {
-      patch[vertex] = of_patch;
-    }
-  }
-};
-
-/// Where vertices go: values of vertex k at [(k - first) * step] of a plane.
-template <typename T>
-struct VertexTarget {
-  Planes<T> position;
-  Planes<T> normal;
-  std::size_t step = 1;
-  std::size_t first = 0;
-  ParameterOutputs<T> parameters; ///< of vertex k at k - parameters_first
-  std::size_t parameters_first = 0;
-};
 
 /// Which of the patches at a vertex gives its position: the lowest of all, or, where the vertex is
 /// split, the lowest of those that have this very one.
@@ -82,11 +52,9 @@ private:
   };
 
   void list_members(const BoundaryEntry& entry) noexcept {
-    const auto describe = [&](std::uint32_t place, std::uint8_t flag) {
+    const auto describe = [&](std::uint32_t place, ApartFlag flag) {
       const std::uint32_t patch = place / 4;
-      const bool apart =
-          !topology_.apart.empty() && (topology_.apart[patch] >> place % 4 & unsigned{flag}) != 0;
-      return Member{place, topology_.is_turned(patch), apart, 0};
+      return Member{place, topology_.is_turned(patch), topology_.is_apart(place, flag), 0};
     };
     std::size_t m = 0;
     if (entry.corner) {

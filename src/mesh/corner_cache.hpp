@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "src/mesh/merged_normals.hpp"
 #include "src/mesh/patch_runner.hpp"
 #include "src/mesh/topology_data.hpp"
 
@@ -18,7 +19,7 @@ class CornerCache {
 public:
   /// Values of scratch, for corners of `planes` values each.
   [[nodiscard]] static std::size_t memory_values(std::size_t planes) noexcept {
-    return kBlocks * kBlockCorners * planes;
+    return kBlocks * kBlockCorners * planes + PointBlock<T>::kPoints;
   }
   CornerCache(PatchRunner<T>& runner, std::size_t patches, std::size_t dimension, bool normals,
               T* memory) noexcept
@@ -32,23 +33,35 @@ public:
     runs_[1] = {y_ + 1, 1, RowKind::edge_v1};
   }
 
-  /// Copies what is known of corner 4 * patch + corner to sample `at` of planes.
-  void fetch(std::uint32_t corner, const Planes<T>& position, const Planes<T>& normal,
-             std::size_t at) noexcept {
-    const std::size_t patch = corner / kPatchCorners;
-    const std::size_t block = patch / kBlockPatches;
+  /// What is known of corner 4 * patch + corner, as sample 0 of planes of which a PointBlock may be
+  /// read. Valid until the next call.
+  void look_up(std::uint32_t corner, Planes<T>& position, Planes<T>& normal) noexcept {
+    const std::size_t block = corner / kBlockCorners;
     const std::size_t slot = block % kBlocks;
     T* const values = memory_ + slot * kBlockCorners * planes();
     if (known_[slot] != block) {
       known_[slot] = block;
       evaluate(block * kBlockPatches, values);
     }
-    const T* const from = values + corner % kBlockCorners;
+    T* from = values + corner % kBlockCorners;
+    for (std::size_t c = 0; c < dimension_; ++c, from += kBlockCorners) {
+      position.component[c] = from;
+    }
+    for (std::size_t c = 0; c < 3 && normals_; ++c, from += kBlockCorners) {
+      normal.component[c] = from;
+    }
+  }
+  /// Copies it to sample `at` of planes.
+  void fetch(std::uint32_t corner, const Planes<T>& position, const Planes<T>& normal,
+             std::size_t at) noexcept {
+    Planes<T> known_position;
+    Planes<T> known_normal;
+    look_up(corner, known_position, known_normal);
     for (std::size_t c = 0; c < dimension_; ++c) {
-      position.component[c][at] = from[c * kBlockCorners];
+      position.component[c][at] = *known_position.component[c];
     }
     for (std::size_t c = 0; c < 3 && normals_; ++c) {
-      normal.component[c][at] = from[(dimension_ + c) * kBlockCorners];
+      normal.component[c][at] = *known_normal.component[c];
     }
   }
 

@@ -76,12 +76,35 @@ public:
     const bool single = leg.segments == 1;
     to_[(single != kTurned) ? -1 : -2] = static_cast<Index>(leg.corner);
   }
+  /// The half of a cell that has the corner: cut_half() of its legs. One further vertex at most on
+  /// either leg is usual: then three triangles are written, of which those count that are there.
+  void corner_half(const CornerLeg& x, const CornerLeg& y) {
+    if (x.segments > 2 || y.segments > 2) [[unlikely]] {
+      *this = long_corner_half(x, y, *this);
+      return;
+    }
+    const std::uint32_t x1 = x.zero + x.step;
+    const std::uint32_t y1 = y.zero + y.step;
+    const std::uint32_t x2 = x1 + x.step;
+    const std::uint32_t y2 = y1 + y.step;
+    put(0, x.corner, x1, y1);
+    put(1, x1, x.segments == 2 ? x2 : y2, y1);
+    put(2, x2, y2, y1);
+    to_ += std::size_t{3} * (x.segments + y.segments - 1);
+  }
   /// n cells side by side.
   void cells(const CellRun<Index>& run, std::uint32_t base, std::uint32_t n) {
     to_ = run.write(base, n, to_);
   }
 
 private:
+  /// By value: an object whose address is known elsewhere stays in memory.
+  __attribute__((noinline)) static FanWriter long_corner_half(const CornerLeg& x,
+                                                              const CornerLeg& y, FanWriter out) {
+    const CornerChain chains[2] = {CornerChain(x), CornerChain(y)};
+    cut_half(chains[0].leg(), chains[1].leg(), out);
+    return out;
+  }
   void put(std::size_t k, std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     Index* const to = to_ + 3 * k;
     to[0] = static_cast<Index>(a);

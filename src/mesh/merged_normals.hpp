@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "src/tables/kernel_table.hpp"
+#include "src/tables/mesh_table.hpp"
 
 namespace simdbezier::detail {
 
@@ -79,7 +79,7 @@ public:
   void finish(std::size_t points, const Planes<T>& to, std::size_t place,
               std::size_t step) const noexcept {
     using Values = typename Block::Values;
-    const T least = T(1e-3) * static_cast<T>(terms_);
+    const T least = kLeastSum<T> * static_cast<T>(terms_);
     const Values square = sum_[0] * sum_[0] + sum_[1] * sum_[1] + sum_[2] * sum_[2];
     const Values zero = square - square; // squares of sums of unit vectors are finite
     const auto merges = square >= (terms_ > 1 ? least * least : std::numeric_limits<T>::infinity());

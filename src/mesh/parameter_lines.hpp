@@ -21,9 +21,11 @@ public:
   explicit ParameterLines(T* memory, std::size_t most) noexcept
       : memory_(memory), large_{memory + kSmallValues, memory + kSmallValues + most + kMaxLanes} {}
 
+  /// Whether the line of n segments stays valid.
+  [[nodiscard]] static bool is_kept(std::size_t n) noexcept { return n <= kSmall; }
   /// n - 1 values, then kMaxLanes more readable ones. Valid until the second call after it.
   const T* line(std::size_t n) noexcept {
-    if (n > kSmall) {
+    if (!is_kept(n)) {
       turn_ = large_n_[turn_] == n ? turn_ : 1 - turn_;
       if (large_n_[turn_] != n) {
         large_n_[turn_] = n;
@@ -70,12 +72,17 @@ public:
   [[nodiscard]] static std::size_t memory_values() noexcept { return kSlots * kSlotValues; }
   explicit UnionLines(T* memory) noexcept : memory_(memory) {}
 
+  /// Whether a line is there already, so that line() leaves all others as they are.
+  [[nodiscard]] bool holds(std::uint32_t a, std::uint32_t b) const noexcept {
+    const std::size_t slot = slot_of(a, b);
+    return rates_[slot][0] == a && rates_[slot][1] == b;
+  }
   /// Half-centred parameters of the points between the ends of an edge with rates a < b <= kMost,
-  /// then kMaxLanes more readable values. Valid until the next call.
+  /// then kMaxLanes more readable values. Valid until one is asked for that is not there.
   const T* line(std::uint32_t a, std::uint32_t b) noexcept {
-    const std::size_t slot = (b - a) % kSide * kSide + a % kSide;
+    const std::size_t slot = slot_of(a, b);
     T* const values = memory_ + slot * kSlotValues;
-    if (rates_[slot][0] != a || rates_[slot][1] != b) {
+    if (!holds(a, b)) {
       rates_[slot][0] = a;
       rates_[slot][1] = b;
       fill(values, rates_[slot]);
@@ -88,6 +95,9 @@ private:
   static constexpr std::size_t kSlots = kSide * kSide;
   static constexpr std::size_t kSlotValues = 2 * kMost + kMaxLanes;
 
+  static std::size_t slot_of(std::uint32_t a, std::uint32_t b) noexcept {
+    return (b - a) % kSide * kSide + a % kSide;
+  }
   static void fill(T* to, const std::uint32_t (&rates)[2]) noexcept {
     std::uint32_t next[2];
     std::size_t points = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "src/calls/grid_plan.hpp"
 #include "src/calls/kernel_choice.hpp"
@@ -66,7 +67,7 @@ public:
     if (!to.wanted()) {
       return;
     }
-    aim(grid_, patch, to);
+    aim(grid_, kernels_.set->place(patch), to);
     grid_.patch_count = count;
     grid_.x = piece.x;
     grid_.nu = piece.columns;
@@ -87,12 +88,10 @@ public:
     if (!to.wanted()) {
       return;
     }
-    aim(side_, patch, to);
-    side_.edge = side;
-    side_.along = along;
-    side_.points = points;
-    if (kernels_.run(side_)) {
-      executed_ = side_.executed;
+    const PatchPlace place = kernels_.set->place(patch);
+    if (kernels_.has_edges(kernels_.set->buckets[place.bucket].shape)) {
+      const EdgeJob<T> job{along, points, 0, 1, {{place.index, side, T(1), T(1)}, {}}};
+      run_edges({&job, 1}, place.bucket, to);
       return;
     }
     const bool far = side % 2 != 0;
@@ -106,12 +105,36 @@ public:
     }
   }
 
+  /// The bucket of a patch with whose edges a kernel is acquainted, or kNoEdges.
+  static constexpr std::uint32_t kNoEdges = ~0U;
+  [[nodiscard]] std::uint32_t edge_bucket(std::size_t patch) const noexcept {
+    const std::uint32_t bucket = kernels_.set->place(patch).bucket;
+    return kernels_.has_edges(kernels_.set->buckets[bucket].shape) ? bucket : kNoEdges;
+  }
+  /// A patch's number in its bucket.
+  [[nodiscard]] std::size_t index_of(std::size_t patch) const noexcept {
+    return kernels_.set->place(patch).index;
+  }
+  /// Edges between patches of one such bucket, whose numbers are those in there.
+  void run_edges(std::span<const EdgeJob<T>> jobs, std::uint32_t bucket,
+                 const PieceTarget<T>& to) noexcept {
+    if (!to.wanted()) {
+      return;
+    }
+    aim(edges_, {bucket, 0}, to);
+    edges_.jobs = jobs.data();
+    edges_.count = jobs.size();
+    edges_.step = to.record;
+    edges_.drain = to.drain;
+    kernels_.run(edges_);
+    executed_ = edges_.executed;
+  }
+
   /// The instruction set of the kernels that ran.
   [[nodiscard]] Isa executed() const noexcept { return executed_; }
 
 private:
-  void aim(SampleTask<T>& task, std::size_t patch, const PieceTarget<T>& to) noexcept {
-    const PatchPlace place = kernels_.set->place(patch);
+  void aim(SampleTask<T>& task, const PatchPlace& place, const PieceTarget<T>& to) noexcept {
     const PatchStorage<T>& bucket = kernels_.set->buckets[place.bucket];
     const NetShape& shape = bucket.shape;
     if (bucket_ != &bucket) {
@@ -138,7 +161,7 @@ private:
   const PatchStorage<T>* bucket_ = nullptr;
   bool prefetch_ = false; ///< of the bucket
   GridTask<T> grid_{};
-  SideTask<T> side_{};
+  EdgeTask<T> edges_{};
   Isa executed_ = Isa::automatic;
   T low_[kMaxLanes + 1];
   T high_[kMaxLanes + 1];

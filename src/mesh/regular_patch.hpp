@@ -132,8 +132,7 @@ private:
       if (high) { // the half inside comes first
         put_inner_half(row, column, row_first, inside, out);
       }
-      const CornerChain chains[2] = {CornerChain(row), CornerChain(column)};
-      cut_half(chains[row_first ? 0 : 1].leg(), chains[row_first ? 1 : 0].leg(), out);
+      out.corner_half(row_first ? row : column, row_first ? column : row);
       if (!high) {
         put_inner_half(row, column, row_first, inside, out);
       }

@@ -129,12 +129,31 @@ struct TopologyData {
   [[nodiscard]] bool is_turned(std::size_t patch) const noexcept {
     return (flags[patch] & kTurned) != 0;
   }
+  /// Of a side or a corner, 4 * patch + number.
+  [[nodiscard]] bool is_apart(std::size_t place, ApartFlag flag) const noexcept {
+    return !apart.empty() && (apart[place / 4] >> place % 4 & unsigned{flag}) != 0;
+  }
   /// Whether the normals of two sides of one edge disagree before patches are turned: they agree
   /// where the boundaries, passed counter-clockwise, run against each other.
   [[nodiscard]] bool disagree(std::size_t a, std::size_t b) const noexcept {
     const bool along = sides[a].reversed() == sides[b].reversed();
     const bool given = along == (counter_clockwise_along(a) == counter_clockwise_along(b));
     return given != (is_turned(a / kPatchEdges) != is_turned(b / kPatchEdges));
+  }
+
+  /// Calls at_corner(lowest of the joined corners) and at_edge(edge) for those that a patch owns.
+  template <typename AtCorner, typename AtEdge>
+  void for_owned(std::size_t patch, const AtCorner& at_corner, const AtEdge& at_edge) const {
+    for (std::size_t k = kPatchCorners * patch; k < kPatchCorners * (patch + 1); ++k) {
+      if (corners[k] == k) {
+        at_corner(static_cast<std::uint32_t>(k));
+      }
+    }
+    for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
+      if (owns_edge(side)) {
+        at_edge(sides[side].edge());
+      }
+    }
   }
 
   /// Calls visit(side, other side, other corner) for the corners that a corner of a patch is joined

@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "src/mesh/boundary_store.hpp"
+#include "src/mesh/plain_boundary.hpp"
 #include "src/output/delivery.hpp"
 
 namespace simdbezier::detail {
@@ -72,6 +73,7 @@ public:
         lines_(reinterpret_cast<T*>(take(scratch, lines_bytes(sizes))), sizes.most_rate),
         samples_(mesh_, sizes.wishes, runner_, lines_,
                  take(scratch, BoundarySamples<T>::bytes(mesh_, sizes.wishes))),
+        plain_(mesh_, runner_, lines_, samples_.unions(), samples_.corners(), task.normals),
         store_(mesh_, task.values, take(scratch, BoundaryStore<T>::bytes(mesh_))) {}
 
   /// Computes the boundaries and rows that begin at vertices [begin, end).
@@ -84,10 +86,7 @@ public:
       }
       if (first >= begin && inner > first) {
         make_room(first, inner - first);
-        if (!samples_.has_room()) {
-          store_boundaries();
-        }
-        samples_.add(patch);
+        add_boundary(patch);
         filled_ += inner - first;
       }
       run_rows(patch, rows_before(patch, begin), rows_before(patch, end));
@@ -136,6 +135,7 @@ private:
     }
     if (filled_ == 0) {
       sink_.begin(vertex, target_);
+      target_.drain = sink_.queue();
     }
   }
   void pass_on() noexcept {
@@ -146,7 +146,27 @@ private:
     filled_ = 0;
   }
 
+  /// The corners and edges that a patch owns.
+  void add_boundary(std::size_t patch) noexcept {
+    if (!samples_.has_room()) {
+      store_boundaries();
+    }
+    mesh_.topology.data()->for_owned(
+        patch,
+        [this](std::uint32_t corner) {
+          if (!plain_.put_corner(corner, target_)) {
+            samples_.add_corner(corner);
+          }
+        },
+        [this](std::uint32_t edge) {
+          if (!plain_.add_edge(edge, target_)) {
+            plain_.run(target_); // the lines of its parameters may give way to others
+            samples_.add_edge(edge);
+          }
+        });
+  }
   void store_boundaries() noexcept {
+    plain_.run(target_);
     for (const BoundaryEntry& entry : samples_.entries()) {
       store_.store(entry, samples_.positions(), samples_.normals(), target_);
     }
@@ -165,7 +185,7 @@ private:
       const std::size_t rows =
           std::min({last - row, (sizes_.chunk - filled_) / columns, kMostMeshRows});
       const PieceTarget<T> to{moved(target_.position), moved(target_.normal), target_.step,
-                              sink_.queue()};
+                              target_.drain};
       const RowRun<T> run{y + row, static_cast<std::uint32_t>(rows), RowKind::interior};
       runner_.run(patch, 1, {x, columns, &run, 1, rows}, to);
       finish_rows(patch, row, rows, to.normal);
@@ -213,6 +233,7 @@ private:
   PatchRunner<T> runner_;
   ParameterLines<T> lines_;
   BoundarySamples<T> samples_;
+  PlainBoundary<T> plain_;
   BoundaryStore<T> store_;
   VertexTarget<T> target_; ///< of the chunk
   std::size_t filled_ = 0; ///< vertices of the chunk

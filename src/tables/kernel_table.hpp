@@ -102,14 +102,6 @@ struct GridTask : SampleTask<T> {
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see drain_some()
 };
 
-/// Points between the ends of one side of a single patch. Point k goes to plane[k].
-template <typename T>
-struct SideTask : SampleTask<T> {
-  std::size_t edge; ///< as in src/storage/patch_storage.hpp: v = 0, v = 1, u = 0, u = 1
-  const T* along;   ///< half-centred, strictly between -1/2 and 1/2; kMaxLanes more are readable
-  std::size_t points;
-};
-
 /// Scattered samples with unit-stride outputs.
 template <typename T>
 struct ScatteredTask : SampleTask<T> {
@@ -213,12 +205,14 @@ struct ShapeTable {
   NetPackKernel<T, double> pack_f64;
 };
 
-/// Kernels for curves (src/tables/curve_table.hpp), and for operations on control nets
-/// (src/tables/net_table.hpp).
+/// Kernels for curves (src/tables/curve_table.hpp), for operations on control nets
+/// (src/tables/net_table.hpp), and for meshes (src/tables/mesh_table.hpp).
 template <typename T>
 struct CurveTable;
 template <typename T>
 struct NetTable;
+template <typename T>
+struct MeshTable;
 
 /// Kernels for bicubic patches in space, and the way to all others.
 template <typename T>
@@ -231,7 +225,6 @@ struct KernelTable {
   bool puts_records; ///< whether usual outputs' grid kernels put records together
   void (*grid[kOutputSets])(GridTask<T>& task);
   void (*scattered)(ScatteredTask<T>& task);
-  void (*side)(SideTask<T>& task);     ///< positions and normals of watertight sets; either is null
   void (*drain)(DrainQueue<T>& queue); ///< passes on all that is left
   void (*fence)();                     ///< completes streaming stores
   /// Stores whole registers one behind the other, to see what stores across lines cost; null where
@@ -243,6 +236,7 @@ struct KernelTable {
   const ShapeTable<T>* shapes;
   const CurveTable<T>* curves;
   const NetTable<T>* nets;
+  const MeshTable<T>* meshes; ///< null where there is only one kernel for each purpose
 };
 
 } // namespace simdbezier::detail

@@ -1,0 +1,20 @@
+// Compiled once per instruction set: kernels for meshes.
+#include "kernels/mesh/edge_kernel.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+template <typename T>
+constexpr detail::MeshTable<T> make_mesh_table() {
+  detail::MeshTable<T> table{};
+  if constexpr (!kCompact) {
+    table.edges = edge_kernel<T>;
+  }
+  return table;
+}
+
+extern const detail::MeshTable<float> mesh_table_f32;
+extern const detail::MeshTable<double> mesh_table_f64;
+constinit const detail::MeshTable<float> mesh_table_f32 = make_mesh_table<float>();
+constinit const detail::MeshTable<double> mesh_table_f64 = make_mesh_table<double>();
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
