@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/curve/curve_formulas.hpp"
+#include "kernels/shape/sample_jets.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -6,7 +6,7 @@
 // has no binomial factors. The factorials follow once, at the very end.
 #pragma once
 
-#include "kernels/shape/shape_formulas.hpp"
+#include "kernels/shape/sample_jets.hpp"
 #include "src/tables/derivative_task.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

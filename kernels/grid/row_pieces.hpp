@@ -61,12 +61,13 @@ private:
   alignas(64) T values_[4 * kPlane];
 };
 
-/// Whether the rows are pairs Y and -Y, from both ends on.
+/// Whether the rows are pairs Y and -Y, from both ends on. Two rows at 0 are none: the sign of a
+/// zero would depend on which of them is the mirror image.
 template <typename T>
 SIMDBEZIER_PART bool are_mirrored(const T* y, std::size_t rows) {
   bool mirrored = true;
   for (std::size_t k = 0; k < rows / 2 && mirrored; ++k) {
-    mirrored = y[k] == -y[rows - 1 - k];
+    mirrored = y[k] == -y[rows - 1 - k] && y[k] != T(0);
   }
   return mirrored;
 }

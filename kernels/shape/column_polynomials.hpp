@@ -85,6 +85,43 @@ struct ColumnPolynomials {
     }
   }
 
+  /// Samples at y and -y, which share most of their arithmetic, of an order that is known and takes
+  /// even and odd parts. First derivatives where there are no weights.
+  SIMDBEZIER_INLINE void evaluate_pair(const typename P::Slots& slots, V y,
+                                       const ColumnOrigins<V>* origins, SampleJet<V>& jet,
+                                       SampleJet<V>& mirrored) const {
+    static_assert(kDepth == 0 || !P::kWeighted);
+    constexpr std::size_t kRowOrder = P::OrderV::kMost;
+    V even;
+    V odd;
+    if constexpr (P::kWeighted) {
+      even_odd_parts<kRowOrder>(y, coefficients(power[P::Slots::kWeight][0]), even, odd);
+      jet.inverse_weight = Quotient<V>::by(even + odd).inverse;
+      mirrored.inverse_weight = Quotient<V>::by(even - odd).inverse;
+    }
+    slots.for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
+      even_odd_parts<kRowOrder>(y, coefficients(power[slot][0]), even, odd);
+      jet.position[slot] = even + odd;
+      mirrored.position[slot] = even - odd;
+      if constexpr (P::kWeighted) {
+        jet.position[slot] = jet.position[slot] * jet.inverse_weight;
+        mirrored.position[slot] = mirrored.position[slot] * mirrored.inverse_weight;
+      }
+      if (origins != nullptr) [[unlikely]] {
+        jet.position[slot] = jet.position[slot] + origins->position[slot];
+        mirrored.position[slot] = mirrored.position[slot] + origins->position[slot];
+      }
+      if constexpr (kDepth > 0) {
+        even_odd_slope_parts<kRowOrder>(y, coefficients(power[slot][0]), even, odd);
+        jet.dv[slot] = even + odd;
+        mirrored.dv[slot] = even - odd;
+        even_odd_parts<kRowOrder>(y, coefficients(power[slot][1]), even, odd);
+        jet.du[slot] = even + odd;
+        mirrored.du[slot] = even - odd;
+      }
+    });
+  }
+
 private:
   static SIMDBEZIER_INLINE auto coefficients(const V* c) {
     return [c](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return c[k]; };

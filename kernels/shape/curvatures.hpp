@@ -1,7 +1,7 @@
 // Curvatures of a register of samples, from their first and second derivatives.
 #pragma once
 
-#include "kernels/shape/shape_formulas.hpp"
+#include "kernels/shape/sample_jets.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -40,27 +40,45 @@ struct ScaledTangent {
   }
 };
 
+/// What curvatures take from first derivatives alone. Roots and divisions end here and in
+/// curvatures(), so that those of several samples are under way together.
+template <typename V>
+struct CurvatureFrame {
+  V inverse_u; ///< of the scaled tangents
+  V inverse_v;
+  V n[3];
+  V inverse_area2;
+  V e;
+  V f;
+  V g;
+
+  SIMDBEZIER_PART void find(const SampleJet<V>& jet) {
+    const ScaledTangent<V> du(jet.du);
+    const ScaledTangent<V> dv(jet.dv);
+    inverse_u = du.inverse;
+    inverse_v = dv.inverse;
+    const V area2 = cross_product(du.value, dv.value, n); // EG - F^2, without its cancellation
+    e = dot(du.value, du.value);
+    f = dot(du.value, dv.value);
+    g = dot(dv.value, dv.value);
+    inverse_area2 = divide(broadcast<V>(ScalarOf<V>(1)), area2);
+    normalise(n, area2);
+  }
+};
+
 /// Gaussian, mean, smaller and larger principal curvature; see Curvatures.
 template <typename V>
-SIMDBEZIER_PART void curvatures(const SampleJet<V>& jet, V out[detail::kCurvatures]) {
-  const ScaledTangent<V> du(jet.du);
-  const ScaledTangent<V> dv(jet.dv);
-  V n[3];
-  const V area2 = cross_product(du.value, dv.value, n); // EG - F^2, without its cancellation
-  normalise(n, area2);
-  const V inverse_area2 = divide(broadcast<V>(ScalarOf<V>(1)), area2);
-  const V l = dot(jet.duu, n) * du.inverse * du.inverse;
-  const V m = dot(jet.duv, n) * du.inverse * dv.inverse;
-  const V k = dot(jet.dvv, n) * dv.inverse * dv.inverse;
-  const V e = dot(du.value, du.value);
-  const V f = dot(du.value, dv.value);
-  const V g = dot(dv.value, dv.value);
+SIMDBEZIER_PART void curvatures(const SampleJet<V>& jet, const CurvatureFrame<V>& at,
+                                V out[detail::kCurvatures]) {
+  const V l = dot(jet.duu, at.n) * at.inverse_u * at.inverse_u;
+  const V m = dot(jet.duv, at.n) * at.inverse_u * at.inverse_v;
+  const V k = dot(jet.dvv, at.n) * at.inverse_v * at.inverse_v;
   const V half = broadcast<V>(ScalarOf<V>(0.5));
   const V zero = broadcast<V>(ScalarOf<V>(0));
   // Adding zero makes a plane's curvatures +0 and changes nothing else.
-  const V gaussian = madd(msub(l, k, m * m), inverse_area2, zero);
-  const V twice_f_m = (f + f) * m;
-  const V mean = madd(half * (madd(e, k, g * l) - twice_f_m), inverse_area2, zero);
+  const V gaussian = madd(msub(l, k, m * m), at.inverse_area2, zero);
+  const V twice_f_m = (at.f + at.f) * m;
+  const V mean = madd(half * (madd(at.e, k, at.g * l) - twice_f_m), at.inverse_area2, zero);
   const V discriminant = msub(mean, mean, gaussian);
   // Rounding makes it negative at umbilics; nan stays nan.
   const V spread = square_root(select_where<V>(discriminant < zero, zero, discriminant));

@@ -85,10 +85,75 @@ sweep_positions(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
   }
 }
 
-/// The columns from `first` on of one patch; components from `component` on.
+/// Whether all rows that are on no edge are pairs Y and -Y whose registers share no lines. Rows
+/// that are both at zero are no pair: signs of zeros could differ.
+template <typename T>
+SIMDBEZIER_PART bool pairs_pay(const GridTask<T>& task) {
+  bool mirrored = task.nu % kLanes<vec<T>> == 0;
+  for (std::size_t r = 0; r < task.run_count && mirrored; ++r) {
+    const RowRun<T> run = task.runs[r];
+    if (own_edge(task, run) < kEdges) {
+      continue;
+    }
+    mirrored = are_mirrored(run.y, run.rows);
+    for (std::size_t j = 0; j < run.rows / 2; ++j) {
+      mirrored = mirrored && run.y[j] != T(0);
+    }
+  }
+  return mirrored;
+}
+
+/// Plans whose rows can be evaluated two at a time.
+template <typename P>
+inline constexpr bool kInPairs = takes_even_odd(P::OrderV::kMost) &&
+                                 (P::kDepth == 0 || (P::kDepth == 1 && P::kSingle));
+
+/// Rows of whole registers where pairs_pay().
+template <typename P, typename T>
+SIMDBEZIER_PART void sweep_pairs(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
+                                 const typename ShapeColumns<P, vec<T>>::Edges& edges,
+                                 SampleRange<vec<T>> range) {
+  using V = vec<T>;
+  const ColumnPolynomials<P, V> polynomials = columns.polynomials();
+  const ColumnOrigins<V>* const origins = columns.origins();
+  range.active = kLanes<V>;
+  for (std::size_t r = 0; r < task.run_count; ++r) {
+    const RowRun<T> run = task.runs[r];
+    const std::size_t edge = own_edge(task, run);
+    if (edge < kEdges) {
+      SampleJet<V> on_edge;
+      if constexpr (P::kDepth > 0) { // of positions, edges need nothing that the columns give
+        const V y = broadcast<V>(run.y[0]);
+        polynomials.template evaluate<1>(columns.slots(), columns.order_v(), &y, origins, &on_edge);
+      }
+      edges.replace_row(edge, on_edge);
+      for (std::size_t j = 0; j < run.rows; ++j, range.at += task.nu) {
+        store_sample<P>(task, range, on_edge);
+      }
+    } else {
+      SampleRange<V> image = range;
+      image.at += (run.rows - 1) * task.nu;
+      const std::size_t behind = image.at + task.nu;
+      const std::size_t pairs = (run.rows + 1) / 2;
+      for (std::size_t j = 0; j < pairs; ++j, range.at += task.nu, image.at -= task.nu) {
+        SampleJet<V> jet;
+        SampleJet<V> mirrored;
+        polynomials.evaluate_pair(columns.slots(), broadcast<V>(run.y[j]), origins, jet, mirrored);
+        store_sample<P>(task, range, jet);
+        if (range.at != image.at) {
+          store_sample<P>(task, image, mirrored);
+        }
+      }
+      range.at = behind;
+    }
+  }
+}
+
+/// The columns from `first` on of one patch; components from `component` on. pairs: pairs_pay().
 template <typename P, typename T>
 SIMDBEZIER_PART void sweep_columns(const GridTask<T>& task, const NetShape& shape,
-                                   std::size_t patch, std::size_t first, std::size_t component) {
+                                   std::size_t patch, std::size_t first, std::size_t component,
+                                   bool pairs) {
   using V = vec<T>;
   const CellRow<T> cells(task, shape, patch, 0);
   const V x = load_vector<V>(task.x + first);
@@ -101,6 +166,11 @@ SIMDBEZIER_PART void sweep_columns(const GridTask<T>& task, const NetShape& shap
   ShapeColumns<P, V> columns(shape, at, first_component);
   ColumnOrigins<V> origins;
   columns.build(cells, edges, origins);
+  if constexpr (kInPairs<P>) {
+    if (pairs) {
+      return sweep_pairs<P>(task, columns, edges, range);
+    }
+  }
   if constexpr (P::kDepth == 0) {
     left == kLanes<V> ? sweep_positions<P, true>(task, columns, edges, range)
                       : sweep_positions<P, false>(task, columns, edges, range);
@@ -118,11 +188,12 @@ SIMDBEZIER_KERNEL void sweep_known(const GridTask<T>& shared_task) {
   // Copies, because stores through vector types might change anything that others can see.
   const GridTask<T> task = shared_task;
   const NetShape shape = P::shape(*shared_task.shape);
+  const bool pairs = kInPairs<P> && pairs_pay(task);
   const std::size_t components = P::kSingle ? wanted_components(task) : 1;
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
     for (std::size_t first = 0; first < task.nu; first += kLanes<vec<T>>) {
       for (std::size_t c = 0; c < components; ++c) {
-        sweep_columns<P>(task, shape, patch, first, c);
+        sweep_columns<P>(task, shape, patch, first, c, pairs);
       }
     }
     drain_some(task.drain, task.patch_step * 3);

@@ -1,7 +1,7 @@
 // Cells of a patch, and a register of columns of them; see net_shape.hpp.
 #pragma once
 
-#include "kernels/shape/shape_formulas.hpp"
+#include "kernels/shape/sample_jets.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -91,6 +91,8 @@ struct Channels {
   SIMDBEZIER_PART bool exists(std::size_t slot) const {
     return kComponents != 0 || slot < count_ || slot == kWeight;
   }
+  /// Whether there are three components from the first one on, at least.
+  SIMDBEZIER_PART bool are_three() const { return kMost == 3 && (kComponents != 0 || count_ > 2); }
   /// f(slot) for the components. Unrolled only where their number is known, because that keeps
   /// polynomials in registers: it is much code.
   template <typename F>

@@ -5,6 +5,7 @@
 
 #include "kernels/shape/column_polynomials.hpp"
 #include "kernels/shape/shape_edges.hpp"
+#include "kernels/simd/two_tables.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -13,9 +14,13 @@ class ShapeColumns {
   using T = ScalarOf<V>;
   using Powers = typename ColumnPolynomials<P, V>::Powers;
   static constexpr std::size_t kDepth = P::kDepth;
-  /// Powers at once where the compiler does not know how many there are: enough to hide the
-  /// latency of Horner's rule, few enough for 16 registers.
-  static constexpr std::size_t kAbreast = 4;
+  /// Powers at once where the compiler does not know how many there are: enough to hide the latency
+  /// of Horner's rule, few enough for 16 registers. Positions have code for every number up to 8,
+  /// since columns of high degrees are most of their work, as far as the number of columns makes
+  /// it usual: 16 of them are two registers or one.
+  template <bool kMixed>
+  static constexpr bool kAnyNumber =
+      kDepth == 0 && !P::kWeighted && !kCompact && (!kMixed || kLanes<V> == 16);
 
 public:
   using Edges = ShapeEdges<P, V>;
@@ -23,7 +28,8 @@ public:
   SIMDBEZIER_PART ShapeColumns(const NetShape& shape, const CellColumns<V>& columns,
                                std::size_t first_component)
       : shape_(P::shape(shape)), columns_(columns), slots_(shape_, first_component),
-        order_u_(shape_.order_u()), order_v_(shape_.order_v()) {}
+        order_u_(shape_.order_u()), order_v_(shape_.order_v()),
+        abreast_(shape_.order_v() < 4 ? 2 : even_share(shape_.order_v(), 8)) {}
 
   /// The columns in one row of cells, to which `edges` belong. room: as long as they are used.
   SIMDBEZIER_PART void build(const CellRow<T>& row, const Edges& edges, ColumnOrigins<V>& room) {
@@ -32,14 +38,17 @@ public:
       edges.find_origins(room);
       origins_ = &room;
     }
-    slots_.for_channels([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-      if (any_low() && any_high()) {
-        build_slot<true>(row.low, row.high, slot, polynomials_.power[slot]);
-      } else {
-        const Cell<T>& cell = any_low() ? row.low : row.high;
-        build_slot<false>(cell, cell, slot, polynomials_.power[slot]);
-      }
-    });
+    const ChannelStep step{shape_.matrix(), shape_.edge_powers() * 4};
+    if (any_low() && any_high()) {
+      slots_.for_channels([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
+        build_slot<true>(row.low, row.high, step, slot, polynomials_.power[slot]);
+      });
+    } else {
+      const Cell<T>& cell = any_low() ? row.low : row.high;
+      slots_.for_channels([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
+        build_slot<false>(cell, cell, step, slot, polynomials_.power[slot]);
+      });
+    }
   }
 
   /// build() of one sample (V = T) off the edges of its cell, in a set without origins: lanes are
@@ -47,7 +56,8 @@ public:
   SIMDBEZIER_PART void build_across(const Cell<T>& cell) {
     using Lanes = vec<T>;
     const Lanes x = broadcast<Lanes>(columns_.local.x);
-    const auto load = [](const T* c) SIMDBEZIER_INLINE_LAMBDA { return load_vector<Lanes>(c); };
+    const auto load = [](const T* c, std::size_t /*i*/)
+                          SIMDBEZIER_INLINE_LAMBDA { return load_vector<Lanes>(c); };
     slots_.for_channels([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
       const T* const matrix = cell.coefficients + slots_.channel(slot) * shape_.matrix();
       for (std::size_t l = 0; l < order_v_.value(); l += kLanes<Lanes>) {
@@ -78,68 +88,88 @@ public:
   }
 
 private:
+  /// Values from one channel to the next.
+  struct ChannelStep {
+    std::size_t matrix;
+    std::size_t edges;
+  };
+
   /// kMixed: some lanes are in the low cell, and some in the high one; else all are in `low`.
   template <bool kMixed>
-  SIMDBEZIER_PART void build_slot(const Cell<T>& low, const Cell<T>& high, std::size_t slot,
-                                  Powers& to) const {
-    const std::size_t first = slots_.channel(slot) * shape_.matrix();
-    const T* const matrix = low.coefficients + first;
-    const std::ptrdiff_t to_high = high.coefficients - low.coefficients;
-    const auto load = [&](const T* c) SIMDBEZIER_INLINE_LAMBDA {
-      return chosen<kMixed>(broadcast<V>(c[0]),
-                            [&]() SIMDBEZIER_INLINE_LAMBDA { return broadcast<V>(c[to_high]); });
+  SIMDBEZIER_PART void build_slot(const Cell<T>& low, const Cell<T>& high, const ChannelStep& step,
+                                  std::size_t slot, Powers& to) const {
+    const T* const matrix = low.coefficients + slots_.channel(slot) * step.matrix;
+    const T* const edges = low.edges + slots_.channel(slot) * step.edges;
+    const std::ptrdiff_t matrix_to_high = high.coefficients - low.coefficients;
+    const std::ptrdiff_t edges_to_high = high.edges - low.edges;
+    const TwoTables<V> cells(columns_.low);
+    // Tables reach up to six values behind the last coefficient, where the edges stand, and four
+    // behind the last edge, where the corners do.
+    const auto load = [&](const T* c, std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+      if constexpr (kMixed) {
+        return cells.entry(c, c + matrix_to_high, i);
+      } else {
+        return broadcast<V>(c[i]);
+      }
     };
-    build_all_powers(matrix, load, to);
-    if (columns_.local.on_edge) {
-      const std::size_t edges = slots_.channel(slot) * shape_.edge_powers() * 4 + detail::kEdgeU0;
-      for_coefficients(order_v_, [&](std::size_t l) SIMDBEZIER_INLINE_LAMBDA {
-        const auto on_edge = [&](const Cell<T>& cell) SIMDBEZIER_INLINE_LAMBDA {
-          return columns_.local.edges.replace(to[0][l], cell.edges + edges + l * 4);
-        };
-        to[0][l] =
-            chosen<kMixed>(on_edge(low), [&]() SIMDBEZIER_INLINE_LAMBDA { return on_edge(high); });
-      });
-    }
+    const auto replace = [&](V inside, std::size_t first, std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+      if constexpr (kMixed) { // two powers of an edge are a table
+        const T* const two = edges + (first + i / 2 * 2) * 4;
+        return cells.replace(columns_.local.edges, inside, two, two + edges_to_high,
+                             i % 2 * 4 + detail::kEdgeU0);
+      } else {
+        return columns_.local.edges.replace(inside, edges + (first + i) * 4 + detail::kEdgeU0);
+      }
+    };
+    build_all_powers<kMixed>(matrix, load, replace, to);
   }
 
-  /// Gives each lane the value of its own cell; high() is called only where lanes may be in either.
-  template <bool kMixed, typename High>
-  SIMDBEZIER_INLINE V chosen(V low, const High& high) const {
-    if constexpr (kMixed) {
-      return select_where<V>(columns_.low, low, high());
-    } else {
-      return low;
-    }
-  }
-
-  template <typename Load>
-  SIMDBEZIER_INLINE void build_all_powers(const T* matrix, const Load& load, Powers& to) const {
+  template <bool kMixed, typename Load, typename Replace>
+  SIMDBEZIER_INLINE void build_all_powers(const T* matrix, const Load& load, const Replace& replace,
+                                          Powers& to) const {
     if constexpr (P::kKnown) {
-      build_powers<P::OrderV::kMost>(matrix, 0, load, to);
+      build_powers<P::OrderV::kMost>(matrix, 0, load, replace, to);
     } else {
-      const std::size_t order_v = order_v_.value();
-      if (order_v < kAbreast) {
-        for (std::size_t l = 0; l < order_v; ++l) {
-          build_powers<1>(matrix, l, load, to);
-        }
-      } else { // the last ones may be computed twice
-        for (std::size_t l = 0; l < order_v; l += kAbreast) {
-          build_powers<kAbreast>(matrix, std::min(l, order_v - kAbreast), load, to);
-        }
+      const auto run = [&]<std::size_t kCount>() SIMDBEZIER_INLINE_LAMBDA {
+        build_runs<kCount>(matrix, load, replace, to);
+      };
+      if constexpr (kAnyNumber<kMixed>) {
+        with_one_of<2, 4, 5, 6, 7, 8>(abreast_, run);
+      } else {
+        with_one_of<2, 4>(abreast_ < 4 ? 2 : 4, run);
       }
     }
   }
 
-  /// The powers [first, first + kCount) of Y.
-  template <std::size_t kCount, typename Load>
+  /// All powers of Y, kCount at once; the last ones may be computed twice.
+  template <std::size_t kCount, typename Load, typename Replace>
+  SIMDBEZIER_INLINE void build_runs(const T* matrix, const Load& load, const Replace& replace,
+                                    Powers& to) const {
+    const std::size_t order_v = order_v_.value();
+    for (std::size_t l = 0; l < order_v; l += kCount) {
+      build_powers<kCount>(matrix, std::min(l, order_v - kCount), load, replace, to);
+    }
+  }
+
+  /// The powers [first, first + kCount) of Y; replace(value, first, i): what is on an edge.
+  template <std::size_t kCount, typename Load, typename Replace>
   SIMDBEZIER_INLINE void build_powers(const T* matrix, std::size_t first, const Load& load,
-                                      Powers& to) const {
+                                      const Replace& replace, Powers& to) const {
     Series<V> s[kCount];
     horner_series_abreast<kDepth, kCount>(order_u_, columns_.local.x, matrix + first,
                                           order_v_.value(), load, s);
+    if (columns_.local.on_edge) {
+      repeat<kCount>([&](std::size_t i)
+                         SIMDBEZIER_INLINE_LAMBDA { s[i].value = replace(s[i].value, first, i); });
+    }
+    V* at = to[0] + first;
+    if constexpr (!P::kKnown) { // else they would not be in registers
+      at = own_address(at);
+    }
     repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
-      put_series(s[i], [&](std::size_t derivative, V value)
-                           SIMDBEZIER_INLINE_LAMBDA { to[derivative][first + i] = value; });
+      put_series(s[i], [&](std::size_t derivative, V value) SIMDBEZIER_INLINE_LAMBDA {
+        at[derivative * P::OrderV::kMost + i] = value;
+      });
     });
   }
 
@@ -178,6 +208,7 @@ private:
   typename P::Slots slots_;
   typename P::OrderU order_u_;
   typename P::OrderV order_v_;
+  std::size_t abreast_; ///< equal parts of the powers, 2 or 4 to 8 of them
   const ColumnOrigins<V>* origins_ = nullptr;
   ColumnPolynomials<P, V> polynomials_;
 };

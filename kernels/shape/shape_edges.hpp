@@ -57,13 +57,42 @@ public:
 
   /// Replaces what an edge v = const has of its own: kEdgeV0 or kEdgeV1 of these cells.
   SIMDBEZIER_PART void replace_row(std::size_t edge, SampleJet<V>& jet) const {
-    if constexpr (!P::kKnown) { // calls cost known degrees 10 to 25 %
-      SampleJet<V> own;         // so that the caller's need not be in memory
+    if constexpr (!P::kKnown || kDepth > 1) { // calls cost other known degrees 10 to 25 %
+      SampleJet<V> own;                       // so that the caller's need not be in memory
       row_of_edge(edge, own);
       copy_row(own, jet);
     } else {
       compute_row(edge, jet);
     }
+  }
+
+  /// Positions of three components on an edge v = const, all at once; false where there are others.
+  SIMDBEZIER_PART bool find_positions(std::size_t edge, V position[3]) const {
+    const typename P::OrderU order(shape_.order_u());
+    if (P::kWeighted || !slots_.are_three() || has_origins() || takes_even_odd(order.value())) {
+      return false;
+    }
+    const std::size_t step = shape_.edge_powers() * 4;
+    const std::size_t at = slots_.channel(0) * step + edge;
+    Series<V> s[3];
+    const auto find = [&](const auto& load) SIMDBEZIER_INLINE_LAMBDA {
+      horner_series_abreast<0, 3>(order, columns_.local.x, row_.low.edges + at, 4, load, s);
+    };
+    if (columns_.any_low && columns_.any_high) {
+      const std::ptrdiff_t to_high = row_.high.edges - row_.low.edges;
+      find([&](const T* c, std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+        const T* const low = c + i * step;
+        return select_where<V>(columns_.low, broadcast<V>(low[0]), broadcast<V>(low[to_high]));
+      });
+    } else {
+      const std::ptrdiff_t to_own = columns_.any_low ? 0 : row_.high.edges - row_.low.edges;
+      find([&](const T* c, std::size_t i)
+               SIMDBEZIER_INLINE_LAMBDA { return broadcast<V>((c + i * step)[to_own]); });
+    }
+    repeat<3>([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
+      position[slot] = with_corners(slot, edge, s[slot].value);
+    });
+    return true;
   }
 
   /// find_origins() of edges that are made here, from single values: objects would have to be put
@@ -121,9 +150,7 @@ private:
         position =
             position + chosen(origin_at(slot) + detail::kEdgeOriginsAt + edge, &Cell<T>::origins);
       }
-      jet.position[slot] = replaced(
-          position, shape_.corners_at() + slots_.channel(slot) * 4 + detail::corner_index(0, edge),
-          &Cell<T>::edges);
+      jet.position[slot] = with_corners(slot, edge, position);
       if constexpr (kDepth > 0) {
         jet.du[slot] = at.first;
       }
@@ -131,6 +158,11 @@ private:
         jet.duu[slot] = at.second;
       }
     });
+  }
+
+  SIMDBEZIER_PART V with_corners(std::size_t slot, std::size_t edge, V position) const {
+    const std::size_t corners = shape_.corners_at() + slots_.channel(slot) * 4;
+    return replaced(position, corners + detail::corner_index(0, edge), &Cell<T>::edges);
   }
 
   SIMDBEZIER_PART void find_origin(std::size_t slot, ColumnOrigins<V>& found) const {

@@ -153,6 +153,42 @@ SIMDBEZIER_INLINE void even_odd_series(V t, const Coefficient& c, Series<V>& s) 
   }
 }
 
+/// The two parts of its value, of which -t has the difference. Plain values, as above.
+template <std::size_t kOrder, typename V, typename Coefficient>
+SIMDBEZIER_INLINE void even_odd_parts(V t, const Coefficient& c, V& even, V& odd) {
+  const V square = t * t;
+  V even_first = c(2);
+  if constexpr (kOrder > 4) {
+    even_first = madd(c(4), square, even_first);
+  }
+  V odd_first = c(3);
+  if constexpr (kOrder > 5) {
+    odd_first = madd(c(5), square, odd_first);
+  }
+  even = madd(even_first, square, c(0));
+  odd = t * madd(odd_first, square, c(1));
+}
+
+/// Those of its slope.
+template <std::size_t kOrder, typename V, typename Coefficient>
+SIMDBEZIER_INLINE void even_odd_slope_parts(V t, const Coefficient& c, V& even, V& odd) {
+  const V square = t * t;
+  V even_first = c(2);
+  if constexpr (kOrder > 4) {
+    even_first = madd(c(4), square, madd(c(4), square, even_first));
+  }
+  V odd_first = c(3);
+  if constexpr (kOrder > 5) {
+    odd_first = madd(c(5), square, odd_first);
+  }
+  const V value_odd = madd(odd_first, square, c(1));
+  if constexpr (kOrder > 5) {
+    odd_first = madd(c(5), square, odd_first);
+  }
+  even = madd(odd_first, square + square, value_odd);
+  odd = (t + t) * even_first;
+}
+
 /// The same of an order that takes even and odd parts, at kCount parameters at once.
 template <std::size_t kDepth, std::size_t kCount, std::size_t kFixed, typename V,
           typename Coefficient>
@@ -199,26 +235,26 @@ SIMDBEZIER_INLINE Series<V> row_series(Order<kFixed> order, V t, const Coefficie
 }
 
 /// The same of kCount polynomials at one parameter: columns, whose coefficients stand in memory as
-/// [power][polynomial], with `step` from one power to the next; load: from an address to a
-/// register. Their sums stay in registers while the loop runs, however long it is, and one address
-/// serves all of them.
+/// [power][polynomial], with `step` from one power to the next; load: from an address and the
+/// polynomial's number to a register. Their sums stay in registers while the loop runs, however
+/// long it is, and one address serves all of them.
 template <std::size_t kDepth, std::size_t kCount, typename V, typename N, typename Load>
 SIMDBEZIER_INLINE void horner_series_abreast(N order, V t, const ScalarOf<V>* coefficients,
                                              std::size_t step, const Load& load, Series<V>* s) {
   const std::size_t degree = order.value() - 1;
   const ScalarOf<V>* c = coefficients + (degree - 1) * step;
   repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
-    s[i].template begin<kDepth>(load(c + step + i), load(c + i), t);
+    s[i].template begin<kDepth>(load(c + step, i), load(c, i), t);
   });
   if (degree > 1) {
     c -= step;
     repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
-      s[i].template add_third<kDepth>(load(c + i), t);
+      s[i].template add_third<kDepth>(load(c, i), t);
     });
     for (std::size_t k = degree - 2; k-- > 0;) {
       c -= step;
       repeat<kCount>([&](std::size_t i)
-                         SIMDBEZIER_INLINE_LAMBDA { s[i].template add<kDepth>(load(c + i), t); });
+                         SIMDBEZIER_INLINE_LAMBDA { s[i].template add<kDepth>(load(c, i), t); });
     }
   }
   repeat<kCount>([&](std::size_t i)
@@ -233,77 +269,6 @@ SIMDBEZIER_INLINE V cell_parameter(V x) {
   const V to_low = broadcast<V>(T(0.5));
   const V to_high = broadcast<V>(T(-0.5));
   return (x + x) + select_where<V>(x < broadcast<V>(T(0)), to_low, to_high);
-}
-
-/// One value and its derivatives by the two local parameters.
-template <typename V>
-struct Partials {
-  V value;
-  V x;
-  V y;
-  V xx;
-  V xy;
-  V yy;
-};
-
-/// What a sample consists of; derivatives by u and v as far as the kernel's depth goes.
-template <typename V>
-struct SampleJet {
-  V position[3];
-  V du[3];
-  V dv[3];
-  V duu[3];
-  V duv[3];
-  V dvv[3];
-  V inverse_weight; ///< of rational patches, with derivatives: 1 / w
-};
-
-/// S = h / w and its derivatives, from those of h and w: w S = h, differentiated. Those of w come
-/// negated, so that every product is added.
-/// Source: L. Piegl and W. Tiller, The NURBS Book, 4.2 and 4.3.
-template <typename V>
-struct Quotient {
-  V inverse; ///< 1 / w
-
-  static SIMDBEZIER_INLINE Quotient by(V w) { return {divide(broadcast<V>(ScalarOf<V>(1)), w)}; }
-  SIMDBEZIER_INLINE V value(V h) const { return h * inverse; }
-  SIMDBEZIER_INLINE V first(V h_x, V s, V minus_w_x) const {
-    return madd(s, minus_w_x, h_x) * inverse;
-  }
-  /// s_x, s_y: first derivatives of S; twice the same where this is not a mixed one.
-  SIMDBEZIER_INLINE V second(V h_xy, V s, V s_x, V s_y, V minus_w_x, V minus_w_y,
-                             V minus_w_xy) const {
-    return madd(s_y, minus_w_x, madd(s_x, minus_w_y, madd(s, minus_w_xy, h_xy))) * inverse;
-  }
-};
-
-/// The quotient rule: h and its derivatives become those of h / w. The weight's are negated.
-template <std::size_t kDepth, typename V>
-SIMDBEZIER_INLINE void divide_series(const Quotient<V>& quotient, const Series<V>& weight,
-                                     Series<V>& s) {
-  s.value = quotient.value(s.value);
-  if constexpr (kDepth > 0) {
-    s.first = quotient.first(s.first, s.value, weight.first);
-  }
-  if constexpr (kDepth > 1) {
-    s.second = quotient.second(s.second, s.value, s.first, s.first, weight.first, weight.first,
-                               weight.second);
-  }
-}
-
-/// |du x dv|^2 or |C'|^2 of rational patches and curves below this takes a second look: products on
-/// the way might have left the range of T.
-template <typename T>
-inline constexpr T kLeastSquare = static_cast<T>(sizeof(T) == sizeof(float) ? 0x1p-94 : 0x1p-940);
-
-template <typename V>
-SIMDBEZIER_INLINE V negated(V a) {
-  return broadcast<V>(ScalarOf<V>(0)) - a;
-}
-
-template <typename V>
-SIMDBEZIER_INLINE V dot(const V a[3], const V b[3]) {
-  return madd(a[0], b[0], madd(a[1], b[1], a[2] * b[2]));
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

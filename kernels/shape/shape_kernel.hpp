@@ -90,6 +90,11 @@ SIMDBEZIER_INLINE void with_grid_plan(const Task& task, const Run& run) {
   if constexpr (!kCompact && kDepth < 2 && !kRational) {
     return with_order_v<kDepth, kRational, 1>(shape, run);
   }
+  if constexpr (!kCompact && kDepth == 2) {
+    if (in_space && shape.cells() == 1 && shape.degree_v == 3) {
+      return run.template operator()<ShapePlan<kDepth, kRational, 3, 0, 4>>();
+    }
+  }
   run.template operator()<AnyPlan<kDepth, kRational>>();
 }
 
@@ -116,7 +121,7 @@ SIMDBEZIER_KERNEL void shape_grid_kernel(GridTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
   with_depth(task, [&]<std::size_t kDepth, bool kRational>() {
     with_grid_plan<kDepth, kRational>(task, [&]<typename P>() {
-      if constexpr (P::kKnown) {
+      if constexpr (P::kKnown && P::kDepth < 2) {
         sweep_known<P>(task);
       } else {
         sweep_shape<P>(task);

@@ -91,26 +91,55 @@ SIMDBEZIER_PART void store_group(const SampleTask<ScalarOf<V>>& task, detail::Gr
   });
 }
 
+/// Registers of samples that are evaluated one behind the other before they are stored, so that
+/// their roots and divisions are under way together.
+inline constexpr std::size_t kTogether = 8;
+
+/// Values of several registers to one plane. step: from one value to the next.
+template <typename V>
+SIMDBEZIER_PART void store_values(ScalarOf<V>* plane, const SampleRange<V>* range, const V* value,
+                                  std::size_t step, std::size_t count) {
+  const std::size_t active = range[0].active; // of all of them
+  if (plane == nullptr) {
+    return;
+  }
+  for (std::size_t i = 0; active == kLanes<V> && i < count; ++i) {
+    store_vector(plane + range[i].at, value[i * step]);
+  }
+  for (std::size_t i = 0; active < kLanes<V> && i < count; ++i) {
+    store_first(plane + range[i].at, value[i * step], active);
+  }
+}
+
 /// Curvatures become nan afterwards where a sample has no normal, or only a limit of one.
 template <typename P, typename V>
 SIMDBEZIER_PART void store_curvatures(const SampleTask<ScalarOf<V>>& task,
-                                      const SampleRange<V>& range, const SampleJet<V>& jet) {
+                                      const SampleRange<V>* range, const SampleJet<V>* jet,
+                                      std::size_t count) {
+  CurvatureFrame<V> frame[kTogether];
+  V curvature[kTogether][detail::kCurvatures];
+  for (std::size_t i = 0; i < count; ++i) {
+    frame[i].find(jet[i]);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    curvatures(jet[i], frame[i], curvature[i]);
+  }
+  for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
+    store_values(task.curvature[k], range, curvature[0] + k, detail::kCurvatures, count);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    V n[3];
+    look_again<P>(task, range[i], jet[i], cross_product(jet[i].du, jet[i].dv, n));
+  }
+}
+
+template <typename T>
+SIMDBEZIER_PART bool wants_curvatures(const SampleTask<T>& task) {
   bool wanted = false;
   for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
     wanted = wanted || task.curvature[k] != nullptr;
   }
-  if (!wanted) {
-    return;
-  }
-  V curvature[detail::kCurvatures];
-  curvatures(jet, curvature);
-  for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
-    if (task.curvature[k] != nullptr) {
-      range.store(task.curvature[k], curvature[k]);
-    }
-  }
-  V n[3];
-  look_again<P>(task, range, jet, cross_product(jet.du, jet.dv, n));
+  return wanted;
 }
 
 /// All outputs that a task wants and a kernel of this plan computes.
@@ -129,16 +158,44 @@ SIMDBEZIER_PART void store_sample(const SampleTask<ScalarOf<V>>& task, const Sam
     store_group<P>(task, detail::kDuuGroup, range, jet.duu);
     store_group<P>(task, detail::kDuvGroup, range, jet.duv);
     store_group<P>(task, detail::kDvvGroup, range, jet.dvv);
-    store_curvatures<P>(task, range, jet);
+    if (wants_curvatures(task)) {
+      store_curvatures<P>(task, &range, &jet, 1);
+    }
   }
 }
 
-/// The same as a function, which grids and scattered samples share: for plans whose loops have jets
-/// in memory anyway.
+/// The same as a function, for scattered samples: their loops have jets in memory anyway.
 template <typename P, typename V>
 SIMDBEZIER_KERNEL void store_shared(const SampleTask<ScalarOf<V>>& task,
                                     const SampleRange<V>& range, const SampleJet<V>& jet) {
   store_sample<P>(task, range, jet);
+}
+
+/// All outputs of at most kTogether registers of the same columns, from memory. A function for all
+/// degrees.
+template <typename P, typename V>
+SIMDBEZIER_KERNEL void store_jets(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>* range,
+                                  const SampleJet<V>* jet, std::size_t count) {
+  constexpr V(SampleJet<V>::*kMember[])[3] = {&SampleJet<V>::position, &SampleJet<V>::du,
+                                              &SampleJet<V>::dv,       &SampleJet<V>::duu,
+                                              &SampleJet<V>::duv,      &SampleJet<V>::dvv};
+  constexpr std::size_t kGroups[] = {1, 3, 6}; // of Group, in its order
+  for (std::size_t g = 0; g < kGroups[P::kDepth]; ++g) {
+    for (std::size_t c = 0; task.out[g].wanted() && c < 3; ++c) {
+      store_values(task.out[g].component[c], range, jet[0].*kMember[g] + c,
+                   sizeof(SampleJet<V>) / sizeof(V), count);
+    }
+  }
+  if constexpr (P::kDepth > 0) {
+    for (std::size_t i = 0; task.out[detail::kNormalGroup].wanted() && i < count; ++i) {
+      store_normals<P>(task, range[i], jet[i]);
+    }
+  }
+  if constexpr (P::kDepth > 1) {
+    if (wants_curvatures(task)) {
+      store_curvatures<P>(task, range, jet, count);
+    }
+  }
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -17,4 +17,16 @@ SIMDBEZIER_INLINE void repeat(const F& f) {
   (std::make_index_sequence<kCount>());
 }
 
+/// f<count>() for the count, which is one of kCounts.
+template <std::size_t... kCounts, typename F>
+SIMDBEZIER_INLINE void with_one_of(std::size_t count, const F& f) {
+  ((count == kCounts ? f.template operator()<kCounts>() : void()), ...);
+}
+
+/// How long parts of a whole are, if they are as few as they can be and none is longer than most.
+SIMDBEZIER_INLINE std::size_t even_share(std::size_t whole, std::size_t most) {
+  const auto parts = static_cast<unsigned>((whole + most - 1) / most);
+  return parts < 2 ? whole : (static_cast<unsigned>(whole) + parts - 1) / parts;
+}
+
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
