@@ -118,7 +118,7 @@ TEST(MeasuredChoices, UnknownIsBadUsage) {
   const Choice choices[] = {{"SIMDBEZIER_DESTINATION", {"memory", "cache"}},
                             {"SIMDBEZIER_SPLIT_STORES", {"slow", "fast"}}};
   for (const auto& [variable, words] : choices) {
-    for (const std::string word : {std::string("bogus"), "M" + words[0], words[1] + " "}) {
+    for (const std::string& word : {std::string("bogus"), "M" + words[0], words[1] + " "}) {
       for (const auto& command : commands) {
         expect_failure(run(command, {.environment = {{variable, word}}}), 2,
                        variable + ": expected " + words[0] + " or " + words[1] + ", found '" +
@@ -126,7 +126,7 @@ TEST(MeasuredChoices, UnknownIsBadUsage) {
       }
     }
     EXPECT_TRUE(folder.names().empty());
-    for (const std::string word : {std::string(), std::string("automatic"), words[0], words[1]}) {
+    for (const std::string& word : {std::string(), std::string("automatic"), words[0], words[1]}) {
       expect_silent_success(run(commands.back(), {.environment = {{variable, word}}}));
     }
     std::filesystem::remove(out);
