@@ -60,8 +60,9 @@ constexpr bool kIsStream = kStreamsLines && (kOutputs != detail::kPositionNormal
 /// Whether that pays in staging as well, which stays in the first-level cache: splitting stores
 /// costs less there.
 template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
-constexpr bool kIsStagedStream = (kOutputs == detail::kPositionDerivatives ||
-                                  kSide * 2 == kLanes<vec<T>>)&&(kSide <= kLanes<vec<T>> + 1);
+constexpr bool kIsStagedStream = (kSide <= kLanes<vec<T>> + 1) &&
+                                 ((kSide * 2 == kLanes<vec<T>>) ||
+                                  (kOutputs == detail::kPositionDerivatives));
 
 /// Whether such squares are worth straight code: not where roots set the pace.
 template <detail::OutputSet kOutputs, std::size_t kSide>
@@ -70,8 +71,8 @@ constexpr bool kIsStraight = kSide <= 17 && (kOutputs != detail::kPositionNormal
 /// Whether rows of such squares have a column or a part of a register behind whole ones, which
 /// straight code has for machines with cheap stores across lines. Normals are the same everywhere.
 template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
-constexpr bool kSharesLines = kOutputs != detail::kPositionNormal&& kSide % kLanes<vec<T>> != 0 &&
-                              kSide * 2 != kLanes<vec<T>>;
+constexpr bool kSharesLines = (kOutputs != detail::kPositionNormal) &&
+                              (kSide % kLanes<vec<T>> != 0) && (kLanes<vec<T>> != kSide * 2);
 
 /// Whether all planes begin where lines do.
 template <typename T>
