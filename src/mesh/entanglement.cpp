@@ -20,6 +20,9 @@ public:
 
   /// Whether the patch has an edge twice, or a corner twice that no side joins by being a point.
   [[nodiscard]] bool touches_itself(std::size_t patch) const {
+    if (has_four_corners(patch)) {
+      return false; // different sides have different ends then
+    }
     for (std::size_t a = 0; a < 4; ++a) {
       for (std::size_t b = a + 1; b < 4; ++b) {
         const Side& p = side(patch, a);
@@ -53,6 +56,9 @@ public:
     if ((corners & (corners - 1)) == 0) {
       return false; // an edge would have two of them
     }
+    if (has_edge_between(a, b, corners)) {
+      return false;
+    }
     std::size_t edges = 0;
     Mask ends = 0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -78,6 +84,22 @@ public:
   }
 
 private:
+  [[nodiscard]] bool has_four_corners(std::size_t patch) const {
+    const auto* const own = &topology_.corners[kPatchCorners * patch];
+    return (own[0] != own[1]) & (own[0] != own[2]) & (own[0] != own[3]) & (own[1] != own[2]) &
+           (own[1] != own[3]) & (own[2] != own[3]);
+  }
+  /// Whether two patches share two corners, and the edge between them, which is what patches side
+  /// by side do: no second edge has the same ends if the four corners of the one differ.
+  [[nodiscard]] bool has_edge_between(std::size_t a, std::size_t b, Mask corners) const {
+    for (std::size_t k = 0; k < kPatchEdges; ++k) {
+      if (corners == (1U << kSideCorners[k][0] | 1U << kSideCorners[k][1])) {
+        const Side& own = side(a, k);
+        return !own.collapsed() && has_edge(b, own.edge()) && has_four_corners(a);
+      }
+    }
+    return false;
+  }
   [[nodiscard]] const Side& side(std::size_t patch, std::size_t k) const {
     return topology_.sides[kPatchEdges * patch + k];
   }
@@ -110,39 +132,33 @@ private:
   const TopologyData& topology_;
 };
 
-/// The patches at every corner: those of corner c from first[c] on.
-struct CornerPatches {
-  std::vector<std::uint32_t> first;
-  std::vector<std::uint32_t> patches;
-
-  explicit CornerPatches(const std::vector<std::uint32_t>& corners)
-      : first(corners.size() + 1), patches(corners.size()) {
+/// Corners with so many patches that they are not compared one by one.
+class CrowdedPlaces {
+public:
+  explicit CrowdedPlaces(const std::vector<std::uint32_t>& corners) : patches_(corners.size()) {
     for (const std::uint32_t corner : corners) {
-      ++first[corner + 1];
+      if (!is_more(patches_[corner])) {
+        ++patches_[corner];
+      }
     }
-    for (std::size_t k = 1; k < first.size(); ++k) {
-      first[k] += first[k - 1];
-    }
-    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      patches[next[corners[k]]++] = static_cast<std::uint32_t>(k / kPatchCorners);
-    }
+    any_ = std::any_of(patches_.begin(), patches_.end(), is_more);
   }
-  [[nodiscard]] bool is_crowded(std::uint32_t corner) const {
-    return first[corner + 1] - first[corner] > kMostCompared;
-  }
+  [[nodiscard]] bool any() const { return any_; }
+  [[nodiscard]] bool has(std::uint32_t corner) const { return is_more(patches_[corner]); }
+
+private:
+  static bool is_more(std::uint8_t patches) { return patches > kMostCompared; }
+  std::vector<std::uint8_t> patches_; ///< at every corner, kMostCompared + 1 standing for more
+  bool any_ = false;
 };
 
 /// Which patches are entangled with those with which they share crowded corners only: neighbours
 /// are counted instead of compared.
 class CrowdedCorners {
 public:
-  CrowdedCorners(const TopologyData& topology, const CornerPatches& at)
-      : topology_(topology), at_(at) {
-    for (std::uint32_t corner = 0; corner < topology.corners.size() && !any_; ++corner) {
-      any_ = at.is_crowded(corner);
-    }
-    if (any_) {
+  CrowdedCorners(const TopologyData& topology, const CrowdedPlaces& places)
+      : topology_(topology), places_(places) {
+    if (places.any()) {
       count_all();
     }
   }
@@ -150,7 +166,7 @@ public:
   /// Whether a patch, which has no edge twice, shares two edges with another patch, or two corners
   /// that no common edge joins: those that share one edge have both of its ends.
   [[nodiscard]] bool entangled(std::size_t patch) {
-    if (!any_) {
+    if (!places_.any()) {
       return false;
     }
     find_pairs(patch);
@@ -199,15 +215,15 @@ private:
     const auto edge_of = [&](std::size_t k) -> const Side* {
       const std::size_t side = kPatchEdges * patch + k;
       const bool crowded = !topology_.sides[side].collapsed() &&
-                           at_.is_crowded(topology_.corner_of(side, 0)) &&
-                           at_.is_crowded(topology_.corner_of(side, 1));
+                           places_.has(topology_.corner_of(side, 0)) &&
+                           places_.has(topology_.corner_of(side, 1));
       return crowded ? &topology_.sides[side] : nullptr;
     };
     for (std::size_t a = 0; a < 4; ++a) {
       const std::uint32_t corner = topology_.corners[kPatchCorners * patch + a];
       for (std::size_t b = a + 1; b < 4; ++b) {
         const std::uint32_t other = topology_.corners[kPatchCorners * patch + b];
-        if (corner != other && at_.is_crowded(corner) && at_.is_crowded(other)) {
+        if (corner != other && places_.has(corner) && places_.has(other)) {
           insert(corner_pairs_, pair_of(corner, other));
         }
         if (edge_of(a) != nullptr && edge_of(b) != nullptr) {
@@ -229,8 +245,7 @@ private:
   }
 
   const TopologyData& topology_;
-  const CornerPatches& at_;
-  bool any_ = false;
+  const CrowdedPlaces& places_;
   std::vector<std::uint32_t> edge_patches_; ///< how many there are at every edge
   std::vector<Pair> corners_;               ///< of all patches
   std::vector<Pair> edges_;
@@ -242,25 +257,24 @@ private:
 
 void mark_entangled(TopologyData& topology) {
   const Neighbours neighbours(topology);
-  const CornerPatches at(topology.corners);
-  CrowdedCorners crowded(topology, at);
+  const CrowdedPlaces places(topology.corners);
+  CrowdedCorners crowded(topology, places);
   for (std::size_t patch = 0; patch < topology.patches(); ++patch) {
     bool marked = neighbours.touches_itself(patch);
     Mask compared = 0; // corners whose patches have been
     for (std::size_t k = 0; k < kPatchCorners && !marked; ++k) {
-      const std::uint32_t corner = topology.corners[kPatchCorners * patch + k];
-      if (at.is_crowded(corner)) {
+      const std::size_t own = kPatchCorners * patch + k;
+      if (places.has(topology.corners[own])) {
         continue;
       }
-      marked = std::any_of(at.patches.begin() + at.first[corner],
-                           at.patches.begin() + at.first[corner + 1], [&](std::uint32_t other) {
-                             if (other == patch) {
-                               return false;
-                             }
-                             const Mask common = neighbours.common_corners(patch, other);
-                             return (common & compared) == 0 &&
-                                    neighbours.entangled(patch, other, common);
-                           });
+      for (std::size_t at = topology.next_corner[own]; at != own && !marked;
+           at = topology.next_corner[at]) {
+        const std::size_t other = at / kPatchCorners;
+        if (other != patch) {
+          const Mask common = neighbours.common_corners(patch, other);
+          marked = (common & compared) == 0 && neighbours.entangled(patch, other, common);
+        }
+      }
       compared |= 1U << k;
     }
     marked = marked || crowded.entangled(patch);

@@ -7,23 +7,32 @@ namespace simdbezier::detail {
 namespace {
 
 /// The sides of every edge, as in TopologyData, without those of repeated patches.
-struct DistinctSides {
-  std::vector<std::uint32_t> first;
-  std::vector<std::uint32_t> members;
-
-  explicit DistinctSides(const TopologyData& topology) : first(1) {
+class DistinctSides {
+public:
+  explicit DistinctSides(const TopologyData& topology) : topology_(topology) {
+    if (topology.originals.empty()) {
+      return; // as usual: all sides are
+    }
+    first_.push_back(0);
     for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
       for (const std::uint32_t side : topology.sides_of(edge)) {
         if (!topology.is_repeated(side / kPatchEdges)) {
-          members.push_back(side);
+          members_.push_back(side);
         }
       }
-      first.push_back(static_cast<std::uint32_t>(members.size()));
+      first_.push_back(static_cast<std::uint32_t>(members_.size()));
     }
   }
   [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t edge) const {
-    return {members.data() + first[edge], first[edge + 1] - first[edge]};
+    return first_.empty()
+               ? topology_.sides_of(edge)
+               : std::span(members_).subspan(first_[edge], first_[edge + 1] - first_[edge]);
   }
+
+private:
+  const TopologyData& topology_;
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> members_;
 };
 
 /// The two sides that meet in corner 4 * patch + corner, and which of their ends do.

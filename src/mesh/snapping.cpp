@@ -49,11 +49,11 @@ struct Match {
 template <typename S>
 class SideMatcher {
 public:
-  SideMatcher(const NetCorners<S>& nets, double distance, std::span<const EdgeLink> links)
+  SideMatcher(const NetCorners<S>& nets, double distance, const EdgeRings<std::uint32_t>& rings)
       : nets_(nets), distance_(distance) {
     SideNet net;
-    for (std::uint32_t side = 0; side < links.size(); ++side) {
-      if (links[side].kind != EdgeKind::boundary) {
+    for (std::uint32_t side = 0; side < rings.next.size(); ++side) {
+      if (!rings.is_alone(side)) {
         continue;
       }
       nets.read_side(side, net);
@@ -117,21 +117,16 @@ private:
 } // namespace
 
 template <typename S>
-std::size_t snap_sides(const NetCorners<S>& nets, double distance, std::span<EdgeLink> links) {
+std::size_t snap_sides(const NetCorners<S>& nets, double distance,
+                       EdgeRings<std::uint32_t>& rings) {
   std::size_t snapped = 0;
-  for (const Match& match : SideMatcher<S>(nets, distance, links).find()) {
-    const std::uint32_t pair[2] = {match.a, match.b};
-    if (links[match.a].kind != EdgeKind::boundary || links[match.b].kind != EdgeKind::boundary) {
-      continue;
+  for (const Match& match : SideMatcher<S>(nets, distance, rings).find()) {
+    if (rings.is_alone(match.a) && rings.is_alone(match.b)) {
+      rings.next[match.a] = match.b;
+      rings.next[match.b] = match.a;
+      rings.turned[match.b] = rings.turned[match.a] ^ (match.reversed ? 1 : 0);
+      snapped += 2;
     }
-    for (std::size_t k = 0; k < 2; ++k) {
-      EdgeLink& link = links[pair[k]];
-      link.kind = EdgeKind::shared;
-      link.patch = pair[1 - k] / kPatchEdges;
-      link.edge = static_cast<PatchEdge>(pair[1 - k] % kPatchEdges);
-      link.reversed = match.reversed;
-    }
-    snapped += 2;
   }
   return snapped;
 }
@@ -160,8 +155,8 @@ void find_displacements(const NetCorners<S>& nets, TopologyData& topology) {
   }
 }
 
-template std::size_t snap_sides(const NetCorners<float>&, double, std::span<EdgeLink>);
-template std::size_t snap_sides(const NetCorners<double>&, double, std::span<EdgeLink>);
+template std::size_t snap_sides(const NetCorners<float>&, double, EdgeRings<std::uint32_t>&);
+template std::size_t snap_sides(const NetCorners<double>&, double, EdgeRings<std::uint32_t>&);
 template void find_displacements(const NetCorners<float>&, TopologyData&);
 template void find_displacements(const NetCorners<double>&, TopologyData&);
 

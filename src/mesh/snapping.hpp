@@ -1,11 +1,8 @@
 // Open sides that match nearly, and what that moves.
 #pragma once
 
-#include <span>
-
-#include <simdbezier/adjacency.hpp>
-
 #include "src/mesh/net_corners.hpp"
+#include "src/nets/edge_rings.hpp"
 
 namespace simdbezier::detail {
 
@@ -13,7 +10,7 @@ namespace simdbezier::detail {
 /// distance, one by one in the same or the opposite order, and weights are equal. Returns how many
 /// sides were linked.
 template <typename S>
-std::size_t snap_sides(const NetCorners<S>& nets, double distance, std::span<EdgeLink> links);
+std::size_t snap_sides(const NetCorners<S>& nets, double distance, EdgeRings<std::uint32_t>& rings);
 
 /// How far the vertices of each patch may lie from where its own corners and edges would put them.
 template <typename S>

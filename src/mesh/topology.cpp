@@ -5,14 +5,13 @@
 #include <new>
 #include <numeric>
 
-#include <simdbezier/adjacency.hpp>
-
 #include "src/mesh/entanglement.hpp"
 #include "src/mesh/forced_diagonals.hpp"
 #include "src/mesh/net_corners.hpp"
 #include "src/mesh/orientation.hpp"
 #include "src/mesh/snapping.hpp"
 #include "src/mesh/topology_data.hpp"
+#include "src/nets/edge_rings.hpp"
 #include "src/nets/net_call.hpp"
 #include "src/runtime/fp_environment.hpp"
 
@@ -23,28 +22,29 @@ namespace {
 constexpr std::size_t kMostPatches = std::size_t{1} << 29;
 
 /// Numbers edges in the order of their first sides, and tells every side which way it runs.
-void number_edges(std::span<const EdgeLink> links, TopologyData& topology) {
-  topology.sides.assign(links.size(), Side());
-  std::vector<bool> known(links.size());
-  for (std::size_t first = 0; first < links.size(); ++first) {
-    if (known[first] || links[first].kind == EdgeKind::collapsed) {
-      topology.counts.collapsed_sides += links[first].kind == EdgeKind::collapsed ? 1 : 0;
-      continue;
+void number_edges(const EdgeRings<std::uint32_t>& rings, TopologyData& topology) {
+  const std::size_t sides = rings.next.size();
+  std::size_t points = 0;
+  std::size_t edges = 0;
+  for (std::size_t side = 0; side < sides; ++side) {
+    points += rings.is_point(side) ? 1 : 0;
+    edges += rings.next[side] <= side ? 1 : 0; // the last side of a ring leads back to its first
+  }
+  topology.counts.collapsed_sides = points;
+  topology.sides.resize(sides);
+  topology.first.reserve(edges + 1);
+  topology.members.reserve(sides - points);
+  for (std::size_t first = 0; first < sides; ++first) {
+    if (rings.is_point(first) || !topology.sides[first].collapsed()) {
+      continue; // the latter: of an earlier side's edge
     }
     const auto edge = static_cast<std::uint32_t>(topology.first.size());
     topology.first.push_back(static_cast<std::uint32_t>(topology.members.size()));
-    bool reversed = false;
     std::size_t side = first;
-    do { // links lead in ascending order, from the last back to the first
-      known[side] = true;
-      topology.sides[side] = Side(edge, reversed);
+    do {
+      topology.sides[side] = Side(edge, rings.turned[side] != rings.turned[first]);
       topology.members.push_back(static_cast<std::uint32_t>(side));
-      const EdgeLink& link = links[side];
-      if (link.kind == EdgeKind::boundary) {
-        break;
-      }
-      reversed = reversed != link.reversed;
-      side = kPatchEdges * link.patch + static_cast<std::size_t>(link.edge);
+      side = rings.next[side];
     } while (side != first);
   }
   topology.first.push_back(static_cast<std::uint32_t>(topology.members.size()));
@@ -91,14 +91,16 @@ void join_corners(TopologyData& topology) {
     corners.join(corner_at(side, 1), corner_at(first, own.reversed() ? 0 : 1));
   }
   topology.corners = std::move(corners).finish();
-  topology.next_corner.resize(topology.corners.size());
-  std::vector<std::uint32_t> last(topology.corners.size());
-  for (std::uint32_t k = 0; k < topology.corners.size(); ++k) {
+  // From the last corner to the first, so that the lowest one always leads to the latest.
+  topology.next_corner = topology.corners;
+  for (std::size_t k = topology.corners.size(); k-- > 0;) {
     const std::uint32_t lowest = topology.corners[k];
-    topology.counts.corners += lowest == k ? 1 : 0;
-    topology.next_corner[lowest == k ? k : last[lowest]] = k;
-    topology.next_corner[k] = lowest;
-    last[lowest] = k;
+    if (lowest == k) {
+      ++topology.counts.corners;
+    } else {
+      topology.next_corner[k] = topology.next_corner[lowest];
+      topology.next_corner[lowest] = static_cast<std::uint32_t>(k);
+    }
   }
 }
 
@@ -114,13 +116,14 @@ void count_edges(TopologyData& topology) {
 
 /// Collapsed sides beyond those that are points exactly.
 template <typename S>
-void collapse_short_sides(const NetCorners<S>& nets, double point_size, std::span<EdgeLink> links) {
+void collapse_short_sides(const NetCorners<S>& nets, double point_size,
+                          EdgeRings<std::uint32_t>& rings) {
   if (point_size == 0) {
     return;
   }
-  for (std::size_t side = 0; side < links.size(); ++side) {
-    if (nets.side_within(side, point_size)) {
-      links[side] = EdgeLink{EdgeKind::collapsed};
+  for (std::size_t side = 0; side < rings.next.size(); ++side) {
+    if (nets.side_within(side, point_size)) { // and so are the others of its ring
+      rings.next[side] = EdgeRings<std::uint32_t>::kPoint;
     }
   }
 }
@@ -140,21 +143,16 @@ bool has_rounded_points(const NetCorners<S>& nets, const TopologyData& topology)
 template <typename S>
 Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& options,
              TopologyData& topology) {
-  const std::size_t patches = patches_of(sets);
-  std::vector<EdgeLink> links(kPatchEdges * patches);
-  Options run;
-  run.threads = options.threads;
-  const Status status = find_adjacency(sets, links.data(), run);
-  if (status != Status::ok) {
-    return status;
-  }
-  topology.flags.assign(patches, 0);
+  topology.flags.assign(patches_of(sets), 0);
   const NetCorners<S> nets(sets);
-  collapse_short_sides(nets, options.point_size, std::span(links));
-  if (options.snap > 0) {
-    topology.counts.snapped_sides = snap_sides(nets, options.snap, std::span(links));
+  {
+    auto rings = find_rings<S, std::uint32_t>(sets, options.threads);
+    collapse_short_sides(nets, options.point_size, rings);
+    if (options.snap > 0) {
+      topology.counts.snapped_sides = snap_sides(nets, options.snap, rings);
+    }
+    number_edges(rings, topology);
   }
-  number_edges(links, topology);
   join_corners(topology);
   count_edges(topology);
   if (options.snap > 0 || options.point_size > 0 || has_rounded_points(nets, topology)) {
@@ -186,7 +184,7 @@ Status check(std::span<const ControlNets<S>> sets, const TopologyOptions& option
     }
     patches += nets.count;
   }
-  return Status::ok;
+  return check_views(sets);
 }
 
 } // namespace

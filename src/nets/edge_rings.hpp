@@ -1,0 +1,41 @@
+// Which sides of patches are equal, as rings of side numbers: what find_adjacency() reports and
+// topologies are built from.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <simdbezier/control_nets.hpp>
+#include <simdbezier/patch_edge.hpp>
+#include <simdbezier/status.hpp>
+
+namespace simdbezier::detail {
+
+/// The sides of all patches of all views, numbered 4 * patch + PatchEdge, those of equal values
+/// linked in ascending order, and the last one with the first. Index: 32 bits are half the memory,
+/// most of which is touched once, so that its pages cost more than what is done with them.
+template <typename Index>
+struct EdgeRings {
+  static constexpr Index kPoint = std::numeric_limits<Index>::max();
+
+  std::vector<Index> next; ///< kPoint: all points of the side are equal
+  /// Whether a side runs against the direction on which all of its ring agree.
+  std::vector<std::uint8_t> turned;
+
+  [[nodiscard]] bool is_point(std::size_t side) const noexcept { return next[side] == kPoint; }
+  [[nodiscard]] bool is_alone(std::size_t side) const noexcept { return next[side] == side; }
+};
+
+/// Whether views can be read, and their patches be counted:
+/// null_input | input_too_small | bad_degree | bad_components | bad_stride | size_overflow | ok.
+template <typename S>
+Status check_views(std::span<const ControlNets<S>> sets) noexcept;
+
+/// Throws bad_alloc. The views are sound, and their sides fewer than EdgeRings<Index>::kPoint.
+template <typename S, typename Index>
+EdgeRings<Index> find_rings(std::span<const ControlNets<S>> sets, int threads);
+
+} // namespace simdbezier::detail
