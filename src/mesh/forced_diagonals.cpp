@@ -86,15 +86,17 @@ bool is_pillow(const TopologyData& topology, const DistinctSides& distinct, std:
 template <typename S>
 void mark_corners(const NetCorners<S>& nets, TopologyData& topology) {
   const DistinctSides distinct(topology);
-  for (std::size_t k = 0; k < topology.corners.size(); ++k) {
-    const std::size_t patch = k / kPatchCorners;
-    const std::size_t corner = k % kPatchCorners;
-    const CornerSides at(k);
-    const bool point_u = topology.sides[at.in_u].collapsed();
-    const bool point_v = topology.sides[at.in_v].collapsed();
-    const bool pillow = !point_u && !point_v && is_pillow(topology, distinct, k);
-    if (pillow || point_u != point_v || nets.sides_leave_together(patch, corner)) {
-      topology.flags[patch] |= static_cast<std::uint8_t>(kThroughCorner << corner);
+  for (std::size_t patch = 0; patch < topology.patches(); ++patch) {
+    const bool plain = topology.has_plain_sides(patch);
+    for (std::size_t corner = 0; corner < kPatchCorners; ++corner) {
+      const std::size_t k = kPatchCorners * patch + corner;
+      const CornerSides at(k);
+      const bool point_u = topology.sides[at.in_u].collapsed();
+      const bool point_v = topology.sides[at.in_v].collapsed();
+      const bool pillow = !plain && !point_u && !point_v && is_pillow(topology, distinct, k);
+      if (pillow || point_u != point_v || nets.sides_leave_together(patch, corner)) {
+        topology.flags[patch] |= static_cast<std::uint8_t>(kThroughCorner << corner);
+      }
     }
   }
 }

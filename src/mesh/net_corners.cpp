@@ -9,25 +9,16 @@
 namespace simdbezier::detail {
 namespace {
 
-/// The differences of a corner's control point from the first one in u, and in v, that is not the
-/// same.
+/// The way from an end of a side, whose values begin at `end`, to its first control point that is
+/// somewhere else; `stride` leads from one to the next.
 template <typename S>
-std::pair<Point3, Point3> leaves(const ControlNets<S>& nets, std::size_t patch,
-                                 std::size_t corner) {
-  const bool at_u1 = corner % 2 != 0;
-  const bool at_v1 = corner >= 2;
-  const std::ptrdiff_t i = at_u1 ? nets.degree_u : 0;
-  const std::ptrdiff_t j = at_v1 ? nets.degree_v : 0;
-  const Point3 from = point_at(nets, patch, i, j);
-  Point3 in_u{};
-  for (std::ptrdiff_t k = 1; k <= nets.degree_u && !has_length(in_u); ++k) {
-    in_u = point_at(nets, patch, at_u1 ? i - k : k, j) - from;
+Point3 way_along(const ControlNets<S>& nets, const S* end, std::ptrdiff_t stride, int degree) {
+  const Point3 from = point_of(nets, end);
+  Point3 way = point_of(nets, end + stride) - from;
+  for (std::ptrdiff_t k = 2; k <= degree && !has_length(way); ++k) {
+    way = point_of(nets, end + k * stride) - from;
   }
-  Point3 in_v{};
-  for (std::ptrdiff_t k = 1; k <= nets.degree_v && !has_length(in_v); ++k) {
-    in_v = point_at(nets, patch, i, at_v1 ? j - k : k) - from;
-  }
-  return {in_u, in_v};
+  return way;
 }
 
 /// Whether patch b read in one of eight ways has the values of patch a.
@@ -113,9 +104,22 @@ bool NetCorners<S>::side_within(std::size_t side, double distance) const {
 template <typename S>
 bool NetCorners<S>::sides_leave_together(std::size_t patch, std::size_t corner) const noexcept {
   const Place at = place(patch);
-  auto [a, b] = leaves(*at.nets, at.patch, corner);
-  const auto is_usual = [](const Point3& d) { return dot(d, d) > 0x1p-200 && dot(d, d) < 0x1p200; };
-  if (!is_usual(a) || !is_usual(b)) { // products of squares would overflow or vanish
+  const ControlNets<S>& nets = *at.nets;
+  const bool at_u1 = corner % 2 != 0;
+  const bool at_v1 = corner >= 2;
+  const S* const end =
+      values_at(nets, at.patch, at_u1 ? nets.degree_u : 0, at_v1 ? nets.degree_v : 0);
+  Point3 a = way_along(nets, end, at_u1 ? -nets.point_stride : nets.point_stride, nets.degree_u);
+  Point3 b = way_along(nets, end, at_v1 ? -nets.row_stride : nets.row_stride, nets.degree_v);
+  const double square_a = dot(a, a);
+  const double square_b = dot(b, b);
+  const auto is_usual = [](double square) { return square > 0x1p-200 && square < 0x1p200; };
+  if (is_usual(square_a) && is_usual(square_b)) {
+    const double cosine = dot(a, b); // times both lengths
+    if (cosine <= 0 || cosine * cosine < 0.99 * square_a * square_b) {
+      return false; // far from it, as most are
+    }
+  } else { // products of squares would overflow or vanish
     int exponent = 0;
     a = scaled_to_one(a, exponent);
     b = scaled_to_one(b, exponent);
@@ -197,6 +201,9 @@ FourEdges edges_of(const TopologyData& topology, std::size_t patch) {
 /// Whether another patch has the same four edges, or may have: one would be at each of the edges,
 /// and so at the one with the fewest sides. Patches all of whose sides are points may be the same.
 bool may_be_repeated(const TopologyData& topology, std::size_t patch) {
+  if (topology.has_plain_sides(patch)) {
+    return false;
+  }
   constexpr std::size_t kMostCompared = 64;
   std::span<const std::uint32_t> fewest;
   for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {

@@ -67,11 +67,9 @@ const S* values_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t
          j * nets.row_stride + i * nets.point_stride;
 }
 
-/// Control point i, j in space.
+/// A control point in space whose values begin somewhere.
 template <typename S>
-Point3 point_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t i,
-                std::ptrdiff_t j) noexcept {
-  const S* const values = values_at(nets, patch, i, j);
+Point3 point_of(const ControlNets<S>& nets, const S* values) noexcept {
   Point3 point;
   for (std::ptrdiff_t c = 0; c < 3; ++c) {
     point.x[c] = static_cast<double>(values[c * nets.component_stride]);
@@ -83,6 +81,13 @@ Point3 point_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t i,
     }
   }
   return point;
+}
+
+/// Control point i, j in space.
+template <typename S>
+Point3 point_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t i,
+                std::ptrdiff_t j) noexcept {
+  return point_of(nets, values_at(nets, patch, i, j));
 }
 
 /// Calls visit for all control points of a patch.
