@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "src/calls/call.hpp"
+#include "src/calls/destined_call.hpp"
 #include "src/output/output_plan.hpp"
 #include "src/runtime/line_costs.hpp"
 #include "src/storage/patch_storage.hpp"
@@ -54,9 +55,11 @@ struct PatchKernels {
         choice(out, request.components, request.table->compact), watertight(options.watertight),
         whole_lines(splits_slowly(*request.table)), first_component(request.components.first) {}
 
-  /// For outputs that leave the caches by plain stores: whole lines are written there without being
-  /// read first.
-  void prefer_whole_lines() noexcept { whole_lines = true; }
+  /// Tells how much is written, and which way. What leaves the caches by plain stores does so in
+  /// whole lines, because these are not read first.
+  void write(std::size_t bytes, Destination destination) noexcept {
+    whole_lines = whole_lines || (destination == Destination::cache && exceeds_caches(bytes));
+  }
 
   /// What kernels write to its final place by themselves, on grids of `nu` columns or more: all of
   /// it where one kernel knows all outputs, and all patches are bicubic. streamed: past the caches
