@@ -43,7 +43,7 @@ struct EdgeLink {
 ///              included, in the same or the opposite order; -0 equals +0, nan is compared by bits.
 ///              These are the edges along which evaluation is watertight. Collapsed: all points are
 ///              equal, whatever their weights; homogeneous points are divided before comparing.
-/// Allocation:  about 30 bytes an edge. Threads: Options::threads, for hashing; other options have
+/// Allocation:  about 20 bytes an edge. Threads: Options::threads, for hashing; other options have
 ///              no meaning. Determinism: the result is a function of the input.
 /// Returns:     ok | null_input | input_too_small | null_output | output_too_small | bad_degree |
 ///              bad_components | bad_stride | overlapping_outputs | size_overflow | out_of_memory.
