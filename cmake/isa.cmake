@@ -111,8 +111,10 @@ function(simdbezier_add_isa_kernels target)
       # All that is inlined here would take a sanitizing compiler minutes; a quarter of them where
       # scopes are not watched. Undefined behaviour of the kernels is looked for where
       # SIMDBEZIER_KERNEL_FLAGS say so (CMakePresets.json).
-      target_compile_options(${object} PRIVATE -O1 -fno-sanitize=undefined
-                                               -fno-sanitize-address-use-after-scope)
+      target_compile_options(${object} PRIVATE -O1 -fno-sanitize=undefined)
+      if(SIMDBEZIER_SANITIZE MATCHES address)
+        target_compile_options(${object} PRIVATE -fno-sanitize-address-use-after-scope)
+      endif()
     endif()
     separate_arguments(further UNIX_COMMAND "${SIMDBEZIER_KERNEL_FLAGS}")
     target_compile_options(${object} PRIVATE ${further})

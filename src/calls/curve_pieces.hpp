@@ -9,6 +9,7 @@
 #include "src/calls/grid_plan.hpp"
 #include "src/exact/tangent_fallback.hpp"
 #include "src/output/delivery.hpp"
+#include "src/runtime/cache_sizes.hpp"
 #include "src/tables/curve_table.hpp"
 
 namespace simdbezier::detail {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "src/runtime/batch.hpp"
-#include "src/runtime/dispatch.hpp"
+#include "src/runtime/cache_sizes.hpp"
 
 namespace simdbezier::detail {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "src/exact/normal_fallback.hpp"
-#include "src/runtime/dispatch.hpp"
+#include "src/runtime/cache_sizes.hpp"
 
 namespace simdbezier::detail {
 namespace {

@@ -8,7 +8,7 @@
 #include "src/calls/sample_pieces.hpp"
 #include "src/exact/normal_fallback.hpp"
 #include "src/runtime/batch.hpp"
-#include "src/runtime/dispatch.hpp"
+#include "src/runtime/cache_sizes.hpp"
 
 namespace simdbezier::detail {
 

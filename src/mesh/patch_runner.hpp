@@ -11,7 +11,7 @@
 #include "src/calls/kernel_choice.hpp"
 #include "src/exact/normal_fallback.hpp"
 #include "src/mesh/topology_data.hpp"
-#include "src/runtime/dispatch.hpp"
+#include "src/runtime/cache_sizes.hpp"
 
 namespace simdbezier::detail {
 

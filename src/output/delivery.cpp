@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "src/runtime/dispatch.hpp"
+#include "src/runtime/cache_sizes.hpp"
 
 namespace simdbezier::detail {
 namespace {

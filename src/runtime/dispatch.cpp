@@ -1,12 +1,12 @@
-// Instruction sets by name, and the choice of one. isa_list.inc is written by cmake/isa.cmake: one
-// SIMDBEZIER_ISA_ENTRY(name) for each instruction set of this build, narrowest first.
+// The instruction sets of this build, and the choice of one. isa_list.inc is written by
+// cmake/isa.cmake: one SIMDBEZIER_ISA_ENTRY(name) for each instruction set of this build, narrowest
+// first.
 #include "src/runtime/dispatch.hpp"
 
 #include <array>
 #include <cstdlib>
 #include <iterator>
 #include <optional>
-#include <string_view>
 
 #include <simdbezier/isa.hpp>
 
@@ -32,15 +32,6 @@ constexpr Tables kTables[] = {
 #include "isa_list.inc"
 };
 #undef SIMDBEZIER_ISA_ENTRY
-
-struct IsaName {
-  Isa isa;
-  std::string_view name;
-};
-
-constexpr IsaName kNames[] = {{Isa::automatic, "automatic"}, {Isa::scalar, "scalar"},
-                              {Isa::sse2, "sse2"},           {Isa::avx2, "avx2"},
-                              {Isa::avx512, "avx512"},       {Isa::neon64, "neon64"}};
 
 struct AvailableIsas {
   std::array<Isa, std::size(kTables)> list{};
@@ -85,31 +76,9 @@ Resolution resolve_automatic() noexcept {
 
 } // namespace
 
-std::string_view to_string(Isa isa) noexcept {
-  for (const IsaName& entry : kNames) {
-    if (entry.isa == isa) {
-      return entry.name;
-    }
-  }
-  return "unknown";
-}
-
-std::optional<Isa> isa_from_name(std::string_view name) noexcept {
-  for (const IsaName& entry : kNames) {
-    if (entry.name == name) {
-      return entry.isa;
-    }
-  }
-  return std::nullopt;
-}
-
 std::span<const Isa> available_isas() noexcept {
   static const AvailableIsas available;
   return {available.list.data(), available.count};
-}
-
-bool fuses_multiply_add(Isa isa) noexcept {
-  return isa == Isa::avx2 || isa == Isa::avx512 || isa == Isa::neon64;
 }
 
 Status resolve_isa(Isa requested, Isa& chosen) noexcept {

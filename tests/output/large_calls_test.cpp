@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src/runtime/dispatch.hpp"
+#include "src/runtime/cache_sizes.hpp"
 #include "tests/support/call_options.hpp"
 #include "tests/support/evaluation.hpp"
 #include "tests/support/isa_fixture.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "src/calls/destined_call.hpp"
-#include "src/runtime/dispatch.hpp"
+#include "src/runtime/cache_sizes.hpp"
 
 namespace {
 
