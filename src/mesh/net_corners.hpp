@@ -19,12 +19,12 @@ struct SideNet {
   std::vector<Point3> points;
   std::vector<double> weights;
 
-  /// The largest distance of any control point from a point.
+  /// The largest distance of any control point from a point; nan where one is nan.
   [[nodiscard]] double reach(const Point3& from) const noexcept {
     double most = 0;
     for (const Point3& point : points) {
       const double distance = length(point - from);
-      most = distance <= most ? most : distance; // nan stays
+      most = distance <= most || std::isnan(most) ? most : distance;
     }
     return most;
   }

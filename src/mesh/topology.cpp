@@ -122,8 +122,8 @@ void collapse_short_sides(const NetCorners<S>& nets, double point_size,
     return;
   }
   for (std::size_t side = 0; side < rings.next.size(); ++side) {
-    if (nets.side_within(side, point_size)) { // and so are the others of its ring
-      rings.next[side] = EdgeRings<std::uint32_t>::kPoint;
+    if (!rings.is_point(side) && nets.side_within(side, point_size)) {
+      rings.make_point(side);
     }
   }
 }

@@ -27,6 +27,14 @@ struct EdgeRings {
 
   [[nodiscard]] bool is_point(std::size_t side) const noexcept { return next[side] == kPoint; }
   [[nodiscard]] bool is_alone(std::size_t side) const noexcept { return next[side] == side; }
+  /// Takes a side's ring apart: all of its sides count as points.
+  void make_point(std::size_t side) noexcept {
+    while (!is_point(side)) {
+      const std::size_t other = next[side];
+      next[side] = kPoint;
+      side = other;
+    }
+  }
 };
 
 /// Whether views can be read, and their patches be counted:

@@ -109,6 +109,49 @@ TEST(TopologyTest, short_sides_are_points_where_that_is_asked_for) {
   EXPECT_EQ(topology.counts().corners, 3U);
 }
 
+/// Two patches with a side in common, which one of them has reversed. A control point of the side
+/// is no number in space; the others are so near to each other, or so far apart, that which of them
+/// are compared last would decide.
+std::vector<double> with_odd_point(std::size_t odd, bool homogeneous) {
+  constexpr double kSide[4] = {0, 100, 50, 0.1};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> values;
+  for (std::size_t k = 0; k < 32; ++k) {
+    const std::size_t on_side = k < 16 ? k : 3 - k % 16;
+    const bool is_odd = k % 16 < 4 && on_side == odd;
+    const double x = k % 16 < 4 ? kSide[on_side] : static_cast<double>(10 * (k % 4));
+    const double far = is_odd ? 0 : 1;
+    values.insert(values.end(), {homogeneous ? far * x
+                                 : is_odd    ? nan
+                                             : x,
+                                 far * static_cast<double>(k % 16 < 4 ? 0 : 10 * (k / 4)), 0});
+    if (homogeneous) {
+      values.push_back(far); // 0 / 0
+    }
+  }
+  return values;
+}
+
+TEST(TopologyTest, sides_with_points_that_are_no_numbers_are_no_points) {
+  for (const bool homogeneous : {false, true}) {
+    for (std::size_t odd = 0; odd < 4; ++odd) {
+      const std::vector<double> values = with_odd_point(odd, homogeneous);
+      const auto weights = homogeneous ? Weights::homogeneous : Weights::none;
+      for (const double snap : {0.0, 1.0}) {
+        TopologyOptions options;
+        options.point_size = 1;
+        options.snap = snap;
+        Topology topology;
+        ASSERT_EQ(find_topology(ControlNets<double>::packed(values.data(), 2, 3, 3, 3, weights),
+                                topology, options),
+                  Status::ok);
+        EXPECT_EQ(topology.counts().collapsed_sides, 0U) << odd << homogeneous << snap;
+        EXPECT_EQ(topology.counts().edges, 7U) << odd << homogeneous << snap;
+      }
+    }
+  }
+}
+
 TEST(TopologyTest, bad_input_is_a_status) {
   Topology topology;
   TopologyOptions options;
