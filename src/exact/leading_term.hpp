@@ -159,11 +159,17 @@ __attribute__((noinline)) bool find_quickly(const Question& question, int lowest
 /// make(field) gives the polynomial's coefficients in the arithmetic of a field: coefficient(k,
 /// vector) is called for k = lowest, lowest + 1, …. tolerance: of the vector's components, relative
 /// to the largest. Question has field(), the doubles to begin with, and digits(). It may have
-/// is_zero(), which finds faster than from all coefficients that they are zero.
+/// is_point() and is_zero(), which find faster than from all coefficients that they are zero: asked
+/// first, and after doubles have not decided.
 template <typename Question, typename Make>
 LeadingTerm leading_term(const Question& question, int lowest, int highest, double tolerance,
                          const Make& make) {
   LeadingTerm term;
+  if constexpr (requires { question.is_point(); }) {
+    if (question.is_point()) {
+      return term;
+    }
+  }
   if (find_quickly(question, lowest, highest, tolerance, make, term)) {
     return term;
   }

@@ -56,10 +56,14 @@ public:
     return all;
   }
 
-  /// Whether the patch is a line; a point is for the series to find.
-  [[nodiscard]] bool is_zero() const { return is_line(points_, (degree_u_ + 1) * (degree_v_ + 1)); }
+  /// Whether the patch is one point: doubles would form all coefficients to find that none is
+  /// there. Most patches are told apart from a point by the first few of theirs.
+  [[nodiscard]] bool is_point() const { return detail::is_point(points_, count()); }
+  /// Whether the patch is a line.
+  [[nodiscard]] bool is_zero() const { return is_line(points_, count()); }
 
 private:
+  [[nodiscard]] std::size_t count() const { return (degree_u_ + 1) * (degree_v_ + 1); }
   static std::size_t nearest(double half_centred, std::size_t degree) {
     const double t = std::clamp(0.5 + half_centred, 0.0, 1.0);
     return static_cast<std::size_t>(t * static_cast<double>(degree) + 0.5);

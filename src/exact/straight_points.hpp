@@ -1,5 +1,6 @@
-// Whether all control points lie on one line, decided exactly: then nothing bends and nothing has a
-// normal, which takes far longer to find from the coefficients of the polynomials.
+// Whether all control points lie on one line, or are one point, decided exactly: then nothing bends
+// and nothing has a normal, which takes far longer to find from the coefficients of the
+// polynomials.
 #pragma once
 
 #include <algorithm>
@@ -53,6 +54,49 @@ template <typename Field, typename Beside>
   return true;
 }
 
+/// Whether `count` points are one: apart() judges each component of what lies between them.
+template <typename Field, typename Apart>
+[[nodiscard]] bool in_one_place(const Field& field, const ExactPoints& given, std::size_t count,
+                                const Apart& apart) {
+  const FromFirst<Field> points(field, given);
+  for (std::size_t k = 1; k < count; ++k) {
+    typename Field::Value at[3];
+    points.place(k, at);
+    if (std::any_of(at, at + 3, apart)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Calls holds(field, is_not_zero) with doubles, and then with as many primes as decide about
+/// products of two differences of points, until it is false.
+template <typename Holds>
+[[nodiscard]] bool holds_exactly(const ExactPoints& given, const Holds& holds) {
+  const BoundedField doubles{given.largest_point(), given.largest_weight()};
+  if (!holds(doubles, [](const Bounded& a) { return std::fabs(a.value) > a.error; })) {
+    return false;
+  }
+  DigitRange ranges[kQuantities];
+  given.include_in(ranges[kPoint], ranges[kWeight]);
+  const int needed = 2 * given.digits(ranges[kPoint], ranges[kWeight]) + 4;
+  Primes primes;
+  for (double known = 0; known < needed; known += Primes::kDigits) {
+    const PrimeField field(primes.next(), ranges);
+    if (!holds(field, [](Residue a) { return !PrimeField::vanishes(a); })) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Whether `count` control points are one point. Seldom asked for more than a few of them.
+[[nodiscard]] inline bool is_point(const ExactPoints& given, std::size_t count) {
+  return holds_exactly(given, [&](const auto& field, const auto& is_not_zero) {
+    return in_one_place(field, given, count, is_not_zero);
+  });
+}
+
 /// Whether `count` control points lie on one line. False where they are one point.
 [[nodiscard]] inline bool is_line(const ExactPoints& given, std::size_t count) {
   const BoundedField doubles{given.largest_point(), given.largest_weight()};
@@ -69,21 +113,9 @@ template <typename Field, typename Beside>
       }
     }
   }
-  const auto beside_line = [](const Bounded& a) { return std::fabs(a.value) > a.error; };
-  if (far == 0 || !on_line(doubles, given, far, count, beside_line)) {
-    return false;
-  }
-  DigitRange ranges[kQuantities];
-  given.include_in(ranges[kPoint], ranges[kWeight]);
-  const int needed = 2 * given.digits(ranges[kPoint], ranges[kWeight]) + 4;
-  Primes primes;
-  for (double known = 0; known < needed; known += Primes::kDigits) {
-    const PrimeField field(primes.next(), ranges);
-    if (!on_line(field, given, far, count, [](Residue a) { return !PrimeField::vanishes(a); })) {
-      return false;
-    }
-  }
-  return true;
+  return far != 0 && holds_exactly(given, [&](const auto& field, const auto& is_not_zero) {
+           return on_line(field, given, far, count, is_not_zero);
+         });
 }
 
 } // namespace simdbezier::detail

@@ -232,5 +232,27 @@ TEST(NormalFallback, points_and_lines_have_none) {
   }
 }
 
+/// Two points lie beside all others by the last bit of a coordinate.
+TEST(NormalFallback, what_is_nearly_a_point_has_one) {
+  for (const bool rational : {false, true}) {
+    for (const int degree : {1, 3, 8, 15}) {
+      Surface patch(degree, 16 - degree, rational);
+      for (std::size_t k = 0; k < patch.points.size(); ++k) {
+        patch.points[k] = {1.0 / 3, 2.0 / 7, 3};
+        patch.weights[k] = 1 + static_cast<double>(k % 3) / 3;
+      }
+      double& x = patch.points.back()[0];
+      double& y = patch.points[patch.points.size() - 2][1];
+      x = std::nextafter(x, 1.0);
+      y = std::nextafter(y, 1.0);
+      for (const double at : {0.25, 0.5}) {
+        const Answer found = resolve<double>(patch, at, at);
+        EXPECT_NE(found.status, SampleStatus::degenerate) << degree << rational << at;
+        EXPECT_NEAR(std::fabs(found.normal[2]), 1, 1e-15) << degree << rational << at;
+      }
+    }
+  }
+}
+
 } // namespace
 } // namespace simdbezier::tests::normal_fallback_test
