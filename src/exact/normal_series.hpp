@@ -59,8 +59,8 @@ public:
   /// Whether the patch is one point: doubles would form all coefficients to find that none is
   /// there. Most patches are told apart from a point by the first few of theirs.
   [[nodiscard]] bool is_point() const { return detail::is_point(points_, count()); }
-  /// Whether the patch is a line.
-  [[nodiscard]] bool is_zero() const { return is_line(points_, count()); }
+  /// Whether the patch is straight.
+  [[nodiscard]] bool is_zero() const { return is_straight(points_, count()); }
 
 private:
   [[nodiscard]] std::size_t count() const { return (degree_u_ + 1) * (degree_v_ + 1); }

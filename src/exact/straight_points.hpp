@@ -33,48 +33,37 @@ private:
   typename Field::Value first_[4];
 };
 
-/// Whether none of `count` points lies beside the line through the first one and point `far`:
-/// beside() judges each component of the cross products.
-template <typename Field, typename Beside>
-[[nodiscard]] bool on_line(const Field& field, const ExactPoints& given, std::size_t far,
-                           std::size_t count, const Beside& beside) {
+/// Whether all of `count` points lie on the line through the first one and point `far`; where far
+/// is 0, whether they are the first one. is_not_zero() judges components of vectors that then
+/// vanish.
+template <typename Field, typename IsNotZero>
+[[nodiscard]] bool fit(const Field& field, const ExactPoints& given, std::size_t far,
+                       std::size_t count, const IsNotZero& is_not_zero) {
   using Value = typename Field::Value;
   const FromFirst<Field> points(field, given);
   Value along[3];
   points.place(far, along);
   for (std::size_t k = 1; k < count; ++k) {
     Value at[3];
-    points.place(k, at);
     Value cross[3] = {field.zero(), field.zero(), field.zero()};
-    add_cross(field, along, at, cross);
-    if (std::any_of(cross, cross + 3, beside)) {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Whether `count` points are one: apart() judges each component of what lies between them.
-template <typename Field, typename Apart>
-[[nodiscard]] bool in_one_place(const Field& field, const ExactPoints& given, std::size_t count,
-                                const Apart& apart) {
-  const FromFirst<Field> points(field, given);
-  for (std::size_t k = 1; k < count; ++k) {
-    typename Field::Value at[3];
     points.place(k, at);
-    if (std::any_of(at, at + 3, apart)) {
+    if (far != 0) {
+      add_cross(field, along, at, cross);
+    }
+    const Value* const beside = far != 0 ? cross : at;
+    if (std::any_of(beside, beside + 3, is_not_zero)) {
       return false;
     }
   }
   return true;
 }
 
-/// Calls holds(field, is_not_zero) with doubles, and then with as many primes as decide about
-/// products of two differences of points, until it is false.
-template <typename Holds>
-[[nodiscard]] bool holds_exactly(const ExactPoints& given, const Holds& holds) {
+/// The same, decided by doubles and then by as many primes as it takes.
+[[nodiscard]] inline bool fit_exactly(const ExactPoints& given, std::size_t far,
+                                      std::size_t count) {
   const BoundedField doubles{given.largest_point(), given.largest_weight()};
-  if (!holds(doubles, [](const Bounded& a) { return std::fabs(a.value) > a.error; })) {
+  if (!fit(doubles, given, far, count,
+           [](const Bounded& a) { return std::fabs(a.value) > a.error; })) {
     return false;
   }
   DigitRange ranges[kQuantities];
@@ -83,25 +72,23 @@ template <typename Holds>
   Primes primes;
   for (double known = 0; known < needed; known += Primes::kDigits) {
     const PrimeField field(primes.next(), ranges);
-    if (!holds(field, [](Residue a) { return !PrimeField::vanishes(a); })) {
+    if (!fit(field, given, far, count, [](Residue a) { return !PrimeField::vanishes(a); })) {
       return false;
     }
   }
   return true;
 }
 
-/// Whether `count` control points are one point. Seldom asked for more than a few of them.
+/// Whether `count` control points are one point; others are told by the first few of them.
 [[nodiscard]] inline bool is_point(const ExactPoints& given, std::size_t count) {
-  return holds_exactly(given, [&](const auto& field, const auto& is_not_zero) {
-    return in_one_place(field, given, count, is_not_zero);
-  });
+  return fit_exactly(given, 0, count);
 }
 
-/// Whether `count` control points lie on one line. False where they are one point.
-[[nodiscard]] inline bool is_line(const ExactPoints& given, std::size_t count) {
+/// Whether `count` control points lie on one line, or are one point.
+[[nodiscard]] inline bool is_straight(const ExactPoints& given, std::size_t count) {
   const BoundedField doubles{given.largest_point(), given.largest_weight()};
   const FromFirst<BoundedField> points(doubles, given);
-  std::size_t far = 0;
+  std::size_t far = 0; // 0 where doubles cannot tell any point from the first one
   double size = 0;
   for (std::size_t k = 1; k < count; ++k) {
     Bounded at[3];
@@ -113,9 +100,7 @@ template <typename Holds>
       }
     }
   }
-  return far != 0 && holds_exactly(given, [&](const auto& field, const auto& is_not_zero) {
-           return on_line(field, given, far, count, is_not_zero);
-         });
+  return fit_exactly(given, far, count);
 }
 
 } // namespace simdbezier::detail

@@ -139,7 +139,9 @@ public:
     return all;
   }
   /// Whether the curve is a line.
-  [[nodiscard]] bool is_zero() const { return is_line(tangent_.points(), tangent_.degree() + 1); }
+  [[nodiscard]] bool is_zero() const {
+    return is_straight(tangent_.points(), tangent_.degree() + 1);
+  }
 
 private:
   const TangentQuestion& tangent_;
