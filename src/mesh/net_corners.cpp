@@ -52,24 +52,8 @@ bool same_in(const ControlNets<S>& a, std::size_t patch_a, const ControlNets<S>&
 } // namespace
 
 template <typename S>
-NetCorners<S>::NetCorners(std::span<const ControlNets<S>> sets) : sets_(sets) {
-  std::size_t patches = 0;
-  for (const ControlNets<S>& nets : sets) {
-    starts_.push_back(patches);
-    patches += nets.count;
-  }
-}
-
-template <typename S>
-typename NetCorners<S>::Place NetCorners<S>::place(std::size_t patch) const noexcept {
-  const auto behind = std::upper_bound(starts_.begin(), starts_.end(), patch);
-  const auto view = static_cast<std::size_t>(behind - starts_.begin()) - 1;
-  return {&sets_[view], patch - starts_[view]};
-}
-
-template <typename S>
 void NetCorners<S>::read_side(std::size_t side, SideNet& to) const {
-  const Place at = place(side / kPatchEdges);
+  const auto at = views_.place(side / kPatchEdges);
   const ControlNets<S>& nets = *at.nets;
   const bool in_u = runs_in_u(side);
   const bool far = side % 2 != 0;
@@ -88,7 +72,7 @@ void NetCorners<S>::read_side(std::size_t side, SideNet& to) const {
 
 template <typename S>
 Point3 NetCorners<S>::corner_point(std::size_t corner) const noexcept {
-  const Place at = place(corner / kPatchCorners);
+  const auto at = views_.place(corner / kPatchCorners);
   return point_at(*at.nets, at.patch, corner % 2 == 0 ? 0 : at.nets->degree_u,
                   corner % kPatchCorners < 2 ? 0 : at.nets->degree_v);
 }
@@ -103,7 +87,7 @@ bool NetCorners<S>::side_within(std::size_t side, double distance) const {
 
 template <typename S>
 bool NetCorners<S>::sides_leave_together(std::size_t patch, std::size_t corner) const noexcept {
-  const Place at = place(patch);
+  const auto at = views_.place(patch);
   const ControlNets<S>& nets = *at.nets;
   const bool at_u1 = corner % 2 != 0;
   const bool at_v1 = corner >= 2;
@@ -131,7 +115,7 @@ bool NetCorners<S>::sides_leave_together(std::size_t patch, std::size_t corner) 
 
 template <typename S>
 std::array<double, 3> NetCorners<S>::lowest_point(std::size_t patch) const noexcept {
-  const Place at = place(patch);
+  const auto at = views_.place(patch);
   std::array<double, 3> lowest = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   for_points(*at.nets, at.patch, [&](const Point3& point) {
     const std::array<double, 3> x = {point.x[0] + 0.0, point.x[1] + 0.0, point.x[2] + 0.0};
@@ -142,8 +126,8 @@ std::array<double, 3> NetCorners<S>::lowest_point(std::size_t patch) const noexc
 
 template <typename S>
 bool NetCorners<S>::same(std::size_t a, std::size_t b) const noexcept {
-  const Place p = place(a);
-  const Place q = place(b);
+  const auto p = views_.place(a);
+  const auto q = views_.place(b);
   for (int way = 0; way < 8; ++way) {
     if (same_in(*p.nets, p.patch, *q.nets, q.patch, way)) {
       return true;

@@ -11,6 +11,7 @@
 
 #include "src/mesh/net_points.hpp"
 #include "src/mesh/topology_data.hpp"
+#include "src/nets/net_views.hpp"
 
 namespace simdbezier::detail {
 
@@ -34,14 +35,14 @@ struct SideNet {
 template <typename S>
 class NetCorners {
 public:
-  explicit NetCorners(std::span<const ControlNets<S>> sets);
+  explicit NetCorners(std::span<const ControlNets<S>> sets) : views_(sets) {}
 
   void read_side(std::size_t side, SideNet& to) const;
   /// The control point of corner 4 * patch + corner.
   [[nodiscard]] Point3 corner_point(std::size_t corner) const noexcept;
 
   [[nodiscard]] bool is_homogeneous(std::size_t patch) const noexcept {
-    return place(patch).nets->weights == Weights::homogeneous;
+    return views_.place(patch).nets->weights == Weights::homogeneous;
   }
 
   /// Whether all control points of a side lie within a distance of both of its ends.
@@ -58,14 +59,7 @@ public:
   [[nodiscard]] bool same(std::size_t a, std::size_t b) const noexcept;
 
 private:
-  struct Place {
-    const ControlNets<S>* nets;
-    std::size_t patch;
-  };
-  [[nodiscard]] Place place(std::size_t patch) const noexcept;
-
-  std::span<const ControlNets<S>> sets_;
-  std::vector<std::size_t> starts_;
+  NetViews<S> views_;
 };
 
 /// Marks patches that repeat an earlier one.

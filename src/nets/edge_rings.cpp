@@ -7,7 +7,9 @@
 #include <memory>
 #include <type_traits>
 
-#include "src/nets/net_call.hpp"
+#include "src/nets/net_views.hpp"
+#include "src/runtime/batch.hpp"
+#include "src/storage/net_shape.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -134,33 +136,11 @@ private:
   bool turned_ = false;
 };
 
-/// All edges of all views, numbered 4 * patch + edge.
 template <typename S>
-class EdgeSoup {
-public:
-  explicit EdgeSoup(std::span<const ControlNets<S>> sets) : sets_(sets) {
-    starts_.reserve(sets.size() + 1);
-    starts_.push_back(0);
-    for (const ControlNets<S>& nets : sets) {
-      starts_.push_back(starts_.back() + nets.count);
-    }
-  }
-  [[nodiscard]] std::size_t size() const noexcept { return kPatchEdges * starts_.back(); }
-  [[nodiscard]] EdgeValues<S> edge(std::size_t number) const noexcept {
-    const std::size_t patch = number / kPatchEdges;
-    std::size_t low = 0; // the last view that starts at or before the patch and is not empty
-    std::size_t high = sets_.size();
-    while (high - low > 1) {
-      const std::size_t middle = low + (high - low) / 2;
-      (starts_[middle] <= patch ? low : high) = middle;
-    }
-    return {sets_[low], patch - starts_[low], static_cast<PatchEdge>(number % kPatchEdges)};
-  }
-
-private:
-  std::span<const ControlNets<S>> sets_;
-  std::vector<std::size_t> starts_; ///< first patch of each view, then the number of all
-};
+EdgeValues<S> edge_of(const NetViews<S>& views, std::size_t side) noexcept {
+  const auto [nets, patch] = views.place(side / kPatchEdges);
+  return {*nets, patch, static_cast<PatchEdge>(side % kPatchEdges)};
+}
 
 /// Open addressing: the latest side of each ring, at a place that its hash leads to.
 template <typename Index>
@@ -175,25 +155,27 @@ struct RingTable {
 };
 
 template <typename S, typename Index>
-void hash_edges(const EdgeSoup<S>& soup, EdgeRings<Index>& rings, RingTable<Index>& table,
+void hash_edges(const NetViews<S>& views, EdgeRings<Index>& rings, RingTable<Index>& table,
                 int threads) noexcept {
   auto body = [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t side = begin; side < end; ++side) {
-      const EdgeValues<S> edge = soup.edge(side);
+      const EdgeValues<S> edge = edge_of(views, side);
       table.hash[side] = static_cast<Index>(edge.hash());
       rings.turned[side] = edge.turned() ? 1 : 0;
       rings.next[side] = edge.collapsed() ? EdgeRings<Index>::kPoint : static_cast<Index>(side);
     }
   };
-  for_blocks(soup.size(), thread_count(threads, soup.size()), BlockBody(body));
+  const std::size_t sides = rings.next.size();
+  for_blocks(sides, thread_count(threads, sides), BlockBody(body));
 }
 
 template <typename S, typename Index>
-void close_rings(const EdgeSoup<S>& soup, EdgeRings<Index>& rings, RingTable<Index>& table) {
+void close_rings(const NetViews<S>& views, EdgeRings<Index>& rings, RingTable<Index>& table) {
+  const std::size_t sides = rings.next.size();
   const std::size_t mask = table.slot.size() - 1;
   constexpr std::size_t kAhead = 16; // slots lie anywhere in a table that no near cache holds
-  for (std::size_t side = 0; side < soup.size(); ++side) {
-    __builtin_prefetch(&table.slot[table.hash[std::min(side + kAhead, soup.size() - 1)] & mask]);
+  for (std::size_t side = 0; side < sides; ++side) {
+    __builtin_prefetch(&table.slot[table.hash[std::min(side + kAhead, sides - 1)] & mask]);
     if (rings.is_point(side)) {
       continue;
     }
@@ -203,7 +185,8 @@ void close_rings(const EdgeSoup<S>& soup, EdgeRings<Index>& rings, RingTable<Ind
       if (latest == RingTable<Index>::kNone) {
         break;
       }
-      if (table.hash[latest] == table.hash[side] && soup.edge(latest) == soup.edge(side)) {
+      if (table.hash[latest] == table.hash[side] &&
+          edge_of(views, latest) == edge_of(views, side)) {
         rings.next[side] = rings.next[latest];
         rings.next[latest] = static_cast<Index>(side);
         break;
@@ -215,41 +198,22 @@ void close_rings(const EdgeSoup<S>& soup, EdgeRings<Index>& rings, RingTable<Ind
 
 } // namespace
 
-template <typename S>
-Status check_views(std::span<const ControlNets<S>> sets) noexcept {
-  if (sets.data() == nullptr && !sets.empty()) {
-    return Status::null_input;
-  }
-  std::size_t patches = 0;
-  constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / 512;
-  for (const ControlNets<S>& nets : sets) {
-    if (const Status status = check_input(nets); !status) {
-      return status;
-    }
-    if (nets.count > kMost - patches) {
-      return Status::size_overflow;
-    }
-    patches += nets.count;
-  }
-  return Status::ok;
-}
-
 template <typename S, typename Index>
 EdgeRings<Index> find_rings(std::span<const ControlNets<S>> sets, int threads) {
-  const EdgeSoup<S> soup(sets);
+  const NetViews<S> views(sets);
+  const std::size_t sides = kPatchEdges * views.patches();
   EdgeRings<Index> rings;
-  if (soup.size() > 0) {
-    rings.next.resize(soup.size());
-    rings.turned.resize(soup.size());
-    RingTable<Index> table(soup.size());
-    hash_edges(soup, rings, table, threads);
-    close_rings(soup, rings, table);
+  if (sides > 0) {
+    rings.next.resize(sides);
+    rings.turned.resize(sides);
+    RingTable<Index> table(sides);
+    hash_edges(views, rings, table, threads);
+    close_rings(views, rings, table);
   }
   return rings;
 }
 
 #define SIMDBEZIER_EDGE_RINGS(S)                                                                   \
-  template Status check_views(std::span<const ControlNets<S>>) noexcept;                           \
   template EdgeRings<std::uint32_t> find_rings(std::span<const ControlNets<S>>, int);              \
   template EdgeRings<std::uint64_t> find_rings(std::span<const ControlNets<S>>, int);
 SIMDBEZIER_EDGE_RINGS(float)

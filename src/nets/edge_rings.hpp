@@ -10,7 +10,6 @@
 
 #include <simdbezier/control_nets.hpp>
 #include <simdbezier/patch_edge.hpp>
-#include <simdbezier/status.hpp>
 
 namespace simdbezier::detail {
 
@@ -36,11 +35,6 @@ struct EdgeRings {
     }
   }
 };
-
-/// Whether views can be read, and their patches be counted:
-/// null_input | input_too_small | bad_degree | bad_components | bad_stride | size_overflow | ok.
-template <typename S>
-Status check_views(std::span<const ControlNets<S>> sets) noexcept;
 
 /// Throws bad_alloc. The views are sound, and their sides fewer than EdgeRings<Index>::kPoint.
 template <typename S, typename Index>

@@ -134,6 +134,25 @@ Status check_input(const ControlNets<S>& nets) noexcept {
 }
 
 template <typename S>
+Status check_views(std::span<const ControlNets<S>> sets) noexcept {
+  if (sets.data() == nullptr && !sets.empty()) {
+    return Status::null_input;
+  }
+  std::size_t patches = 0;
+  constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / 512;
+  for (const ControlNets<S>& nets : sets) {
+    if (const Status status = check_input(nets); !status) {
+      return status;
+    }
+    if (nets.count > kMost - patches) {
+      return Status::size_overflow;
+    }
+    patches += nets.count;
+  }
+  return Status::ok;
+}
+
+template <typename S>
 Status check_output(const MutableNets<S>& out, const ControlNets<S>& nets, int degree_u,
                     int degree_v) noexcept {
   if (out.degree_u != degree_u || out.degree_v != degree_v) {
@@ -227,6 +246,7 @@ NetReport find_fault(const ControlNets<S>& nets, int threads, bool signed_weight
   template NetView<const S> view_of(const ControlNets<S>&) noexcept;                               \
   template NetView<S> view_of(const MutableNets<S>&) noexcept;                                     \
   template Status check_input(const ControlNets<S>&) noexcept;                                     \
+  template Status check_views(std::span<const ControlNets<S>>) noexcept;                           \
   template Status check_output(const MutableNets<S>&, const ControlNets<S>&, int, int) noexcept;   \
   template Status check_apart(const ControlNets<S>&, const ControlNets<S>&) noexcept;              \
   template Status check_apart(const ControlNets<S>&, const MemoryRange&) noexcept;                 \

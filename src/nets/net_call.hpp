@@ -36,6 +36,11 @@ Status check_in_space(const ControlNets<S>& nets) noexcept {
   return status == Status::ok && nets.components != 3 ? Status::bad_components : status;
 }
 
+/// Whether all views can be read, and their patches be counted: as check_input(), and null_input
+/// where there is no list of views, or size_overflow.
+template <typename S>
+Status check_views(std::span<const ControlNets<S>> sets) noexcept;
+
 /// The patches of all views.
 template <typename S>
 std::size_t patches_of(std::span<const ControlNets<S>> sets) noexcept {
