@@ -1,6 +1,4 @@
 // All instruction sets, whether this build has them or not: one row for each.
-#include <cstddef>
-
 #include <simdbezier/isa.hpp>
 
 #include "src/runtime/dispatch.hpp"
@@ -8,23 +6,14 @@
 namespace simdbezier {
 namespace {
 
-#if defined(__x86_64__)
-constexpr bool kX86 = true;
-#else
-constexpr bool kX86 = false;
-#endif
-#if defined(__aarch64__)
-constexpr bool kArm = true;
-#else
-constexpr bool kArm = false;
-#endif
+using Probe = bool (*)() noexcept;
 
 bool never() noexcept { return false; }
 bool always() noexcept { return true; }
 
+#if defined(__x86_64__)
 // The compiler's built-in honours what the operating system saves (XCR0), which xsimd 8.1's own
 // probe does not.
-#if defined(__x86_64__)
 bool has_avx2() noexcept {
   return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
 }
@@ -33,25 +22,30 @@ bool has_avx512() noexcept {
          __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
          __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512vl") != 0;
 }
+constexpr Probe has_sse2 = always; // the baseline
+constexpr Probe has_neon64 = never;
 #else
-constexpr auto* has_avx2 = never;
-constexpr auto* has_avx512 = never;
+constexpr Probe has_sse2 = never;
+constexpr Probe has_avx2 = never;
+constexpr Probe has_avx512 = never;
+#if defined(__aarch64__)
+constexpr Probe has_neon64 = always; // the baseline
+#else
+constexpr Probe has_neon64 = never;
+#endif
 #endif
 
 struct InstructionSet {
   Isa isa;
   std::string_view name;
-  bool fuses;                   ///< a multiplication and an addition with one rounding
-  bool (*runs_here)() noexcept; ///< on this machine and its operating system
+  bool fuses;      ///< a multiplication and an addition with one rounding
+  Probe runs_here; ///< on this machine and its operating system
 };
 
 constexpr InstructionSet kSets[] = {
-    {Isa::automatic, "automatic", false, never},
-    {Isa::scalar, "scalar", false, always},
-    {Isa::sse2, "sse2", false, kX86 ? always : never}, // the baseline of x86-64
-    {Isa::avx2, "avx2", true, has_avx2},
-    {Isa::avx512, "avx512", true, has_avx512},
-    {Isa::neon64, "neon64", true, kArm ? always : never}, // the baseline of aarch64
+    {Isa::automatic, "automatic", false, never}, {Isa::scalar, "scalar", false, always},
+    {Isa::sse2, "sse2", false, has_sse2},        {Isa::avx2, "avx2", true, has_avx2},
+    {Isa::avx512, "avx512", true, has_avx512},   {Isa::neon64, "neon64", true, has_neon64},
 };
 
 const InstructionSet* find(Isa isa) noexcept {
