@@ -28,14 +28,10 @@
 // it. What is INLINE goes into whatever calls it at once: formulas, and what takes or is a
 // callable, so that captured variables are in registers before the PARTs come together. g++
 // optimises a function that is always inlined once for each level above it, which would be half of
-// the compile time if PARTs were; clang does not, and its flatten reaches one level only. Of a
-// sanitizer's checks in one large function g++ would take half an hour to make the best.
+// the compile time if PARTs were; clang does not, and its flatten reaches one level only.
 #if defined(__clang__)
 #define SIMDBEZIER_KERNEL __attribute__((noinline))
 #define SIMDBEZIER_PART inline __attribute__((always_inline))
-#elif defined(__SANITIZE_ADDRESS__)
-#define SIMDBEZIER_KERNEL __attribute__((noinline))
-#define SIMDBEZIER_PART inline
 #else
 #define SIMDBEZIER_KERNEL __attribute__((noinline, flatten))
 #define SIMDBEZIER_PART inline
