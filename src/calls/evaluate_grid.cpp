@@ -18,7 +18,7 @@ public:
            const OutputList<T>& out, const Options& options, Destination destination) noexcept
       : kernels_(set, request, out, options), first_patch_(request.first), patches_(request.count),
         plan_(plan), outputs_(out, destination) {
-    kernels_.write(written_bytes(out, plan.nu() * plan.nv() * request.count), destination);
+    kernels_.expect_output(written_bytes(out, plan.nu() * plan.nv() * request.count), destination);
     outputs_.put_directly(kernels_.direct_rows(plan.nu(), true));
     divide(Delivery<T>::chunk_samples(outputs_));
     chunk_samples_ = (strips_ > 1 ? strip_rows_ : together_ * plan.nv()) * plan.nu();

@@ -22,7 +22,7 @@ public:
                  const OutputList<T>& out, const Options& options, Destination destination) noexcept
       : kernels_(set, request, out, options), first_patch_(request.first), grids_(grids),
         outputs_(out, destination) {
-    kernels_.write(written_bytes(out, grids.total()), destination);
+    kernels_.expect_output(written_bytes(out, grids.total()), destination);
     outputs_.put_directly(kernels_.direct_rows(grids.least_nu(), false));
     piece_samples_ = Delivery<T>::chunk_samples(outputs_);
     chunk_samples_ = std::max(piece_samples_, grids.most_nu());

@@ -55,9 +55,9 @@ struct PatchKernels {
         choice(out, request.components, request.table->compact), watertight(options.watertight),
         whole_lines(splits_slowly(*request.table)), first_component(request.components.first) {}
 
-  /// Tells how much is written, and which way. What leaves the caches by plain stores does so in
-  /// whole lines, because these are not read first.
-  void write(std::size_t bytes, Destination destination) noexcept {
+  /// Takes into account how much is written, and which way. What leaves the caches by plain stores
+  /// does so in whole lines, because these are not read first.
+  void expect_output(std::size_t bytes, Destination destination) noexcept {
     whole_lines = whole_lines || (destination == Destination::cache && exceeds_caches(bytes));
   }
 

@@ -109,24 +109,29 @@ TEST(TopologyTest, short_sides_are_points_where_that_is_asked_for) {
   EXPECT_EQ(topology.counts().corners, 3U);
 }
 
-/// Two patches with a side in common, which one of them has reversed. A control point of the side
-/// is no number in space; the others are so near to each other, or so far apart, that which of them
-/// are compared last would decide.
+/// Two patches with a side in common, which runs the other way in the second one. One of its
+/// control points is no number in space. The others have distances from its ends that are below 1
+/// and above it: a maximum that forgot them would depend on the direction.
 std::vector<double> with_odd_point(std::size_t odd, bool homogeneous) {
   constexpr double kSide[4] = {0, 100, 50, 0.1};
   const double nan = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> values;
   for (std::size_t k = 0; k < 32; ++k) {
-    const std::size_t on_side = k < 16 ? k : 3 - k % 16;
-    const bool is_odd = k % 16 < 4 && on_side == odd;
-    const double x = k % 16 < 4 ? kSide[on_side] : static_cast<double>(10 * (k % 4));
-    const double far = is_odd ? 0 : 1;
-    values.insert(values.end(), {homogeneous ? far * x
-                                 : is_odd    ? nan
-                                             : x,
-                                 far * static_cast<double>(k % 16 < 4 ? 0 : 10 * (k / 4)), 0});
+    double x = static_cast<double>(10 * (k % 4));
+    double y = static_cast<double>(10 * (k / 4));
+    double weight = 1;
+    if (k % 16 < 4) {
+      const std::size_t on_side = k < 16 ? k : 3 - k % 16;
+      x = kSide[on_side];
+      y = 0;
+      if (on_side == odd) {
+        x = homogeneous ? 0 : nan;
+        weight = 0; // 0 / 0
+      }
+    }
+    values.insert(values.end(), {x, y, 0});
     if (homogeneous) {
-      values.push_back(far); // 0 / 0
+      values.push_back(weight);
     }
   }
   return values;
