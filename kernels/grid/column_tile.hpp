@@ -60,14 +60,12 @@ struct ColumnTile {
   /// Whether rows and their mirror images are computed together: where both are whole registers of
   /// their own. Others share cache lines with the rows beside them and, where stores across lines
   /// are slow, are faster one behind the other, except with normals, whose arithmetic outweighs
-  /// that. Rows of more than a line gain nothing by it anywhere, nor do derivatives of shorter
-  /// registers.
+  /// that. Rows of more than a line gain nothing by it anywhere.
   static constexpr bool kOwnLines = kRows == 1 && kWhole && !kExtra;
   static constexpr bool kOneLine = kRows == 1 && sizeof(T) * kLanes<V> <= 64;
   static constexpr RowPairs kPairs = kOwnLines  ? RowPairs::always
                                      : kOneLine ? RowPairs::where_splits_are_cheap
                                                 : RowPairs::never;
-  static constexpr RowPairs kJetPairs = kOwnLines || kLineWide<vec<T>> ? kPairs : RowPairs::never;
   static constexpr bool kNormalPairs = kRows == 1 || (kRows == 2 && kWhole && kLanes<V> > 2);
   static constexpr bool kShared = kRows > 1; ///< edges v = const share a register
   static constexpr bool kSingle = kRows == kLanes<V> && kHasFours<V>; ///< all lanes one column

@@ -205,7 +205,7 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
     });
     return;
   }
-  constexpr RowOrder kRowOrder{kRows, Piece::kAcross ? RowPairs::never : Tile::kJetPairs,
+  constexpr RowOrder kRowOrder{kRows, Piece::kAcross ? RowPairs::never : Tile::kPairs,
                                Piece::kKnown && Piece::kStraight ? 2 : 1};
   for_rows<kRowOrder>(
       piece, 0, nu,
