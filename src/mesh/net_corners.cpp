@@ -21,6 +21,31 @@ Point3 way_along(const ControlNets<S>& nets, const S* end, std::ptrdiff_t stride
   return way;
 }
 
+/// Whether the next control points on two ways from `end` certainly lie in different directions.
+/// That is so in almost every corner, and cheaper to see from values as they are.
+template <typename S>
+bool certainly_part(const ControlNets<S>& nets, const S* end, std::ptrdiff_t stride_a,
+                    std::ptrdiff_t stride_b) {
+  if (nets.weights == Weights::homogeneous) {
+    return false;
+  }
+  S square_a = 0;
+  S square_b = 0;
+  S product = 0;
+  for (std::ptrdiff_t c = 0; c < 3; ++c) {
+    const S* const from = end + c * nets.component_stride;
+    const S a = from[stride_a] - *from;
+    const S b = from[stride_b] - *from;
+    square_a += a * a;
+    square_b += b * b;
+    product += a * b;
+  }
+  // Elsewhere products may vanish or overflow; differences are rounded once, wherever points are.
+  const auto is_usual = [](S square) { return square > S(0x1p-60) && square < S(0x1p60); };
+  return is_usual(square_a) && is_usual(square_b) &&
+         product * std::fabs(product) < S(0.98) * square_a * square_b;
+}
+
 /// Whether patch b read in one of eight ways has the values of patch a.
 template <typename S>
 bool same_in(const ControlNets<S>& a, std::size_t patch_a, const ControlNets<S>& b,
@@ -93,21 +118,14 @@ bool NetCorners<S>::sides_leave_together(std::size_t patch, std::size_t corner) 
   const bool at_v1 = corner >= 2;
   const S* const end =
       values_at(nets, at.patch, at_u1 ? nets.degree_u : 0, at_v1 ? nets.degree_v : 0);
-  Point3 a = way_along(nets, end, at_u1 ? -nets.point_stride : nets.point_stride, nets.degree_u);
-  Point3 b = way_along(nets, end, at_v1 ? -nets.row_stride : nets.row_stride, nets.degree_v);
-  const double square_a = dot(a, a);
-  const double square_b = dot(b, b);
-  const auto is_usual = [](double square) { return square > 0x1p-200 && square < 0x1p200; };
-  if (is_usual(square_a) && is_usual(square_b)) {
-    const double cosine = dot(a, b); // times both lengths
-    if (cosine <= 0 || cosine * cosine < 0.99 * square_a * square_b) {
-      return false; // far from it, as most are
-    }
-  } else { // products of squares would overflow or vanish
-    int exponent = 0;
-    a = scaled_to_one(a, exponent);
-    b = scaled_to_one(b, exponent);
+  const std::ptrdiff_t in_u = at_u1 ? -nets.point_stride : nets.point_stride;
+  const std::ptrdiff_t in_v = at_v1 ? -nets.row_stride : nets.row_stride;
+  if (certainly_part(nets, end, in_u, in_v)) {
+    return false;
   }
+  int exponent = 0;
+  const Point3 a = scaled_to_one(way_along(nets, end, in_u, nets.degree_u), exponent);
+  const Point3 b = scaled_to_one(way_along(nets, end, in_v, nets.degree_v), exponent);
   const Point3 n = cross(a, b);
   constexpr double kSine = 1e-9;
   return dot(a, b) > 0 && dot(n, n) <= kSine * kSine * dot(a, a) * dot(b, b);

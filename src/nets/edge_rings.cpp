@@ -14,12 +14,13 @@
 namespace simdbezier::detail {
 namespace {
 
-/// The values of one edge, in the direction of its parameter or against it.
+/// The values of one edge, from the end on at which the direction that both sides agree on begins.
 template <typename S>
 class EdgeValues {
 public:
   using Bits = std::conditional_t<sizeof(S) == 4, std::uint32_t, std::uint64_t>;
 
+  /// In the edge's own direction.
   EdgeValues(const ControlNets<S>& nets, std::size_t patch, PatchEdge edge) noexcept
       : channels_(static_cast<std::ptrdiff_t>(shape_of(nets).channels())),
         component_stride_(nets.component_stride), weights_(nets.weights) {
@@ -32,11 +33,31 @@ public:
     } else if (edge == PatchEdge::u1) {
       first_ += nets.degree_u * nets.point_stride;
     }
-    turn();
   }
 
-  /// Whether the agreed direction is against the edge's own: not where both give the same values.
-  [[nodiscard]] bool turned() const noexcept { return turned_; }
+  /// The agreed direction has the smaller bits where both first differ. Whether that is against the
+  /// edge's own: not where both give the same values.
+  [[nodiscard]] bool runs_against() const noexcept {
+    for (std::ptrdiff_t k = 0; k <= degree_ / 2; ++k) {
+      for (std::ptrdiff_t c = 0; c < channels_; ++c) {
+        const Bits forward = bits(k, c);
+        const Bits backward = bits(degree_ - k, c);
+        if (forward != backward) {
+          return backward < forward;
+        }
+      }
+    }
+    return false;
+  }
+  /// The same edge from its other end on, or as it is.
+  [[nodiscard]] EdgeValues turned(bool turn) const noexcept {
+    EdgeValues edge = *this;
+    if (turn) {
+      edge.first_ += degree_ * stride_;
+      edge.stride_ = -stride_;
+    }
+    return edge;
+  }
 
   [[nodiscard]] bool operator==(const EdgeValues& other) const noexcept {
     if (degree_ != other.degree_ || channels_ != other.channels_ || weights_ != other.weights_) {
@@ -68,19 +89,31 @@ public:
   /// Multiplication and the high half's return to the low one (the finaliser of MurmurHash3), on
   /// sums of four values at a time, whose products do not wait for each other.
   [[nodiscard]] std::uint64_t hash() const noexcept {
+    return channels_ == 3 ? hash_of<3>() : hash_of<0>();
+  }
+  void prefetch() const noexcept {
+    __builtin_prefetch(first_);
+    __builtin_prefetch(first_ + degree_ * stride_);
+  }
+
+private:
+  /// kChannels: how many there are, or 0 where that is known at run time only.
+  template <std::ptrdiff_t kChannels>
+  [[nodiscard]] std::uint64_t hash_of() const noexcept {
     constexpr std::uint64_t kFactors[4] = {0x9e3779b97f4a7c15ULL, 0xbf58476d1ce4e5b9ULL,
                                            0x94d049bb133111ebULL, 0xd6e8feb86659fd93ULL};
+    const std::ptrdiff_t channels = kChannels > 0 ? kChannels : channels_;
     const auto mixed = [](std::uint64_t state) {
       state *= 0xff51afd7ed558ccdULL;
       return state ^ (state >> 33);
     };
     std::uint64_t state = static_cast<std::uint64_t>(degree_) * 64 +
-                          static_cast<std::uint64_t>(channels_) * 4 +
+                          static_cast<std::uint64_t>(channels) * 4 +
                           static_cast<std::uint64_t>(weights_);
     for (std::ptrdiff_t k = 0; k <= degree_; ++k) {
-      for (std::ptrdiff_t first = 0; first < channels_; first += 4) {
+      for (std::ptrdiff_t first = 0; first < channels; first += 4) {
         std::uint64_t sum = 0;
-        for (std::ptrdiff_t c = first; c < channels_ && c < first + 4; ++c) {
+        for (std::ptrdiff_t c = first; c < channels && c < first + 4; ++c) {
           sum += bits(k, c) * kFactors[c - first];
         }
         state = mixed(state ^ sum);
@@ -90,12 +123,8 @@ public:
     return state ^ (state >> 33);
   }
 
-private:
-  /// Value c of point k in the agreed direction; -0 as +0.
+  /// Value c of point k; -0 as +0.
   [[nodiscard]] Bits bits(std::ptrdiff_t k, std::ptrdiff_t c) const noexcept {
-    return at(turned_ ? degree_ - k : k, c);
-  }
-  [[nodiscard]] Bits at(std::ptrdiff_t k, std::ptrdiff_t c) const noexcept {
     const auto value = std::bit_cast<Bits>(first_[k * stride_ + c * component_stride_]);
     constexpr Bits kSign = Bits{1} << (8 * sizeof(Bits) - 1);
     return value == kSign ? 0 : value;
@@ -104,7 +133,7 @@ private:
   /// Whether point k has the coordinate of point 0.
   [[nodiscard]] bool same_coordinate(std::ptrdiff_t k, std::ptrdiff_t c) const noexcept {
     if (weights_ != Weights::homogeneous) {
-      return at(k, c) == at(0, c);
+      return bits(k, c) == bits(0, c);
     }
     const auto point = [&](std::ptrdiff_t i) {
       const S* const values = first_ + i * stride_;
@@ -113,27 +142,12 @@ private:
     return point(k) == point(0);
   }
 
-  /// The agreed direction has the smaller bits where both first differ.
-  void turn() noexcept {
-    for (std::ptrdiff_t k = 0; k <= degree_ / 2; ++k) {
-      for (std::ptrdiff_t c = 0; c < channels_; ++c) {
-        const Bits forward = at(k, c);
-        const Bits backward = at(degree_ - k, c);
-        if (forward != backward) {
-          turned_ = backward < forward;
-          return;
-        }
-      }
-    }
-  }
-
   const S* first_;
   std::ptrdiff_t degree_;
   std::ptrdiff_t stride_;
   std::ptrdiff_t channels_;
   std::ptrdiff_t component_stride_;
   Weights weights_;
-  bool turned_ = false;
 };
 
 template <typename S>
@@ -160,8 +174,9 @@ void hash_edges(const NetViews<S>& views, EdgeRings<Index>& rings, RingTable<Ind
   auto body = [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t side = begin; side < end; ++side) {
       const EdgeValues<S> edge = edge_of(views, side);
-      table.hash[side] = static_cast<Index>(edge.hash());
-      rings.turned[side] = edge.turned() ? 1 : 0;
+      const bool turned = edge.runs_against();
+      table.hash[side] = static_cast<Index>(edge.turned(turned).hash());
+      rings.turned[side] = turned ? 1 : 0;
       rings.next[side] = edge.collapsed() ? EdgeRings<Index>::kPoint : static_cast<Index>(side);
     }
   };
@@ -173,20 +188,28 @@ template <typename S, typename Index>
 void close_rings(const NetViews<S>& views, EdgeRings<Index>& rings, RingTable<Index>& table) {
   const std::size_t sides = rings.next.size();
   const std::size_t mask = table.slot.size() - 1;
-  constexpr std::size_t kAhead = 16; // slots lie anywhere in a table that no near cache holds
+  const auto place = [&](std::size_t side) { return table.hash[side] & mask; };
+  const auto agreed = [&](std::size_t side) {
+    return edge_of(views, side).turned(rings.turned[side] != 0);
+  };
+  // Slots lie anywhere in a table that no near cache holds, and the edges that they name in memory.
+  constexpr std::size_t kAhead = 16;
   for (std::size_t side = 0; side < sides; ++side) {
-    __builtin_prefetch(&table.slot[table.hash[std::min(side + kAhead, sides - 1)] & mask]);
+    __builtin_prefetch(&table.slot[place(std::min(side + kAhead, sides - 1))]);
+    const Index soon = table.slot[place(std::min(side + kAhead / 2, sides - 1))];
+    if (soon != RingTable<Index>::kNone) {
+      edge_of(views, soon).prefetch();
+    }
     if (rings.is_point(side)) {
       continue;
     }
-    std::size_t at = table.hash[side] & mask;
+    std::size_t at = place(side);
     for (;; at = (at + 1) & mask) {
       const Index latest = table.slot[at];
       if (latest == RingTable<Index>::kNone) {
         break;
       }
-      if (table.hash[latest] == table.hash[side] &&
-          edge_of(views, latest) == edge_of(views, side)) {
+      if (table.hash[latest] == table.hash[side] && agreed(latest) == agreed(side)) {
         rings.next[side] = rings.next[latest];
         rings.next[latest] = static_cast<Index>(side);
         break;
