@@ -4,11 +4,14 @@
 // Such an edge stays where it is whatever its weights, but evaluated as h / w its derivative is the
 // difference of two equal products, each rounded: noise instead of zero, and with it curvatures.
 // It is therefore packed around its point, as sets with local origins are: numerators that are
-// zero. An edge u = const keeps its weights, by which kernels divide derivatives across it as well.
+// zero. An edge u = const keeps its weights, by which kernels divide derivatives across it as well,
+// unless they might be computed as zero where others are 1/u times as large: 0/0 is no number.
 // An edge v = const without an origin is the point with a weight of 1: from such edges, kernels
 // take only the point and derivatives along it, so they need not know that it is a point.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <type_traits>
 
 #include "kernels/pack/coinciding_points.hpp"
@@ -73,16 +76,30 @@ private:
     }
   };
 
+  /// The control points of an edge, as given.
+  struct EdgePoints {
+    const std::remove_pointer_t<decltype(Task::control_points)>* first;
+    std::size_t step; ///< in values
+    std::size_t count;
+    std::size_t channels;
+
+    EdgePoints(const Task& task, std::size_t patch, std::size_t edge)
+        : channels(task.shape.channels()) {
+      const detail::NetShape& shape = task.shape;
+      const Side side(edge);
+      const std::size_t point = side.along_u ? side.end * (shape.order_v() - 1) * shape.order_u()
+                                             : side.end * (shape.order_u() - 1);
+      first = task.control_points + patch * shape.control_values() + point * channels;
+      step = (side.along_u ? 1 : shape.order_u()) * channels;
+      count = side.along_u ? shape.order_u() : shape.order_v();
+    }
+    [[nodiscard]] auto weight(std::size_t k) const { return first[k * step + channels - 1]; }
+  };
+
   [[nodiscard]] bool is_point(std::size_t patch, std::size_t edge) const {
-    const detail::NetShape& shape = task_.shape;
-    const Side side(edge);
-    const std::size_t first = side.along_u ? side.end * (shape.order_v() - 1) * shape.order_u()
-                                           : side.end * (shape.order_u() - 1);
-    const std::size_t step = side.along_u ? 1 : shape.order_u();
-    return is_one_point(task_.control_points + patch * shape.control_values() +
-                            first * shape.channels(),
-                        step * shape.channels(), side.along_u ? shape.order_u() : shape.order_v(),
-                        shape.channels(), task_.nets.weights);
+    const EdgePoints points(task_, patch, edge);
+    return is_one_point(points.first, points.step, points.count, points.channels,
+                        task_.nets.weights);
   }
 
   /// Packs the edge in every cell that has a part of it.
@@ -121,8 +138,46 @@ private:
     }
     if (side.along_u) {
       put_constant(edges, components, edge, T(1));
-    } else if (task_.origins == nullptr) {
+      return;
+    }
+    keep_positive(edges + components * shape.edge_powers() * kEdges + edge,
+                  least_weight(patch, edge));
+    if (task_.origins == nullptr) {
       edges[shape.corners_at() + components * 4 + side.end] = T(1);
+    }
+  }
+
+  /// The least weight of an edge's control points.
+  [[nodiscard]] double least_weight(std::size_t patch, std::size_t edge) const {
+    const EdgePoints points(task_, patch, edge);
+    double least = static_cast<double>(points.weight(0));
+    for (std::size_t k = 1; k < points.count; ++k) {
+      const auto weight = static_cast<double>(points.weight(k));
+      least = weight < least ? weight : least;
+    }
+    return least;
+  }
+
+  /// Lifts a weight along u = const that is no larger than what its terms are rounded by, 2 E where
+  /// a multiply-add rounds twice: to at least 2 E, so that it is computed as a positive number.
+  /// E has no more roundings of any term than certificates count (docs/accuracy.md), which for such
+  /// patches are infinite.
+  void keep_positive(T* weight, double least) const {
+    const std::size_t powers = task_.shape.edge_powers();
+    const std::size_t degree = task_.shape.order_v() - 1;
+    const bool halved = task_.shape.cells_v() == 2;
+    double size = 0;
+    double rounded = 0;
+    for (std::size_t k = 0; k < powers; ++k) {
+      const double term = __builtin_ldexp(__builtin_fabs(static_cast<double>(weight[k * kEdges])),
+                                          -static_cast<int>(k));
+      size += term;
+      rounded += static_cast<double>(std::min(k + 3, degree + 2) + (halved ? k : 0)) * term;
+    }
+    const double error = rounded * (std::numeric_limits<T>::epsilon() / 2);
+    const double constant = static_cast<double>(weight[0]);
+    if (least <= 2 * error && 2 * constant - size <= 2 * error) {
+      weight[0] = static_cast<T>(constant + 4 * error);
     }
   }
 

@@ -95,14 +95,8 @@ private:
                : net_.coordinate(point, shape_.channels(), channel);
   }
 
-  /// The error of the packed coefficients, for all terms together: they are sums of up to 2^(m+n)
-  /// control values, in double where T is float and else in double-double, rounded at each of about
-  /// 2 (m + n) levels. Only products and halvings are inexact there.
   [[nodiscard]] double carried(double largest) const {
-    const int degrees = shape_.degree_u + shape_.degree_v;
-    const double unit = sizeof(T) == sizeof(float) ? 0x1p-53 : 0x1p-104;
-    return std::ldexp(unit * (2 * degrees + 4) * largest, degrees) +
-           std::ldexp(std::numeric_limits<double>::denorm_min(), degrees + 6);
+    return carried_error<T>(shape_.degree_u + shape_.degree_v, largest);
   }
   /// Largest |value| of a channel's control points.
   [[nodiscard]] double largest(std::size_t channel) const {
@@ -144,7 +138,8 @@ private:
     const double error_h = kRoundings * h.value + kDenormals + lost_h;
     const double error_w = kRoundings * w.value + kDenormals + lost_w;
     const double lowest = lowest_weight(w, error_w);
-    if (!(lowest > 0)) {
+    if (!(lowest >
+          error_w)) { // packing lifts weights of edges that are points from half as much on
       constexpr double kUnknown = std::numeric_limits<double>::infinity();
       return {kUnknown, kUnknown, kUnknown};
     }
@@ -163,14 +158,15 @@ private:
       const double most = numerator / lowest; // bounds |S_u|
       const double bound =
           1.01 * (error + most * error_w) / lowest + 2 * kRoundings * most + kDenormals;
-      return unless_overflow<T>(bound, way + numerator + way_s);
+      return unless_overflow<T>(bound, way + numerator + most + way_s);
     };
     Bound bound;
     bound.position = 1.01 * error_s;
     if (storage_.origins != nullptr) {
       const double size = std::fabs(around) + reach;
-      bound.position =
-          std::max(bound.position + kRoundings * size, 2 * kRoundings * size); // corner
+      // Corners are points; where halves meet, what h and w gave by three roundings.
+      const double corner = (shape_.cells() == 1 ? 2 : 3) * kRoundings * size;
+      bound.position = std::max(bound.position + kRoundings * size, corner);
     }
     bound.position = unless_overflow<T>(bound.position, way_s + std::fabs(around));
     bound.du = slope(h.size_u, w.size_u, h.du, w.du, shape_.degree_u, h.way_u + w.way_u);

@@ -81,8 +81,30 @@ private:
     return bounds;
   }
 
+  /// Adds what packing has rounded.
+  void add_carried(double largest, PolynomialBounds& bounds) const {
+    const int degree = static_cast<int>(shape_.order()) - 1;
+    const double lost = carried_error<T>(degree, largest);
+    bounds.error.at[0] += lost;
+    bounds.error.at[1] += 2 * degree * lost;
+    bounds.error.at[2] += 4 * degree * (degree - 1) * lost;
+  }
+  /// Largest |value| of a component, or of the weight, among the control points.
+  [[nodiscard]] double largest(std::size_t index) const {
+    const bool is_weight = index == static_cast<std::size_t>(shape_.components);
+    double most = 0;
+    for (std::size_t i = 0; i < shape_.order(); ++i) {
+      most = std::max(most, std::fabs(is_weight ? net_.value((i + 1) * shape_.channels() - 1)
+                                                : net_.coordinate(i, shape_.channels(), index)));
+    }
+    return most;
+  }
+
   [[nodiscard]] ByOrder plain(std::size_t cell, std::size_t component) const {
     PolynomialBounds bounds = polynomial(cell, component);
+    if (shape_.cells() > 1) {
+      add_carried(largest(component), bounds);
+    }
     if (shape_.origins) {
       const double o = std::fabs(origin(cell, component));
       bounds.error.at[0] += kUnit * (o + bounds.size.at[0]);
@@ -97,14 +119,19 @@ private:
   /// Errors of C = h/w and its derivatives w C^(d) = h^(d) - …, in the order of their computation:
   /// those of the operands, then the operations' own.
   [[nodiscard]] ByOrder quotient(std::size_t cell, std::size_t component) const {
-    const PolynomialBounds h = polynomial(cell, component);
-    const PolynomialBounds w = polynomial(cell, static_cast<std::size_t>(shape_.components));
+    const auto weight = static_cast<std::size_t>(shape_.components);
     const double o = origin(cell, component);
+    PolynomialBounds h = polynomial(cell, component);
+    PolynomialBounds w = polynomial(cell, weight);
+    const double most_weight = largest(weight);
+    add_carried((largest(component) + std::fabs(o)) * most_weight, h);
+    add_carried(most_weight, w);
     double least = std::numeric_limits<double>::infinity(); // w, and by it all that is computed
     double most = 0;                                        // |C - O|
     for (std::size_t i = 0; i < shape_.order(); ++i) {
       least = std::min(least, net_.value((i + 1) * shape_.channels() - 1));
-      most = std::max(most, std::fabs(net_.coordinate(i, shape_.channels(), component) - o));
+      const double point = net_.coordinate(i, shape_.channels(), component);
+      most = std::max(most, std::fabs(point - o) + 8 * kUnit * std::fabs(point));
     }
     const double divisor = least - w.error.at[0];
     if (!(divisor > 0)) {
@@ -131,7 +158,8 @@ private:
                            3 * per_step_ * kUnit * second_numerator) /
                               divisor +
                           second_numerator / divisor * by_inverse);
-    const double numerators[3] = {most + std::fabs(o), numerator, first + second_numerator};
+    const double numerators[3] = {most + std::fabs(o), numerator + first,
+                                  second_numerator + second_numerator / divisor};
     double way = 0; // derivatives take the lower ones
     for (std::size_t d = 0; d < 3; ++d) {
       way += h.way.at[d] + w.way.at[d] + numerators[d];
