@@ -148,7 +148,10 @@ inline constexpr std::size_t kCurveVectorOutputs = 4;
 /// tangent zero: SampleStatus::degenerate. Which one it is, is decided exactly, for the control
 /// points as given. The curvature there is its limit on the same way: +infinity at a usual cusp, 0
 /// on a straight line or a point. Neither is ever nan for t in [0,1]. Both exist for sets of two
-/// and three components. Source: G. Farin, Curves and Surfaces for CAGD, chapters 4, 5, 10 and 13.
+/// and three components. There is no bound for curvatures of regular samples: they are made of the
+/// rounded d1 and d2 and divided by |d1|^3, so that near a cusp, and on curves that are straight or
+/// nearly so, they may have no correct digit.
+/// Source: G. Farin, Curves and Surfaces for CAGD, chapters 4, 5, 10 and 13.
 template <typename T>
 struct CurveOutputs {
   Vectors<T> position;
