@@ -79,13 +79,18 @@ void for_options(int argc, const char* const* argv, Visit&& visit) {
   }
 }
 
-// CLI11 takes "--option=" for the option without a value, and the next word for its value.
-void refuse_empty_values(int argc, const char* const* argv) {
+// CLI11 takes "--option=" for the option without a value, and the next word for its value; of
+// "-o=name", it takes "=name" for the value.
+void refuse_lost_values(int argc, const char* const* argv) {
   for_options(argc, argv,
               [](const OptionEntry& entry, const std::optional<std::string>& value, bool) {
                 if (value == "") {
                   bad_usage(entry.name + ": expected " +
                             (entry.value.empty() ? "no value" : entry.expected) + ", found ''");
+                }
+                if (value && entry.name.size() == 2 && entry.needs_value) {
+                  bad_usage(entry.name + ": expected " + entry.expected + ", found " +
+                            in_quotes("=" + *value));
                 }
               });
 }
@@ -191,7 +196,7 @@ std::optional<std::string> Words::value(std::string_view name) const {
 }
 
 std::optional<Words> split_command_line(int argc, const char* const* argv) {
-  refuse_empty_values(argc, argv);
+  refuse_lost_values(argc, argv);
   const std::unique_ptr<Parser> parser = make_parser();
   try {
     parser->app.parse(argc, argv);

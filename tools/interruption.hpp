@@ -20,8 +20,8 @@ inline constexpr std::size_t kMostTemporaries = 256;
 /// left behind. Returns false where there are too many.
 [[nodiscard]] bool remember_temporary(int folder, const std::string& name) noexcept;
 void forget_temporary(const std::string& name) noexcept;
-/// Around the system call that creates a registered file: a signal waits for its end, whichever
-/// thread takes it.
+/// Around the system call that creates a registered file, and the calls that create a file and take
+/// its name away: a signal waits for their end, whichever thread takes it.
 void begin_creation() noexcept;
 void end_creation() noexcept;
 

@@ -150,6 +150,8 @@ void Lexer::string() {
     }
     if (copy_.size() < kLongestWord) {
       copy_.push_back(static_cast<char>(c));
+    } else if (copy_.size() == kLongestWord) {
+      copy_.push_back('~'); // what was cut off is no name any more
     }
   }
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
@@ -22,13 +21,6 @@ namespace {
                                ", found " + found);
 }
 
-// nan and inf are numbers, if not useful ones.
-bool is_number(const std::string& word) {
-  char* end = nullptr;
-  static_cast<void>(std::strtod(word.c_str(), &end));
-  return !word.empty() && end == word.c_str() + word.size();
-}
-
 // A number that `fits`, in the option's own unit.
 template <typename Fits>
 std::optional<double> number(const Words& words, const char* option, Fits&& fits) {
@@ -38,7 +30,7 @@ std::optional<double> number(const Words& words, const char* option, Fits&& fits
   }
   const std::optional<double> value = parse_finite(*word);
   if (!value || !fits(*value)) {
-    refuse(is_number(*word) ? 1 : 2, words, option, in_quotes(*word));
+    refuse(is_number(*word) ? 1 : 2, words, option, describe_non_number(*word));
   }
   return value;
 }
@@ -53,10 +45,11 @@ std::array<double, 6> parse_places(const Words& words, const std::string& text) 
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const bool last = k + 1 == numbers.size();
     const std::size_t end = last ? rest.size() : rest.find(',');
-    const auto value =
-        end == std::string_view::npos ? std::nullopt : parse_finite(rest.substr(0, end));
+    const bool missing = end == std::string_view::npos;
+    const std::string_view word = rest.substr(0, end);
+    const auto value = missing ? std::nullopt : parse_finite(word);
     if (!value) {
-      refuse(2, words, "--camera", in_quotes(text));
+      refuse(!missing && is_number(word) ? 1 : 2, words, "--camera", in_quotes(text));
     }
     numbers[k] = *value;
     rest.remove_prefix(last ? end : end + 1);

@@ -101,7 +101,7 @@ void choose_uniform(const RatedPatches<T>& patches, const Arguments& arguments,
                     const CertifiedRates& rates) {
   const GridSize& grid = arguments.grid;
   if (std::max(grid.nu, grid.nv) > kMostSegments + 1) {
-    bad_input("--grid: expected at most " + std::to_string(kMostSegments + 1) +
+    bad_usage("--grid: expected at most " + std::to_string(kMostSegments + 1) +
               " samples a direction without --no-weld, found " + std::to_string(grid.nu) + "x" +
               std::to_string(grid.nv));
   }

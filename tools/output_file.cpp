@@ -206,6 +206,11 @@ bool is_written_directly(const std::string& path) {
   return path == "-" || names_open_descriptor(target) || fs::is_other(status);
 }
 
+std::string folder_of(const std::string& output) {
+  const std::string folder = follow_links(output).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
 std::string extension_of(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
   if (!extension.empty()) {

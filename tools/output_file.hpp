@@ -86,6 +86,9 @@ void refuse_input_as_output(const std::string& out, std::span<const std::string>
 /// True for "-", devices and pipes, which have no temporary file.
 [[nodiscard]] bool is_written_directly(const std::string& path);
 
+/// The folder that an output is written to: links are followed.
+[[nodiscard]] std::string folder_of(const std::string& output);
+
 /// What follows the last dot of a file's name, in lower case, without the dot.
 [[nodiscard]] std::string extension_of(const std::string& path);
 

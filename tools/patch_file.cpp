@@ -39,10 +39,10 @@ const Format* find_format(const std::string& name) {
 }
 
 PatchFormat format_of(const std::string& name) {
-  constexpr std::string_view kCompressed = ".gz";
-  const bool compressed = name.ends_with(kCompressed); // model.bez.gz is a .bez file
-  const std::string extension =
-      extension_of(compressed ? name.substr(0, name.size() - kCompressed.size()) : name);
+  std::string extension = extension_of(name);
+  if (extension == "gz") { // model.bez.gz is a .bez file
+    extension = extension_of(name.substr(0, name.size() - extension.size() - 1));
+  }
   if (const Format* const format = find_format(extension)) {
     return format->format;
   }

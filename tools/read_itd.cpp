@@ -29,9 +29,11 @@ public:
 
   PatchFile read() {
     for (lexer_.skip_to_bracket(); !lexer_.next().at(TokenKind::end); lexer_.skip_to_bracket()) {
-      if (lexer_.next().at_word("OBJECT")) {
+      while (lexer_.next().at(TokenKind::open)) { // a list of lists
+      }
+      if (lexer_.at_word("OBJECT")) {
         object();
-      } else if (lexer_.at_word("SURFACE") || at_other_geometry()) {
+      } else if (at_geometry()) {
         lexer_.fail("[OBJECT around all geometry");
       }
     }
@@ -45,6 +47,10 @@ private:
   [[nodiscard]] bool at_other_geometry() const {
     return lexer_.at(TokenKind::word) &&
            std::ranges::find(kOtherGeometry, lexer_.text()) != std::end(kOtherGeometry);
+  }
+
+  [[nodiscard]] bool at_geometry() const {
+    return lexer_.at_word("SURFACE") || lexer_.at_word("OBJECT") || at_other_geometry();
   }
 
   /// Reads everything up to the object's closing bracket, with the objects inside of it.
@@ -71,11 +77,30 @@ private:
     }
     if (lexer_.at_word("SURFACE")) {
       surface();
-    } else if (!lexer_.at_word("OBJECT") && !lexer_.at(TokenKind::close)) {
-      if (lexer_.at(TokenKind::open)) {
-        lexer_.skip_list();
+    } else if (!lexer_.at_word("OBJECT")) {
+      std::size_t depth = 1;
+      for (; lexer_.at(TokenKind::open); ++depth) { // lists without names
+        lexer_.next();
       }
-      lexer_.skip_list();
+      if (depth > 1 && at_geometry()) {
+        lexer_.fail("one '[' before geometry");
+      }
+      skip_lists(depth);
+    }
+  }
+
+  /// Skips what is left of so many lists in each other; the innermost one's first token is read.
+  void skip_lists(std::size_t depth) {
+    const std::size_t begin = lexer_.line();
+    for (;; lexer_.next()) {
+      if (lexer_.at(TokenKind::end)) {
+        lexer_.fail("']' for the list in line " + std::to_string(begin));
+      }
+      depth += lexer_.at(TokenKind::open) ? 1 : 0;
+      depth -= lexer_.at(TokenKind::close) ? 1 : 0;
+      if (depth == 0) {
+        return;
+      }
     }
   }
 

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <tools/failure.hpp>
+#include <tools/interruption.hpp>
 #include <tools/output_file.hpp>
 
 namespace simdbezier::tools {
@@ -22,8 +23,7 @@ std::string folder_for(const std::string& output) {
     const std::filesystem::path folder = std::filesystem::temp_directory_path(none);
     return none ? "/tmp" : folder.string();
   }
-  const std::string folder = std::filesystem::path(output).parent_path().string();
-  return folder.empty() ? "." : folder;
+  return folder_of(output);
 }
 
 // Calls f(place, rest) until nothing is left: the system may take or give a part.
@@ -126,11 +126,16 @@ void SpillFile::open() {
   file_ = Descriptor(::open(folder_.c_str(), O_TMPFILE | O_RDWR | O_EXCL | O_CLOEXEC, 0600));
   if (!file_.is_open()) { // not every file system can do without a name
     std::string name = folder_ + "/.simdbezier-XXXXXX";
+    begin_creation(); // which a signal waits for, until the name is gone
     file_ = Descriptor(mkostemp(name.data(), O_CLOEXEC));
-    if (!file_.is_open()) {
-      fail("a folder for a temporary file", errno);
+    const int error = errno;
+    if (file_.is_open()) {
+      unlink(name.c_str());
     }
-    unlink(name.c_str());
+    end_creation();
+    if (!file_.is_open()) {
+      fail("a folder for a temporary file", error);
+    }
   }
 }
 

@@ -103,6 +103,8 @@ std::optional<std::uint64_t> parse_integer(std::string_view word) {
   return value;
 }
 
+bool is_number(std::string_view word) { return parse_number(word).is_number; }
+
 std::string describe_non_number(std::string_view word) {
   const ParsedNumber number = parse_number(word);
   if (number.is_number && std::isnan(number.value)) { // with a payload or without: nan(1)

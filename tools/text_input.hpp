@@ -90,6 +90,8 @@ private:
 [[nodiscard]] std::optional<double> parse_finite(std::string_view word);
 /// The whole word as a non-negative integer.
 [[nodiscard]] std::optional<std::uint64_t> parse_integer(std::string_view word);
+/// Whether the whole word is a number for parse_finite(), or would be one if it were finite.
+[[nodiscard]] bool is_number(std::string_view word);
 /// What to say instead of a word that parse_finite() refused.
 [[nodiscard]] std::string describe_non_number(std::string_view word);
 

@@ -157,12 +157,14 @@ MeshContents WeldedMesh<T>::contents() const {
   contents.generator = program_version();
   // Positions may leave the control points' box by their errors, whose bounds may be far larger
   // than the model, or infinite, where weights differ much: what is computed stays close to the
-  // box.
-  const double margin = std::min(std::ranges::max(errors_), largest_coordinate(box_));
+  // box. What no longer fits a float is judged by the control points.
+  const double largest = largest_coordinate(box_);
+  const double most = std::max<double>(std::numeric_limits<float>::max(), largest);
+  const double margin = std::min(std::ranges::max(errors_), largest);
   contents.box = box_;
   for (std::size_t c = 0; c < 3; ++c) {
-    contents.box->low[c] -= margin;
-    contents.box->high[c] += margin;
+    contents.box->low[c] = std::max(box_.low[c] - margin, -most);
+    contents.box->high[c] = std::min(box_.high[c] + margin, most);
   }
   return contents;
 }

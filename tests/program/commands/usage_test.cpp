@@ -78,6 +78,8 @@ std::vector<BadUsage> bad_usages() {
       {"GridEmptyBehindEquals", tessellate_obj({"--grid=", "4"}), grid + "'"},
       {"OutputEmptyBehindEquals", tessellate({"-o="}),
        "-o: expected a name that ends in .obj, .ply, .stl or .glb, or - with --to, found ''"},
+      {"OutputBehindEquals", tessellate({"-o=x.obj"}),
+       "-o: expected a name that ends in .obj, .ply, .stl or .glb, or - with --to, found '=x.obj'"},
       {"FormatOfBuiltin",
        {"info", "builtin:teapot", "--format", "obj"},
        "--format: expected with a file, found 'builtin:teapot'"},

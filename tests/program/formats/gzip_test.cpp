@@ -70,6 +70,7 @@ std::vector<Packed> packed_files() {
   const std::size_t half = text.size() / 2;
   return {{"Usual", "in.bez.gz", gzip(text)},
           {"Stored", "in.bez.gz", gzip(text, 0)},
+          {"InCapitals", "in.BEZ.GZ", gzip(text)},
           {"Smallest", "in.bez.gz", gzip(text, 9)},
           {"WithoutItsExtension", "in.bez", gzip(text)},
           {"PlainInSpiteOfItsName", "in.bez.gz", text},

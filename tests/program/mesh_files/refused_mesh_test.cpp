@@ -140,6 +140,19 @@ TEST(RefusedNumbers, DoNotFitIntoFloats) {
   }
 }
 
+// Control points that fit floats, of a patch whose error bound is infinite.
+TEST(RefusedNumbers, AreNotThoseThatFitIntoFloats) {
+  const TemporaryFolder folder;
+  const std::string in = folder.write("in.bv", "4 1 0 0 0 3e38 0 0 0 3e38 0 3e38 3e38 0\n");
+  for (const char* const name : {"out.stl", "out.glb", "out.obj", "out.ply"}) {
+    for (const char* const precision : {"f32", "f64"}) {
+      const Outcome made =
+          run({"tessellate", in, "-o", folder.path(name), "--grid", "3", "--precision", precision});
+      EXPECT_EQ(made.exit_code, 0) << name << ": " << made.err;
+    }
+  }
+}
+
 TEST(RefusedNumbers, AreOutsideOfTheBox) {
   const TemporaryFolder folder;
   SampleMesh mesh = make_sample({.storage = VertexStorage::quantised_16}, false);

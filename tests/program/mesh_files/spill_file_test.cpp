@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <filesystem>
 #include <random>
 #include <vector>
 
@@ -71,6 +72,14 @@ TEST(SpillFile, NeedsAFolderOnlyWhenItSpills) {
   EXPECT_EQ(failure_of(file),
             "/nonexistent: expected a folder for a temporary file, found 'No such file or "
             "directory'");
+}
+
+// It belongs where the output's temporary file is, which follows links.
+TEST(SpillFile, LiesBesideTheFileThatALinkLeadsTo) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("/nonexistent/out", folder.path("link"));
+  SpillFile file(folder.path("link"));
+  EXPECT_TRUE(failure_of(file).starts_with("/nonexistent: expected a folder"));
 }
 
 TEST(SpillFile, FailsWhereThereIsNoRoom) {

@@ -94,6 +94,17 @@ TEST(Signals, RightAfterTheFileWasCreatedLeaveNothing) {
   EXPECT_TRUE(folder.names().empty()) << folder.names().front() << " was left behind";
 }
 
+// What waits in a temporary file has a name for a moment where a file system cannot do without.
+// 6 million vertices are more than memory should hold.
+TEST(Signals, BetweenTheNamesOfASpillLeaveNothing) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run({"tessellate", "builtin:teapot", "-o", folder.path("out.stl"), "--grid", "436"},
+          {.fault = "termination_at_named_spill"});
+  EXPECT_EQ(outcome.signal, SIGTERM);
+  EXPECT_TRUE(folder.names().empty()) << folder.names().front() << " was left behind";
+}
+
 TEST(Signals, LeaveTheOldFileAsItWas) {
   const TemporaryFolder folder;
   const std::string out = folder.write("out.csv", "before");

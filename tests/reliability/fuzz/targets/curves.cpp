@@ -77,9 +77,9 @@ public:
   }
 
 private:
-  /// An exact decision about a tangent may take a millisecond, ten times as long with sanitizers,
+  /// An exact decision about a tangent may take milliseconds, thirty times as long with sanitizers,
   /// and every sample is evaluated by some ten calls.
-  static constexpr std::size_t kMostSamples = 200;
+  static constexpr std::size_t kMostSamples = 40;
 
   static Nets<S> any_curves(ByteSource& bytes) {
     const int n = degree(bytes);
