@@ -141,9 +141,10 @@ private:
     const double by_inverse = w.error.at[0] / divisor + 2 * kUnit;
     ByOrder error;
     const double position = 1.01 * (h.error.at[0] / divisor + most * by_inverse);
-    // Where two halves meet, a point is stored that h and w gave by three roundings.
-    const double last = shape_.cells() == 2 ? 3 : 1;
-    error.at[0] = position + last * kUnit * (std::fabs(o) + most);
+    // Ends are points, which are quotients of homogeneous ones less the set's origin; where two
+    // halves meet, what h and w gave by three roundings.
+    const double end = (shape_.cells() == 2 ? 3 : 2) * kUnit * (std::fabs(o) + most);
+    error.at[0] = std::max(position + kUnit * (std::fabs(o) + most), end);
 
     const double numerator = h.size.at[1] + most * w.size.at[1];
     const double first = numerator / divisor;
