@@ -168,9 +168,9 @@ void Lexer::skip_to_bracket() {
   }
 }
 
-void Lexer::skip_list() {
+void Lexer::skip_list(std::size_t depth) {
   const std::size_t begin = line();
-  for (std::size_t depth = 1; depth > 0;) {
+  while (depth > 0) {
     next();
     if (at(TokenKind::end)) {
       fail("']' for the list in line " + std::to_string(begin));

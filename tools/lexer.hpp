@@ -47,8 +47,8 @@ public:
   /// Passes over everything up to the next opening bracket.
   void skip_to_bracket();
   /// Passes over a list whose opening bracket, or something behind it, is the current token; its
-  /// closing bracket becomes the current one.
-  void skip_list();
+  /// closing bracket becomes the current one. depth: of so many lists in each other.
+  void skip_list(std::size_t depth = 1);
 
   /// Throws "FILE:LINE: expected …, found …" with the token, or with what else was found.
   [[noreturn]] void fail(const std::string& expected) const { fail(expected, described()); }

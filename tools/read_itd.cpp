@@ -85,22 +85,7 @@ private:
       if (depth > 1 && at_geometry()) {
         lexer_.fail("one '[' before geometry");
       }
-      skip_lists(depth);
-    }
-  }
-
-  /// Skips what is left of so many lists in each other; the innermost one's first token is read.
-  void skip_lists(std::size_t depth) {
-    const std::size_t begin = lexer_.line();
-    for (;; lexer_.next()) {
-      if (lexer_.at(TokenKind::end)) {
-        lexer_.fail("']' for the list in line " + std::to_string(begin));
-      }
-      depth += lexer_.at(TokenKind::open) ? 1 : 0;
-      depth -= lexer_.at(TokenKind::close) ? 1 : 0;
-      if (depth == 0) {
-        return;
-      }
+      lexer_.skip_list(lexer_.at(TokenKind::close) ? depth - 1 : depth);
     }
   }
 

@@ -138,8 +138,8 @@ private:
     const double error_h = kRoundings * h.value + kDenormals + lost_h;
     const double error_w = kRoundings * w.value + kDenormals + lost_w;
     const double lowest = lowest_weight(w, error_w);
-    if (!(lowest >
-          error_w)) { // packing lifts weights of edges that are points from half as much on
+    // From half as much on, packing lifts weights of edges that are points.
+    if (!(lowest > error_w)) {
       constexpr double kUnknown = std::numeric_limits<double>::infinity();
       return {kUnknown, kUnknown, kUnknown};
     }

@@ -106,8 +106,7 @@ protected:
     for (const Degrees& degrees : {Degrees{2, 2}, {3, 3}, {2, 4}, {5, 5}, {7, 8}, {1, 15}}) {
       for (int k = 0; k < 160; ++k) {
         const int side = k % 4;
-        Net net = rounded_to<T>(dish_with_pole(degrees, side, random, ratio));
-        net.homogeneous = false;
+        const Net net = rounded_to<T>(dish_with_pole(degrees, side, random, ratio));
         const PatchSet<T> set =
             packed<T>(std::span(&net, 1), {.local_origin = k / 4 % 2 == 1, .isa = isa()});
         Planes<T> planes(kN * kN, {true, true, true, true, true, false});

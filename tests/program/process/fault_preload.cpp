@@ -30,6 +30,13 @@ int failed(int error) {
   return -1;
 }
 
+bool is_nameless(int flags) { return (flags & O_TMPFILE) == O_TMPFILE; }
+
+// The mode that a file is opened with, which is there only where one may be created.
+mode_t mode_of(int flags, va_list rest) {
+  return (flags & O_CREAT) != 0 || is_nameless(flags) ? va_arg(rest, mode_t) : 0;
+}
+
 void created() {
   if (is_wanted("termination_at_creation")) {
     raise(SIGTERM);
@@ -81,13 +88,10 @@ __attribute__((visibility("default"))) ssize_t write(int file, const void* data,
 }
 
 __attribute__((visibility("default"))) int openat(int folder, const char* name, int flags, ...) {
-  mode_t mode = 0;
-  if ((flags & O_CREAT) != 0) {
-    va_list rest;
-    va_start(rest, flags);
-    mode = va_arg(rest, mode_t);
-    va_end(rest);
-  }
+  va_list rest;
+  va_start(rest, flags);
+  const mode_t mode = mode_of(flags, rest);
+  va_end(rest);
   const int file = next<int(int, const char*, int, ...)>("openat")(folder, name, flags, mode);
   if ((flags & O_CREAT) != 0 && file >= 0) {
     created();
@@ -97,14 +101,11 @@ __attribute__((visibility("default"))) int openat(int folder, const char* name, 
 
 // A file system that has no files without names, and a signal as soon as one with a name is there.
 __attribute__((visibility("default"))) int open(const char* name, int flags, ...) {
-  mode_t mode = 0;
-  if ((flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE) {
-    va_list rest;
-    va_start(rest, flags);
-    mode = va_arg(rest, mode_t);
-    va_end(rest);
-  }
-  return is_wanted("termination_at_named_spill") && (flags & O_TMPFILE) == O_TMPFILE
+  va_list rest;
+  va_start(rest, flags);
+  const mode_t mode = mode_of(flags, rest);
+  va_end(rest);
+  return is_wanted("termination_at_named_spill") && is_nameless(flags)
              ? failed(EOPNOTSUPP)
              : next<int(const char*, int, ...)>("open")(name, flags, mode);
 }

@@ -72,8 +72,6 @@ TEST_P(KnownPatches, InAPlaneKeepTheirCertificates) {
   }
   EXPECT_GT(exceptions_, 1000U);
 }
-INSTANTIATE_FOR_EVERY_ISA(KnownPatches);
-
 // A derivative of 1e39 at the corner with the small weight.
 TEST_P(KnownPatches, HaveNoBoundWhereDerivativesOverflow) {
   Net net = shaped_net({1, 1}, [](int j, int i) { return Vector3{i * 1e35, j * 1e35, 0}; });
@@ -86,6 +84,7 @@ TEST_P(KnownPatches, HaveNoBoundWhereDerivativesOverflow) {
   EXPECT_TRUE(std::isinf(bounds.du[0]) && std::isinf(bounds.dv[1]));
   EXPECT_TRUE(std::isfinite(bounds.position[0]));
 }
+INSTANTIATE_FOR_EVERY_ISA(KnownPatches);
 
 class KnownCurves : public CurveTest {
 protected:
@@ -127,8 +126,6 @@ TEST_P(KnownCurves, InAPlaneKeepTheirCertificates) {
   }
   EXPECT_GT(exceptions_, 1000U);
 }
-INSTANTIATE_FOR_EVERY_ISA(KnownCurves);
-
 TEST_P(KnownCurves, HaveNoBoundWhereDerivativesOverflow) {
   for (const double weight : {1e-4, 1e-2}) { // the first derivative, and the second alone
     CurveBatch<float> batch{1, 2, 1, Weights::cartesian, {}};
@@ -144,6 +141,7 @@ TEST_P(KnownCurves, HaveNoBoundWhereDerivativesOverflow) {
     EXPECT_TRUE(std::isfinite(bounds.position[0]));
   }
 }
+INSTANTIATE_FOR_EVERY_ISA(KnownCurves);
 
 } // namespace
 } // namespace simdbezier::tests::known_certificates_test
