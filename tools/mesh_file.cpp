@@ -18,23 +18,14 @@ struct FormatEntry {
   const char* extension;
   const char* name; // with its article
   MeshAbilities can;
-  bool floats_only;
-  std::uint64_t most_faces;
 };
-constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint64_t kMost32 = std::numeric_limits<std::uint32_t>::max();
-constexpr FormatEntry kFormats[] = {
-    {"obj", "an OBJ file", {.quads = true, .normals = true}, false, kAny},
-    {"ply", "a PLY file", {.quads = true, .normals = true}, false, kAny},
-    {"stl", "an STL file", {}, true, kMost32}, // which has normals of facets only
-    {"glb", "a GLB file", {.normals = true, .quantised = true}, true, kAny}};
+#define SIMDBEZIER_MESH_FORMAT_ROW(NAME, FILE, ...) {#NAME, FILE, __VA_ARGS__},
+constexpr FormatEntry kFormats[] = {SIMDBEZIER_EACH_MESH_FORMAT(SIMDBEZIER_MESH_FORMAT_ROW)};
+#undef SIMDBEZIER_MESH_FORMAT_ROW
 
 const FormatEntry& entry_of(MeshFormat format) {
   return kFormats[static_cast<std::size_t>(format)];
 }
-
-// Patch numbers are floats in GLB, whose attributes have no larger integers than 16 bits.
-constexpr std::uint64_t kMostGlbPatches = std::uint64_t{1} << 24;
 
 void expect_at_most(const std::string& path, const char* format, const char* what,
                     std::uint64_t most, std::uint64_t found) {
@@ -48,17 +39,16 @@ template <typename T>
 void check_contents(const std::string& path, MeshFormat format, const MeshContents& contents) {
   const FormatEntry& entry = entry_of(format);
   expect_at_most(path, entry.name, "vertices", kMostMeshVertices, contents.vertices);
-  expect_at_most(path, entry.name, "faces", entry.most_faces, contents.faces);
-  if (format == MeshFormat::glb) {
-    expect_at_most(path, entry.name, "numbered patches", kMostGlbPatches, contents.patches);
-  }
+  expect_at_most(path, entry.name, "faces", entry.can.most_faces, contents.faces);
+  expect_at_most(path, entry.name, "numbered patches", entry.can.most_patches, contents.patches);
   if (contents.storage != VertexStorage::full && !entry.can.quantised) {
-    bad_input(path + ": expected a GLB file for quantised vertices, found " + entry.name);
+    bad_input(path + ": expected floating-point vertices in " + entry.name +
+              ", found quantised vertices");
   }
   if (contents.corners != 3 && !entry.can.quads) {
     bad_input(path + ": expected triangles in " + entry.name + ", found quads");
   }
-  if (entry.floats_only && contents.box) {
+  if (!entry.can.doubles && contents.box) {
     static_cast<void>(as_float(path, largest_coordinate(*contents.box)));
   }
   assert(contents.storage == VertexStorage::full || contents.box);
@@ -104,7 +94,7 @@ template <typename T>
 double stated_deviation(MeshFormat format, const MeshContents& contents) {
   constexpr double kHalfFloat = 0x1p-24; // unit roundoff
   const bool quantised = contents.storage != VertexStorage::full;
-  const bool rounded = sizeof(T) > sizeof(float) && entry_of(format).floats_only;
+  const bool rounded = sizeof(T) > sizeof(float) && !mesh_abilities(format).doubles;
   if (!quantised && !rounded) {
     return *contents.deviation;
   }
@@ -192,17 +182,12 @@ std::unique_ptr<MeshWriter<T>> make_mesh_writer(const std::string& path, MeshFor
   if (contents.deviation) {
     stated.deviation = stated_deviation<T>(format, contents);
   }
-  switch (format) {
-  case MeshFormat::obj:
-    return make_obj_writer<T>(path, stated);
-  case MeshFormat::ply:
-    return make_ply_writer<T>(path, stated);
-  case MeshFormat::stl:
-    return make_stl_writer<T>(path, stated);
-  case MeshFormat::glb:
-    break;
-  }
-  return make_glb_writer<T>(path, stated);
+#define SIMDBEZIER_MESH_WRITER(NAME, ...) make_##NAME##_writer<T>,
+  constexpr std::unique_ptr<MeshWriter<T>> (*kWriters[])(const std::string&,
+                                                         const MeshContents&) = {
+      SIMDBEZIER_EACH_MESH_FORMAT(SIMDBEZIER_MESH_WRITER)};
+#undef SIMDBEZIER_MESH_WRITER
+  return kWriters[static_cast<std::size_t>(format)](path, stated);
 }
 
 template class MeshWriter<float>;

@@ -14,17 +14,39 @@
 
 namespace simdbezier::tools {
 
-enum class MeshFormat : std::uint8_t { obj, ply, stl, glb };
+/// What a format can hold besides positions and triangles, and how much of it.
+struct MeshAbilities {
+  static constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
+
+  bool quads = false;
+  bool normals = false;
+  bool quantised = false; ///< see VertexStorage
+  bool doubles = false;   ///< rounded to floats without
+  std::uint64_t most_faces = kAny;
+  std::uint64_t most_patches = kAny; ///< whose numbers vertices have
+};
+
+/// The formats that can be written. Each row has a name, which is also the extension of files, what
+/// messages call such a file, and its abilities; write_NAME.cpp has its writer. Help and messages
+/// list these rows.
+// clang-format off
+#define SIMDBEZIER_EACH_MESH_FORMAT(X)                                                             \
+  X(obj, "an OBJ file", {.quads = true, .normals = true, .doubles = true})                         \
+  X(ply, "a PLY file",  {.quads = true, .normals = true, .doubles = true})                         \
+  X(stl, "an STL file", {.most_faces = 0xFFFFFFFF}) /* has normals of facets only */               \
+  X(glb, "a GLB file",  {.normals = true, .quantised = true, /* patch numbers are floats */        \
+                         .most_patches = std::uint64_t{1} << 24})
+// clang-format on
+
+#define SIMDBEZIER_DECLARE_MESH_FORMAT(NAME, ...) NAME,
+enum class MeshFormat : std::uint8_t {
+  SIMDBEZIER_EACH_MESH_FORMAT(SIMDBEZIER_DECLARE_MESH_FORMAT)
+};
+#undef SIMDBEZIER_DECLARE_MESH_FORMAT
 
 /// The format that a file's name asks for by its extension.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::string& path);
 
-/// What a format can hold besides positions and triangles.
-struct MeshAbilities {
-  bool quads = false;
-  bool normals = false;
-  bool quantised = false; ///< see VertexStorage
-};
 [[nodiscard]] const MeshAbilities& mesh_abilities(MeshFormat format);
 
 /// "obj", …

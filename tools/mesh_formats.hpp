@@ -11,28 +11,18 @@
 
 namespace simdbezier::tools {
 
-/// Wavefront OBJ, without patch numbers: of each block all v, then all vt, then all vn lines.
-template <typename T>
-[[nodiscard]] std::unique_ptr<MeshWriter<T>> make_obj_writer(const std::string& path,
-                                                             const MeshContents& contents);
-
-/// Binary PLY, little endian, in T's precision.
-template <typename T>
-[[nodiscard]] std::unique_ptr<MeshWriter<T>> make_ply_writer(const std::string& path,
-                                                             const MeshContents& contents);
-
-/// Binary STL: positions of the corners as float, and the facets' own normals.
-template <typename T>
-[[nodiscard]] std::unique_ptr<MeshWriter<T>> make_stl_writer(const std::string& path,
-                                                             const MeshContents& contents);
-
-inline constexpr std::uint64_t kMostGlbBytes = std::numeric_limits<std::uint32_t>::max();
+#define SIMDBEZIER_DECLARE_MESH_WRITER(NAME, ...)                                                  \
+  template <typename T>                                                                            \
+  [[nodiscard]] std::unique_ptr<MeshWriter<T>> make_##NAME##_writer(const std::string& path,       \
+                                                                    const MeshContents& contents);
+SIMDBEZIER_EACH_MESH_FORMAT(SIMDBEZIER_DECLARE_MESH_WRITER)
+#undef SIMDBEZIER_DECLARE_MESH_WRITER
 
 /// glTF 2.0 in binary form, in files of at most `most_bytes`.
 template <typename T>
-[[nodiscard]] std::unique_ptr<MeshWriter<T>>
-make_glb_writer(const std::string& path, const MeshContents& contents,
-                std::uint64_t most_bytes = kMostGlbBytes);
+[[nodiscard]] std::unique_ptr<MeshWriter<T>> make_split_glb_writer(const std::string& path,
+                                                                   const MeshContents& contents,
+                                                                   std::uint64_t most_bytes);
 
 /// Throws Failure where a file of that size cannot be.
 std::uintmax_t checked_file_size(const std::string& path, Count bytes);

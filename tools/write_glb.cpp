@@ -45,8 +45,16 @@ private:
 } // namespace
 
 template <typename T>
-std::unique_ptr<MeshWriter<T>>
-make_glb_writer(const std::string& path, const MeshContents& contents, std::uint64_t most_bytes) {
+std::unique_ptr<MeshWriter<T>> make_glb_writer(const std::string& path,
+                                               const MeshContents& contents) {
+  // The header has 32 bits for the file's size.
+  return make_split_glb_writer<T>(path, contents, std::numeric_limits<std::uint32_t>::max());
+}
+
+template <typename T>
+std::unique_ptr<MeshWriter<T>> make_split_glb_writer(const std::string& path,
+                                                     const MeshContents& contents,
+                                                     std::uint64_t most_bytes) {
   const GlbParts whole{contents.vertices, contents.faces, glb_records(contents)};
   const Count bytes = Count(whole.vertices) * whole.layout.size +
                       Count(whole.triangles) * (3 * whole.index_bytes()) + 3 +
@@ -57,9 +65,13 @@ make_glb_writer(const std::string& path, const MeshContents& contents, std::uint
   return std::make_unique<SplitGlbWriter<T>>(path, contents, most_bytes);
 }
 
-template std::unique_ptr<MeshWriter<float>> make_glb_writer(const std::string&, const MeshContents&,
-                                                            std::uint64_t);
+template std::unique_ptr<MeshWriter<float>> make_glb_writer(const std::string&,
+                                                            const MeshContents&);
 template std::unique_ptr<MeshWriter<double>> make_glb_writer(const std::string&,
-                                                             const MeshContents&, std::uint64_t);
+                                                             const MeshContents&);
+template std::unique_ptr<MeshWriter<float>>
+make_split_glb_writer(const std::string&, const MeshContents&, std::uint64_t);
+template std::unique_ptr<MeshWriter<double>>
+make_split_glb_writer(const std::string&, const MeshContents&, std::uint64_t);
 
 } // namespace simdbezier::tools

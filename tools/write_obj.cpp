@@ -1,4 +1,5 @@
-// Wavefront OBJ. Lines may come in any order as long as a face's vertices precede it, so nothing
+// Wavefront OBJ, without patch numbers: of each block of vertices all v, then all vt, then all vn
+// lines. Lines may come in any order as long as a face's vertices precede it, so nothing
 // has to wait for the end of the mesh.
 #include <tools/mesh_formats.hpp>
 

@@ -1,4 +1,4 @@
-// Binary PLY: the vertices as records, then the faces.
+// Binary PLY, little endian, in T's precision: the vertices as records, then the faces.
 #include <tools/mesh_formats.hpp>
 
 #include <tools/little_endian.hpp>

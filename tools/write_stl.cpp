@@ -1,5 +1,5 @@
-// Binary STL: triangles one by one, each with its corners' positions. The vertices are kept aside
-// until all of them have come.
+// Binary STL: triangles one by one, each with its own normal and its corners' positions as floats.
+// The vertices are kept aside until all of them have come.
 #include <tools/mesh_formats.hpp>
 
 #include <cmath>

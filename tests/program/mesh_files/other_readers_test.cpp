@@ -132,7 +132,8 @@ TEST_F(KhronosAndThree, AgreeWithParts) {
     mesh.corners[std::size_t{3} * k + 2] = k + 2;
   }
   write_sample<float>(
-      mesh, *tools::make_glb_writer<float>(folder.path("mesh.glb"), mesh.contents, 30000), 500);
+      mesh, *tools::make_split_glb_writer<float>(folder.path("mesh.glb"), mesh.contents, 30000),
+      500);
   std::string files;
   for (const std::string& name : folder.names()) {
     files += " " + folder.path(name);

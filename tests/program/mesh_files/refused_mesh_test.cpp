@@ -76,7 +76,7 @@ std::vector<Refused> refused_contents() {
       {"GlbPatches", MeshFormat::glb, [](MeshContents& mesh) { mesh.patches = 16777217; },
        ": expected at most 16777216 numbered patches in a GLB file, found 16777217"},
       {"PlyQuantised", MeshFormat::ply, quantised,
-       ": expected a GLB file for quantised vertices, found a PLY file"},
+       ": expected floating-point vertices in a PLY file, found quantised vertices"},
       {"StlHuge", MeshFormat::stl, huge, "expected coordinates that a float can hold, found 1e+39"},
       {"GlbHuge", MeshFormat::glb, huge, "expected coordinates that a float can hold, found 1e+39"},
   };

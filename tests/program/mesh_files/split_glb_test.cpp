@@ -53,7 +53,8 @@ std::vector<Corner> corners_of(const ReadMesh& mesh) {
 }
 
 void write_parts(const SampleMesh& mesh, const std::string& path, std::size_t block) {
-  write_sample<float>(mesh, *tools::make_glb_writer<float>(path, mesh.contents, kMostBytes), block);
+  write_sample<float>(mesh, *tools::make_split_glb_writer<float>(path, mesh.contents, kMostBytes),
+                      block);
 }
 
 struct Case {
@@ -116,7 +117,7 @@ TEST(SplitGlbFiles, AppearTogether) {
   const std::vector<float> values(mesh.values.begin(), mesh.values.end());
   {
     const auto writer =
-        tools::make_glb_writer<float>(folder.path("m.glb"), mesh.contents, kMostBytes);
+        tools::make_split_glb_writer<float>(folder.path("m.glb"), mesh.contents, kMostBytes);
     writer->vertices({values, mesh.patch});
     writer->faces(mesh.corners);
     for (const std::string& name : folder.names()) {
@@ -133,7 +134,7 @@ TEST(SplitGlbFiles, AreNoPipes) {
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   const SampleMesh mesh = strips(VertexStorage::full, true);
   try {
-    static_cast<void>(tools::make_glb_writer<float>(pipe, mesh.contents, kMostBytes));
+    static_cast<void>(tools::make_split_glb_writer<float>(pipe, mesh.contents, kMostBytes));
     FAIL() << "nothing failed";
   } catch (const tools::Failure& failure) {
     EXPECT_EQ(failure.what(), pipe + ": expected a mesh that fits into one GLB file, found 2000 "
