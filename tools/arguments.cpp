@@ -53,23 +53,29 @@ Precision parse_precision(const std::string& option) {
   return option == "f32" ? Precision::f32 : Precision::f64;
 }
 
-std::vector<OutputGroup> parse_outputs(const std::string& option) {
-  constexpr std::array<std::string_view, kOutputGroups> kNames = {
-      "position", "du", "dv", "duu", "duv", "dvv", "normal", "curvature"};
-  std::vector<OutputGroup> groups;
+std::optional<Output> output_of(std::string_view name) {
+  for (std::size_t k = 0; k < kColumnOutputs; ++k) {
+    if (const auto output = static_cast<Output>(k); name == output_name(output)) {
+      return output;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<Output> parse_outputs(const std::string& option) {
+  std::vector<Output> outputs;
   for (std::size_t first = 0; first <= option.size();) {
     const std::size_t comma = std::min(option.find(',', first), option.size());
-    const std::string name = option.substr(first, comma - first);
-    const auto* const found = std::ranges::find(kNames, name);
-    if (found == kNames.end()) {
+    const auto output = output_of(std::string_view(option).substr(first, comma - first));
+    if (!output) {
       refuse("--outputs", in_quotes(option));
     }
-    groups.push_back(static_cast<OutputGroup>(found - kNames.begin()));
+    outputs.push_back(*output);
     first = comma + 1;
   }
-  std::ranges::sort(groups);
-  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-  return groups;
+  std::ranges::sort(outputs);
+  outputs.erase(std::unique(outputs.begin(), outputs.end()), outputs.end());
+  return outputs;
 }
 
 void understand_evaluation(const Words& words, Arguments& arguments) {

@@ -24,9 +24,9 @@ struct Arguments {
   GridSize grid;
   std::optional<std::string> samples; ///< for evaluate: a file instead of the grid
   Precision precision = Precision::f32;
-  std::vector<OutputGroup> outputs; ///< for evaluate: in the order of the columns, each once
-  int threads = 0;                  ///< 0 means all
-  MeshArguments mesh;               ///< for tessellate
+  std::vector<Output> outputs; ///< for evaluate: in the order of the columns, each once
+  int threads = 0;             ///< 0 means all
+  MeshArguments mesh;          ///< for tessellate
   bool json = false;
 };
 

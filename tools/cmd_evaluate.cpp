@@ -20,9 +20,9 @@ namespace {
 template <typename T>
 class ResultTable {
 public:
-  explicit ResultTable(const std::vector<OutputGroup>& groups)
-      : groups_(groups), row_(column_count(groups)) {
-    curvature_ = !groups_.empty() && groups_.back() == OutputGroup::curvature;
+  explicit ResultTable(const std::vector<Output>& outputs)
+      : outputs_(outputs), row_(column_count(outputs)) {
+    curvature_ = !outputs_.empty() && outputs_.back() == Output::curvature;
     stride_ = row_.size() - (curvature_ ? kCurvatures : 0);
   }
 
@@ -31,7 +31,7 @@ public:
     values_.resize(samples * row_.size());
     Outputs<T> out;
     for (std::size_t k = 0; 3 * k < stride_; ++k) {
-      group_of(out, groups_[k]) =
+      out[outputs_[k]] =
           Vectors<T>::xyz(values_.data() + 3 * k, static_cast<std::ptrdiff_t>(stride_));
     }
     if (curvature_) {
@@ -52,11 +52,7 @@ public:
 private:
   static constexpr std::size_t kCurvatures = 4;
 
-  static Vectors<T>& group_of(Outputs<T>& out, OutputGroup group) {
-    return out[static_cast<Output>(group)];
-  }
-
-  std::vector<OutputGroup> groups_;
+  std::vector<Output> outputs_;
   std::vector<T> row_;
   bool curvature_ = false;
   std::size_t stride_ = 0; // values of all vectors of a sample

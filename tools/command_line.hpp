@@ -47,9 +47,6 @@ struct Words {
 /// What --help prints for a command, or for the program where there is none.
 [[nodiscard]] std::string help_text(std::optional<Command> command);
 
-/// The names of the outputs, in the order of their columns.
-inline constexpr std::string_view kOutputNames =
-    "position, du, dv, duu, duv, dvv, normal, curvature";
 inline constexpr int kMostThreads = 1024;
 
 } // namespace simdbezier::tools

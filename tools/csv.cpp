@@ -17,9 +17,21 @@ constexpr Names kCentred = {"patch", "x", "y"};
 constexpr Names kCentredResult = {"patch", "centred_u", "centred_v"};
 
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
-constexpr std::array<std::string_view, kOutputGroups> kColumns = {
-    ",x,y,z",          ",dux,duy,duz",    ",dvx,dvy,dvz", ",duux,duuy,duuz",
-    ",duvx,duvy,duvz", ",dvvx,dvvy,dvvz", ",nx,ny,nz",    ",gaussian,mean,kmin,kmax"};
+
+/// ",x,y,z", ",dux,duy,duz", … or ",nx,ny,nz".
+std::string columns_of(Output output) {
+  if (output == Output::curvature) {
+    return ",gaussian,mean,kmin,kmax";
+  }
+  const std::string prefix = output == Output::position ? ""
+                             : output == Output::normal ? "n"
+                                                        : output_name(output);
+  std::string columns;
+  for (const char* const component : {"x", "y", "z"}) {
+    columns += "," + prefix + component;
+  }
+  return columns;
+}
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kSpace = " \t";
@@ -60,10 +72,18 @@ struct Fields {
 
 } // namespace
 
-std::size_t column_count(std::span<const OutputGroup> groups) {
+std::string output_names() {
+  std::string names;
+  for (std::size_t k = 0; k < kColumnOutputs; ++k) {
+    names += (k == 0 ? "" : ", ") + std::string(output_name(static_cast<Output>(k)));
+  }
+  return names;
+}
+
+std::size_t column_count(std::span<const Output> outputs) {
   std::size_t count = 0;
-  for (const OutputGroup group : groups) {
-    count += group == OutputGroup::curvature ? 4 : 3;
+  for (const Output output : outputs) {
+    count += output == Output::curvature ? 4 : 3;
   }
   return count;
 }
@@ -133,7 +153,7 @@ void SampleReader::fail(const std::string& expected, const std::string& found) c
   bad_input_at(input_.name(), input_.line(), expected, found);
 }
 
-ResultWriter::ResultWriter(OutputFile& file, bool centred, std::span<const OutputGroup> groups)
+ResultWriter::ResultWriter(OutputFile& file, bool centred, std::span<const Output> outputs)
     : file_(file) {
   const Names& names = centred ? kCentredResult : kUnit;
   file_.text(names[0]);
@@ -141,8 +161,8 @@ ResultWriter::ResultWriter(OutputFile& file, bool centred, std::span<const Outpu
     file_.character(',');
     file_.text(name);
   }
-  for (const OutputGroup group : groups) {
-    file_.text(kColumns[static_cast<std::size_t>(group)]);
+  for (const Output output : outputs) {
+    file_.text(columns_of(output));
   }
   file_.character('\n');
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include <simdbezier/outputs.hpp>
 #include <tools/output_file.hpp>
 #include <tools/text_input.hpp>
 
@@ -46,17 +47,18 @@ private:
   bool centred_ = false;
 };
 
-/// Groups of result columns, in the order in which they are written.
-enum class OutputGroup : std::uint8_t { position, du, dv, duu, duv, dvv, normal, curvature };
-inline constexpr std::size_t kOutputGroups = 8;
+/// The outputs that have columns: those before the status.
+inline constexpr auto kColumnOutputs = static_cast<std::size_t>(Output::status);
 
+/// "position, du, … curvature", in the order of their columns.
+[[nodiscard]] std::string output_names();
 /// Vectors have three columns; the curvatures of a sample have four.
-[[nodiscard]] std::size_t column_count(std::span<const OutputGroup> groups);
+[[nodiscard]] std::size_t column_count(std::span<const Output> outputs);
 
 /// Writes the header and one line a sample, with numbers that read back to the same bits.
 class ResultWriter {
 public:
-  ResultWriter(OutputFile& file, bool centred, std::span<const OutputGroup> groups);
+  ResultWriter(OutputFile& file, bool centred, std::span<const Output> outputs);
 
   template <typename T>
   void line(const CsvSample& sample, std::span<const T> values) {

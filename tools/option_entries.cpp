@@ -2,6 +2,7 @@
 #include <tools/command_line.hpp>
 
 #include <simdbezier/simdbezier.hpp>
+#include <tools/csv.hpp>
 #include <tools/grid_blocks.hpp>
 #include <tools/mesh_file.hpp>
 #include <tools/patch_file.hpp>
@@ -88,7 +89,7 @@ Entries make_entries() {
        "Samples instead of a grid, with the header patch,u,v, or patch,x,y with x = 2u-1, y = "
        "2v-1, which results call centred_u and centred_v",
        " evaluate "},
-      {"--outputs", "LIST", std::string(kOutputNames) + " separated by commas",
+      {"--outputs", "LIST", output_names() + " separated by commas",
        "Columns (default position); they come in the order of this list, curvature as four "
        "(gaussian, mean, smaller and larger principal)",
        " evaluate "},

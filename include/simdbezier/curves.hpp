@@ -140,6 +140,12 @@ enum class CurveOutput : std::uint8_t {
 };
 inline constexpr std::size_t kCurveVectorOutputs = 4;
 
+/// "position", "d1", …: what the C API and Python call an output.
+[[nodiscard]] constexpr const char* output_name(CurveOutput output) noexcept {
+  constexpr const char* kNames[kCurveVectorOutputs] = {"position", "d1", "d2", "tangent"};
+  return kNames[static_cast<std::size_t>(output)];
+}
+
 /// The outputs of a call; every one is optional, at least one vector or the curvature is required.
 ///
 /// The tangent is d1 / |d1|. Where d1 is zero (a cusp, repeated control points) it is the direction

@@ -23,7 +23,14 @@ enum class Output : std::uint8_t {
   status     ///< SampleStatus
 };
 /// Those before Output::curvature are vectors.
-inline constexpr std::size_t kVectorOutputs = 7;
+inline constexpr auto kVectorOutputs = static_cast<std::size_t>(Output::curvature);
+
+/// "position", "du", … "status": what the C API, Python and the program call an output.
+[[nodiscard]] constexpr const char* output_name(Output output) noexcept {
+  constexpr const char* kNames[] = {"position", "du",     "dv",        "duu",   "duv",
+                                    "dvv",      "normal", "curvature", "status"};
+  return kNames[static_cast<std::size_t>(output)];
+}
 
 /// A set of outputs: {Output::position, Output::normal}.
 class OutputSelection {

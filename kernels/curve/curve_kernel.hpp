@@ -70,9 +70,9 @@ template <typename V, std::size_t kKnownOrder, std::size_t kDepth, bool kMixed, 
 SIMDBEZIER_PART void sweep_component(const CurveTask<T>& task, const CurveShape& shape,
                                      CurveBlock block, std::size_t first,
                                      const CurvePoints<V, kHalves>& points, std::size_t slot) {
-  T* const position = task.out[detail::kCurvePosition].component[slot];
-  T* const d1 = task.out[detail::kCurveD1].component[slot];
-  T* const d2 = task.out[detail::kCurveD2].component[slot];
+  T* const position = task.out[output_index(CurveOutput::position)].component[slot];
+  T* const d1 = task.out[output_index(CurveOutput::d1)].component[slot];
+  T* const d2 = task.out[output_index(CurveOutput::d2)].component[slot];
   const Order<kKnownOrder> order(shape.order());
   const std::size_t step = shape.values();
   const T* values = task.values + block.begin * step;
@@ -107,7 +107,7 @@ SIMDBEZIER_PART void store_ends(const CurveTask<T>& task, const CurveShape& shap
   const T* const values = task.values + (shape.cells() - 1) * shape.cell_values() +
                           (task.first_component + slot) * shape.channel_values() + shape.ends_at() +
                           1;
-  T* const position = task.out[detail::kCurvePosition].component[slot] + task.n - 1;
+  T* const position = task.out[output_index(CurveOutput::position)].component[slot] + task.n - 1;
   for (std::size_t curve = block.begin; curve < block.end; ++curve) {
     move_value(position + curve * task.n, values + curve * shape.values());
   }
@@ -115,9 +115,9 @@ SIMDBEZIER_PART void store_ends(const CurveTask<T>& task, const CurveShape& shap
 
 template <typename T>
 SIMDBEZIER_PART bool wants_slot(const CurveTask<T>& task, std::size_t slot) {
-  return task.out[detail::kCurvePosition].component[slot] != nullptr ||
-         task.out[detail::kCurveD1].component[slot] != nullptr ||
-         task.out[detail::kCurveD2].component[slot] != nullptr;
+  return task.out[output_index(CurveOutput::position)].component[slot] != nullptr ||
+         task.out[output_index(CurveOutput::d1)].component[slot] != nullptr ||
+         task.out[output_index(CurveOutput::d2)].component[slot] != nullptr;
 }
 
 template <typename T>
@@ -251,10 +251,10 @@ SIMDBEZIER_KERNEL void curve_grid_kernel(CurveTask<T>& task) {
     if (task.rows) {
       return evaluate_rows(task);
     }
-    if (task.curvature == nullptr && !task.out[detail::kCurveTangent].wanted()) {
-      return task.out[detail::kCurveD2].wanted()   ? sweep_apart<2>(task)
-             : task.out[detail::kCurveD1].wanted() ? sweep_apart<1>(task)
-                                                   : sweep_apart<0>(task);
+    if (task.curvature == nullptr && !task.out[output_index(CurveOutput::tangent)].wanted()) {
+      return task.out[output_index(CurveOutput::d2)].wanted()   ? sweep_apart<2>(task)
+             : task.out[output_index(CurveOutput::d1)].wanted() ? sweep_apart<1>(task)
+                                                                : sweep_apart<0>(task);
     }
   }
   sweep_joint<false>(task);

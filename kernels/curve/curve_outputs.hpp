@@ -63,7 +63,7 @@ SIMDBEZIER_RARE void resolve_lanes(const Task& task, const CurveShape& shape,
     detail::TangentAnswer<T> answer;
     task.resolve_tangent(query, answer);
     for (std::size_t c = 0; c < 3; ++c) {
-      T* const plane = task.out[detail::kCurveTangent].component[c];
+      T* const plane = task.out[output_index(CurveOutput::tangent)].component[c];
       if (plane != nullptr) {
         plane[at] = answer.tangent[c];
       }
@@ -97,7 +97,7 @@ SIMDBEZIER_INLINE void store_tangents(const Task& task, const CurveShape& shape,
                                       const CurveRange<V>& range, V x, V inverse_weight,
                                       const CurveJet<V>& jet) {
   using T = ScalarOf<V>;
-  const auto& planes = task.out[detail::kCurveTangent];
+  const auto& planes = task.out[output_index(CurveOutput::tangent)];
   const V squared = dot(jet.d1, jet.d1);
   const V inverse = divide(broadcast<V>(T(1)), square_root(squared));
   V tangent[3];
@@ -121,10 +121,13 @@ SIMDBEZIER_INLINE void store_tangents(const Task& task, const CurveShape& shape,
 /// How far a task needs derivatives.
 template <typename Task>
 SIMDBEZIER_INLINE std::size_t depth_of(const Task& task) {
-  if (task.curvature != nullptr || task.out[detail::kCurveD2].wanted()) {
+  if (task.curvature != nullptr || task.out[output_index(CurveOutput::d2)].wanted()) {
     return 2;
   }
-  return task.out[detail::kCurveD1].wanted() || task.out[detail::kCurveTangent].wanted() ? 1 : 0;
+  return task.out[output_index(CurveOutput::d1)].wanted() ||
+                 task.out[output_index(CurveOutput::tangent)].wanted()
+             ? 1
+             : 0;
 }
 
 /// f(slot) for three components: in a loop where their polynomials are loops as well.
@@ -171,18 +174,19 @@ SIMDBEZIER_INLINE void finish_samples(const Task& task, const CurveShape& shape,
     if constexpr (kRational) {
       divide_series<kDepth>(quotient, weight, s);
     }
-    range.store_if_wanted(task.out[detail::kCurvePosition].component[slot],
+    range.store_if_wanted(task.out[output_index(CurveOutput::position)].component[slot],
                           channel.finished(shape, s.value));
     jet.d1[slot] = kDepth > 0 ? scaled_first<kHalves>(s.first) : zero;
     jet.d2[slot] = kDepth > 1 ? scaled_second<kHalves>(s.second) : zero;
     if constexpr (kDepth > 0) {
-      range.store_if_wanted(task.out[detail::kCurveD1].component[slot], jet.d1[slot]);
+      range.store_if_wanted(task.out[output_index(CurveOutput::d1)].component[slot], jet.d1[slot]);
     }
     if constexpr (kDepth > 1) {
-      range.store_if_wanted(task.out[detail::kCurveD2].component[slot], jet.d2[slot]);
+      range.store_if_wanted(task.out[output_index(CurveOutput::d2)].component[slot], jet.d2[slot]);
     }
   });
-  if (kDepth > 0 && (task.curvature != nullptr || task.out[detail::kCurveTangent].wanted())) {
+  if (kDepth > 0 &&
+      (task.curvature != nullptr || task.out[output_index(CurveOutput::tangent)].wanted())) {
     store_tangents<kRational>(task, shape, range, points.x, quotient.inverse, jet);
   }
 }

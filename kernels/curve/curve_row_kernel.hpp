@@ -196,7 +196,8 @@ SIMDBEZIER_KERNEL void evaluate_rows(const CurveTask<T>& task) {
   CurveRows<kTriples, T> out;
   bool aligned = true;
   for (std::size_t k = 0; k < out.kStreams; ++k) {
-    out.first[k] = kTriples ? task.triples : task.out[detail::kCurvePosition].component[k];
+    out.first[k] =
+        kTriples ? task.triples : task.out[output_index(CurveOutput::position)].component[k];
     aligned = aligned && reinterpret_cast<std::uintptr_t>(out.first[k]) % 64 == 0;
   }
   const RowFiller<kTriples, T> way = choose_filler<kTriples>(task, aligned);

@@ -47,8 +47,8 @@ SIMDBEZIER_PART void sweep_normal_patches(const GridTask<T>& shared_task, const 
   ColumnBuffer<T, 6> buffer;
   const ColumnPlanes<T> extra = buffer.planes(piece);
   for (std::size_t c = 0; c < 3; ++c) {
-    column_task.out[detail::kPositionGroup].component[c] = buffer.first(c, piece);
-    column_task.out[detail::kNormalGroup].component[c] = buffer.first(3 + c, piece);
+    column_task.out[output_index(Output::position)].component[c] = buffer.first(c, piece);
+    column_task.out[output_index(Output::normal)].component[c] = buffer.first(3 + c, piece);
   }
   column_task.nu = 1;
   const std::size_t samples = piece.rows() * (tile.active + (SomeTile::kBuffered ? 1 : 0));
@@ -93,7 +93,7 @@ SIMDBEZIER_PART void sweep_component_patches(const GridTask<T>& task, const Piec
     const std::size_t at = patch * task.patch_step + piece.first * nu + tile.first;
     Component<T> component(task, patch, 0);
     for (std::size_t c = 0; c < 3; ++c, component = component.next()) {
-      T* const position = task.out[detail::kPositionGroup].component[c] + at;
+      T* const position = task.out[output_index(Output::position)].component[c] + at;
       if constexpr (Piece::kAcross && SomeTile::kBuffered) {
         SquareColumn<V, Piece::rows(), kPlanes> behind;
         if constexpr (kOutputs == detail::kPosition) {
@@ -101,8 +101,8 @@ SIMDBEZIER_PART void sweep_component_patches(const GridTask<T>& task, const Piec
           sweep_position(piece, component, tile, nu, position, behind);
         } else {
           behind.find_derivatives(piece, component, column);
-          const JetPlanes<T> to{position, task.out[detail::kDuGroup].component[c] + at,
-                                task.out[detail::kDvGroup].component[c] + at};
+          const JetPlanes<T> to{position, task.out[output_index(Output::du)].component[c] + at,
+                                task.out[output_index(Output::dv)].component[c] + at};
           sweep_derivatives(piece, component, tile, nu, to, behind);
         }
       } else if constexpr (kOutputs == detail::kPosition) {
@@ -111,8 +111,8 @@ SIMDBEZIER_PART void sweep_component_patches(const GridTask<T>& task, const Piec
         }
         sweep_position(piece, component, tile, nu, position, extra);
       } else if constexpr (kOutputs == detail::kPositionDerivatives) {
-        const JetPlanes<T> to{position, task.out[detail::kDuGroup].component[c] + at,
-                              task.out[detail::kDvGroup].component[c] + at};
+        const JetPlanes<T> to{position, task.out[output_index(Output::du)].component[c] + at,
+                              task.out[output_index(Output::dv)].component[c] + at};
         if constexpr (SomeTile::kBuffered) {
           sweep_derivatives(piece, component, column, 1, there, extra);
         }

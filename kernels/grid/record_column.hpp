@@ -49,7 +49,8 @@ struct RecordColumn {
         GridTask<T> part = task;
         part.status = task.status == nullptr ? nullptr : task.status + at + row * task.nu;
         for (std::size_t c = 0; c < 3; ++c) {
-          part.out[detail::kNormalGroup].component[c] = triple[Groups::kCount - 1] + 3 * stored + c;
+          part.out[output_index(Output::normal)].component[c] =
+              triple[Groups::kCount - 1] + 3 * stored + c;
         }
         sweep.resolve(part, patch, Suspects{lane, 1, 1, rows, 0, 1, task.nu, 3}, s, y, limit);
       }

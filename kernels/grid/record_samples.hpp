@@ -7,13 +7,13 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// The groups of kOutputs that kernels put together, in the order of a record.
+/// The outputs of kOutputs that kernels put together, in the order of a record.
 template <detail::OutputSet kOutputs>
 struct RecordGroups {
   static constexpr bool kNormals = kOutputs == detail::kPositionNormal;
   static constexpr std::size_t kCount = kOutputs == detail::kPosition ? 1 : kNormals ? 2 : 3;
-  static constexpr detail::Group kGroup[3] = {
-      detail::kPositionGroup, kNormals ? detail::kNormalGroup : detail::kDuGroup, detail::kDvGroup};
+  static constexpr Output kOutput[3] = {Output::position, kNormals ? Output::normal : Output::du,
+                                        Output::dv};
 
   /// Calls f for each group. A loop, whose index is no constant, would keep addresses in memory.
   template <typename F>
@@ -34,7 +34,7 @@ struct RecordPlaces {
   SIMDBEZIER_PART RecordPlaces(const GridTask<T>& task, std::size_t at)
       : record(task.record), step(task.nu * task.record), streaming(task.streaming) {
     Groups::for_each([&](std::size_t g) SIMDBEZIER_INLINE_LAMBDA {
-      to[g] = task.out[Groups::kGroup[g]].component[0] + at * record;
+      to[g] = task.out[output_index(Groups::kOutput[g])].component[0] + at * record;
     });
   }
 

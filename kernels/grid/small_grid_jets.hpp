@@ -121,23 +121,23 @@ SIMDBEZIER_KERNEL void sweep_small_jets(const GridTask<T>& shared_task) {
     for (std::size_t r = 0; r < samples.registers; ++r) {
       const std::size_t first = r * kLanes<V>;
       const std::size_t active = samples.active(r);
-      const auto store = [&](detail::Group group, std::size_t c, V value) SIMDBEZIER_INLINE_LAMBDA {
-        T* const plane = task.out[group].component[c];
+      const auto store = [&](Output output, std::size_t c, V value) SIMDBEZIER_INLINE_LAMBDA {
+        T* const plane = task.out[output_index(output)].component[c];
         masked_store(plane + patch * task.patch_step + first, value, active);
       };
       NormalSamples<V> s;
       for (std::size_t c = 0; c < 3; ++c) {
         s.jet[c] = samples.jet(r, jets[c]);
-        store(detail::kPositionGroup, c, s.jet[c].p);
+        store(Output::position, c, s.jet[c].p);
         if constexpr (!kNormals) {
-          store(detail::kDuGroup, c, s.jet[c].du);
-          store(detail::kDvGroup, c, s.jet[c].dv);
+          store(Output::du, c, s.jet[c].du);
+          store(Output::dv, c, s.jet[c].dv);
         }
       }
       if constexpr (kNormals) {
         s.cross();
         for (std::size_t c = 0; c < 3; ++c) {
-          store(detail::kNormalGroup, c, s.normal[c]);
+          store(Output::normal, c, s.normal[c]);
         }
         const V floor = broadcast<V>(task.normal_floor[patch]);
         if (!all_of<V>(s.squared > floor)) [[unlikely]] {

@@ -99,7 +99,7 @@ SIMDBEZIER_KERNEL void sweep_small_positions(const GridTask<T>& shared_task) {
       const V inner = row_value(q, grid.y);
       const V border = row_value(e, grid.along);
       const V corner = repeat_four<V>(component.corner);
-      T* const to = task.out[detail::kPositionGroup].component[c] + patch * task.patch_step;
+      T* const to = task.out[output_index(Output::position)].component[c] + patch * task.patch_step;
       for (std::size_t r = 0; r < kFull; ++r) {
         store_vector(to + r * kLanes<V>, sample[r].with_quad(inner, border, corner));
       }

@@ -180,10 +180,9 @@ SIMDBEZIER_PART void put_across(const V* sample, std::size_t samples, ScalarOf<V
 
 /// Samples of one component of a register of patches to the planes of a group.
 template <typename V>
-SIMDBEZIER_PART void put_across(const GridTask<ScalarOf<V>>& task, detail::Group group,
-                                std::size_t c, std::size_t patch, const V* sample,
-                                std::size_t samples) {
-  put_across(sample, samples, task.out[group].component[c] + patch * task.patch_step,
+SIMDBEZIER_PART void put_across(const GridTask<ScalarOf<V>>& task, Output output, std::size_t c,
+                                std::size_t patch, const V* sample, std::size_t samples) {
+  put_across(sample, samples, task.out[output_index(output)].component[c] + patch * task.patch_step,
              task.patch_step);
 }
 
@@ -214,7 +213,7 @@ SIMDBEZIER_KERNEL void sweep_positions_across(const GridTask<T>& shared_task) {
     for (std::size_t c = 0; c < 3; ++c) {
       V sample[kMostSmallSamples];
       positions_across(ComponentAcross<V>(task, patch, c), grid, sample);
-      put_across(task, detail::kPositionGroup, c, patch, sample, grid.samples());
+      put_across(task, Output::position, c, patch, sample, grid.samples());
     }
     drain_some(task.drain, fresh * 3 * grid.samples());
   });

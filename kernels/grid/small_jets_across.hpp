@@ -66,9 +66,9 @@ SIMDBEZIER_KERNEL void sweep_derivatives_across(const GridTask<T>& shared_task) 
     for (std::size_t c = 0; c < 3; ++c) {
       JetsAcross<V> jets;
       jets.find(ComponentAcross<V>(task, patch, c), grid);
-      put_across(task, detail::kPositionGroup, c, patch, jets.p, grid.samples());
-      put_across(task, detail::kDuGroup, c, patch, jets.du, grid.samples());
-      put_across(task, detail::kDvGroup, c, patch, jets.dv, grid.samples());
+      put_across(task, Output::position, c, patch, jets.p, grid.samples());
+      put_across(task, Output::du, c, patch, jets.du, grid.samples());
+      put_across(task, Output::dv, c, patch, jets.dv, grid.samples());
     }
     drain_some(task.drain, fresh * 9 * grid.samples());
   });
@@ -99,7 +99,7 @@ SIMDBEZIER_KERNEL void sweep_normals_across(const GridTask<T>& shared_task) {
     JetsAcross<V> jets[3];
     for (std::size_t c = 0; c < 3; ++c) {
       jets[c].find(ComponentAcross<V>(task, patch, c), grid);
-      put_across(task, detail::kPositionGroup, c, patch, jets[c].p, grid.samples());
+      put_across(task, Output::position, c, patch, jets[c].p, grid.samples());
     }
     const V floor = load_vector<V>(task.normal_floor + patch);
     V squared[kMostSmallSamples];
@@ -117,7 +117,7 @@ SIMDBEZIER_KERNEL void sweep_normals_across(const GridTask<T>& shared_task) {
       passed = passed && all_of<V>(s.squared > floor);
     }
     for (std::size_t c = 0; c < 3; ++c) {
-      put_across(task, detail::kNormalGroup, c, patch, jets[c].p, grid.samples());
+      put_across(task, Output::normal, c, patch, jets[c].p, grid.samples());
     }
     if (!passed) [[unlikely]] {
       resolve_normals_across(shared_task, grid, patch, squared, floor);

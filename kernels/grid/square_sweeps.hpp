@@ -78,8 +78,8 @@ constexpr bool kSharesLines = (kOutputs != detail::kPositionNormal) &&
 template <typename T>
 SIMDBEZIER_PART bool planes_begin_lines(const GridTask<T>& task) {
   std::uintptr_t bits = 0;
-  for (const auto& group : task.out) {
-    for (const T* const plane : group.component) {
+  for (const auto& planes : task.out) {
+    for (const T* const plane : planes.component) {
       bits |= reinterpret_cast<std::uintptr_t>(plane);
     }
   }

@@ -243,9 +243,9 @@ SIMDBEZIER_PART void sweep_second(const GridTask<ScalarOf<V>>& task,
   using T = ScalarOf<V>;
   SecondColumns<V> columns;
   columns.build(c, tile.column);
-  T* const duu = task.out[detail::kDuuGroup].component[component];
-  T* const duv = task.out[detail::kDuvGroup].component[component];
-  T* const dvv = task.out[detail::kDvvGroup].component[component];
+  T* const duu = task.out[output_index(Output::duu)].component[component];
+  T* const duv = task.out[output_index(Output::duv)].component[component];
+  T* const dvv = task.out[output_index(Output::dvv)].component[component];
   const std::size_t nu = task.nu;
   constexpr RowOrder kRowOrder{kRows, Tile::kOwnLines ? RowPairs::always : RowPairs::never, 1};
   for_rows<kRowOrder>(

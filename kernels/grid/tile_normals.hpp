@@ -88,18 +88,16 @@ struct NormalSweep {
                                   std::size_t row, V floor) const {
     for (std::size_t c = 0; c < 3; ++c) {
       if constexpr (kAny) {
-        tile.store_edge_if_wanted(plane(detail::kPositionGroup, c), at, s.jet[c].p, kind);
-        tile.store_edge_if_wanted(plane(detail::kDuGroup, c), at, s.jet[c].du, kind);
-        tile.store_edge_if_wanted(plane(detail::kDvGroup, c), at, s.jet[c].dv, kind);
-        tile.store_edge_if_wanted(plane(detail::kNormalGroup, c), at, s.normal[c], kind);
+        tile.store_edge_if_wanted(plane(Output::position, c), at, s.jet[c].p, kind);
+        tile.store_edge_if_wanted(plane(Output::du, c), at, s.jet[c].du, kind);
+        tile.store_edge_if_wanted(plane(Output::dv, c), at, s.jet[c].dv, kind);
+        tile.store_edge_if_wanted(plane(Output::normal, c), at, s.normal[c], kind);
       } else {
-        tile.store_edge(plane(detail::kPositionGroup, c) + at, s.jet[c].p, kind,
-                        extra.plane(c) + row);
-        tile.store_edge(plane(detail::kNormalGroup, c) + at, s.normal[c], kind,
-                        extra.plane(3 + c) + row);
+        tile.store_edge(plane(Output::position, c) + at, s.jet[c].p, kind, extra.plane(c) + row);
+        tile.store_edge(plane(Output::normal, c) + at, s.normal[c], kind, extra.plane(3 + c) + row);
       }
     }
-    if (kAny && !task.out[detail::kNormalGroup].wanted()) {
+    if (kAny && !task.out[output_index(Output::normal)].wanted()) {
       return;
     }
     if (!all_of<V>(s.squared > floor)) [[unlikely]] {
@@ -123,10 +121,10 @@ private:
                                  Tangents& tangents) const {
     tangents.du[c] = jet.du;
     tangents.dv[c] = jet.dv;
-    store_rows<kMirrored>(detail::kPositionGroup, c, 0, jet.p, place, rows);
+    store_rows<kMirrored>(Output::position, c, 0, jet.p, place, rows);
     if constexpr (kAny) {
-      store_rows<kMirrored>(detail::kDuGroup, c, 0, jet.du, place, rows);
-      store_rows<kMirrored>(detail::kDvGroup, c, 0, jet.dv, place, rows);
+      store_rows<kMirrored>(Output::du, c, 0, jet.du, place, rows);
+      store_rows<kMirrored>(Output::dv, c, 0, jet.dv, place, rows);
     }
   }
 
@@ -134,14 +132,14 @@ private:
   template <bool kMirrored>
   SIMDBEZIER_PART void finish(const Tangents& tangents, const T* y, RowPlace place,
                               std::size_t rows, V floor) const {
-    if (kAny && !task.out[detail::kNormalGroup].wanted()) {
+    if (kAny && !task.out[output_index(Output::normal)].wanted()) {
       return;
     }
     V n[3];
     const V squared = cross_product(tangents.du, tangents.dv, n);
     normalise(n, squared);
     for (std::size_t c = 0; c < 3; ++c) {
-      store_rows<kMirrored>(detail::kNormalGroup, c, 3, n[c], place, rows);
+      store_rows<kMirrored>(Output::normal, c, 3, n[c], place, rows);
     }
     if (!all_of<V>(squared > floor)) [[unlikely]] {
       const std::size_t row_step = kMirrored ? std::size_t{0} - task.nu : task.nu;
@@ -155,9 +153,9 @@ private:
 
   /// first: plane of the column behind the tile that belongs to component 0.
   template <bool kMirrored>
-  SIMDBEZIER_PART void store_rows(std::size_t group, std::size_t c, std::size_t first, V value,
+  SIMDBEZIER_PART void store_rows(Output output, std::size_t c, std::size_t first, V value,
                                   RowPlace place, std::size_t rows) const {
-    T* const to = plane(group, c);
+    T* const to = plane(output, c);
     if (kAny && to == nullptr) {
       return;
     }
@@ -169,8 +167,8 @@ private:
     }
   }
 
-  SIMDBEZIER_PART T* plane(std::size_t group, std::size_t c) const {
-    return task.out[group].component[c];
+  SIMDBEZIER_PART T* plane(Output output, std::size_t c) const {
+    return task.out[output_index(output)].component[c];
   }
 };
 

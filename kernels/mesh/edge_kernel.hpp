@@ -78,7 +78,7 @@ SIMDBEZIER_RARE void resolve_side(const detail::EdgeTask<ScalarOf<V>>& task, std
   detail::SampleTask<T> own = task;
   for (std::size_t c = 0; c < 3; ++c) {
     store_vector(values[c], n[c]);
-    own.out[detail::kNormalGroup].component[c] = values[c];
+    own.out[output_index(Output::normal)].component[c] = values[c];
   }
   resolve_normals(own, patch, Suspects{0, kLanes<V>, count, 1, 0, 0, 1}, x, y, squared,
                   broadcast<V>(task.normal_floor[patch]));
@@ -104,7 +104,7 @@ SIMDBEZIER_PART void side_register(const detail::EdgeTask<ScalarOf<V>>& task,
     p[c] = points.position(component, member.side, along[c]);
     across[c] = points.slope_across(component);
   }
-  if (!task.out[detail::kNormalGroup].wanted()) {
+  if (!task.out[output_index(Output::normal)].wanted()) {
     return;
   }
   const V squared = kAlongU ? cross_product(along, across, n) : cross_product(across, along, n);
@@ -163,8 +163,8 @@ SIMDBEZIER_PART void
 edge_register(const detail::EdgeTask<T>& task, const detail::EdgeTask<T>& shared_task,
               const detail::EdgeJob<T>& job, std::size_t first, std::size_t count) {
   using V = vec<T>;
-  const detail::Planes<T>& positions = task.out[detail::kPositionGroup];
-  const detail::Planes<T>& normals = task.out[detail::kNormalGroup];
+  const detail::Planes<T>& positions = task.out[output_index(Output::position)];
+  const detail::Planes<T>& normals = task.out[output_index(Output::normal)];
   const V along = load_vector<V>(job.along + first);
   V first_normal[3];
   V sum[3];

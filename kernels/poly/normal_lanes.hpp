@@ -47,7 +47,7 @@ SIMDBEZIER_RARE void resolve_normals(const detail::SampleTask<ScalarOf<V>>& task
   for (int i = 0; i < 4; ++i) {
     store_vector(lanes[i], vectors[i]);
   }
-  const detail::Planes<T>& normals = task.out[detail::kNormalGroup];
+  const detail::Planes<T>& normals = task.out[output_index(Output::normal)];
   for (std::size_t k = 0; k < s.rows * s.active; ++k) {
     const std::size_t i = s.lane + k / s.active * s.columns + k % s.active;
     const std::size_t at = s.at + k / s.active * s.row_step + k % s.active;

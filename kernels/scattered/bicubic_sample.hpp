@@ -66,7 +66,7 @@ SIMDBEZIER_PART void store_normal(const ScatteredTask<T>& task, std::size_t k,
       task.status[k] = status;
     }
   }
-  store_point(task.out[detail::kNormalGroup], k, n);
+  store_point(task.out[output_index(Output::normal)], k, n);
 }
 
 /// Position and first derivatives.
@@ -89,10 +89,10 @@ SIMDBEZIER_PART void evaluate_first(const ScatteredTask<T>& task, std::size_t k,
       du[c] = row_value(dq, at);
     }
   }
-  store_point(task.out[detail::kPositionGroup], k, p);
-  store_point(task.out[detail::kDuGroup], k, du);
-  store_point(task.out[detail::kDvGroup], k, dv);
-  if (task.out[detail::kNormalGroup].wanted()) {
+  store_point(task.out[output_index(Output::position)], k, p);
+  store_point(task.out[output_index(Output::du)], k, du);
+  store_point(task.out[output_index(Output::dv)], k, dv);
+  if (task.out[output_index(Output::normal)].wanted()) {
     store_normal(task, k, place, du, dv);
   }
 }
@@ -112,9 +112,9 @@ SIMDBEZIER_PART void evaluate_second(const ScatteredTask<T>& task, std::size_t k
     duv[c] = columns.duv(at);
     dvv[c] = columns.dvv(at);
   }
-  store_point(task.out[detail::kDuuGroup], k, duu);
-  store_point(task.out[detail::kDuvGroup], k, duv);
-  store_point(task.out[detail::kDvvGroup], k, dvv);
+  store_point(task.out[output_index(Output::duu)], k, duu);
+  store_point(task.out[output_index(Output::duv)], k, duv);
+  store_point(task.out[output_index(Output::dvv)], k, dvv);
 }
 
 /// Sample k from start to end: the outputs of order <= 1, or (kSecond) those of order 2.

@@ -59,9 +59,9 @@ struct Block {
         y(half_centred(the_task, load_vector<V>(the_task.v + first_sample))) {}
 
   SIMDBEZIER_PART void store(T* plane, V value) const { store_vector(plane + first, value); }
-  SIMDBEZIER_PART void store_if_wanted(detail::Group group, std::size_t component, V value) const {
+  SIMDBEZIER_PART void store_if_wanted(Output output, std::size_t component, V value) const {
     compute_here(value);
-    T* const plane = task.out[group].component[component];
+    T* const plane = task.out[output_index(output)].component[component];
     if (plane != nullptr) {
       store(plane, value);
     }
@@ -110,7 +110,7 @@ public:
     if (waiting_) {
       const V inverse = divide(broadcast<V>(T(1)), length_);
       for (std::size_t c = 0; c < 3; ++c) {
-        store_vector(task.out[detail::kNormalGroup].component[c] + first_, n_[c] * inverse);
+        store_vector(task.out[output_index(Output::normal)].component[c] + first_, n_[c] * inverse);
       }
       waiting_ = false;
     }
@@ -146,18 +146,18 @@ SIMDBEZIER_PART void finish_component(const Block<V>& block, const Polynomials<k
                                       std::size_t c, V origin, Tangents<kOutcome, V>& tangents) {
   const RowPoint<V> at(block.y);
   if constexpr (kOutcome == kPositions) {
-    block.store(block.task.out[detail::kPositionGroup].component[c],
+    block.store(block.task.out[output_index(Output::position)].component[c],
                 with_origin<kOrigins>(row_value(q.power[0], at), origin));
   } else if constexpr (kOutcome != kSecondOrder) {
     const V p = row_value(q.power[0], at, tangents.dv[c]);
     tangents.du[c] = row_value(q.power[1], at);
-    block.store_if_wanted(detail::kPositionGroup, c, with_origin<kOrigins>(p, origin));
-    block.store_if_wanted(detail::kDuGroup, c, tangents.du[c]);
-    block.store_if_wanted(detail::kDvGroup, c, tangents.dv[c]);
+    block.store_if_wanted(Output::position, c, with_origin<kOrigins>(p, origin));
+    block.store_if_wanted(Output::du, c, tangents.du[c]);
+    block.store_if_wanted(Output::dv, c, tangents.dv[c]);
   } else {
-    block.store_if_wanted(detail::kDuuGroup, c, row_value(q.power[2], at));
-    block.store_if_wanted(detail::kDuvGroup, c, row_slope(q.power[1], at));
-    block.store_if_wanted(detail::kDvvGroup, c, row_second(q.power[0], at));
+    block.store_if_wanted(Output::duu, c, row_value(q.power[2], at));
+    block.store_if_wanted(Output::duv, c, row_slope(q.power[1], at));
+    block.store_if_wanted(Output::dvv, c, row_second(q.power[0], at));
   }
 }
 
@@ -221,7 +221,7 @@ SIMDBEZIER_INLINE void finish_block(const Block<V>& block, const Tangents<kOutco
     }
     normalise(n, squared);
     for (std::size_t c = 0; c < 3; ++c) {
-      block.store(task.out[detail::kNormalGroup].component[c], n[c]);
+      block.store(task.out[output_index(Output::normal)].component[c], n[c]);
     }
     const V enough = floor.each();
     if (!all_above(enough)) {

@@ -27,7 +27,7 @@ SIMDBEZIER_KERNEL void evaluate_rest(const ScatteredTask<T>& task, std::size_t f
   alignas(64) T u[kN];
   alignas(64) T v[kN];
   SampleStatus status[kN];
-  alignas(64) T value[detail::kGroups][3][kN];
+  alignas(64) T value[kVectorOutputs][3][kN];
   for (std::size_t i = 0; i < kN; ++i) {
     const bool given = i < active;
     patch[i] = task.patch[given ? first + i : task.count - 1];
@@ -42,12 +42,14 @@ SIMDBEZIER_KERNEL void evaluate_rest(const ScatteredTask<T>& task, std::size_t f
   part.count = part.patches_known = kN;
   part.status = task.status == nullptr ? nullptr : status;
   const auto for_planes = [&](const auto& f) {
-    for (std::size_t g = 0; g < detail::kGroups; ++g) {
+    for (std::size_t g = 0; g < kVectorOutputs; ++g) {
+      const auto output = static_cast<Output>(g);
       const bool is_second =
-          g == detail::kDuuGroup || g == detail::kDuvGroup || g == detail::kDvvGroup;
+          output == Output::duu || output == Output::duv || output == Output::dvv;
       for (std::size_t c = 0; c < 3; ++c) {
-        if (is_second == second && task.out[g].component[c] != nullptr) {
-          f(part.out[g].component[c], task.out[g].component[c] + first, value[g][c]);
+        if (is_second == second && task.out[output_index(output)].component[c] != nullptr) {
+          f(part.out[output_index(output)].component[c],
+            task.out[output_index(output)].component[c] + first, value[g][c]);
         }
       }
     }
@@ -119,14 +121,14 @@ SIMDBEZIER_PART void evaluate_outcome(const ScatteredTask<T>& task) {
 
 template <bool kOrigins, typename T>
 SIMDBEZIER_PART void evaluate_wanted(const ScatteredTask<T>& task) {
-  const auto wanted = [&](detail::Group group) __attribute__((always_inline)) {
-    return task.out[group].wanted();
+  const auto wanted = [&](Output output) __attribute__((always_inline)) {
+    return task.out[output_index(output)].wanted();
   };
-  if (wanted(detail::kNormalGroup)) {
+  if (wanted(Output::normal)) {
     evaluate_outcome<kOrigins, kNormals>(task);
-  } else if (wanted(detail::kDuGroup) || wanted(detail::kDvGroup)) {
+  } else if (wanted(Output::du) || wanted(Output::dv)) {
     evaluate_outcome<kOrigins, kFirstOrder>(task);
-  } else if (wanted(detail::kPositionGroup)) {
+  } else if (wanted(Output::position)) {
     evaluate_outcome<kOrigins, kPositions>(task);
   }
 }
@@ -134,11 +136,11 @@ SIMDBEZIER_PART void evaluate_wanted(const ScatteredTask<T>& task) {
 template <typename T>
 SIMDBEZIER_KERNEL void scattered_kernel(ScatteredTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
-  const auto wanted = [&](detail::Group group) __attribute__((always_inline)) {
-    return task.out[group].wanted();
+  const auto wanted = [&](Output output) __attribute__((always_inline)) {
+    return task.out[output_index(output)].wanted();
   };
   task.origins == nullptr ? evaluate_wanted<false>(task) : evaluate_wanted<true>(task);
-  if (wanted(detail::kDuuGroup) || wanted(detail::kDuvGroup) || wanted(detail::kDvvGroup)) {
+  if (wanted(Output::duu) || wanted(Output::duv) || wanted(Output::dvv)) {
     evaluate_outcome<false, kSecondOrder>(task);
   }
 }

@@ -8,13 +8,15 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 template <typename Task>
 SIMDBEZIER_PART std::size_t highest_derivative(const Task& task) {
-  bool second = task.out[detail::kDuuGroup].wanted() || task.out[detail::kDuvGroup].wanted() ||
-                task.out[detail::kDvvGroup].wanted();
+  bool second = task.out[output_index(Output::duu)].wanted() ||
+                task.out[output_index(Output::duv)].wanted() ||
+                task.out[output_index(Output::dvv)].wanted();
   for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
     second = second || task.curvature[k] != nullptr;
   }
-  const bool first = task.out[detail::kDuGroup].wanted() || task.out[detail::kDvGroup].wanted() ||
-                     task.out[detail::kNormalGroup].wanted();
+  const bool first = task.out[output_index(Output::du)].wanted() ||
+                     task.out[output_index(Output::dv)].wanted() ||
+                     task.out[output_index(Output::normal)].wanted();
   return second ? 2 : first ? 1 : 0;
 }
 
@@ -83,7 +85,7 @@ SIMDBEZIER_INLINE void with_grid_plan(const Task& task, const Run& run) {
     }
   }
   if constexpr (!kCompact && (kDepth == 1 || (kDepth == 0 && kRational))) {
-    if (in_space && (kRational || task.out[detail::kNormalGroup].wanted())) {
+    if (in_space && (kRational || task.out[output_index(Output::normal)].wanted())) {
       return with_order_v<kDepth, kRational, 3>(shape, run);
     }
   }

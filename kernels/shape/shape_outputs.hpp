@@ -75,16 +75,16 @@ SIMDBEZIER_PART void store_normals(const SampleTask<ScalarOf<V>>& task, const Sa
   const V squared = cross_product(jet.du, jet.dv, n);
   normalise(n, squared);
   repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
-    range.store(task.out[detail::kNormalGroup].component[c], n[c]);
+    range.store(task.out[output_index(Output::normal)].component[c], n[c]);
   });
   look_again<P>(task, range, jet, squared);
 }
 
 template <typename P, typename V>
-SIMDBEZIER_PART void store_group(const SampleTask<ScalarOf<V>>& task, detail::Group group,
+SIMDBEZIER_PART void store_group(const SampleTask<ScalarOf<V>>& task, Output output,
                                  const SampleRange<V>& range, const V value[3]) {
   repeat<P::Slots::kMost>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
-    ScalarOf<V>* const plane = task.out[group].component[range.first_plane + c];
+    ScalarOf<V>* const plane = task.out[output_index(output)].component[range.first_plane + c];
     if ((P::kKnown && P::kDepth == 0) || plane != nullptr) {
       range.store(plane, value[c]);
     }
@@ -146,18 +146,18 @@ SIMDBEZIER_PART bool wants_curvatures(const SampleTask<T>& task) {
 template <typename P, typename V>
 SIMDBEZIER_PART void store_sample(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
                                   const SampleJet<V>& jet) {
-  store_group<P>(task, detail::kPositionGroup, range, jet.position);
+  store_group<P>(task, Output::position, range, jet.position);
   if constexpr (P::kDepth > 0) {
-    store_group<P>(task, detail::kDuGroup, range, jet.du);
-    store_group<P>(task, detail::kDvGroup, range, jet.dv);
-    if (!P::kSingle && task.out[detail::kNormalGroup].wanted()) {
+    store_group<P>(task, Output::du, range, jet.du);
+    store_group<P>(task, Output::dv, range, jet.dv);
+    if (!P::kSingle && task.out[output_index(Output::normal)].wanted()) {
       store_normals<P>(task, range, jet);
     }
   }
   if constexpr (P::kDepth > 1) {
-    store_group<P>(task, detail::kDuuGroup, range, jet.duu);
-    store_group<P>(task, detail::kDuvGroup, range, jet.duv);
-    store_group<P>(task, detail::kDvvGroup, range, jet.dvv);
+    store_group<P>(task, Output::duu, range, jet.duu);
+    store_group<P>(task, Output::duv, range, jet.duv);
+    store_group<P>(task, Output::dvv, range, jet.dvv);
     if (wants_curvatures(task)) {
       store_curvatures<P>(task, &range, &jet, 1);
     }
@@ -179,15 +179,15 @@ SIMDBEZIER_KERNEL void store_jets(const SampleTask<ScalarOf<V>>& task, const Sam
   constexpr V(SampleJet<V>::*kMember[])[3] = {&SampleJet<V>::position, &SampleJet<V>::du,
                                               &SampleJet<V>::dv,       &SampleJet<V>::duu,
                                               &SampleJet<V>::duv,      &SampleJet<V>::dvv};
-  constexpr std::size_t kGroups[] = {1, 3, 6}; // of Group, in its order
-  for (std::size_t g = 0; g < kGroups[P::kDepth]; ++g) {
+  constexpr std::size_t kMembers[] = {1, 3, 6}; // in the order of Output
+  for (std::size_t g = 0; g < kMembers[P::kDepth]; ++g) {
     for (std::size_t c = 0; task.out[g].wanted() && c < 3; ++c) {
       store_values(task.out[g].component[c], range, jet[0].*kMember[g] + c,
                    sizeof(SampleJet<V>) / sizeof(V), count);
     }
   }
   if constexpr (P::kDepth > 0) {
-    for (std::size_t i = 0; task.out[detail::kNormalGroup].wanted() && i < count; ++i) {
+    for (std::size_t i = 0; task.out[output_index(Output::normal)].wanted() && i < count; ++i) {
       store_normals<P>(task, range[i], jet[i]);
     }
   }

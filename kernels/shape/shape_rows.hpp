@@ -115,7 +115,7 @@ private:
     with_one_of<4, 5, 6, 7, 8>(together, [&]<std::size_t kCount>() SIMDBEZIER_INLINE_LAMBDA {
       const ColumnOrigins<V>* const origins = columns_.origins();
       columns_.slots().for_components([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-        T* const plane = task_.out[detail::kPositionGroup].component[slot] + first_at_;
+        T* const plane = task_.out[output_index(Output::position)].component[slot] + first_at_;
         const V* const origin = origins == nullptr ? nullptr : &origins->position[slot];
         const V* const power = own_address(columns_.polynomials().power[slot][0]);
         Rows{columns_.order_v(), power, origin, plane, range_.active}.template put<kCount>(rows);

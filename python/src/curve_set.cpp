@@ -8,7 +8,7 @@
 namespace simdbezier::python {
 namespace {
 
-const OutputNames kOutputs{{"position", "d1", "d2", "tangent"}, {"curvature"}};
+const OutputNames kOutputs{vector_names<CurveOutput, kCurveVectorOutputs>(), {"curvature"}};
 
 class PyCurveSet : public EmptyUntilConstructed {
 public:

@@ -8,7 +8,7 @@
 namespace simdbezier::python {
 namespace {
 
-const OutputNames kOutputs{{"position", "du", "dv", "duu", "duv", "dvv", "normal"},
+const OutputNames kOutputs{vector_names<Output, kVectorOutputs>(),
                            {"gaussian", "mean", "minimum", "maximum"}};
 
 class PyPatchSet : public EmptyUntilConstructed {

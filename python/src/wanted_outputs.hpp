@@ -26,6 +26,16 @@ struct OutputNames {
   }
 };
 
+/// Those of all vector outputs. Name: Output, or CurveOutput.
+template <typename Name, std::size_t kCount>
+std::vector<std::string> vector_names() {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < kCount; ++k) {
+    names.emplace_back(output_name(static_cast<Name>(k)));
+  }
+  return names;
+}
+
 /// Refuses more samples than memory can address, for which numpy's arrays have no shape.
 void require_addressable(std::size_t samples, int components, const std::string& argument);
 

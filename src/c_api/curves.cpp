@@ -17,14 +17,14 @@ static_assert(SIMDBEZIER_EDGE_U1 == static_cast<int>(PatchEdge::u1));
 constexpr simdbezier_vectors simdbezier_curve_outputs::*kVectors[kCurveVectorOutputs] = {
     &simdbezier_curve_outputs::position, &simdbezier_curve_outputs::d1,
     &simdbezier_curve_outputs::d2, &simdbezier_curve_outputs::tangent};
-constexpr const char* kNames[kCurveVectorOutputs] = {"position", "d1", "d2", "tangent"};
 
 template <typename T>
 CurveOutputs<T> outputs_of(const simdbezier_curve_outputs* given) {
   const simdbezier_curve_outputs known = read(given, kOut);
   CurveOutputs<T> out;
   for (std::size_t k = 0; k < kCurveVectorOutputs; ++k) {
-    out[static_cast<CurveOutput>(k)] = vectors_of<T>(known.*kVectors[k], kOut / kNames[k]);
+    const auto output = static_cast<CurveOutput>(k);
+    out[output] = vectors_of<T>(known.*kVectors[k], kOut / output_name(output));
   }
   out.curvature = values_of<T>(known.curvature, kOut / "curvature");
   out.status = sample_statuses(known.status, known.status_length, kOut);
@@ -61,7 +61,7 @@ Path blamed_output(const CurveOutputs<T>& out, Status status, std::size_t sample
                    std::int64_t components) {
   for (std::size_t k = 0; k < kCurveVectorOutputs; ++k) {
     if (is_at_fault(out[static_cast<CurveOutput>(k)], status, samples, components)) {
-      return kOut / kNames[k];
+      return kOut / output_name(static_cast<CurveOutput>(k));
     }
   }
   if (status == Status::output_too_small && out.curvature.wanted() &&

@@ -22,15 +22,14 @@ constexpr simdbezier_vectors simdbezier_outputs::*kVectors[kVectorOutputs] = {
     &simdbezier_outputs::position, &simdbezier_outputs::du,  &simdbezier_outputs::dv,
     &simdbezier_outputs::duu,      &simdbezier_outputs::duv, &simdbezier_outputs::dvv,
     &simdbezier_outputs::normal};
-constexpr const char* kNames[kVectorOutputs] = {"position", "du",  "dv",    "duu",
-                                                "duv",      "dvv", "normal"};
 
 template <typename T>
 Outputs<T> outputs_of(const simdbezier_outputs* given) {
   const simdbezier_outputs known = read(given, kOut);
   Outputs<T> out;
   for (std::size_t k = 0; k < kVectorOutputs; ++k) {
-    out[static_cast<Output>(k)] = vectors_of<T>(known.*kVectors[k], kOut / kNames[k]);
+    const auto output = static_cast<Output>(k);
+    out[output] = vectors_of<T>(known.*kVectors[k], kOut / output_name(output));
   }
   out.curvature = {
       values_of<T>(known.gaussian, kOut / "gaussian"), values_of<T>(known.mean, kOut / "mean"),
@@ -90,7 +89,7 @@ Path blamed_output(const Outputs<T>& out, Status status, std::size_t samples,
                    std::int64_t components) {
   for (std::size_t k = 0; k < kVectorOutputs; ++k) {
     if (is_at_fault(out[static_cast<Output>(k)], status, samples, components)) {
-      return kOut / kNames[k];
+      return kOut / output_name(static_cast<Output>(k));
     }
   }
   return status == Status::output_too_small ? blamed_values(out, samples) : kOut;

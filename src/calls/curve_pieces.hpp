@@ -19,7 +19,7 @@ template <typename T>
 [[nodiscard]] Status check_curve_outputs(const OutputList<T>& out, std::size_t samples,
                                          const Components& components,
                                          std::span<const MemoryRange> inputs) noexcept {
-  if (!components.all_of_few() && (out.wants(kCurveTangent) || out.wants_curvature())) {
+  if (!components.all_of_few() && (out.holds(CurveOutput::tangent) || out.wants_curvature())) {
     return Status::bad_components;
   }
   return check_outputs(out, samples, components.dimension, inputs);
@@ -53,7 +53,7 @@ void fill_arrays(CurveArrays<T>& task, const CurveStorage<T>& curves, std::size_
   task.values = curves.values + first * shape.values();
   task.given = curves.given.from(first * shape.control_values());
   task.tangent_floor = curves.tangent_floor + first;
-  std::copy_n(planes, kCurveGroups, task.out);
+  std::copy_n(planes, kCurveVectorOutputs, task.out);
   task.curvature = out.curvature_at(0, sample);
   task.status = out.status_at(sample);
   task.first_component = first_component;
@@ -99,7 +99,7 @@ struct CurveKernels {
     task.x = plan.x() + piece.first;
     task.n = piece.last - piece.first;
     task.rows = rows;
-    const Vectors<T>& position = *outputs.out().vectors[kCurvePosition];
+    const Vectors<T>& position = outputs.out()[CurveOutput::position];
     if (rows && are_triples(position)) {
       task.triples = position.x + 3 * sample;
     }

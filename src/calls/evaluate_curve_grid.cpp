@@ -19,9 +19,10 @@ template <typename T>
 bool goes_in_rows(const CurveShape& shape, const OutputPlan<T>& outputs,
                   const KernelTable<T>& table, std::size_t n) noexcept {
   const OutputList<T>& out = outputs.out();
-  const Vectors<T>& position = *out.vectors[kCurvePosition];
-  const bool alone = !out.wants(kCurveD1) && !out.wants(kCurveD2) && !out.wants(kCurveTangent) &&
-                     !out.wants_curvature() && position.z != nullptr;
+  const Vectors<T>& position = out[CurveOutput::position];
+  const bool alone = !out.holds(CurveOutput::d1) && !out.holds(CurveOutput::d2) &&
+                     !out.holds(CurveOutput::tangent) && !out.wants_curvature() &&
+                     position.z != nullptr;
   if (n < kLeastRow || n > kMostRow || !alone || shape.rational || shape.cells() != 1 ||
       table.compact) {
     return false;
@@ -40,8 +41,8 @@ public:
         outputs_(plan_outputs(out, destination)), kernels_{curves, *request.table,
                                                            request.components.first, 0} {
     const std::size_t n = plan.nu();
-    const bool one_pass = out.wants(kCurvePosition) && !out.wants(kCurveD1) &&
-                          !out.wants(kCurveD2) && !out.wants_curvature();
+    const bool one_pass = out.holds(CurveOutput::position) && !out.holds(CurveOutput::d1) &&
+                          !out.holds(CurveOutput::d2) && !out.wants_curvature();
     outputs_.put_directly({.row = one_pass ? n : 0,
                            .lanes = kernels_.table.lanes,
                            .streamed = kernels_.table.lanes * sizeof(T) == 64});

@@ -65,7 +65,7 @@ void PieceEvaluator<T>::fill(Prepared& prepared, const PatchStorage<T>& set,
   task.nu = plan.nu();
   task.runs = prepared.runs;
   task.run_count = prepared.run_count;
-  for (std::size_t g = 0; g < kGroups; ++g) {
+  for (std::size_t g = 0; g < kVectorOutputs; ++g) {
     task.out[g] = to.planes[g];
   }
   std::copy_n(to.curvature, kCurvatures, task.curvature);
@@ -105,7 +105,7 @@ void PieceEvaluator<T>::run_mixed(const GridPlan<T>& plan, const GridPiece& piec
            places[last].index == places[k].index + (last - k)) {
       ++last;
     }
-    Planes<T> planes[kGroups];
+    Planes<T> planes[kVectorOutputs];
     const Target part = to.from(k * patch_samples, planes);
     run_bucket(kernels_.set->buckets[places[k].bucket], plan,
                {places[k].index, last - k, piece.first_row, piece.last_row}, part, nullptr);

@@ -32,7 +32,7 @@ public:
 
   /// Where a piece goes: planes that begin with its first sample.
   struct Target {
-    const Planes<T>* planes = nullptr; ///< kGroups
+    const Planes<T>* planes = nullptr; ///< of every vector output
     SampleStatus* status = nullptr;    ///< may be null
     T* curvature[kCurvatures] = {};    ///< may be null
     DrainQueue<T>* drain = nullptr;    ///< may be null
@@ -51,9 +51,10 @@ public:
     }
     /// The rest of the piece from one of its samples on, for patches that are no longer staged
     /// together; its planes are formed in `memory`.
-    [[nodiscard]] Target from(std::size_t sample, Planes<T> (&memory)[kGroups]) const noexcept {
+    [[nodiscard]] Target from(std::size_t sample,
+                              Planes<T> (&memory)[kVectorOutputs]) const noexcept {
       Target rest = *this;
-      for (std::size_t g = 0; g < kGroups; ++g) {
+      for (std::size_t g = 0; g < kVectorOutputs; ++g) {
         for (std::size_t c = 0; c < 3; ++c) {
           T* const plane = planes[g].component[c];
           memory[g].component[c] = plane == nullptr ? nullptr : plane + sample;

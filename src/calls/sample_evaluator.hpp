@@ -23,7 +23,8 @@ struct SamplePiece {
   Parameters parameters;
 };
 
-/// Where they go: unit-stride planes that begin with the piece's first sample, kGroups of them.
+/// Where they go: unit-stride planes of every vector output, which begin with the piece's first
+/// sample.
 template <typename T>
 struct SampleTarget {
   const Planes<T>* planes;
@@ -89,7 +90,7 @@ private:
     task.prefetch = patches.count > second_level_cache() / (kCoefficients * sizeof(T));
     task.resolve_normal = resolve_normal<T>;
     task.watertight = kernels_.watertight;
-    for (std::size_t g = 0; g < kGroups; ++g) {
+    for (std::size_t g = 0; g < kVectorOutputs; ++g) {
       for (std::size_t c = 0; c < 3; ++c) {
         T* const plane = to.planes[g].component[c];
         task.out[g].component[c] = plane == nullptr ? nullptr : plane + at;

@@ -23,7 +23,11 @@ public:
 
   void begin(std::size_t vertex, VertexTarget<T>& to) noexcept {
     const Planes<T>* const planes = delivery_.begin(vertex - first_vertex_);
-    to = {planes[kPositionGroup], planes[kNormalGroup], plan_.record(), vertex, parameters_,
+    to = {planes[output_index(Output::position)],
+          planes[output_index(Output::normal)],
+          plan_.record(),
+          vertex,
+          parameters_,
           first_vertex_};
   }
   void end(std::size_t vertices) noexcept { delivery_.end(vertices); }
@@ -93,7 +97,7 @@ private:
 /// The values of single components, each in memory of its own.
 template <typename T>
 struct SinglePlanes {
-  Vectors<T> plane[kGroups];
+  Vectors<T> plane[kVectorOutputs];
   std::size_t count = 0;
 
   void add(const Vectors<T>& group) noexcept {

@@ -153,8 +153,8 @@ private:
     task.origins =
         bucket.origins == nullptr ? nullptr : bucket.origins + place.index * shape.origins();
     task.normal_floor = bucket.normal_floor + place.index * shape.floors();
-    task.out[kPositionGroup] = to.position;
-    task.out[kNormalGroup] = to.normal;
+    task.out[output_index(Output::position)] = to.position;
+    task.out[output_index(Output::normal)] = to.normal;
   }
 
   const PatchKernels<T>& kernels_;

@@ -25,8 +25,8 @@ public:
   Delivery(const OutputPlan<T>& plan, const KernelTable<T>& table, std::size_t samples,
            void* scratch) noexcept;
 
-  /// Where the kernel is to put a chunk whose first sample has the caller's index `sample`: kGroups
-  /// of planes, null where not wanted, until end().
+  /// Where the kernel is to put a chunk whose first sample has the caller's index `sample`: the
+  /// planes of each vector output, null where not wanted, until end().
   const Planes<T>* begin(std::size_t sample) noexcept;
   /// The planes of the chunk after it, where all planes are staged.
   [[nodiscard]] const Planes<T>* next() const noexcept { return planes_[1 - buffer_]; }
@@ -60,7 +60,7 @@ private:
   std::size_t buffer_ = 0;
   std::size_t expected_ = kNone; ///< sample with which a chunk that continues this one begins
   State state_[kMostMembers];    ///< written once there is a chunk
-  Planes<T> planes_[2][kGroups];
+  Planes<T> planes_[2][kVectorOutputs];
   DrainQueue<T> queue_;
 };
 

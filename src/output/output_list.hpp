@@ -14,16 +14,10 @@
 
 namespace simdbezier::detail {
 
-// The public enumerations number the planes of tasks.
-static_assert(kGroups == kVectorOutputs && kNormalGroup == static_cast<int>(Output::normal) &&
-              kDuuGroup == static_cast<int>(Output::duu));
-static_assert(kCurveGroups == kCurveVectorOutputs &&
-              kCurveTangent == static_cast<int>(CurveOutput::tangent));
-
 /// References to the caller's Outputs or CurveOutputs, which must live as long.
 template <typename T>
 struct OutputList {
-  const Vectors<T>* vectors[kGroups]; ///< by Output or by CurveOutput
+  const Vectors<T>* vectors[kVectorOutputs]; ///< by Output or by CurveOutput
   std::size_t vector_count;
   const Values<T>* curvature[kCurvatures]; ///< in the order of the tasks
   std::size_t curvature_count;
@@ -46,7 +40,7 @@ struct OutputList {
     }
     note_wishes();
   }
-  /// Some vectors alone, at most kGroups.
+  /// Some vectors alone, at most kVectorOutputs of them.
   OutputList(const Vectors<T>* first, std::size_t count) noexcept
       : vectors{}, vector_count(count), curvature{}, curvature_count(0), status(nullptr) {
     for (std::size_t k = 0; k < count; ++k) {
@@ -67,6 +61,12 @@ struct OutputList {
   /// Whether an output of patches is wanted, as OutputSelection has it.
   [[nodiscard]] bool holds(Output output) const noexcept {
     return output == Output::curvature ? wants_curvature_ : wants(static_cast<std::size_t>(output));
+  }
+  [[nodiscard]] bool holds(CurveOutput output) const noexcept {
+    return wants(static_cast<std::size_t>(output));
+  }
+  [[nodiscard]] const Vectors<T>& operator[](CurveOutput output) const noexcept {
+    return *vectors[static_cast<std::size_t>(output)];
   }
   [[nodiscard]] bool wants_vectors() const noexcept { return wanted_ != 0; }
   [[nodiscard]] bool wants_curvature() const noexcept { return wants_curvature_; }

@@ -52,9 +52,9 @@ OutputPlan<T>::OutputPlan(const OutputList<T>& out, Destination destination) noe
 template <typename T>
 void OutputPlan<T>::stage() noexcept {
   std::size_t staged = 0;
-  for (std::size_t g = 0; g < kGroups; ++g) {
+  for (std::size_t g = 0; g < kVectorOutputs; ++g) {
     const bool stages = out_.wants(g) && (streaming_ || out_.vectors[g]->stride != 1);
-    staged_index_[g] = stages ? staged++ : kGroups;
+    staged_index_[g] = stages ? staged++ : kVectorOutputs;
   }
   staged_planes_ = dimension_ * staged;
   if (staged_planes_ > 0) {
@@ -93,7 +93,7 @@ template <typename T>
 void OutputPlan<T>::write_directly() noexcept {
   staged_planes_ = 0;
   streams_ = 0;
-  std::fill_n(staged_index_, kGroups, static_cast<std::size_t>(kGroups));
+  std::fill_n(staged_index_, kVectorOutputs, static_cast<std::size_t>(kVectorOutputs));
 }
 
 /// Members that lie side by side in one vertex become one stream.
@@ -102,7 +102,7 @@ void OutputPlan<T>::add_streams() noexcept {
   streams_ = 0;
   StagedColumn<T> columns[kMostMembers];
   std::size_t count = 0;
-  for (std::size_t g = 0; g < kGroups; ++g) {
+  for (std::size_t g = 0; g < kVectorOutputs; ++g) {
     if (is_staged(g)) {
       const Vectors<T>& group = *out_.vectors[g];
       std::size_t plane = dimension_ * staged_vector(g);

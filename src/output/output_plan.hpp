@@ -57,7 +57,7 @@ public:
   /// Component c of vector g is staged plane dimension() * staged_vector(g) + c, or written
   /// directly where the vector is not staged.
   [[nodiscard]] bool is_staged(std::size_t vector) const noexcept {
-    return staged_index_[vector] < kGroups;
+    return staged_index_[vector] < kVectorOutputs;
   }
   [[nodiscard]] std::size_t staged_vector(std::size_t vector) const noexcept {
     return staged_index_[vector];
@@ -75,7 +75,7 @@ private:
   std::size_t vector_values_ = 0; ///< of one sample
   std::size_t staged_planes_ = 0;
   std::size_t record_ = 1;
-  std::size_t staged_index_[kGroups];
+  std::size_t staged_index_[kVectorOutputs];
   std::size_t streams_ = 0;
   StreamShape<T> stream_[kMostMembers]; ///< the first streams_ of them are written
 };

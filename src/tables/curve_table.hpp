@@ -1,13 +1,18 @@
 // The contract between the base code and the kernels for curves.
 #pragma once
 
+#include <simdbezier/curves.hpp>
+
 #include "src/storage/curve_storage.hpp"
 #include "src/tables/kernel_table.hpp"
 
-namespace simdbezier::detail {
+namespace simdbezier {
 
-/// The vector-valued outputs of curves, in the order of CurveOutputs.
-enum CurveGroup : std::size_t { kCurvePosition, kCurveD1, kCurveD2, kCurveTangent, kCurveGroups };
+constexpr std::size_t output_index(CurveOutput output) noexcept {
+  return static_cast<std::size_t>(output);
+}
+
+namespace detail {
 
 /// A sample whose |C'|^2 did not pass the quick test.
 template <typename T>
@@ -36,8 +41,8 @@ struct CurveArrays {
   GivenPoints given;
   const T* tangent_floor;
 
-  Planes<T> out[kCurveGroups]; ///< planes of components that do not exist are null
-  T* curvature;                ///< may be null
+  Planes<T> out[kCurveVectorOutputs]; ///< planes of components that do not exist are null
+  T* curvature;                       ///< may be null
   SampleStatus* status; ///< may be null; filled beforehand, changed where a tangent is unusual
   std::size_t first_component; ///< the component that goes to component[0]
   ResolveTangent<T> resolve_tangent;
@@ -56,7 +61,7 @@ struct CurveTask : CurveArrays<T> {
   const T* x; ///< n half-centred parameters, then at least kMaxLanes more values to read
   std::size_t n;
   bool rows;            ///< positions of three components, in the caller's own layout
-  T* triples;           ///< of rows: packed x y z take the place of out[kCurvePosition]
+  T* triples;           ///< of rows: packed x y z take the place of out[CurveOutput::position]
   bool streaming;       ///< past the caches; unless `rows`, curves are whole cache lines
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see drain_some()
 };
@@ -96,4 +101,5 @@ struct CurveTable {
   CurvePackKernel<T, double> pack_f64;
 };
 
-} // namespace simdbezier::detail
+} // namespace detail
+} // namespace simdbezier

@@ -15,7 +15,7 @@ inline constexpr std::size_t kDrainStep = 64 / sizeof(T);
 template <typename T>
 inline constexpr std::size_t kDrainBurst = 32 * kDrainStep<T>;
 
-inline constexpr std::size_t kMostMembers = 3 * kGroups;
+inline constexpr std::size_t kMostMembers = 3 * kVectorOutputs;
 
 // Streaming stores leave the processor's store queue slowly, and in order. A load that needs two
 // recent stores has to wait for all stores before them, hundreds of cycles: what is written for

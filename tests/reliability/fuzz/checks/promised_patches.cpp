@@ -67,6 +67,8 @@ std::size_t promised_by_obj(std::string_view text) {
 } // namespace
 
 std::size_t promised_patches(std::string_view text, tools::PatchFormat format) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  text.remove_prefix(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
   switch (format) {
   case tools::PatchFormat::rib:
     return promised_by_rib(text);
