@@ -141,7 +141,7 @@ SIMDBEZIER_KERNEL void sweep_tile(const GridTask<T>& shared_task, const Piece& s
     piece.lead = piece.trail = false; // a constant for the compiler
   }
   if constexpr (kKnown == Known::open || kKnown == Known::nothing) {
-    piece.whole_lines = true; // likewise: no pairs of rows that share lines, to save code
+    piece.by_lines = true; // likewise: no pairs of rows that share lines, to save code
   }
   const SomeTile tile(shared_task.x, first_column, columns, is_watertight<kKnown>(shared_task));
   if constexpr (kOutputs == detail::kPositionNormal || kOutputs == detail::kAnyOutputs) {

@@ -85,7 +85,7 @@ struct RowPiece {
   RowKind lead_kind = RowKind::edge_v0;
   RowRun<T> middle{nullptr, 0, RowKind::interior}; ///< y: of RowPowers
   bool mirrored = false;                           ///< the middle is pairs of rows
-  bool whole_lines = false;                        ///< as GridTask has it
+  bool by_lines = false;                           ///< as GridTask has it
   bool trail = false;
   RowKind trail_kind = RowKind::edge_v1;
 
@@ -110,7 +110,7 @@ class RowPieces {
 public:
   explicit SIMDBEZIER_PART RowPieces(const GridTask<T>& task)
       : run_(task.runs), last_(task.runs + task.run_count), left_(run_->rows),
-        watertight_(task.watertight), whole_lines_(task.whole_lines) {}
+        watertight_(task.watertight), by_lines_(task.by_lines) {}
 
   [[nodiscard]] SIMDBEZIER_PART bool more() const { return run_ != last_; }
 
@@ -118,7 +118,7 @@ public:
   SIMDBEZIER_PART RowPiece<T> next(RowPowers<T>& powers) {
     RowPiece<T> piece;
     piece.first = row_;
-    piece.whole_lines = whole_lines_;
+    piece.by_lines = by_lines_;
     piece.lead = take_edge(piece.lead_kind);
     if (more() && !at_edge()) {
       piece.middle = {run_->y + (run_->rows - left_), 0, run_->kind};
@@ -159,7 +159,7 @@ private:
   const RowRun<T>* last_;
   std::size_t left_; ///< rows of *run_
   bool watertight_;
-  bool whole_lines_;
+  bool by_lines_;
   std::size_t row_ = 0;
 };
 
@@ -207,7 +207,7 @@ SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::s
     y += rows;
   };
   if constexpr (kOrder.pairs != RowPairs::never) {
-    if (piece.mirrored && (kOrder.pairs == RowPairs::always || !piece.whole_lines)) {
+    if (piece.mirrored && (kOrder.pairs == RowPairs::always || !piece.by_lines)) {
       RowPlace mirrored{trail.at - nu, trail.row - 1};
       for (; left >= 2 * kRows; left -= 2 * kRows) {
         pair(y, place, mirrored);

@@ -97,7 +97,7 @@ SIMDBEZIER_PART bool sweep_across_lines(const GridTask<T>& task, const RowPiece<
   constexpr bool kDerivatives = kOutputs == detail::kPositionDerivatives;
   const std::size_t nu = task.nu;
   if constexpr (kDerivatives || kOutputs == detail::kPosition) {
-    if (!task.whole_lines || task.drain != nullptr || (nu % kL == 0 && planes_begin_lines(task))) {
+    if (!task.by_lines || task.drain != nullptr || (nu % kL == 0 && planes_begin_lines(task))) {
       return false;
     }
     const AcrossPiece<T> across(piece);
@@ -126,27 +126,27 @@ SIMDBEZIER_PART bool sweep_across_lines(const GridTask<T>& task, const RowPiece<
 template <detail::OutputSet kOutputs, std::size_t... kSides, typename T>
 SIMDBEZIER_PART bool sweep_square_of(std::index_sequence<kSides...>, const GridTask<T>& task,
                                      const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
-  const auto sweep = [&]<std::size_t kSide>(
-                         std::integral_constant<std::size_t, kSide>) SIMDBEZIER_INLINE_LAMBDA {
-    if (!SquarePiece<T, kSide, false>::is(piece, task.nu)) {
-      return false;
-    }
-    const auto* const y = piece.middle.y;
-    if constexpr (kIsStream<kOutputs, kSide, T>) {
-      const bool pays = kIsStagedStream<kOutputs, kSide, T> || task.drain == nullptr;
-      if (task.whole_lines && pays && (kSide % kLanes<vec<T>> != 0 || !planes_begin_lines(task))) {
-        sweep_square<kOutputs>(task, SquarePiece<T, kSide, true>(y), patch, end);
-        return true;
-      }
-    }
-    if constexpr (kIsStraight<kOutputs, kSide>) {
-      if (kSharesLines<kOutputs, kSide, T> && task.whole_lines) {
-        return false;
-      }
-      sweep_square<kOutputs>(task, SquarePiece<T, kSide, false>(y), patch, end);
-    }
-    return kIsStraight<kOutputs, kSide>;
-  };
+  const auto sweep =
+      [&]<std::size_t kSide>(std::integral_constant<std::size_t, kSide>) SIMDBEZIER_INLINE_LAMBDA {
+        if (!SquarePiece<T, kSide, false>::is(piece, task.nu)) {
+          return false;
+        }
+        const auto* const y = piece.middle.y;
+        if constexpr (kIsStream<kOutputs, kSide, T>) {
+          const bool pays = kIsStagedStream<kOutputs, kSide, T> || task.drain == nullptr;
+          if (task.by_lines && pays && (kSide % kLanes<vec<T>> != 0 || !planes_begin_lines(task))) {
+            sweep_square<kOutputs>(task, SquarePiece<T, kSide, true>(y), patch, end);
+            return true;
+          }
+        }
+        if constexpr (kIsStraight<kOutputs, kSide>) {
+          if (kSharesLines<kOutputs, kSide, T> && task.by_lines) {
+            return false;
+          }
+          sweep_square<kOutputs>(task, SquarePiece<T, kSide, false>(y), patch, end);
+        }
+        return kIsStraight<kOutputs, kSide>;
+      };
   return (sweep(std::integral_constant<std::size_t, kSides>{}) || ...);
 }
 

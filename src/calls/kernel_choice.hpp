@@ -45,7 +45,7 @@ struct PatchKernels {
   const KernelTable<T>* table;
   KernelChoice choice;
   bool watertight;
-  bool whole_lines; ///< as GridTask has it
+  bool by_lines; ///< as GridTask has it
   std::size_t first_component;
 
   template <typename Wishes>
@@ -53,12 +53,12 @@ struct PatchKernels {
                const Options& options) noexcept
       : set(&storage), table(request.table),
         choice(out, request.components, request.table->compact), watertight(options.watertight),
-        whole_lines(splits_slowly(*request.table)), first_component(request.components.first) {}
+        by_lines(splits_slowly(*request.table)), first_component(request.components.first) {}
 
   /// Takes into account how much is written, and which way. What leaves the caches by plain stores
   /// does so in whole lines, because these are not read first.
   void expect_output(std::size_t bytes, Destination destination) noexcept {
-    whole_lines = whole_lines || (destination == Destination::cache && exceeds_caches(bytes));
+    by_lines = by_lines || (destination == Destination::cache && exceeds_caches(bytes));
   }
 
   /// What kernels write to its final place by themselves, on grids of `nu` columns or more: all of

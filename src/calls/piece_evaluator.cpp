@@ -76,7 +76,7 @@ void PieceEvaluator<T>::fill(Prepared& prepared, const PatchStorage<T>& set,
   task.prefetch =
       set.count * (set.shape.coefficients() + set.shape.edges()) * sizeof(T) > second_level_cache();
   task.streaming = to.streaming;
-  task.whole_lines = kernels_.whole_lines;
+  task.by_lines = kernels_.by_lines;
   task.watertight = kernels_.watertight;
   task.record = to.record;
   task.drain = to.drain;

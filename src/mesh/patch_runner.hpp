@@ -75,7 +75,7 @@ public:
     grid_.run_count = piece.run_count;
     grid_.patch_step = piece.rows * piece.columns;
     grid_.record = to.record;
-    grid_.whole_lines = kernels_.whole_lines;
+    grid_.by_lines = kernels_.by_lines;
     grid_.drain = to.drain;
     kernels_.run(grid_);
     executed_ = grid_.executed;

@@ -94,7 +94,7 @@ struct GridTask : SampleTask<T> {
   std::size_t run_count;
 
   bool streaming;       ///< rows are whole cache lines, to be stored past the caches
-  bool whole_lines;     ///< stores across lines are slow (src/runtime/line_costs.hpp)
+  bool by_lines;        ///< rows are stored in whole lines: see src/runtime/line_costs.hpp
   std::size_t record;   ///< values from one sample to the next: see OutputPlan::record()
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see drain_some()
 };
