@@ -1,7 +1,7 @@
 #include <tools/arguments.hpp>
 
 #include <algorithm>
-#include <array>
+#include <optional>
 #include <string_view>
 
 #include <tools/failure.hpp>

@@ -17,4 +17,12 @@ std::string in_quotes(std::string_view word) {
   return result + (word.size() > kShown ? "…'" : "'");
 }
 
+std::string alternatives(std::span<const std::string> words) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    text += (k == 0 ? "" : k + 1 == words.size() ? " or " : ", ") + words[k];
+  }
+  return text;
+}
+
 } // namespace simdbezier::tools

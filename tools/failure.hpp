@@ -1,6 +1,7 @@
 // The program's own errors on their way to main(), which prints each as one line.
 #pragma once
 
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -23,6 +24,9 @@ private:
 
 /// The word in quotes, short and printable, whatever it holds.
 [[nodiscard]] std::string in_quotes(std::string_view word);
+
+/// "obj, ply or stl".
+[[nodiscard]] std::string alternatives(std::span<const std::string> words);
 
 /// "FILE:LINE: expected …, found …".
 [[noreturn]] inline void bad_input_at(const std::string& file, std::size_t line,

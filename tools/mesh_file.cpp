@@ -75,11 +75,7 @@ std::string mesh_format_names(const std::string& prefix, bool MeshAbilities::*ab
       wanted.push_back(prefix + entry.extension);
     }
   }
-  std::string names;
-  for (std::size_t k = 0; k < wanted.size(); ++k) {
-    names += (k == 0 ? "" : k + 1 == wanted.size() ? " or " : ", ") + wanted[k];
-  }
-  return names;
+  return alternatives(wanted);
 }
 
 double largest_coordinate(const MeshBox& box) {

@@ -255,13 +255,11 @@ template PatchNets<float> PatchFile::nets<float>(std::span<const std::uint32_t>)
 template PatchNets<double> PatchFile::nets<double>(std::span<const std::uint32_t>) const;
 
 std::string patch_format_names(const std::string& prefix) {
-  std::string names;
+  std::vector<std::string> names;
   for (const Format& format : kFormats) {
-    const bool last = &format == std::end(kFormats) - 1;
-    names += names.empty() ? "" : (last ? " or " : ", ");
-    names += prefix + std::string(format.name);
+    names.push_back(prefix + std::string(format.name));
   }
-  return names;
+  return alternatives(names);
 }
 
 PatchFormat parse_patch_format(const std::string& option, const std::string& name) {

@@ -47,9 +47,8 @@ SIMDBEZIER_KERNEL void evaluate_rest(const ScatteredTask<T>& task, std::size_t f
       const bool is_second =
           output == Output::duu || output == Output::duv || output == Output::dvv;
       for (std::size_t c = 0; c < 3; ++c) {
-        if (is_second == second && task.out[output_index(output)].component[c] != nullptr) {
-          f(part.out[output_index(output)].component[c],
-            task.out[output_index(output)].component[c] + first, value[g][c]);
+        if (is_second == second && task.out[g].component[c] != nullptr) {
+          f(part.out[g].component[c], task.out[g].component[c] + first, value[g][c]);
         }
       }
     }

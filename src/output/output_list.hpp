@@ -60,13 +60,13 @@ struct OutputList {
   }
   /// Whether an output of patches is wanted, as OutputSelection has it.
   [[nodiscard]] bool holds(Output output) const noexcept {
-    return output == Output::curvature ? wants_curvature_ : wants(static_cast<std::size_t>(output));
+    return output == Output::curvature ? wants_curvature_ : wants(output_index(output));
   }
   [[nodiscard]] bool holds(CurveOutput output) const noexcept {
-    return wants(static_cast<std::size_t>(output));
+    return wants(output_index(output));
   }
   [[nodiscard]] const Vectors<T>& operator[](CurveOutput output) const noexcept {
-    return *vectors[static_cast<std::size_t>(output)];
+    return *vectors[output_index(output)];
   }
   [[nodiscard]] bool wants_vectors() const noexcept { return wanted_ != 0; }
   [[nodiscard]] bool wants_curvature() const noexcept { return wants_curvature_; }

@@ -61,7 +61,7 @@ struct CurveTask : CurveArrays<T> {
   const T* x; ///< n half-centred parameters, then at least kMaxLanes more values to read
   std::size_t n;
   bool rows;            ///< positions of three components, in the caller's own layout
-  T* triples;           ///< of rows: packed x y z take the place of out[CurveOutput::position]
+  T* triples;           ///< of rows: packed x y z take the place of planes
   bool streaming;       ///< past the caches; unless `rows`, curves are whole cache lines
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see drain_some()
 };
