@@ -1,5 +1,5 @@
 // How far the triangles of cells may be from bicubic patches: lanes are patches. The bound is that
-// of src/mesh/patch_bound.hpp; docs/tessellation.md has the proof.
+// of src/mesh/rates/patch_bound.hpp; docs/tessellation.md has the proof.
 #pragma once
 
 #include "kernels/nets/quarter_nets.hpp"

@@ -7,7 +7,7 @@
 
 #include "src/c_api/handles.hpp"
 #include "src/c_api/views.hpp"
-#include "src/mesh/formatted_columns.hpp"
+#include "src/mesh/vertices/formatted_columns.hpp"
 
 namespace simdbezier::c_api {
 namespace {

@@ -1,0 +1,22 @@
+// From rates to the numbers of vertices.
+#pragma once
+
+#include "src/mesh/layout/mesh_data.hpp"
+
+namespace simdbezier::detail {
+
+/// One value a patch, each 1 to kMostSegments.
+bool are_rates(const Topology& topology, std::span<const std::uint32_t> rates) noexcept;
+
+/// Fills a layout for rates that are_rates() accepts: ok | size_overflow.
+Status build_layout(const Topology& topology, const PatchRates& rates, MeshData& mesh);
+
+/// Numbers the vertices of a layout whose segments are known. corner_groups: of each corner of a
+/// patch the lowest one that it shares a vertex with. side_vertices, where edges are split, hold
+/// the number of a side's group at each point, and then its vertex. Returns ok | size_overflow.
+Status number_vertices(std::span<const std::uint32_t> corner_groups, MeshData& mesh);
+
+/// Adds to a complete layout what evaluation has to know beforehand.
+void measure_boundaries(MeshData& mesh);
+
+} // namespace simdbezier::detail

@@ -1,0 +1,53 @@
+// The triangles of patches, one after the other: usual ones by PlainPatch and RegularPatch, all
+// others by CellCutter.
+#pragma once
+
+#include "src/mesh/primitives/plain_patch.hpp"
+#include "src/mesh/primitives/primitive_sinks.hpp"
+#include "src/mesh/primitives/regular_patch.hpp"
+
+namespace simdbezier::detail {
+
+/// One thread's triangles.
+template <typename Index>
+class TriangleWriter {
+public:
+  /// to: where the first patch's triangles begin.
+  TriangleWriter(const MeshData& mesh, const KernelTable<float>& table, Index* to, bool streaming)
+      : mesh_(mesh), sides_(mesh), boundary_(mesh), stream_(table, to, streaming) {}
+
+  void write(std::size_t first, std::size_t last) {
+    Index* to = stream_.cursor();
+    for (std::size_t patch = first; patch < last; ++patch) {
+      const bool turned = mesh_.topology.is_turned(patch);
+      to = stream_.make_room(to);
+      to = !sides_.move_to(patch) ? write_any(patch, turned)
+           : turned               ? write_regular<true>(patch, to)
+                                  : write_regular<false>(patch, to);
+    }
+    stream_.finish(to);
+  }
+
+private:
+  template <bool kTurned>
+  Index* write_regular(std::size_t patch, Index* to) {
+    // Asked a mesh: some patches of others are plain as well, but which ones is hard to predict.
+    if (!mesh_.has_unions) {
+      return PlainPatch<Index, kTurned>(mesh_, patch, sides_).write(stream_, to);
+    }
+    return RegularPatch<Index, kTurned>(mesh_, patch, sides_).write(stream_, to);
+  }
+  Index* write_any(std::size_t patch, bool turned) {
+    boundary_.move_to(patch);
+    TriangleSink<Index> sink(stream_, turned);
+    CellCutter(mesh_, boundary_, patch).cut(sink);
+    return sink.end();
+  }
+
+  const MeshData& mesh_;
+  LinearSides sides_;
+  PatchBoundary boundary_;
+  IndexStream<Index> stream_;
+};
+
+} // namespace simdbezier::detail

@@ -1,0 +1,238 @@
+// See mesh_primitives.hpp.
+#include <simdbezier/mesh_primitives.hpp>
+
+#include <atomic>
+#include <limits>
+#include <new>
+#include <vector>
+
+#include "src/calls/call.hpp"
+#include "src/mesh/primitives/cluster_sink.hpp"
+#include "src/mesh/primitives/primitive_call.hpp"
+#include "src/mesh/primitives/primitive_sinks.hpp"
+#include "src/runtime/batch.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// Calls visit(patch, cutter, turned) for some patches, in parallel.
+template <typename Visit>
+Status for_cells(const MeshLayout& layout, std::size_t first, std::size_t patches, int threads,
+                 const Visit& visit) noexcept {
+  const MeshData& mesh = *layout.data();
+  std::atomic<bool> failed = false;
+  auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
+    try {
+      PatchBoundary boundary(mesh);
+      for (std::size_t patch = first + begin; patch < first + end; ++patch) {
+        boundary.move_to(patch);
+        visit(patch, CellCutter(mesh, boundary, patch), mesh.topology.is_turned(patch));
+      }
+    } catch (const std::bad_alloc&) {
+      failed = true;
+    }
+  };
+  for_blocks(patches, thread_count(threads, patches), BlockBody(body));
+  return failed ? Status::out_of_memory : Status::ok;
+}
+template <typename Visit>
+Status for_cells(const MeshLayout& layout, int threads, const Visit& visit) noexcept {
+  return for_cells(layout, 0, layout.data()->patches(), threads, visit);
+}
+
+/// The running sums of patches' sizes: sizes[k] is what stands before the k-th, the last one all.
+template <typename Size, typename Count, typename Add>
+Status sum_sizes(const MeshLayout& layout, const PatchRange& patches, int threads,
+                 std::vector<Size>& sizes, const Count& count, const Add& add) {
+  sizes.assign(patches.count + 1, Size{});
+  if (patches.count == 0) {
+    return Status::ok;
+  }
+  const Status status = for_cells(layout, patches.first, patches.count, threads,
+                                  [&](std::size_t patch, const CellCutter& cells, bool turned) {
+                                    sizes[patch - patches.first + 1] = count(patch, cells, turned);
+                                  });
+  for (std::size_t k = 1; k < sizes.size(); ++k) {
+    add(sizes[k - 1], sizes[k]);
+  }
+  return status;
+}
+
+template <typename Size, typename Count, typename Add>
+Status sum_sizes(const MeshLayout& layout, int threads, std::vector<Size>& sizes,
+                 const Count& count, const Add& add) {
+  PatchRange all;
+  static_cast<void>(all.resolve(layout, {}));
+  return sum_sizes(layout, all, threads, sizes, count, add);
+}
+
+Status polygon_sizes(const MeshLayout& layout, const PatchRange& patches, int threads,
+                     std::vector<PolygonSize>& sizes) {
+  return sum_sizes(
+      layout, patches, threads, sizes,
+      [](std::size_t, const CellCutter& cells, bool turned) {
+        PolygonSink<std::uint32_t> sink(nullptr, nullptr, turned);
+        cells.cut(sink);
+        return PolygonSize{sink.polygons(), sink.indices()};
+      },
+      [](const PolygonSize& before, PolygonSize& sum) {
+        sum.polygons += before.polygons;
+        sum.indices += before.indices;
+      });
+}
+
+Status strip_sizes(const MeshLayout& layout, int threads, std::vector<std::size_t>& sizes) {
+  return sum_sizes(
+      layout, threads, sizes,
+      [](std::size_t, const CellCutter& cells, bool turned) {
+        StripSink<std::uint32_t> sink(nullptr, turned);
+        cells.cut(sink);
+        sink.end_strip();
+        return sink.indices();
+      },
+      [](std::size_t before, std::size_t& sum) { sum += before; });
+}
+
+constexpr std::uint32_t kClusterWidth = 8;
+
+Status cluster_sizes(const MeshLayout& layout, int threads, std::vector<ClusterSize>& sizes) {
+  return sum_sizes(
+      layout, threads, sizes,
+      [](std::size_t patch, const CellCutter& cells, bool turned) {
+        ClusterSink sink(nullptr, {}, static_cast<std::uint32_t>(patch), turned);
+        cells.cut_in_bands(kClusterWidth, sink);
+        sink.end_cluster();
+        return sink.size();
+      },
+      [](const ClusterSize& before, ClusterSize& sum) {
+        sum.clusters += before.clusters;
+        sum.vertices += before.vertices;
+        sum.triangles += before.triangles;
+      });
+}
+
+} // namespace
+} // namespace detail
+
+Status polygon_size(const MeshLayout& layout, PolygonSize& size, int threads,
+                    SetRange patches) noexcept try {
+  detail::PatchRange range;
+  if (!range.resolve(layout, patches)) {
+    return Status::bad_patch_range;
+  }
+  std::vector<PolygonSize> sizes;
+  const Status status = detail::polygon_sizes(layout, range, threads, sizes);
+  size = status == Status::ok ? sizes.back() : size;
+  return status;
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+template <typename Index>
+Status write_polygons(const MeshLayout& layout, std::span<Index> indices,
+                      std::span<std::uint8_t> sizes, int threads, SetRange patches) noexcept try {
+  detail::PatchRange range;
+  if (!range.resolve(layout, patches)) {
+    return Status::bad_patch_range;
+  }
+  std::vector<PolygonSize> before;
+  Status status = detail::polygon_sizes(layout, range, threads, before);
+  if (status == Status::ok) {
+    status = detail::check_indices<Index>(layout, indices, before.back().indices);
+  }
+  if (status == Status::ok && sizes.size() < before.back().polygons) {
+    status = sizes.data() == nullptr ? Status::null_output : Status::output_too_small;
+  }
+  if (status != Status::ok || before.back().polygons == 0) {
+    return status;
+  }
+  return detail::for_cells(layout, range.first, range.count, threads,
+                           [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
+                             const PolygonSize& place = before[patch - range.first];
+                             detail::PolygonSink<Index> sink(indices.data() + place.indices,
+                                                             sizes.data() + place.polygons, turned);
+                             cells.cut(sink);
+                           });
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+Status strip_size(const MeshLayout& layout, std::size_t& indices, int threads) noexcept try {
+  std::vector<std::size_t> sizes;
+  const Status status = detail::strip_sizes(layout, threads, sizes);
+  indices = status == Status::ok ? sizes.back() : indices;
+  return status;
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+template <typename Index>
+Status write_strips(const MeshLayout& layout, std::span<Index> indices, int threads) noexcept try {
+  std::vector<std::size_t> before;
+  Status status = detail::strip_sizes(layout, threads, before);
+  if (status == Status::ok) {
+    status = detail::check_indices<Index>(layout, indices, before.back());
+  }
+  if (status != Status::ok || before.back() == 0) {
+    return status;
+  }
+  return detail::for_cells(layout, threads,
+                           [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
+                             detail::StripSink<Index> sink(indices.data() + before[patch], turned);
+                             cells.cut(sink);
+                             sink.end_strip();
+                           });
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+Status cluster_size(const MeshLayout& layout, ClusterSize& size, int threads) noexcept try {
+  std::vector<ClusterSize> sizes;
+  const Status status = detail::cluster_sizes(layout, threads, sizes);
+  size = status == Status::ok ? sizes.back() : size;
+  return status;
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+Status write_clusters(const MeshLayout& layout, const ClusterOutputs& out, int threads) noexcept
+    try {
+  std::vector<ClusterSize> before;
+  const Status status = detail::cluster_sizes(layout, threads, before);
+  const ClusterSize& all = before.back();
+  if (status != Status::ok || all.clusters == 0) {
+    return status;
+  }
+  if (out.clusters.data() == nullptr || out.vertices.data() == nullptr ||
+      out.corners.data() == nullptr) {
+    return Status::null_output;
+  }
+  if (out.clusters.size() < all.clusters || out.vertices.size() < all.vertices ||
+      out.corners.size() / 3 < all.triangles) {
+    return Status::output_too_small;
+  }
+  if (all.vertices > std::numeric_limits<std::uint32_t>::max() ||
+      all.triangles > std::numeric_limits<std::uint32_t>::max()) {
+    return Status::size_overflow;
+  }
+  return detail::for_cells(
+      layout, threads, [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
+        detail::ClusterSink sink(&out, before[patch], static_cast<std::uint32_t>(patch), turned);
+        cells.cut_in_bands(detail::kClusterWidth, sink);
+        sink.end_cluster();
+      });
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint32_t>,
+                                              std::span<std::uint8_t>, int, SetRange) noexcept;
+template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint16_t>,
+                                              std::span<std::uint8_t>, int, SetRange) noexcept;
+template SIMDBEZIER_API Status write_strips(const MeshLayout&, std::span<std::uint32_t>,
+                                            int) noexcept;
+template SIMDBEZIER_API Status write_strips(const MeshLayout&, std::span<std::uint16_t>,
+                                            int) noexcept;
+
+} // namespace simdbezier

@@ -1,0 +1,82 @@
+// See mesh_primitives.hpp.
+#include <simdbezier/mesh_primitives.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <new>
+
+#include "src/calls/destined_call.hpp"
+#include "src/mesh/primitives/primitive_call.hpp"
+#include "src/mesh/primitives/triangle_writer.hpp"
+#include "src/runtime/batch.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// Whether numbers go past the caches.
+bool streams_to(Destination destination, std::size_t bytes) noexcept {
+  return (destination == Destination::automatic ? unmeasured_destination(bytes) : destination) ==
+         Destination::memory;
+}
+
+/// Threads share triangles, not patches, whose rates may differ much.
+template <typename Index>
+Status write_all_triangles(const MeshData& mesh, const KernelTable<float>& table,
+                           const PatchRange& range, Index* to, int threads,
+                           bool streaming) noexcept {
+  const auto first = mesh.triangles.begin() + static_cast<std::ptrdiff_t>(range.first);
+  const auto last = first + static_cast<std::ptrdiff_t>(range.count);
+  const std::size_t before = *first;
+  const std::size_t triangles = *last - before;
+  std::atomic<bool> failed = false;
+  auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
+    try {
+      const auto patch_of = [&](std::size_t triangle) {
+        return static_cast<std::size_t>(std::lower_bound(first, last, before + triangle) -
+                                        mesh.triangles.begin());
+      };
+      const std::size_t patch = patch_of(begin);
+      std::make_unique<TriangleWriter<Index>>(mesh, table,
+                                              to + 3 * (mesh.triangles[patch] - before), streaming)
+          ->write(patch, patch_of(end));
+    } catch (const std::bad_alloc&) {
+      failed = true;
+    }
+  };
+  for_blocks(triangles, thread_count(threads, triangles), BlockBody(body));
+  return failed ? Status::out_of_memory : Status::ok;
+}
+
+} // namespace
+} // namespace detail
+
+template <typename Index>
+Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, int threads,
+                       SetRange patches, Destination destination) noexcept {
+  detail::PatchRange range;
+  if (!range.resolve(layout, patches)) {
+    return Status::bad_patch_range;
+  }
+  const std::size_t before = layout.first_triangle(range.first);
+  const std::size_t needed = 3 * (layout.first_triangle(range.first + range.count) - before);
+  const Status status = detail::check_indices<Index>(layout, triangles, needed);
+  if (status != Status::ok || needed == 0) {
+    return status;
+  }
+  Isa isa = Isa::automatic;
+  if (const Status runs = resolve_isa(Isa::automatic, isa); !runs) {
+    return runs;
+  }
+  return detail::write_all_triangles(*layout.data(), detail::kernel_table<float>(isa), range,
+                                     triangles.data(), threads,
+                                     detail::streams_to(destination, needed * sizeof(Index)));
+}
+
+template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint32_t>, int,
+                                               SetRange, Destination) noexcept;
+template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint16_t>, int,
+                                               SetRange, Destination) noexcept;
+
+} // namespace simdbezier

@@ -1,0 +1,91 @@
+// See rates.hpp.
+#include <simdbezier/rates.hpp>
+
+#include <atomic>
+#include <new>
+
+#include "src/mesh/rates/patch_bound.hpp"
+#include "src/nets/net_call.hpp"
+#include "src/runtime/batch.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// All patches of one view.
+template <typename S>
+RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::span<double> deviation,
+                   int threads) noexcept {
+  if (const Status status = check_in_space(nets); !status) {
+    return {status};
+  }
+  if (const NetReport checked = find_fault(nets, threads); !checked) {
+    return {checked.status, checked.patch};
+  }
+  std::atomic<bool> failed = false;
+  std::atomic<std::size_t> unreadable = nets.count; // the first patch that is
+  auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
+    try {
+      PatchBound bound;
+      for (std::size_t patch = begin; patch < end; ++patch) {
+        if (bound.read(nets, patch, 0)) {
+          deviation[patch] += bound.rising_bound(cells);
+        } else { // a quotient of values without faults is out of range
+          lower(unreadable, patch);
+        }
+      }
+    } catch (const std::bad_alloc&) {
+      failed = true;
+    }
+  };
+  for_blocks(nets.count, thread_count(threads, nets.count), BlockBody(body));
+  if (failed) {
+    return {Status::out_of_memory};
+  }
+  if (const std::size_t patch = unreadable; patch < nets.count) {
+    return {Status::non_finite_input, patch};
+  }
+  return {};
+}
+
+} // namespace
+} // namespace detail
+
+template <typename S>
+RateReport certify_grids(std::span<const ControlNets<S>> sets, std::uint32_t nu, std::uint32_t nv,
+                         std::span<const double> errors, std::span<double> deviation,
+                         int threads) noexcept {
+  const std::size_t patches = detail::patches_of(sets);
+  const auto is_rate = [](std::uint32_t n) { return n >= 1 && n <= kMostGridCells; };
+  if (!is_rate(nu) || !is_rate(nv) || deviation.size() != patches ||
+      !(errors.empty() || errors.size() == patches)) {
+    return {Status::bad_rates};
+  }
+  for (std::size_t patch = 0; patch < patches; ++patch) {
+    deviation[patch] = errors.empty() ? 0 : errors[patch];
+    if (!(deviation[patch] >= 0)) {
+      return {Status::bad_tolerance, patch};
+    }
+  }
+  std::size_t first = 0;
+  for (const ControlNets<S>& nets : sets) {
+    RateReport report =
+        detail::certify(nets, {nu, nv}, deviation.subspan(first, nets.count), threads);
+    if (!report) {
+      report.patch += first;
+      return report;
+    }
+    first += nets.count;
+  }
+  return {};
+}
+
+template SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<float>>, std::uint32_t,
+                                                 std::uint32_t, std::span<const double>,
+                                                 std::span<double>, int) noexcept;
+template SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<double>>,
+                                                 std::uint32_t, std::uint32_t,
+                                                 std::span<const double>, std::span<double>,
+                                                 int) noexcept;
+
+} // namespace simdbezier

@@ -1,0 +1,254 @@
+// See flatten.hpp.
+#include <simdbezier/flatten.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/calls/curve_input.hpp"
+#include "src/mesh/rates/chord_bound.hpp"
+#include "src/runtime/attempt.hpp"
+#include "src/runtime/fp_environment.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// One curve's control points around the middle of their box, weighted where it is rational, in
+/// double.
+class CurveBound {
+public:
+  /// The first value that is at fault: ok | non_finite_input | bad_weight.
+  template <typename S>
+  Status read(const ControlCurves<S>& curves, std::size_t curve) {
+    points_ = static_cast<std::size_t>(curves.degree) + 1;
+    components_ = static_cast<std::size_t>(curves.components);
+    rational_ = curves.weights != Weights::none;
+    divided_ = curves.weights == Weights::homogeneous;
+    const S* const from = curves.points + static_cast<std::ptrdiff_t>(curve) * curves.curve_stride;
+    for (std::size_t i = 0; i < points_; ++i) {
+      const S* const at = from + static_cast<std::ptrdiff_t>(i) * curves.point_stride;
+      const auto value = [&](std::size_t c) {
+        return static_cast<double>(at[static_cast<std::ptrdiff_t>(c) * curves.component_stride]);
+      };
+      weight_[i] = rational_ ? value(components_) : 1;
+      if (!std::isfinite(weight_[i]) || !(weight_[i] > 0)) {
+        return Status::bad_weight;
+      }
+      const double divisor = divided_ ? weight_[i] : 1;
+      for (std::size_t c = 0; c < components_; ++c) {
+        point_[i][c] = value(c) / divisor;
+        if (!std::isfinite(point_[i][c])) {
+          return Status::non_finite_input;
+        }
+      }
+    }
+    scale();
+    centre();
+    return Status::ok;
+  }
+
+  /// A bound on |C''|, or on what takes its place for rational curves.
+  [[nodiscard]] double second() const {
+    double most = 0;
+    for (std::size_t i = 0; i + 2 < points_; ++i) {
+      double square = 0;
+      for (std::size_t c = 0; c < components_; ++c) {
+        const double d =
+            (weighted(i + 2, c) - weighted(i + 1, c)) - (weighted(i + 1, c) - weighted(i, c));
+        square += d * d;
+      }
+      const double w = (weight_[i + 2] - weight_[i + 1]) - (weight_[i + 1] - weight_[i]);
+      most = larger_bound(most, std::sqrt(square) + radius_ * std::fabs(w));
+    }
+    // Values around the middle err by a few u of the box, and divided ones by u of their own size;
+    // a second difference has four of them.
+    const double heaviest = *std::max_element(weight_, weight_ + points_);
+    const double lightest = *std::min_element(weight_, weight_ + points_);
+    const double doubt = 32 * 0x1p-53 * (radius_ + size_) * heaviest;
+    const auto n = static_cast<double>(points_ - 1);
+    if (points_ < 3) {
+      return 0;
+    }
+    const double all = n * (n - 1) * (most + doubt) / lightest * (1 + 1e-12);
+    return std::scalbn(larger_bound(0, all), exponent_) + std::numeric_limits<double>::denorm_min();
+  }
+
+private:
+  [[nodiscard]] double weighted(std::size_t i, std::size_t c) const {
+    return weight_[i] * point_[i][c];
+  }
+  /// Divides by the powers of two that bring the largest value and the largest weight between 1 and
+  /// 2, so that squares neither overflow nor vanish.
+  void scale() {
+    double largest = 0;
+    for (std::size_t i = 0; i < points_; ++i) {
+      for (std::size_t c = 0; c < components_; ++c) {
+        largest = std::max(largest, std::fabs(point_[i][c]));
+      }
+    }
+    exponent_ = largest > 0 ? std::ilogb(largest) : 0;
+    const int weight_exponent = std::ilogb(*std::max_element(weight_, weight_ + points_));
+    for (std::size_t i = 0; i < points_; ++i) {
+      weight_[i] = std::scalbn(weight_[i], -weight_exponent);
+      for (std::size_t c = 0; c < components_; ++c) {
+        point_[i][c] = std::scalbn(point_[i][c], -exponent_);
+      }
+    }
+  }
+  void centre() {
+    double square = 0;
+    size_ = 0;
+    for (std::size_t c = 0; c < components_; ++c) {
+      double low = point_[0][c];
+      double high = low;
+      for (std::size_t i = 1; i < points_; ++i) {
+        low = std::min(low, point_[i][c]);
+        high = std::max(high, point_[i][c]);
+      }
+      const double middle = low + (high - low) / 2;
+      size_ = divided_ ? std::max({size_, std::fabs(low), std::fabs(high)}) : 0;
+      for (std::size_t i = 0; i < points_; ++i) {
+        point_[i][c] -= middle;
+      }
+      const double half = std::max(high - middle, middle - low); // the middle is rounded
+      square += half * half;
+    }
+    radius_ = std::sqrt(square) * (1 + 1e-12);
+  }
+
+  std::size_t points_ = 0;
+  std::size_t components_ = 0;
+  bool rational_ = false;
+  bool divided_ = false;
+  int exponent_ = 0;
+  double point_[kMostDegree + 1][kMostComponents];
+  double weight_[kMostDegree + 1];
+  double radius_ = 0; ///< no point is farther from the middle of the box
+  double size_ = 0;   ///< the largest value that a division has rounded
+};
+
+/// The bound for n segments; uniform parameters in single precision are uneven by rounding.
+double bound_of(double second, double n) {
+  const double step = step_slack(n) / n;
+  return second * step * step / 8;
+}
+
+/// Points of a polyline; 0 where `most` are not enough.
+std::uint32_t points_for(double second, double t, std::uint32_t most) {
+  double n = std::max(1.0, std::ceil(std::sqrt(second / (8 * t))));
+  while (n < most && !(bound_of(second, n) <= t)) {
+    ++n;
+  }
+  return n < most ? static_cast<std::uint32_t>(n) + 1 : 0;
+}
+
+Status check_lengths(std::size_t curves, const FlattenOptions& options, std::size_t points,
+                     std::size_t deviation) {
+  const auto fits = [&](std::size_t size) { return size == 0 || size == curves; };
+  const bool all = points == curves && fits(deviation) && fits(options.tolerances.size()) &&
+                   fits(options.errors.size());
+  return all ? Status::ok : Status::unequal_lengths;
+}
+
+template <typename T, typename S>
+Status flatten_into(const ControlCurves<S>& curves, double tolerance, const Options& options,
+                    Polylines<T>& lines) {
+  CurveSet<T> set;
+  PackOptions how;
+  how.threads = options.threads;
+  how.isa = options.isa;
+  if (const PackReport packed = pack(curves, set, how); !packed) {
+    lines.fault_curve = packed.patch;
+    return packed.status;
+  }
+  if (curves.components > 3) {
+    return Status::bad_components;
+  }
+  std::vector<double> errors(set.size());
+  std::vector<double> deviation(set.size());
+  std::vector<std::uint32_t> points(set.size());
+  Status status = position_errors(set, std::span<double>(errors), options.isa);
+  const FlattenReport report = choose_polylines(curves, {tolerance, {}, errors}, points, deviation);
+  if (!status || !report) {
+    lines.fault_curve = report.curve;
+    return status ? report.status : status;
+  }
+  lines.first.push_back(0);
+  for (const std::uint32_t n : points) {
+    lines.first.push_back(lines.first.back() + n);
+  }
+  if (set.empty()) {
+    return Status::ok;
+  }
+  lines.deviation = *std::max_element(deviation.begin(), deviation.end());
+  lines.points.resize(lines.first.back());
+  CurveOutputs<T> out;
+  out.position = Vectors<T>::xyz(lines.points);
+  out.position.z = curves.components < 3 ? nullptr : out.position.z;
+  out.position.y = curves.components < 2 ? nullptr : out.position.y;
+  return evaluate(set, CurveGrids{points}, out, options);
+}
+
+} // namespace
+} // namespace detail
+
+template <typename S>
+FlattenReport choose_polylines(const ControlCurves<S>& curves, const FlattenOptions& options,
+                               std::span<std::uint32_t> points,
+                               std::span<double> deviation) noexcept {
+  if (const Status status = detail::check_curves(curves); !status) {
+    return {status};
+  }
+  if (const Status status =
+          detail::check_lengths(curves.count, options, points.size(), deviation.size());
+      !status) {
+    return {status};
+  }
+  const detail::DefaultFpEnvironment environment;
+  detail::CurveBound bound;
+  for (std::size_t curve = 0; curve < curves.count; ++curve) {
+    if (const Status status = bound.read(curves, curve); !status) {
+      return {status, curve};
+    }
+    const double wanted =
+        options.tolerances.empty() ? options.tolerance : options.tolerances[curve];
+    const double error = options.errors.empty() ? 0 : options.errors[curve];
+    // Less one rounding, so that bound and error together stay below what was wanted.
+    const double t = wanted * (1 - 0x1p-51) - error;
+    const double second = bound.second();
+    const bool possible = t > 0 && error >= 0;
+    const std::uint32_t count = possible ? detail::points_for(second, t, options.most_points) : 0;
+    if (count == 0) {
+      return {Status::bad_tolerance, curve};
+    }
+    points[curve] = count;
+    if (!deviation.empty()) {
+      deviation[curve] = detail::bound_of(second, count - 1) + error;
+    }
+  }
+  return {};
+}
+
+template <typename T, typename S>
+Polylines<T> flatten(const ControlCurves<S>& curves, double tolerance,
+                     const Options& options) noexcept {
+  const detail::DefaultFpEnvironment environment;
+  return detail::attempt(&Polylines<T>::fault_curve, [&](Polylines<T>& lines) {
+    return detail::flatten_into(curves, tolerance, options, lines);
+  });
+}
+
+#define SIMDBEZIER_INSTANTIATE(S)                                                                  \
+  template SIMDBEZIER_API FlattenReport choose_polylines(                                          \
+      const ControlCurves<S>&, const FlattenOptions&, std::span<std::uint32_t>,                    \
+      std::span<double>) noexcept;                                                                 \
+  template SIMDBEZIER_API Polylines<float> flatten(const ControlCurves<S>&, double,                \
+                                                   const Options&) noexcept;                       \
+  template SIMDBEZIER_API Polylines<double> flatten(const ControlCurves<S>&, double,               \
+                                                    const Options&) noexcept;
+SIMDBEZIER_INSTANTIATE(float)
+SIMDBEZIER_INSTANTIATE(double)
+#undef SIMDBEZIER_INSTANTIATE
+
+} // namespace simdbezier

@@ -1,0 +1,66 @@
+// See patch_bound.hpp: how far the normals of a control net turn.
+//
+// In every cell of the net, the cross products of its sides are the normals that the surface would
+// have if each cell were a bilinear patch. The angles between each normal and the next one are
+// added up along rows, and along columns.
+#include <cmath>
+
+#include "src/mesh/net_points.hpp"
+#include "src/mesh/rates/patch_bound.hpp"
+
+namespace simdbezier::detail {
+namespace {
+
+/// Angles between vectors that follow each other; those without a direction are passed over.
+class TurnSum {
+public:
+  void add(const Point3& next) {
+    if (!(dot(next, next) > 0)) {
+      return;
+    }
+    const Point3 n = cross(last_, next);
+    sum_ += std::atan2(std::sqrt(dot(n, n)), dot(last_, next));
+    last_ = next;
+  }
+  [[nodiscard]] double sum() const { return sum_; }
+
+private:
+  Point3 last_{};
+  double sum_ = 0;
+};
+
+} // namespace
+
+std::array<double, 2> PatchBound::normal_turns() const {
+  const auto difference = [&](std::size_t i, std::size_t j, std::size_t to_i, std::size_t to_j) {
+    const ControlVector& a = patch_.net(i, j);
+    const ControlVector& b = patch_.net(to_i, to_j);
+    Point3 d;
+    for (std::size_t c = 0; c < 3; ++c) {
+      d.x[c] = patch_.rational ? b.x[c] / b.x[3] - a.x[c] / a.x[3] : b.x[c] - a.x[c];
+    }
+    return d;
+  };
+  const std::size_t sizes[2] = {patch_.net.columns, patch_.net.rows};
+  std::array<double, 2> turns{};
+  for (std::size_t along = 0; along < 2; ++along) {
+    // (s, t): s along, t across; that normals of columns point the other way changes no angle.
+    const auto leg = [&](std::size_t s, std::size_t t, std::size_t to_s, std::size_t to_t) {
+      return along == 0 ? difference(s, t, to_s, to_t) : difference(t, s, to_t, to_s);
+    };
+    for (std::size_t t = 0; t + 1 < sizes[1 - along]; ++t) {
+      for (const std::size_t row : {t, t + 1}) {
+        TurnSum sum;
+        for (std::size_t s = 0; s + 1 < sizes[along]; ++s) {
+          const Point3 forward = leg(s, row, s + 1, row);
+          sum.add(cross(forward, leg(s, t, s, t + 1)));
+          sum.add(cross(forward, leg(s + 1, t, s + 1, t + 1)));
+        }
+        turns[along] = std::max(turns[along], sum.sum());
+      }
+    }
+  }
+  return turns;
+}
+
+} // namespace simdbezier::detail

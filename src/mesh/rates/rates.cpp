@@ -1,0 +1,114 @@
+// See rates.hpp.
+#include <simdbezier/rates.hpp>
+
+#include <algorithm>
+#include <new>
+
+#include "src/mesh/net_points.hpp"
+#include "src/mesh/rates/rate_call.hpp"
+#include "src/runtime/fp_environment.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+template <typename S>
+RateReport check(std::span<const ControlNets<S>> sets, const Topology& topology,
+                 std::span<const double> errors, const CertifiedRates& out) noexcept {
+  std::size_t patches = 0;
+  for (const ControlNets<S>& nets : sets) {
+    if (const Status status = check_in_space(nets); !status) {
+      return {status, patches};
+    }
+    patches += nets.count;
+  }
+  const std::size_t joined = topology.counts().patches;
+  const auto fits = [&](std::size_t size) { return size == patches; };
+  if (joined != patches || !fits(out.nu.size()) || !fits(out.nv.size()) ||
+      !fits(out.diagonals.size()) || !(out.deviation.empty() || fits(out.deviation.size())) ||
+      !(errors.empty() || fits(errors.size()))) {
+    return {Status::bad_rates};
+  }
+  for (std::size_t patch = 0; patch < errors.size(); ++patch) {
+    if (!(errors[patch] >= 0)) {
+      return {Status::bad_tolerance, patch};
+    }
+  }
+  return {};
+}
+
+} // namespace
+} // namespace detail
+
+template <typename S>
+RateReport certify_rates(std::span<const ControlNets<S>> sets, const Topology& topology,
+                         std::span<const double> errors, const CertifiedRates& rates,
+                         int threads) noexcept try {
+  const detail::DefaultFpEnvironment environment;
+  const RateReport checked = detail::check(sets, topology, errors, rates);
+  if (!checked || rates.nu.empty()) {
+    return checked;
+  }
+  RateOptions options;
+  options.errors = errors;
+  options.tolerance = kUnlimited; // whatever the certificate is, it is what was asked for
+  options.threads = threads;
+  return detail::RateCall<S>(sets, topology, options, rates).certify_given();
+} catch (const std::bad_alloc&) {
+  return {Status::out_of_memory};
+}
+
+template <typename S>
+RateReport choose_rates(std::span<const ControlNets<S>> sets, const Topology& topology,
+                        const RateOptions& options, const CertifiedRates& out) noexcept try {
+  const detail::DefaultFpEnvironment environment;
+  const RateReport checked = detail::check(sets, topology, options.errors, out);
+  if (!checked || out.nu.empty()) {
+    return checked;
+  }
+  if (!options.tolerances.empty() && options.tolerances.size() != out.nu.size()) {
+    return {Status::bad_rates};
+  }
+  if (!(options.longest_edge > 0) || !(options.normal_angle > 0)) {
+    return {Status::bad_tolerance};
+  }
+  detail::RateCall<S> call(sets, topology, options, out);
+  RateReport report = call.choose();
+  // Raising the rates of one patch can make its edges coincide with others, or raise its bound.
+  bool settled = true;
+  for (bool changed = true; report && changed;) {
+    std::size_t raised = 0;
+    report.status = separate_vertices(topology, out.nu, out.nv, raised);
+    changed = false;
+    if (report && raised > 0) {
+      report = call.settle(changed);
+    }
+    settled = settled && !changed;
+  }
+  for (std::size_t patch = 0; report && patch < out.nu.size(); ++patch) {
+    if (std::max(out.nu[patch], out.nv[patch]) > options.most_segments) {
+      return {Status::bad_tolerance, patch};
+    }
+  }
+  if (report && !settled) {
+    return call.certify();
+  }
+  return report;
+} catch (const std::bad_alloc&) {
+  return {Status::out_of_memory};
+}
+
+template SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<float>>,
+                                                const Topology&, const RateOptions&,
+                                                const CertifiedRates&) noexcept;
+template SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<double>>,
+                                                const Topology&, const RateOptions&,
+                                                const CertifiedRates&) noexcept;
+template SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<float>>,
+                                                 const Topology&, std::span<const double>,
+                                                 const CertifiedRates&, int) noexcept;
+template SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<double>>,
+                                                 const Topology&, std::span<const double>,
+                                                 const CertifiedRates&, int) noexcept;
+
+} // namespace simdbezier

@@ -1,0 +1,261 @@
+// See net_corners.hpp.
+#include "src/mesh/topology/net_corners.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace simdbezier::detail {
+namespace {
+
+/// The way from an end of a side, whose values begin at `end`, to its first control point that is
+/// somewhere else; `stride` leads from one to the next.
+template <typename S>
+Point3 way_along(const ControlNets<S>& nets, const S* end, std::ptrdiff_t stride, int degree) {
+  const Point3 from = point_of(nets, end);
+  Point3 way = point_of(nets, end + stride) - from;
+  for (std::ptrdiff_t k = 2; k <= degree && !has_length(way); ++k) {
+    way = point_of(nets, end + k * stride) - from;
+  }
+  return way;
+}
+
+/// Whether the next control points on two ways from `end` certainly lie in different directions.
+/// That is so in almost every corner, and cheaper to see from values as they are.
+template <typename S>
+bool certainly_part(const ControlNets<S>& nets, const S* end, std::ptrdiff_t stride_a,
+                    std::ptrdiff_t stride_b) {
+  if (nets.weights == Weights::homogeneous) {
+    return false;
+  }
+  S square_a = 0;
+  S square_b = 0;
+  S product = 0;
+  for (std::ptrdiff_t c = 0; c < 3; ++c) {
+    const S* const from = end + c * nets.component_stride;
+    const S a = from[stride_a] - *from;
+    const S b = from[stride_b] - *from;
+    square_a += a * a;
+    square_b += b * b;
+    product += a * b;
+  }
+  // Elsewhere products may vanish or overflow; differences are rounded once, wherever points are.
+  const auto is_usual = [](S square) { return square > S(0x1p-60) && square < S(0x1p60); };
+  return is_usual(square_a) && is_usual(square_b) &&
+         product * std::fabs(product) < S(0.98) * square_a * square_b;
+}
+
+/// Whether patch b read in one of eight ways has the values of patch a.
+template <typename S>
+bool same_in(const ControlNets<S>& a, std::size_t patch_a, const ControlNets<S>& b,
+             std::size_t patch_b, int way) {
+  const bool transposed = (way & 1) != 0;
+  if (a.degree_u != (transposed ? b.degree_v : b.degree_u) ||
+      a.degree_v != (transposed ? b.degree_u : b.degree_v) || a.weights != b.weights) {
+    return false;
+  }
+  const std::ptrdiff_t channels = a.components + (a.weights == Weights::none ? 0 : 1);
+  for (std::ptrdiff_t j = 0; j <= a.degree_v; ++j) {
+    for (std::ptrdiff_t i = 0; i <= a.degree_u; ++i) {
+      std::ptrdiff_t k = transposed ? j : i;
+      std::ptrdiff_t l = transposed ? i : j;
+      k = (way & 2) != 0 ? b.degree_u - k : k;
+      l = (way & 4) != 0 ? b.degree_v - l : l;
+      const S* const p = values_at(a, patch_a, i, j);
+      const S* const q = values_at(b, patch_b, k, l);
+      for (std::ptrdiff_t c = 0; c < channels; ++c) {
+        if (p[c * a.component_stride] != q[c * b.component_stride]) {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+} // namespace
+
+template <typename S>
+void NetCorners<S>::read_side(std::size_t side, SideNet& to) const {
+  const auto at = views_.place(side / kPatchEdges);
+  const ControlNets<S>& nets = *at.nets;
+  const bool in_u = runs_in_u(side);
+  const bool far = side % 2 != 0;
+  const std::ptrdiff_t degree = in_u ? nets.degree_u : nets.degree_v;
+  to.points.clear();
+  to.weights.clear();
+  for (std::ptrdiff_t k = 0; k <= degree; ++k) {
+    const std::ptrdiff_t i = in_u ? k : far ? nets.degree_u : 0;
+    const std::ptrdiff_t j = in_u ? (far ? nets.degree_v : 0) : k;
+    to.points.push_back(point_at(nets, at.patch, i, j));
+    const S* const values = values_at(nets, at.patch, i, j);
+    to.weights.push_back(
+        nets.weights == Weights::none ? 1 : static_cast<double>(values[3 * nets.component_stride]));
+  }
+}
+
+template <typename S>
+Point3 NetCorners<S>::corner_point(std::size_t corner) const noexcept {
+  const auto at = views_.place(corner / kPatchCorners);
+  return point_at(*at.nets, at.patch, corner % 2 == 0 ? 0 : at.nets->degree_u,
+                  corner % kPatchCorners < 2 ? 0 : at.nets->degree_v);
+}
+
+template <typename S>
+bool NetCorners<S>::side_within(std::size_t side, double distance) const {
+  SideNet net;
+  read_side(side, net);
+  // Both ends count, so that the sides of an edge agree whichever way they run.
+  return net.reach(net.points.front()) <= distance && net.reach(net.points.back()) <= distance;
+}
+
+template <typename S>
+bool NetCorners<S>::sides_leave_together(std::size_t patch, std::size_t corner) const noexcept {
+  const auto at = views_.place(patch);
+  const ControlNets<S>& nets = *at.nets;
+  const bool at_u1 = corner % 2 != 0;
+  const bool at_v1 = corner >= 2;
+  const S* const end =
+      values_at(nets, at.patch, at_u1 ? nets.degree_u : 0, at_v1 ? nets.degree_v : 0);
+  const std::ptrdiff_t in_u = at_u1 ? -nets.point_stride : nets.point_stride;
+  const std::ptrdiff_t in_v = at_v1 ? -nets.row_stride : nets.row_stride;
+  if (certainly_part(nets, end, in_u, in_v)) {
+    return false;
+  }
+  int exponent = 0;
+  const Point3 a = scaled_to_one(way_along(nets, end, in_u, nets.degree_u), exponent);
+  const Point3 b = scaled_to_one(way_along(nets, end, in_v, nets.degree_v), exponent);
+  const Point3 n = cross(a, b);
+  constexpr double kSine = 1e-9;
+  return dot(a, b) > 0 && dot(n, n) <= kSine * kSine * dot(a, a) * dot(b, b);
+}
+
+template <typename S>
+std::array<double, 3> NetCorners<S>::lowest_point(std::size_t patch) const noexcept {
+  const auto at = views_.place(patch);
+  std::array<double, 3> lowest = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  for_points(*at.nets, at.patch, [&](const Point3& point) {
+    const std::array<double, 3> x = {point.x[0] + 0.0, point.x[1] + 0.0, point.x[2] + 0.0};
+    lowest = is_finite(point) ? std::min(lowest, x) : lowest;
+  });
+  return lowest;
+}
+
+template <typename S>
+bool NetCorners<S>::same(std::size_t a, std::size_t b) const noexcept {
+  const auto p = views_.place(a);
+  const auto q = views_.place(b);
+  for (int way = 0; way < 8; ++way) {
+    if (same_in(*p.nets, p.patch, *q.nets, q.patch, way)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+namespace {
+
+/// Marks repetitions among patches with the same four edges, ascending. Equal patches have the same
+/// lowest control point; different ones, also the many that may be points, seldom do.
+template <typename S>
+void mark_repeated_of(const NetCorners<S>& nets, std::span<const std::uint32_t> group,
+                      TopologyData& topology) {
+  if (group.size() < 2) {
+    return;
+  }
+  std::vector<std::pair<std::array<double, 3>, std::uint32_t>> patches;
+  for (const std::uint32_t patch : group) {
+    patches.emplace_back(nets.lowest_point(patch), patch);
+  }
+  std::sort(patches.begin(), patches.end());
+  std::vector<std::uint32_t> different; // those with one lowest point
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    if (k == 0 || patches[k].first != patches[k - 1].first) {
+      different.clear();
+    }
+    const std::uint32_t patch = patches[k].second;
+    const auto original =
+        std::find_if(different.begin(), different.end(),
+                     [&](std::uint32_t earlier) { return nets.same(earlier, patch); });
+    if (original != different.end()) {
+      topology.flags[patch] |= kRepeated;
+      topology.originals.emplace_back(patch, *original);
+    } else {
+      different.push_back(patch);
+    }
+  }
+}
+
+/// Numbers of a patch's edges, ascending; ~0 for sides that are points.
+using FourEdges = std::array<std::uint32_t, kPatchEdges>;
+
+FourEdges edges_of(const TopologyData& topology, std::size_t patch) {
+  FourEdges edges;
+  for (std::size_t k = 0; k < kPatchEdges; ++k) {
+    const Side& side = topology.sides[kPatchEdges * patch + k];
+    edges[k] = side.collapsed() ? ~0U : side.edge();
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+/// Whether another patch has the same four edges, or may have: one would be at each of the edges,
+/// and so at the one with the fewest sides. Patches all of whose sides are points may be the same.
+bool may_be_repeated(const TopologyData& topology, std::size_t patch) {
+  if (topology.has_plain_sides(patch)) {
+    return false;
+  }
+  constexpr std::size_t kMostCompared = 64;
+  std::span<const std::uint32_t> fewest;
+  for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
+    if (!topology.sides[side].collapsed()) {
+      const auto sides = topology.sides_of(topology.sides[side].edge());
+      fewest = fewest.empty() || sides.size() < fewest.size() ? sides : fewest;
+    }
+  }
+  if (fewest.empty() || fewest.size() > kMostCompared) {
+    return true;
+  }
+  const FourEdges own = edges_of(topology, patch);
+  return std::any_of(fewest.begin(), fewest.end(), [&](std::uint32_t side) {
+    return side / kPatchEdges != patch && edges_of(topology, side / kPatchEdges) == own;
+  });
+}
+
+} // namespace
+
+template <typename S>
+void mark_repeated(const NetCorners<S>& nets, TopologyData& topology) {
+  // Only patches with the same four edges can be the same.
+  struct Candidate {
+    FourEdges edges;
+    std::uint32_t patch;
+  };
+  std::vector<Candidate> candidates;
+  for (std::uint32_t patch = 0; patch < topology.patches(); ++patch) {
+    if (may_be_repeated(topology, patch)) {
+      candidates.push_back({edges_of(topology, patch), patch});
+    }
+  }
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.edges != b.edges ? a.edges < b.edges : a.patch < b.patch;
+  });
+  for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
+    std::vector<std::uint32_t> group;
+    for (end = begin; end < candidates.size() && candidates[end].edges == candidates[begin].edges;
+         ++end) {
+      group.push_back(candidates[end].patch);
+    }
+    mark_repeated_of(nets, group, topology);
+  }
+  std::sort(topology.originals.begin(), topology.originals.end());
+  topology.counts.repeated_patches = topology.originals.size();
+}
+
+template class NetCorners<float>;
+template class NetCorners<double>;
+template void mark_repeated(const NetCorners<float>&, TopologyData&);
+template void mark_repeated(const NetCorners<double>&, TopologyData&);
+
+} // namespace simdbezier::detail

@@ -1,0 +1,229 @@
+// See topology.hpp.
+#include <simdbezier/topology.hpp>
+
+#include <algorithm>
+#include <new>
+#include <numeric>
+
+#include "src/mesh/topology/entanglement.hpp"
+#include "src/mesh/topology/forced_diagonals.hpp"
+#include "src/mesh/topology/net_corners.hpp"
+#include "src/mesh/topology/orientation.hpp"
+#include "src/mesh/topology/snapping.hpp"
+#include "src/mesh/topology/topology_data.hpp"
+#include "src/nets/edge_rings.hpp"
+#include "src/nets/net_call.hpp"
+#include "src/runtime/fp_environment.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+constexpr std::size_t kMostPatches = std::size_t{1} << 29;
+
+/// Numbers edges in the order of their first sides, and tells every side which way it runs.
+void number_edges(const EdgeRings<std::uint32_t>& rings, TopologyData& topology) {
+  const std::size_t sides = rings.next.size();
+  std::size_t points = 0;
+  std::size_t edges = 0;
+  for (std::size_t side = 0; side < sides; ++side) {
+    points += rings.is_point(side) ? 1 : 0;
+    edges += rings.next[side] <= side ? 1 : 0; // the last side of a ring leads back to its first
+  }
+  topology.counts.collapsed_sides = points;
+  topology.sides.resize(sides);
+  topology.first.reserve(edges + 1);
+  topology.members.reserve(sides - points);
+  for (std::size_t first = 0; first < sides; ++first) {
+    if (rings.is_point(first) || !topology.sides[first].collapsed()) {
+      continue; // the latter: of an earlier side's edge
+    }
+    const auto edge = static_cast<std::uint32_t>(topology.first.size());
+    topology.first.push_back(static_cast<std::uint32_t>(topology.members.size()));
+    std::size_t side = first;
+    do {
+      topology.sides[side] = Side(edge, rings.turned[side] != rings.turned[first]);
+      topology.members.push_back(static_cast<std::uint32_t>(side));
+      side = rings.next[side];
+    } while (side != first);
+  }
+  topology.first.push_back(static_cast<std::uint32_t>(topology.members.size()));
+}
+
+/// Sets of corners that are one, each named by its lowest member.
+class JoinedCorners {
+public:
+  explicit JoinedCorners(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  void join(std::uint32_t a, std::uint32_t b) noexcept {
+    a = find(a);
+    b = find(b);
+    (a < b ? parent_[b] : parent_[a]) = std::min(a, b);
+  }
+  [[nodiscard]] std::vector<std::uint32_t> finish() && {
+    for (std::uint32_t corner = 0; corner < parent_.size(); ++corner) {
+      parent_[corner] = find(corner);
+    }
+    return std::move(parent_);
+  }
+
+private:
+  [[nodiscard]] std::uint32_t find(std::uint32_t corner) noexcept {
+    while (parent_[corner] != corner) {
+      corner = parent_[corner] = parent_[parent_[corner]];
+    }
+    return corner;
+  }
+  std::vector<std::uint32_t> parent_;
+};
+
+void join_corners(TopologyData& topology) {
+  JoinedCorners corners(topology.sides.size());
+  for (std::size_t side = 0; side < topology.sides.size(); ++side) {
+    const Side& own = topology.sides[side];
+    if (own.collapsed()) {
+      corners.join(corner_at(side, 0), corner_at(side, 1));
+      continue;
+    }
+    const std::size_t first = topology.members[topology.first[own.edge()]];
+    corners.join(corner_at(side, 0), corner_at(first, own.reversed() ? 1 : 0));
+    corners.join(corner_at(side, 1), corner_at(first, own.reversed() ? 0 : 1));
+  }
+  topology.corners = std::move(corners).finish();
+  // From the last corner to the first, so that the lowest one always leads to the latest.
+  topology.next_corner = topology.corners;
+  for (std::size_t k = topology.corners.size(); k-- > 0;) {
+    const std::uint32_t lowest = topology.corners[k];
+    if (lowest == k) {
+      ++topology.counts.corners;
+    } else {
+      topology.next_corner[k] = topology.next_corner[lowest];
+      topology.next_corner[lowest] = static_cast<std::uint32_t>(k);
+    }
+  }
+}
+
+void count_edges(TopologyData& topology) {
+  topology.counts.patches = topology.patches();
+  topology.counts.edges = topology.edges();
+  for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
+    const std::size_t sides = topology.sides_of(edge).size();
+    topology.counts.open_edges += sides == 1 ? 1 : 0;
+    topology.counts.non_manifold_edges += sides > 2 ? 1 : 0;
+  }
+}
+
+/// Collapsed sides beyond those that are points exactly.
+template <typename S>
+void collapse_short_sides(const NetCorners<S>& nets, double point_size,
+                          EdgeRings<std::uint32_t>& rings) {
+  if (point_size == 0) {
+    return;
+  }
+  for (std::size_t side = 0; side < rings.next.size(); ++side) {
+    if (!rings.is_point(side) && nets.side_within(side, point_size)) {
+      rings.make_point(side);
+    }
+  }
+}
+
+/// Whether a side may be a point only because of a rounded division: control points in space are
+/// quotients there, which find_adjacency() compares in the type of the values.
+template <typename S>
+bool has_rounded_points(const NetCorners<S>& nets, const TopologyData& topology) {
+  for (std::size_t side = 0; side < topology.sides.size(); ++side) {
+    if (topology.sides[side].collapsed() && nets.is_homogeneous(side / kPatchEdges)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+template <typename S>
+Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& options,
+             TopologyData& topology) {
+  topology.flags.assign(patches_of(sets), 0);
+  const NetCorners<S> nets(sets);
+  {
+    auto rings = find_rings<S, std::uint32_t>(sets, options.threads);
+    collapse_short_sides(nets, options.point_size, rings);
+    if (options.snap > 0) {
+      topology.counts.snapped_sides = snap_sides(nets, options.snap, rings);
+    }
+    number_edges(rings, topology);
+  }
+  join_corners(topology);
+  count_edges(topology);
+  if (options.snap > 0 || options.point_size > 0 || has_rounded_points(nets, topology)) {
+    find_displacements(nets, topology);
+  }
+  mark_repeated(nets, topology);
+  mark_corners(nets, topology);
+  mark_loops(nets, topology);
+  mark_entangled(topology);
+  const Status oriented = orient(options, topology);
+  if (oriented == Status::ok) {
+    mark_apart(topology);
+  }
+  return oriented;
+}
+
+template <typename S>
+Status check(std::span<const ControlNets<S>> sets, const TopologyOptions& options) noexcept {
+  if (!(options.point_size >= 0) || !(options.snap >= 0)) {
+    return Status::bad_tolerance;
+  }
+  std::size_t patches = 0;
+  for (const ControlNets<S>& nets : sets) {
+    if (nets.components != 3) {
+      return Status::bad_components;
+    }
+    if (nets.count >= kMostPatches - patches) {
+      return Status::size_overflow;
+    }
+    patches += nets.count;
+  }
+  return check_views(sets);
+}
+
+} // namespace
+} // namespace detail
+
+template <typename S>
+Status find_topology(std::span<const ControlNets<S>> sets, Topology& topology,
+                     const TopologyOptions& options) noexcept try {
+  const detail::DefaultFpEnvironment environment;
+  const Status status = detail::check(sets, options);
+  if (status != Status::ok) {
+    return status;
+  }
+  auto data = std::make_shared<detail::TopologyData>();
+  const Status built = detail::build(sets, options, *data);
+  if (built == Status::ok) {
+    topology = Topology(std::move(data));
+  }
+  return built;
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+template SIMDBEZIER_API Status find_topology(std::span<const ControlNets<float>>, Topology&,
+                                             const TopologyOptions&) noexcept;
+template SIMDBEZIER_API Status find_topology(std::span<const ControlNets<double>>, Topology&,
+                                             const TopologyOptions&) noexcept;
+
+TopologyCounts Topology::counts() const noexcept {
+  return data_ == nullptr ? TopologyCounts{} : data_->counts;
+}
+
+bool Topology::is_turned(std::size_t patch) const noexcept {
+  return data_ != nullptr && patch < data_->patches() &&
+         (data_->flags[patch] & detail::kTurned) != 0;
+}
+
+bool Topology::is_repeated(std::size_t patch) const noexcept {
+  return data_ != nullptr && patch < data_->patches() && data_->is_repeated(patch);
+}
+
+} // namespace simdbezier

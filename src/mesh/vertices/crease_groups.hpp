@@ -1,0 +1,166 @@
+// Which patches share a vertex where their normals differ.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "src/mesh/net_points.hpp"
+#include "src/mesh/vertices/boundary_samples.hpp"
+
+namespace simdbezier::detail {
+
+/// What threads fill, each the entries of its own patches.
+struct CreaseGroups {
+  std::vector<std::uint32_t> corners; ///< see number_vertices()
+  std::vector<std::size_t> side_first;
+  std::vector<std::uint32_t> side_groups; ///< at [side_first[side] + k - 1], from 0 on
+
+  explicit CreaseGroups(const MeshData& mesh) : corners(mesh.topology.data()->corners.size()) {
+    const TopologyData& topology = *mesh.topology.data();
+    side_first.assign(topology.sides.size(), MeshData::kWhole);
+    std::size_t values = 0;
+    for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
+      const auto sides = topology.sides_of(edge);
+      for (const std::uint32_t side : sides) {
+        side_first[side] = sides.size() > 1 && mesh.segments[edge] > 1 ? values : MeshData::kWhole;
+        values += sides.size() > 1 ? mesh.segments[edge] - 1 : 0;
+      }
+    }
+    side_groups.resize(values);
+  }
+  /// Marks edges on which all sides share all vertices as whole.
+  void close(const TopologyData& topology, const MeshData& mesh) {
+    for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
+      bool whole = true;
+      for (const std::uint32_t side : topology.sides_of(edge)) {
+        if (side_first[side] != MeshData::kWhole) {
+          const std::uint32_t* const groups = &side_groups[side_first[side]];
+          whole = whole && std::all_of(groups, groups + mesh.segments[edge] - 1,
+                                       [](std::uint32_t group) { return group == 0; });
+        }
+      }
+      for (const std::uint32_t side : topology.sides_of(edge)) {
+        side_first[side] = whole ? MeshData::kWhole : side_first[side];
+      }
+    }
+  }
+};
+
+/// One thread's decisions.
+template <typename T>
+class CreaseFinder {
+public:
+  CreaseFinder(const MeshData& mesh, double angle, const Planes<T>& normals,
+               CreaseGroups& groups) noexcept
+      : topology_(*mesh.topology.data()), always_(angle >= std::numbers::pi), never_(angle == 0),
+        cosine_(std::cos(angle)), sine_(std::sin(angle)), normals_(normals), groups_(groups) {}
+
+  /// Gives groups to the patches at a corner, or at each point of an edge. sample_of_corner:
+  /// scratch for one value a corner that is joined with others.
+  void group(const BoundaryEntry& entry, std::uint32_t* sample_of_corner) const noexcept {
+    if (entry.corner) {
+      group_corner(entry, sample_of_corner);
+    } else if (entry.members > 1) {
+      for (std::uint32_t k = 0; k < entry.points; ++k) {
+        group_point(entry, k);
+      }
+    }
+  }
+
+private:
+  [[nodiscard]] Point3 normal(std::size_t sample) const noexcept {
+    Point3 n;
+    for (std::size_t c = 0; c < 3; ++c) {
+      n.x[c] = static_cast<double>(normals_.component[c][sample]);
+    }
+    return n;
+  }
+  /// Whether two samples' normals may be merged.
+  [[nodiscard]] bool join(std::size_t a, std::size_t b, bool against) const noexcept {
+    if (always_ || never_) {
+      return always_;
+    }
+    const Point3 x = normal(a);
+    const Point3 y = normal(b);
+    const Point3 z = cross(x, y);
+    const double along = against ? -dot(x, y) : dot(x, y);
+    // The sine of the angle between the normals, less the crease's angle: of small angles a cosine
+    // would show the rounding of the normals' lengths instead.
+    return dot(x, x) == 0 || dot(y, y) == 0 || std::sqrt(dot(z, z)) * cosine_ < along * sine_;
+  }
+  /// join() of normals at two sides of one edge.
+  [[nodiscard]] bool sides_join(std::uint32_t a, std::size_t sample_a, std::uint32_t b,
+                                std::size_t sample_b) const noexcept {
+    const bool two = topology_.sides_of(topology_.sides[a].edge()).size() == 2;
+    return !(two && topology_.disagree(a, b)) &&
+           join(sample_a, sample_b,
+                topology_.is_turned(a / kPatchEdges) != topology_.is_turned(b / kPatchEdges));
+  }
+
+  void group_point(const BoundaryEntry& entry, std::uint32_t k) const noexcept {
+    const auto sides = topology_.sides_of(entry.place);
+    const auto sample = [&](std::size_t m) { return entry.first + m * entry.points + k; };
+    const auto group_of = [&](std::size_t m) -> std::uint32_t& {
+      return groups_.side_groups[groups_.side_first[sides[m]] + k];
+    };
+    std::uint32_t count = 0;
+    for (std::size_t m = 0; m < sides.size(); ++m) {
+      std::uint32_t group = 0;
+      for (; group < count; ++group) {
+        bool fits = true;
+        for (std::size_t n = 0; n < m && fits; ++n) {
+          fits = group_of(n) != group || sides_join(sides[n], sample(n), sides[m], sample(m));
+        }
+        if (fits) {
+          break;
+        }
+      }
+      group_of(m) = group;
+      count = std::max(count, group + 1);
+    }
+  }
+
+  /// Neighbours across edges whose normals may be merged, and their neighbours, share a vertex.
+  void group_corner(const BoundaryEntry& entry, std::uint32_t* sample_of_corner) const noexcept {
+    std::vector<std::uint32_t>& lowest = groups_.corners;
+    std::uint32_t sample = entry.first;
+    topology_.for_joined(entry.place, [&](std::size_t corner) {
+      lowest[corner] = static_cast<std::uint32_t>(corner);
+      sample_of_corner[corner] = sample++;
+    });
+    const auto find = [&](std::uint32_t corner) {
+      while (lowest[corner] != corner) {
+        corner = lowest[corner];
+      }
+      return corner;
+    };
+    topology_.for_joined(entry.place, [&](std::size_t corner) {
+      topology_.for_neighbours(corner, [&](std::size_t side, std::size_t other, std::uint32_t to) {
+        if (topology_.sides[side].collapsed() ||
+            sides_join(static_cast<std::uint32_t>(side), sample_of_corner[corner],
+                       static_cast<std::uint32_t>(other), sample_of_corner[to])) {
+          const std::uint32_t a = find(static_cast<std::uint32_t>(corner));
+          const std::uint32_t b = find(to);
+          lowest[std::max(a, b)] = std::min(a, b);
+        }
+      });
+    });
+    topology_.for_joined(entry.place, [&](std::size_t corner) {
+      lowest[corner] = find(static_cast<std::uint32_t>(corner));
+    });
+  }
+
+  const TopologyData& topology_;
+  bool always_;
+  bool never_;
+  double cosine_;
+  double sine_;
+  const Planes<T>& normals_;
+  CreaseGroups& groups_;
+};
+
+} // namespace simdbezier::detail

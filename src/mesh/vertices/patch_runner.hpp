@@ -1,0 +1,170 @@
+// Kernels on small pieces of single patches: the part of a task that is about the set is written
+// once.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "src/calls/grid_plan.hpp"
+#include "src/calls/kernel_choice.hpp"
+#include "src/exact/normal_fallback.hpp"
+#include "src/mesh/topology/topology_data.hpp"
+#include "src/runtime/cache_sizes.hpp"
+
+namespace simdbezier::detail {
+
+/// Parameters of a piece: columns, and rows by runs.
+template <typename T>
+struct PieceParameters {
+  const T* x; ///< half-centred, kMaxLanes more readable behind them
+  std::size_t columns;
+  const RowRun<T>* runs;
+  std::size_t run_count;
+  std::size_t rows; ///< of all runs
+};
+
+/// Where its samples go: rows one after the other, patches likewise.
+template <typename T>
+struct PieceTarget {
+  Planes<T> position;
+  Planes<T> normal;
+  std::size_t record = 1; ///< values from one sample to the next, see GridTask
+  DrainQueue<T>* drain = nullptr;
+
+  [[nodiscard]] bool wanted() const noexcept { return position.wanted() || normal.wanted(); }
+};
+
+/// One thread's tasks.
+template <typename T>
+class PatchRunner {
+public:
+  explicit PatchRunner(const PatchKernels<T>& kernels) noexcept : kernels_(kernels) {
+    std::fill_n(low_, kMaxLanes + 1, T(-0.5));
+    std::fill_n(high_, kMaxLanes + 1, T(0.5));
+  }
+
+  /// How many of the patches from `patch` on, at most `most`, one call takes.
+  [[nodiscard]] std::size_t together(std::size_t patch, std::size_t most) const noexcept {
+    const SetStorage<T>& set = *kernels_.set;
+    most = std::min(most, set.count - patch);
+    if (set.places == nullptr) {
+      return most;
+    }
+    std::size_t count = 1;
+    while (count < most && set.places[patch + count].bucket == set.places[patch].bucket &&
+           set.places[patch + count].index == set.places[patch].index + count) {
+      ++count;
+    }
+    return count;
+  }
+
+  /// Runs no kernel where neither positions nor normals are wanted: not all kernels accept a task
+  /// without outputs.
+  void run(std::size_t patch, std::size_t count, const PieceParameters<T>& piece,
+           const PieceTarget<T>& to) noexcept {
+    if (!to.wanted()) {
+      return;
+    }
+    aim(grid_, kernels_.set->place(patch), to);
+    grid_.patch_count = count;
+    grid_.x = piece.x;
+    grid_.nu = piece.columns;
+    grid_.runs = piece.runs;
+    grid_.run_count = piece.run_count;
+    grid_.patch_step = piece.rows * piece.columns;
+    grid_.record = to.record;
+    grid_.by_lines = kernels_.by_lines;
+    grid_.drain = to.drain;
+    kernels_.run(grid_);
+    executed_ = grid_.executed;
+  }
+
+  /// Points between the ends of a patch's side, to consecutive places. along: their half-centred
+  /// parameters, kMaxLanes more readable behind them.
+  void run_side(std::size_t patch, std::size_t side, const T* along, std::uint32_t points,
+                const PieceTarget<T>& to) noexcept {
+    if (!to.wanted()) {
+      return;
+    }
+    const PatchPlace place = kernels_.set->place(patch);
+    if (kernels_.has_edges(kernels_.set->buckets[place.bucket].shape)) {
+      const EdgeJob<T> job{along, points, 0, 1, {{place.index, side, T(1), T(1)}, {}}};
+      run_edges({&job, 1}, place.bucket, to);
+      return;
+    }
+    const bool far = side % 2 != 0;
+    const T* const end = far ? high_ : low_;
+    if (runs_in_u(side)) {
+      const RowRun<T> row{end, 1, far ? RowKind::edge_v1 : RowKind::edge_v0};
+      this->run(patch, 1, {along, points, &row, 1, 1}, to);
+    } else {
+      const RowRun<T> rows{along, points, RowKind::interior};
+      this->run(patch, 1, {end, 1, &rows, 1, points}, to);
+    }
+  }
+
+  /// The bucket of a patch with whose edges a kernel is acquainted, or kNoEdges.
+  static constexpr std::uint32_t kNoEdges = ~0U;
+  [[nodiscard]] std::uint32_t edge_bucket(std::size_t patch) const noexcept {
+    const std::uint32_t bucket = kernels_.set->place(patch).bucket;
+    return kernels_.has_edges(kernels_.set->buckets[bucket].shape) ? bucket : kNoEdges;
+  }
+  /// A patch's number in its bucket.
+  [[nodiscard]] std::size_t index_of(std::size_t patch) const noexcept {
+    return kernels_.set->place(patch).index;
+  }
+  /// Edges between patches of one such bucket, whose numbers are those in there.
+  void run_edges(std::span<const EdgeJob<T>> jobs, std::uint32_t bucket,
+                 const PieceTarget<T>& to) noexcept {
+    if (!to.wanted()) {
+      return;
+    }
+    aim(edges_, {bucket, 0}, to);
+    edges_.jobs = jobs.data();
+    edges_.count = jobs.size();
+    edges_.step = to.record;
+    edges_.drain = to.drain;
+    kernels_.run(edges_);
+    executed_ = edges_.executed;
+  }
+
+  /// The instruction set of the kernels that ran.
+  [[nodiscard]] Isa executed() const noexcept { return executed_; }
+
+private:
+  void aim(SampleTask<T>& task, const PatchPlace& place, const PieceTarget<T>& to) noexcept {
+    const PatchStorage<T>& bucket = kernels_.set->buckets[place.bucket];
+    const NetShape& shape = bucket.shape;
+    if (bucket_ != &bucket) {
+      bucket_ = &bucket;
+      const std::size_t bytes = (shape.coefficients() + shape.edges()) * sizeof(T);
+      prefetch_ = bucket.count > second_level_cache() / bytes;
+    }
+    task.first_component = kernels_.first_component;
+    task.resolve_normal = resolve_normal<T>;
+    task.watertight = kernels_.watertight;
+    task.shape = &shape;
+    task.prefetch = prefetch_;
+    task.coefficients = bucket.coefficients + place.index * shape.coefficients();
+    task.edges = bucket.edges + place.index * shape.edges();
+    task.given = bucket.given.from(place.index * shape.control_values());
+    task.origins =
+        bucket.origins == nullptr ? nullptr : bucket.origins + place.index * shape.origins();
+    task.normal_floor = bucket.normal_floor + place.index * shape.floors();
+    task.out[output_index(Output::position)] = to.position;
+    task.out[output_index(Output::normal)] = to.normal;
+  }
+
+  const PatchKernels<T>& kernels_;
+  const PatchStorage<T>* bucket_ = nullptr;
+  bool prefetch_ = false; ///< of the bucket
+  GridTask<T> grid_{};
+  EdgeTask<T> edges_{};
+  Isa executed_ = Isa::automatic;
+  T low_[kMaxLanes + 1];
+  T high_[kMaxLanes + 1];
+};
+
+} // namespace simdbezier::detail

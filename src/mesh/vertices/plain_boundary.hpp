@@ -1,0 +1,115 @@
+// Corners and edges of meshes as most of them are: edges of one or two patches whose kernels know
+// edges, and vertices that are not split. They are put straight in their places. All others go by
+// way of BoundarySamples and BoundaryStore.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "src/mesh/layout/mesh_data.hpp"
+#include "src/mesh/vertices/corner_cache.hpp"
+#include "src/mesh/vertices/parameter_lines.hpp"
+#include "src/mesh/vertices/patch_runner.hpp"
+#include "src/mesh/vertices/vertex_target.hpp"
+
+namespace simdbezier::detail {
+
+/// One thread's edges, which wait until there are enough for a call of the kernel.
+template <typename T>
+class PlainBoundary {
+public:
+  PlainBoundary(const MeshData& mesh, PatchRunner<T>& runner, ParameterLines<T>& lines,
+                UnionLines<T>& unions, CornerCache<T>& corners, bool normals) noexcept
+      : mesh_(mesh), topology_(*mesh.topology.data()), runner_(runner), lines_(lines),
+        unions_(unions), corners_(corners), normals_(normals) {}
+
+  /// Writes the vertex of some joined corners. lowest: the first of them. False where nothing is
+  /// written, because it is none of the plain ones.
+  bool put_corner(std::uint32_t lowest, const VertexTarget<T>& to) noexcept {
+    if (!mesh_.side_first.empty() || to.parameters.wanted()) {
+      return false;
+    }
+    const std::size_t place = mesh_.corners[lowest] - to.first;
+    Planes<T> position;
+    Planes<T> normal;
+    corners_.look_up(lowest, position, normal);
+    for (std::size_t c = 0; c < 3 && to.position.component[c] != nullptr; ++c) {
+      to.position.component[c][place * to.step] = *position.component[c];
+    }
+    if (!normals_) {
+      return true;
+    }
+    NormalSums<T> sums(normal, 0, topology_.is_turned(lowest / kPatchCorners));
+    for (std::uint32_t corner = topology_.next_corner[lowest]; corner != lowest;
+         corner = topology_.next_corner[corner]) {
+      if (!topology_.is_apart(corner, kApartCorner)) {
+        corners_.look_up(corner, position, normal);
+        sums.add(normal, 0, topology_.is_turned(corner / kPatchCorners));
+      }
+    }
+    sums.finish(1, to.normal, place, to.step);
+    return true;
+  }
+
+  /// Takes down an edge, whose points run() writes. False where it is none of the plain ones.
+  bool add_edge(std::uint32_t edge, const VertexTarget<T>& to) noexcept {
+    const std::uint32_t segments = mesh_.segments[edge];
+    if (segments <= 1) {
+      return true;
+    }
+    const auto sides = topology_.sides_of(edge);
+    const std::uint32_t rate = mesh_.rate(sides.front());
+    const std::uint32_t other = mesh_.rate(sides.back());
+    const auto [low, high] = std::minmax(rate, other);
+    const bool single = segments == rate; // the other rate is a divisor of it
+    const std::uint32_t bucket = runner_.edge_bucket(sides.front() / kPatchEdges);
+    if (sides.size() > 2 || mesh_.is_split(sides.front()) || to.parameters.wanted() ||
+        !(single ? ParameterLines<T>::is_kept(rate) : high <= UnionLines<T>::kMost) ||
+        bucket == PatchRunner<T>::kNoEdges ||
+        bucket != runner_.edge_bucket(sides.back() / kPatchEdges)) {
+      return false;
+    }
+    if (count_ == kMost || bucket_ != bucket || !(single || unions_.holds(low, high))) {
+      run(to);
+    }
+    bucket_ = bucket;
+    EdgeJob<T>& job = jobs_[count_++];
+    job.along = single ? lines_.line(rate) : unions_.line(low, high);
+    job.points = segments - 1;
+    job.place = mesh_.edge_first[edge] - to.first;
+    job.members = 0;
+    for (const std::uint32_t side : sides) {
+      if (job.members == 0 || (normals_ && !topology_.is_apart(side, kApartSide))) {
+        const std::size_t patch = side / kPatchEdges;
+        job.member[job.members++] = {runner_.index_of(patch), side % kPatchEdges,
+                                     topology_.sides[side].reversed() ? T(-1) : T(1),
+                                     topology_.is_turned(patch) ? T(-1) : T(1)};
+      }
+    }
+    return true;
+  }
+  /// Writes the edges that wait. to: as for add_edge().
+  void run(const VertexTarget<T>& to) noexcept {
+    if (count_ > 0) {
+      runner_.run_edges({jobs_, count_}, bucket_, {to.position, to.normal, to.step, to.drain});
+      count_ = 0;
+    }
+  }
+
+private:
+  static constexpr std::size_t kMost = 64;
+
+  const MeshData& mesh_;
+  const TopologyData& topology_;
+  PatchRunner<T>& runner_;
+  ParameterLines<T>& lines_;
+  UnionLines<T>& unions_;
+  CornerCache<T>& corners_;
+  bool normals_;
+  std::size_t count_ = 0;
+  std::uint32_t bucket_ = 0; ///< of all edges that wait
+  EdgeJob<T> jobs_[kMost];
+};
+
+} // namespace simdbezier::detail

@@ -1,0 +1,129 @@
+// See evaluate_mesh.hpp: which vertices are split into several.
+#include <new>
+
+#include <simdbezier/evaluate_mesh.hpp>
+
+#include "src/calls/call.hpp"
+#include "src/mesh/layout/layout_builder.hpp"
+#include "src/mesh/vertices/crease_groups.hpp"
+#include "src/runtime/fp_environment.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+/// Units are patches: each thread looks at the corners and edges that its patches own.
+template <typename T>
+class CreaseWork {
+public:
+  CreaseWork(const MeshData& mesh, const PatchKernels<T>& kernels, double angle,
+             CreaseGroups& groups, std::uint32_t* sample_of_corner) noexcept
+      : mesh_(mesh), kernels_(kernels), angle_(angle), groups_(groups),
+        sample_of_corner_(sample_of_corner), wishes_{0, true, true,
+                                                     std::max(kMostSamples,
+                                                              mesh.most_boundary_samples)} {
+    most_rate_ = mesh.most_rate();
+  }
+
+  [[nodiscard]] std::size_t units() const noexcept { return mesh_.patches(); }
+  [[nodiscard]] std::size_t scratch_bytes() const noexcept {
+    return lines_bytes() + BoundarySamples<T>::bytes(mesh_, wishes_);
+  }
+
+  Isa run(int /*worker*/, std::size_t begin, std::size_t end,
+          unsigned char* scratch) const noexcept {
+    PatchRunner<T> runner(kernels_);
+    ParameterLines<T> lines(reinterpret_cast<T*>(scratch), most_rate_);
+    BoundarySamples<T> samples(mesh_, wishes_, runner, lines, scratch + lines_bytes());
+    const CreaseFinder<T> finder(mesh_, angle_, samples.normals(), groups_);
+    for (std::size_t patch = begin; patch < end; ++patch) {
+      samples.add(patch);
+      if (!samples.has_room() || patch + 1 == end) {
+        for (const BoundaryEntry& entry : samples.entries()) {
+          finder.group(entry, sample_of_corner_);
+        }
+        samples.clear();
+      }
+    }
+    return runner.executed();
+  }
+
+private:
+  static constexpr std::size_t kMostSamples = 1024;
+
+  [[nodiscard]] std::size_t lines_bytes() const noexcept {
+    return whole_lines(ParameterLines<T>::memory_values(most_rate_) * sizeof(T));
+  }
+
+  const MeshData& mesh_;
+  const PatchKernels<T>& kernels_;
+  double angle_;
+  CreaseGroups& groups_;
+  std::uint32_t* sample_of_corner_;
+  BoundaryWishes wishes_;
+  std::uint32_t most_rate_;
+};
+
+template <typename T>
+Status split_vertices(const PatchSet<T>& set, const MeshData& whole, double angle,
+                      const Request<T>& request, const Options& options, MeshLayout& split) {
+  CreaseGroups groups(whole);
+  std::vector<std::uint32_t> sample_of_corner(groups.corners.size());
+  const OutputSelection normals = {Output::normal};
+  const PatchKernels<T> kernels(*set.storage(), request, normals, options);
+  const CreaseWork<T> work(whole, kernels, angle, groups, sample_of_corner.data());
+  const Status ran =
+      run_blocks(work.units(), options, work.scratch_bytes(),
+                 [&](int worker, std::size_t begin, std::size_t end, unsigned char* scratch) {
+                   return work.run(worker, begin, end, scratch);
+                 });
+  if (!ran) {
+    return ran;
+  }
+  groups.close(*whole.topology.data(), whole);
+  auto mesh = std::make_shared<MeshData>(whole);
+  mesh->side_first = std::move(groups.side_first);
+  mesh->side_vertices = std::move(groups.side_groups);
+  const Status numbered = number_vertices(groups.corners, *mesh);
+  if (numbered) {
+    measure_boundaries(*mesh);
+    split = MeshLayout(std::move(mesh));
+  }
+  return numbered;
+}
+
+} // namespace
+} // namespace detail
+
+template <typename T>
+Status split_creases(const PatchSet<T>& set, const MeshLayout& layout, double angle,
+                     MeshLayout& split, const Options& options) noexcept try {
+  const detail::DefaultFpEnvironment environment;
+  if (!(angle >= 0)) {
+    return Status::bad_tolerance;
+  }
+  if (set.size() != (layout.data() == nullptr ? 0 : layout.data()->patches())) {
+    return Status::unequal_lengths;
+  }
+  detail::Request<T> request;
+  if (const Status status = request.resolve(set, {}, 0, options); !status) {
+    return status;
+  }
+  if (set.empty()) {
+    split = layout;
+    return Status::ok;
+  }
+  if (!request.components.space()) {
+    return Status::bad_components;
+  }
+  return detail::split_vertices(set, *layout.data(), angle, request, options, split);
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
+
+template SIMDBEZIER_API Status split_creases(const PatchSet<float>&, const MeshLayout&, double,
+                                             MeshLayout&, const Options&) noexcept;
+template SIMDBEZIER_API Status split_creases(const PatchSet<double>&, const MeshLayout&, double,
+                                             MeshLayout&, const Options&) noexcept;
+
+} // namespace simdbezier
