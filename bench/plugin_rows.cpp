@@ -11,7 +11,7 @@
 
 #include <simdbezier/evaluator_plugin.h>
 
-#include <tools/failure.hpp>
+#include <tools/process/failure.hpp>
 
 #include "bench/grid_call.hpp"
 

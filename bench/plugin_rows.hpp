@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <tools/evaluator_process.hpp>
+#include <tools/evaluator/evaluator_process.hpp>
 
 namespace simdbezier_bench {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include <tools/failure.hpp>
-#include <tools/mesh_file.hpp>
+#include <tools/mesh_files/mesh_file.hpp>
+#include <tools/process/failure.hpp>
 
 #include "python/src/errors.hpp"
 

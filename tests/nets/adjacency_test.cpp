@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <tools/edge_counts.hpp>
-#include <tools/teapot.hpp>
+#include <tools/formats/teapot.hpp>
+#include <tools/patches/edge_counts.hpp>
 
 #include "tests/nets/net_batches.hpp"
 #include "tests/support/nets/data_files.hpp"

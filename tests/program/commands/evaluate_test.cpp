@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include <tools/csv.hpp>
+#include <tools/formats/csv.hpp>
 
 #include "tests/program/commands/mesh_parsers.hpp"
 #include "tests/program/formats/sample_nets.hpp"

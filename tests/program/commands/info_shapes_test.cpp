@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include <tools/edge_counts.hpp>
+#include <tools/patches/edge_counts.hpp>
 
 #include "tests/program/formats/format_files.hpp"
 #include "tests/program/formats/sample_nets.hpp"

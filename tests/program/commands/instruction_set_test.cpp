@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include <simdbezier/simdbezier.hpp>
-#include <tools/teapot.hpp>
+#include <tools/formats/teapot.hpp>
 
 #include "tests/program/commands/mesh_parsers.hpp"
 #include "tests/program/process/program.hpp"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <ostream>
 
-#include <tools/counts.hpp>
+#include <tools/process/counts.hpp>
 
 #include "tests/program/formats/format_files.hpp"
 #include "tests/program/process/program.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <tools/failure.hpp>
+#include <tools/process/failure.hpp>
 
 #include "tests/program/process/program.hpp"
 

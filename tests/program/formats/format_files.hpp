@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <tools/patch_file.hpp>
+#include <tools/formats/patch_file.hpp>
 
 namespace simdbezier::tests {
 

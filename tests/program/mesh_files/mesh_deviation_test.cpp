@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include <tools/mesh_file.hpp>
+#include <tools/mesh_files/mesh_file.hpp>
 
 #include "tests/program/formats/sample_nets.hpp"
 #include "tests/program/mesh_files/read_meshes.hpp"

@@ -9,7 +9,7 @@
 #include <ostream>
 
 #include <nlohmann/json.hpp>
-#include <tools/mesh_formats.hpp>
+#include <tools/mesh_files/mesh_formats.hpp>
 
 #include "tests/program/mesh_files/sample_mesh.hpp"
 #include "tests/program/process/program.hpp"

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include <fcntl.h>
-#include <tools/failure.hpp>
+#include <tools/process/failure.hpp>
 
 #include "tests/program/mesh_files/mesh_readers.hpp"
 #include "tests/program/mesh_files/sample_mesh.hpp"

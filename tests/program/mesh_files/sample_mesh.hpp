@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <tools/mesh_file.hpp>
+#include <tools/mesh_files/mesh_file.hpp>
 
 namespace simdbezier::tests {
 

@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include <tools/failure.hpp>
-#include <tools/spill_file.hpp>
+#include <tools/process/failure.hpp>
+#include <tools/process/spill_file.hpp>
 
 #include "tests/program/process/program.hpp"
 

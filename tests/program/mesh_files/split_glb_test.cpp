@@ -8,8 +8,8 @@
 #include <set>
 #include <sys/stat.h>
 
-#include <tools/failure.hpp>
-#include <tools/mesh_formats.hpp>
+#include <tools/mesh_files/mesh_formats.hpp>
+#include <tools/process/failure.hpp>
 
 #include "tests/program/mesh_files/mesh_readers.hpp"
 #include "tests/program/mesh_files/sample_mesh.hpp"

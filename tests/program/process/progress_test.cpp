@@ -6,7 +6,7 @@
 #include <ostream>
 #include <thread>
 
-#include <tools/progress.hpp>
+#include <tools/process/progress.hpp>
 
 #include "tests/program/process/program.hpp"
 

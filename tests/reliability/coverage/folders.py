@@ -18,7 +18,7 @@ import sys
 
 SOURCES = {'library': ('include/', 'kernels/', 'src/'), 'readers': ('tools/',)}
 # Runs evaluators of others in a process of their own, which ends without writing its counts.
-NO_READER = ('tools/evaluator_process.',)
+NO_READER = ('tools/evaluator/',)
 
 
 def branches_of(line, folded):

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include <tools/failure.hpp>
+#include <tools/process/failure.hpp>
 
 #include "tests/properties/accuracy/suite/evaluators.hpp"
 #include "tests/properties/accuracy/suite/plugin_evaluator.hpp"

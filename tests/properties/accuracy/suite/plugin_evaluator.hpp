@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include <tools/evaluator_process.hpp>
+#include <tools/evaluator/evaluator_process.hpp>
 
 #include "tests/properties/accuracy/judge/evaluator.hpp"
 

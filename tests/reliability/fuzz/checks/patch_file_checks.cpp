@@ -12,7 +12,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <tools/failure.hpp>
+#include <tools/process/failure.hpp>
 
 #include "tests/reliability/fuzz/checks/promised_patches.hpp"
 #include "tests/reliability/fuzz/checks/require.hpp"

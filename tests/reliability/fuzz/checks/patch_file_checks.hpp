@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include <tools/patch_file.hpp>
+#include <tools/formats/patch_file.hpp>
 
 namespace simdbezier::fuzz {
 

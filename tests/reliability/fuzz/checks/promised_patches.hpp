@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include <tools/patch_file.hpp>
+#include <tools/formats/patch_file.hpp>
 
 namespace simdbezier::fuzz {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
-#include <tools/csv.hpp>
-#include <tools/failure.hpp>
+#include <tools/formats/csv.hpp>
+#include <tools/process/failure.hpp>
 
 #include "tests/reliability/fuzz/checks/patch_file_checks.hpp"
 #include "tests/reliability/fuzz/checks/require.hpp"

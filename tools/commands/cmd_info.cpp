@@ -1,0 +1,143 @@
+// simdbezier info: what a file holds and what this machine would do with it.
+#include <tools/commands/commands.hpp>
+
+#include <array>
+#include <compare>
+#include <map>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <tools/patches/edge_counts.hpp>
+#include <tools/patches/grid_blocks.hpp>
+#include <tools/patches/library_status.hpp>
+#include <tools/patches/patch_box.hpp>
+#include <tools/process/counts.hpp>
+#include <tools/process/output_file.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+/// Patches of one shape are evaluated alike. Shapes are ordered by degrees.
+struct Shape {
+  int degree_u;
+  int degree_v;
+  bool rational;
+  auto operator<=>(const Shape&) const = default;
+};
+
+/// What info says about a file.
+struct Summary {
+  std::string name;
+  std::size_t patches = 0;
+  std::size_t rational = 0;
+  MeshBox box;
+  std::map<Shape, std::size_t> shapes; ///< how many patches there are of each
+  EdgeCounts edges;
+  Isa chosen = Isa::automatic;
+};
+
+Summary summarise(const PatchFile& file, Isa chosen) {
+  Summary summary;
+  summary.name = file.name;
+  summary.patches = file.count;
+  summary.chosen = chosen;
+  for (const PatchRun& run : file.runs) {
+    summary.shapes[{run.degree_u, run.degree_v, run.rational()}] += run.count;
+    summary.rational += run.rational() ? run.count : 0;
+  }
+  summary.box = box_of(file);
+  summary.edges = count_edges(file);
+  return summary;
+}
+
+std::string describe(const std::array<double, 3>& point) {
+  std::string text;
+  for (const double coordinate : point) {
+    text += text.empty() ? "[" : ", ";
+    text += shortest(coordinate);
+  }
+  return text + "]";
+}
+
+std::string describe(const Shape& shape) {
+  return std::to_string(shape.degree_u) + " in u, " + std::to_string(shape.degree_v) + " in v" +
+         (shape.rational ? ", rational" : "");
+}
+
+// Prints one line where all patches are alike, and otherwise one for each shape with its count.
+std::string describe(const std::map<Shape, std::size_t>& shapes) {
+  std::string text;
+  for (const auto& [shape, count] : shapes) {
+    text += text.empty() ? "degrees            " : "                   ";
+    text += describe(shape);
+    if (shapes.size() > 1) {
+      text += ": " + quantity(count, "patch", "patches");
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string as_text(const Summary& summary) {
+  const std::string kinds = std::to_string(summary.edges.shared) + " shared, " +
+                            std::to_string(summary.edges.boundary) + " boundary, " +
+                            std::to_string(summary.edges.collapsed) + " collapsed";
+  std::string text;
+  text += "patches            " + std::to_string(summary.patches) + "\n";
+  text += describe(summary.shapes);
+  text += "control point box  " + describe(summary.box.low) + " to " + describe(summary.box.high) +
+          "\n";
+  text += "edges              " + kinds + " (four a patch, shared ones count on each side)\n";
+  text += "instruction sets   " + available_isa_names(" ") + "\n";
+  text += "chosen             " + std::string(to_string(summary.chosen)) + "\n";
+  return text;
+}
+
+// "degrees" appears where all patches have the same ones, and "shapes" always.
+std::string as_json(const Summary& summary) {
+  // These are made as objects, because null that becomes one leaks where memory runs out.
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  json["name"] = summary.name;
+  json["patches"] = summary.patches;
+  const Shape& first = summary.shapes.begin()->first;
+  const Shape& last = summary.shapes.rbegin()->first;
+  if (first.degree_u == last.degree_u && first.degree_v == last.degree_v) {
+    json["degrees"] = {{"u", first.degree_u}, {"v", first.degree_v}};
+  }
+  json["rational"] = summary.rational;
+  json["shapes"] = nlohmann::ordered_json::array();
+  for (const auto& [shape, count] : summary.shapes) {
+    json["shapes"].push_back({{"degree_u", shape.degree_u},
+                              {"degree_v", shape.degree_v},
+                              {"rational", shape.rational},
+                              {"patches", count}});
+  }
+  json["control_point_box"] = {{"min", summary.box.low}, {"max", summary.box.high}};
+  json["edges"] = {{"total", summary.patches * 4},
+                   {"shared", summary.edges.shared},
+                   {"boundary", summary.edges.boundary},
+                   {"collapsed", summary.edges.collapsed}};
+  json["instruction_sets"] = nlohmann::ordered_json::object();
+  json["instruction_sets"]["available"] = nlohmann::ordered_json::array();
+  for (const Isa isa : available_isas()) {
+    json["instruction_sets"]["available"].push_back(std::string(to_string(isa)));
+  }
+  json["instruction_sets"]["chosen"] = std::string(to_string(summary.chosen));
+  // File names may hold anything.
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+} // namespace
+
+void run_info(const Arguments& arguments) {
+  const Isa chosen = chosen_isa();
+  refuse_input_as_output("-", inputs_of(arguments));
+  const Summary summary = summarise(read_patches(arguments.in, arguments.format), chosen);
+  OutputFile out("-");
+  out.text(arguments.json ? as_json(summary) : as_text(summary));
+  out.commit();
+}
+
+} // namespace simdbezier::tools

@@ -1,0 +1,92 @@
+// simdbezier tessellate: patches in, triangles out.
+#include <tools/commands/commands.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <tools/commands/grid_mesh.hpp>
+#include <tools/commands/welded_mesh.hpp>
+#include <tools/mesh_files/mesh_file.hpp>
+#include <tools/patches/library_status.hpp>
+#include <tools/process/failure.hpp>
+#include <tools/process/output_file.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+// Data in a pipe mostly end up on the terminal that would show the bar.
+template <typename T>
+bool may_show_bar(const Arguments& arguments, const MeshWriter<T>& writer) {
+  return arguments.out != "-" && !writer.is_terminal();
+}
+
+// JSON is data, text is for people.
+void print(const MeshStats& stats, StatsForm form) {
+  if (form == StatsForm::json) {
+    OutputFile out("-");
+    out.text(stats_as_json(stats));
+    out.commit();
+  } else if (form == StatsForm::text) {
+    std::fputs(stats_as_text(stats).c_str(), stderr);
+  }
+}
+
+template <typename T>
+void write_mesh(MeshSource<T>& mesh, const Arguments& arguments, MeshStats& stats) {
+  std::unique_ptr<MeshWriter<T>> writer;
+  {
+    const Stopwatch watch(stats.seconds.write);
+    writer = make_mesh_writer<T>(arguments.out, arguments.mesh.format, mesh.contents());
+  }
+  {
+    Progress progress("tessellating", "patches", stats.patches, may_show_bar(arguments, *writer));
+    mesh.write(*writer, stats.seconds, progress);
+  }
+  {
+    const Stopwatch watch(stats.seconds.write);
+    writer->complete();
+  }
+  print(stats, arguments.mesh.stats); // where this fails, there is no mesh either
+  writer->finish();
+}
+
+template <typename T>
+void tessellate(const Arguments& arguments, PatchFile patches, MeshStats& stats) {
+  if (arguments.mesh.weld) {
+    WeldedMesh<T> mesh(std::move(patches), arguments, stats);
+    return write_mesh(mesh, arguments, stats);
+  }
+  const std::uint64_t vertices = checked_sample_count(patches.count, arguments.grid,
+                                                      (arguments.mesh.normals ? 6 : 3) * sizeof(T));
+  if (vertices > kMostMeshVertices) {
+    bad_usage("--grid: expected at most " + std::to_string(kMostMeshVertices) +
+              " vertices, found " + std::to_string(vertices));
+  }
+  GridMesh<T> mesh(patches, arguments, stats);
+  write_mesh(mesh, arguments, stats);
+}
+
+} // namespace
+
+void run_tessellate(const Arguments& arguments) {
+  chosen_isa();
+  const std::vector<std::string> inputs = inputs_of(arguments);
+  refuse_input_as_output(arguments.out, inputs);
+  if (arguments.mesh.stats == StatsForm::json) {
+    refuse_input_as_output("-", inputs);
+  }
+  MeshStats stats;
+  PatchFile patches;
+  {
+    const Stopwatch watch(stats.seconds.read);
+    patches = read_patches(arguments.in, arguments.format);
+  }
+  arguments.precision == Precision::f32 ? tessellate<float>(arguments, std::move(patches), stats)
+                                        : tessellate<double>(arguments, std::move(patches), stats);
+}
+
+} // namespace simdbezier::tools

@@ -1,0 +1,152 @@
+#include <tools/commands/grid_mesh.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <tools/patches/edge_counts.hpp>
+#include <tools/patches/library_status.hpp>
+#include <tools/patches/patch_box.hpp>
+#include <tools/patches/patch_rounding.hpp>
+
+namespace simdbezier::tools {
+
+template <typename T>
+GridMesh<T>::GridMesh(const PatchFile& file, const Arguments& arguments, MeshStats& stats)
+    : arguments_(arguments), patches_(file.count), grid_(arguments.grid), box_(box_of(file)),
+      evaluator_(file, arguments.grid, arguments.threads) {
+  const MeshContents mesh = contents();
+  stats.patches = patches_;
+  stats.vertices = stats.samples = mesh.vertices;
+  stats.triangles = mesh.faces * (mesh.corners - 2);
+  if (arguments_.mesh.stats != StatsForm::none) {
+    measure(file, stats);
+  }
+}
+
+template <typename T>
+void GridMesh<T>::measure(const PatchFile& file, MeshStats& stats) const {
+  const Stopwatch watch(stats.seconds.rates);
+  MeshContents mesh = contents();
+  stats.diagonal = diagonal_of(box_);
+  // Every edge is open but those that are a point.
+  stats.open_edges = kPatchEdges * patches_ - count_edges(file).collapsed;
+  double deviation = std::numeric_limits<double>::min();
+  for (std::size_t first = 0; first < patches_; first += kBlockPatches) {
+    const std::size_t count = std::min(kBlockPatches, patches_ - first);
+    const std::vector<double> errors = rounding_errors<T>(file, first, count);
+    const PatchNets<double> block = file.nets<double>(first, count);
+    std::vector<double> deviations(count);
+    check(certify_grids<double>(block.nets, static_cast<std::uint32_t>(grid_.nu - 1),
+                                static_cast<std::uint32_t>(grid_.nv - 1), errors, deviations,
+                                arguments_.threads)
+              .status);
+    deviation = std::max(deviation, std::ranges::max(deviations));
+  }
+  mesh.deviation = deviation;
+  stats.deviation = stated_deviation<T>(arguments_.mesh.format, mesh);
+}
+
+template <typename T>
+MeshContents GridMesh<T>::contents() const {
+  MeshContents contents;
+  contents.vertices = patches_ * vertices_per_patch();
+  contents.corners = arguments_.mesh.quads ? 4 : 3;
+  contents.faces = patches_ * (grid_.nu - 1) * (grid_.nv - 1) * (arguments_.mesh.quads ? 1 : 2);
+  contents.normals = arguments_.mesh.normals;
+  contents.storage = arguments_.mesh.storage;
+  contents.box = box_;
+  // Positions may leave the control points' box by rounding, which is less than this part of the
+  // largest coordinate. Bounds that are 0 or small stay, and positions beyond them come to them:
+  // exact ones lie inside, so that this brings no position farther from its exact one.
+  constexpr double kMargin = 0x1p-16;
+  contents.margin = kMargin * largest_coordinate(box_);
+  for (std::size_t c = 0; c < 3; ++c) {
+    contents.box->low[c] -= kMargin * std::abs(box_.low[c]);
+    contents.box->high[c] += kMargin * std::abs(box_.high[c]);
+  }
+  return contents;
+}
+
+template <typename T>
+void GridMesh<T>::write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& progress) {
+  for_each_block(patches_, grid_, [&](const GridBlock& block) {
+    write_block(block, writer, seconds);
+    if (block.first_row + block.row_count != grid_.nv) {
+      return;
+    }
+    if (writer.takes_faces_early()) {
+      write_faces(block.first_patch, block.patch_count, writer, seconds);
+    }
+    progress.advance(block.patch_count);
+  });
+  if (!writer.takes_faces_early()) {
+    write_faces(0, patches_, writer, seconds);
+  }
+}
+
+template <typename T>
+void GridMesh<T>::write_block(const GridBlock& block, MeshWriter<T>& writer,
+                              StageSeconds& seconds) {
+  const std::size_t stride = arguments_.mesh.normals ? 6 : 3;
+  values_.resize(block.samples(grid_) * stride);
+  Outputs<T> out;
+  out.position = Vectors<T>::xyz(values_.data(), static_cast<std::ptrdiff_t>(stride));
+  if (arguments_.mesh.normals) {
+    out.normal = Vectors<T>::xyz(values_.data() + 3, static_cast<std::ptrdiff_t>(stride));
+  }
+  {
+    const Stopwatch watch(seconds.evaluate);
+    evaluator_.evaluate(block, out);
+    if (arguments_.mesh.normals && arguments_.mesh.flip) {
+      for (std::size_t k = 3; k < values_.size(); k += stride) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          values_[k + c] = T(0) - values_[k + c]; // no -0
+        }
+      }
+    }
+  }
+  const Stopwatch watch(seconds.write);
+  writer.vertices({values_});
+}
+
+template <typename T>
+void GridMesh<T>::write_faces(std::size_t first, std::size_t count, MeshWriter<T>& writer,
+                              StageSeconds& seconds) {
+  constexpr std::size_t kBlockCorners = std::size_t{12} << 12;
+  const Stopwatch watch(seconds.write);
+  corners_.clear();
+  for (std::size_t p = first; p < first + count; ++p) {
+    for (std::size_t j = 0; j + 1 < grid_.nv; ++j) {
+      for (std::size_t i = 0; i + 1 < grid_.nu; ++i) {
+        append_cell(static_cast<std::uint32_t>(p * vertices_per_patch() + j * grid_.nu + i));
+        if (corners_.size() >= kBlockCorners) {
+          writer.faces(corners_);
+          corners_.clear();
+        }
+      }
+    }
+  }
+  writer.faces(corners_);
+}
+
+template <typename T>
+void GridMesh<T>::append_cell(std::uint32_t a) {
+  const std::uint32_t b = a + 1;
+  const std::uint32_t d = a + static_cast<std::uint32_t>(grid_.nu);
+  const std::uint32_t c = d + 1;
+  // Flipped, every face begins with the same vertex and runs the other way round.
+  const std::uint32_t second = arguments_.mesh.flip ? d : b;
+  const std::uint32_t fourth = arguments_.mesh.flip ? b : d;
+  if (arguments_.mesh.quads) {
+    corners_.insert(corners_.end(), {a, second, c, fourth});
+  } else {
+    corners_.insert(corners_.end(), {a, second, c, a, c, fourth});
+  }
+}
+
+template class GridMesh<float>;
+template class GridMesh<double>;
+
+} // namespace simdbezier::tools

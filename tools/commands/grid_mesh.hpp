@@ -1,0 +1,50 @@
+// Meshes whose patches stay apart.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <tools/commands/arguments.hpp>
+#include <tools/commands/mesh_source.hpp>
+#include <tools/patches/grid_blocks.hpp>
+
+namespace simdbezier::tools {
+
+/// Every patch is a grid of vertices of its own, in grid order:
+///
+///     d --- c      a = (i, j), b = (i+1, j): u runs along a row, v across the rows.
+///     |   / |      Triangles a b c and a c d are counter-clockwise about du x dv.
+///     | /   |
+///     a --- b
+template <typename T>
+class GridMesh final : public MeshSource<T> {
+public:
+  /// The file has to outlive it. Throws Failure where there are too many vertices, or where T
+  /// cannot hold a patch.
+  GridMesh(const PatchFile& file, const Arguments& arguments, MeshStats& stats);
+
+  [[nodiscard]] MeshContents contents() const override;
+  void write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& progress) override;
+
+private:
+  /// What takes time and is wanted for statistics only.
+  void measure(const PatchFile& file, MeshStats& stats) const;
+  [[nodiscard]] std::uint64_t vertices_per_patch() const noexcept { return grid_.nu * grid_.nv; }
+  void write_block(const GridBlock& block, MeshWriter<T>& writer, StageSeconds& seconds);
+  /// Faces of these patches, a bounded number at a time.
+  void write_faces(std::size_t first, std::size_t count, MeshWriter<T>& writer,
+                   StageSeconds& seconds);
+  void append_cell(std::uint32_t a);
+
+  const Arguments& arguments_;
+  std::size_t patches_;
+  GridSize grid_;
+  MeshBox box_;
+  GridEvaluator<T> evaluator_;
+  std::vector<T> values_;
+  std::vector<std::uint32_t> corners_;
+};
+
+} // namespace simdbezier::tools

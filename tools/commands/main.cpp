@@ -1,0 +1,90 @@
+// simdbezier: the command-line program.
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <string_view>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <tools/commands/commands.hpp>
+#include <tools/process/failure.hpp>
+#include <tools/process/interruption.hpp>
+
+namespace {
+
+using namespace simdbezier::tools;
+
+void run(const Arguments& arguments) {
+  switch (arguments.command) {
+  case Command::tessellate:
+    return run_tessellate(arguments);
+  case Command::evaluate:
+    return run_evaluate(arguments);
+  case Command::info:
+    return run_info(arguments);
+  }
+}
+
+// Prints one line, whatever a file name contains. It takes no memory, because the message may be
+// that there is none.
+int report(std::string_view message, int exit_code) {
+  static char line[BUFSIZ];
+  std::setvbuf(stderr, line, _IOFBF, sizeof line);
+  std::fputs("simdbezier: ", stderr);
+  for (const char c : message) {
+    const auto byte = static_cast<unsigned char>(c); // char has a sign on some machines alone
+    const bool control = byte < 0x20 || byte == 0x7f;
+    std::putc(control ? ' ' : c, stderr);
+  }
+  std::putc('\n', stderr);
+  std::fflush(stderr);
+  return exit_code;
+}
+
+// The parsers that we use allocate where they must not throw, for instance in destructors. Where
+// memory runs out there, the program comes here. exit() removes the temporary file.
+[[noreturn]] void end_without_memory() {
+  try {
+    if (const std::exception_ptr error = std::current_exception()) {
+      std::rethrow_exception(error);
+    }
+  } catch (const std::bad_alloc&) {
+    std::exit(report("not enough memory", 1));
+  } catch (const std::exception& error) { // a defect of ours, of which abort() leaves a trace
+    report(error.what(), 1);
+  } catch (...) {
+  }
+  std::abort();
+}
+
+// Where the caller has closed a standard stream, the next file would be opened in its place, and
+// data or messages would go there. What is opened instead here refuses to be read or written.
+void keep_standard_streams_apart() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) < 0) {
+      open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    }
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  keep_standard_streams_apart();
+  handle_interruptions();
+  std::set_terminate(end_without_memory);
+  try {
+    if (const auto arguments = parse_arguments(argc, argv)) {
+      run(*arguments);
+    }
+    return 0;
+  } catch (const Failure& failure) {
+    return report(failure.what(), failure.exit_code());
+  } catch (const std::bad_alloc&) {
+    return report("not enough memory", 1);
+  } catch (const std::exception& error) {
+    return report(error.what(), 1);
+  }
+}

@@ -1,0 +1,45 @@
+// What the command line says about a mesh.
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <optional>
+
+#include <simdbezier/simdbezier.hpp>
+#include <tools/commands/command_line.hpp>
+#include <tools/mesh_files/mesh_file.hpp>
+#include <tools/patches/grid_blocks.hpp>
+
+namespace simdbezier::tools {
+
+inline constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+
+enum class StatsForm : std::uint8_t { none, text, json };
+
+struct MeshArguments {
+  MeshFormat format = MeshFormat::obj;
+  VertexStorage storage = VertexStorage::full;
+  bool weld = true;
+  bool normals = true;
+  bool flip = false;
+  bool quads = false;
+  bool orient = false;
+  double snap = 0;
+  std::optional<double> crease; ///< in degrees
+  StatsForm stats = StatsForm::none;
+
+  /// How fine it is. Without any of these, every patch has the samples of a grid.
+  std::optional<double> tolerance;
+  std::optional<double> relative;
+  std::optional<double> pixels;
+  std::optional<double> angle; ///< in degrees
+  Camera camera;
+
+  [[nodiscard]] bool adaptive() const noexcept { return tolerance || relative || pixels || angle; }
+};
+
+/// Throws Failure: exit code 2 where words are none of ours or contradict each other, and 1 where a
+/// number cannot be what it is for.
+[[nodiscard]] MeshArguments parse_mesh_arguments(const Words& words);
+
+} // namespace simdbezier::tools

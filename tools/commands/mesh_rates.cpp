@@ -1,0 +1,149 @@
+#include <tools/commands/mesh_rates.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include <tools/patches/library_status.hpp>
+#include <tools/process/failure.hpp>
+#include <tools/process/output_file.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+/// The distances that are asked for.
+struct Tolerances {
+  double all = kUnlimited;
+  std::string option;         ///< that `all` comes from; empty where that is unlimited
+  std::vector<double> single; ///< of each patch, at most `all`; empty without --pixels
+
+  [[nodiscard]] double of(std::size_t patch) const { return single.empty() ? all : single[patch]; }
+  [[nodiscard]] std::string option_of(std::size_t patch) const {
+    return of(patch) < all ? "--pixels" : option;
+  }
+  void lower(double tolerance, const char* from) {
+    if (tolerance < all) {
+      all = tolerance;
+      option = from;
+    }
+  }
+};
+
+template <typename T>
+Tolerances find_tolerances(const RatedPatches<T>& patches, const MeshArguments& mesh) {
+  Tolerances found;
+  found.lower(mesh.tolerance.value_or(kUnlimited), "--tolerance");
+  if (mesh.relative && patches.diagonal > 0) {
+    found.lower(*mesh.relative * patches.diagonal, "--relative");
+  }
+  if (mesh.pixels) {
+    found.single.resize(patches.errors.size());
+    check(pixel_tolerances<T>(patches.nets, mesh.camera, *mesh.pixels, found.single));
+    for (double& tolerance : found.single) {
+      tolerance = std::min(tolerance, found.all);
+    }
+  }
+  return found;
+}
+
+// Whether the patch would have its rates without the angle.
+template <typename T>
+bool asks_too_small_an_angle(const RatedPatches<T>& patches, RateOptions how,
+                             const CertifiedRates& rates, std::size_t patch) {
+  how.normal_angle = kUnlimited;
+  const RateReport report = choose_rates<T>(patches.nets, patches.topology, how, rates);
+  return report.status != Status::bad_tolerance || report.patch != patch;
+}
+
+// Throws a Failure that says why the patch cannot keep its distance: rounding, or too many cells.
+[[noreturn]] void refuse_distance(const MeshArguments& mesh, const Tolerances& tolerances,
+                                  std::size_t patch, double error, const std::string& name) {
+  const double found = tolerances.of(patch);
+  if (found == kUnlimited) {
+    bad_input(resolution_options(mesh) + ": expected a patch whose error of rounding is bounded, " +
+              "found " + name);
+  }
+  const std::string needed =
+      found > error
+          ? "a distance that " + std::to_string(kMostSegments) + " cells a direction can keep"
+          : "a distance above the error of rounding, " + shortest(error);
+  bad_input(tolerances.option_of(patch) + ": expected " + needed + ", found " + shortest(found) +
+            " for " + name);
+}
+
+template <typename T>
+void choose_adaptive(const RatedPatches<T>& patches, const Arguments& arguments,
+                     const CertifiedRates& rates) {
+  const MeshArguments& mesh = arguments.mesh;
+  const Tolerances tolerances = find_tolerances(patches, mesh);
+  RateOptions how;
+  how.tolerance = tolerances.all;
+  how.tolerances = tolerances.single;
+  how.errors = patches.errors;
+  how.normal_angle = mesh.angle ? *mesh.angle * kRadiansPerDegree : kUnlimited;
+  how.threads = arguments.threads;
+  const RateReport report = choose_rates<T>(patches.nets, patches.topology, how, rates);
+  if (report.status == Status::bad_tolerance) {
+    const std::size_t patch = report.patch;
+    const std::string name = "patch " + std::to_string(patch) + " of " + patches.name;
+    if (mesh.angle && asks_too_small_an_angle(patches, how, rates, patch)) {
+      bad_input("--angle: expected degrees that " + std::to_string(kMostSegments) +
+                " cells a direction can keep, found " + shortest(*mesh.angle) + " for " + name);
+    }
+    refuse_distance(mesh, tolerances, patch, patches.errors[patch], name);
+  }
+  check(report.status);
+}
+
+template <typename T>
+void choose_uniform(const RatedPatches<T>& patches, const Arguments& arguments,
+                    const CertifiedRates& rates) {
+  const GridSize& grid = arguments.grid;
+  if (std::max(grid.nu, grid.nv) > kMostSegments + 1) {
+    bad_usage("--grid: expected at most " + std::to_string(kMostSegments + 1) +
+              " samples a direction without --no-weld, found " + std::to_string(grid.nu) + "x" +
+              std::to_string(grid.nv));
+  }
+  std::ranges::fill(rates.nu, static_cast<std::uint32_t>(grid.nu - 1));
+  std::ranges::fill(rates.nv, static_cast<std::uint32_t>(grid.nv - 1));
+  std::size_t raised = 0;
+  check(separate_vertices(patches.topology, rates.nu, rates.nv, raised));
+  check(certify_rates<T>(patches.nets, patches.topology, patches.errors, rates, arguments.threads)
+            .status);
+}
+
+} // namespace
+
+std::string resolution_options(const MeshArguments& mesh) {
+  std::string names;
+  const auto add = [&](const std::optional<double>& wish, const char* option) {
+    names += !wish ? "" : (names.empty() ? "" : " and ") + std::string(option);
+  };
+  add(mesh.tolerance, "--tolerance");
+  add(mesh.relative, "--relative");
+  add(mesh.pixels, "--pixels");
+  add(mesh.angle, "--angle");
+  return names.empty() ? "--grid" : names;
+}
+
+template <typename T>
+MeshRates choose_mesh_rates(const RatedPatches<T>& patches, const Arguments& arguments) {
+  const std::size_t count = patches.errors.size();
+  MeshRates chosen;
+  chosen.nu.resize(count);
+  chosen.nv.resize(count);
+  chosen.diagonals.resize(count);
+  std::vector<double> deviations(count);
+  const CertifiedRates rates{chosen.nu, chosen.nv, chosen.diagonals, deviations};
+  arguments.mesh.adaptive() ? choose_adaptive(patches, arguments, rates)
+                            : choose_uniform(patches, arguments, rates);
+  // Nothing is claimed to be exact, even if no rounding can be found.
+  chosen.deviation = std::max(std::ranges::max(deviations), std::numeric_limits<double>::min());
+  return chosen;
+}
+
+template MeshRates choose_mesh_rates(const RatedPatches<float>&, const Arguments&);
+template MeshRates choose_mesh_rates(const RatedPatches<double>&, const Arguments&);
+
+} // namespace simdbezier::tools

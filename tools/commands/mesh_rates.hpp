@@ -1,0 +1,41 @@
+// How many cells every patch of a mesh gets, as the command line asks for.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <simdbezier/simdbezier.hpp>
+#include <tools/commands/arguments.hpp>
+
+namespace simdbezier::tools {
+
+/// One value a patch, and the certified deviation of all.
+struct MeshRates {
+  std::vector<std::uint32_t> nu;
+  std::vector<std::uint32_t> nv;
+  std::vector<std::uint16_t> diagonals;
+  double deviation = 0;
+};
+
+/// What rates depend on.
+template <typename T>
+struct RatedPatches {
+  std::span<const ControlNets<T>> nets;
+  const Topology& topology;
+  std::span<const double> errors; ///< of rounding, for each patch
+  double diagonal;                ///< of the box of all control points
+  const std::string& name;        ///< of their file, for messages
+};
+
+/// The options that say how fine a mesh is, for messages about all of it: "--relative and --angle",
+/// or "--grid" where it is not adaptive.
+[[nodiscard]] std::string resolution_options(const MeshArguments& mesh);
+
+/// Throws Failure that names the option whose wish cannot be met.
+template <typename T>
+[[nodiscard]] MeshRates choose_mesh_rates(const RatedPatches<T>& patches,
+                                          const Arguments& arguments);
+
+} // namespace simdbezier::tools

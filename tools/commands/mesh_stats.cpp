@@ -1,0 +1,76 @@
+#include <tools/commands/mesh_stats.hpp>
+
+#include <array>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include <tools/process/output_file.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+// Six digits, for people.
+std::string rounded(double value) {
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.6g", value);
+  return digits.data();
+}
+
+std::string of_stages(const StageSeconds& seconds) {
+  std::string text;
+  const auto add = [&](const char* name, double value) {
+    text += text.empty() ? "" : ", ";
+    text += std::string(name) + " " + rounded(value);
+  };
+  add("read", seconds.read);
+  add("pack", seconds.pack);
+  add("rates", seconds.rates);
+  add("topology", seconds.topology);
+  add("evaluate", seconds.evaluate);
+  add("write", seconds.write);
+  return text;
+}
+
+} // namespace
+
+std::string stats_as_text(const MeshStats& stats) {
+  std::string text;
+  text += "patches            " + std::to_string(stats.patches) + "\n";
+  text += "vertices           " + std::to_string(stats.vertices) + "\n";
+  text += "triangles          " + std::to_string(stats.triangles) + "\n";
+  text += "deviation          " + rounded(stats.deviation) + " at most, certified";
+  text += stats.diagonal > 0
+              ? "; " + rounded(stats.deviation / stats.diagonal) + " of the diagonal\n"
+              : "\n";
+  text += "diagonal           " + rounded(stats.diagonal) + "\n";
+  text += "edges of patches   " + std::to_string(stats.open_edges) + " open, " +
+          std::to_string(stats.non_manifold_edges) + " non-manifold\n";
+  text += "samples            " + std::to_string(stats.samples);
+  text += stats.seconds.evaluate > 0
+              ? "; " + rounded(static_cast<double>(stats.samples) / stats.seconds.evaluate) +
+                    " a second\n"
+              : "\n";
+  return text + "seconds            " + of_stages(stats.seconds) + "\n";
+}
+
+std::string stats_as_json(const MeshStats& stats) {
+  // It is made as an object, because null that becomes one leaks where memory runs out.
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  json["patches"] = stats.patches;
+  json["vertices"] = stats.vertices;
+  json["triangles"] = stats.triangles;
+  json["deviation"] = stats.deviation;
+  json["diagonal"] = stats.diagonal;
+  json["open_edges"] = stats.open_edges;
+  json["non_manifold_edges"] = stats.non_manifold_edges;
+  json["samples"] = stats.samples;
+  const StageSeconds& seconds = stats.seconds;
+  json["seconds"] = {{"read", seconds.read},         {"pack", seconds.pack},
+                     {"rates", seconds.rates},       {"topology", seconds.topology},
+                     {"evaluate", seconds.evaluate}, {"write", seconds.write}};
+  return json.dump(2) + "\n";
+}
+
+} // namespace simdbezier::tools

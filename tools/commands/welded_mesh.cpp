@@ -1,0 +1,267 @@
+#include <tools/commands/welded_mesh.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include <tools/patches/library_status.hpp>
+#include <tools/patches/patch_box.hpp>
+#include <tools/patches/patch_rounding.hpp>
+#include <tools/process/failure.hpp>
+#include <tools/process/output_file.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+template <typename T>
+std::span<const ControlNets<T>> views(const PatchNets<T>& nets) {
+  return nets.nets;
+}
+
+// Assigning an empty one might keep the memory.
+template <typename T>
+void set_free(T& object) {
+  const T freed = std::exchange(object, T());
+}
+
+} // namespace
+
+template <typename T>
+WeldedMesh<T>::WeldedMesh(PatchFile file, const Arguments& arguments, MeshStats& stats)
+    : arguments_(arguments), stats_(stats), patches_(file.count), name_(file.name) {
+  stats_.patches = patches_;
+  {
+    const Stopwatch watch(stats_.seconds.pack);
+    take_points(std::move(file));
+  }
+  {
+    const Stopwatch watch(stats_.seconds.topology);
+    join();
+  }
+  {
+    const Stopwatch watch(stats_.seconds.rates);
+    choose_cells();
+  }
+  {
+    const Stopwatch watch(stats_.seconds.topology);
+    lay_out();
+  }
+  {
+    const Stopwatch watch(stats_.seconds.pack);
+    pack_all();
+  }
+  const Stopwatch watch(stats_.seconds.topology);
+  if (arguments_.mesh.crease) {
+    Options options;
+    options.threads = arguments_.threads;
+    check(split_creases(set_, layout_, *arguments_.mesh.crease * kRadiansPerDegree, layout_,
+                        options));
+  }
+  count_faces();
+  const MeshContents mesh = contents();
+  stats_.vertices = stats_.samples = mesh.vertices;
+  stats_.triangles = 2 * mesh.faces - (mesh.corners == 3 ? mesh.faces : mesh.among_quads);
+  stats_.deviation = stated_deviation<T>(arguments_.mesh.format, mesh);
+}
+
+// A patch that T cannot hold is found here, where its place in the file is still known; what
+// rounding does to every patch is found as well.
+template <typename T>
+void WeldedMesh<T>::take_points(PatchFile file) {
+  box_ = box_of(file);
+  stats_.diagonal = diagonal_of(box_);
+  errors_.resize(patches_);
+  for (std::size_t first = 0; first < patches_; first += kBlockPatches) {
+    const std::size_t count = std::min(kBlockPatches, patches_ - first);
+    std::ranges::copy(rounding_errors<T>(file, first, count),
+                      errors_.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+  file_ = std::make_unique<PatchFile>(std::move(file));
+  nets_ = file_->template nets<T>();
+  if (std::is_same_v<T, float>) { // and otherwise nets are in the file's own memory
+    file_.reset();
+  }
+}
+
+template <typename T>
+void WeldedMesh<T>::join() {
+  TopologyOptions how;
+  how.orient = arguments_.mesh.orient;
+  how.flip = arguments_.mesh.flip;
+  how.snap = arguments_.mesh.snap;
+  how.threads = arguments_.threads;
+  const Status status = find_topology(views(nets_), topology_, how);
+  if (status == Status::not_orientable) {
+    bad_input("--orient: expected patches that can be turned to agree with their neighbours, found "
+              "a surface of one side in " +
+              name_);
+  }
+  check(status);
+  const TopologyCounts counts = topology_.counts();
+  stats_.open_edges = counts.open_edges;
+  stats_.non_manifold_edges = counts.non_manifold_edges;
+}
+
+template <typename T>
+void WeldedMesh<T>::choose_cells() {
+  rates_ =
+      choose_mesh_rates<T>({views(nets_), topology_, errors_, stats_.diagonal, name_}, arguments_);
+}
+
+template <typename T>
+void WeldedMesh<T>::lay_out() {
+  const Status status = lay_out_mesh(topology_, {rates_.nu, rates_.nv, rates_.diagonals}, layout_);
+  if (status == Status::size_overflow) {
+    bad_input(resolution_options(arguments_.mesh) + ": expected at most " +
+              std::to_string(kMostMeshVertices) + " vertices, found more");
+  }
+  check(status);
+  deviation_ = rates_.deviation;
+  set_free(rates_); // the layout has its own
+}
+
+template <typename T>
+void WeldedMesh<T>::pack_all() {
+  PackOptions how;
+  how.threads = arguments_.threads;
+  check(pack(views(nets_), set_, how).status);
+  set_free(nets_);
+  file_.reset();
+}
+
+template <typename T>
+void WeldedMesh<T>::count_faces() {
+  faces_ = layout_.size().triangles;
+  if (arguments_.mesh.quads) {
+    PolygonSize size;
+    check(polygon_size(layout_, size, arguments_.threads));
+    faces_ = size.polygons;
+    among_quads_ = 4 * size.polygons - size.indices;
+  }
+}
+
+template <typename T>
+MeshContents WeldedMesh<T>::contents() const {
+  const MeshArguments& mesh = arguments_.mesh;
+  MeshContents contents;
+  contents.vertices = layout_.size().vertices;
+  contents.faces = faces_;
+  contents.corners = mesh.quads ? 4 : 3;
+  contents.among_quads = among_quads_;
+  contents.normals = mesh.normals;
+  contents.storage = mesh.storage;
+  contents.deviation = deviation_;
+  contents.generator = program_version();
+  // Positions may leave the control points' box by their errors, whose bounds may be far larger
+  // than the model, or infinite, where weights differ much: what is computed stays close to the
+  // box. What no longer fits a float is judged by the control points.
+  const double largest = largest_coordinate(box_);
+  const double most = std::max<double>(std::numeric_limits<float>::max(), largest);
+  const double margin = std::min(std::ranges::max(errors_), largest);
+  contents.box = box_;
+  for (std::size_t c = 0; c < 3; ++c) {
+    contents.box->low[c] = std::max(box_.low[c] - margin, -most);
+    contents.box->high[c] = std::min(box_.high[c] + margin, most);
+  }
+  return contents;
+}
+
+// One patch at least, and as many as have a moderate number of vertices and triangles.
+template <typename T>
+typename WeldedMesh<T>::Block WeldedMesh<T>::block_from(std::size_t patch) const {
+  const auto size = [&](std::size_t end) {
+    return layout_.first_vertex(end) - layout_.first_vertex(patch) +
+           (layout_.first_triangle(end) - layout_.first_triangle(patch)) / 2;
+  };
+  std::size_t end = std::min(patch + 1, patches_);
+  while (end < patches_ && end - patch < kBlockPatches && size(end + 1) <= kBlockSamples) {
+    ++end;
+  }
+  return {patch, end - patch};
+}
+
+template <typename T>
+void WeldedMesh<T>::write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& progress) {
+  const auto for_blocks = [&](auto&& visit) {
+    for (Block block = block_from(0); block.count > 0;
+         block = block_from(block.first + block.count)) {
+      visit(block);
+    }
+  };
+  for_blocks([&](const Block& block) {
+    write_vertices(block, writer, seconds);
+    if (writer.takes_faces_early()) {
+      write_faces(block, writer, seconds);
+    }
+    progress.advance(block.count);
+  });
+  if (!writer.takes_faces_early()) {
+    for_blocks([&](const Block& block) { write_faces(block, writer, seconds); });
+  }
+}
+
+template <typename T>
+void WeldedMesh<T>::write_vertices(const Block& block, MeshWriter<T>& writer,
+                                   StageSeconds& seconds) {
+  const std::size_t vertices =
+      layout_.first_vertex(block.first + block.count) - layout_.first_vertex(block.first);
+  const std::size_t stride = arguments_.mesh.normals ? 6 : 3;
+  values_.resize(vertices * stride);
+  MeshOutputs<T> out;
+  out.position = Vectors<T>::xyz(values_.data(), static_cast<std::ptrdiff_t>(stride));
+  if (arguments_.mesh.normals) {
+    out.normal = Vectors<T>::xyz(values_.data() + 3, static_cast<std::ptrdiff_t>(stride));
+  }
+  Options options;
+  options.threads = arguments_.threads;
+  if (vertices > 0) {
+    const Stopwatch watch(seconds.evaluate);
+    check(evaluate_mesh(set_, layout_, out, options, {block.first, block.count}));
+  }
+  const Stopwatch watch(seconds.write);
+  writer.vertices({values_});
+}
+
+template <typename T>
+void WeldedMesh<T>::write_faces(const Block& block, MeshWriter<T>& writer, StageSeconds& seconds) {
+  std::span<const std::uint32_t> corners;
+  {
+    const Stopwatch watch(seconds.topology);
+    corners = arguments_.mesh.quads ? quads(block) : faces(block);
+  }
+  const Stopwatch watch(seconds.write);
+  writer.faces(corners);
+}
+
+template <typename T>
+std::span<const std::uint32_t> WeldedMesh<T>::faces(const Block& block) {
+  corners_.resize(3 * (layout_.first_triangle(block.first + block.count) -
+                       layout_.first_triangle(block.first)));
+  check(write_triangles<std::uint32_t>(layout_, corners_, arguments_.threads,
+                                       {block.first, block.count}));
+  return corners_;
+}
+
+template <typename T>
+std::span<const std::uint32_t> WeldedMesh<T>::quads(const Block& block) {
+  const SetRange range{block.first, block.count};
+  PolygonSize size;
+  check(polygon_size(layout_, size, arguments_.threads, range));
+  polygons_.resize(size.indices);
+  sizes_.resize(size.polygons);
+  check(write_polygons<std::uint32_t>(layout_, polygons_, sizes_, arguments_.threads, range));
+  corners_.assign(4 * size.polygons, kNoVertex);
+  auto next = polygons_.begin();
+  for (std::size_t k = 0; k < sizes_.size(); next += sizes_[k++]) {
+    std::copy_n(next, sizes_[k], &corners_[4 * k]);
+  }
+  return corners_;
+}
+
+template class WeldedMesh<float>;
+template class WeldedMesh<double>;
+
+} // namespace simdbezier::tools

@@ -1,0 +1,199 @@
+#include <tools/mesh_files/mesh_file.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <tools/mesh_files/mesh_formats.hpp>
+#include <tools/mesh_files/vertex_records.hpp>
+#include <tools/process/failure.hpp>
+#include <tools/process/output_file.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+struct FormatEntry {
+  const char* extension;
+  const char* name; // with its article
+  MeshAbilities can;
+};
+#define SIMDBEZIER_MESH_FORMAT_ROW(NAME, FILE, ...) {#NAME, FILE, __VA_ARGS__},
+constexpr FormatEntry kFormats[] = {SIMDBEZIER_EACH_MESH_FORMAT(SIMDBEZIER_MESH_FORMAT_ROW)};
+#undef SIMDBEZIER_MESH_FORMAT_ROW
+
+const FormatEntry& entry_of(MeshFormat format) {
+  return kFormats[static_cast<std::size_t>(format)];
+}
+
+void expect_at_most(const std::string& path, const char* format, const char* what,
+                    std::uint64_t most, std::uint64_t found) {
+  if (found > most) {
+    bad_input(path + ": expected at most " + std::to_string(most) + " " + what + " in " + format +
+              ", found " + std::to_string(found));
+  }
+}
+
+template <typename T>
+void check_contents(const std::string& path, MeshFormat format, const MeshContents& contents) {
+  const FormatEntry& entry = entry_of(format);
+  expect_at_most(path, entry.name, "vertices", kMostMeshVertices, contents.vertices);
+  expect_at_most(path, entry.name, "faces", entry.can.most_faces, contents.faces);
+  expect_at_most(path, entry.name, "numbered patches", entry.can.most_patches, contents.patches);
+  if (contents.storage != VertexStorage::full && !entry.can.quantised) {
+    bad_input(path + ": expected floating-point vertices in " + entry.name +
+              ", found quantised vertices");
+  }
+  if (contents.corners != 3 && !entry.can.quads) {
+    bad_input(path + ": expected triangles in " + entry.name + ", found quads");
+  }
+  if (!entry.can.doubles && contents.box) {
+    static_cast<void>(as_float(path, largest_coordinate(*contents.box)));
+  }
+  assert(contents.storage == VertexStorage::full || contents.box);
+}
+
+} // namespace
+
+std::optional<MeshFormat> mesh_format_of(const std::string& path) {
+  const std::string extension = extension_of(path);
+  const auto* const entry = std::ranges::find(kFormats, extension, &FormatEntry::extension);
+  return entry == std::end(kFormats)
+             ? std::nullopt
+             : std::optional(static_cast<MeshFormat>(entry - std::begin(kFormats)));
+}
+
+std::string mesh_format_name(MeshFormat format) { return entry_of(format).extension; }
+
+const MeshAbilities& mesh_abilities(MeshFormat format) { return entry_of(format).can; }
+
+std::string mesh_format_names(const std::string& prefix, bool MeshAbilities::*ability) {
+  std::vector<std::string> wanted;
+  for (const FormatEntry& entry : kFormats) {
+    if (ability == nullptr || entry.can.*ability) {
+      wanted.push_back(prefix + entry.extension);
+    }
+  }
+  return alternatives(wanted);
+}
+
+double largest_coordinate(const MeshBox& box) {
+  double largest = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    largest = std::max({largest, std::abs(box.low[c]), std::abs(box.high[c])});
+  }
+  return largest;
+}
+
+template <typename T>
+double stated_deviation(MeshFormat format, const MeshContents& contents) {
+  constexpr double kHalfFloat = 0x1p-24; // unit roundoff
+  const bool quantised = contents.storage != VertexStorage::full;
+  const bool rounded = sizeof(T) > sizeof(float) && !mesh_abilities(format).doubles;
+  if (!quantised && !rounded) {
+    return *contents.deviation;
+  }
+  assert(contents.box);
+  const double size = largest_coordinate(*contents.box);
+  // Whoever reads quantised positions computes in floats. 1 / 65535, the extent and both products
+  // are rounded, which are parts of the extent; so are the box's corner and the sum.
+  const double extent = quantised ? quantised_space(*contents.box).extent : 0;
+  const double component =
+      quantised ? extent / 65535 / 2 + kHalfFloat * (4 * extent + 2 * size) : kHalfFloat * size;
+  const double error = std::sqrt(3.0) * (component * (1 + 0x1p-32) + 0x1p-148);
+  return std::nextafter(*contents.deviation + error, HUGE_VAL);
+}
+
+std::uintmax_t checked_file_size(const std::string& path, Count bytes) {
+  if (!bytes.value()) {
+    bad_input(path + ": expected a file whose bytes can be counted, found " + to_string(bytes));
+  }
+  return *bytes.value();
+}
+
+template <typename T>
+float as_float(const std::string& path, T value) {
+  if (!(std::abs(value) <= static_cast<T>(std::numeric_limits<float>::max()))) {
+    bad_input(path + ": expected coordinates that a float can hold, found " +
+              shortest(static_cast<double>(value)));
+  }
+  return static_cast<float>(value);
+}
+
+template <typename T>
+void MeshWriter<T>::vertices(const VertexBlock<T>& block) {
+  const std::size_t stride = contents_.stride();
+  assert(block.values.size() % stride == 0);
+  assert(block.patch.size() == (contents_.patches > 0 ? block.values.size() / stride : 0));
+  // Without a branch, so that a register of values takes one step.
+  bool finite = true;
+  for (const T value : block.values) {
+    finite &= std::abs(value) <= std::numeric_limits<T>::max();
+  }
+  if (!finite) {
+    const auto bad =
+        std::ranges::find_if(block.values, [](T value) { return !std::isfinite(value); });
+    const auto place = static_cast<std::size_t>(bad - block.values.begin()) / stride;
+    bad_input(path_ + ": expected finite numbers, found " + shortest(static_cast<double>(*bad)) +
+              " at vertex " + std::to_string(vertices_done_ + place));
+  }
+  vertices_done_ += block.values.size() / stride;
+  assert(vertices_done_ <= contents_.vertices);
+  take_vertices(block);
+}
+
+template <typename T>
+void MeshWriter<T>::faces(std::span<const std::uint32_t> corners) {
+  assert(corners.size() % contents_.corners == 0);
+  assert(takes_faces_early() || vertices_done_ == contents_.vertices);
+  assert(std::ranges::all_of(corners, [&](std::uint32_t corner) {
+    return corner < vertices_done_ || (corner == kNoVertex && contents_.corners == 4);
+  }));
+  faces_done_ += corners.size() / contents_.corners;
+  assert(faces_done_ <= contents_.faces);
+  take_faces(corners);
+}
+
+template <typename T>
+void MeshWriter<T>::complete() {
+  assert(vertices_done_ == contents_.vertices && faces_done_ == contents_.faces && !complete_);
+  put_on_disk();
+  complete_ = true;
+}
+
+template <typename T>
+void MeshWriter<T>::finish() {
+  if (!complete_) {
+    complete();
+  }
+  put_in_place();
+}
+
+template <typename T>
+std::unique_ptr<MeshWriter<T>> make_mesh_writer(const std::string& path, MeshFormat format,
+                                                const MeshContents& contents) {
+  check_contents<T>(path, format, contents);
+  MeshContents stated = contents;
+  if (contents.deviation) {
+    stated.deviation = stated_deviation<T>(format, contents);
+  }
+#define SIMDBEZIER_MESH_WRITER(NAME, ...) make_##NAME##_writer<T>,
+  constexpr std::unique_ptr<MeshWriter<T>> (*kWriters[])(const std::string&,
+                                                         const MeshContents&) = {
+      SIMDBEZIER_EACH_MESH_FORMAT(SIMDBEZIER_MESH_WRITER)};
+#undef SIMDBEZIER_MESH_WRITER
+  return kWriters[static_cast<std::size_t>(format)](path, stated);
+}
+
+template class MeshWriter<float>;
+template class MeshWriter<double>;
+template std::unique_ptr<MeshWriter<float>> make_mesh_writer(const std::string&, MeshFormat,
+                                                             const MeshContents&);
+template std::unique_ptr<MeshWriter<double>> make_mesh_writer(const std::string&, MeshFormat,
+                                                              const MeshContents&);
+template double stated_deviation<float>(MeshFormat, const MeshContents&);
+template double stated_deviation<double>(MeshFormat, const MeshContents&);
+template float as_float(const std::string&, float);
+template float as_float(const std::string&, double);
+
+} // namespace simdbezier::tools

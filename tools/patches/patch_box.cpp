@@ -1,0 +1,45 @@
+#include <tools/patches/patch_box.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace simdbezier::tools {
+
+namespace {
+
+void extend(const ControlNets<double>& nets, MeshBox& box) {
+  const std::ptrdiff_t values = nets.point_stride;
+  const double* const end =
+      nets.points + static_cast<std::ptrdiff_t>(nets.count) * nets.patch_stride;
+  for (const double* point = nets.points; point != end; point += values) {
+    const double divisor = nets.weights == Weights::homogeneous ? point[3] : 1;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double coordinate = point[c] / divisor + 0.0; // -0 becomes 0
+      box.low[c] = std::min(box.low[c], coordinate);
+      box.high[c] = std::max(box.high[c], coordinate);
+    }
+  }
+}
+
+} // namespace
+
+MeshBox box_of(const PatchFile& file) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  MeshBox box;
+  box.low.fill(kInfinity);
+  box.high.fill(-kInfinity);
+  for (std::size_t first = 0; first < file.count; first += kBlockPatches) {
+    const PatchNets<double> block = file.nets<double>(first, kBlockPatches);
+    for (const ControlNets<double>& nets : block.nets) {
+      extend(nets, box);
+    }
+  }
+  return box;
+}
+
+double diagonal_of(const MeshBox& box) {
+  return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+}
+
+} // namespace simdbezier::tools

@@ -1,0 +1,15 @@
+// The box of control points.
+#pragma once
+
+#include <tools/formats/patch_file.hpp>
+#include <tools/mesh_files/mesh_file.hpp>
+
+namespace simdbezier::tools {
+
+/// The box of all control points, in Cartesian coordinates; -0 counts as 0, as in the library.
+[[nodiscard]] MeshBox box_of(const PatchFile& file);
+
+/// The length of its diagonal.
+[[nodiscard]] double diagonal_of(const MeshBox& box);
+
+} // namespace simdbezier::tools

@@ -1,0 +1,231 @@
+#include <tools/process/output_file.hpp>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <tools/process/counts.hpp>
+#include <tools/process/failure.hpp>
+
+namespace simdbezier::tools {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string error_text(int error) { return in_quotes(std::strerror(error)); }
+
+// These names lead to whatever the program was started with. If there is a file behind them, the
+// shell has opened and truncated it.
+bool names_open_descriptor(const fs::path& path) {
+  const std::string& name = path.native();
+  return name == "/dev/stdout" || name == "/dev/stderr" || name.starts_with("/dev/fd/") ||
+         name.starts_with("/proc/");
+}
+
+// The file at the end of a chain of links, which need not exist. A chain without an end stays a
+// link, which the system refuses to open.
+fs::path follow_links(fs::path path) {
+  constexpr int kMostLinks = 40; // the system's own limit
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && !names_open_descriptor(path) && fs::is_symlink(path, error);
+       ++i) {
+    path = path.parent_path() / fs::read_symlink(path, error);
+  }
+  return path;
+}
+
+// What a name stands for, if there is such a file.
+std::optional<struct stat> file_of(const std::string& name, int standard) {
+  struct stat status = {};
+  const bool exists =
+      name == "-" ? fstat(standard, &status) == 0 : stat(name.c_str(), &status) == 0;
+  return exists ? std::optional(status) : std::nullopt;
+}
+
+bool are_one(const std::optional<struct stat>& a, const std::optional<struct stat>& b) {
+  return a && b && a->st_dev == b->st_dev && a->st_ino == b->st_ino;
+}
+
+} // namespace
+
+OutputFile::OutputFile(std::string path) : path_(std::move(path)), buffer_(kBufferSize) {
+  if (path_ == "-") {
+    descriptor_ = STDOUT_FILENO;
+    return;
+  }
+  const fs::path target = follow_links(path_);
+  std::error_code ignored;
+  if (fs::is_directory(target, ignored)) {
+    fail("a file", "a directory");
+  }
+  if (fs::is_symlink(target, ignored) && !names_open_descriptor(target)) {
+    fail("a writable file", error_text(ELOOP));
+  }
+  if (is_written_directly(path_)) {
+    open_directly(target.native());
+    return;
+  }
+  try {
+    temporary_.emplace(target.native());
+  } catch (const std::system_error& error) {
+    fail("a writable file", error_text(error.code().value()));
+  }
+  descriptor_ = temporary_->descriptor();
+}
+
+void OutputFile::open_directly(const std::string& target) {
+  // It is opened for appending, so that what a shell's >> has kept stays.
+  direct_ =
+      Descriptor(open(target.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY, 0666));
+  if (!direct_.is_open()) {
+    fail("a writable file", error_text(errno));
+  }
+  descriptor_ = direct_.number();
+}
+
+void OutputFile::fail(const std::string& what, const std::string& found) const {
+  bad_input((path_ == "-" ? "standard output" : path_) + ": expected " + what + ", found " + found);
+}
+
+bool OutputFile::is_terminal() const { return isatty(descriptor_) != 0; }
+
+void OutputFile::expect_room(std::uintmax_t bytes) const {
+  struct statvfs space = {};
+  if (!temporary_ || fstatvfs(descriptor_, &space) != 0) {
+    return;
+  }
+  const Count available = Count(space.f_bavail) * space.f_frsize;
+  if (available.within(bytes) && available.value() != bytes) {
+    fail("room for " + std::to_string(bytes) + " bytes or more",
+         to_string(available) + " bytes free");
+  }
+}
+
+void OutputFile::bytes(const void* data, std::size_t size) {
+  if (size > kBufferSize - used_) {
+    flush();
+  }
+  if (size > kBufferSize) {
+    return write_all(static_cast<const char*>(data), size);
+  }
+  std::memcpy(buffer_.data() + used_, data, size);
+  used_ += size;
+}
+
+void OutputFile::flush() { write_all(buffer_.data(), std::exchange(used_, 0)); }
+
+// Pipes and full disks sometimes take a part only, and pipes of others may be set not to wait.
+void OutputFile::write_all(const char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = write(descriptor_, data, size);
+    if (written > 0) {
+      data += written;
+      size -= static_cast<std::size_t>(written);
+    } else if (written < 0 && errno == EAGAIN) {
+      pollfd wait = {descriptor_, POLLOUT, 0};
+      poll(&wait, 1, -1);
+    } else if (written == 0 || errno != EINTR) {
+      fail("room to write", error_text(written == 0 ? ENOSPC : errno));
+    }
+  }
+}
+
+void OutputFile::rewrite(std::uint64_t at, std::string_view text) {
+  flush();
+  while (!text.empty()) {
+    const ssize_t written = pwrite(descriptor_, text.data(), text.size(), static_cast<off_t>(at));
+    if (written > 0) {
+      at += static_cast<std::uint64_t>(written);
+      text.remove_prefix(static_cast<std::size_t>(written));
+    } else if (written == 0 || errno != EINTR) {
+      fail("room to write", error_text(written == 0 ? ENOSPC : errno));
+    }
+  }
+}
+
+void OutputFile::complete() {
+  flush();
+  descriptor_ = -1;
+  try {
+    if (temporary_) {
+      temporary_->complete();
+    } else if (const std::error_code error = direct_.close()) {
+      throw std::system_error(error);
+    }
+  } catch (const std::system_error& error) {
+    fail("room to write", error_text(error.code().value()));
+  }
+}
+
+void OutputFile::commit() {
+  if (descriptor_ >= 0) {
+    complete();
+  }
+  if (!temporary_) {
+    return;
+  }
+  try {
+    temporary_->replace_target();
+  } catch (const std::system_error& error) {
+    fail("a place that the finished file can be moved to", error_text(error.code().value()));
+  }
+}
+
+void refuse_input_as_output(const std::string& out, std::span<const std::string> inputs) {
+  const auto written = file_of(out, STDOUT_FILENO);
+  for (const std::string& input : inputs) {
+    const auto read = file_of(input, STDIN_FILENO);
+    // Devices, terminals and the like may well be both.
+    if (are_one(written, read) && S_ISREG(written->st_mode)) {
+      bad_input((out == "-" ? "standard output" : out) +
+                ": expected an output that is no input, found the file that " +
+                (input == "-" ? "standard input" : input) + " is read from");
+    }
+  }
+}
+
+bool mixes_with_standard_output(const std::string& path) {
+  const auto standard = file_of("-", STDOUT_FILENO);
+  return path == "-" || (are_one(file_of(path, STDOUT_FILENO), standard) &&
+                         !are_one(file_of("/dev/null", STDOUT_FILENO), standard));
+}
+
+bool is_written_directly(const std::string& path) {
+  const fs::path target = follow_links(path);
+  std::error_code ignored;
+  const fs::file_status status = fs::status(target, ignored);
+  return path == "-" || names_open_descriptor(target) || fs::is_other(status);
+}
+
+std::string folder_of(const std::string& output) {
+  const std::string folder = follow_links(output).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+std::string extension_of(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  if (!extension.empty()) {
+    extension.erase(0, 1);
+  }
+  for (char& c : extension) {
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return extension;
+}
+
+std::string shortest(double value) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return {digits.data(), end};
+}
+
+} // namespace simdbezier::tools
