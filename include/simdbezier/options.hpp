@@ -28,9 +28,10 @@ enum class Destination : std::uint8_t {
 
 /// How a call runs. The defaults are what most callers want.
 struct Options {
-  /// 0 or less: OpenMP's default, and the calling thread alone inside of a parallel region (in
-  /// builds without OpenMP: one thread a core); 1: the calling thread alone; at most 16, two a core
-  /// or OpenMP's default, whichever is most.
+  /// 0 or less: as many as have some 20 microseconds of work each, which depends on the call's
+  /// shape alone, and at most OpenMP's default (in builds without OpenMP: one a core); inside of a
+  /// parallel region the calling thread alone. 1: the calling thread alone. Otherwise so many, but
+  /// never more than 16, two a core or OpenMP's default, whichever is most.
   ///
   /// 1 enters no OpenMP region and never starts a thread: such a call always returns, with a
   /// status. Otherwise OpenMP's runtime starts the threads that its pool lacks. Where the system

@@ -78,7 +78,7 @@ struct PackOptions {
   /// Positions come out relative to this point, which is subtracted from the control points in
   /// double (or wider) before anything is rounded to T. One point for all sets that share edges.
   double relative_to[3] = {0, 0, 0};
-  int threads = 1;          ///< as in Options: 0: OpenMP's default; 1: the calling thread
+  int threads = 1;          ///< as in Options: 0: as many as pay; 1: the calling thread
   Isa isa = Isa::automatic; ///< see resolve_isa(); results do not depend on it
 };
 

@@ -8,6 +8,7 @@
 //
 // and the work's
 //   std::size_t units()           what threads share
+//   std::size_t duration()        about how long one thread takes, as duration_of() says
 //   std::size_t scratch_bytes()   that each of them needs
 //   Isa run(worker, begin, end, scratch)
 //

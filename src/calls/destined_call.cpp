@@ -59,7 +59,7 @@ private:
 bool exceeds_caches(std::size_t bytes) noexcept { return bytes > last_level_cache() / 2; }
 
 Status run_work(const AnyWork& work, const Options& options) noexcept {
-  return run_blocks(work.units, options, work.scratch_bytes, work);
+  return run_blocks(work.units, work.duration, options, work.scratch_bytes, work);
 }
 
 Destination unmeasured_destination(std::size_t bytes) noexcept {
@@ -74,14 +74,15 @@ bool is_measured(std::size_t bytes) noexcept {
 }
 
 CallKind with_threads(CallKind kind, const Options& options) noexcept {
-  const int threads = thread_count(options.threads, std::numeric_limits<std::size_t>::max());
+  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+  const int threads = thread_count(options.threads, kMost, kMost);
   return kind.add(static_cast<std::uint64_t>(threads));
 }
 
 Status run_and_decide(const AnyWork& plain, const AnyWork& streaming, const CallKind& kind,
                       std::size_t bytes, const Options& options) noexcept {
   const std::size_t items = plain.units / plain.grain;
-  const int threads = thread_count(options.threads, items);
+  const int threads = thread_count(options.threads, items, plain.duration);
   // A block is half of what the second-level caches of all threads hold.
   const std::size_t blocks = bytes / (second_level_cache() / 2) + 1;
   // Rows that are whole lines together begin on a line in every thread's share of it.

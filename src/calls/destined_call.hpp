@@ -69,6 +69,7 @@ struct AnyWork {
   Isa (*run)(const void* work, int worker, std::size_t begin, std::size_t end,
              unsigned char* scratch);
   std::size_t units;
+  std::size_t duration;
   std::size_t grain;
   std::size_t scratch_bytes;
 
@@ -78,7 +79,8 @@ struct AnyWork {
                           unsigned char* scratch) {
           return static_cast<const Work*>(self)->run(worker, begin, end, scratch);
         }),
-        units(of.units()), grain(units_of_patch), scratch_bytes(of.scratch_bytes()) {}
+        units(of.units()), duration(of.duration()), grain(units_of_patch),
+        scratch_bytes(of.scratch_bytes()) {}
 
   Isa operator()(int worker, std::size_t begin, std::size_t end,
                  unsigned char* scratch) const noexcept {

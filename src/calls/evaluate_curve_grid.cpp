@@ -55,6 +55,9 @@ public:
   }
 
   [[nodiscard]] std::size_t units() const noexcept { return curves_ * strips_; }
+  [[nodiscard]] std::size_t duration() const noexcept {
+    return duration_of(curves_ * plan_.nu(), 1);
+  }
   [[nodiscard]] std::size_t grain() const noexcept { return strips_; }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return kernels_.delivery_bytes(outputs_);

@@ -24,6 +24,7 @@ public:
   }
 
   [[nodiscard]] std::size_t units() const noexcept { return grids_.total(); }
+  [[nodiscard]] std::size_t duration() const noexcept { return duration_of(grids_.total(), 1); }
   [[nodiscard]] std::size_t grain() const noexcept { return 1; }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return kernels_.delivery_bytes(outputs_) + PlanCache<T>::memory_bytes(grids_);

@@ -23,6 +23,9 @@ public:
         pieces_(samples.curve.size(), outputs_.staged()) {}
 
   [[nodiscard]] std::size_t units() const noexcept { return pieces_.count; }
+  [[nodiscard]] std::size_t duration() const noexcept {
+    return duration_of(samples_.curve.size(), 4);
+  }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return Delivery<T>::scratch_bytes(outputs_.staged_planes(), outputs_.streaming(),
                                       pieces_.length);

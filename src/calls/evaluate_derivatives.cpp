@@ -120,6 +120,7 @@ public:
   [[nodiscard]] std::size_t units() const noexcept {
     return samples_ / kDerivativePiece + (samples_ % kDerivativePiece != 0 ? 1 : 0);
   }
+  [[nodiscard]] std::size_t duration() const noexcept { return duration_of(samples_, 10); }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept { return sizeof(Scratch); }
 
   Isa run(int /*worker*/, std::size_t begin, std::size_t end,

@@ -27,6 +27,9 @@ public:
   }
 
   [[nodiscard]] std::size_t units() const noexcept { return patches_ * strips_; }
+  [[nodiscard]] std::size_t duration() const noexcept {
+    return duration_of(patches_ * plan_.nu() * plan_.nv(), 1);
+  }
   [[nodiscard]] std::size_t grain() const noexcept { return strips_; }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return delivery_bytes_ + PieceEvaluator<T>::scratch_bytes(strip_rows_);

@@ -22,6 +22,9 @@ public:
         pieces_(samples.patch.size(), outputs_.staged()) {}
 
   [[nodiscard]] std::size_t units() const noexcept { return pieces_.count; }
+  [[nodiscard]] std::size_t duration() const noexcept {
+    return duration_of(samples_.patch.size(), 4);
+  }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return index_bytes() + Delivery<T>::scratch_bytes(outputs_.staged_planes(),
                                                       outputs_.streaming(), pieces_.length);

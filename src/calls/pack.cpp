@@ -99,7 +99,8 @@ PackReport pack_runs(std::span<const ControlNets<S>> nets, std::span<const PackR
     }
     fault.add(report);
   };
-  for_blocks(groups, thread_count(options.threads, groups), BlockBody(body));
+  for_blocks(groups, thread_count(options.threads, groups, duration_of(groups, 50 * kMaxLanes)),
+             BlockBody(body));
   return fault.report();
 }
 

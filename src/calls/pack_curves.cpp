@@ -91,7 +91,8 @@ PackReport pack_all(const ControlCurves<S>& curves, const PackOptions& options, 
         [&](std::size_t first, std::size_t last) { return kernel(task, first, last); },
         [&](std::size_t curve) { return inspect(curves, storage, curve); }));
   };
-  for_blocks(groups, thread_count(options.threads, groups), BlockBody(body));
+  for_blocks(groups, thread_count(options.threads, groups, duration_of(curves.count, 20)),
+             BlockBody(body));
   return fault.report();
 }
 

@@ -147,7 +147,8 @@ NetReport convert_mesh(const SplineMesh<T>& mesh, const MutableNets<T>& out,
     return executed;
   };
   const std::size_t values = 3 * 16 * static_cast<std::size_t>(channels_of(mesh));
-  return {run_blocks(mesh.patches_v() * groups, options, values * kLineBytes, work)};
+  return {run_blocks(mesh.patches_v() * groups, duration_of(mesh.patches_v() * columns, 100),
+                     options, values * kLineBytes, work)};
 }
 
 /// The bytes of a mesh that can be read; false where an offset overflows.

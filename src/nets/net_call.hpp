@@ -100,7 +100,7 @@ Status run_net_kernel(NetKernel<Task> NetTable<T>::*kernel, const Task& task, st
     return runs;
   }
   const NetKernel<Task> run = kernel_table<T>(isa).nets->*kernel;
-  return run_blocks(lane_groups(count), options, values * kLineBytes,
+  return run_blocks(lane_groups(count), duration_of(count, 100), options, values * kLineBytes,
                     [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
                       const std::size_t last = end * kMaxLanes < count ? end * kMaxLanes : count;
                       return run(task, begin * kMaxLanes, last, scratch);

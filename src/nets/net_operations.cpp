@@ -109,7 +109,7 @@ NetReport run_copy(const ControlNets<T>& original, const ControlNets<T>& nets,
       to_row += out.row_stride;
     }
   };
-  return {run_blocks(nets.count, options, 0,
+  return {run_blocks(nets.count, duration_of(nets.count, 50), options, 0,
                      [&](int, std::size_t begin, std::size_t end, unsigned char*) {
                        for (std::size_t patch = begin; patch < end; ++patch) {
                          copy_patch(static_cast<std::ptrdiff_t>(patch));

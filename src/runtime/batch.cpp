@@ -7,15 +7,15 @@
 
 namespace simdbezier::detail {
 
-int thread_count(int requested, std::size_t units) noexcept {
-  if (requested == 1) {
+int thread_count(int requested, std::size_t units, std::size_t duration) noexcept {
+  const std::size_t shares = requested > 0 ? units : std::min(units, duration / kShortestShare);
+  if (requested == 1 || shares <= 1) {
     return 1;
   }
-  int threads = std::min(requested <= 0 ? default_threads() : requested, most_threads());
-  if (threads > 1 && units < static_cast<std::size_t>(threads)) {
-    threads = static_cast<int>(units);
-  }
-  return threads > 1 ? threads : 1;
+  const int threads = std::min(requested > 0 ? requested : default_threads(), most_threads());
+  return threads < 1                                  ? 1
+         : shares < static_cast<std::size_t>(threads) ? static_cast<int>(shares)
+                                                      : threads;
 }
 
 namespace {

@@ -16,9 +16,20 @@ namespace simdbezier::detail {
 /// Bytes rounded up to whole cache lines.
 constexpr std::size_t whole_lines(std::size_t bytes) noexcept { return (bytes + 63) / 64 * 64; }
 
-/// How many threads to use for `units` pieces of work: `requested`, or OpenMP's default where it
-/// is 0 or negative, which is 1 inside a parallel region of the caller; never more than units.
-int thread_count(int requested, std::size_t units) noexcept;
+/// About how long one thread works on `pieces`, in nanoseconds. This is an estimate for
+/// thread_count() and nothing else: a factor of five does not matter.
+constexpr std::size_t duration_of(std::size_t pieces, std::size_t nanoseconds) noexcept {
+  std::size_t product = 0;
+  return __builtin_mul_overflow(pieces, nanoseconds, &product) ? ~std::size_t(0) : product;
+}
+
+/// How many threads to use for `units` pieces of work, never more than these: `requested`, or where
+/// that is 0 or negative, so many that each has kShortestShare of work, and at most OpenMP's
+/// default, which is 1 inside a parallel region of the caller.
+int thread_count(int requested, std::size_t units, std::size_t duration) noexcept;
+
+/// In nanoseconds: to wake a thread and to wait for it take up to as long.
+inline constexpr std::size_t kShortestShare = 20'000;
 
 /// A borrowed callable `void(int worker, std::size_t begin, std::size_t end) noexcept`.
 class BlockBody {
@@ -94,9 +105,9 @@ Isa run_units(std::size_t begin, std::size_t end, int threads, const ThreadScrat
 /// Runs all units of an evaluate call, each thread with `scratch_bytes` of its own, and reports the
 /// instruction set that ran. Returns ok | out_of_memory, before anything is written.
 template <typename Work>
-Status run_blocks(std::size_t units, const Options& options, std::size_t scratch_bytes,
-                  const Work& work) noexcept {
-  const int threads = thread_count(options.threads, units);
+Status run_blocks(std::size_t units, std::size_t duration, const Options& options,
+                  std::size_t scratch_bytes, const Work& work) noexcept {
+  const int threads = thread_count(options.threads, units, duration);
   ThreadScratch scratch;
   if (!scratch.allocate(scratch_bytes, threads)) {
     return Status::out_of_memory;

@@ -2,6 +2,7 @@
 // ends.
 #include "src/runtime/batch.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <set>
@@ -15,10 +16,12 @@
 namespace simdbezier::detail {
 namespace {
 
+constexpr std::size_t kLong = ~std::size_t(0);
+
 TEST(SIMDBEZIER_BACK_END, every_unit_is_done_once) {
   for (const std::size_t units : {0U, 1U, 2U, 7U, 64U, 1000U}) {
     for (const int asked : {0, 1, 2, 3, 5, 16}) {
-      const int threads = thread_count(asked, units);
+      const int threads = thread_count(asked, units, kLong);
       ASSERT_GE(threads, 1);
       ASSERT_LE(static_cast<std::size_t>(threads), units < 1 ? 1 : units);
       std::vector<std::atomic<int>> done(units);
@@ -48,12 +51,12 @@ TEST(SIMDBEZIER_BACK_END, one_thread_is_the_callers) {
 
 /// In a region of several threads a call that names no number has one.
 TEST(SIMDBEZIER_BACK_END, calls_within_a_call_have_one_thread) {
-  const int threads = thread_count(2, 2);
+  const int threads = thread_count(2, 2, kLong);
   auto body = [&](int, std::size_t, std::size_t) {
-    EXPECT_EQ(thread_count(0, 100), threads == 1 ? default_threads() : 1);
+    EXPECT_EQ(thread_count(0, 100, kLong), threads == 1 ? default_threads() : 1);
   };
   for_blocks(2, threads, BlockBody(body));
-  EXPECT_EQ(thread_count(0, 1000000), default_threads());
+  EXPECT_EQ(thread_count(0, 1000000, kLong), default_threads());
 }
 
 /// The first share may have nothing for a kernel.
@@ -74,8 +77,35 @@ TEST(SIMDBEZIER_BACK_END, scratch_beyond_all_memory_is_refused) {
   }
 }
 
+/// Where nobody says how many, short work does not wake a thread; who says so gets it.
+TEST(SIMDBEZIER_BACK_END, threads_are_started_for_work_that_is_worth_it) {
+  struct Case {
+    int requested;
+    std::size_t units;
+    std::size_t duration;
+    int expected; ///< at most default_threads() where nothing is requested, else most_threads()
+  };
+  constexpr std::size_t kShare = kShortestShare;
+  constexpr int kMany = 1 << 20;
+  const Case cases[] = {
+      {0, 1000, 0, 1},          {0, 1000, 2 * kShare - 1, 1},
+      {0, 1000, 2 * kShare, 2}, {0, 1000, 3 * kShare, 3},
+      {0, 1000, kLong, 1000},   {0, 1, kLong, 1},
+      {0, 0, kLong, 1},         {-1, 1000, kShare, 1},
+      {-1, 1000, kLong, 1000},  {1, 1000, kLong, 1},
+      {2, 1000, 0, 2},          {3, 2, 0, 2},
+      {kMany, 1000, 0, 1000},
+  };
+  for (const Case& c : cases) {
+    const int most = c.requested > 0 ? most_threads() : default_threads();
+    EXPECT_EQ(thread_count(c.requested, c.units, c.duration), std::min(c.expected, most))
+        << c.requested << " requested, " << c.units << " units, " << c.duration << " ns";
+  }
+  EXPECT_EQ(duration_of(kLong / 2, 3), kLong); // more than can be counted
+}
+
 TEST(SIMDBEZIER_BACK_END, more_threads_than_are_of_use_are_not_started) {
-  EXPECT_LE(thread_count(1 << 20, 1 << 20), most_threads());
+  EXPECT_LE(thread_count(1 << 20, 1 << 20, kLong), most_threads());
 }
 
 } // namespace

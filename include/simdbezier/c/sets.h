@@ -171,7 +171,7 @@ static inline simdbezier_control_curves simdbezier_packed_curves_f64(const doubl
 typedef struct simdbezier_pack_options {
   size_t struct_size;
   int32_t local_origin; // not 0: positions are formed around an origin of each patch's own
-  int32_t threads;      // 0: OpenMP's default; 1: the calling thread alone
+  int32_t threads;      // 0: as many as the call is worth; 1: the calling thread alone
   simdbezier_isa isa;
   double relative_to[3];
 } simdbezier_pack_options;

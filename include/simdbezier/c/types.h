@@ -110,7 +110,7 @@ enum { SIMDBEZIER_TO_AUTOMATIC, SIMDBEZIER_TO_CACHE, SIMDBEZIER_TO_MEMORY };
 // Options of options.hpp.
 typedef struct simdbezier_options {
   size_t struct_size;
-  int32_t threads;        // 0: OpenMP's default; 1: the calling thread alone
+  int32_t threads;        // 0: as many as the call is worth; 1: the calling thread alone
   int32_t not_watertight; // not 0: edges come from the interior's formula
   simdbezier_isa isa;
   simdbezier_destination destination;

@@ -45,7 +45,8 @@ Status write_all_triangles(const MeshData& mesh, const KernelTable<float>& table
       failed = true;
     }
   };
-  for_blocks(triangles, thread_count(threads, triangles), BlockBody(body));
+  for_blocks(triangles, thread_count(threads, triangles, duration_of(triangles, 3)),
+             BlockBody(body));
   return failed ? Status::out_of_memory : Status::ok;
 }
 

@@ -95,6 +95,7 @@ public:
   [[nodiscard]] std::size_t units() const noexcept {
     return task_.last_vertex - task_.first_vertex;
   }
+  [[nodiscard]] std::size_t duration() const noexcept { return duration_of(units(), 4); }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return FormattingSink<T>::bytes(sizes_.chunk) + Worker::scratch_bytes(task_, sizes_);
   }

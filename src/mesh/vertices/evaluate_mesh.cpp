@@ -62,6 +62,7 @@ public:
   [[nodiscard]] std::size_t units() const noexcept {
     return task_.last_vertex - task_.first_vertex;
   }
+  [[nodiscard]] std::size_t duration() const noexcept { return duration_of(units(), 2); }
   [[nodiscard]] std::size_t grain() const noexcept { return 1; }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return delivery_bytes_ + VertexWorker<T, DeliverySink<T>>::scratch_bytes(task_, sizes_);

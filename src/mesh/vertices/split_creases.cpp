@@ -26,6 +26,7 @@ public:
   }
 
   [[nodiscard]] std::size_t units() const noexcept { return mesh_.patches(); }
+  [[nodiscard]] std::size_t duration() const noexcept { return duration_of(units(), 500); }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return lines_bytes() + BoundarySamples<T>::bytes(mesh_, wishes_);
   }
@@ -73,7 +74,7 @@ Status split_vertices(const PatchSet<T>& set, const MeshData& whole, double angl
   const PatchKernels<T> kernels(*set.storage(), request, normals, options);
   const CreaseWork<T> work(whole, kernels, angle, groups, sample_of_corner.data());
   const Status ran =
-      run_blocks(work.units(), options, work.scratch_bytes(),
+      run_blocks(work.units(), work.duration(), options, work.scratch_bytes(),
                  [&](int worker, std::size_t begin, std::size_t end, unsigned char* scratch) {
                    return work.run(worker, begin, end, scratch);
                  });
