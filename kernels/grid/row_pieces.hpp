@@ -92,6 +92,11 @@ struct RowPiece {
   [[nodiscard]] SIMDBEZIER_PART std::size_t rows() const {
     return std::size_t{middle.rows} + (lead ? 1 : 0) + (trail ? 1 : 0);
   }
+  /// The parameters of a register of kRows rows, the first of which has its own at y.
+  template <std::size_t kRows, typename V>
+  static SIMDBEZIER_INLINE RowPoint<V> point(const T* y) {
+    return RowPowers<T>::template point<kRows, V>(y);
+  }
   /// The columns of a grid whose task says nu; SquarePiece knows them.
   static SIMDBEZIER_PART std::size_t columns(std::size_t nu) { return nu; }
 };

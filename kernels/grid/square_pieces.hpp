@@ -1,9 +1,39 @@
 // Grids whose size the compiler knows, as pieces: straight code, and rows in whole lines.
 #pragma once
 
+#include <type_traits>
+#include <utility>
+
 #include "kernels/grid/row_pieces.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Parameters of rows of which two share a register, spread over its lanes once for all patches.
+template <typename T, std::size_t kSide, bool kAcross>
+struct SharedRows {
+  using V = vec<T>;
+  static constexpr std::size_t kFirst = kAcross ? 1 : 0; ///< of the middle's rows
+
+  RowPoint<V> beside_edges; ///< the first and the last row of the middle
+  RowPoint<V> rows[(kSide - 2 - kFirst) / 2];
+
+  explicit SIMDBEZIER_PART SharedRows(const T* y)
+      : SharedRows(y, std::make_index_sequence<(kSide - 2 - kFirst) / 2>()) {}
+
+private:
+  template <std::size_t... kPairs>
+  SIMDBEZIER_PART SharedRows(const T* y, std::index_sequence<kPairs...>)
+      : beside_edges(of_ends(y)), rows{RowPoint<V>(
+                                      RowGroups<2, V>::spread(y + kFirst + 2 * kPairs))...} {}
+  static SIMDBEZIER_PART RowPoint<V> of_ends(const T* y) {
+    const T ends[2] = {y[0], y[kSide - 3]};
+    return RowPoint<V>(RowGroups<2, V>::spread(ends));
+  }
+};
+struct NoSharedRows {
+  template <typename T>
+  explicit SIMDBEZIER_PART NoSharedRows(const T* /*y*/) {}
+};
 
 /// A whole grid of kSide x kSide samples, whose first and last rows are edges and whose others are
 /// pairs. The compiler knows its size, so that sweeps are straight code, without counting, tests
@@ -25,7 +55,20 @@ struct SquarePiece {
     static constexpr RowKind kind = RowKind::interior;
   } middle;
 
-  explicit SIMDBEZIER_PART SquarePiece(const T* middle_y) : middle{middle_y} {}
+  static constexpr bool kTwoRows = kSide * 2 == kLanes<vec<T>>; ///< a register
+  std::conditional_t<kTwoRows, SharedRows<T, kSide, kLiesAcross>, NoSharedRows> shared;
+
+  explicit SIMDBEZIER_PART SquarePiece(const T* middle_y) : middle{middle_y}, shared(middle_y) {}
+
+  /// As RowPiece has it.
+  template <std::size_t kRows, typename V>
+  SIMDBEZIER_INLINE RowPoint<V> point(const T* y) const {
+    if constexpr (kTwoRows && kRows == 2) {
+      return shared.rows[(static_cast<std::size_t>(y - middle.y) - shared.kFirst) / 2];
+    } else {
+      return RowPowers<T>::template point<kRows, V>(y);
+    }
+  }
   static constexpr std::size_t rows() { return kSide; }
   static constexpr std::size_t columns(std::size_t /*nu*/) { return kSide; }
 
@@ -79,13 +122,6 @@ SIMDBEZIER_INLINE void for_rows(const SquarePiece<T, kSide, kAcross>& piece, std
     interior(y + row, first.behind(row, nu), kSingle - kFull * kRows);
   }
   edge(RowKind::edge_v1, last.behind(1, nu));
-}
-
-/// Y of the rows beside both edges of a square: a half of the register each.
-template <typename V, typename T, std::size_t kSide, bool kAcross>
-SIMDBEZIER_PART RowPoint<V> rows_beside_edges(const SquarePiece<T, kSide, kAcross>& piece) {
-  const T ends[2] = {piece.middle.y[0], piece.middle.y[kSide - 3]};
-  return RowPoint<V>(RowGroups<2, V>::spread(ends));
 }
 
 /// The rows between those beside the edges, two a register: rows(y, place).

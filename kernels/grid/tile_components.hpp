@@ -70,9 +70,9 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
   }
   PlaneRows<Piece, Tile, typename Extra::Plane> plane(tile, to, nu, extra.plane(0));
   if constexpr (kSweepsLines<Piece, Tile>) {
-    plane.borders(shared, row_value(q, rows_beside_edges<V>(piece)));
+    plane.borders(shared, row_value(q, piece.shared.beside_edges));
     for_inner_rows(piece, nu, [&](const T* y, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-      plane.rows(row_value(q, RowPowers<T>::template point<kRows, V>(y)), place, kRows);
+      plane.rows(row_value(q, piece.template point<kRows, V>(y)), place, kRows);
     });
     return;
   }
@@ -84,13 +84,13 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
         plane.edge(Tile::kShared ? shared : tile.edge_rows(c, edge_of(kind)), kind, place);
       },
       [&](const T* y, RowPlace place, RowPlace mirrored) SIMDBEZIER_INLINE_LAMBDA {
-        const auto at = RowPowers<T>::template point<kRows, V>(y);
+        const auto at = piece.template point<kRows, V>(y);
         const Parts<V> p = value_parts(q, at);
         plane.rows(origin.add_to(p.sum()), place, kRows);
         plane.mirrored(origin.add_to(p.difference()), mirrored);
       },
       [&](const T* y, RowPlace place, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
-        const V p = row_value(q, RowPowers<T>::template point<kRows, V>(y));
+        const V p = row_value(q, piece.template point<kRows, V>(y));
         plane.rows(origin.add_to(p), place, rows);
       });
   plane.finish();
@@ -196,12 +196,12 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
                          dv.rows(jet.dv, place, rows);
                        };
   if constexpr (kSweepsLines<Piece, Tile>) {
-    const Jet<V> beside = columns.interior(rows_beside_edges<V>(piece));
+    const Jet<V> beside = columns.interior(piece.shared.beside_edges);
     position.borders(shared.p, beside.p);
     du.borders(shared.du, beside.du);
     dv.borders(shared.dv, beside.dv);
     for_inner_rows(piece, nu, [&](const T* y, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-      put(columns.interior(RowPowers<T>::template point<kRows, V>(y)), place, kRows);
+      put(columns.interior(piece.template point<kRows, V>(y)), place, kRows);
     });
     return;
   }
@@ -218,14 +218,14 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
       [&](const T* y, RowPlace place, RowPlace mirror) SIMDBEZIER_INLINE_LAMBDA {
         Jet<V> jet;
         Jet<V> mirrored;
-        columns.pair(RowPowers<T>::template point<kRows, V>(y), jet, mirrored);
+        columns.pair(piece.template point<kRows, V>(y), jet, mirrored);
         put(jet, place, kRows);
         position.mirrored(mirrored.p, mirror);
         du.mirrored(mirrored.du, mirror);
         dv.mirrored(mirrored.dv, mirror);
       },
       [&](const T* y, RowPlace place, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
-        put(columns.interior(RowPowers<T>::template point<kRows, V>(y)), place, rows);
+        put(columns.interior(piece.template point<kRows, V>(y)), place, rows);
       });
   position.finish();
   du.finish();
@@ -258,7 +258,7 @@ SIMDBEZIER_PART void sweep_second(const GridTask<ScalarOf<V>>& task,
         tile.store_edge_if_wanted(dvv, place.at, columns.dvv(y), kind);
       },
       [&](const T* y, RowPlace place, RowPlace mirrored) SIMDBEZIER_INLINE_LAMBDA {
-        const auto at = RowPowers<T>::template point<kRows, V>(y);
+        const auto at = piece.template point<kRows, V>(y);
         const auto put = [&](T* plane, V here, V there) SIMDBEZIER_INLINE_LAMBDA {
           tile.store_if_wanted(plane, place.at, nu, here, kRows);
           tile.store_mirrored_if_wanted(plane, mirrored.at, nu, there);
@@ -271,7 +271,7 @@ SIMDBEZIER_PART void sweep_second(const GridTask<ScalarOf<V>>& task,
         put(dvv, vv.sum() + vv.sum(), vv.difference() + vv.difference());
       },
       [&](const T* y, RowPlace place, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
-        const auto at = RowPowers<T>::template point<kRows, V>(y);
+        const auto at = piece.template point<kRows, V>(y);
         tile.store_if_wanted(duu, place.at, nu, columns.duu(at), rows);
         tile.store_if_wanted(duv, place.at, nu, columns.duv(at), rows);
         tile.store_if_wanted(dvv, place.at, nu, columns.dvv(at), rows);
