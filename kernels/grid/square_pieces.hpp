@@ -12,22 +12,32 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <typename T, std::size_t kSide, bool kAcross>
 struct SharedRows {
   using V = vec<T>;
-  static constexpr std::size_t kFirst = kAcross ? 1 : 0; ///< of the middle's rows
+  static constexpr std::size_t kRegisters = kSide / 2 - 1;
 
-  RowPoint<V> beside_edges; ///< the first and the last row of the middle
-  RowPoint<V> rows[(kSide - 2 - kFirst) / 2];
+  /// Of the middle's rows in their order; across lines, the first register has those beside edges.
+  RowPoint<V> rows[kRegisters];
 
   explicit SIMDBEZIER_PART SharedRows(const T* y)
-      : SharedRows(y, std::make_index_sequence<(kSide - 2 - kFirst) / 2>()) {}
+      : SharedRows(y, std::make_index_sequence<kRegisters>()) {}
+
+  /// Of the rows from number `row` of the middle on.
+  SIMDBEZIER_PART const RowPoint<V>& from(std::size_t row) const {
+    return rows[(row + (kAcross ? 1 : 0)) / 2];
+  }
 
 private:
-  template <std::size_t... kPairs>
-  SIMDBEZIER_PART SharedRows(const T* y, std::index_sequence<kPairs...>)
-      : beside_edges(of_ends(y)), rows{RowPoint<V>(
-                                      RowGroups<2, V>::spread(y + kFirst + 2 * kPairs))...} {}
-  static SIMDBEZIER_PART RowPoint<V> of_ends(const T* y) {
-    const T ends[2] = {y[0], y[kSide - 3]};
-    return RowPoint<V>(RowGroups<2, V>::spread(ends));
+  template <std::size_t... kNumbers>
+  SIMDBEZIER_PART SharedRows(const T* y, std::index_sequence<kNumbers...>)
+      : rows{RowPoint<V>(spread<kNumbers>(y))...} {}
+
+  template <std::size_t kNumber>
+  static SIMDBEZIER_PART V spread(const T* y) {
+    if constexpr (kAcross && kNumber == 0) {
+      const T ends[2] = {y[0], y[kSide - 3]};
+      return RowGroups<2, V>::spread(ends);
+    } else {
+      return RowGroups<2, V>::spread(y + 2 * kNumber - (kAcross ? 1 : 0));
+    }
   }
 };
 struct NoSharedRows {
@@ -64,7 +74,7 @@ struct SquarePiece {
   template <std::size_t kRows, typename V>
   SIMDBEZIER_INLINE RowPoint<V> point(const T* y) const {
     if constexpr (kTwoRows && kRows == 2) {
-      return shared.rows[(static_cast<std::size_t>(y - middle.y) - shared.kFirst) / 2];
+      return shared.from(static_cast<std::size_t>(y - middle.y));
     } else {
       return RowPowers<T>::template point<kRows, V>(y);
     }

@@ -70,7 +70,7 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
   }
   PlaneRows<Piece, Tile, typename Extra::Plane> plane(tile, to, nu, extra.plane(0));
   if constexpr (kSweepsLines<Piece, Tile>) {
-    plane.borders(shared, row_value(q, piece.shared.beside_edges));
+    plane.borders(shared, row_value(q, piece.shared.rows[0]));
     for_inner_rows(piece, nu, [&](const T* y, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
       plane.rows(row_value(q, piece.template point<kRows, V>(y)), place, kRows);
     });
@@ -196,7 +196,7 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
                          dv.rows(jet.dv, place, rows);
                        };
   if constexpr (kSweepsLines<Piece, Tile>) {
-    const Jet<V> beside = columns.interior(piece.shared.beside_edges);
+    const Jet<V> beside = columns.interior(piece.shared.rows[0]);
     position.borders(shared.p, beside.p);
     du.borders(shared.du, beside.du);
     dv.borders(shared.dv, beside.dv);

@@ -74,8 +74,8 @@ bool is_measured(std::size_t bytes) noexcept {
 }
 
 CallKind with_threads(CallKind kind, const Options& options) noexcept {
-  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
-  const int threads = thread_count(options.threads, kMost, kMost);
+  constexpr std::size_t kMany = std::numeric_limits<std::size_t>::max();
+  const int threads = thread_count(options.threads, kMany, kLongDuration);
   return kind.add(static_cast<std::uint64_t>(threads));
 }
 

@@ -148,7 +148,7 @@ public:
 
   [[nodiscard]] std::size_t units() const noexcept { return request_.count * shape_.strips; }
   /// Long, for what the consumer does with a tile is not known.
-  [[nodiscard]] std::size_t duration() const noexcept { return ~std::size_t(0); }
+  [[nodiscard]] std::size_t duration() const noexcept { return kLongDuration; }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return tile_bytes_ + staging_bytes_ + PieceEvaluator<T>::scratch_bytes(shape_.rows);
   }

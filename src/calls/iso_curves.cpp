@@ -31,7 +31,7 @@ void for_patches(std::size_t count, int threads, const F& f) {
       f(patch);
     }
   };
-  for_blocks(count, thread_count(threads, count, duration_of(count, 200)), BlockBody(body));
+  divide_work(count, 200, threads, body);
 }
 
 /// Nets are read twice, so that nothing is written where one of them is at fault.

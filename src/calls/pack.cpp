@@ -99,8 +99,7 @@ PackReport pack_runs(std::span<const ControlNets<S>> nets, std::span<const PackR
     }
     fault.add(report);
   };
-  for_blocks(groups, thread_count(options.threads, groups, duration_of(groups, 50 * kMaxLanes)),
-             BlockBody(body));
+  divide_work(groups, 50 * kMaxLanes, options.threads, body);
   return fault.report();
 }
 

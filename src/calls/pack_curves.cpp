@@ -91,8 +91,7 @@ PackReport pack_all(const ControlCurves<S>& curves, const PackOptions& options, 
         [&](std::size_t first, std::size_t last) { return kernel(task, first, last); },
         [&](std::size_t curve) { return inspect(curves, storage, curve); }));
   };
-  for_blocks(groups, thread_count(options.threads, groups, duration_of(curves.count, 20)),
-             BlockBody(body));
+  divide_work(groups, 20 * kMaxLanes, options.threads, body);
   return fault.report();
 }
 

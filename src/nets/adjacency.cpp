@@ -33,8 +33,7 @@ void link_edges(std::span<const ControlNets<S>> sets, std::span<EdgeLink> links,
       links[side] = link_of(rings, side);
     }
   };
-  for_blocks(links.size(), thread_count(threads, links.size(), duration_of(links.size(), 5)),
-             BlockBody(body));
+  divide_work(links.size(), 5, threads, body);
 }
 
 template <typename S>

@@ -181,7 +181,7 @@ void hash_edges(const NetViews<S>& views, EdgeRings<Index>& rings, RingTable<Ind
     }
   };
   const std::size_t sides = rings.next.size();
-  for_blocks(sides, thread_count(threads, sides, duration_of(sides, 20)), BlockBody(body));
+  divide_work(sides, 20, threads, body);
 }
 
 template <typename S, typename Index>

@@ -232,8 +232,7 @@ NetReport find_fault(const ControlNets<S>& nets, int threads, bool signed_weight
       }
     }
   };
-  const std::size_t units = lane_groups(nets.count);
-  for_blocks(units, thread_count(threads, units, duration_of(nets.count, 10)), BlockBody(body));
+  divide_work(lane_groups(nets.count), 10 * kMaxLanes, threads, body);
   NetReport report;
   if (first != kNone) {
     in_default_environment( // weights may be denormal

@@ -12,10 +12,8 @@ int thread_count(int requested, std::size_t units, std::size_t duration) noexcep
   if (requested == 1 || shares <= 1) {
     return 1;
   }
-  const int threads = std::min(requested > 0 ? requested : default_threads(), most_threads());
-  return threads < 1                                  ? 1
-         : shares < static_cast<std::size_t>(threads) ? static_cast<int>(shares)
-                                                      : threads;
+  const int most = std::min(requested > 0 ? requested : default_threads(), most_threads());
+  return static_cast<int>(std::min(shares, static_cast<std::size_t>(std::max(most, 1))));
 }
 
 namespace {

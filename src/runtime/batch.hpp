@@ -16,11 +16,14 @@ namespace simdbezier::detail {
 /// Bytes rounded up to whole cache lines.
 constexpr std::size_t whole_lines(std::size_t bytes) noexcept { return (bytes + 63) / 64 * 64; }
 
+/// The duration of work of which nothing is known but that all threads are wanted.
+inline constexpr std::size_t kLongDuration = ~std::size_t(0);
+
 /// About how long one thread works on `pieces`, in nanoseconds. This is an estimate for
 /// thread_count() and nothing else: a factor of five does not matter.
 constexpr std::size_t duration_of(std::size_t pieces, std::size_t nanoseconds) noexcept {
   std::size_t product = 0;
-  return __builtin_mul_overflow(pieces, nanoseconds, &product) ? ~std::size_t(0) : product;
+  return __builtin_mul_overflow(pieces, nanoseconds, &product) ? kLongDuration : product;
 }
 
 /// How many threads to use for `units` pieces of work, never more than these: `requested`, or where
@@ -51,6 +54,12 @@ private:
 /// Calls body once per worker 0..threads-1 with its share of 0..units-1, in the library's
 /// floating-point environment. One thread is the caller's own, without an OpenMP region.
 void for_blocks(std::size_t units, int threads, BlockBody body) noexcept;
+
+/// The same on as many threads as thread_count() says of units that take so many nanoseconds each.
+template <typename F>
+void divide_work(std::size_t units, std::size_t nanoseconds, int threads, F& body) noexcept {
+  for_blocks(units, thread_count(threads, units, duration_of(units, nanoseconds)), BlockBody(body));
+}
 
 /// Lowers a number that several threads lower.
 inline void lower(std::atomic<std::size_t>& least, std::size_t to) noexcept {

@@ -16,7 +16,7 @@
 namespace simdbezier::detail {
 namespace {
 
-constexpr std::size_t kLong = ~std::size_t(0);
+constexpr std::size_t kLong = kLongDuration;
 
 TEST(SIMDBEZIER_BACK_END, every_unit_is_done_once) {
   for (const std::size_t units : {0U, 1U, 2U, 7U, 64U, 1000U}) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/calls/destined_call.hpp"
+#include "src/runtime/batch.hpp"
 #include "src/runtime/cache_sizes.hpp"
 
 namespace {
@@ -43,7 +44,7 @@ struct FakeWork {
 
   [[nodiscard]] std::size_t grain() const { return kStrips[way]; }
   [[nodiscard]] std::size_t units() const { return kPatches * grain(); }
-  [[nodiscard]] std::size_t duration() const { return ~std::size_t(0); }
+  [[nodiscard]] std::size_t duration() const { return kLongDuration; }
   [[nodiscard]] std::size_t scratch_bytes() const { return way * 64; }
   Isa run(int, std::size_t begin, std::size_t end, unsigned char* scratch) const {
     for (std::size_t unit = begin; unit < end; ++unit) {

@@ -33,7 +33,7 @@ Status for_cells(const MeshLayout& layout, std::size_t first, std::size_t patche
       failed = true;
     }
   };
-  for_blocks(patches, thread_count(threads, patches, duration_of(patches, 1000)), BlockBody(body));
+  divide_work(patches, 1000, threads, body);
   return failed ? Status::out_of_memory : Status::ok;
 }
 template <typename Visit>

@@ -45,8 +45,7 @@ Status write_all_triangles(const MeshData& mesh, const KernelTable<float>& table
       failed = true;
     }
   };
-  for_blocks(triangles, thread_count(threads, triangles, duration_of(triangles, 3)),
-             BlockBody(body));
+  divide_work(triangles, 3, threads, body);
   return failed ? Status::out_of_memory : Status::ok;
 }
 

@@ -38,8 +38,7 @@ RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::spa
       failed = true;
     }
   };
-  for_blocks(nets.count, thread_count(threads, nets.count, duration_of(nets.count, 5000)),
-             BlockBody(body));
+  divide_work(nets.count, 5000, threads, body);
   if (failed) {
     return {Status::out_of_memory};
   }

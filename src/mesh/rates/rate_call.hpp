@@ -227,9 +227,7 @@ private:
           found[begin] = Status::out_of_memory;
         }
       };
-      for_blocks(open.size(),
-                 thread_count(options_.threads, open.size(), duration_of(open.size(), 5000)),
-                 BlockBody(body));
+      divide_work(open.size(), 5000, options_.threads, body);
       for (std::size_t k = 0; k < open.size(); ++k) {
         if (found[k] != Status::ok) {
           return {found[k], first + open[k]};

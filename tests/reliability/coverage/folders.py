@@ -18,7 +18,7 @@ import sys
 
 SOURCES = {'library': ('include/', 'kernels/', 'src/'), 'readers': ('tools/',)}
 # Runs evaluators of others in a process of their own, which ends without writing its counts.
-NO_READER = ('tools/evaluator/',)
+NO_READER = ('tools/evaluator/evaluator_process.',)
 
 
 def branches_of(line, folded):
