@@ -57,6 +57,7 @@ void add_size(OutputGroups outputs, Size size) {
       }
     }
   }
+  add_grid_row<T>({outputs, Algorithm::library, Isa::automatic, size, Place::cache});
   GridRow row{outputs, Algorithm::library, widest, size, Place::cache};
   if (size.nu >= 8 && size.nv >= 8) { // smaller grids are nearly all boundary
     row.watertight = false;

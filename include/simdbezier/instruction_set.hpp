@@ -8,7 +8,8 @@ namespace simdbezier {
 /// The instruction sets that kernels are compiled for. Results are bit-equal inside a class:
 /// avx2, avx512 and neon64 fuse multiply and add; scalar and sse2 round after each operation.
 enum class Isa : std::uint8_t {
-  automatic, ///< SIMDBEZIER_ISA where it is set, otherwise the widest that the machine has
+  automatic, ///< SIMDBEZIER_ISA where it is set, otherwise the widest that the machine has, or the
+             ///< next one for grids where that is faster: see resolve_isa()
   scalar,
   sse2,
   avx2,   ///< AVX2 and FMA

@@ -4,7 +4,8 @@
 //   Status check()          everything that a caller can get wrong
 //   bool empty()            nothing is to be done, so that there may not even be a set
 //   auto plan()             the work: which kernels, which pieces, how outputs are delivered;
-//                           plan(Destination) where that is a choice (calls/destined_call.hpp)
+//                           plan(Destination) where that is a choice (calls/destined_call.hpp), and
+//                           plan_narrower() where two instruction sets are (calls/width_choice.hpp)
 //
 // and the work's
 //   std::size_t units()           what threads share
@@ -82,7 +83,8 @@ struct Components {
 template <typename T>
 struct Request {
   const KernelTable<T>* table = nullptr;
-  std::size_t first = 0; ///< patch or curve
+  const KernelTable<T>* narrower = nullptr; ///< may run instead; null where there is no choice
+  std::size_t first = 0;                    ///< patch or curve
   std::size_t count = 0;
   Components components;
 
@@ -95,6 +97,8 @@ struct Request {
       return status;
     }
     table = &kernel_table<T>(isa);
+    isa = narrower_choice(options.isa);
+    narrower = isa == Isa::automatic ? nullptr : &kernel_table<T>(isa);
     if (!resolve_range(range, set.size(), first, count)) {
       return Status::bad_patch_range;
     }

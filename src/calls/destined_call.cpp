@@ -2,11 +2,11 @@
 #include "src/calls/destined_call.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "src/runtime/batch.hpp"
 #include "src/runtime/cache_sizes.hpp"
+#include "src/runtime/clock.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -39,10 +39,9 @@ public:
     constexpr Destination kWays[] = {Destination::cache, Destination::memory};
     double best[] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
     for (std::size_t k = 0; k < 2 * kMeasurements; ++k) {
-      const auto start = std::chrono::steady_clock::now();
+      const std::int64_t start = clock_now();
       run(kWays[k % 2], k * block, (k + 1) * block);
-      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-      best[k % 2] = std::min(best[k % 2], took.count());
+      best[k % 2] = std::min(best[k % 2], static_cast<double>(clock_now() - start));
     }
     return best[0] * kUnseen < best[1] ? Destination::cache : Destination::memory;
   }
@@ -57,10 +56,6 @@ private:
 } // namespace
 
 bool exceeds_caches(std::size_t bytes) noexcept { return bytes > last_level_cache() / 2; }
-
-Status run_work(const AnyWork& work, const Options& options) noexcept {
-  return run_blocks(work.units, work.duration, options, work.scratch_bytes, work);
-}
 
 Destination unmeasured_destination(std::size_t bytes) noexcept {
   const Destination wish = environment_destination();

@@ -19,6 +19,8 @@
 #include <simdbezier/options.hpp>
 #include <simdbezier/status.hpp>
 
+#include "src/calls/any_work.hpp"
+#include "src/calls/width_choice.hpp"
 #include "src/output/output_list.hpp"
 #include "src/runtime/destination.hpp"
 
@@ -63,34 +65,6 @@ template <typename T>
   return kind;
 }
 
-/// A call's work, whatever its type.
-struct AnyWork {
-  const void* work;
-  Isa (*run)(const void* work, int worker, std::size_t begin, std::size_t end,
-             unsigned char* scratch);
-  std::size_t units;
-  std::size_t duration;
-  std::size_t grain;
-  std::size_t scratch_bytes;
-
-  template <typename Work>
-  explicit AnyWork(const Work& of, std::size_t units_of_patch = 1) noexcept
-      : work(&of), run([](const void* self, int worker, std::size_t begin, std::size_t end,
-                          unsigned char* scratch) {
-          return static_cast<const Work*>(self)->run(worker, begin, end, scratch);
-        }),
-        units(of.units()), duration(of.duration()), grain(units_of_patch),
-        scratch_bytes(of.scratch_bytes()) {}
-
-  Isa operator()(int worker, std::size_t begin, std::size_t end,
-                 unsigned char* scratch) const noexcept {
-    return run(work, worker, begin, end, scratch);
-  }
-};
-
-/// Returns ok | out_of_memory, before anything is written.
-[[nodiscard]] Status run_work(const AnyWork& work, const Options& options) noexcept;
-
 /// Whether so many bytes are more than half of the last cache: the consumer has other data, too.
 [[nodiscard]] bool exceeds_caches(std::size_t bytes) noexcept;
 
@@ -125,8 +99,11 @@ Status run_to_destination(const Call& call, const Options& options) noexcept {
         return run_and_decide(AnyWork(plain, plain.grain()), AnyWork(streaming, streaming.grain()),
                               kind, bytes, options);
       }
-      destination = answer.destination == Destination::automatic ? destination : answer.destination;
+      destination = answer.choice == Destination::automatic ? destination : answer.choice;
     }
+  }
+  if (destination == Destination::cache) {
+    return run_through_caches(call, options);
   }
   const auto work = call.plan(destination);
   return run_work(AnyWork(work), options);

@@ -120,6 +120,15 @@ public:
   [[nodiscard]] GridWork<T> plan(Destination destination) const noexcept {
     return {*in_.set.storage(), request_, plan_, in_.out, in_.options, destination};
   }
+  [[nodiscard]] bool may_narrow() const noexcept {
+    return request_.narrower != nullptr &&
+           request_.count >= kLeastMeasured / (plan_.nu() * plan_.nv());
+  }
+  [[nodiscard]] GridWork<T> plan_narrower() const noexcept {
+    Request<T> request = request_;
+    request.table = request_.narrower;
+    return {*in_.set.storage(), request, plan_, in_.out, in_.options, Destination::cache};
+  }
   [[nodiscard]] std::size_t written() const noexcept {
     return written_bytes(in_.out, plan_.nu() * plan_.nv() * request_.count);
   }

@@ -58,7 +58,18 @@ bool is_available(Isa wanted) noexcept {
 struct Resolution {
   Status status;
   Isa isa;
+  Isa narrower = Isa::automatic; ///< see narrower_choice()
 };
+
+/// The next narrower instruction set than the best one, if it gives the same bits. Those that do
+/// not fuse have compact kernels, which are never faster.
+Isa narrower_than_best() noexcept {
+  const std::span<const Isa> isas = available_isas();
+  if (isas.size() < 2 || !fuses_multiply_add(isas[isas.size() - 2])) {
+    return Isa::automatic;
+  }
+  return isas[isas.size() - 2];
+}
 
 /// What the environment asks for; the best one where it asks for nothing, or for an empty name.
 Resolution resolve_automatic() noexcept {
@@ -69,9 +80,14 @@ Resolution resolve_automatic() noexcept {
     return {Status::unknown_isa, Isa::automatic};
   }
   if (*isa == Isa::automatic && !available_isas().empty()) {
-    return {Status::ok, available_isas().back()};
+    return {Status::ok, available_isas().back(), narrower_than_best()};
   }
   return {is_available(*isa) ? Status::ok : Status::unsupported_isa, *isa};
+}
+
+const Resolution& automatic_resolution() noexcept {
+  static const Resolution resolution = resolve_automatic();
+  return resolution;
 }
 
 } // namespace
@@ -83,7 +99,7 @@ std::span<const Isa> available_isas() noexcept {
 
 Status resolve_isa(Isa requested, Isa& chosen) noexcept {
   if (requested == Isa::automatic) {
-    static const Resolution automatic = resolve_automatic();
+    const Resolution& automatic = automatic_resolution();
     if (automatic.status == Status::ok) {
       chosen = automatic.isa;
     }
@@ -97,6 +113,10 @@ Status resolve_isa(Isa requested, Isa& chosen) noexcept {
 }
 
 namespace detail {
+
+Isa narrower_choice(Isa requested) noexcept {
+  return requested == Isa::automatic ? automatic_resolution().narrower : Isa::automatic;
+}
 
 namespace {
 

@@ -12,4 +12,9 @@ bool cpu_supports(Isa isa) noexcept;
 template <typename T>
 const KernelTable<T>& kernel_table(Isa isa) noexcept;
 
+/// The instruction set on which a call with `requested` may run instead of the resolved one,
+/// because it is the next narrower one and gives the same bits. automatic: there is none, or
+/// somebody has named the instruction set, here or in SIMDBEZIER_ISA.
+Isa narrower_choice(Isa requested) noexcept;
+
 } // namespace simdbezier::detail

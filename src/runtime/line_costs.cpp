@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstdlib>
 #include <string_view>
+
+#include "src/runtime/clock.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -25,12 +26,11 @@ double time_of_stores(const KernelTable<T>& table, T* to, std::size_t registers)
   constexpr int kRounds = 48;
   double best = 1e300;
   for (int run = 0; run < kRuns; ++run) {
-    const auto begin = std::chrono::steady_clock::now();
+    const std::int64_t begin = clock_now();
     for (int round = 0; round < kRounds; ++round) {
       table.store_registers(to, registers);
     }
-    const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - begin;
-    best = std::min(best, time.count());
+    best = std::min(best, static_cast<double>(clock_now() - begin));
   }
   return best;
 }

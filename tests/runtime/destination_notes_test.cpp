@@ -35,11 +35,10 @@ TEST(DestinationNotes, one_of_many_threads_decides) {
           const DestinationNotes::Answer answer = round.ask(kind(k));
           if (answer.claimed) {
             ++claims;
-            wrong += answer.destination != Destination::automatic;
+            wrong += answer.choice != Destination::automatic;
             round.decide(kind(k), decision(k));
           } else {
-            wrong +=
-                answer.destination != Destination::automatic && answer.destination != decision(k);
+            wrong += answer.choice != Destination::automatic && answer.choice != decision(k);
           }
         }
       }
@@ -53,7 +52,7 @@ TEST(DestinationNotes, one_of_many_threads_decides) {
   for (std::uint64_t k = 0; k < kKinds; ++k) {
     const DestinationNotes::Answer answer = notes[0].ask(kind(k));
     EXPECT_FALSE(answer.claimed) << k;
-    EXPECT_EQ(answer.destination, decision(k)) << k;
+    EXPECT_EQ(answer.choice, decision(k)) << k;
   }
 }
 
@@ -63,7 +62,7 @@ TEST(DestinationNotes, nobody_else_measures_meanwhile) {
   for (int k = 0; k < 3; ++k) {
     const DestinationNotes::Answer answer = notes.ask(kind(1));
     EXPECT_FALSE(answer.claimed);
-    EXPECT_EQ(answer.destination, Destination::automatic);
+    EXPECT_EQ(answer.choice, Destination::automatic);
   }
 }
 
@@ -75,7 +74,7 @@ TEST(DestinationNotes, a_claim_can_be_given_back) {
   }
   EXPECT_TRUE(notes.ask(kind(1)).claimed);
   notes.decide(kind(1), Destination::memory);
-  EXPECT_EQ(notes.ask(kind(1)).destination, Destination::memory);
+  EXPECT_EQ(notes.ask(kind(1)).choice, Destination::memory);
 }
 
 TEST(DestinationNotes, too_many_kinds_are_left_undecided) {
@@ -93,8 +92,7 @@ TEST(DestinationNotes, too_many_kinds_are_left_undecided) {
   EXPECT_GT(count, DestinationNotes::kSlots / 2);
   EXPECT_LE(count, DestinationNotes::kSlots);
   for (std::uint64_t k = 0; k < kKinds; ++k) {
-    EXPECT_EQ(notes.ask(kind(k)).destination, decided[k] ? decision(k) : Destination::automatic)
-        << k;
+    EXPECT_EQ(notes.ask(kind(k)).choice, decided[k] ? decision(k) : Destination::automatic) << k;
   }
 }
 

@@ -1,0 +1,65 @@
+// Calls that may run on either of two instruction sets, since both give the same bits. The wider
+// one is not always the faster one: where a processor splits its registers in two, small grids lose
+// by what fills them. The first call of each kind that is large enough therefore evaluates a few of
+// its patches on both, in some 20 microseconds, and the faster one is kept. Besides what every call
+// has (call.hpp), such a call has
+//
+//   bool may_narrow()       whether there are two, and nobody has named one of them
+//   auto plan_narrower()    the work of plan(Destination::cache) on the narrower one
+//   CallKind kind()         what calls have in common that the same kernels suit
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <simdbezier/options.hpp>
+#include <simdbezier/status.hpp>
+
+#include "src/calls/any_work.hpp"
+#include "src/runtime/call_notes.hpp"
+
+namespace simdbezier::detail {
+
+template <typename Call>
+concept HasWidths = requires(const Call& call) {
+  call.may_narrow();
+  call.plan_narrower();
+};
+
+enum class Width : std::uint8_t { undecided, widest, narrower };
+
+/// Samples of calls that are not too small for a clock.
+inline constexpr std::size_t kLeastMeasured = 1024;
+
+/// What calls of the process have found out.
+CallNotes<Width>& width_notes() noexcept;
+
+/// The same work on both instruction sets, of a call that has claimed its kind. Returns ok |
+/// out_of_memory, before anything is written.
+[[nodiscard]] Status run_and_choose(const AnyWork& widest, const AnyWork& narrower,
+                                    const CallKind& kind, const Options& options) noexcept;
+
+/// Runs a checked call with plain stores.
+template <typename Call>
+Status run_through_caches(const Call& call, const Options& options) noexcept {
+  if constexpr (HasWidths<Call>) {
+    if (call.may_narrow()) {
+      const CallKind kind = call.kind();
+      const CallNotes<Width>::Answer answer = width_notes().ask(kind);
+      if (answer.claimed) {
+        const auto widest = call.plan(Destination::cache);
+        const auto narrower = call.plan_narrower();
+        return run_and_choose(AnyWork(widest, widest.grain()), AnyWork(narrower, narrower.grain()),
+                              kind, options);
+      }
+      if (answer.choice == Width::narrower) {
+        const auto work = call.plan_narrower();
+        return run_work(AnyWork(work), options);
+      }
+    }
+  }
+  const auto work = call.plan(Destination::cache);
+  return run_work(AnyWork(work), options);
+}
+
+} // namespace simdbezier::detail

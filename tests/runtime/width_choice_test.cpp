@@ -1,0 +1,119 @@
+// Which of two instruction sets a call keeps. The calls are made up, and so is their clock, which
+// stands still but for what they add to it.
+#include "src/calls/width_choice.hpp"
+
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "src/runtime/batch.hpp"
+#include "src/runtime/clock.hpp"
+
+namespace simdbezier::detail {
+
+namespace width_choice_test {
+std::int64_t now = 0;
+} // namespace width_choice_test
+
+std::int64_t clock_now() noexcept { return width_choice_test::now; }
+
+namespace width_choice_test {
+namespace {
+
+constexpr Isa kWide = Isa::avx512;
+constexpr Isa kNarrow = Isa::avx2;
+constexpr std::size_t kPatches = 64;
+constexpr std::size_t kStrips = 3; ///< units of a patch
+
+struct Log {
+  int runs[2] = {};                                             ///< on kWide, kNarrow
+  std::vector<Isa> last = std::vector<Isa>(kPatches * kStrips); ///< that wrote each unit
+};
+
+struct FakeWork {
+  Isa isa;
+  int takes;               ///< nanoseconds of a run, whatever is run
+  std::size_t nanoseconds; ///< the estimate
+  Log* log;
+
+  [[nodiscard]] std::size_t grain() const { return kStrips; }
+  [[nodiscard]] std::size_t units() const { return kPatches * kStrips; }
+  [[nodiscard]] std::size_t duration() const { return nanoseconds; }
+  [[nodiscard]] std::size_t scratch_bytes() const { return isa == kWide ? 64 : 128; }
+  Isa run(int, std::size_t begin, std::size_t end, unsigned char* scratch) const {
+    scratch[scratch_bytes() - 1] = 1;
+    ++log->runs[isa == kWide ? 0 : 1];
+    for (std::size_t unit = begin; unit < end; ++unit) {
+      log->last[unit] = isa;
+    }
+    now += takes;
+    return isa;
+  }
+};
+
+struct FakeCall {
+  std::uint64_t name;
+  bool choice;
+  int wide; ///< nanoseconds of a run
+  int narrow;
+  std::size_t nanoseconds;
+  Log* log;
+
+  [[nodiscard]] FakeWork plan(Destination) const { return {kWide, wide, nanoseconds, log}; }
+  [[nodiscard]] FakeWork plan_narrower() const { return {kNarrow, narrow, nanoseconds, log}; }
+  [[nodiscard]] bool may_narrow() const { return choice; }
+  [[nodiscard]] CallKind kind() const { return CallKind().add(name); }
+};
+
+struct Case {
+  const char* name;
+  bool choice;
+  int wide; ///< nanoseconds of a run
+  int narrow;
+  std::size_t nanoseconds;
+  Isa first;     ///< writes the first call's results
+  bool measured; ///< the first call runs both
+  Isa later;     ///< alone, in calls that follow
+};
+
+constexpr std::size_t kUsual = 4096;
+constexpr Case kCases[] = {
+    {"the narrower one is faster", true, 1300, 1000, kUsual, kNarrow, true, kNarrow},
+    {"the wider one is faster", true, 1000, 1300, kUsual, kWide, true, kWide},
+    {"the narrower one is faster by less than clocks can tell", true, 1040, 1000, kUsual, kWide,
+     true, kWide},
+    {"a clock that stands still", true, 0, 0, kUsual, kWide, true, kWide},
+    {"there is no choice", false, 1300, 1000, kUsual, kWide, false, kWide},
+    {"samples take longer than usual", true, 130'000, 60'000, kUsual, kNarrow, true, kNarrow},
+    {"samples take so long that nothing is measured", true, 200'000, 100'000, kUsual, kWide, true,
+     kWide},
+    {"a patch takes too long for a measurement", true, 1300, 1000, kPatches * 17'000, kWide, false,
+     kWide},
+    {"a duration that nobody knows", true, 1300, 1000, kLongDuration, kWide, false, kWide},
+    {"less than a nanosecond a patch", true, 1300, 1000, 1, kNarrow, true, kNarrow},
+};
+
+TEST(WidthChoice, the_first_call_decides_and_later_ones_keep_to_it) {
+  for (const Case& c : kCases) {
+    SCOPED_TRACE(c.name);
+    for (int call = 0; call < 3; ++call) {
+      Log log;
+      Isa executed = Isa::automatic;
+      Options options;
+      options.executed = &executed;
+      const FakeCall fake{
+          static_cast<std::uint64_t>(&c - kCases), c.choice, c.wide, c.narrow, c.nanoseconds, &log};
+      EXPECT_EQ(run_through_caches(fake, options), Status::ok);
+      const Isa expected = call == 0 ? c.first : c.later;
+      EXPECT_EQ(executed, expected) << call;
+      EXPECT_EQ(log.last, std::vector<Isa>(kPatches * kStrips, expected)) << call;
+      const bool both = log.runs[0] > 0 && log.runs[1] > 0;
+      EXPECT_EQ(both, call == 0 && c.measured) << call;
+    }
+  }
+}
+
+} // namespace
+} // namespace width_choice_test
+} // namespace simdbezier::detail
