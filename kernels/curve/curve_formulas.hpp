@@ -51,12 +51,11 @@ class CurveChannel {
   using T = ScalarOf<V>;
 
 public:
-  /// curve: the values of the whole curve.
+  /// values: those of the channel, in the first cell.
   template <bool kHalves>
-  SIMDBEZIER_INLINE CurveChannel(const CurveShape& shape, const T* curve, std::size_t channel,
+  SIMDBEZIER_INLINE CurveChannel(const CurveShape& shape, const T* values,
                                  const CurvePoints<V, kHalves>& at)
-      : low_(curve + channel * shape.channel_values() +
-             (kMixed || at.any_low ? 0 : shape.cell_values())),
+      : low_(values + (kMixed || at.any_low ? 0 : shape.cell_values())),
         high_(low_ + (kMixed ? shape.cell_values() : 0)), x_(at.local), in_low_(at.low),
         ends_(at.ends) {}
 

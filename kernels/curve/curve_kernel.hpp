@@ -54,11 +54,11 @@ SIMDBEZIER_INLINE void for_registers(std::size_t n, Body body) {
 template <typename V, typename T, typename Body>
 SIMDBEZIER_INLINE void for_curves(const CurveTask<T>& task, CurveBlock block, std::size_t first,
                                   Body body) {
-  const std::size_t own = task.n - first;
-  CurveRange<V> range{block.begin, block.begin * task.n + first, 0,
-                      own < kLanes<V> ? own : kLanes<V>, task.streaming};
-  std::size_t left = task.curve_count * task.n - range.at;
-  for (; range.curve < block.end; ++range.curve, range.at += task.n, left -= task.n) {
+  const std::size_t n = task.n;
+  CurveRange<V> range{block.begin, block.begin * n + first, 0,
+                      n - first < kLanes<V> ? n - first : kLanes<V>, task.streaming};
+  std::size_t left = task.curve_count * n - range.at;
+  for (; range.curve < block.end; ++range.curve, range.at += n, left -= n) {
     range.writable = left < kLanes<V> ? left : kLanes<V>;
     body(range);
   }
@@ -67,22 +67,25 @@ SIMDBEZIER_INLINE void for_curves(const CurveTask<T>& task, CurveBlock block, st
 /// Values and derivatives of one component of some curves.
 template <typename V, std::size_t kKnownOrder, std::size_t kDepth, bool kMixed, bool kHalves,
           typename T>
-SIMDBEZIER_PART void sweep_component(const CurveTask<T>& task, const CurveShape& shape,
+SIMDBEZIER_PART void sweep_component(const CurveTask<T>& task, const CurveShape& given_shape,
                                      CurveBlock block, std::size_t first,
                                      const CurvePoints<V, kHalves>& points, std::size_t slot) {
   T* const position = task.out[output_index(CurveOutput::position)].component[slot];
   T* const d1 = task.out[output_index(CurveOutput::d1)].component[slot];
   T* const d2 = task.out[output_index(CurveOutput::d2)].component[slot];
+  // Copies of what each curve needs, since after a store compilers would load it anew.
+  const CurveShape shape = given_shape;
   const Order<kKnownOrder> order(shape.order());
   const std::size_t step = shape.values();
-  const T* values = task.values + block.begin * step;
+  const T* values =
+      task.values + block.begin * step + (task.first_component + slot) * shape.channel_values();
   // Hardware does not follow across the pauses between blocks.
   const std::size_t ahead = task.prefetch && slot == 0 && first == 0 ? kCurvesAhead * step : 0;
   for_curves<V>(task, block, first, [&](const CurveRange<V>& range) SIMDBEZIER_INLINE_LAMBDA {
     if (ahead > 0) {
       prefetch_values(values + ahead, step);
     }
-    const CurveChannel<V, kMixed> channel(shape, values, task.first_component + slot, points);
+    const CurveChannel<V, kMixed> channel(shape, values, points);
     values += step;
     const Series<V> s = channel.template series<kDepth>(order);
     if (kDepth == 0 || position != nullptr) {
@@ -184,12 +187,16 @@ SIMDBEZIER_PART void sweep_any_degree(const CurveTask<T>& task) {
   }
 }
 
-/// Where components meet, few degrees are compiled on their own: circles and cubics, and tangents
-/// of polynomial cubics. First derivatives are rarely wanted without second ones elsewhere.
+/// Where components meet, few degrees are compiled on their own: lines, circles and cubics, and
+/// tangents of polynomial cubics. First derivatives are rarely wanted without second ones
+/// elsewhere.
 template <bool kRational, typename T>
 SIMDBEZIER_PART void sweep_joint(const CurveTask<T>& task) {
   const std::size_t depth = depth_of(task);
   if constexpr (kRational && !kCompact) {
+    if (depth == 0 && task.shape->degree == 1) {
+      return sweep_samples<2, false, true, 0>(task);
+    }
     if (depth == 0 && task.shape->degree == 2) {
       return sweep_samples<3, false, true, 0>(task);
     }

@@ -157,7 +157,8 @@ SIMDBEZIER_INLINE void finish_samples(const Task& task, const CurveShape& shape,
   const V zero = broadcast<V>(T(0));
   Series<V> weight{points.x, zero, zero};
   if constexpr (kRational) {
-    weight = Channel(shape, values, components, points).template series<kDepth>(order);
+    weight = Channel(shape, values + components * shape.channel_values(), points)
+                 .template series<kDepth>(order);
     weight.first = kDepth > 0 ? negated(weight.first) : zero;
     weight.second = kDepth > 1 ? negated(weight.second) : zero;
   }
@@ -169,7 +170,7 @@ SIMDBEZIER_INLINE void finish_samples(const Task& task, const CurveShape& shape,
       jet.d1[slot] = jet.d2[slot] = zero;
       return;
     }
-    const Channel channel(shape, values, component, points);
+    const Channel channel(shape, values + component * shape.channel_values(), points);
     Series<V> s = channel.template series<kDepth>(order);
     if constexpr (kRational) {
       divide_series<kDepth>(quotient, weight, s);

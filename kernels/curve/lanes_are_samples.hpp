@@ -22,7 +22,8 @@ SIMDBEZIER_INLINE void sweep_rows(const CurveTask<T>& task, const CurveShape& sh
   const CurvePoints<V, false> points(load_vector<V>(task.x + first));
   const std::size_t stride = shape.values();
   const std::size_t row = rows.row(task.n);
-  const T* values = task.values + begin * stride;
+  const std::size_t channel_values = shape.channel_values();
+  const T* values = task.values + begin * stride + task.first_component * channel_values;
   std::size_t at = rows.row(first);
   const bool prefetch = task.prefetch && first == 0;
   for (std::size_t curve = begin; curve < end; ++curve, values += stride, at += row) {
@@ -31,7 +32,7 @@ SIMDBEZIER_INLINE void sweep_rows(const CurveTask<T>& task, const CurveShape& sh
     }
     V value[3];
     repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
-      const CurveChannel<V, false> channel(shape, values, task.first_component + c, points);
+      const CurveChannel<V, false> channel(shape, values + c * channel_values, points);
       value[c] = channel.finished(
           shape, channel.template series<0>(Order<kKnownOrder>(shape.order())).value);
     });

@@ -1,6 +1,7 @@
 // What the calls on curves share: checks of their outputs, and pieces of work as tasks.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <simdbezier/curves.hpp>
@@ -74,6 +75,15 @@ struct CurvePiece {
   std::size_t first;
   std::size_t last;
 };
+
+/// Samples of a piece where outputs are staged: curves are short, and a piece of fewer than two of
+/// the kernels' blocks (kernels/curve/curve_kernel.hpp) costs more than it gains by staying in the
+/// first-level cache.
+template <typename T>
+[[nodiscard]] std::size_t staged_samples(const OutputPlan<T>& outputs) noexcept {
+  constexpr std::size_t kLeast = 512;
+  return std::max(Delivery<T>::chunk_samples(outputs), kLeast);
+}
 
 /// The kernels of one call on grids, and what all of its threads share.
 template <typename T>

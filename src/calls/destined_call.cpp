@@ -15,8 +15,8 @@ namespace {
 constexpr std::size_t kMeasurements = 4;
 constexpr std::size_t kMostOfCall = 4;
 
-/// Plain stores leave some of their work behind: lines that the caches write back later.
-constexpr double kUnseen = 1.05;
+/// Streaming has to be faster by more than a clock's errors.
+constexpr double kMargin = 1.02;
 
 /// One call's work in both ways, a part of it at a time.
 class BothWays {
@@ -27,30 +27,40 @@ public:
   [[nodiscard]] bool allocate() noexcept {
     return scratch_.allocate(std::max(plain_.scratch_bytes, streaming_.scratch_bytes), threads_);
   }
-  /// Evaluates patches or samples [begin, end); returns the instruction set that ran.
-  Isa run(Destination way, std::size_t begin, std::size_t end) const noexcept {
+  /// Evaluates patches or samples [begin, end).
+  void run(Destination way, std::size_t begin, std::size_t end) noexcept {
     const AnyWork& work = way == Destination::cache ? plain_ : streaming_;
-    return run_units(begin * work.grain, end * work.grain, threads_, scratch_, work);
+    executed_ = run_units(begin * work.grain, end * work.grain, threads_, scratch_, work);
   }
-  /// Evaluates the first 2 * kMeasurements * block patches or samples; returns the faster way.
-  [[nodiscard]] Destination measure(std::size_t block) const noexcept {
+  /// Evaluates the first 2 * kMeasurements * block patches or samples, and `dirty` behind them;
+  /// returns the faster way.
+  [[nodiscard]] Destination measure(std::size_t block, std::size_t dirty) noexcept {
     // Pages are there afterwards, and lines are in no cache, as those are that come later.
-    run(Destination::memory, 0, 2 * kMeasurements * block);
+    const std::size_t measured = 2 * kMeasurements * block;
+    run(Destination::memory, 0, measured);
+    // Caches are full of lines that have to be written back: otherwise plain stores would seem to
+    // cost nothing but the reading of lines.
+    run(Destination::cache, measured, measured + dirty);
     constexpr Destination kWays[] = {Destination::cache, Destination::memory};
-    double best[] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+    std::int64_t best[] = {std::numeric_limits<std::int64_t>::max(),
+                           std::numeric_limits<std::int64_t>::max()};
     for (std::size_t k = 0; k < 2 * kMeasurements; ++k) {
       const std::int64_t start = clock_now();
       run(kWays[k % 2], k * block, (k + 1) * block);
-      best[k % 2] = std::min(best[k % 2], static_cast<double>(clock_now() - start));
+      best[k % 2] = std::min(best[k % 2], clock_now() - start);
     }
-    return best[0] * kUnseen < best[1] ? Destination::cache : Destination::memory;
+    return static_cast<double>(best[0]) < kMargin * static_cast<double>(best[1])
+               ? Destination::cache
+               : Destination::memory;
   }
+  [[nodiscard]] Isa executed() const noexcept { return executed_; }
 
 private:
   const AnyWork& plain_;
   const AnyWork& streaming_;
   int threads_;
   ThreadScratch scratch_;
+  Isa executed_ = Isa::automatic;
 };
 
 } // namespace
@@ -68,10 +78,10 @@ bool is_measured(std::size_t bytes) noexcept {
   return exceeds_caches(bytes) && environment_destination() == Destination::automatic;
 }
 
-CallKind with_threads(CallKind kind, const Options& options) noexcept {
+CallKind measured_kind(CallKind kind, std::size_t bytes, const Options& options) noexcept {
   constexpr std::size_t kMany = std::numeric_limits<std::size_t>::max();
   const int threads = thread_count(options.threads, kMany, kLongDuration);
-  return kind.add(static_cast<std::uint64_t>(threads));
+  return kind.add(static_cast<std::uint64_t>(threads)).add(bytes / 4 > last_level_cache() ? 1 : 0);
 }
 
 Status run_and_decide(const AnyWork& plain, const AnyWork& streaming, const CallKind& kind,
@@ -90,11 +100,13 @@ Status run_and_decide(const AnyWork& plain, const AnyWork& streaming, const Call
     destination_notes().decide(kind, Destination::automatic);
     return ready ? run_work(streaming, options) : Status::out_of_memory;
   }
-  const Destination faster = both.measure(block);
+  const std::size_t dirty =
+      std::min((items - measured) / 2, items / (bytes / last_level_cache() + 1)) / step * step;
+  const Destination faster = both.measure(block, dirty);
   destination_notes().decide(kind, faster);
-  const Isa executed = both.run(faster, measured, items);
+  both.run(faster, measured + dirty, items);
   if (options.executed != nullptr) {
-    *options.executed = executed;
+    *options.executed = both.executed();
   }
   return Status::ok;
 }

@@ -80,8 +80,10 @@ template <typename T>
                                     const CallKind& kind, std::size_t bytes,
                                     const Options& options) noexcept;
 
-/// Adds the number of threads, on which bandwidth depends.
-[[nodiscard]] CallKind with_threads(CallKind kind, const Options& options) noexcept;
+/// Adds the number of threads, on which bandwidth depends, and whether most of the output has left
+/// the caches when the call returns: plain stores cost more then.
+[[nodiscard]] CallKind measured_kind(CallKind kind, std::size_t bytes,
+                                     const Options& options) noexcept;
 
 /// Runs a checked call.
 template <typename Call>
@@ -91,7 +93,7 @@ Status run_to_destination(const Call& call, const Options& options) noexcept {
     const std::size_t bytes = call.written();
     destination = unmeasured_destination(bytes);
     if (is_measured(bytes)) {
-      const CallKind kind = with_threads(call.kind(), options);
+      const CallKind kind = measured_kind(call.kind(), bytes, options);
       const DestinationNotes::Answer answer = destination_notes().ask(kind);
       if (answer.claimed) {
         const auto plain = call.plan(Destination::cache);

@@ -20,7 +20,7 @@ public:
       : first_curve_(request.first), grids_(grids),
         outputs_(plan_outputs(out, destination)), kernels_{curves, *request.table,
                                                            request.components.first, 0} {
-    kernels_.chunk_samples = Delivery<T>::chunk_samples(outputs_);
+    kernels_.chunk_samples = staged_samples(outputs_);
   }
 
   [[nodiscard]] std::size_t units() const noexcept { return grids_.total(); }
