@@ -65,16 +65,17 @@ struct PackedPlaces {
   S* control_points;
   T* origins; ///< or null
   T* normal_floor;
+  bool streams; ///< whole lines go past the caches
 };
 
 /// 16 values of each patch, from registers that may carry more than doubles.
 template <typename W, typename T>
-SIMDBEZIER_INLINE void store_block(const W values[16], T* to, std::size_t stride) {
+SIMDBEZIER_INLINE void store_block(const W values[16], T* to, std::size_t stride, bool streams) {
   Wide out[16];
   for (std::size_t k = 0; k < 16; ++k) {
     out[k] = to_wide(values[k]);
   }
-  store_transposed_16(out, to, static_cast<std::ptrdiff_t>(stride));
+  store_transposed_16(out, to, static_cast<std::ptrdiff_t>(stride), streams);
 }
 
 /// Takes the origins from component c of a group, and stores them.
@@ -94,11 +95,11 @@ SIMDBEZIER_INLINE void split_origins(PackedComponent<W>& formed, std::size_t c, 
 
 /// The control points as given, with +0 for -0.
 template <typename S>
-SIMDBEZIER_INLINE void keep_points(const S* from, std::ptrdiff_t stride, S* to) {
+SIMDBEZIER_INLINE void keep_points(const S* from, std::ptrdiff_t stride, S* to, bool streams) {
   for (std::size_t p = 0; p < kWideLanes; ++p) {
     for (std::size_t e = 0; e < kNet; e += kLanes<vec<S>>) {
       const vec<S> values = load_vector<vec<S>>(from + static_cast<std::ptrdiff_t>(p) * stride + e);
-      store_vector<vec<S>>(to + p * kNet + e, values + vec<S>(S(0)));
+      store_line<vec<S>>(to + p * kNet + e, values + vec<S>(S(0)), streams);
     }
   }
 }
@@ -130,8 +131,8 @@ bool pack_group(const detail::PackTask<T, S>& task, const S* from, std::ptrdiff_
       split_origins(formed, c, to.origins);
     }
     tiny.look_at_edges(kBicubic, formed.edges);
-    store_block(formed.matrix, to.coefficients + 16 * c, kNet);
-    store_block(formed.edges, to.edges + 16 * c, detail::kEdgeBlock);
+    store_block(formed.matrix, to.coefficients + 16 * c, kNet, to.streams);
+    store_block(formed.edges, to.edges + 16 * c, detail::kEdgeBlock, to.streams);
     for (std::size_t corner = 0; corner < 4; ++corner) {
       corners[4 * c + corner] = to_wide(lanes.net[c][corner / 2 * 12 + corner % 2 * 3]);
     }
@@ -144,7 +145,7 @@ bool pack_group(const detail::PackTask<T, S>& task, const S* from, std::ptrdiff_
   for (std::size_t k = 12; k < 16; ++k) {
     corners[k] = Wide(0.0);
   }
-  store_block(corners, to.edges + detail::kCornersAt, detail::kEdgeBlock);
+  store_block(corners, to.edges + detail::kCornersAt, detail::kEdgeBlock, to.streams);
   if (tiny.any()) [[unlikely]] {
     keep_edges_from_zero(kBicubic, to.edges, kWideLanes);
   }
@@ -153,7 +154,7 @@ bool pack_group(const detail::PackTask<T, S>& task, const S* from, std::ptrdiff_
   for (std::size_t p = 0; p < kWideLanes; ++p) {
     to.normal_floor[p] = static_cast<T>(floors[p]);
   }
-  keep_points(from, stride, to.control_points);
+  keep_points(from, stride, to.control_points, to.streams);
   return all_of<Wide>(squares <= Wide(kSafeSquares<T>));
 }
 
@@ -190,8 +191,9 @@ bool pack_rest(const detail::PackTask<T, S>& task, const S* packed, std::size_t 
   alignas(64) S control_points[kWideLanes * kNet];
   alignas(64) T origins[kWideLanes * detail::kOriginBlock];
   T floors[kWideLanes];
-  const PackedPlaces<T, S> scratch{coefficients, edges, control_points,
-                                   to.origins == nullptr ? nullptr : origins, floors};
+  const PackedPlaces<T, S> scratch{coefficients,   edges,
+                                   control_points, to.origins == nullptr ? nullptr : origins,
+                                   floors,         false};
   const bool safe = pack_group<T, S, kMoved>(task, packed, kNet, scratch);
   copy_values(coefficients, count * kNet, to.coefficients);
   copy_values(edges, count * detail::kEdgeBlock, to.edges);
@@ -211,11 +213,13 @@ detail::PackDoubt pack_range(const detail::PackTask<T, S>& task, std::size_t beg
   alignas(64) S packed[kWideLanes * kNet];
   for (std::size_t at = begin; at < end; at += kWideLanes) {
     const std::size_t count = end - at < kWideLanes ? end - at : kWideLanes;
-    const PackedPlaces<T, S> to{task.coefficients + at * kNet, task.edges + at * detail::kEdgeBlock,
+    const PackedPlaces<T, S> to{task.coefficients + at * kNet,
+                                task.edges + at * detail::kEdgeBlock,
                                 task.control_points + at * kNet,
                                 task.origins == nullptr ? nullptr
                                                         : task.origins + at * detail::kOriginBlock,
-                                task.normal_floor + at};
+                                task.normal_floor + at,
+                                task.streaming};
     const S* from = task.points + static_cast<std::ptrdiff_t>(at) * task.patch_stride;
     std::ptrdiff_t stride = task.patch_stride;
     if (!triples || count < kWideLanes) {

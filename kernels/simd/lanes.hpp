@@ -150,6 +150,19 @@ SIMDBEZIER_INLINE void store_streaming(ScalarOf<V>* to, V value) {
 #endif
 }
 
+/// The same where a call streams, otherwise through the caches; registers of less than a line never
+/// stream.
+template <typename V>
+SIMDBEZIER_INLINE void store_line(ScalarOf<V>* to, V value, bool streams) {
+  if constexpr (kLineWide<V>) {
+    if (streams) {
+      store_streaming(to, value);
+      return;
+    }
+  }
+  store_vector(to, value);
+}
+
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 SIMDBEZIER_INLINE void masked_store(float* to, vec<float> value, std::size_t n) {
   _mm512_mask_storeu_ps(to, static_cast<__mmask16>((1U << n) - 1U), value);

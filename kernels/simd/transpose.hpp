@@ -232,8 +232,10 @@ SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], float* t
 #endif
 }
 
+/// streams: rows, which are lines here if registers are, go past the caches.
 SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], double* to,
-                                        std::ptrdiff_t stride) {
+                                        std::ptrdiff_t stride,
+                                        [[maybe_unused]] bool streams = false) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
   __m512d m[8];
   for (int k = 0; k < 8; ++k) {
@@ -241,7 +243,7 @@ SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], double* 
   }
   turn_8x8(m);
   for (int p = 0; p < 8; ++p) {
-    _mm512_storeu_pd(to + p * stride, m[p]);
+    store_line<vec<double>>(to + p * stride, m[p], streams);
   }
 #elif defined(SIMDBEZIER_KERNELS_AVX2)
   for (int k = 0; k < 8; k += 4) {
@@ -266,18 +268,24 @@ SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], double* 
 #endif
 }
 
-/// Two blocks side by side; 16 floats of one place are a cache line.
+/// Two blocks side by side; 16 floats of one place are a cache line. streams: those go past the
+/// caches, if registers are lines.
 template <typename T>
 SIMDBEZIER_INLINE void store_transposed_16(const Wide values[2 * kTransposed], T* to,
-                                           std::ptrdiff_t stride) {
-  store_transposed(values, to, stride);
-  store_transposed(values + kTransposed, to + kTransposed, stride);
+                                           std::ptrdiff_t stride, [[maybe_unused]] bool streams) {
+  if constexpr (sizeof(T) == sizeof(double)) {
+    store_transposed(values, to, stride, streams);
+    store_transposed(values + kTransposed, to + kTransposed, stride, streams);
+  } else {
+    store_transposed(values, to, stride);
+    store_transposed(values + kTransposed, to + kTransposed, stride);
+  }
 }
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 template <>
 SIMDBEZIER_INLINE void store_transposed_16<float>(const Wide values[2 * kTransposed], float* to,
-                                                  std::ptrdiff_t stride) {
+                                                  std::ptrdiff_t stride, bool streams) {
   __m512 r[8]; // [i]: values i and i + 4, [4 + i]: values 8 + i and 12 + i; four places twice
   for (int i = 0; i < 8; ++i) {
     const int k = i + (i & 4);
@@ -290,8 +298,8 @@ SIMDBEZIER_INLINE void store_transposed_16<float>(const Wide values[2 * kTranspo
   for (int p = 0; p < 4; ++p) {
     const __m512 first = _mm512_shuffle_f32x4(r[p], r[4 + p], 0x88);
     const __m512 second = _mm512_shuffle_f32x4(r[p], r[4 + p], 0xdd);
-    _mm512_storeu_ps(to + p * stride, _mm512_add_ps(first, zero));
-    _mm512_storeu_ps(to + (p + 4) * stride, _mm512_add_ps(second, zero));
+    store_line<vec<float>>(to + p * stride, _mm512_add_ps(first, zero), streams);
+    store_line<vec<float>>(to + (p + 4) * stride, _mm512_add_ps(second, zero), streams);
   }
 }
 #endif

@@ -9,6 +9,7 @@
 
 #include <simdbezier/patch_set.hpp>
 
+#include "src/calls/destined_call.hpp"
 #include "src/calls/pack_request.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/dispatch.hpp"
@@ -26,18 +27,28 @@ class RunPacker {
 public:
   RunPacker(const ControlNets<S>& nets, const PackRun& run, const PackOptions& options,
             const KernelTable<T>& table, const PatchStorage<T>& storage)
-      : nets_(nets), run_(run), options_(options), table_(table), storage_(storage) {}
+      : nets_(nets), run_(run), options_(options), table_(table), storage_(storage),
+        streaming_(exceeds_caches(storage.count * bytes_of_patch(storage))) {}
 
   /// Patches [begin, end) of the run up to the first fault.
   [[nodiscard]] PackReport pack(std::size_t begin, std::size_t end) const {
-    return pack_and_inspect(
+    const PackReport report = pack_and_inspect(
         begin, end, [&](std::size_t first, std::size_t last) { return call_kernel(first, last); },
         [&](std::size_t patch) {
           return inspect(nets_, patch, storage_, run_.place + patch, run_.number + patch);
         });
+    if (streaming_) {
+      table_.fence();
+    }
+    return report;
   }
 
 private:
+  [[nodiscard]] static std::size_t bytes_of_patch(const PatchStorage<T>& storage) noexcept {
+    const NetShape& shape = storage.shape;
+    return (shape.coefficients() + shape.edges()) * sizeof(T) +
+           shape.control_values() * storage.given.value_bytes();
+  }
   [[nodiscard]] PackDoubt call_kernel(std::size_t begin, std::size_t end) const {
     const NetShape& shape = storage_.shape;
     const double* const shift = options_.relative_to;
@@ -58,7 +69,8 @@ private:
                                 edges,
                                 points,
                                 origins,
-                                floor};
+                                floor,
+                                streaming_};
       return packing_kernel<S>(table_)(task, begin, end);
     }
     const NetPackTask<T, S> task{
@@ -71,6 +83,7 @@ private:
   const PackOptions& options_;
   const KernelTable<T>& table_;
   const PatchStorage<T>& storage_;
+  bool streaming_; ///< the set would not stay in the caches
 };
 
 /// Packs all patches; reports the fault of the lowest patch, whichever thread finds it.

@@ -146,6 +146,7 @@ struct PackTask {
   S* control_points; ///< as given, see given_points.hpp
   T* origins;        ///< null where none are wanted
   T* normal_floor;
+  bool streaming; ///< past the caches where lines are whole; KernelTable::fence() completes that
 };
 
 /// Patches [begin, end) have been packed, but something among them may not be finite, and what
