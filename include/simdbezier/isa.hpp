@@ -28,12 +28,14 @@ namespace simdbezier {
 /// SIMDBEZIER_ISA at the first use in the process and keeps that answer.
 ///
 /// Where nobody names an instruction set and the next narrower one gives equal bits (avx2 beside
-/// avx512), evaluate() on a Grid may take that one, since processors that split wide registers
-/// are faster with it on small grids. The first call of its kind (shape, size of the grid, outputs
-/// and their layout) with plain stores and 1024 samples or more evaluates some 2000 of them on
-/// both, a few times, which takes some 20 microseconds and less than a millisecond, and the process
-/// keeps the answer. Options::executed tells which one ran. Returns ok | unknown_isa |
-/// unsupported_isa; `chosen` is written on ok only.
+/// avx512), evaluate() on a Grid may take that one for outputs that stay in the caches, since
+/// processors that split wide registers are faster with it on small grids. The first such call of
+/// its kind (shape, size of the grid, outputs and their layout) with 1024 samples or more, and no
+/// more than 4096 of a patch, evaluates some 2000 of them, or one patch, on both, a few times,
+/// which takes some 20 microseconds, and two milliseconds at most where samples take long; the
+/// process keeps the answer. Options::executed tells which one ran.
+///
+/// Returns ok | unknown_isa | unsupported_isa; `chosen` is written on ok only.
 [[nodiscard]] SIMDBEZIER_API Status resolve_isa(Isa requested, Isa& chosen) noexcept;
 
 } // namespace simdbezier

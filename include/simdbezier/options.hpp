@@ -15,10 +15,10 @@ namespace simdbezier {
 /// automatic is cache for outputs of up to half of the last-level cache, and for scattered samples.
 /// Beyond that the call takes what is faster on this machine: the first large call of its kind
 /// (instruction set, shape, size of the grid, outputs and their layout, threads, more than four
-/// times the last-level cache or less) evaluates some megabytes of its output in both ways, which
-/// takes a few milliseconds at most, behind plain stores of as much as that cache holds, and the
-/// process keeps the answer. One thread decides. Calls that come meanwhile stream, and so do calls of which
-/// measuring would be more than a quarter. The answer never changes a bit.
+/// times the last-level cache or less) fills the caches by plain stores, with half of its output at
+/// most, then evaluates some megabytes in both ways, which takes a few milliseconds at most, and
+/// the process keeps the answer. One thread decides. Calls that come meanwhile stream, and so do
+/// calls of which measuring would be more than a quarter. The answer never changes a bit.
 /// SIMDBEZIER_DESTINATION=cache or =memory in the environment, read once per process, decides for
 /// all large calls instead; any other word counts as none.
 enum class Destination : std::uint8_t {

@@ -122,13 +122,13 @@ struct Given {
         options(how) {}
 };
 
-/// What a call on patches needs to know to choose a destination.
+/// What a call on patches needs to know to choose a destination or, by `lines` only, a width.
 template <typename T, typename Where>
 [[nodiscard]] CallKind kind_of_patches(CallName name, const Given<T, PatchSet<T>, Where>& in,
-                                       const Request<T>& request) noexcept {
+                                       const Request<T>& request, bool lines = false) noexcept {
   const SetStorage<T>& set = *in.set.storage();
   const NetShape& shape = set.buckets[0].shape;
-  return kind_of_outputs(name, in.out, *request.table)
+  return kind_of_outputs(name, in.out, *request.table, lines)
       .add(set.buckets.size())
       .add(shape.order_u())
       .add(shape.order_v())

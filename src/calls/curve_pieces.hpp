@@ -38,7 +38,7 @@ template <typename T, typename Where>
 [[nodiscard]] CallKind kind_of_curves(CallName name, const Given<T, CurveSet<T>, Where>& in,
                                       const Request<T>& request) noexcept {
   const CurveShape& shape = in.set.storage()->shape;
-  return kind_of_outputs(name, in.out, *request.table)
+  return kind_of_outputs(name, in.out, *request.table, false)
       .add(static_cast<std::uint64_t>(shape.degree))
       .add(shape.values());
 }

@@ -30,7 +30,8 @@ public:
   /// Evaluates patches or samples [begin, end).
   void run(Destination way, std::size_t begin, std::size_t end) noexcept {
     const AnyWork& work = way == Destination::cache ? plain_ : streaming_;
-    executed_ = run_units(begin * work.grain, end * work.grain, threads_, scratch_, work);
+    const Isa ran = run_units(begin * work.grain, end * work.grain, threads_, scratch_, work);
+    executed_ = ran == Isa::automatic ? executed_ : ran; // a part may have nothing for a kernel
   }
   /// Evaluates the first 2 * kMeasurements * block patches or samples, and `dirty` behind them;
   /// returns the faster way.
@@ -100,8 +101,10 @@ Status run_and_decide(const AnyWork& plain, const AnyWork& streaming, const Call
     destination_notes().decide(kind, Destination::automatic);
     return ready ? run_work(streaming, options) : Status::out_of_memory;
   }
+  const std::size_t caches =
+      std::max(last_level_cache(), 2 * second_level_cache() * static_cast<std::size_t>(threads));
   const std::size_t dirty =
-      std::min((items - measured) / 2, items / (bytes / last_level_cache() + 1)) / step * step;
+      std::min((items - measured) / 2, items / (bytes / caches + 1)) / step * step;
   const Destination faster = both.measure(block, dirty);
   destination_notes().decide(kind, faster);
   both.run(faster, measured + dirty, items);

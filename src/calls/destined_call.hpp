@@ -48,10 +48,11 @@ template <typename T>
 
 enum class CallName : std::uint8_t { grid, patch_grids, curve_grid, curve_grids, mesh };
 
-/// What calls of all names have: instruction set, type and layout of the outputs.
+/// What calls of all names have: instruction set, type and layout of the outputs. lines: whether it
+/// is enough to know which outputs begin on a cache line, and the place within one does not matter.
 template <typename T>
 [[nodiscard]] CallKind kind_of_outputs(CallName name, const OutputList<T>& out,
-                                       const KernelTable<T>& table) noexcept {
+                                       const KernelTable<T>& table, bool lines) noexcept {
   CallKind kind;
   kind.add(static_cast<std::uint64_t>(name)).add(static_cast<std::uint64_t>(table.isa));
   kind.add(sizeof(T)).add(out.wants_curvature() ? 1 : 0);
@@ -59,7 +60,8 @@ template <typename T>
     if (out.wants(g)) {
       const Vectors<T>& v = *out.vectors[g];
       kind.add(g).add(static_cast<std::uint64_t>(v.stride)).add(v.y == v.x + 1 ? 1 : 0);
-      kind.add(reinterpret_cast<std::uintptr_t>(v.x) % 64);
+      const std::uintptr_t within = reinterpret_cast<std::uintptr_t>(v.x) % 64;
+      kind.add(lines ? within != 0 : within);
     }
   }
   return kind;
@@ -89,8 +91,8 @@ template <typename T>
 template <typename Call>
 Status run_to_destination(const Call& call, const Options& options) noexcept {
   Destination destination = options.destination;
+  const std::size_t bytes = call.written();
   if (destination == Destination::automatic) {
-    const std::size_t bytes = call.written();
     destination = unmeasured_destination(bytes);
     if (is_measured(bytes)) {
       const CallKind kind = measured_kind(call.kind(), bytes, options);
@@ -104,8 +106,10 @@ Status run_to_destination(const Call& call, const Options& options) noexcept {
       destination = answer.choice == Destination::automatic ? destination : answer.choice;
     }
   }
-  if (destination == Destination::cache) {
-    return run_through_caches(call, options);
+  if constexpr (HasWidths<Call>) {
+    if (destination == Destination::cache && !exceeds_caches(bytes)) {
+      return run_in_cache(call, options);
+    }
   }
   const auto work = call.plan(destination);
   return run_work(AnyWork(work), options);

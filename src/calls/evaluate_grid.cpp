@@ -122,7 +122,10 @@ public:
   }
   [[nodiscard]] bool may_narrow() const noexcept {
     return request_.narrower != nullptr &&
-           request_.count >= kLeastMeasured / (plan_.nu() * plan_.nv());
+           plan_.nu() * plan_.nv() * request_.count >= kLeastMeasured;
+  }
+  [[nodiscard]] CallKind width_kind() const noexcept {
+    return kind_of_patches(CallName::grid, in_, request_, true).add(plan_.nu()).add(plan_.nv());
   }
   [[nodiscard]] GridWork<T> plan_narrower() const noexcept {
     Request<T> request = request_;

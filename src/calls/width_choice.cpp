@@ -10,39 +10,68 @@
 namespace simdbezier::detail {
 namespace {
 
-/// Estimated nanoseconds of what is measured at a time, at least and at most.
+/// Samples that are evaluated at a time, and the most of a patch: larger grids have no narrow rows.
 constexpr std::size_t kBlock = 2048;
-constexpr std::size_t kLongestBlock = 16'384;
+constexpr std::size_t kLargestPatch = 4096;
+
+/// The part of a block that is evaluated first, to see how long samples take.
+constexpr std::size_t kProbe = 16;
+
+/// Nanoseconds of a block. Samples that take longer need exact arithmetic, for which the width of
+/// registers does not matter.
+constexpr std::int64_t kLongestBlock = 300'000;
 
 /// Rounds of both widths. The first one only brings code and data into the caches.
 constexpr int kRounds = 6;
-
-/// Nanoseconds. Where the first round takes longer, samples need exact arithmetic, which is the
-/// same for both widths. Rounds that come later end early.
-constexpr std::int64_t kLongest = 200'000;
+constexpr std::int64_t kLongest = 200'000; ///< nanoseconds, after which no further round begins
 
 /// What is said to be faster has to be so by more than a clock's errors.
 constexpr double kMargin = 1.05;
 
-/// Evaluates patches [0, block) on both, several times.
-Width faster_width(const AnyWork& widest, const AnyWork& narrower, std::size_t block,
-                   const ThreadScratch& scratch) noexcept {
-  const AnyWork* const works[] = {&widest, &narrower};
-  double best[] = {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
-  const std::int64_t begin = clock_now();
-  for (int round = 0; round < kRounds; ++round) {
-    for (std::size_t w = 0; w < 2; ++w) {
-      const std::int64_t start = clock_now();
-      run_units(0, block * works[w]->grain, 1, scratch, *works[w]);
-      const auto took = static_cast<double>(clock_now() - start);
-      best[w] = round == 0 ? best[w] : std::min(best[w], took);
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+/// A call's first patches on both instruction sets.
+class BothWidths {
+public:
+  BothWidths(const AnyWork& widest, const AnyWork& narrower, const ThreadScratch& scratch) noexcept
+      : works_{&widest, &narrower}, scratch_(scratch) {}
+
+  /// block: patches.
+  [[nodiscard]] Width measure(std::size_t block) const noexcept {
+    const std::size_t probe = std::max<std::size_t>(block / kProbe, 1);
+    std::int64_t probed = time(0, probe);
+    if (probed <= kLongestBlock) { // once more, since the first run may find pages missing
+      probed = std::min(probed, time(0, probe));
     }
-    if (round != 1 && clock_now() - begin > kLongest) {
-      break;
+    if (probed > kLongestBlock / static_cast<std::int64_t>(block / probe)) {
+      return Width::widest;
     }
+    std::int64_t best[] = {kNever, kNever};
+    const std::int64_t begin = clock_now();
+    for (int round = 0; round < kRounds; ++round) {
+      for (std::size_t width = 0; width < 2; ++width) {
+        const std::int64_t took = time(width, block);
+        best[width] = round == 0 ? kNever : std::min(best[width], took);
+      }
+      if (round > 1 && clock_now() - begin > kLongest) {
+        break;
+      }
+    }
+    return static_cast<double>(best[1]) * kMargin < static_cast<double>(best[0]) ? Width::narrower
+                                                                                 : Width::widest;
   }
-  return best[1] * kMargin < best[0] ? Width::narrower : Width::widest;
-}
+
+private:
+  [[nodiscard]] std::int64_t time(std::size_t width, std::size_t patches) const noexcept {
+    const AnyWork& work = *works_[width];
+    const std::int64_t start = clock_now();
+    run_units(0, patches * work.grain, 1, scratch_, work);
+    return clock_now() - start;
+  }
+
+  const AnyWork* works_[2];
+  const ThreadScratch& scratch_;
+};
 
 } // namespace
 
@@ -54,17 +83,16 @@ CallNotes<Width>& width_notes() noexcept {
 Status run_and_choose(const AnyWork& widest, const AnyWork& narrower, const CallKind& kind,
                       const Options& options) noexcept {
   const std::size_t patches = widest.units / widest.grain;
-  const std::size_t patch = std::max<std::size_t>(widest.duration / patches, 1);
+  const std::size_t patch = std::max<std::size_t>(widest.duration / patches, 1); ///< samples
   const int threads = thread_count(options.threads, widest.units, widest.duration);
   ThreadScratch scratch;
   if (!scratch.allocate(std::max(widest.scratch_bytes, narrower.scratch_bytes), threads)) {
     width_notes().decide(kind, Width::undecided);
     return Status::out_of_memory;
   }
-  // One patch of a large grid takes too long for a measurement, and has no narrow rows.
   const std::size_t block = std::clamp<std::size_t>(kBlock / patch, 1, patches);
   const Width width =
-      patch > kLongestBlock ? Width::widest : faster_width(widest, narrower, block, scratch);
+      patch > kLargestPatch ? Width::widest : BothWidths(widest, narrower, scratch).measure(block);
   width_notes().decide(kind, width);
   const AnyWork& work = width == Width::narrower ? narrower : widest;
   const Isa executed = run_units(0, work.units, threads, scratch, work);

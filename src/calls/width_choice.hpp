@@ -1,12 +1,13 @@
 // Calls that may run on either of two instruction sets, since both give the same bits. The wider
 // one is not always the faster one: where a processor splits its registers in two, small grids lose
-// by what fills them. The first call of each kind that is large enough therefore evaluates a few of
-// its patches on both, in some 20 microseconds, and the faster one is kept. Besides what every call
-// has (call.hpp), such a call has
+// by what fills them. The first call of each kind that is large enough and stays in the caches
+// therefore evaluates a few of its patches on both, in some 20 microseconds, and the faster one is
+// kept. Besides what every call has (call.hpp), such a call has
 //
-//   bool may_narrow()       whether there are two, and nobody has named one of them
+//   bool may_narrow()       whether there are two, nobody has named one of them, and the call is
+//                           large enough
 //   auto plan_narrower()    the work of plan(Destination::cache) on the narrower one
-//   CallKind kind()         what calls have in common that the same kernels suit
+//   CallKind width_kind()   what calls have in common that the same kernels suit
 #pragma once
 
 #include <cstddef>
@@ -24,6 +25,7 @@ template <typename Call>
 concept HasWidths = requires(const Call& call) {
   call.may_narrow();
   call.plan_narrower();
+  call.width_kind();
 };
 
 enum class Width : std::uint8_t { undecided, widest, narrower };
@@ -39,23 +41,21 @@ CallNotes<Width>& width_notes() noexcept;
 [[nodiscard]] Status run_and_choose(const AnyWork& widest, const AnyWork& narrower,
                                     const CallKind& kind, const Options& options) noexcept;
 
-/// Runs a checked call with plain stores.
-template <typename Call>
-Status run_through_caches(const Call& call, const Options& options) noexcept {
-  if constexpr (HasWidths<Call>) {
-    if (call.may_narrow()) {
-      const CallKind kind = call.kind();
-      const CallNotes<Width>::Answer answer = width_notes().ask(kind);
-      if (answer.claimed) {
-        const auto widest = call.plan(Destination::cache);
-        const auto narrower = call.plan_narrower();
-        return run_and_choose(AnyWork(widest, widest.grain()), AnyWork(narrower, narrower.grain()),
-                              kind, options);
-      }
-      if (answer.choice == Width::narrower) {
-        const auto work = call.plan_narrower();
-        return run_work(AnyWork(work), options);
-      }
+/// Runs a checked call whose output stays in the caches.
+template <HasWidths Call>
+Status run_in_cache(const Call& call, const Options& options) noexcept {
+  if (call.may_narrow()) {
+    const CallKind kind = call.width_kind();
+    const CallNotes<Width>::Answer answer = width_notes().ask(kind);
+    if (answer.claimed) {
+      const auto widest = call.plan(Destination::cache);
+      const auto narrower = call.plan_narrower();
+      return run_and_choose(AnyWork(widest, widest.grain()), AnyWork(narrower, narrower.grain()),
+                            kind, options);
+    }
+    if (answer.choice == Width::narrower) {
+      const auto work = call.plan_narrower();
+      return run_work(AnyWork(work), options);
     }
   }
   const auto work = call.plan(Destination::cache);

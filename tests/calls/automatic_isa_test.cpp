@@ -74,14 +74,21 @@ TEST(AutomaticIsa, gives_the_widest_ones_bits) {
 }
 
 TEST(AutomaticIsa, leaves_small_calls_to_the_widest_one) {
-  const PatchSet<float> set = packed<float>(wavy_nets(3));
-  for (int call = 0; call < 3; ++call) {
-    Planes<float> found(3 * 64);
-    Isa executed = Isa::automatic;
-    Options options;
-    options.executed = &executed;
-    ASSERT_EQ(evaluate(set, Grid<float>::uniform(8, 8), found.outputs(), options), Status::ok);
-    EXPECT_EQ(executed, resolved());
+  struct Call {
+    std::size_t patches;
+    std::size_t size;
+  };
+  for (const Call call : {Call{3, 8}, Call{63, 4}, Call{1, 23}, Call{1, 31}}) {
+    const PatchSet<float> set = packed<float>(wavy_nets(call.patches));
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      Planes<float> found(call.patches * call.size * call.size);
+      Isa executed = Isa::automatic;
+      Options options;
+      options.executed = &executed;
+      const Grid<float> grid = Grid<float>::uniform(call.size, call.size);
+      ASSERT_EQ(evaluate(set, grid, found.outputs(), options), Status::ok);
+      EXPECT_EQ(executed, resolved()) << call.patches << " of " << call.size;
+    }
   }
 }
 

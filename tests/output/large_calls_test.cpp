@@ -76,6 +76,28 @@ TEST_P(LargeCalls, OnGridsOfTheirOwn) {
   });
 }
 
+// No row begins in the last part of the call, which therefore runs no kernel.
+TEST_P(LargeCalls, OnTwoRows) {
+  const std::size_t bytes = detail::last_level_cache() * 3 / 4;
+  if (bytes > kMostBytes) {
+    GTEST_SKIP() << "caches of " << bytes << " bytes";
+  }
+  const std::uint32_t nu[] = {static_cast<std::uint32_t>(bytes / 2 / (3 * sizeof(float)))};
+  const std::uint32_t nv[] = {2};
+  PatchGrids grids;
+  grids.nu = nu;
+  grids.nv = nv;
+  const PatchSet<float> set = packed<float>(mixed_nets(1));
+  std::vector<float> found[2];
+  for (std::vector<float>& xyz : found) {
+    xyz.resize(std::size_t{nu[0]} * 2 * 3);
+    Outputs<float> out;
+    out.position = Vectors<float>::xyz(xyz.data());
+    patch_grids(set, grids, out, CallOptions{.threads = 1});
+  }
+  EXPECT_EQ(std::memcmp(found[0].data(), found[1].data(), found[0].size() * sizeof(float)), 0);
+}
+
 INSTANTIATE_FOR_EVERY_ISA(LargeCalls);
 
 } // namespace

@@ -33,7 +33,7 @@ struct Log {
 
 struct FakeWork {
   Isa isa;
-  int takes;               ///< nanoseconds of a run, whatever is run
+  int takes;               ///< nanoseconds of a patch
   std::size_t nanoseconds; ///< the estimate
   Log* log;
 
@@ -47,7 +47,7 @@ struct FakeWork {
     for (std::size_t unit = begin; unit < end; ++unit) {
       log->last[unit] = isa;
     }
-    now += takes;
+    now += takes * static_cast<std::int64_t>((end - begin) / kStrips);
     return isa;
   }
 };
@@ -55,7 +55,7 @@ struct FakeWork {
 struct FakeCall {
   std::uint64_t name;
   bool choice;
-  int wide; ///< nanoseconds of a run
+  int wide; ///< nanoseconds of a patch
   int narrow;
   std::size_t nanoseconds;
   Log* log;
@@ -63,13 +63,13 @@ struct FakeCall {
   [[nodiscard]] FakeWork plan(Destination) const { return {kWide, wide, nanoseconds, log}; }
   [[nodiscard]] FakeWork plan_narrower() const { return {kNarrow, narrow, nanoseconds, log}; }
   [[nodiscard]] bool may_narrow() const { return choice; }
-  [[nodiscard]] CallKind kind() const { return CallKind().add(name); }
+  [[nodiscard]] CallKind width_kind() const { return CallKind().add(name); }
 };
 
 struct Case {
   const char* name;
   bool choice;
-  int wide; ///< nanoseconds of a run
+  int wide; ///< nanoseconds of a patch
   int narrow;
   std::size_t nanoseconds;
   Isa first;     ///< writes the first call's results
@@ -79,19 +79,20 @@ struct Case {
 
 constexpr std::size_t kUsual = 4096;
 constexpr Case kCases[] = {
-    {"the narrower one is faster", true, 1300, 1000, kUsual, kNarrow, true, kNarrow},
-    {"the wider one is faster", true, 1000, 1300, kUsual, kWide, true, kWide},
-    {"the narrower one is faster by less than clocks can tell", true, 1040, 1000, kUsual, kWide,
-     true, kWide},
+    {"the narrower one is faster", true, 40, 30, kUsual, kNarrow, true, kNarrow},
+    {"the wider one is faster", true, 30, 40, kUsual, kWide, true, kWide},
+    {"the narrower one is faster by less than clocks can tell", true, 104, 100, kUsual, kWide, true,
+     kWide},
     {"a clock that stands still", true, 0, 0, kUsual, kWide, true, kWide},
-    {"there is no choice", false, 1300, 1000, kUsual, kWide, false, kWide},
-    {"samples take longer than usual", true, 130'000, 60'000, kUsual, kNarrow, true, kNarrow},
-    {"samples take so long that nothing is measured", true, 200'000, 100'000, kUsual, kWide, true,
+    {"there is no choice", false, 40, 30, kUsual, kWide, false, kWide},
+    {"samples take longer than usual", true, 9000, 7000, kUsual, kNarrow, true, kNarrow},
+    {"samples take so long that nothing is measured", true, 10'000, 100, kUsual, kWide, false,
      kWide},
-    {"a patch takes too long for a measurement", true, 1300, 1000, kPatches * 17'000, kWide, false,
-     kWide},
-    {"a duration that nobody knows", true, 1300, 1000, kLongDuration, kWide, false, kWide},
-    {"less than a nanosecond a patch", true, 1300, 1000, 1, kNarrow, true, kNarrow},
+    {"a patch that takes as long", true, 400'000, 100, kUsual, kWide, false, kWide},
+    {"patches are too large", true, 40, 30, kPatches * 4097, kWide, false, kWide},
+    {"the largest patches", true, 40, 30, kPatches * 4096, kNarrow, true, kNarrow},
+    {"a duration that nobody knows", true, 40, 30, kLongDuration, kWide, false, kWide},
+    {"less than a sample a patch", true, 40, 30, 1, kNarrow, true, kNarrow},
 };
 
 TEST(WidthChoice, the_first_call_decides_and_later_ones_keep_to_it) {
@@ -104,7 +105,7 @@ TEST(WidthChoice, the_first_call_decides_and_later_ones_keep_to_it) {
       options.executed = &executed;
       const FakeCall fake{
           static_cast<std::uint64_t>(&c - kCases), c.choice, c.wide, c.narrow, c.nanoseconds, &log};
-      EXPECT_EQ(run_through_caches(fake, options), Status::ok);
+      EXPECT_EQ(run_in_cache(fake, options), Status::ok);
       const Isa expected = call == 0 ? c.first : c.later;
       EXPECT_EQ(executed, expected) << call;
       EXPECT_EQ(log.last, std::vector<Isa>(kPatches * kStrips, expected)) << call;

@@ -202,7 +202,7 @@ public:
     return written_bytes(out_, last_vertex() - first_vertex());
   }
   [[nodiscard]] CallKind kind() const noexcept {
-    return kind_of_outputs(CallName::mesh, out_, *request_.table)
+    return kind_of_outputs(CallName::mesh, out_, *request_.table, false)
         .add(static_cast<std::uint64_t>(in_.values));
   }
   [[nodiscard]] MeshWork<T> plan(Destination destination) const noexcept {
