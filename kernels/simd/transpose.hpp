@@ -1,8 +1,7 @@
 // Between arrays of structures and registers whose lanes are structures, in blocks of 8 values.
-// Arithmetic is in double; memory holds float or double.
-//
-// Shuffles inside of 128 bits are nearly free where those across are not, so 4x4 blocks of floats
-// are turned in place and the halves of registers are joined on their way from or to memory.
+// Arithmetic is in double; memory holds float or double. Shuffles inside of 128 bits are nearly
+// free where those across are not, so 4x4 blocks of floats are turned in place and the halves of
+// registers are joined on their way from or to memory.
 #pragma once
 
 #include "kernels/simd/lanes.hpp"
@@ -194,9 +193,10 @@ SIMDBEZIER_INLINE void store_lanes_transposed(const Wide values[kTransposed], T*
 }
 #endif
 
-/// to[p * stride + k] = lane p of values[k], rounded, with +0 for -0.
+/// to[p * stride + k] = lane p of values[k], rounded, with +0 for -0. streams: rows that are lines
+/// go past the caches.
 SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], float* to,
-                                        std::ptrdiff_t stride) {
+                                        std::ptrdiff_t stride, bool /*streams*/ = false) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
   __m512 r[4]; // values k and k + 4, four places twice
   for (int k = 0; k < 4; ++k) {
@@ -232,7 +232,6 @@ SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], float* t
 #endif
 }
 
-/// streams: rows, which are lines here if registers are, go past the caches.
 SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], double* to,
                                         std::ptrdiff_t stride,
                                         [[maybe_unused]] bool streams = false) {
@@ -268,18 +267,12 @@ SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], double* 
 #endif
 }
 
-/// Two blocks side by side; 16 floats of one place are a cache line. streams: those go past the
-/// caches, if registers are lines.
+/// Two blocks side by side; 16 floats of one place are a cache line.
 template <typename T>
 SIMDBEZIER_INLINE void store_transposed_16(const Wide values[2 * kTransposed], T* to,
-                                           std::ptrdiff_t stride, [[maybe_unused]] bool streams) {
-  if constexpr (sizeof(T) == sizeof(double)) {
-    store_transposed(values, to, stride, streams);
-    store_transposed(values + kTransposed, to + kTransposed, stride, streams);
-  } else {
-    store_transposed(values, to, stride);
-    store_transposed(values + kTransposed, to + kTransposed, stride);
-  }
+                                           std::ptrdiff_t stride, bool streams) {
+  store_transposed(values, to, stride, streams);
+  store_transposed(values + kTransposed, to + kTransposed, stride, streams);
 }
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
