@@ -20,13 +20,7 @@ struct CurveRange {
       store_first(plane + at, value, writable);
       return;
     }
-    if constexpr (kLineWide<V>) {
-      if (streaming) {
-        store_streaming(plane + at, value);
-        return;
-      }
-    }
-    store_vector(plane + at, value);
+    store_line(plane + at, value, streaming);
   }
   SIMDBEZIER_INLINE void store_if_wanted(ScalarOf<V>* plane, V value) const {
     if (plane != nullptr) {

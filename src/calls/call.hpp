@@ -83,8 +83,7 @@ struct Components {
 template <typename T>
 struct Request {
   const KernelTable<T>* table = nullptr;
-  const KernelTable<T>* narrower = nullptr; ///< may run instead; null where there is no choice
-  std::size_t first = 0;                    ///< patch or curve
+  std::size_t first = 0; ///< patch or curve
   std::size_t count = 0;
   Components components;
 
@@ -97,8 +96,6 @@ struct Request {
       return status;
     }
     table = &kernel_table<T>(isa);
-    isa = narrower_choice(options.isa);
-    narrower = isa == Isa::automatic ? nullptr : &kernel_table<T>(isa);
     if (!resolve_range(range, set.size(), first, count)) {
       return Status::bad_patch_range;
     }

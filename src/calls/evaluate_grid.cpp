@@ -121,7 +121,7 @@ public:
     return {*in_.set.storage(), request_, plan_, in_.out, in_.options, destination};
   }
   [[nodiscard]] bool may_narrow() const noexcept {
-    return request_.narrower != nullptr &&
+    return narrower_choice(in_.options.isa) != Isa::automatic &&
            plan_.nu() * plan_.nv() * request_.count >= kLeastMeasured;
   }
   [[nodiscard]] CallKind width_kind() const noexcept {
@@ -129,7 +129,7 @@ public:
   }
   [[nodiscard]] GridWork<T> plan_narrower() const noexcept {
     Request<T> request = request_;
-    request.table = request_.narrower;
+    request.table = &kernel_table<T>(narrower_choice(in_.options.isa));
     return {*in_.set.storage(), request, plan_, in_.out, in_.options, Destination::cache};
   }
   [[nodiscard]] std::size_t written() const noexcept {

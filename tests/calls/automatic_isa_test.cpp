@@ -2,7 +2,6 @@
 // must never show in a result: calls that measure, and calls that come after them, give the bits of
 // the widest instruction set.
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
