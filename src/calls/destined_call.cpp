@@ -66,8 +66,6 @@ private:
 
 } // namespace
 
-bool exceeds_caches(std::size_t bytes) noexcept { return bytes > last_level_cache() / 2; }
-
 Destination unmeasured_destination(std::size_t bytes) noexcept {
   const Destination wish = environment_destination();
   return !exceeds_caches(bytes)           ? Destination::cache
@@ -108,9 +106,7 @@ Status run_and_decide(const AnyWork& plain, const AnyWork& streaming, const Call
   const Destination faster = both.measure(block, dirty);
   destination_notes().decide(kind, faster);
   both.run(faster, measured + dirty, items);
-  if (options.executed != nullptr) {
-    *options.executed = both.executed();
-  }
+  report(both.executed(), options);
   return Status::ok;
 }
 

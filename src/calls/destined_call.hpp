@@ -22,6 +22,7 @@
 #include "src/calls/any_work.hpp"
 #include "src/calls/width_choice.hpp"
 #include "src/output/output_list.hpp"
+#include "src/runtime/cache_sizes.hpp"
 #include "src/runtime/destination.hpp"
 
 namespace simdbezier::detail {
@@ -66,9 +67,6 @@ template <typename T>
   }
   return kind;
 }
-
-/// Whether so many bytes are more than half of the last cache: the consumer has other data, too.
-[[nodiscard]] bool exceeds_caches(std::size_t bytes) noexcept;
 
 /// What automatic means for `bytes` bytes where nothing has been measured.
 [[nodiscard]] Destination unmeasured_destination(std::size_t bytes) noexcept;

@@ -6,6 +6,7 @@
 #include "src/calls/call.hpp"
 #include "src/calls/destined_call.hpp"
 #include "src/output/output_plan.hpp"
+#include "src/runtime/cache_sizes.hpp"
 #include "src/runtime/line_costs.hpp"
 #include "src/storage/patch_storage.hpp"
 #include "src/tables/kernel_table.hpp"

@@ -9,9 +9,9 @@
 
 #include <simdbezier/patch_set.hpp>
 
-#include "src/calls/destined_call.hpp"
 #include "src/calls/pack_request.hpp"
 #include "src/runtime/batch.hpp"
+#include "src/runtime/cache_sizes.hpp"
 #include "src/runtime/dispatch.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/net_faults.hpp"
@@ -28,7 +28,8 @@ public:
   RunPacker(const ControlNets<S>& nets, const PackRun& run, const PackOptions& options,
             const KernelTable<T>& table, const PatchStorage<T>& storage)
       : nets_(nets), run_(run), options_(options), table_(table), storage_(storage),
-        streaming_(exceeds_caches(storage.count * bytes_of_patch(storage))) {}
+        streaming_(
+            exceeds_caches(storage.count * storage.bytes_of_patch(storage.origins != nullptr))) {}
 
   /// Patches [begin, end) of the run up to the first fault.
   [[nodiscard]] PackReport pack(std::size_t begin, std::size_t end) const {
@@ -44,11 +45,6 @@ public:
   }
 
 private:
-  [[nodiscard]] static std::size_t bytes_of_patch(const PatchStorage<T>& storage) noexcept {
-    const NetShape& shape = storage.shape;
-    return (shape.coefficients() + shape.edges()) * sizeof(T) +
-           shape.control_values() * storage.given.value_bytes();
-  }
   [[nodiscard]] PackDoubt call_kernel(std::size_t begin, std::size_t end) const {
     const NetShape& shape = storage_.shape;
     const double* const shift = options_.relative_to;

@@ -95,10 +95,7 @@ Status run_and_choose(const AnyWork& widest, const AnyWork& narrower, const Call
       patch > kLargestPatch ? Width::widest : BothWidths(widest, narrower, scratch).measure(block);
   width_notes().decide(kind, width);
   const AnyWork& work = width == Width::narrower ? narrower : widest;
-  const Isa executed = run_units(0, work.units, threads, scratch, work);
-  if (options.executed != nullptr) {
-    *options.executed = executed;
-  }
+  report(run_units(0, work.units, threads, scratch, work), options);
   return Status::ok;
 }
 

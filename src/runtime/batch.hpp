@@ -111,6 +111,13 @@ Isa run_units(std::size_t begin, std::size_t end, int threads, const ThreadScrat
   return executed;
 }
 
+/// Tells the caller which instruction set ran.
+inline void report(Isa executed, const Options& options) noexcept {
+  if (options.executed != nullptr) {
+    *options.executed = executed;
+  }
+}
+
 /// Runs all units of an evaluate call, each thread with `scratch_bytes` of its own, and reports the
 /// instruction set that ran. Returns ok | out_of_memory, before anything is written.
 template <typename Work>
@@ -121,10 +128,7 @@ Status run_blocks(std::size_t units, std::size_t duration, const Options& option
   if (!scratch.allocate(scratch_bytes, threads)) {
     return Status::out_of_memory;
   }
-  const Isa executed = run_units(0, units, threads, scratch, work);
-  if (options.executed != nullptr) {
-    *options.executed = executed;
-  }
+  report(run_units(0, units, threads, scratch, work), options);
   return Status::ok;
 }
 

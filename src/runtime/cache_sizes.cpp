@@ -61,6 +61,7 @@ const CacheSizes& cache_sizes() noexcept {
 } // namespace
 
 std::size_t last_level_cache() noexcept { return cache_sizes().last; }
+bool exceeds_caches(std::size_t bytes) noexcept { return bytes > last_level_cache() / 2; }
 std::size_t first_level_cache() noexcept { return cache_sizes().first; }
 std::size_t second_level_cache() noexcept { return cache_sizes().second; }
 

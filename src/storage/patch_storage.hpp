@@ -63,6 +63,13 @@ struct PatchStorage {
   /// No bicubic patch has a higher floor; infinity where floors differ much.
   T common_floor = std::numeric_limits<T>::infinity();
 
+  /// Bytes of one patch in all arrays.
+  [[nodiscard]] std::size_t bytes_of_patch(bool with_origins) const noexcept {
+    return (shape.coefficients() + shape.edges() + shape.floors() +
+            (with_origins ? shape.origins() : 0)) *
+               sizeof(T) +
+           shape.control_values() * given.value_bytes();
+  }
   [[nodiscard]] PatchArrays<T> arrays(std::size_t patch) const noexcept {
     return {.shape = &shape,
             .coefficients = coefficients + patch * shape.coefficients(),

@@ -37,10 +37,7 @@ template <typename T>
 Status allocate(bool origins, PatchStorage<T>& storage) {
   const NetShape& shape = storage.shape;
   const std::size_t given_bytes = shape.control_values() * storage.given.value_bytes();
-  const std::size_t per_patch =
-      (shape.coefficients() + shape.edges() + shape.floors() + (origins ? shape.origins() : 0)) *
-          sizeof(T) +
-      given_bytes;
+  const std::size_t per_patch = storage.bytes_of_patch(origins);
   constexpr std::size_t kLimit = std::numeric_limits<std::ptrdiff_t>::max();
   const std::size_t count = storage.count;
   if (count > (kLimit - sizeof(T)) / per_patch) {
