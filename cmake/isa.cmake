@@ -84,6 +84,9 @@ function(simdbezier_add_isa_kernels target)
     set(sources bicubic_kernels.cpp shape_kernels.cpp curve_kernels.cpp net_kernels.cpp mesh_kernels.cpp)
     list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../kernels/)
     add_library(${object} OBJECT ${sources})
+    # Alone even where other sources are compiled several as one: the longest ones of a build must
+    # run side by side.
+    set_target_properties(${object} PROPERTIES UNITY_BUILD OFF)
     set(level -O3)
     if(name MATCHES "^(scalar|sse2)$")
       set(level -O2)
