@@ -8,8 +8,9 @@
 #include <simdbezier/simdbezier.hpp>
 
 #include "bench/baselines/baselines.hpp"
-#include "bench/library_call.hpp"
+#include "bench/library_or_baseline.hpp"
 #include "bench/place.hpp"
+#include "bench/reference.hpp"
 #include "bench/rows.hpp"
 #include "bench/shared_data.hpp"
 
@@ -18,19 +19,19 @@ namespace {
 
 using simdbezier::Isa;
 
-/// What is asked for besides positions.
-enum class CurveOutput { position, derivatives, tangent };
+/// The outputs of a row: positions, and what is asked for besides.
+enum class CurveGroups { position, derivatives, tangent };
 
 constexpr const char* kOutputNames[] = {"position", "position_derivatives", "position_tangent"};
-/// The number of vectors a sample: position; position, d1, d2; position, tangent.
+/// The number of vectors that a sample has: position; position, d1, d2; position, tangent.
 constexpr std::size_t kVectors[] = {1, 3, 2};
 
 struct CurveRow {
-  CurveOutput output = CurveOutput::position;
+  CurveGroups output = CurveGroups::position;
   bool library = true;
   Isa isa = Isa::automatic; ///< for the library only
   std::size_t n = 16;
-  Place place = Place::cache;
+  MemoryLevel level = MemoryLevel::cache;
   int threads = 1;
   Layout layout = Layout::planes;
   int degree = 3;
@@ -43,7 +44,7 @@ std::string name_of(const CurveRow& row) {
                      (sizeof(T) == 4 ? "/f32/" : "/f64/") +
                      (row.library ? std::string(simdbezier::to_string(row.isa)) : "de_casteljau") +
                      "/" + std::to_string(row.n) +
-                     (row.place == Place::cache ? "/cache" : "/memory") +
+                     (row.level == MemoryLevel::cache ? "/cache" : "/memory") +
                      "/threads:" + std::to_string(row.threads);
   name += row.layout == Layout::triples ? "/layout:aos" : "";
   name += row.degree != 3 ? "/degree:" + std::to_string(row.degree) : "";
@@ -55,15 +56,16 @@ std::string name_of(const CurveRow& row) {
 template <typename T>
 std::size_t curves_of(const CurveRow& row) {
   const std::size_t bytes = row.n * 3 * kVectors[static_cast<int>(row.output)] * sizeof(T);
-  return row.place == Place::cache ? std::clamp<std::size_t>(kCacheBytes / bytes, 1, 1024)
-                                   : kMemoryBytes / bytes;
+  return row.level == MemoryLevel::cache ? std::clamp<std::size_t>(kCacheBytes / bytes, 1, 1024)
+                                         : kMemoryBytes / bytes;
 }
 
 template <typename T>
-class CurveCall {
+class TimedCurve final : public LibraryOrBaseline<CurveJob<T>> {
 public:
-  explicit CurveCall(const CurveRow& row)
-      : row_(row), count_(curves_of<T>(row)), t_(uniform_parameters<T>(row.n)) {
+  explicit TimedCurve(const CurveRow& row)
+      : LibraryOrBaseline<CurveJob<T>>(row.library), row_(row), count_(curves_of<T>(row)),
+        t_(uniform_parameters<T>(row.n)) {
     const std::size_t groups = kVectors[static_cast<int>(row.output)];
     job_.out = place_results<T>(groups == 1   ? OutputGroups::position
                                 : groups == 2 ? OutputGroups::position_normal
@@ -75,7 +77,7 @@ public:
     job_.points = points_;
     job_.t = t_.data();
     if (!row.library) {
-      run_ = widest_baselines<T>().de_casteljau_curves;
+      baseline_ = widest_baselines<T>().de_casteljau_curves;
       return;
     }
     options_.threads = row.threads;
@@ -92,33 +94,12 @@ public:
       return simdbezier::Vectors<T>{p[0], p[1], p[2], static_cast<std::ptrdiff_t>(job_.out.stride)};
     };
     outputs_.position = group(0);
-    if (row.output == CurveOutput::derivatives) {
+    if (row.output == CurveGroups::derivatives) {
       outputs_.d1 = group(1);
       outputs_.d2 = group(2);
-    } else if (row.output == CurveOutput::tangent) {
+    } else if (row.output == CurveGroups::tangent) {
       outputs_.tangent = group(1);
     }
-  }
-
-  void operator()() {
-    if (row_.library) {
-      (void)evaluate(options_);
-    } else {
-      run_(job_);
-    }
-  }
-
-  std::string check() {
-    std::string failure;
-    if (row_.library) {
-      failure = packed_ ? run_verified(options_, [this](const auto& o) { return evaluate(o); })
-                        : "the curves could not be packed";
-    } else if (run_ == nullptr) {
-      failure = "this machine has none of the baselines' instruction sets";
-    } else {
-      run_(job_);
-    }
-    return failure.empty() ? check_positions() : failure;
   }
 
   [[nodiscard]] double items() const { return static_cast<double>(count_ * row_.n); }
@@ -127,10 +108,24 @@ public:
   }
 
 private:
-  simdbezier::Status evaluate(const simdbezier::Options& options) const {
+  using LibraryOrBaseline<CurveJob<T>>::job_;
+  using LibraryOrBaseline<CurveJob<T>>::options_;
+  using LibraryOrBaseline<CurveJob<T>>::baseline_;
+
+  simdbezier::Status evaluate(const simdbezier::Options& options) const override {
     return simdbezier::evaluate(set_, simdbezier::CurveGrid<T>::uniform(row_.n), outputs_, options);
   }
 
+  [[nodiscard]] bool is_packed() const override { return packed_; }
+
+  void poison_results() override {
+    for (std::size_t curve = 0; curve < count_; curve += step()) {
+      poison(job_.out, curve * row_.n, (curve + 1) * row_.n);
+    }
+  }
+
+  /// The number of curves from one that is checked to the next.
+  [[nodiscard]] std::size_t step() const { return 1 + count_ / 64; }
   [[nodiscard]] std::size_t order() const { return static_cast<std::size_t>(row_.degree) + 1; }
   [[nodiscard]] std::size_t channels() const { return row_.rational ? 4 : 3; }
 
@@ -150,9 +145,9 @@ private:
     points_ = own_.data();
   }
 
-  /// Compares some samples of some curves with a Bernstein sum in double.
-  [[nodiscard]] std::string check_positions() const {
-    for (std::size_t curve = 0; curve < count_; curve += 1 + count_ / 64) {
+  /// Compares the positions of some curves with a Bernstein sum in double.
+  [[nodiscard]] std::string check_results() const override {
+    for (std::size_t curve = 0; curve < count_; curve += step()) {
       for (std::size_t i = 0; i < row_.n; ++i) {
         const double t = static_cast<double>(i) / static_cast<double>(row_.n - 1);
         const T* const p = points_ + curve * order() * channels();
@@ -186,29 +181,26 @@ private:
   std::vector<T> t_;
   std::vector<T> own_;
   const T* points_ = nullptr;
-  CurveJob<T> job_;
-  void (*run_)(const CurveJob<T>&) = nullptr;
   bool packed_ = false;
   simdbezier::CurveSet<T> set_;
   simdbezier::CurveOutputs<T> outputs_;
-  simdbezier::Options options_;
 };
 
 template <typename T>
 void add(const CurveRow& row) {
   register_row(name_of<T>(row),
-               row.place == Place::cache ? benchmark::kMicrosecond : benchmark::kMillisecond,
-               row.threads, [row] { return CurveCall<T>(row); });
+               row.level == MemoryLevel::cache ? benchmark::kMicrosecond : benchmark::kMillisecond,
+               row.threads, [row] { return TimedCurve<T>(row); });
 }
 
 template <typename T>
 void add_type() {
   const auto isas = simdbezier::available_isas();
   for (const std::size_t n : {4, 8, 16, 17, 32, 64}) {
-    for (const Place place : {Place::cache, Place::memory}) {
+    for (const MemoryLevel level : {MemoryLevel::cache, MemoryLevel::memory}) {
       CurveRow row;
       row.n = n;
-      row.place = place;
+      row.level = level;
       row.library = false;
       add<T>(row);
       row.library = true;
@@ -216,19 +208,19 @@ void add_type() {
         row.isa = isa;
         add<T>(row);
       }
-      for (const CurveOutput output : {CurveOutput::derivatives, CurveOutput::tangent}) {
+      for (const CurveGroups output : {CurveGroups::derivatives, CurveGroups::tangent}) {
         row.output = output;
         add<T>(row);
       }
-      row.output = CurveOutput::position;
-      if (place == Place::memory) {
+      row.output = CurveGroups::position;
+      if (level == MemoryLevel::memory) {
         row.layout = Layout::triples;
         for (const Isa isa : isas) {
           row.isa = isa;
           add<T>(row);
         }
       }
-      if (place == Place::memory && n % 16 == 0) {
+      if (level == MemoryLevel::memory && n % 16 == 0) {
         for (row.threads = 2; row.threads <= max_threads(); ++row.threads) {
           row.layout = Layout::planes;
           add<T>(row);

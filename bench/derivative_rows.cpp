@@ -25,8 +25,8 @@ constexpr std::size_t kSide = 16;
 constexpr std::size_t kSamples = kSide * kSide;
 constexpr int kDegree = 3;
 
-/// The derivative of that order of a cubic at t, by de Casteljau's scheme: differences of the
-/// points, then interpolation of these.
+/// Returns the derivative of that order of a cubic at t, by de Casteljau's scheme: differences of
+/// the points, then interpolation of these.
 double derivative_of(std::vector<double> points, int order, double t) {
   if (order > kDegree) {
     return 0;
@@ -41,7 +41,7 @@ double derivative_of(std::vector<double> points, int order, double t) {
   return points[0];
 }
 
-/// Component c of d^(a+b) S / du^a dv^b at (u, v).
+/// Returns component c of d^(a+b) S / du^a dv^b at (u, v).
 template <typename T>
 double reference(const T* net, const PartialDerivative<T>& wanted, std::size_t c, double u,
                  double v) {
@@ -57,9 +57,9 @@ double reference(const T* net, const PartialDerivative<T>& wanted, std::size_t c
 }
 
 template <typename T>
-class DerivativeCall {
+class TimedDerivative {
 public:
-  DerivativeCall(Isa isa, int order) {
+  TimedDerivative(Isa isa, int order) {
     for (int b = 0; b <= order; ++b) {
       for (int a = 0; a + b <= order; ++a) {
         wanted_.push_back({a, b, {}});
@@ -135,7 +135,7 @@ void add_type() {
                                (sizeof(T) == 4 ? "/f32/" : "/f64/") +
                                std::string(simdbezier::to_string(isa)) + "/16x16/cache/threads:1";
       register_row(name, benchmark::kMicrosecond, 1,
-                   [isa, order] { return DerivativeCall<T>(isa, order); });
+                   [isa, order] { return TimedDerivative<T>(isa, order); });
     }
   }
 }

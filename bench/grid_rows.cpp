@@ -5,8 +5,8 @@
 
 #include <simdbezier/simdbezier.hpp>
 
-#include "bench/grid_call.hpp"
 #include "bench/rows.hpp"
+#include "bench/timed_grid.hpp"
 
 namespace simdbezier_bench {
 namespace {
@@ -21,23 +21,23 @@ constexpr OutputGroups kOutputs[] = {OutputGroups::position, OutputGroups::posit
 constexpr std::size_t kLargestSwept = 65;
 
 template <typename T>
-void add_library(OutputGroups outputs, Isa isa, Size size, Place place) {
-  const int most = place == Place::cache ? 1 : max_threads();
+void add_library(OutputGroups outputs, Isa isa, Size size, MemoryLevel level) {
+  const int most = level == MemoryLevel::cache ? 1 : max_threads();
   for (int threads = 1; threads <= most; ++threads) {
-    add_grid_row<T>({outputs, Algorithm::library, isa, size, place, threads});
+    add_grid_row<T>({outputs, Algorithm::library, isa, size, level, threads});
   }
 }
 
-/// Rows of other layouts, which only the widest instruction set and AVX2 have.
+/// Adds rows of other layouts, which only the widest instruction set and AVX2 have.
 template <typename T>
-void add_layouts(OutputGroups outputs, Isa isa, Size size, Place place) {
+void add_layouts(OutputGroups outputs, Isa isa, Size size, MemoryLevel level) {
   for (const Layout layout : {Layout::triples, Layout::vertices}) {
     if (layout == Layout::vertices && group_count(outputs) == 1) {
       continue; // the same as triples
     }
-    const int most = place == Place::cache ? 1 : max_threads();
+    const int most = level == MemoryLevel::cache ? 1 : max_threads();
     for (int threads = 1; threads <= most; ++threads) {
-      add_grid_row<T>({outputs, Algorithm::library, isa, size, place, threads, layout});
+      add_grid_row<T>({outputs, Algorithm::library, isa, size, level, threads, layout});
     }
   }
 }
@@ -46,25 +46,25 @@ template <typename T>
 void add_size(OutputGroups outputs, Size size) {
   const auto isas = simdbezier::available_isas();
   const Isa widest = isas.back();
-  for (const Place place : {Place::cache, Place::memory}) {
+  for (const MemoryLevel level : {MemoryLevel::cache, MemoryLevel::memory}) {
     for (const Algorithm baseline : {Algorithm::de_casteljau, Algorithm::autovectorised}) {
-      add_grid_row<T>({outputs, baseline, Isa::automatic, size, place});
+      add_grid_row<T>({outputs, baseline, Isa::automatic, size, level});
     }
     for (const Isa isa : isas) {
-      add_library<T>(outputs, isa, size, place);
+      add_library<T>(outputs, isa, size, level);
       if (isa == widest || isa == Isa::avx2) {
-        add_layouts<T>(outputs, isa, size, place);
+        add_layouts<T>(outputs, isa, size, level);
       }
     }
   }
-  add_grid_row<T>({outputs, Algorithm::library, Isa::automatic, size, Place::cache});
-  GridRow row{outputs, Algorithm::library, widest, size, Place::cache};
+  add_grid_row<T>({outputs, Algorithm::library, Isa::automatic, size, MemoryLevel::cache});
+  GridRow row{outputs, Algorithm::library, widest, size, MemoryLevel::cache};
   if (size.nu >= 8 && size.nv >= 8) { // smaller grids are nearly all boundary
     row.watertight = false;
     add_grid_row<T>(row);
     row.watertight = true;
   }
-  row.place = Place::memory;
+  row.level = MemoryLevel::memory;
   row.aligned = false;
   add_grid_row<T>(row);
   if (size.nu == size.nv && (size.nu == 16 || size.nu == 32)) {
@@ -74,7 +74,7 @@ void add_size(OutputGroups outputs, Size size) {
   }
 }
 
-/// Rows of every size in cache, for the plot of speed against size.
+/// Adds rows of every size in cache, for the plot of speed against size.
 template <typename T>
 void add_sweep(OutputGroups outputs) {
   for (std::size_t n = 2; n <= kLargestSwept; ++n) {
@@ -85,10 +85,10 @@ void add_sweep(OutputGroups outputs) {
       continue;
     }
     for (const Algorithm baseline : {Algorithm::de_casteljau, Algorithm::autovectorised}) {
-      add_grid_row<T>({outputs, baseline, Isa::automatic, size, Place::cache});
+      add_grid_row<T>({outputs, baseline, Isa::automatic, size, MemoryLevel::cache});
     }
     for (const Isa isa : simdbezier::available_isas()) {
-      add_library<T>(outputs, isa, size, Place::cache);
+      add_library<T>(outputs, isa, size, MemoryLevel::cache);
     }
   }
 }

@@ -8,8 +8,9 @@
 
 namespace simdbezier_bench {
 
-/// The second derivatives come with everything before them: position, du, dv, duu, duv, dvv.
-/// Curvature: position, then Gaussian, mean, smaller and larger principal curvature.
+/// The outputs of a call. The second derivatives come with everything before them: position, du,
+/// dv, duu, duv, dvv. Curvature stands for the position, then the Gaussian, mean, smaller and
+/// larger principal curvature.
 enum class OutputGroups {
   position,
   position_normal,
@@ -21,13 +22,13 @@ enum class OutputGroups {
 constexpr std::size_t kMostGroups = 6;
 constexpr std::size_t kCurvatures = 4;
 
-/// Vectors of three components.
+/// The number of vectors of three components that a sample has.
 constexpr std::size_t group_count(OutputGroups groups) {
   constexpr std::size_t kCounts[] = {1, 2, 3, kMostGroups, 1};
   return kCounts[static_cast<int>(groups)];
 }
 
-/// All values of a sample: three a vector, one a curvature.
+/// The number of all values of a sample: three a vector, one a curvature.
 constexpr std::size_t value_count(OutputGroups groups) {
   return 3 * group_count(groups) + (groups == OutputGroups::curvature ? kCurvatures : 0);
 }
@@ -43,20 +44,20 @@ struct Results {
   std::size_t stride = 1;
 };
 
-/// What kind of patches a batch consists of.
-struct NetShape {
+/// The kind of patches that a batch consists of.
+struct BatchShape {
   int degree_u = 3;
   int degree_v = 3;
   bool rational = false; ///< points are x y z w, S = (sum w P B B) / (sum w B B)
 };
 
-constexpr bool is_bicubic(NetShape shape) {
+constexpr bool is_bicubic(BatchShape shape) {
   return shape.degree_u == 3 && shape.degree_v == 3 && !shape.rational;
 }
 
-constexpr std::size_t values_per_point(NetShape shape) { return shape.rational ? 4 : 3; }
+constexpr std::size_t values_per_point(BatchShape shape) { return shape.rational ? 4 : 3; }
 
-constexpr std::size_t values_per_patch(NetShape shape) {
+constexpr std::size_t values_per_patch(BatchShape shape) {
   return static_cast<std::size_t>((shape.degree_u + 1) * (shape.degree_v + 1)) *
          values_per_point(shape);
 }
@@ -70,10 +71,10 @@ struct GridJob {
   /// 48 values a patch: control points [j][i][xyz] for de_casteljau, power-basis coefficients
   /// [power of v][xyz][power of u] for autovectorised.
   const T* input = nullptr;
-  const T* u = nullptr; ///< i / (nu-1)
-  const T* v = nullptr; ///< i / (nv-1)
-  Results<T> out;       ///< triples for de_casteljau, planes for autovectorised
-  NetShape shape = {};  ///< bicubic for both
+  const T* u = nullptr;  ///< i / (nu-1)
+  const T* v = nullptr;  ///< i / (nv-1)
+  Results<T> out;        ///< triples for de_casteljau, planes for autovectorised
+  BatchShape shape = {}; ///< bicubic for both
 };
 
 /// Every cubic of a batch is evaluated at the same n parameters, curve after curve.

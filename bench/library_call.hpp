@@ -10,7 +10,7 @@
 
 namespace simdbezier_bench {
 
-/// The library's outputs, in the order of the name.
+/// Returns the library's outputs, in the order of the name.
 inline std::span<const simdbezier::Output> outputs_of(OutputGroups groups) {
   using simdbezier::Output;
   static constexpr Output kDerivatives[] = {Output::position, Output::du,  Output::dv,
@@ -67,7 +67,7 @@ std::string run_verified(simdbezier::Options options, Call call) {
   return {};
 }
 
-/// The same for a call that reads `patches` patches of a set.
+/// Does so for a call that reads `patches` patches of a set, if the set has them.
 template <typename T, typename Call>
 std::string run_verified(const simdbezier::PatchSet<T>& set, std::size_t patches,
                          const simdbezier::Options& options, Call call) {

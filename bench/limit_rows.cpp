@@ -96,7 +96,7 @@ void register_horner(const std::string& call, const std::string& isa, LimitKerne
       ->Unit(benchmark::kMicrosecond);
 }
 
-/// The library's rows, from registers: a pair of them at a time.
+/// Pairs of rows, as the library computes them, from registers.
 template <typename T>
 void register_pairs(const std::string& isa, LimitKernels<T> kernels) {
   auto run = [pairs_store = kernels.pairs_store](benchmark::State& state) {

@@ -13,7 +13,7 @@
 namespace simdbezier_bench {
 namespace {
 
-/// On x86 there is a "model name", on aarch64 only numbers.
+/// x86 has a "model name", aarch64 numbers only.
 std::string cpu_model() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

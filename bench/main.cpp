@@ -32,7 +32,8 @@ std::string RowName::text() const {
                                "second_derivatives", "curvature"};
   return call + "/" + names[static_cast<int>(outputs)] + (single ? "/f32/" : "/f64/") + who + "/" +
          std::to_string(nu) + "x" + std::to_string(nv) +
-         (place == Place::cache ? "/cache" : "/memory") + "/threads:" + std::to_string(threads);
+         (level == MemoryLevel::cache ? "/cache" : "/memory") +
+         "/threads:" + std::to_string(threads);
 }
 
 } // namespace simdbezier_bench

@@ -16,7 +16,7 @@ namespace simdbezier_bench {
 using simdbezier::Options;
 using simdbezier::Status;
 
-/// Whatever stages of a mesh produce, one after the other.
+/// What the stages of a mesh produce, one after the other.
 template <typename T>
 struct MeshStages {
   std::vector<T> nets;
@@ -53,7 +53,7 @@ struct MeshStages {
   Status lay_out(const Options& /*how*/) {
     return simdbezier::lay_out_mesh(topology, {nu, nv, diagonals}, layout);
   }
-  /// Room for the samples of grids, and for the vertices and triangles of a mesh.
+  /// Makes room for the samples of grids, and for the vertices and triangles of a mesh.
   bool make_room() {
     constexpr std::size_t kLine = kLineBytes / sizeof(T);
     normals_at = (3 * static_cast<std::size_t>(grid_samples()) + kLine - 1) / kLine * kLine;
@@ -95,7 +95,7 @@ struct MeshStages {
 inline constexpr std::size_t kColumns = 192;
 inline constexpr std::size_t kRows = 128;
 
-/// As many patches are enough for tessellators that take their time: the first rows of the sheet.
+/// Tessellators that take their time get the first rows of the sheet only, so many.
 inline constexpr std::size_t kPeerRows = 16;
 inline constexpr std::size_t kPeerPatches = kPeerRows * kColumns;
 
@@ -118,7 +118,7 @@ std::vector<T> sheet_nets() {
   return nets;
 }
 
-/// Packed and laid out; null where something failed.
+/// Returns the stages of a mesh that is packed and laid out; null where something failed.
 template <typename T>
 std::shared_ptr<MeshStages<T>> make_stages(bool adaptive) {
   auto stages = std::make_shared<MeshStages<T>>();
@@ -155,7 +155,8 @@ std::shared_ptr<MeshStages<T>> make_stages(bool adaptive) {
   return s.make_room() ? stages : nullptr;
 }
 
-/// Those of the last kind that was asked for: one at a time, since they take much memory.
+/// Returns the stages of the kind that was asked for last: one at a time is kept, since they take
+/// much memory.
 template <typename T>
 const std::shared_ptr<MeshStages<T>>& shared_stages(bool adaptive) {
   static std::shared_ptr<MeshStages<T>> stages[2];

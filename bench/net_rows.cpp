@@ -27,7 +27,7 @@ constexpr std::size_t kPatches = 256; ///< nets and results of splitting: 245 KB
 constexpr int kBoxLevels = 2;
 constexpr int kHigher = 5; ///< the degree that nets are elevated to
 
-/// One component of a surface point of a net in double, by the Bernstein sum.
+/// Returns one component of a surface point of a net in double, by the Bernstein sum.
 template <typename T>
 double point_of(const T* net, int degree, std::size_t c, double u, double v) {
   const auto weights = [degree](double t) {
@@ -50,7 +50,7 @@ double point_of(const T* net, int degree, std::size_t c, double u, double v) {
   return sum;
 }
 
-/// Nets and the memory of all results.
+/// The nets of an operation, and the memory of all its results.
 template <typename T>
 struct NetJob {
   ControlNets<T> nets{shared_nets<T>(kPatches), kPatches};
@@ -61,8 +61,8 @@ struct NetJob {
     return MutableNets<T>::packed(results.data() + quarter * kValuesPerPatch * kPatches, kPatches,
                                   degree, degree);
   }
-  /// The largest difference between the surfaces of the results and the parts of the original
-  /// surfaces that they stand for.
+  /// Compares the surfaces of the results with the parts of the original surfaces that they stand
+  /// for. Returns an empty string, or the first difference that is too large.
   std::string compare(std::size_t quarter, int degree, double u0, double v0, double size) {
     const auto stride = static_cast<std::size_t>((degree + 1) * (degree + 1) * 3);
     const T* const first = results.data() + quarter * kValuesPerPatch * kPatches;
@@ -174,9 +174,9 @@ struct Flatness {
 };
 
 template <typename T, template <typename> typename Operation>
-class NetCall {
+class TimedNet {
 public:
-  explicit NetCall(Isa isa) {
+  explicit TimedNet(Isa isa) {
     job_.options.threads = 1;
     job_.options.isa = isa;
   }
@@ -199,14 +199,14 @@ void add_operation(Isa isa) {
   const std::string name = std::string("nets/") + Operation<T>::kName +
                            (sizeof(T) == 4 ? "/f32/" : "/f64/") +
                            std::string(simdbezier::to_string(isa)) + "/3x3/cache/threads:1";
-  register_row(name, benchmark::kMicrosecond, 1, [isa] { return NetCall<T, Operation>(isa); });
+  register_row(name, benchmark::kMicrosecond, 1, [isa] { return TimedNet<T, Operation>(isa); });
 }
 
 /// find_adjacency on a square of patches, whose edges are known.
 template <typename T>
-class AdjacencyCall {
+class TimedAdjacency {
 public:
-  AdjacencyCall() : points_(kValuesPerPatch * kPatches), links_(4 * kPatches) {
+  TimedAdjacency() : points_(kValuesPerPatch * kPatches), links_(4 * kPatches) {
     for (std::size_t k = 0; k < 16 * kPatches; ++k) {
       const std::size_t patch = k / 16;
       const std::size_t column = 3 * (patch % kSide) + k % 4;
@@ -266,7 +266,7 @@ template <typename T>
 void add_type() {
   register_row(std::string("nets/find_adjacency") + (sizeof(T) == 4 ? "/f32" : "/f64") +
                    "/scalar/3x3/cache/threads:1",
-               benchmark::kMicrosecond, 1, [] { return AdjacencyCall<T>(); });
+               benchmark::kMicrosecond, 1, [] { return TimedAdjacency<T>(); });
   for (const Isa isa : simdbezier::available_isas()) {
     add_operation<T, Split>(isa);
     add_operation<T, Elevate>(isa);

@@ -52,9 +52,9 @@ void free_memory_as_usual() {
 }
 
 template <typename T>
-class PackCall {
+class TimedPack {
 public:
-  PackCall(Isa isa, std::size_t patches) : isa_(isa), patches_(patches) {
+  TimedPack(Isa isa, std::size_t patches) : isa_(isa), patches_(patches) {
     nets_.points = shared_nets<T>(patches);
     nets_.count = patches;
     ask_for(options_, isa);
@@ -64,9 +64,9 @@ public:
       (*this)();
     }
   }
-  PackCall(const PackCall&) = delete;
-  PackCall& operator=(const PackCall&) = delete;
-  ~PackCall() {
+  TimedPack(const TimedPack&) = delete;
+  TimedPack& operator=(const TimedPack&) = delete;
+  ~TimedPack() {
     set_ = {};
     free_memory_as_usual();
   }
@@ -118,19 +118,19 @@ void add_type() {
     if (!kEach && !(known && isa == chosen)) {
       continue;
     }
-    for (const Place place : {Place::cache, Place::memory}) {
+    for (const MemoryLevel level : {MemoryLevel::cache, MemoryLevel::memory}) {
       const RowName name{"pack",
                          OutputGroups::position,
                          sizeof(T) == 4,
                          std::string(simdbezier::to_string(isa)),
                          4,
                          4,
-                         place,
+                         level,
                          1};
-      const std::size_t patches = place == Place::cache ? kCached : kMemory;
+      const std::size_t patches = level == MemoryLevel::cache ? kCached : kMemory;
       register_row(name.text(),
-                   place == Place::cache ? benchmark::kMicrosecond : benchmark::kMillisecond, 1,
-                   [isa, patches] { return PackCall<T>(isa, patches); });
+                   level == MemoryLevel::cache ? benchmark::kMicrosecond : benchmark::kMillisecond,
+                   1, [isa, patches] { return TimedPack<T>(isa, patches); });
     }
   }
 }

@@ -12,7 +12,7 @@ class Random {
 public:
   explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15U + 1) {}
 
-  /// Uniform in [-1, 1).
+  /// Returns a number that is uniform in [-1, 1).
   double next() {
     state_ += 0x9E3779B97F4A7C15U;
     std::uint64_t z = state_;
@@ -49,14 +49,14 @@ Vector cross(Vector a, Vector b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// A unit vector across `a`, made with the axis that `a` is furthest from.
+/// Returns a unit vector across `a`, made with the axis that `a` is furthest from.
 Vector across(Vector a) {
   const bool x_is_small = std::abs(a.x) < 0.5;
   return unit(cross(a, x_is_small ? Vector{1, 0, 0} : Vector{0, 1, 0}));
 }
 
 template <typename T>
-void fill_net(std::size_t index, NetShape shape, T* net) {
+void fill_net(std::size_t index, BatchShape shape, T* net) {
   Random random(index);
   const Vector origin{random.next(), random.next(), random.next()};
   const Vector a = random_direction(random);
@@ -94,7 +94,7 @@ void to_powers(double* b, int stride) {
 } // namespace
 
 template <typename T>
-std::vector<T> random_nets(std::size_t count, NetShape shape) {
+std::vector<T> random_nets(std::size_t count, BatchShape shape) {
   const std::size_t values = values_per_patch(shape);
   std::vector<T> nets(count * values);
   for (std::size_t patch = 0; patch < count; ++patch) {
@@ -144,8 +144,8 @@ std::vector<T> uniform_parameters(std::size_t n) {
   return values;
 }
 
-template std::vector<float> random_nets<float>(std::size_t, NetShape);
-template std::vector<double> random_nets<double>(std::size_t, NetShape);
+template std::vector<float> random_nets<float>(std::size_t, BatchShape);
+template std::vector<double> random_nets<double>(std::size_t, BatchShape);
 template std::vector<float> power_basis<float>(const std::vector<float>&);
 template std::vector<double> power_basis<double>(const std::vector<double>&);
 template std::vector<float> uniform_parameters<float>(std::size_t);

@@ -18,11 +18,11 @@ class PlainTessellator {
 public:
   using Point = std::array<float, 3>;
 
-  /// nets: bicubic, 16 points each.
+  /// The nets are bicubic, 16 points each.
   explicit PlainTessellator(std::span<const Point> nets) : nets_(nets) {}
 
-  /// Cells a patch and direction, so that no triangle is farther than the tolerance from its patch:
-  /// the bound of Filip, Magedson and Markot (1986).
+  /// Returns how many cells a patch takes in each direction, so that no triangle is farther than
+  /// the tolerance from its patch: the bound of Filip, Magedson and Markot (1986).
   [[nodiscard]] std::size_t rate(double tolerance) const {
     double worst = 0;
     for (std::size_t first = 0; first < nets_.size(); first += 16) {
@@ -98,7 +98,8 @@ private:
       value = length > 0 ? value / length : 0;
     }
   }
-  /// The point of a cubic by de Casteljau's algorithm, and its derivative over 3.
+  /// Returns the point of a cubic by de Casteljau's algorithm, and in `slope` its derivative over
+  /// 3.
   static float cubic(float t, float a, float b, float c, float d, float& slope) {
     const auto mix = [t](float x, float y) { return x + t * (y - x); };
     const float ab = mix(a, b);

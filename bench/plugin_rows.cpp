@@ -13,14 +13,14 @@
 
 #include <tools/process/failure.hpp>
 
-#include "bench/grid_call.hpp"
+#include "bench/timed_grid.hpp"
 
 namespace simdbezier_bench {
 namespace {
 
 using simdbezier::tools::EvaluatorDied;
-using simdbezier::tools::GridTask;
-using simdbezier::tools::PatchTask;
+using simdbezier::tools::PluginGridTask;
+using simdbezier::tools::PluginPatchTask;
 
 constexpr Size kSizes[] = {{4, 4}, {8, 8}, {16, 16}, {17, 17}, {32, 32}, {33, 33}, {65, 65}};
 constexpr std::size_t kTriedPatches = 64;
@@ -35,11 +35,11 @@ F symbol(void* library, const char* name) {
   return library == nullptr ? nullptr : reinterpret_cast<F>(dlsym(library, name));
 }
 
-/// A row of one plug-in: x y z triples, like de_casteljau's.
+/// A row of one plug-in, which writes x y z triples as de_casteljau does.
 template <typename T>
-class PluginCall {
+class TimedPlugin {
 public:
-  PluginCall(PluginProcess process, OutputGroups outputs, Size size, Place place)
+  TimedPlugin(PluginProcess process, OutputGroups outputs, Size size, MemoryLevel level)
       : process_(std::move(process)) {
     const std::vector<T> u = uniform_parameters<T>(size.nu);
     const std::vector<T> v = uniform_parameters<T>(size.nv);
@@ -47,7 +47,7 @@ public:
       u_.push_back(u[k % size.nu]);
       v_.push_back(v[k / size.nu]);
     }
-    const GridRow row{outputs, Algorithm::de_casteljau, simdbezier::Isa::automatic, size, place};
+    const GridRow row{outputs, Algorithm::de_casteljau, simdbezier::Isa::automatic, size, level};
     job_.patches = grid_patch_count<T>(row);
     job_.nu = size.nu;
     job_.nv = size.nv;
@@ -105,7 +105,7 @@ private:
     return process_->facts().file + ": returned " + std::to_string(answer) + " for bicubic patches";
   }
 
-  /// Runs some patches in the plug-in's own process: empty, or what went wrong.
+  /// Runs some patches in the plug-in's own process. Returns an empty string, or what went wrong.
   std::string tried() {
     const std::size_t patches = std::min(job_.patches, kTriedPatches);
     const bool tangents = job_.out.groups == OutputGroups::position_derivatives;
@@ -117,7 +117,8 @@ private:
     int answer = 0;
     if constexpr (std::is_same_v<T, float>) {
       if (process_->facts().grid_f32) {
-        answer = process_->evaluate(GridTask{nets, patches, job_.nu, job_.nv, position, du, dv});
+        answer =
+            process_->evaluate(PluginGridTask{nets, patches, job_.nu, job_.nv, position, du, dv});
         return answer != 0 ? refused(answer) : find_nan(position, du, dv);
       }
     }
@@ -126,8 +127,8 @@ private:
       const auto of = [&](std::vector<T>& all) {
         return all.empty() ? std::span<T>() : std::span<T>(all).subspan(p * count, count);
       };
-      answer = process_->evaluate(
-          PatchTask<T>{nets.subspan(48 * p, 48), 3, 3, {}, u_, v_, of(position), of(du), of(dv)});
+      answer = process_->evaluate(PluginPatchTask<T>{
+          nets.subspan(48 * p, 48), 3, 3, {}, u_, v_, of(position), of(du), of(dv)});
     }
     return answer != 0 ? refused(answer) : find_nan(position, du, dv);
   }
@@ -174,13 +175,13 @@ template <typename T>
 void add_rows(const PluginProcess& plugin) {
   for (const OutputGroups outputs : {OutputGroups::position, OutputGroups::position_derivatives}) {
     for (const Size size : kSizes) {
-      for (const Place place : {Place::cache, Place::memory}) {
+      for (const MemoryLevel level : {MemoryLevel::cache, MemoryLevel::memory}) {
         RowName name{"grid", outputs, sizeof(T) == 4, plugin->facts().name};
         name.nu = size.nu;
         name.nv = size.nv;
-        name.place = place;
+        name.level = level;
         register_row(name.text(), benchmark::kMicrosecond, 1,
-                     [=] { return PluginCall<T>(plugin, outputs, size, place); });
+                     [=] { return TimedPlugin<T>(plugin, outputs, size, level); });
       }
     }
   }

@@ -19,12 +19,13 @@ enum Quantity { kPosition, kNormal, kTangent, kSecond };
 // On 4000 patches, de Casteljau needed at most 8, 25, 6, 4, the library no more, and the power
 // basis 19, 84, 20, 12.
 constexpr double kUnits[] = {100, 500, 100, 100};
-/// For curvatures it is relative to one plus the largest principal curvature there.
+/// What is allowed of curvatures, in units of roundoff of one plus the largest principal curvature
+/// there.
 constexpr double kCurvatureUnits = 1000;
 
 /// How large a quantity may be where no coordinate exceeds `size`, and what its error is relative
 /// to: a derivative multiplies by the degree, and by the ratio of the weights, which is up to 4.
-double scale_of(Quantity quantity, NetShape shape, double size) {
+double scale_of(Quantity quantity, BatchShape shape, double size) {
   const double degree = std::max(shape.degree_u, shape.degree_v);
   const double ratio = shape.rational ? 4 : 1;
   switch (quantity) {
@@ -40,7 +41,7 @@ double scale_of(Quantity quantity, NetShape shape, double size) {
   return ratio * ratio * std::max(degree * (degree - 1), 1.0) * size;
 }
 
-/// The k-th of the checked patches.
+/// Returns the k-th of the checked patches.
 std::size_t checked_patch(std::size_t k, std::size_t patches) {
   const std::size_t checked = std::min(patches, kCheckedPatches);
   return checked == 1 ? 0 : k * (patches - 1) / (checked - 1);
@@ -74,7 +75,7 @@ std::string message(const char* what, std::size_t patch, std::size_t sample, dou
 }
 
 template <typename T>
-double largest_coordinate(const T* net, NetShape shape) {
+double largest_coordinate(const T* net, BatchShape shape) {
   const std::size_t per_point = values_per_point(shape);
   double size = 0;
   for (std::size_t k = 0; k < values_per_patch(shape); ++k) {
@@ -122,7 +123,7 @@ std::string check_curvatures(const Results<T>& results, std::size_t index, const
 
 template <typename T>
 std::string check_sample(const Results<T>& results, std::size_t index, const T* net, double u,
-                         double v, std::size_t patch, std::size_t sample, NetShape shape) {
+                         double v, std::size_t patch, std::size_t sample, BatchShape shape) {
   const double roundoff = static_cast<double>(std::numeric_limits<T>::epsilon()) / 2;
   const double size = largest_coordinate(net, shape);
   const Sample reference = reference_sample(net, shape, u, v);
@@ -206,7 +207,7 @@ std::string check_scattered(const ScatteredJob<T>& job, const T* nets) {
 
 #define SIMDBEZIER_BENCH_INSTANTIATE(T)                                                            \
   template std::string check_sample<T>(const Results<T>&, std::size_t, const T*, double, double,   \
-                                       std::size_t, std::size_t, NetShape);                        \
+                                       std::size_t, std::size_t, BatchShape);                      \
   template void poison<T>(const Results<T>&, std::size_t, std::size_t);                            \
   template void poison_grid<T>(const GridJob<T>&);                                                 \
   template std::string check_grid<T>(const GridJob<T>&, const T*);                                 \

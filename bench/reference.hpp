@@ -16,7 +16,7 @@ namespace simdbezier_bench {
 /// for the message.
 template <typename T>
 std::string check_sample(const Results<T>& results, std::size_t index, const T* net, double u,
-                         double v, std::size_t patch, std::size_t sample, NetShape shape = {});
+                         double v, std::size_t patch, std::size_t sample, BatchShape shape = {});
 
 /// Overwrites samples [first, last), so that what an earlier row left there cannot pass for a
 /// result.

@@ -31,13 +31,13 @@ struct Basis {
   }
 };
 
-/// Orders in u and v of S, S_u, S_v, S_uu, S_uv, S_vv.
+/// The sums that S, S_u, S_v, S_uu, S_uv and S_vv are made of, in this order.
 struct Sums {
   double of[6][4] = {}; ///< w x, w y, w z, w
 };
 
 template <typename T>
-Sums bernstein_sums(const T* net, NetShape shape, double u, double v) {
+Sums bernstein_sums(const T* net, BatchShape shape, double u, double v) {
   const Basis bu(shape.degree_u, u);
   const Basis bv(shape.degree_v, v);
   Sums sums;
@@ -95,14 +95,14 @@ void normal_and_curvatures(Sample& s) {
 } // namespace
 
 template <typename T>
-Sample reference_sample(const T* net, NetShape shape, double u, double v) {
+Sample reference_sample(const T* net, BatchShape shape, double u, double v) {
   Sample sample;
   quotients(bernstein_sums(net, shape, u, v), sample);
   normal_and_curvatures(sample);
   return sample;
 }
 
-template Sample reference_sample<float>(const float*, NetShape, double, double);
-template Sample reference_sample<double>(const double*, NetShape, double, double);
+template Sample reference_sample<float>(const float*, BatchShape, double, double);
+template Sample reference_sample<double>(const double*, BatchShape, double, double);
 
 } // namespace simdbezier_bench

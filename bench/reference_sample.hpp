@@ -20,6 +20,6 @@ struct Sample {
 /// The patch `net` of this shape at (u, v): Bernstein sums of the points and their derivatives. For
 /// rational patches these are sums of (w P, w), followed by the quotient rule.
 template <typename T>
-Sample reference_sample(const T* net, NetShape shape, double u, double v);
+Sample reference_sample(const T* net, BatchShape shape, double u, double v);
 
 } // namespace simdbezier_bench

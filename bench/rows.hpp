@@ -25,9 +25,10 @@ void register_peer_rows();
 void register_limit_rows();
 void register_tessellate_rows();
 
-enum class Place { cache, memory };
+/// Where the data of a row are while it runs; its name calls that the destination.
+enum class MemoryLevel { cache, memory };
 
-/// <call>/<outputs>/<type>/<who>/<nu>x<nv>/<place>/threads:<t>
+/// The parts of a name: <call>/<outputs>/<type>/<who>/<nu>x<nv>/<destination>/threads:<t>
 struct RowName {
   std::string call;
   OutputGroups outputs = OutputGroups::position;
@@ -35,13 +36,13 @@ struct RowName {
   std::string who = {}; ///< instruction set, baseline or peer
   std::size_t nu = 1;
   std::size_t nv = 1;
-  Place place = Place::cache;
+  MemoryLevel level = MemoryLevel::cache;
   int threads = 1;
 
   [[nodiscard]] std::string text() const;
 };
 
-/// Every core that this process may use: 1 under `taskset -c 1`.
+/// The number of cores that this process may use, which is 1 under `taskset -c 1`.
 int max_threads();
 
 /// Ends a row with an error, which makes the program's exit code 1.

@@ -7,6 +7,7 @@
 
 #include "bench/baselines/baselines.hpp"
 #include "bench/library_call.hpp"
+#include "bench/library_or_baseline.hpp"
 #include "bench/place.hpp"
 #include "bench/reference.hpp"
 #include "bench/rows.hpp"
@@ -35,9 +36,9 @@ struct ScatteredRow {
 };
 
 /// Whether every sample's patch comes from memory. Sorted runs are cache rows, whatever the set.
-Place place_of(const ScatteredRow& row) {
+MemoryLevel level_of(const ScatteredRow& row) {
   const bool many = row.patches * kValuesPerPatch * sizeof(float) > (std::size_t{64} << 20);
-  return row.order == Order::random && many ? Place::memory : Place::cache;
+  return row.order == Order::random && many ? MemoryLevel::memory : MemoryLevel::cache;
 }
 
 template <typename T>
@@ -45,7 +46,7 @@ std::string name_of(const ScatteredRow& row) {
   RowName name{row.order == Order::sorted ? "scattered_sorted" : "scattered_random", row.outputs,
                sizeof(T) == 4};
   name.who = row.library ? std::string(simdbezier::to_string(row.isa)) : "de_casteljau";
-  name.place = place_of(row);
+  name.level = level_of(row);
   name.threads = row.threads;
   return name.text() + "/patches:" + std::to_string(row.patches);
 }
@@ -67,10 +68,11 @@ std::vector<std::uint32_t> patch_indices(Order order, std::size_t patches) {
 }
 
 template <typename T>
-class ScatteredCall {
+class TimedScattered final : public LibraryOrBaseline<ScatteredJob<T>> {
 public:
-  explicit ScatteredCall(const ScatteredRow& row)
-      : row_(row), patch_(patch_indices(row.order, row.patches)), u_(random_parameters(2)),
+  explicit TimedScattered(const ScatteredRow& row)
+      : LibraryOrBaseline<ScatteredJob<T>>(row.library), row_(row),
+        patch_(patch_indices(row.order, row.patches)), u_(random_parameters(2)),
         v_(random_parameters(3)) {
     job_.count = kSamples;
     job_.patch = patch_.data();
@@ -85,30 +87,8 @@ public:
       options_.isa = row.isa;
     } else {
       job_.nets = shared_nets<T>(row.patches);
-      run_ = widest_baselines<T>().de_casteljau_scattered;
+      baseline_ = widest_baselines<T>().de_casteljau_scattered;
     }
-  }
-
-  void operator()() {
-    if (row_.library) {
-      (void)evaluate(options_);
-    } else {
-      run_(job_);
-    }
-  }
-
-  std::string check() {
-    poison_scattered(job_);
-    std::string failure;
-    if (row_.library) {
-      failure = run_verified(*set_, row_.patches, options_,
-                             [this](const auto& options) { return evaluate(options); });
-    } else if (run_ == nullptr) {
-      failure = "this machine has none of the baselines' instruction sets";
-    } else {
-      run_(job_);
-    }
-    return failure.empty() ? check_scattered(job_, shared_nets<T>(row_.patches)) : failure;
   }
 
   [[nodiscard]] double items() const { return kSamples; }
@@ -117,10 +97,20 @@ public:
   }
 
 private:
-  simdbezier::Status evaluate(const simdbezier::Options& options) const {
+  using LibraryOrBaseline<ScatteredJob<T>>::job_;
+  using LibraryOrBaseline<ScatteredJob<T>>::options_;
+  using LibraryOrBaseline<ScatteredJob<T>>::baseline_;
+
+  simdbezier::Status evaluate(const simdbezier::Options& options) const override {
     const simdbezier::Samples<T> samples{
         {job_.patch, job_.count}, {job_.u, job_.count}, {job_.v, job_.count}};
     return simdbezier::evaluate(*set_, samples, outputs_, options);
+  }
+
+  [[nodiscard]] bool is_packed() const override { return set_->size() >= row_.patches; }
+  void poison_results() override { poison_scattered(job_); }
+  [[nodiscard]] std::string check_results() const override {
+    return check_scattered(job_, shared_nets<T>(row_.patches));
   }
 
   static std::vector<T> random_parameters(std::uint64_t seed) {
@@ -136,17 +126,14 @@ private:
   std::vector<std::uint32_t> patch_;
   std::vector<T> u_;
   std::vector<T> v_;
-  ScatteredJob<T> job_;
-  void (*run_)(const ScatteredJob<T>&) = nullptr;
   const simdbezier::PatchSet<T>* set_ = nullptr;
   simdbezier::Outputs<T> outputs_;
-  simdbezier::Options options_;
 };
 
 template <typename T>
 void add(const ScatteredRow& row) {
   register_row(name_of<T>(row), benchmark::kMillisecond, row.threads,
-               [row] { return ScatteredCall<T>(row); });
+               [row] { return TimedScattered<T>(row); });
 }
 
 template <typename T>

@@ -2,25 +2,25 @@
 // other degrees than 3 and rational ones, and curvatures, of bicubic patches as well.
 #include <simdbezier/simdbezier.hpp>
 
-#include "bench/grid_call.hpp"
 #include "bench/rows.hpp"
+#include "bench/timed_grid.hpp"
 
 namespace simdbezier_bench {
 namespace {
 
 using simdbezier::Isa;
 
-constexpr NetShape kShapes[] = {{1, 1},       {2, 2},       {4, 4},      {5, 5}, {6, 6},
-                                {7, 7},       {8, 8},       {3, 1},      {1, 3}, {2, 3},
-                                {2, 2, true}, {3, 3, true}, {4, 4, true}};
+constexpr BatchShape kShapes[] = {{1, 1},       {2, 2},       {4, 4},      {5, 5}, {6, 6},
+                                  {7, 7},       {8, 8},       {3, 1},      {1, 3}, {2, 3},
+                                  {2, 2, true}, {3, 3, true}, {4, 4, true}};
 constexpr OutputGroups kOutputs[] = {OutputGroups::position, OutputGroups::position_normal,
                                      OutputGroups::position_derivatives,
                                      OutputGroups::second_derivatives, OutputGroups::curvature};
 constexpr Size kSizes[] = {{16, 16}, {17, 17}};
 
 template <typename T>
-void add(OutputGroups outputs, Isa isa, Size size, NetShape shape) {
-  GridRow row{outputs, Algorithm::library, isa, size, Place::cache};
+void add(OutputGroups outputs, Isa isa, Size size, BatchShape shape) {
+  GridRow row{outputs, Algorithm::library, isa, size, MemoryLevel::cache};
   row.shape = shape;
   add_grid_row<T>(row);
 }
@@ -29,7 +29,7 @@ template <typename T>
 void add_type() {
   const auto isas = simdbezier::available_isas();
   for (const OutputGroups outputs : kOutputs) {
-    for (const NetShape shape : kShapes) {
+    for (const BatchShape shape : kShapes) {
       for (const Isa isa : isas) {
         add<T>(outputs, isa, kSizes[0], shape);
       }
@@ -43,7 +43,7 @@ void add_type() {
   }
   for (int threads = 1; threads <= max_threads(); ++threads) {
     add_grid_row<T>({OutputGroups::curvature, Algorithm::library, isas.back(), kSizes[0],
-                     Place::memory, threads});
+                     MemoryLevel::memory, threads});
   }
 }
 

@@ -76,7 +76,7 @@ const simdbezier::PatchSet<T>& shared_patch_set(std::size_t count) {
 }
 
 template <typename T>
-const ShapedPatches<T>& shaped_patches(std::size_t count, NetShape shape) {
+const ShapedPatches<T>& shaped_patches(std::size_t count, BatchShape shape) {
   static std::map<std::tuple<int, int, bool>, ShapedPatches<T>> kept;
   ShapedPatches<T>& patches = kept[{shape.degree_u, shape.degree_v, shape.rational}];
   if (patches.set.size() < count) {
@@ -90,8 +90,8 @@ const ShapedPatches<T>& shaped_patches(std::size_t count, NetShape shape) {
   return patches;
 }
 
-template const ShapedPatches<float>& shaped_patches<float>(std::size_t, NetShape);
-template const ShapedPatches<double>& shaped_patches<double>(std::size_t, NetShape);
+template const ShapedPatches<float>& shaped_patches<float>(std::size_t, BatchShape);
+template const ShapedPatches<double>& shaped_patches<double>(std::size_t, BatchShape);
 template const float* shared_nets<float>(std::size_t);
 template const double* shared_nets<double>(std::size_t);
 template const float* shared_power_basis<float>(std::size_t);

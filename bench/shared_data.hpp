@@ -24,7 +24,7 @@ public:
   HugeMemory() = default;
   explicit HugeMemory(std::size_t bytes);
 
-  /// Null where the memory cannot be had.
+  /// Returns null where the memory cannot be had.
   [[nodiscard]] unsigned char* get() const { return memory_.get(); }
 
 private:
@@ -56,6 +56,6 @@ struct ShapedPatches {
   simdbezier::PatchSet<T> set; ///< empty where packing failed
 };
 template <typename T>
-const ShapedPatches<T>& shaped_patches(std::size_t count, NetShape shape);
+const ShapedPatches<T>& shaped_patches(std::size_t count, BatchShape shape);
 
 } // namespace simdbezier_bench

@@ -133,7 +133,7 @@ void add_meshes(Isa isa) {
                      std::string(simdbezier::to_string(isa)),
                      n,
                      n,
-                     Place::memory,
+                     MemoryLevel::memory,
                      threads};
         register_row(name.text() + "/part:" + part.name, benchmark::kMillisecond, threads,
                      [=] { return MeshRow<T>(part, adaptive, isa, threads); });
@@ -142,7 +142,8 @@ void add_meshes(Isa isa) {
   }
 }
 
-/// plain: what one writes without a library, on some rows of the sheet, to the tolerance of 8x8.
+/// The rows called plain: what one writes without a library, on some rows of the sheet, to the
+/// tolerance of 8x8.
 class PlainRow {
 public:
   PlainRow()

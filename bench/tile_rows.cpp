@@ -21,8 +21,8 @@ using simdbezier::TileLayout;
 constexpr std::size_t kSizes[] = {16, 32};
 constexpr OutputGroups kOutputs[] = {OutputGroups::position, OutputGroups::position_normal,
                                      OutputGroups::position_derivatives};
-/// The result of rows without `patches:`, which no cache, and no small machine's memory, would
-/// hold.
+/// The size of the results of rows without `patches:`, which no cache, and no small machine's
+/// memory, would hold.
 constexpr std::size_t kWholeBytes = std::size_t{4} << 30;
 constexpr std::size_t kBatch = 65536;
 
@@ -38,8 +38,8 @@ struct TileRow {
 
 template <typename T>
 std::string name_of(const TileRow& row) {
-  const RowName name{"tiles", row.outputs, sizeof(T) == 4, std::string(to_string(row.isa)),
-                     row.n,   row.n,       Place::cache,   row.threads};
+  const RowName name{"tiles", row.outputs, sizeof(T) == 4,     std::string(to_string(row.isa)),
+                     row.n,   row.n,       MemoryLevel::cache, row.threads};
   std::string text = name.text();
   text += row.patches == 0 ? "" : "/patches:" + std::to_string(row.patches);
   text += row.layout == TileLayout::xyz           ? "/layout:aos"
@@ -71,9 +71,9 @@ std::uint64_t read_lines(const T* first, std::size_t count) {
 }
 
 template <typename T>
-class TileCall {
+class TimedTile {
 public:
-  explicit TileCall(const TileRow& row) : row_(row) {
+  explicit TimedTile(const TileRow& row) : row_(row) {
     const std::size_t bytes = row.n * row.n * 3 * group_count(row.outputs) * sizeof(T);
     patches_ = row.patches == 0 ? (kWholeBytes + bytes - 1) / bytes : row.patches;
     set_ = &shared_patch_set<T>(patches_);
@@ -176,7 +176,7 @@ private:
 template <typename T>
 void add(const TileRow& row) {
   register_row(name_of<T>(row), benchmark::kMillisecond, row.threads,
-               [row] { return TileCall<T>(row); });
+               [row] { return TimedTile<T>(row); });
 }
 
 template <typename T>

@@ -1,6 +1,6 @@
-// What a good engineer writes in a day: power-basis coefficients computed beforehand, plain loops
-// over a run-time n, restrict pointers, `omp simd`, the best flags, SoA planes. It has no error
-// bound, no exact corners and no equal bits.
+// This is what a good engineer writes in a day: power-basis coefficients computed beforehand, plain
+// loops over a run-time n, restrict pointers, `omp simd`, the best flags, SoA planes. It has no
+// error bound, no exact corners and no equal bits.
 //
 // The order of loops is the fastest of those that were tried: rows with lanes = u, or all samples
 // of a patch where rows are short.
@@ -12,8 +12,8 @@ namespace simdbezier_bench {
 namespace SIMDBEZIER_BENCH_ISA {
 namespace {
 
-/// Columns that g++ 12 takes the row loop's bound from: it keeps what it can of them in registers
-/// from row to row, and with room for more columns it keeps less.
+/// The number of columns from which g++ 12 takes the row loop's bound: it keeps what it can of them
+/// in registers from row to row, and with room for more columns it keeps less.
 constexpr std::size_t kUsual = 64;
 
 template <OutputGroups kGroups, typename T>

@@ -5,7 +5,7 @@
 
 namespace simdbezier_bench {
 
-/// The competitors at the widest instruction set that this build and this machine share.
+/// The competitors, compiled for the widest instruction set that this build and this machine share.
 template <typename T>
 struct Baselines {
   void (*de_casteljau)(const GridJob<T>& job) = nullptr;                ///< AoS out

@@ -18,7 +18,7 @@ template <typename T>
   return a + t * (b - a);
 }
 
-/// The value at t; `slope` receives a third of the derivative.
+/// Returns the value at t; `slope` receives a third of the derivative.
 template <typename T>
 [[gnu::always_inline]] inline T cubic(T t, T b0, T b1, T b2, T b3, T& slope) {
   const T b01 = interpolate(t, b0, b1);

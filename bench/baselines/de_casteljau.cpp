@@ -4,50 +4,18 @@
 // interpolation is one subtraction and one fused multiply-add, so that all four floating-point
 // pipes of a modern core are busy (90 of each for a position). Its shape makes it scalar.
 #include "bench/baselines/baselines.hpp"
-
-#include <cmath>
-
-#include "bench/baselines/cubic.hpp"
+#include "bench/baselines/de_casteljau_sample.hpp"
 
 namespace simdbezier_bench {
 namespace SIMDBEZIER_BENCH_ISA {
 namespace {
 
-// The loops below hold the whole of a sample's arithmetic and take their pointers as parameters,
-// because the same code in more functions is a quarter slower with g++ 12.
-template <typename T>
-void positions(const GridJob<T>& job, const T* __restrict nets, const T* __restrict us,
-               const T* __restrict vs, T* __restrict position) {
-  const std::size_t nu = job.nu;
-  const std::size_t nv = job.nv;
-  for (std::size_t patch = 0; patch < job.patches; ++patch) {
-    const T* const net = nets + 48 * patch;
-    for (std::size_t iv = 0; iv < nv; ++iv) {
-      const T v = vs[iv];
-      BENCH_PER_SAMPLE
-      for (std::size_t iu = 0; iu < nu; ++iu) {
-        const T u = us[iu];
-        for (int c = 0; c < 3; ++c) {
-          const T* const b = net + c;
-          T row[4];
-          T unused;
-          for (int j = 0; j < 4; ++j) {
-            row[j] = cubic(u, b[12 * j], b[12 * j + 3], b[12 * j + 6], b[12 * j + 9], unused);
-          }
-          position[c] = cubic(v, row[0], row[1], row[2], row[3], unused);
-        }
-        position += 3;
-      }
-    }
-  }
-}
-
-// Both tangents take a second pass in v: one over the points on the rows, which gives the position
-// and dv, and one over the rows' own last differences, which gives du.
+// Each kernel has its loops and the whole of a sample's arithmetic in it, and takes its pointers as
+// parameters, because the same code in more functions is a quarter slower with g++ 12.
 template <OutputGroups kGroups, typename T>
-void positions_and_tangents(const GridJob<T>& job, const T* __restrict nets, const T* __restrict us,
-                            const T* __restrict vs, T* __restrict position, T* __restrict second,
-                            T* __restrict third) {
+void run(const GridJob<T>& job, const T* __restrict nets, const T* __restrict us,
+         const T* __restrict vs, T* __restrict position, T* __restrict second,
+         T* __restrict third) {
   const std::size_t nu = job.nu;
   const std::size_t nv = job.nv;
   for (std::size_t patch = 0; patch < job.patches; ++patch) {
@@ -57,44 +25,22 @@ void positions_and_tangents(const GridJob<T>& job, const T* __restrict nets, con
       BENCH_PER_SAMPLE
       for (std::size_t iu = 0; iu < nu; ++iu) {
         const T u = us[iu];
-        T du[3]; // thirds of the derivatives
-        T dv[3];
-        for (int c = 0; c < 3; ++c) {
-          const T* const b = net + c;
-          T row[4];
-          T row_du[4];
-          T unused;
-          for (int j = 0; j < 4; ++j) {
-            row[j] = cubic(u, b[12 * j], b[12 * j + 3], b[12 * j + 6], b[12 * j + 9], row_du[j]);
-          }
-          position[c] = cubic(v, row[0], row[1], row[2], row[3], dv[c]);
-          du[c] = cubic(v, row_du[0], row_du[1], row_du[2], row_du[3], unused);
+        if constexpr (kGroups == OutputGroups::position) {
+          write_position(net, u, v, position);
+        } else {
+          write_position_and_tangents<kGroups>(net, u, v, position, second, third);
+          second += 3;
+          third += kGroups == OutputGroups::position_derivatives ? 3 : 0;
         }
         position += 3;
-        if constexpr (kGroups == OutputGroups::position_normal) {
-          // The direction does not depend on the factor 3.
-          const T x = du[1] * dv[2] - du[2] * dv[1];
-          const T y = du[2] * dv[0] - du[0] * dv[2];
-          const T z = du[0] * dv[1] - du[1] * dv[0];
-          const T scale = 1 / std::sqrt(x * x + y * y + z * z);
-          second[0] = x * scale;
-          second[1] = y * scale;
-          second[2] = z * scale;
-        } else {
-          for (int c = 0; c < 3; ++c) {
-            second[c] = 3 * du[c];
-            third[c] = 3 * dv[c];
-          }
-          third += 3;
-        }
-        second += 3;
       }
     }
   }
 }
 
 // Second derivatives come from the rows' values, last differences and second differences, each by a
-// pass in v that keeps as many differences as are wanted.
+// pass in v that keeps as many differences as are wanted. They have loops of their own, whose six
+// outputs share one index: with it, g++ 12 makes more instructions of the loops above.
 template <typename T>
 void second_derivatives(const GridJob<T>& job, const T* __restrict nets, const T* __restrict us,
                         const T* __restrict vs, T* __restrict position, T* __restrict out_du,
@@ -141,13 +87,11 @@ void dispatch(const GridJob<T>& job) {
   T* const* const p = job.out.component;
   switch (job.out.groups) {
   case OutputGroups::position:
-    return positions(job, job.input, job.u, job.v, p[0]);
+    return run<OutputGroups::position>(job, job.input, job.u, job.v, p[0], p[3], p[6]);
   case OutputGroups::position_normal:
-    return positions_and_tangents<OutputGroups::position_normal>(job, job.input, job.u, job.v, p[0],
-                                                                 p[3], p[6]);
+    return run<OutputGroups::position_normal>(job, job.input, job.u, job.v, p[0], p[3], p[6]);
   case OutputGroups::position_derivatives:
-    return positions_and_tangents<OutputGroups::position_derivatives>(job, job.input, job.u, job.v,
-                                                                      p[0], p[3], p[6]);
+    return run<OutputGroups::position_derivatives>(job, job.input, job.u, job.v, p[0], p[3], p[6]);
   case OutputGroups::second_derivatives:
     return second_derivatives(job, job.input, job.u, job.v, p[0], p[3], p[6], p[9], p[12], p[15]);
   case OutputGroups::curvature:

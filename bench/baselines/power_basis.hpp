@@ -1,8 +1,11 @@
-// One cubic in the power basis, its derivatives, and the normal of two tangents.
-// They are in the including object's own namespace, which no two objects share.
+// One cubic in the power basis, its derivatives, the normal of two tangents, and the planes that
+// results go to. They are in the including object's own namespace, which no two objects share.
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+
+#include "bench/job.hpp"
 
 namespace simdbezier_bench {
 namespace SIMDBEZIER_BENCH_ISA {
@@ -36,6 +39,44 @@ template <typename T>
   const T scale = 1 / std::sqrt(x * x + y * y + z * z);
   return {x * scale, y * scale, z * scale};
 }
+
+/// The planes of the first three vectors, from one sample on.
+template <typename T>
+struct OutputPlanes {
+  T* __restrict const x;
+  T* __restrict const y;
+  T* __restrict const z;
+  T* __restrict const x2;
+  T* __restrict const y2;
+  T* __restrict const z2;
+  T* __restrict const x3;
+  T* __restrict const y3;
+  T* __restrict const z3;
+
+  [[gnu::always_inline]] OutputPlanes(T* const* planes, std::size_t first)
+      : x(planes[0] + first), y(planes[1] + first), z(planes[2] + first), x2(planes[3] + first),
+        y2(planes[4] + first), z2(planes[5] + first), x3(planes[6] + first), y3(planes[7] + first),
+        z3(planes[8] + first) {}
+
+  /// Stores the normal of sample k, or its tangents, as kGroups says.
+  template <OutputGroups kGroups>
+  [[gnu::always_inline]] void store_tangents(std::size_t k, T ux, T uy, T uz, T vx, T vy,
+                                             T vz) const {
+    if constexpr (kGroups == OutputGroups::position_normal) {
+      const Normal<T> normal = unit_normal(ux, uy, uz, vx, vy, vz);
+      x2[k] = normal.x;
+      y2[k] = normal.y;
+      z2[k] = normal.z;
+    } else {
+      x2[k] = ux;
+      y2[k] = uy;
+      z2[k] = uz;
+      x3[k] = vx;
+      y3[k] = vy;
+      z3[k] = vz;
+    }
+  }
+};
 
 } // namespace
 } // namespace SIMDBEZIER_BENCH_ISA

@@ -62,24 +62,16 @@ template <OutputGroups kGroups, int kRows, std::size_t kMost, typename T>
                                               T* const* planes, std::size_t first) {
   const auto& p = columns.position;
   const auto& q = columns.du;
-  T* __restrict const x = planes[0] + first;
-  T* __restrict const y = planes[1] + first;
-  T* __restrict const z = planes[2] + first;
-  T* __restrict const x2 = planes[3] + first;
-  T* __restrict const y2 = planes[4] + first;
-  T* __restrict const z2 = planes[5] + first;
-  T* __restrict const x3 = planes[6] + first;
-  T* __restrict const y3 = planes[7] + first;
-  T* __restrict const z3 = planes[8] + first;
+  const OutputPlanes<T> out(planes, first);
 #pragma omp simd
   for (std::size_t i = 0; i < n; ++i) {
 #pragma GCC unroll 2
     for (std::size_t row = 0; row < kRows; ++row) {
       const T t = v[row];
       const std::size_t k = row * n + i;
-      x[k] = cubic(t, p[0][i], p[3][i], p[6][i], p[9][i]);
-      y[k] = cubic(t, p[1][i], p[4][i], p[7][i], p[10][i]);
-      z[k] = cubic(t, p[2][i], p[5][i], p[8][i], p[11][i]);
+      out.x[k] = cubic(t, p[0][i], p[3][i], p[6][i], p[9][i]);
+      out.y[k] = cubic(t, p[1][i], p[4][i], p[7][i], p[10][i]);
+      out.z[k] = cubic(t, p[2][i], p[5][i], p[8][i], p[11][i]);
       if constexpr (kGroups != OutputGroups::position) {
         const T ux = cubic(t, q[0][i], q[3][i], q[6][i], q[9][i]);
         const T uy = cubic(t, q[1][i], q[4][i], q[7][i], q[10][i]);
@@ -87,25 +79,13 @@ template <OutputGroups kGroups, int kRows, std::size_t kMost, typename T>
         const T vx = cubic_slope(t, p[3][i], p[6][i], p[9][i]);
         const T vy = cubic_slope(t, p[4][i], p[7][i], p[10][i]);
         const T vz = cubic_slope(t, p[5][i], p[8][i], p[11][i]);
-        if constexpr (kGroups == OutputGroups::position_normal) {
-          const Normal<T> normal = unit_normal(ux, uy, uz, vx, vy, vz);
-          x2[k] = normal.x;
-          y2[k] = normal.y;
-          z2[k] = normal.z;
-        } else {
-          x2[k] = ux;
-          y2[k] = uy;
-          z2[k] = uz;
-          x3[k] = vx;
-          y3[k] = vy;
-          z3[k] = vz;
-        }
+        out.template store_tangents<kGroups>(k, ux, uy, uz, vx, vy, vz);
       }
     }
   }
 }
 
-// The second derivatives in a loop of their own, which leaves more registers to each.
+// The second derivatives are swept in a loop of their own, which leaves more registers to each.
 template <OutputGroups kGroups, int kRows, std::size_t kMost, typename T>
 [[gnu::always_inline]] inline void sweep_second(const Columns<kGroups, kMost, T>& columns,
                                                 const T* __restrict v, std::size_t n,

@@ -18,7 +18,7 @@ struct Component {
   T position, du, dv;
 };
 
-/// One component at one sample; a points to the component's 4 values at power 0 of v.
+/// Evaluates one component at one sample; a points to the component's 4 values at power 0 of v.
 template <typename T>
 [[gnu::always_inline]] inline Component<T> component(const T* __restrict a, T u, T v) {
   const T q0 = cubic(u, a[0], a[1], a[2], a[3]);
@@ -35,37 +35,17 @@ template <OutputGroups kGroups, typename T>
 [[gnu::always_inline]] inline void evaluate_samples(const T* __restrict a, const T* __restrict u,
                                                     const T* __restrict v, std::size_t samples,
                                                     T* const* planes, std::size_t first) {
-  T* __restrict const x = planes[0] + first;
-  T* __restrict const y = planes[1] + first;
-  T* __restrict const z = planes[2] + first;
-  T* __restrict const x2 = planes[3] + first;
-  T* __restrict const y2 = planes[4] + first;
-  T* __restrict const z2 = planes[5] + first;
-  T* __restrict const x3 = planes[6] + first;
-  T* __restrict const y3 = planes[7] + first;
-  T* __restrict const z3 = planes[8] + first;
+  const OutputPlanes<T> out(planes, first);
 #pragma omp simd
   for (std::size_t k = 0; k < samples; ++k) {
     const auto [px, ux, vx] = component(a, u[k], v[k]);
     const auto [py, uy, vy] = component(a + 4, u[k], v[k]);
     const auto [pz, uz, vz] = component(a + 8, u[k], v[k]);
-    x[k] = px;
-    y[k] = py;
-    z[k] = pz;
+    out.x[k] = px;
+    out.y[k] = py;
+    out.z[k] = pz;
     if constexpr (kGroups != OutputGroups::position) {
-      if constexpr (kGroups == OutputGroups::position_normal) {
-        const Normal<T> normal = unit_normal(ux, uy, uz, vx, vy, vz);
-        x2[k] = normal.x;
-        y2[k] = normal.y;
-        z2[k] = normal.z;
-      } else {
-        x2[k] = ux;
-        y2[k] = uy;
-        z2[k] = uz;
-        x3[k] = vx;
-        y3[k] = vy;
-        z3[k] = vz;
-      }
+      out.template store_tangents<kGroups>(k, ux, uy, uz, vx, vy, vz);
     }
   }
 }

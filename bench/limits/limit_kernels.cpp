@@ -11,7 +11,7 @@ namespace SIMDBEZIER_BENCH_ISA {
 namespace SIMDBEZIER_BENCH_CONTRACTION {
 namespace {
 
-// These are enough to cover 5 cycles of latency on two pipes.
+// So many chains are enough to cover 5 cycles of latency on two pipes.
 constexpr int kChains = 12;
 
 template <typename T>
@@ -35,7 +35,7 @@ std::size_t multiply_add(std::size_t rounds, T* sink) {
     a9 = a9 * factor + term;
     a10 = a10 * factor + term;
     a11 = a11 * factor + term;
-    // Otherwise the compiler sees that the chains are equal, and keeps one.
+    // The chains are hidden, because the compiler would see that they are equal, and keep one.
     hide(a0), hide(a1), hide(a2), hide(a3), hide(a4), hide(a5);
     hide(a6), hide(a7), hide(a8), hide(a9), hide(a10), hide(a11);
   }
@@ -49,7 +49,7 @@ template <typename V, typename T, std::size_t... lane>
   return V{(static_cast<void>(lane), value)...};
 }
 
-/// V{} + value would be an addition to zero.
+/// Sets every lane to the value; V{} + value would be an addition to zero.
 template <typename V, typename T>
 [[gnu::always_inline]] inline V broadcast(T value) {
   return broadcast_lanes<V>(value, std::make_index_sequence<sizeof(V) / sizeof(T)>());

@@ -21,7 +21,7 @@ struct LimitKernels {
   /// c0, c1, …. The index is [degree - kLeastHornerDegree][form], since the processor decides which
   /// form is the fastest.
   void (*horner_store[3][kHornerForms])(T* out, std::size_t count, const T* inputs) = {};
-  /// The same of cubics at x and -x, which share their even and odd parts: p(x) goes to the first
+  /// Evaluates cubics at x and -x, which share their even and odd parts: p(x) goes to the first
   /// half of out, p(-x) to the second one.
   void (*pairs_store)(T* out, std::size_t count, const T* inputs) = nullptr;
 };

@@ -40,7 +40,8 @@ private:
 };
 
 [[maybe_unused]] void add(const char* peer, MakeMesher make) {
-  const RowName name{"tessellate", OutputGroups::position, false, peer, 8, 8, Place::memory, 1};
+  const RowName name{
+      "tessellate", OutputGroups::position, false, peer, 8, 8, MemoryLevel::memory, 1};
   register_row(name.text() + "/part:mesh", benchmark::kMillisecond, 1,
                [make] { return MeshPeerRow(make); });
 }

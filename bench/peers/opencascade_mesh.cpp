@@ -39,8 +39,8 @@ public:
     BRepMesh_IncrementalMesh(shape_, parameters);
   }
 
-  /// Counted in the shape's text: Debian 12 lacks a header that those of triangulations include.
-  /// Vertices of common edges count in each of their faces.
+  /// Counts in the shape's text, because Debian 12 lacks a header that those of triangulations
+  /// include. Vertices of common edges count in each of their faces.
   [[nodiscard]] MeshCounts counts() const override {
     std::stringstream text;
     BRepTools::Write(shape_, text);

@@ -7,7 +7,7 @@
 
 namespace simdbezier_bench {
 
-/// net: control points [j][i][xyz].
+/// Makes the patch with the control points net[j][i][xyz].
 inline opencascade::handle<Geom_BezierSurface> opencascade_surface(const double* net) {
   TColgp_Array2OfPnt poles(1, 4, 1, 4);
   for (int k = 0; k < 16; ++k) {

@@ -24,9 +24,9 @@ namespace {
 constexpr std::size_t kSize = 16;
 
 template <typename T>
-class PeerCall {
+class TimedPeer {
 public:
-  PeerCall(PreparePeer<T> prepare, OutputGroups outputs, Layout layout)
+  TimedPeer(PreparePeer<T> prepare, OutputGroups outputs, Layout layout)
       : parameters_(uniform_parameters<T>(kSize)) {
     job_.patches = cached_patches(kSize * kSize * 3 * group_count(outputs) * sizeof(T));
     job_.nu = job_.nv = kSize;
@@ -58,9 +58,9 @@ private:
 template <typename T>
 [[maybe_unused]] void add(const char* peer, PreparePeer<T> prepare, Layout layout) {
   for (const OutputGroups outputs : {OutputGroups::position, OutputGroups::position_derivatives}) {
-    const RowName name{"grid", outputs, sizeof(T) == 4, peer, kSize, kSize, Place::cache, 1};
+    const RowName name{"grid", outputs, sizeof(T) == 4, peer, kSize, kSize, MemoryLevel::cache, 1};
     register_row(name.text(), benchmark::kMicrosecond, 1,
-                 [prepare, outputs, layout] { return PeerCall<T>(prepare, outputs, layout); });
+                 [prepare, outputs, layout] { return TimedPeer<T>(prepare, outputs, layout); });
   }
 }
 

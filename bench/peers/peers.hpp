@@ -1,6 +1,6 @@
 // Other libraries on the library's own grids: each prepares its objects outside of the clock and
-// returns the call that is timed, which fills job.out. Meshes likewise. Only those that were found
-// are linked.
+// returns the call that is timed, which fills job.out. Those that make meshes do likewise. Only
+// those that were found are linked.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,8 @@
 
 namespace simdbezier_bench {
 
-/// `nets`: control points [patch][j][i][xyz]. Outputs: position, or position, du and dv.
+/// Prepares a call on the control points nets[patch][j][i][xyz]. Outputs are the position, or the
+/// position, du and dv.
 template <typename T>
 using PreparePeer = std::function<void()> (*)(const GridJob<T>& job, const T* nets);
 
@@ -31,14 +32,14 @@ public:
   virtual ~PeerMesher() = default;
   /// Makes all triangles anew, with at most this distance from the patches.
   virtual void run(double tolerance) = 0;
-  /// Of the last run; takes its time.
+  /// Counts what the last run made, which takes its time.
   [[nodiscard]] virtual MeshCounts counts() const = 0;
 };
 
-/// `nets`: control points [patch][j][i][xyz].
+/// Takes the control points nets[patch][j][i][xyz].
 std::unique_ptr<PeerMesher> make_opencascade_mesher(std::span<const double> nets);
 
-// Eigen is compiled once per instruction set, as the baselines are; planes.
+// Eigen is compiled once per instruction set, as the baselines are, and writes planes.
 #define SIMDBEZIER_BENCH_DECLARE_EIGEN(isa)                                                        \
   namespace isa {                                                                                  \
   void eigen(const GridJob<float>& job);                                                           \

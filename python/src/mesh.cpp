@@ -6,6 +6,8 @@
 
 #include <simdbezier/mesh.hpp>
 
+#include <tools/mesh_files/mesh_file.hpp>
+
 #include "python/src/mesh_files.hpp"
 #include "python/src/module.hpp"
 
@@ -222,7 +224,9 @@ void add_mesh(py::module_& module) {
                              }),
                              "The same for single patches: (patches,)")
       .def("save", &PyMesh::save, py::arg("path"),
-           "Writes a file of the format that its name ends in: .obj, .ply, .stl or .glb.");
+           ("Writes a file of the format that its name ends in: " + tools::mesh_format_names(".") +
+            ".")
+               .c_str());
   module.def("tessellate", &tessellate_points, py::arg("points"), py::arg("tolerance") = py::none(),
              py::arg("weights") = py::none(), py::kw_only(), py::arg("relative") = py::none(),
              py::arg("grid") = py::none(), py::arg("crease") = py::none(),

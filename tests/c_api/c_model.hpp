@@ -43,7 +43,7 @@ protected:
   simdbezier_topology* c_topology_ = nullptr;
 };
 
-/// The same model with its rates, and the numbering of its vertices.
+/// The model with its rates, and the numbering of its vertices.
 template <typename T>
 class CMesh : public CModel<T> {
 protected:

@@ -100,6 +100,45 @@ Found found_in(const simdbezier_mesh* mesh) {
           arrays.short_indices != nullptr};
 }
 
+/// One way to fill in the options, in C++ and in C.
+struct Case {
+  const char* name;
+  std::function<void(MeshOptions&)> set;
+  std::function<void(simdbezier_mesh_options&)> c_set;
+};
+
+/// The options that are set refer to the tolerances and the camera.
+std::vector<Case> option_cases(const std::vector<double>& tolerances,
+                               const simdbezier_camera& camera) {
+  return {{"none", [](auto&) {}, [](auto&) {}},
+          {"tolerance", [](auto& o) { o.tolerance = 1e-3; }, [](auto& o) { o.tolerance = 1e-3; }},
+          {"relative", [](auto& o) { o.relative_tolerance = 1e-3; },
+           [](auto& o) { o.relative_tolerance = 1e-3; }},
+          {"tolerances", [&](auto& o) { o.tolerances = tolerances; },
+           [&](auto& o) { o.tolerances = tolerances.data(), o.tolerances_length = 4; }},
+          {"pixels",
+           [](auto& o) {
+             o.pixels = 0.01, o.camera.eye = {0, 0, 30}, o.camera.focal_length = 10;
+           },
+           [&](auto& o) { o.pixels = 0.01, o.camera = &camera; }},
+          {"longest_edge", [](auto& o) { o.longest_edge = 0.5; },
+           [](auto& o) { o.longest_edge = 0.5; }},
+          {"normal_angle", [](auto& o) { o.normal_angle = 0.05; },
+           [](auto& o) { o.normal_angle = 0.05; }},
+          {"grid", [](auto& o) { o.tolerance = MeshOptions().tolerance, o.nu = 4, o.nv = 6; },
+           [](auto& o) { o.tolerance = 0, o.nu = 4, o.nv = 6; }},
+          {"snap", [](auto& o) { o.snap = 0.1; }, [](auto& o) { o.snap = 0.1; }},
+          {"orient", [](auto& o) { o.snap = 0.1, o.orient = true; },
+           [](auto& o) { o.snap = 0.1, o.orient = 1; }},
+          {"flip", [](auto& o) { o.flip = true; }, [](auto& o) { o.flip = 1; }},
+          {"drop_repeated", [](auto& o) { o.drop_repeated = true; },
+           [](auto& o) { o.drop_repeated = 1; }},
+          {"unshared", [](auto& o) { o.crease_angle = 0; }, [](auto& o) { o.unshared = 1; }},
+          {"no_normals", [](auto& o) { o.normals = false; }, [](auto& o) { o.no_normals = 1; }},
+          {"short_indices", [](auto& o) { o.short_indices = true; },
+           [](auto& o) { o.short_indices = 1; }}};
+}
+
 TEST(CMeshOptions, AreThoseOfCpp) {
   const std::vector<double> values = four_patches();
   const simdbezier_nets nets = c_nets(values, 3, 3);
@@ -107,41 +146,8 @@ TEST(CMeshOptions, AreThoseOfCpp) {
   camera.eye[2] = 30;
   camera.focal_length = 10;
   const std::vector<double> tolerances = {0.5, 0.02, 0.5, 0.5};
-  struct Case {
-    const char* name;
-    std::function<void(MeshOptions&)> set;
-    std::function<void(simdbezier_mesh_options&)> c_set;
-  };
-  const Case cases[] = {
-      {"none", [](auto&) {}, [](auto&) {}},
-      {"tolerance", [](auto& o) { o.tolerance = 1e-3; }, [](auto& o) { o.tolerance = 1e-3; }},
-      {"relative", [](auto& o) { o.relative_tolerance = 1e-3; },
-       [](auto& o) { o.relative_tolerance = 1e-3; }},
-      {"tolerances", [&](auto& o) { o.tolerances = tolerances; },
-       [&](auto& o) { o.tolerances = tolerances.data(), o.tolerances_length = 4; }},
-      {"pixels",
-       [](auto& o) {
-         o.pixels = 0.01, o.camera.eye = {0, 0, 30}, o.camera.focal_length = 10;
-       },
-       [&](auto& o) { o.pixels = 0.01, o.camera = &camera; }},
-      {"longest_edge", [](auto& o) { o.longest_edge = 0.5; },
-       [](auto& o) { o.longest_edge = 0.5; }},
-      {"normal_angle", [](auto& o) { o.normal_angle = 0.05; },
-       [](auto& o) { o.normal_angle = 0.05; }},
-      {"grid", [](auto& o) { o.tolerance = MeshOptions().tolerance, o.nu = 4, o.nv = 6; },
-       [](auto& o) { o.tolerance = 0, o.nu = 4, o.nv = 6; }},
-      {"snap", [](auto& o) { o.snap = 0.1; }, [](auto& o) { o.snap = 0.1; }},
-      {"orient", [](auto& o) { o.snap = 0.1, o.orient = true; },
-       [](auto& o) { o.snap = 0.1, o.orient = 1; }},
-      {"flip", [](auto& o) { o.flip = true; }, [](auto& o) { o.flip = 1; }},
-      {"drop_repeated", [](auto& o) { o.drop_repeated = true; },
-       [](auto& o) { o.drop_repeated = 1; }},
-      {"unshared", [](auto& o) { o.crease_angle = 0; }, [](auto& o) { o.unshared = 1; }},
-      {"no_normals", [](auto& o) { o.normals = false; }, [](auto& o) { o.no_normals = 1; }},
-      {"short_indices", [](auto& o) { o.short_indices = true; },
-       [](auto& o) { o.short_indices = 1; }}};
   std::vector<Found> different;
-  for (const Case& one : cases) {
+  for (const Case& one : option_cases(tolerances, camera)) {
     MeshOptions options;
     options.tolerance = 0.1;
     one.set(options);

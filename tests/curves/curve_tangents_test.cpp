@@ -182,7 +182,7 @@ TEST_P(CurveTangents, QuarterCircleHasCurvatureOne) {
   }
 }
 
-/// Also where control points repeat, on the way to a cusp, and with weights.
+/// This holds where control points repeat, on the way to a cusp, and with weights.
 TEST_P(CurveTangents, AreUnitVectorsAlongTheDerivative) {
   for (int degree = 1; degree <= kMostDegree; ++degree) {
     for (const double ratio : {0.0, 1.000002, 20.0}) { // the second: nearly equal weights

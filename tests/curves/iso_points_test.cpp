@@ -106,7 +106,7 @@ TEST(IsoPoints, RefuseBadInput) {
   EXPECT_EQ(parameter.point, -1);
 }
 
-/// From the points that the set keeps, which are the nets' own.
+/// Iso-curves of a set come from the points that it keeps, which are the nets' own.
 template <typename T>
 void expect_iso_of_set(const NetBatch<T>& nets, bool along_v, double t) {
   PatchSet<T> patches;

@@ -27,7 +27,7 @@ protected:
     EXPECT_EQ(to_string(evaluate_derivatives(set_, samples, wanted, options)), to_string(expected));
     expect_untouched();
   }
-  /// For both calls.
+  /// Expects both calls to refuse the list.
   void refuse(Status expected, const List& list, const CallOptions& options = {}) {
     refuse(expected, list, samples_.view(), options);
     refuse_grid(expected, list, Grid<float>::uniform(2, 2), options);

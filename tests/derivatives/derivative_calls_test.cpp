@@ -83,7 +83,7 @@ TEST_P(DerivativeCalls, uniform_grids_are_those_of_evaluate) {
   }
 }
 
-/// The same bits for any number of threads, any layout, and any other derivatives beside them.
+/// Bits are the same for any number of threads, any layout, and any other derivatives beside them.
 TEST_P(DerivativeCalls, bits_hang_on_the_sample_only) {
   const PatchSet<double> set = mixed_set<double>();
   const auto uniform = Grid<double>::uniform(17, 13);

@@ -67,7 +67,7 @@ SampleList<double> accuracy_samples() {
 
 class DerivativeAccuracy : public DerivativeTest {
 protected:
-  /// The same control values, which are floats, in both formats.
+  /// Checks both types on the same control values, which are floats.
   template <typename T>
   void check(const AccuracyCase& c, const std::vector<std::vector<DerivativeOracle>>& oracle,
              int most_u, int most_v, const RandomNets<float>& nets) {

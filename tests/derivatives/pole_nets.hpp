@@ -54,7 +54,7 @@ inline std::ostream& operator<<(std::ostream& out, const PoleCase& c) {
   return values;
 }
 
-/// The same net moved by -shift, which must not round.
+/// Returns the net's values moved by -shift, which must not round.
 [[nodiscard]] inline std::vector<double>
 moved_values(const ShapeCase& c, std::vector<double> values, const double (&shift)[3]) {
   for (std::size_t k = 0; k < values.size(); ++k) {

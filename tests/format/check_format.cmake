@@ -1,7 +1,11 @@
-# See CMakeLists.txt beside this file. Versions differ in what they do; 14 is Debian 12's.
+# See CMakeLists.txt beside this file. Versions differ in what they do, so only 14, Debian 12's, is asked.
 find_program(clang_format NAMES clang-format-14 clang-format)
-if(NOT clang_format)
-  message("skipped: clang-format is not installed")
+set(version "")
+if(clang_format)
+  execute_process(COMMAND ${clang_format} --version OUTPUT_VARIABLE version)
+endif()
+if(NOT version MATCHES "version 14\\.")
+  message("skipped: clang-format 14 is not installed")
   return()
 endif()
 set(files)

@@ -1,4 +1,4 @@
-// From the bytes of vertex formats to values.
+// Decodes the bytes of vertex formats to values.
 #pragma once
 
 #include <cmath>

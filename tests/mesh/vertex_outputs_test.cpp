@@ -1,5 +1,5 @@
-// The same bits of vertices whatever the call: threads, instruction sets, layouts, destinations,
-// parts of a mesh; and what calls refuse.
+// Vertices have the same bits whatever the call: threads, instruction sets, layouts, destinations,
+// parts of a mesh. And calls refuse what they cannot do.
 #include <cstring>
 #include <string>
 
@@ -80,8 +80,8 @@ TYPED_TEST(VertexCalls, have_the_same_bits_for_any_threads_destination_and_instr
   }
 }
 
-/// For bicubic patches, which have kernels of their own, and for patches of any degrees and
-/// weights.
+/// This holds for bicubic patches, which have kernels of their own, and for patches of any degrees
+/// and weights.
 TYPED_TEST(VertexCalls, give_parameters_and_patches_alone_for_patches_of_any_shape) {
   using T = TypeParam;
   struct Shape {

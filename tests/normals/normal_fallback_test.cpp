@@ -182,7 +182,7 @@ TEST(NormalFallback, far_outside_of_the_patch) {
   }
 }
 
-/// On a line in general position, which sums of doubles leave.
+/// The nets are lines in general position, which sums of doubles leave.
 TEST(NormalFallback, lines_in_space_have_none) {
   for (const bool rational : {false, true}) {
     for (const int degree : {1, 3, 5, 15}) {

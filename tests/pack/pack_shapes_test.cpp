@@ -215,7 +215,8 @@ private:
     worst_ = std::max(worst_, error.get_d() / (half_ulp(found) + carried * channels_[c].size));
   }
 
-  /// As they were given: whatever T, the form of weights and the set's origin are.
+  /// Control points are kept as they were given: whatever T, the form of weights and the set's
+  /// origin are.
   void check_control_points() {
     EXPECT_EQ(storage_.given.in_double, sizeof(S) == sizeof(double));
     EXPECT_EQ(storage_.given.weights, case_.weights);

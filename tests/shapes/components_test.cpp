@@ -191,7 +191,7 @@ TEST_F(RefusalTest, NormalsAndCurvaturesOutsideOfSpace) {
                  });
 }
 
-// As many planes as components, no more and no less.
+// An output has as many planes as there are components, no more and no less.
 TEST_F(RefusalTest, PlanesThatDoNotMatchTheComponents) {
   for (const int components : {1, 2}) {
     expect_refused(components, Status::null_output,

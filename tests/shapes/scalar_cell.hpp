@@ -19,7 +19,8 @@ struct Slope {
   T first;
 };
 
-/// Of sum c(k) t^k: Horner's rule and its synthetic division. Columns take it at every degree.
+/// Evaluates sum c(k) t^k and its slope by Horner's rule and its synthetic division. Columns take
+/// it at every degree.
 template <typename T, typename Coefficient>
 Slope<T> horner(bool fma, std::size_t order, T t, const Coefficient& c) {
   const auto madd = [&](T a, T b) { return fma ? std::fma(a, t, b) : a * t + b; };

@@ -83,8 +83,8 @@ public:
     }
   }
 
-  /// Of each class that the library has here, the largest |error| / bound over random samples, a
-  /// third of them on edges; 0 of others.
+  /// Returns the largest |error| / bound of each class that the library has here, over random
+  /// samples, a third of them on edges; 0 of others.
   [[nodiscard]] std::array<double, 2> worst(std::uint64_t seed) {
     Random random(seed);
     const detail::PatchStorage<T>& storage = set_.storage()->buckets[0];

@@ -1,10 +1,9 @@
 # simdbezier_add_tests(PROGRAM PREFIX SOURCES file… [LIBRARIES target…])
 #
-# A GoogleTest program, and one ctest test for each of its suites, named PREFIX + suite.
+# Adds a GoogleTest program, and one ctest test for each of its suites, named PREFIX + suite.
 #
-# Not one for each case, as gtest_discover_tests() makes them: suites prepare their patches and the
-# oracle's answers once for all of their cases and instruction sets, which a process for each case
-# does anew: three quarters of their time.
+# A test for each case, as gtest_discover_tests() makes them, would take four times as long: suites
+# prepare their patches and the oracle's answers once for all of their cases and instruction sets.
 function(simdbezier_add_tests program prefix)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "SOURCES;LIBRARIES")
   add_executable(${program} ${arg_SOURCES})
@@ -28,8 +27,8 @@ include(\"${PROJECT_SOURCE_DIR}/tests/support/list_suites.cmake\")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${list})
 endfunction()
 
-# Sets RESULT to whether the Python that the module is built for can import all MODULES; says that
-# WHAT is not tested where it cannot.
+# Sets RESULT to whether the Python that the module is built for can import all MODULES. Where it
+# cannot, a message says that WHAT is not tested.
 function(simdbezier_can_import result what)
   list(JOIN ARGN ", " modules)
   execute_process(COMMAND ${SIMDBEZIER_MODULE_PYTHON} -c "import ${modules}"
@@ -42,7 +41,8 @@ function(simdbezier_can_import result what)
   endif()
 endfunction()
 
-# At the end of a folder's CMakeLists.txt: its label for tests that are no GoogleTest suites.
+# Gives the folder's label to its tests that are no GoogleTest suites. It is called at the end of
+# the folder's CMakeLists.txt.
 function(simdbezier_label_tests)
   get_property(tests DIRECTORY PROPERTY TESTS)
   if(tests)

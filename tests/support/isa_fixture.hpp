@@ -58,7 +58,7 @@ protected:
     expect_ran(status, executed);
   }
 
-  /// For calls that take their own path to the library (other evaluators, other threads).
+  /// Counts calls that take their own path to the library (other evaluators, other threads).
   void expect_ran(Status status, Isa executed) {
     EXPECT_EQ(to_string(status), to_string(Status::ok));
     EXPECT_EQ(to_string(executed), to_string(isa())) << "another instruction set ran";

@@ -1,5 +1,5 @@
-# Read by ctest, with `program`, `emulator` (or nothing), `prefix` and `label` set (add_tests.cmake):
-# asks the program.
+# ctest reads this file, with `program`, `emulator` (or nothing), `prefix` and `label` set
+# (add_tests.cmake), and it asks the program for its suites.
 if(NOT EXISTS ${program})
   get_filename_component(name ${program} NAME)
   add_test(${name}_NOT_BUILT ${program})
@@ -15,7 +15,8 @@ string(REGEX MATCHALL "(^|\n)[^ \n.]+\\." suites "${listing}")
 if(NOT suites)
   message(FATAL_ERROR "${program} has no tests")
 endif()
-# Suites that take long begin first, so that no core waits for the last one; seconds, as measured.
+# Suites that take long begin first, so that no core waits for the last one. The seconds are
+# measured.
 set(cost_cli.Tessellate 10)
 set(cost_cli.Progress 8)
 set(cost_cli.All/MemoryTest 20)

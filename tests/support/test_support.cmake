@@ -11,10 +11,10 @@ target_compile_definitions(simdbezier_test_support
 # side by side, and with it the meaning of "the net as rounded to float".
 target_compile_options(simdbezier_test_support
                        INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
-# What tests spend their time in is the library; at -O3 they take three times as long to compile.
+# Tests spend their time in the library; at -O3 they take three times as long to compile.
 target_compile_options(simdbezier_test_support INTERFACE $<$<NOT:$<CONFIG:Debug>>:-Og>)
 
-# The oracle, compiled once: what tests spend most of their own time in.
+# The oracle is compiled once, because tests spend most of their own time in it.
 add_library(simdbezier_oracle STATIC ${CMAKE_CURRENT_LIST_DIR}/oracle/oracle.cpp)
 target_link_libraries(simdbezier_oracle PRIVATE simdbezier_test_support simdbezier_private_flags)
 set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/oracle/oracle.cpp

@@ -13,7 +13,7 @@ namespace {
 
 bool is_builtin(const std::string& in) { return in.starts_with("builtin:"); }
 
-// For options that are the same in all commands that have them.
+// Refuses the value of an option that is the same in all commands that have it.
 [[noreturn]] void refuse(const char* name, const std::string& found) {
   const auto entry = std::ranges::find(option_entries(), name, &OptionEntry::name);
   bad_usage(entry->name + ": expected " + entry->expected + ", found " + found);

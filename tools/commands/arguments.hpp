@@ -30,7 +30,7 @@ struct Arguments {
   bool json = false;
 };
 
-/// The names of the files that will be read; "-" is standard input.
+/// Returns the names of the files that will be read; "-" is standard input.
 [[nodiscard]] std::vector<std::string> inputs_of(const Arguments& arguments);
 
 /// Returns nothing where help or the version was asked for, which has then been printed.

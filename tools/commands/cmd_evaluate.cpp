@@ -40,7 +40,7 @@ public:
     }
     return out;
   }
-  /// Valid until the next call.
+  /// Returns a sample's values in the order of the columns. They are valid until the next call.
   [[nodiscard]] std::span<const T> row(std::size_t sample) {
     std::copy_n(values_.data() + sample * stride_, stride_, row_.data());
     for (std::size_t k = stride_; k < row_.size(); ++k) {
@@ -55,7 +55,7 @@ private:
   std::vector<Output> outputs_;
   std::vector<T> row_;
   bool curvature_ = false;
-  std::size_t stride_ = 0; // values of all vectors of a sample
+  std::size_t stride_ = 0; // how many values the vectors of a sample have
   std::size_t samples_ = 0;
   std::vector<T> values_;
 };
@@ -98,7 +98,7 @@ void evaluate_on_grid(const Arguments& arguments, const PatchFile& patches) {
   file.commit();
 }
 
-/// As many samples as fit into one call.
+/// The samples of one call, as many as fit into it.
 template <typename T>
 struct SampleBlock {
   static constexpr std::size_t kMost = std::size_t{1} << 14;
@@ -136,10 +136,10 @@ private:
 /// Evaluates blocks of samples of a file's patches. Where there are many patches, only those of the
 /// block's samples are packed.
 template <typename T>
-class SampleEvaluator {
+class BlockEvaluator {
 public:
   /// Throws Failure where T cannot hold a patch, whether it has samples or not.
-  SampleEvaluator(const PatchFile& file, int threads) : file_(file) {
+  BlockEvaluator(const PatchFile& file, int threads) : file_(file) {
     options_.threads = threads;
     for (std::size_t p = 0; p < file.count; p += kBlockPatches) {
       set_ = PatchSet<T>(); // frees memory that the next set may take
@@ -176,13 +176,13 @@ private:
   const PatchFile& file_;
   Options options_;
   PatchSet<T> set_;
-  bool all_ = false;                  // whether all of the file's patches are in the set
-  std::vector<std::uint32_t> packed_; // if not, these are
+  bool all_ = false;                  // whether the set has all of the file's patches
+  std::vector<std::uint32_t> packed_; // the patches that it has if not
 };
 
 template <typename T>
 void evaluate_samples(const Arguments& arguments, const PatchFile& patches) {
-  SampleEvaluator<T> evaluator(patches, arguments.threads);
+  BlockEvaluator<T> evaluator(patches, arguments.threads);
   SampleReader reader(*arguments.samples, patches.count);
   OutputFile file(arguments.out);
   ResultWriter writer(file, reader.centred(), arguments.outputs);

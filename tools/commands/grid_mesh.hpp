@@ -29,11 +29,11 @@ public:
   void write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& progress) override;
 
 private:
-  /// What takes time and is wanted for statistics only.
+  /// Measures what takes time and is wanted for statistics only.
   void measure(const PatchFile& file, MeshStats& stats) const;
   [[nodiscard]] std::uint64_t vertices_per_patch() const noexcept { return grid_.nu * grid_.nv; }
   void write_block(const GridBlock& block, MeshWriter<T>& writer, StageSeconds& seconds);
-  /// Faces of these patches, a bounded number at a time.
+  /// Writes the faces of these patches, a bounded number at a time.
   void write_faces(std::size_t first, std::size_t count, MeshWriter<T>& writer,
                    StageSeconds& seconds);
   void append_cell(std::uint32_t a);

@@ -21,7 +21,7 @@ namespace {
                                ", found " + found);
 }
 
-// A number that `fits`, in the option's own unit.
+// Reads a number that `fits`, in the option's own unit.
 template <typename Fits>
 std::optional<double> number(const Words& words, const char* option, Fits&& fits) {
   const std::optional<std::string> word = words.value(option);
@@ -38,7 +38,7 @@ std::optional<double> positive(const Words& words, const char* option) {
   return number(words, option, [](double value) { return value > 0; });
 }
 
-// Six numbers separated by commas.
+// Reads six numbers separated by commas.
 std::array<double, 6> parse_places(const Words& words, const std::string& text) {
   std::array<double, 6> numbers{};
   std::string_view rest = text;
@@ -71,7 +71,7 @@ std::array<double, 2> parse_picture(const Words& words) {
 }
 
 Camera parse_camera(const Words& words) {
-  constexpr double kNearest = 1e-3; // of the distance to what is looked at
+  constexpr double kNearest = 1e-3; // a share of the distance to what is looked at
   const std::string text = *words.value("--camera");
   const std::array<double, 6> places = parse_places(words, text);
   const auto [width, height] = parse_picture(words);

@@ -28,7 +28,7 @@ struct MeshArguments {
   std::optional<double> crease; ///< in degrees
   StatsForm stats = StatsForm::none;
 
-  /// How fine it is. Without any of these, every patch has the samples of a grid.
+  /// These say how fine the mesh is. Without any of them, every patch has the samples of a grid.
   std::optional<double> tolerance;
   std::optional<double> relative;
   std::optional<double> pixels;

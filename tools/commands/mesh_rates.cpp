@@ -15,8 +15,8 @@ namespace {
 /// The distances that are asked for.
 struct Tolerances {
   double all = kUnlimited;
-  std::string option;         ///< that `all` comes from; empty where that is unlimited
-  std::vector<double> single; ///< of each patch, at most `all`; empty without --pixels
+  std::string option;         ///< the one that `all` comes from; empty where that is unlimited
+  std::vector<double> single; ///< each patch's own, at most `all`; empty without --pixels
 
   [[nodiscard]] double of(std::size_t patch) const { return single.empty() ? all : single[patch]; }
   [[nodiscard]] std::string option_of(std::size_t patch) const {

@@ -11,7 +11,7 @@
 
 namespace simdbezier::tools {
 
-/// One value a patch, and the certified deviation of all.
+/// The cells of every patch, one value a patch, and the certified deviation of all.
 struct MeshRates {
   std::vector<std::uint32_t> nu;
   std::vector<std::uint32_t> nv;
@@ -24,9 +24,9 @@ template <typename T>
 struct RatedPatches {
   std::span<const ControlNets<T>> nets;
   const Topology& topology;
-  std::span<const double> errors; ///< of rounding, for each patch
-  double diagonal;                ///< of the box of all control points
-  const std::string& name;        ///< of their file, for messages
+  std::span<const double> errors; ///< what rounding adds, for each patch
+  double diagonal;                ///< the diagonal of the box of all control points
+  const std::string& name;        ///< the name of their file, for messages
 };
 
 /// The options that say how fine a mesh is, for messages about all of it: "--relative and --angle",

@@ -11,7 +11,7 @@ namespace simdbezier::tools {
 
 namespace {
 
-// Six digits, for people.
+// Writes six digits, which people can read.
 std::string rounded(double value) {
   std::array<char, 32> digits{};
   std::snprintf(digits.data(), digits.size(), "%.6g", value);

@@ -23,14 +23,14 @@ struct MeshStats {
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0; ///< quads count as two
   double deviation = 0;        ///< certified, as the file states it
-  double diagonal = 0;         ///< of the box of all control points
+  double diagonal = 0;         ///< the diagonal of the box of all control points
   std::size_t open_edges = 0;  ///< edges of patches that no other patch has
   std::size_t non_manifold_edges = 0;
-  std::uint64_t samples = 0; ///< that were evaluated for vertices
+  std::uint64_t samples = 0; ///< how many were evaluated for vertices
   StageSeconds seconds;
 };
 
-/// Adds the time of its life to a stage's.
+/// Adds the time that it lives to a stage's.
 class Stopwatch {
 public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}
@@ -45,7 +45,7 @@ private:
 };
 
 [[nodiscard]] std::string stats_as_text(const MeshStats& stats);
-/// One object, with the names of MeshStats.
+/// Writes one object, with the names of MeshStats.
 [[nodiscard]] std::string stats_as_json(const MeshStats& stats);
 
 } // namespace simdbezier::tools

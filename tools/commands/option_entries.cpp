@@ -13,7 +13,7 @@ namespace {
 
 using Entries = std::vector<OptionEntry>;
 
-// How fine a mesh is.
+// Adds the options that say how fine a mesh is.
 void add_resolution(Entries& entries) {
   const std::string command = " tessellate ";
   const std::string distance = "a distance above 0";
@@ -35,7 +35,7 @@ void add_resolution(Entries& entries) {
         "About the largest angle between normals of neighbouring vertices", command}});
 }
 
-// What a mesh consists of.
+// Adds the options that say what a mesh consists of.
 void add_mesh(Entries& entries) {
   const std::string command = " tessellate ";
   entries.insert(

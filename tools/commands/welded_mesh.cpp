@@ -21,7 +21,7 @@ std::span<const ControlNets<T>> views(const PatchNets<T>& nets) {
   return nets.nets;
 }
 
-// Assigning an empty one might keep the memory.
+// Frees the object's memory, which assigning an empty one might keep.
 template <typename T>
 void set_free(T& object) {
   const T freed = std::exchange(object, T());
@@ -169,7 +169,8 @@ MeshContents WeldedMesh<T>::contents() const {
   return contents;
 }
 
-// One patch at least, and as many as have a moderate number of vertices and triangles.
+// Returns a block of one patch at least, and of as many as have a moderate number of vertices and
+// triangles.
 template <typename T>
 typename WeldedMesh<T>::Block WeldedMesh<T>::block_from(std::size_t patch) const {
   const auto size = [&](std::size_t end) {

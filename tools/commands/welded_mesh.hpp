@@ -40,19 +40,20 @@ private:
   [[nodiscard]] Block block_from(std::size_t patch) const;
   void write_vertices(const Block& block, MeshWriter<T>& writer, StageSeconds& seconds);
   void write_faces(const Block& block, MeshWriter<T>& writer, StageSeconds& seconds);
-  /// Corners of the block's faces, as MeshWriter takes them; valid until the next call.
+  /// Returns the corners of the block's faces, as MeshWriter takes them; they are valid until the
+  /// next call.
   [[nodiscard]] std::span<const std::uint32_t> faces(const Block& block);
   [[nodiscard]] std::span<const std::uint32_t> quads(const Block& block);
 
   const Arguments& arguments_;
   MeshStats& stats_;
   std::size_t patches_ = 0;
-  std::string name_; // of the file, for messages
+  std::string name_; // the file's, for messages
   MeshBox box_;
   double deviation_ = 0;            // certified
-  std::unique_ptr<PatchFile> file_; // where nets_ is of its memory
+  std::unique_ptr<PatchFile> file_; // whose memory nets_ may refer to
   PatchNets<T> nets_;
-  std::vector<double> errors_; // of rounding, for each patch
+  std::vector<double> errors_; // what rounding adds, for each patch
   MeshRates rates_;
   Topology topology_;
   MeshLayout layout_;

@@ -8,7 +8,7 @@
 namespace simdbezier::tools {
 namespace {
 
-constexpr std::size_t kFence = 1024; // at least; half of it belongs to either neighbour
+constexpr std::size_t kFence = 1024; // the least there is; half of it belongs to either neighbour
 constexpr std::size_t kAligned = 64;
 constexpr unsigned char kFenceByte = 0xA5;
 constexpr unsigned char kUnwritten = 0xFF; // all bytes of a nan, of float and of double

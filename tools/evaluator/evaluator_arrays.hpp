@@ -15,21 +15,23 @@ public:
   /// Takes `memory`, whose first `used` bytes hold something else: arrays are placed behind them.
   EvaluatorArrays(std::span<unsigned char> memory, std::size_t used);
 
-  /// Where the copy of an array begins, or 0 for an empty one. Throws Failure where the memory is
-  /// too small. The arrays given have to outlive this object; `name` is a literal.
+  /// Places a copy of an array. Returns where it begins, or 0 for an empty one. Throws Failure
+  /// where the memory is too small. The arrays given have to outlive this object; `name` is a
+  /// literal.
   template <typename T>
   std::size_t input(const char* name, std::span<const T> values) {
     return add({name, 0, values.size_bytes(), values.data(), nullptr});
   }
-  /// The same for an array to be written, which is all nan until then.
+  /// Places an array that is to be written, and is all nan until then. Returns where it begins, or
+  /// 0 for an empty one.
   template <typename T>
   std::size_t output(const char* name, std::span<T> values) {
     return add({name, 0, values.size_bytes(), nullptr, values.data()});
   }
 
-  /// "wrote before position", "wrote behind position", "changed net", or nothing.
+  /// Returns "wrote before position", "wrote behind position", "changed net", or nothing.
   [[nodiscard]] std::string fault() const;
-  /// The outputs, to where they were asked for.
+  /// Copies the outputs to where they were asked for.
   void copy_out() const;
 
 private:
@@ -43,7 +45,7 @@ private:
 
   std::size_t add(Array array);
   static std::size_t end(const Array& array) noexcept { return array.begin + array.bytes; }
-  /// Of a fence: its first byte that is not as it was; otherwise the fence's end.
+  /// Returns the first byte of a fence that is not as it was, or the fence's end.
   [[nodiscard]] std::size_t first_changed(std::size_t begin, std::size_t end) const;
 
   std::span<unsigned char> memory_;

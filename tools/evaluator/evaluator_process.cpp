@@ -23,12 +23,12 @@ namespace simdbezier::tools {
 
 namespace {
 
-constexpr std::size_t kSharedBytes = std::size_t{256} << 20; // of which only what is used is there
+constexpr std::size_t kSharedBytes = std::size_t{256} << 20; // only what is used of them is there
 constexpr int kPatience = 120'000;                           // milliseconds for one call
 
 enum class Function : std::uint8_t { f32, f64, grid_f32 };
 
-struct Request {
+struct PluginRequest {
   Function function;
   int degree_u, degree_v;
   std::size_t n; // samples, or patches
@@ -39,7 +39,7 @@ struct Request {
   int answer;
 };
 
-// What the child found.
+// The functions that the child found.
 struct Loaded {
   decltype(&sbe_evaluate_f32) f32 = nullptr;
   decltype(&sbe_evaluate_f64) f64 = nullptr;
@@ -54,7 +54,7 @@ void find(void* library, const char* name, F& function) {
 } // namespace
 
 struct EvaluatorProcess::Shared {
-  Request request;
+  PluginRequest request;
   bool has[3];
   char name[64];
   char error[512];
@@ -72,7 +72,7 @@ using Shared = EvaluatorProcess::Shared;
 
 template <typename T, typename Evaluate>
 int run_patch(Evaluate evaluate, Shared& shared) {
-  const Request& task = shared.request;
+  const PluginRequest& task = shared.request;
   return evaluate(shared.at<T>(task.at.net), task.degree_u, task.degree_v,
                   shared.at<T>(task.at.weights), shared.at<T>(task.at.u), shared.at<T>(task.at.v),
                   task.n, shared.at<T>(task.at.position), shared.at<T>(task.at.du),
@@ -80,7 +80,7 @@ int run_patch(Evaluate evaluate, Shared& shared) {
 }
 
 int run_request(const Loaded& loaded, Shared& shared) {
-  const Request& task = shared.request;
+  const PluginRequest& task = shared.request;
   switch (task.function) {
   case Function::f32:
     return run_patch<float>(loaded.f32, shared);
@@ -251,10 +251,10 @@ int EvaluatorProcess::ask(const char* function, const EvaluatorArrays& arrays) {
 }
 
 template <typename T>
-int EvaluatorProcess::evaluate(const PatchTask<T>& task) {
+int EvaluatorProcess::evaluate(const PluginPatchTask<T>& task) {
   EvaluatorArrays arrays({shared_->base(), kSharedBytes}, sizeof(Shared));
   constexpr bool kSingle = sizeof(T) == sizeof(float);
-  Request& request = shared_->request = {};
+  PluginRequest& request = shared_->request = {};
   request.function = kSingle ? Function::f32 : Function::f64;
   request.degree_u = task.degree_u;
   request.degree_v = task.degree_v;
@@ -269,12 +269,12 @@ int EvaluatorProcess::evaluate(const PatchTask<T>& task) {
   return ask(kSingle ? "sbe_evaluate_f32" : "sbe_evaluate_f64", arrays);
 }
 
-template int EvaluatorProcess::evaluate(const PatchTask<float>&);
-template int EvaluatorProcess::evaluate(const PatchTask<double>&);
+template int EvaluatorProcess::evaluate(const PluginPatchTask<float>&);
+template int EvaluatorProcess::evaluate(const PluginPatchTask<double>&);
 
-int EvaluatorProcess::evaluate(const GridTask& task) {
+int EvaluatorProcess::evaluate(const PluginGridTask& task) {
   EvaluatorArrays arrays({shared_->base(), kSharedBytes}, sizeof(Shared));
-  Request& request = shared_->request = {};
+  PluginRequest& request = shared_->request = {};
   request.function = Function::grid_f32;
   request.n = task.patches;
   request.nu = task.nu;

@@ -24,9 +24,9 @@ struct EvaluatorFacts {
   bool grid_f32 = false;
 };
 
-/// One patch at parameters. Spans of derivatives are empty where they are not wanted.
+/// One patch at many parameters. Spans of derivatives are empty where they are not wanted.
 template <typename T>
-struct PatchTask {
+struct PluginPatchTask {
   std::span<const T> net;
   int degree_u = 3;
   int degree_v = 3;
@@ -39,7 +39,7 @@ struct PatchTask {
 };
 
 /// Bicubic patches on one grid.
-struct GridTask {
+struct PluginGridTask {
   std::span<const float> nets;
   std::size_t patches = 0;
   std::size_t nu = 0;
@@ -51,7 +51,8 @@ struct GridTask {
 
 class EvaluatorArrays;
 
-/// A running evaluator. To be made before a program starts threads: the process has none of them.
+/// A running evaluator. It has to be made before a program starts threads, because its process has
+/// none of them.
 class EvaluatorProcess {
 public:
   /// Throws Failure naming the file where it cannot be loaded or has none of the functions.
@@ -62,11 +63,11 @@ public:
 
   [[nodiscard]] const EvaluatorFacts& facts() const noexcept { return facts_; }
 
-  /// What the function returned. Outputs that it does not write become nan. Throws EvaluatorDied,
-  /// also where it has written anywhere near its arrays but not into an output.
+  /// Returns what the function returned. Outputs that it does not write become nan. Throws
+  /// EvaluatorDied, also where it has written anywhere near its arrays but not into an output.
   template <typename T>
-  int evaluate(const PatchTask<T>& task);
-  int evaluate(const GridTask& task);
+  int evaluate(const PluginPatchTask<T>& task);
+  int evaluate(const PluginGridTask& task);
 
   struct Shared; ///< memory that both processes see
 
@@ -78,7 +79,7 @@ private:
   [[noreturn]] void mourn(const std::string& what);
 
   EvaluatorFacts facts_;
-  std::string cause_; ///< of its death
+  std::string cause_; ///< why it died
   std::shared_ptr<Shared> shared_;
   int child_ = -1;
   int to_child_ = -1;

@@ -19,7 +19,7 @@ struct DamagedInput {
   std::string found;
 };
 
-/// Whether an input is compressed is decided by its first bytes, never by its name.
+/// Reads an input. Whether it is compressed is decided by its first bytes, never by its name.
 class ByteSource {
 public:
   /// Throws Failure when the input cannot be read: missing, a directory, no permission.
@@ -31,7 +31,7 @@ public:
   /// Returns how many bytes there were; 0 at the end only. Throws DamagedInput.
   [[nodiscard]] std::size_t read(char* data, std::size_t size);
 
-  /// As it is stored, in bytes; 0 where that is unknown, as for pipes.
+  /// Returns the size as it is stored, in bytes; 0 where that is unknown, as for pipes.
   [[nodiscard]] std::uint64_t stored_size() const;
   /// Shows from now on how much of what is stored has been read.
   void show(Progress& progress) noexcept { progress_ = &progress; }

@@ -23,7 +23,7 @@ public:
   [[nodiscard]] int degree(const std::string& where);
   /// Reads the coordinates of the next patch.
   void patch(int degree_u, int degree_v);
-  /// To be called after the last patch.
+  /// Reads what follows the last patch. It is called after that.
   [[nodiscard]] PatchFile finish();
 
 private:
@@ -34,7 +34,7 @@ private:
   std::string each_;
   std::size_t count_ = 0;
   std::size_t count_line_ = 0;
-  std::size_t coordinates_ = 0; // of the patch that is due
+  std::size_t coordinates_ = 0; // how many the patch that is due has
   PatchFile file_;
 };
 

@@ -12,8 +12,8 @@ namespace {
 using Names = std::array<std::string_view, 3>;
 constexpr Names kUnit = {"patch", "u", "v"};
 constexpr Names kCentred = {"patch", "x", "y"};
-// In results, where x, y and z are positions. Samples may have them too, so that the first columns
-// of results are samples again.
+// Results have these names, because x, y and z are positions there. Samples may have them too, so
+// that the first columns of results are samples again.
 constexpr Names kCentredResult = {"patch", "centred_u", "centred_v"};
 
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;

@@ -31,7 +31,7 @@ public:
   SampleReader(const std::string& path, std::size_t patches);
 
   [[nodiscard]] bool centred() const noexcept { return centred_; }
-  /// The next sample, or nothing at the end.
+  /// Returns the next sample, or nothing at the end.
   [[nodiscard]] std::optional<CsvSample> next();
   /// Throws the Failure for a parameter of the last sample that the chosen precision cannot hold.
   [[noreturn]] void refuse(double parameter, const std::string& precision) const;
@@ -47,12 +47,12 @@ private:
   bool centred_ = false;
 };
 
-/// The outputs that have columns: those before the status.
+/// How many outputs have columns: those before the status.
 inline constexpr auto kColumnOutputs = static_cast<std::size_t>(Output::status);
 
-/// "position, du, … curvature", in the order of their columns.
+/// Returns "position, du, … curvature", in the order of their columns.
 [[nodiscard]] std::string output_names();
-/// Vectors have three columns; the curvatures of a sample have four.
+/// Counts the columns: vectors have three, and the curvatures of a sample have four.
 [[nodiscard]] std::size_t column_count(std::span<const Output> outputs);
 
 /// Writes the header and one line a sample, with numbers that read back to the same bits.

@@ -11,7 +11,7 @@ namespace simdbezier::tools {
 
 namespace {
 
-// The largest window, and gzip's header and check sum only.
+// zlib's number for the largest window, and for gzip's header and check sum only.
 constexpr int kGzipOnly = 15 + 16;
 
 void expect_memory(int answer) {

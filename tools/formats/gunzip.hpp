@@ -18,7 +18,7 @@ public:
   /// What compressed bytes begin with, and text never does.
   static constexpr std::string_view kMagic = "\x1f\x8b";
   static constexpr std::size_t kRoom = std::size_t{1} << 16;
-  /// At any place of the input, more than this may be unpacked only up to so many times its bytes.
+  /// More than this may be unpacked, at any place of the input, only up to so many times its bytes.
   static constexpr std::uint64_t kAlwaysUnpacked = std::uint64_t{1} << 24;
   static constexpr std::uint64_t kMostTimes = 100;
 
@@ -29,9 +29,9 @@ public:
 
   /// Returns how many bytes there are; 0 where compressed ones are missing.
   [[nodiscard]] std::size_t unpack(char* data, std::size_t size);
-  /// Where the next compressed bytes go, at most kRoom …
+  /// Returns where the next compressed bytes go, at most kRoom.
   [[nodiscard]] char* room() noexcept { return packed_.data(); }
-  /// … and how many there were.
+  /// Says how many bytes have been put there.
   void fed(std::size_t size) noexcept;
   /// Throws where the compressed data end too early.
   void expect_end() const;
@@ -45,7 +45,7 @@ private:
   std::uint64_t bytes_in_ = 0;
   std::uint64_t bytes_out_ = 0;
   bool is_complete_ = false; // the bytes so far are one or more whole files
-  bool has_more_ = false;    // than there was room for
+  bool has_more_ = false;    // whether there is more than there was room for
 };
 
 } // namespace simdbezier::tools

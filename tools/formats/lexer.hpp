@@ -32,9 +32,9 @@ public:
   /// Reads the next token, which all other functions are about. Numbers may have any length.
   /// Another word of absurd length, as in binary files, is cut off and marked.
   Lexer& next();
-  /// The text of a word or string; valid until the next one is read.
+  /// Returns the text of a word or string; it is valid until the next one is read.
   [[nodiscard]] std::string_view text() const noexcept { return text_; }
-  /// The line where the token begins; at the end, the last line there is.
+  /// Returns the line where the token begins; at the end, the last line there is.
   [[nodiscard]] std::size_t line() const noexcept { return line_; }
   [[nodiscard]] bool at(TokenKind kind) const noexcept { return kind_ == kind; }
   [[nodiscard]] bool at_word(std::string_view word) const noexcept {
@@ -47,40 +47,41 @@ public:
   /// Passes over everything up to the next opening bracket.
   void skip_to_bracket();
   /// Passes over a list whose opening bracket, or something behind it, is the current token; its
-  /// closing bracket becomes the current one. depth: of so many lists in each other.
+  /// closing bracket becomes the current one. With a depth, the token is inside of so many lists,
+  /// and the outermost one is passed over.
   void skip_list(std::size_t depth = 1);
 
   /// Throws "FILE:LINE: expected …, found …" with the token, or with what else was found.
   [[noreturn]] void fail(const std::string& expected) const { fail(expected, described()); }
   [[noreturn]] void fail(const std::string& expected, const std::string& found) const;
 
-  /// The token as messages show it.
+  /// Returns the token as messages show it.
   [[nodiscard]] std::string described() const;
 
-  /// Each of these says what the token has to be.
+  /// Each of these returns the token, which has to be a finite number.
   [[nodiscard]] double number() const;
-  /// A number that can be a weight: more than 0.
+  /// It has to be a number that can be a weight: more than 0.
   [[nodiscard]] double weight() const;
-  /// An integer within limits; `what` names it in the message.
+  /// It has to be an integer within limits; `what` names it in the message.
   [[nodiscard]] std::size_t integer(const std::string& what, std::size_t least,
                                     std::size_t most) const;
-  /// A count that was formed of such integers, if it is one.
+  /// Returns a count that was formed of such integers, which has to be one.
   [[nodiscard]] std::size_t counted(Count count, const std::string& what) const;
-  /// A degree from 1 to kMostDegree; `where` names its direction in the message.
+  /// It has to be a degree from 1 to kMostDegree; `where` names its direction in the message.
   [[nodiscard]] int degree(const std::string& where) const;
 
 private:
   /// Whether the next token is in memory as a whole. It has been read then, and otherwise nothing
   /// of it.
   bool is_in_memory();
-  /// The length of the word that `rest` begins with; finds its value where it is a number.
+  /// Returns the length of the word that `rest` begins with; finds its value where it is a number.
   std::size_t word_length(std::string_view rest);
   [[nodiscard]] bool ends_word(char c) const noexcept {
     return ends_word_[static_cast<unsigned char>(c)];
   }
   void word(int first);
   void string();
-  /// Whether it ends behind a line end that is a token.
+  /// Passes over white space. Returns whether that ends behind a line end that is a token.
   bool skip_space();
 
   TextInput& input_;
@@ -88,8 +89,8 @@ private:
   std::array<bool, 256> ends_word_ = {};
   TokenKind kind_ = TokenKind::end;
   std::string_view text_;
-  std::string copy_;            // what text_ is of, where the input's memory has not all of it
-  std::optional<double> value_; // of a finite number, where it has been found already
+  std::string copy_;            // holds text_ where the input's memory has not all of it
+  std::optional<double> value_; // the value of a finite number, where it has been found already
   std::size_t line_ = 1;
   bool joins_lines_ = false;
 };

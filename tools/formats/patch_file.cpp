@@ -59,7 +59,7 @@ PatchFile read_builtin(const std::string& name) {
 } // namespace
 
 void PatchFile::expect(std::uint64_t bytes) {
-  constexpr std::size_t kUsualBytes = 6; // of a number
+  constexpr std::size_t kUsualBytes = 6; // what a number takes
   constexpr std::uint64_t kMost = std::uint64_t{1} << 36;
   const auto numbers = static_cast<std::size_t>(std::min(bytes, kMost) / kUsualBytes);
   try {
@@ -151,7 +151,7 @@ const PatchRun& PatchFile::run_of(std::size_t patch) const {
   return *std::prev(after);
 }
 
-PatchFile::Place PatchFile::find(std::size_t patch, std::size_t point) const {
+PatchFile::RunPoint PatchFile::find(std::size_t patch, std::size_t point) const {
   const PatchRun& run = run_of(patch);
   const std::size_t columns = static_cast<std::size_t>(run.degree_u) + 1;
   const std::size_t k = run.mesh_point(patch - run.first_patch, point % columns, point / columns);
@@ -198,10 +198,10 @@ const S* PatchFile::in_place(const PatchRun& run, std::size_t patch) const {
   return nullptr;
 }
 
-// number(k) is that of the k-th of them.
+// Collects patches, of which number(k) is the k-th one's number.
 template <typename S, typename Number>
 PatchNets<S> PatchFile::gather(std::size_t patches, const Number& number) const {
-  struct Part { // of one run
+  struct Part { // the patches that come from one run
     const PatchRun* run;
     std::size_t first;
     std::size_t count;

@@ -32,21 +32,21 @@ struct PatchRun {
   /// The points of the mesh are those that PatchFile::vertices names from here on. Without a value,
   /// they stand one after the other.
   std::optional<std::size_t> first_vertex = std::nullopt;
-  std::size_t stride = 3; ///< from point to point in PatchFile::points
+  std::size_t stride = 3; ///< the step from point to point in PatchFile::points
 
   [[nodiscard]] bool rational() const noexcept { return weights != Weights::none; }
-  /// 3 for x y z, 4 with w.
+  /// Returns 3 for x y z, 4 with w.
   [[nodiscard]] std::size_t values_per_point() const noexcept { return rational() ? 4 : 3; }
   [[nodiscard]] std::size_t points_per_patch() const noexcept {
     return static_cast<std::size_t>((degree_u + 1) * (degree_v + 1));
   }
-  /// Whether all of its points are those of one patch …
+  /// Returns whether all of its points are those of one patch.
   [[nodiscard]] bool is_patch() const noexcept;
-  /// Whether it is patches below each other that share nothing …
+  /// Returns whether it is patches below each other that share nothing.
   [[nodiscard]] bool is_column() const noexcept;
-  /// … and whether that would be the next patch here: below, sharing nothing.
+  /// Returns whether it is such patches and `patch` could be the next one.
   [[nodiscard]] bool is_column_like(const PatchRun& patch) const noexcept;
-  /// The number of the mesh's point that is (i, j) of a patch; the run's first one has 0.
+  /// Returns the number of the mesh's point that is (i, j) of a patch; the run's first one has 0.
   [[nodiscard]] std::size_t mesh_point(std::size_t patch, std::size_t i,
                                        std::size_t j) const noexcept {
     return v.point(patch / u.patches, j) * u.points + u.point(patch % u.patches, i);
@@ -56,8 +56,8 @@ struct PatchRun {
 /// Patches side by side, as pack() and its like take them.
 template <typename S>
 struct PatchNets {
-  /// Point after point, u fastest, patch after patch; without those that are read where the file
-  /// has them.
+  /// The values that had to be copied, point after point, u fastest, patch after patch. Others are
+  /// read where the file has them.
   LargeVector<S> values;
   std::vector<ControlNets<S>> nets;
 };
@@ -94,13 +94,13 @@ struct PatchFile {
                           const MeshDirection& v);
 
   [[nodiscard]] const PatchRun& run_of(std::size_t patch) const;
-  /// The values of one point.
+  /// Returns the values of one point.
   [[nodiscard]] std::span<const double> point(std::size_t patch, std::size_t point) const;
-  /// "FILE:LINE" of a point, or the bare name.
+  /// Returns "FILE:LINE" of a point, or the bare name.
   [[nodiscard]] std::string place(std::size_t patch, std::size_t point) const;
 
-  /// Some of the patches, in S, to be used while the file is there. The library's results do not
-  /// depend on which ones.
+  /// Returns some of the patches, in S, to be used while the file is there. The library's results
+  /// do not depend on which ones.
   template <typename S>
   [[nodiscard]] PatchNets<S> nets(std::size_t first = 0, std::size_t patches = kAll) const;
   /// The same for any of them, in ascending order.
@@ -108,12 +108,12 @@ struct PatchFile {
   [[nodiscard]] PatchNets<S> nets(std::span<const std::uint32_t> patches) const;
 
 private:
-  struct Place {
+  struct RunPoint {
     const PatchRun& run;
-    std::size_t index; // of a point; the run's first one has 0
+    std::size_t index; // the point's; the run's first one has 0
   };
   void add(PatchRun run);
-  [[nodiscard]] Place find(std::size_t patch, std::size_t point) const;
+  [[nodiscard]] RunPoint find(std::size_t patch, std::size_t point) const;
   [[nodiscard]] std::size_t point_index(const PatchRun& run,
                                         std::size_t mesh_point) const noexcept {
     return run.first_vertex ? vertices[*run.first_vertex + mesh_point] : mesh_point;
@@ -122,7 +122,7 @@ private:
   [[nodiscard]] PatchNets<S> gather(std::size_t patches, const Number& number) const;
   template <typename S>
   void append(const PatchRun& run, std::size_t patch, LargeVector<S>& values) const;
-  /// A patch's values where they stand as S already; null where they do not.
+  /// Returns a patch's values where they stand as S already; null where they do not.
   template <typename S>
   [[nodiscard]] const S* in_place(const PatchRun& run, std::size_t patch) const;
 };
@@ -150,9 +150,10 @@ enum class PatchFormat : std::uint8_t {
 SIMDBEZIER_EACH_PATCH_FORMAT(SIMDBEZIER_DECLARE_PATCH_READER)
 #undef SIMDBEZIER_DECLARE_PATCH_READER
 
-/// "bez, bpt, … or rib", every name behind `prefix`.
+/// Returns "bez, bpt, … or rib", every name behind `prefix`.
 [[nodiscard]] std::string patch_format_names(const std::string& prefix);
-/// The format of that name. Throws Failure (bad usage) that begins with `option` for others.
+/// Returns the format of that name. Throws Failure (bad usage) that begins with `option` for
+/// others.
 [[nodiscard]] PatchFormat parse_patch_format(const std::string& option, const std::string& name);
 
 /// Reads "builtin:teapot", a file, or standard input ("-", which needs a format).
@@ -169,8 +170,8 @@ template <typename T>
 [[nodiscard]] PatchSet<T> pack_patches(const PatchFile& file,
                                        std::span<const std::uint32_t> patches);
 
-/// How many patches are packed at a time where a file has many, because packed patches take several
-/// times the memory of the file.
+/// The number of patches that are packed at a time where a file has many, because packed patches
+/// take several times the memory of the file.
 inline constexpr std::size_t kBlockPatches = std::size_t{1} << 12;
 
 } // namespace simdbezier::tools

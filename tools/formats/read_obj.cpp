@@ -24,10 +24,10 @@ namespace simdbezier::tools {
 namespace {
 
 /// One direction of a surface as its statements give it.
-struct Range {
+struct ParameterRange {
   double first = 0;
   double last = 0;
-  std::vector<double> parameters; // of the parm statement; empty before it
+  std::vector<double> parameters; // those of the parm statement; empty before it
 };
 
 struct Surface {
@@ -35,9 +35,9 @@ struct Surface {
   int degree_u = 0;
   int degree_v = 0;
   bool rational = false;
-  Range u;
-  Range v;
-  std::size_t first_vertex = 0; // where those that it names begin in PatchFile::vertices
+  ParameterRange u;
+  ParameterRange v;
+  std::size_t first_vertex = 0; // where the ones that it names begin in PatchFile::vertices
 };
 
 /// One direction of a surface, which has to have as many points as the statements say.
@@ -116,7 +116,7 @@ private:
     }
   }
 
-  // Colours may follow x y z, which makes six numbers.
+  // Reads a vertex. Colours may follow x y z, which makes six numbers.
   void vertex() {
     const std::size_t line = lexer_.line();
     std::array<double, 4> value = {0, 0, 0, 1};
@@ -173,7 +173,7 @@ private:
     }
   }
 
-  /// The number of a vertex, counted from 0.
+  /// Reads the number of a vertex, and counts it from 0.
   [[nodiscard]] std::uint32_t vertex_number() const {
     const std::size_t vertices = file_.lines.size();
     if (vertices == 0) {
@@ -212,9 +212,10 @@ private:
     }
   }
 
-  /// The patches of one direction. A range that cuts out a part of the surface would make another
-  /// surface of it, so ranges have to be whole.
-  [[nodiscard]] Direction direction(const Range& range, int degree, const std::string& name) const {
+  /// Finds the patches of one direction. A range that cuts out a part of the surface would make
+  /// another surface of it, so ranges have to be whole.
+  [[nodiscard]] Direction direction(const ParameterRange& range, int degree,
+                                    const std::string& name) const {
     const std::vector<double>& parameters = range.parameters;
     if (parameters.empty()) {
       lexer_.fail("parm " + name + " before the end of the surface in line " +

@@ -8,7 +8,8 @@
 
 namespace simdbezier::tools {
 
-/// Geometry that is no Bézier patch, and what decides where, when or whether geometry appears.
+/// These requests are geometry that is no Bézier patch, or decide where, when or whether geometry
+/// appears.
 inline constexpr std::string_view kRibOtherGeometry =
     " Blobby Cone Curves Cylinder Disk Else ElseIf GeneralPolygon Geometry "
     "HierarchicalSubdivisionMesh Hyperboloid IfBegin MotionBegin NuPatch ObjectInstance Paraboloid "

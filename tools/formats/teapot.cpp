@@ -78,7 +78,7 @@ constexpr double kVertices[][3] = {
     {0.798, -1.425, 0}, {1.425, -0.798, 0}, {0.84, -1.5, 0.075}, {1.5, -0.84, 0.075},
 };
 
-// Rows of four run in u.
+// The points of every patch. Rows of four run in u.
 constexpr std::uint16_t kPatches[][16] = {
     {0, 1, 2, 3,  4, 5, 6, 7,  8, 9, 10, 11,  12, 13, 14, 15},
     {3, 16, 17, 18,  7, 19, 20, 21,  11, 22, 23, 24,  15, 25, 26, 27},

@@ -12,7 +12,7 @@
 
 namespace simdbezier::tools {
 
-/// Space, tab, line break and their kin.
+/// Whether the character is a space, tab, line break or their kin.
 [[nodiscard]] constexpr bool is_space(int c) noexcept {
   return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
 }
@@ -27,11 +27,12 @@ public:
   /// Throws Failure where ByteSource does.
   explicit TextInput(const std::string& path);
 
-  /// The name for messages.
+  /// Returns the name for messages.
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] std::uint64_t stored_size() const { return source_.stored_size(); }
   void show(Progress& progress) noexcept { source_.show(progress); }
-  /// The line of the character that get() returned last; at the end, the last line there is.
+  /// Returns the line of the character that get() returned last; at the end, the last line there
+  /// is.
   [[nodiscard]] std::size_t line() const noexcept { return line_; }
 
   [[nodiscard]] int get() {
@@ -40,12 +41,12 @@ public:
     }
     return take();
   }
-  /// What get() will return next.
+  /// Returns what get() will return next.
   [[nodiscard]] int peek() {
     return next_ == end_ && !fill() ? kEnd : static_cast<unsigned char>(buffer_[next_]);
   }
 
-  /// What get() will return next, as far as it has been read already, which may be nothing.
+  /// Returns what get() will return next, as far as it has been read already, which may be nothing.
   [[nodiscard]] std::string_view in_memory() const noexcept {
     return {buffer_.data() + next_, end_ - next_};
   }
@@ -85,14 +86,14 @@ private:
   bool line_break_pending_ = false;
 };
 
-/// The whole word as a finite number; nothing where it is none. Numbers that are too small for a
-/// double become 0 or subnormal, and numbers that are too large count as none.
+/// Reads the whole word as a finite number; nothing where it is none. Numbers that are too small
+/// for a double become 0 or subnormal, and numbers that are too large count as none.
 [[nodiscard]] std::optional<double> parse_finite(std::string_view word);
-/// The whole word as a non-negative integer.
+/// Reads the whole word as a non-negative integer; nothing where it is none.
 [[nodiscard]] std::optional<std::uint64_t> parse_integer(std::string_view word);
 /// Whether the whole word is a number for parse_finite(), or would be one if it were finite.
 [[nodiscard]] bool is_number(std::string_view word);
-/// What to say instead of a word that parse_finite() refused.
+/// Returns what to say instead of a word that parse_finite() refused.
 [[nodiscard]] std::string describe_non_number(std::string_view word);
 
 } // namespace simdbezier::tools

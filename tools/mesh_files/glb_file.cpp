@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kFileHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
-// More than any description takes beside what wrote the file.
+// A bound on what a description takes beside what wrote the file.
 constexpr std::size_t kDescriptionBytes = 2560;
 
 std::string word(std::uint64_t value) {
@@ -22,7 +22,7 @@ std::string word(std::uint64_t value) {
   return bytes;
 }
 
-// Every byte takes six at most.
+// A description's room: every byte of the generator's name takes six at most.
 std::size_t description_room(const MeshContents& contents) {
   return kDescriptionBytes + 6 * ((contents.generator.size() + 3) / 4 * 4);
 }

@@ -21,19 +21,19 @@ struct GlbParts {
   RecordLayout layout;
 
   [[nodiscard]] bool is_empty() const noexcept { return vertices == 0 || triangles == 0; }
-  /// 65535 is no index of 16 bits.
+  /// An index has 16 bits where there are few vertices; 65535 is no index of 16 bits.
   [[nodiscard]] std::size_t index_bytes() const noexcept { return vertices <= 65535 ? 2 : 4; }
   [[nodiscard]] std::uint64_t vertex_bytes() const noexcept { return vertices * layout.size; }
   [[nodiscard]] std::uint64_t all_index_bytes() const noexcept {
     return triangles * 3 * index_bytes();
   }
-  /// A multiple of 4.
+  /// Returns a multiple of 4.
   [[nodiscard]] std::uint64_t bytes() const noexcept {
     return is_empty() ? 0 : (vertex_bytes() + all_index_bytes() + 3) / 4 * 4;
   }
 };
 
-/// The description. Bounds are those of the vertices as they are stored.
+/// Returns the description. Bounds are those of the vertices as they are stored.
 [[nodiscard]] std::string glb_description(const MeshContents& contents, const GlbParts& parts,
                                           const StoredBounds& bounds);
 
@@ -48,10 +48,9 @@ public:
   GlbFile(const std::string& path, const MeshContents& contents, const GlbParts& parts);
 
   void vertices(std::span<const std::byte> records);
-  /// To be called after all vertices.
+  /// Takes indices, after all vertices.
   void indices(std::span<const std::uint32_t> corners);
-  /// To be called after all indices. Brings the file to its disk or device; only its name is
-  /// missing then.
+  /// Brings the file to its disk or device, after all indices; only its name is missing then.
   void complete();
   void commit() { file_.commit(); }
 

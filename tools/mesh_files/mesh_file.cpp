@@ -125,7 +125,7 @@ void MeshWriter<T>::vertices(const VertexBlock<T>& block) {
   const std::size_t stride = contents_.stride();
   assert(block.values.size() % stride == 0);
   assert(block.patch.size() == (contents_.patches > 0 ? block.values.size() / stride : 0));
-  // Without a branch, so that a register of values takes one step.
+  // The loop has no branch, so that a register of values takes one step.
   bool finite = true;
   for (const T value : block.values) {
     finite &= std::abs(value) <= std::numeric_limits<T>::max();

@@ -21,9 +21,9 @@ struct MeshAbilities {
   bool quads = false;
   bool normals = false;
   bool quantised = false; ///< see VertexStorage
-  bool doubles = false;   ///< rounded to floats without
+  bool doubles = false;   ///< positions are rounded to floats where this is false
   std::uint64_t most_faces = kAny;
-  std::uint64_t most_patches = kAny; ///< whose numbers vertices have
+  std::uint64_t most_patches = kAny; ///< the patches whose numbers vertices can have
 };
 
 /// The formats that can be written. Each row has a name, which is also the extension of files, what
@@ -44,14 +44,15 @@ enum class MeshFormat : std::uint8_t {
 };
 #undef SIMDBEZIER_DECLARE_MESH_FORMAT
 
-/// The format that a file's name asks for by its extension.
+/// Returns the format that a file's name asks for by its extension.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::string& path);
 
 [[nodiscard]] const MeshAbilities& mesh_abilities(MeshFormat format);
 
-/// "obj", …
+/// Returns "obj", ….
 [[nodiscard]] std::string mesh_format_name(MeshFormat format);
-/// "obj, ply, … or glb", every name behind `prefix`: all formats, or those with the ability.
+/// Returns "obj, ply, … or glb", every name behind `prefix`: all formats, or those with the
+/// ability.
 [[nodiscard]] std::string mesh_format_names(const std::string& prefix,
                                             bool MeshAbilities::*ability = nullptr);
 
@@ -60,7 +61,7 @@ struct MeshBox {
   std::array<double, 3> high = {};
 };
 
-/// The largest absolute value of a coordinate in it.
+/// Returns the largest absolute value of a coordinate in the box.
 [[nodiscard]] double largest_coordinate(const MeshBox& box);
 
 /// How GLB stores vertices. Quantised: positions and uv in 16 bits, normals in 16 or 8 bits a
@@ -70,21 +71,21 @@ enum class VertexStorage : std::uint8_t { full, quantised_16, quantised_8 };
 /// An index needs 32 bits, and the largest one stays free.
 inline constexpr std::uint64_t kMostMeshVertices = std::numeric_limits<std::uint32_t>::max();
 
-/// In place of a quad's fourth corner, which makes it a triangle.
+/// Stands in place of a quad's fourth corner, which makes it a triangle.
 inline constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
 /// All that has to be known of a mesh before its first vertex is written.
 struct MeshContents {
   std::uint64_t vertices = 0;
   std::uint64_t faces = 0;
-  unsigned corners = 3;          ///< of a face: 3, or 4 in OBJ and PLY
+  unsigned corners = 3;          ///< those that a face has: 3, or 4 in OBJ and PLY
   std::uint64_t among_quads = 0; ///< faces of 4 corners that are triangles (kNoVertex)
   bool normals = false;
   bool uv = false;           ///< within 0 and 1
   std::uint64_t patches = 0; ///< every vertex has a patch number below this; 0: none has
   VertexStorage storage = VertexStorage::full;
-  /// A box around all positions, which may be larger than the smallest one. Needed where a format
-  /// rounds positions: quantised ones, and doubles with a stated deviation in STL and GLB.
+  /// A box around all positions, which may be larger than the smallest one. Formats that round
+  /// positions need it: quantised ones, and doubles with a stated deviation in STL and GLB.
   std::optional<MeshBox> box;
   /// How far positions may leave the box by rounding; quantised ones come to its border.
   double margin = 0;
@@ -93,13 +94,13 @@ struct MeshContents {
   std::optional<double> deviation;
   std::string generator; ///< what wrote the file; empty: not stated
 
-  /// x y z, nx ny nz, u v of one vertex, as far as there are such.
+  /// Returns how many values a vertex has: x y z, nx ny nz, u v, as far as there are such.
   [[nodiscard]] std::size_t stride() const noexcept {
     return 3 + (normals ? 3U : 0U) + (uv ? 2U : 0U);
   }
 };
 
-/// The next vertices.
+/// A block of vertices, which follow those of the block before.
 template <typename T>
 struct VertexBlock {
   std::span<const T> values;                 ///< MeshContents::stride() of every vertex
@@ -117,7 +118,7 @@ public:
 
   /// Throws Failure where a number is not finite or the file cannot hold it.
   void vertices(const VertexBlock<T>& block);
-  /// Corners of faces, MeshContents::corners each, numbered from 0.
+  /// Takes corners of faces, MeshContents::corners each, numbered from 0.
   void faces(std::span<const std::uint32_t> corners);
   /// Brings the whole mesh to its disk or device. Only the file's name is missing then.
   void complete();
@@ -158,8 +159,8 @@ template <typename T>
 [[nodiscard]] std::unique_ptr<MeshWriter<T>>
 make_mesh_writer(const std::string& path, MeshFormat format, const MeshContents& contents);
 
-/// The deviation that a file states: what the contents have, and the largest distance by which the
-/// format moves a vertex.
+/// Returns the deviation that a file states: what the contents have, and the largest distance by
+/// which the format moves a vertex.
 template <typename T>
 [[nodiscard]] double stated_deviation(MeshFormat format, const MeshContents& contents);
 

@@ -18,16 +18,16 @@ namespace simdbezier::tools {
 SIMDBEZIER_EACH_MESH_FORMAT(SIMDBEZIER_DECLARE_MESH_WRITER)
 #undef SIMDBEZIER_DECLARE_MESH_WRITER
 
-/// glTF 2.0 in binary form, in files of at most `most_bytes`.
+/// Writes glTF 2.0 in binary form, in files of at most `most_bytes`.
 template <typename T>
 [[nodiscard]] std::unique_ptr<MeshWriter<T>> make_split_glb_writer(const std::string& path,
                                                                    const MeshContents& contents,
                                                                    std::uint64_t most_bytes);
 
-/// Throws Failure where a file of that size cannot be.
+/// Returns the size as the system counts it. Throws Failure where a file of that size cannot be.
 std::uintmax_t checked_file_size(const std::string& path, Count bytes);
 
-/// The value as float. Throws Failure where it is too large for one.
+/// Returns the value as float. Throws Failure where it is too large for one.
 template <typename T>
 [[nodiscard]] float as_float(const std::string& path, T value);
 

@@ -34,10 +34,10 @@ public:
 
 private:
   struct Part {
-    std::uint32_t first = 0;                                // of the vertices that are new
-    std::uint32_t end = 0;                                  // behind the largest one
-    std::vector<std::uint32_t> copied;                      // in the order of their numbers
-    std::unordered_map<std::uint32_t, std::uint32_t> place; // of the copied ones, in `copied`
+    std::uint32_t first = 0;           // the first of the vertices that are new
+    std::uint32_t end = 0;             // behind the largest one
+    std::vector<std::uint32_t> copied; // in the order of their numbers
+    std::unordered_map<std::uint32_t, std::uint32_t> place; // where the copied ones are in `copied`
     std::uint64_t triangles = 0;
 
     [[nodiscard]] std::uint64_t vertices() const noexcept {
@@ -57,7 +57,7 @@ private:
   RecordLayout layout_;
   std::uint64_t most_body_bytes_;
   SpillFile records_;
-  std::optional<SpillFile> corners_; // of the part, numbered in the whole mesh
+  std::optional<SpillFile> corners_; // the part's, numbered in the whole mesh
   Part part_;
   std::deque<GlbFile> files_;
 };

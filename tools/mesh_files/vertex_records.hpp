@@ -33,12 +33,12 @@ struct RecordLayout {
   bool operator==(const RecordLayout&) const = default;
 };
 
-/// Fields of PLY: those of the mesh in T's precision, patch numbers as u32.
+/// Returns the fields of PLY: those of the mesh in T's precision, patch numbers as u32.
 template <typename T>
 [[nodiscard]] RecordLayout exact_records(const MeshContents& contents);
-/// Fields of GLB: floats or normalised integers, patch numbers as float.
+/// Returns the fields of GLB: floats or normalised integers, patch numbers as float.
 [[nodiscard]] RecordLayout glb_records(const MeshContents& contents);
-/// A position as float.
+/// Returns the field of a position as float.
 [[nodiscard]] RecordLayout float_positions();
 
 /// The box whose corners quantised positions count from, and its largest side.
@@ -54,7 +54,8 @@ class RecordPacker {
 public:
   /// `path` is for messages.
   RecordPacker(std::string path, const MeshContents& contents, const RecordLayout& layout);
-  /// Valid until the next call. Throws Failure where a field cannot hold a number.
+  /// Returns the records, which are valid until the next call. Throws Failure where a field cannot
+  /// hold a number.
   [[nodiscard]] std::span<const std::byte> pack(const VertexBlock<T>& block);
 
 private:

@@ -9,7 +9,8 @@ namespace simdbezier::tools {
 
 namespace {
 
-// The fewest bytes there can be: "v 0 0 0", "vt 0 0", "vn 0 0 1", "f 1 2 3", and "/1" or "//1".
+// Returns the fewest bytes there can be: "v 0 0 0", "vt 0 0", "vn 0 0 1", "f 1 2 3", and "/1" or
+// "//1".
 Count fewest_bytes(const MeshContents& contents) {
   const std::size_t vertex = 8 + (contents.uv ? 7U : 0U) + (contents.normals ? 9U : 0U);
   const std::size_t corner = 2 + (contents.normals ? 3U : contents.uv ? 2U : 0U);
@@ -48,7 +49,7 @@ private:
     }
   }
 
-  // One line a vertex, with `count` of its values from `first` on.
+  // Writes one line a vertex, with `count` of its values from `first` on.
   void lines(std::string_view keyword, std::span<const T> values, std::size_t first,
              std::size_t count) {
     for (std::size_t k = first; k < values.size(); k += contents().stride()) {
@@ -74,7 +75,7 @@ private:
     }
   }
 
-  // "7", "7/7", "7//7" or "7/7/7".
+  // Writes "7", "7/7", "7//7" or "7/7/7".
   void name(std::uint64_t number) {
     file_.number(number);
     if (contents().uv) {

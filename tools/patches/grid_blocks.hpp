@@ -34,12 +34,12 @@ inline constexpr std::size_t kBlockSamples = std::size_t{1} << 18;
 inline constexpr std::size_t kMostPerDirection = std::size_t{1} << 20;
 inline constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 40;
 
-/// patches * nu * nv. Throws Failure (bad usage) where the results, at `bytes_per_sample` each,
-/// cannot be counted or exceed kMostBytes.
+/// Returns patches * nu * nv. Throws Failure (bad usage) where the results, at `bytes_per_sample`
+/// each, cannot be counted or exceed kMostBytes.
 [[nodiscard]] std::uint64_t checked_sample_count(std::size_t patches, const GridSize& grid,
                                                  std::size_t bytes_per_sample);
 
-/// How many patches make a block of moderate size.
+/// Returns how many patches make a block of moderate size.
 [[nodiscard]] constexpr std::size_t patches_per_block(const GridSize& grid) noexcept {
   // A block has neither many samples nor many packed patches.
   return std::clamp<std::size_t>(kBlockSamples / (grid.nu * grid.nv), 1, kBlockPatches);
@@ -74,9 +74,9 @@ private:
   const PatchFile& file_;
   GridSize grid_;
   int threads_;
-  std::vector<T> x_; // the uniform grid's centred parameters, for blocks of rows
+  std::vector<T> x_; // the uniform grid's centred parameters, which blocks of rows take
   std::vector<T> y_;
-  PatchSet<T> set_; // of the patches from first_ on
+  PatchSet<T> set_; // the patches from first_ on
   std::size_t first_ = 0;
 };
 

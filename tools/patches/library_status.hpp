@@ -11,15 +11,15 @@ namespace simdbezier::tools {
 /// Does nothing for ok, and otherwise throws the Failure that the status means to a user.
 void check(Status status);
 
-/// The instruction set that evaluate calls will run on. Throws Failure (bad usage) naming the
-/// variable of the environment, SIMDBEZIER_ISA, SIMDBEZIER_DESTINATION or SIMDBEZIER_SPLIT_STORES,
-/// that asks for what is not there.
+/// Returns the instruction set that evaluate calls will run on. Throws Failure (bad usage) naming
+/// the variable of the environment, SIMDBEZIER_ISA, SIMDBEZIER_DESTINATION or
+/// SIMDBEZIER_SPLIT_STORES, that asks for what is not there.
 Isa chosen_isa();
 
-/// "simdbezier 1.2.3".
+/// Returns "simdbezier 1.2.3".
 [[nodiscard]] std::string program_version();
 
-/// The names of the available instruction sets, narrowest first.
+/// Returns the names of the available instruction sets, narrowest first.
 [[nodiscard]] std::string available_isa_names(std::string_view separator);
 
 } // namespace simdbezier::tools

@@ -6,10 +6,11 @@
 
 namespace simdbezier::tools {
 
-/// The box of all control points, in Cartesian coordinates; -0 counts as 0, as in the library.
+/// Returns the box of all control points, in Cartesian coordinates; -0 counts as 0, as in the
+/// library.
 [[nodiscard]] MeshBox box_of(const PatchFile& file);
 
-/// The length of its diagonal.
+/// Returns the length of the box's diagonal.
 [[nodiscard]] double diagonal_of(const MeshBox& box);
 
 } // namespace simdbezier::tools

@@ -18,7 +18,7 @@ public:
   [[nodiscard]] constexpr std::optional<std::size_t> value() const noexcept {
     return fits_ ? std::optional(value_) : std::nullopt;
   }
-  /// Whether there are at most so many.
+  /// Returns whether there are at most so many.
   [[nodiscard]] constexpr bool within(std::size_t most) const noexcept {
     return fits_ && value_ <= most;
   }
@@ -40,12 +40,12 @@ private:
   bool fits_;
 };
 
-/// "1 patch", "2 patches".
+/// Returns "1 patch", "2 patches".
 [[nodiscard]] inline std::string quantity(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-/// The count's digits, or "more than" the largest one.
+/// Returns the count's digits, or "more than" the largest one.
 [[nodiscard]] inline std::string to_string(Count count) {
   return count.value() ? std::to_string(*count.value())
                        : "more than " + std::to_string(std::numeric_limits<std::size_t>::max());

@@ -22,13 +22,13 @@ private:
 [[noreturn]] inline void bad_input(const std::string& message) { throw Failure(1, message); }
 [[noreturn]] inline void bad_usage(const std::string& message) { throw Failure(2, message); }
 
-/// The word in quotes, short and printable, whatever it holds.
+/// Returns the word in quotes, short and printable, whatever it holds.
 [[nodiscard]] std::string in_quotes(std::string_view word);
 
-/// "obj, ply or stl".
+/// Returns "obj, ply or stl".
 [[nodiscard]] std::string alternatives(std::span<const std::string> words);
 
-/// "FILE:LINE: expected …, found …".
+/// Throws "FILE:LINE: expected …, found …".
 [[noreturn]] inline void bad_input_at(const std::string& file, std::size_t line,
                                       const std::string& expected, const std::string& found) {
   bad_input(file + ":" + std::to_string(line) + ": expected " + expected + ", found " + found);

@@ -12,7 +12,7 @@ namespace simdbezier::tools {
 /// file that outgrows its limit is a failed write. main() calls this once.
 void handle_interruptions();
 
-/// So many files can be registered at a time.
+/// The number of files that can be registered at a time.
 inline constexpr std::size_t kMostTemporaries = 256;
 
 /// Registers a file by its name in an open folder. Both have to stay as they are until they are
@@ -20,8 +20,8 @@ inline constexpr std::size_t kMostTemporaries = 256;
 /// left behind. Returns false where there are too many.
 [[nodiscard]] bool remember_temporary(int folder, const std::string& name) noexcept;
 void forget_temporary(const std::string& name) noexcept;
-/// Around the system call that creates a registered file, and the calls that create a file and take
-/// its name away: a signal waits for their end, whichever thread takes it.
+/// These stand around the system call that creates a registered file, and around the calls that
+/// create a file and take its name away: a signal waits for their end, whichever thread takes it.
 void begin_creation() noexcept;
 void end_creation() noexcept;
 

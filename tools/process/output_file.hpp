@@ -69,8 +69,8 @@ private:
 
   std::string path_;
   std::optional<TemporaryFile> temporary_;
-  Descriptor direct_;   // of a device or pipe
-  int descriptor_ = -1; // of either of them; none when the file is complete
+  Descriptor direct_;   // a device's or pipe's
+  int descriptor_ = -1; // either one's; none when the file is complete
   std::vector<char> buffer_;
   std::size_t used_ = 0;
 };

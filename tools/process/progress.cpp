@@ -20,7 +20,7 @@ std::size_t terminal_columns() {
   return known ? size.ws_col : kUsual;
 }
 
-// "7 s", "3 min 20 s" or "2 h 5 min".
+// Returns "7 s", "3 min 20 s" or "2 h 5 min".
 std::string duration(double seconds) {
   constexpr double kMost = 1e9;
   const auto whole = static_cast<std::uint64_t>(std::ceil(std::clamp(seconds, 0.0, kMost)));

@@ -21,7 +21,7 @@ public:
   explicit SpillFile(const std::string& output);
 
   void append(const void* data, std::size_t size);
-  /// Bytes that have been appended.
+  /// Reads bytes that have been appended.
   void read(std::uint64_t at, void* data, std::size_t size);
   [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
 

@@ -19,7 +19,7 @@ public:
   [[nodiscard]] int number() const noexcept { return number_; }
   [[nodiscard]] bool is_open() const noexcept { return number_ >= 0; }
   int release() noexcept;
-  /// The system's answer; nothing where none was open.
+  /// Returns the system's answer; nothing where none was open.
   std::error_code close() noexcept;
 
 private:
@@ -49,8 +49,8 @@ private:
 
   Descriptor folder_;
   Descriptor file_;
-  std::string target_; // in the folder
-  std::string name_;   // in the folder; empty where there is no such file any more
+  std::string target_; // its name in the folder
+  std::string name_;   // the temporary one; empty where there is none any more
 };
 
 } // namespace simdbezier::tools

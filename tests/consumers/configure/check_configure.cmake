@@ -4,7 +4,8 @@ foreach(package CLI11 nlohmann_json ZLIB benchmark GTest)
   list(APPEND bare -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 
-# configure(NAME EXPECTED OPTION…): EXPECTED is a pattern of the error, or empty: there is none.
+# configure(NAME EXPECTED OPTION…): EXPECTED is a pattern of the error, or empty where there is
+# none.
 function(configure name expected)
   file(REMOVE_RECURSE ${WORK}/${name})
   execute_process(
@@ -65,7 +66,7 @@ configure(no_tools CLI11 ${bare} ${zlib} -DSIMDBEZIER_BUILD_TOOLS=ON)
 configure(no_bench benchmark ${bare} ${zlib} -DSIMDBEZIER_BUILD_BENCH=ON)
 configure(no_tests GTest ${bare} ${zlib} -DSIMDBEZIER_BUILD_TESTS=ON)
 
-# Parts of the instruction sets; names that are none.
+# Parts of the instruction sets can be asked for, and names that are none are refused.
 configure(subset "" ${bare} -DSIMDBEZIER_ISAS=scalar)
 file(READ ${WORK}/subset/compile_commands.json commands)
 string(REGEX MATCHALL "SIMDBEZIER_ISA=[a-z0-9]+" isas "${commands}")
@@ -76,7 +77,7 @@ endif()
 configure(bad_isa "expected some of scalar, [a-z0-9, ]+, found 'avx3'" ${bare}
           -DSIMDBEZIER_ISAS=avx3)
 
-# Other threads than OpenMP's.
+# Threads other than OpenMP's can be asked for.
 configure(std_threads "" ${bare} -DCMAKE_DISABLE_FIND_PACKAGE_OpenMP=ON)
 expect_cached(std_threads SIMDBEZIER_THREADS std)
 configure(no_threads "" ${bare} -DSIMDBEZIER_THREADS=none)

@@ -20,7 +20,7 @@ endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix} --config ${CONFIG})
 
-# By CMake.
+# A consumer finds the library by CMake.
 run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/consumer -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX}
     -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_EXE_LINKER_FLAGS=${LINK_FLAGS}
     -DCMAKE_EXPORT_COMPILE_COMMANDS=ON)
@@ -32,7 +32,7 @@ string(REGEX MATCHALL "\"command\": [^\n]*" commands "${commands}")
 string(REPLACE "${prefix}" "" commands "${commands}")
 expect_no_leak("the consumer's compile command" "${commands}")
 
-# By pkg-config.
+# A consumer finds it by pkg-config.
 find_program(pkg_config pkg-config)
 if(NOT pkg_config)
   message(FATAL_ERROR "pkg-config is needed for this test")
@@ -46,7 +46,7 @@ run(${CXX} -std=c++20 ${SOURCE}/main.cpp -o ${WORK}/by_pkg_config ${flags} ${LIN
 run(${WORK}/by_pkg_config)
 expect_teapot_point("${output}")
 
-# From C, by CMake in a project that has no other language, and by pkg-config.
+# C finds it by CMake, in a project that has no other language, and by pkg-config.
 run(${CMAKE_COMMAND} -S ${SOURCE}/../c_consumer -B ${WORK}/c_consumer -G ${GENERATOR}
     -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_EXE_LINKER_FLAGS=${LINK_FLAGS})
 run(${CMAKE_COMMAND} --build ${WORK}/c_consumer)
@@ -64,7 +64,7 @@ if(result EQUAL 0 OR NOT errors MATCHES "need C\\+\\+20")
   message(FATAL_ERROR "C++17: expected the headers to ask for C++20, found ${result}: ${errors}")
 endif()
 
-# From Python, where the module was built.
+# Python finds it where the module was built.
 if(PYTHON)
   set(ENV{PYTHONPATH} ${prefix}/lib/python3/dist-packages)
   run(${PYTHON} -B -c "import simdbezier, numpy

@@ -4,7 +4,7 @@ file(REMOVE_RECURSE ${WORK})
 set(root ${WORK}/root)
 set(state ${root}/var/lib/dpkg)
 
-# Make them.
+# The packages are made.
 get_filename_component(cmake_folder ${CMAKE_COMMAND} DIRECTORY)
 find_program(cpack cpack HINTS ${cmake_folder} REQUIRED)
 run(${cpack} -G DEB --config ${BUILD}/CPackConfig.cmake -B ${WORK}/packages)
@@ -23,9 +23,9 @@ if(lintian)
   run(${lintian} --fail-on error ${packages})
 endif()
 
-# dpkg with a root of its own, whose other packages are said to be
-# those of this machine, so that what is depended upon has to be there. No root's rights are needed;
-# the packages' scripts find an ldconfig that only leaves a mark.
+# dpkg gets a root of its own, whose other packages are said to be those of this machine, so that
+# what is depended upon has to be there. No root's rights are needed; the packages' scripts find an
+# ldconfig that only leaves a mark.
 set(ENV{PATH} ${WORK}/bin:$ENV{PATH}:/usr/sbin:/sbin)
 set(dpkg dpkg --root=${root} --log=${WORK}/dpkg.log --force-not-root --force-script-chrootless)
 file(WRITE ${WORK}/bin/ldconfig "#!/bin/sh\necho asked >>${WORK}/ldconfig.log\n")
@@ -63,7 +63,7 @@ endfunction()
 set(ENV{LD_LIBRARY_PATH} ${root}/usr/${LIBDIR})
 run(${root}/usr/bin/simdbezier tessellate builtin:teapot --grid 4 -o ${WORK}/teapot.ply)
 
-# C++ by CMake and by pkg-config, C by pkg-config.
+# C++ finds the library by CMake and by pkg-config, C by pkg-config.
 run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/consumer -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${CXX}
     -DCMAKE_PREFIX_PATH=${root}/usr)
 run(${CMAKE_COMMAND} --build ${WORK}/consumer)
@@ -80,7 +80,7 @@ expect_output(curve_tangent.txt ${WORK}/curve_tangent)
 run(${CC} -std=c99 ${EXAMPLES}/grid_from_c.c ${flags} -o ${WORK}/grid_from_c)
 expect_output(grid_from_c.txt ${WORK}/grid_from_c)
 
-# Python, with the module of the package.
+# Python takes the module of the package.
 if(PYTHON)
   set(ENV{PYTHONPATH} ${root}/usr/lib/python3/dist-packages)
   run(${PYTHON} -B -c "import simdbezier\nprint(simdbezier.__file__)")
@@ -90,7 +90,7 @@ if(PYTHON)
   expect_output(grid_from_c.txt ${PYTHON} -B ${EXAMPLES}/python/grid_from_python.py)
 endif()
 
-# Removed, they leave nothing behind.
+# Packages that are removed leave nothing behind.
 list(TRANSFORM packages REPLACE ".*/([^_]*)_.*" "\\1")
 run(${dpkg} --purge ${packages})
 file(GLOB_RECURSE left ${root}/usr/*)

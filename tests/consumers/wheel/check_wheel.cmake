@@ -28,7 +28,7 @@ if(NOT output MATCHES "Version: ${VERSION}\n")
   message(FATAL_ERROR "pip knows: ${output}")
 endif()
 
-# What is loaded comes from there, the library included, where it is not part of the module.
+# What is loaded comes from the wheel, the library included, where it is not part of the module.
 run(${PYTHON} -c "import simdbezier
 print(simdbezier.__version__, simdbezier.__file__)
 print([line.split()[-1] for line in open('/proc/self/maps') if 'simdbezier' in line])")

@@ -19,7 +19,7 @@ namespace simdbezier::tests {
                                       const std::vector<std::string>& options = {},
                                       const Circumstances& circumstances = {});
 
-/// The same, read back from a PLY file.
+/// Returns the mesh that tessellate writes, read back from a PLY file.
 [[nodiscard]] ReadMesh welded(const std::string& in, const std::vector<std::string>& options = {});
 
 /// The census of a mesh of triangles.

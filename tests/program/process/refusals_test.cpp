@@ -62,7 +62,7 @@ TEST(Faults, SyncThatFailsIsAFailedWrite) {
   EXPECT_EQ(folder.names(), Names{"old.csv"});
 }
 
-// As in a folder whose sticky bit lets nobody replace the files of others.
+// A folder whose sticky bit lets nobody replace the files of others refuses like this.
 TEST(Faults, RefusedRenamingIsNoLackOfRoom) {
   const TemporaryFolder folder;
   const std::string old = folder.write("old.csv", "before");

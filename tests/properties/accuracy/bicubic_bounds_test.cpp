@@ -170,7 +170,7 @@ struct BoundCase {
 
 class BoundTest : public ::testing::TestWithParam<BoundCase> {};
 
-// Not above the published bound, and not so far below it that the bound says nothing.
+// The error is not above the published bound, and not so far below it that the bound says nothing.
 TEST_P(BoundTest, CoversTheRunningError) {
   const bool fma = GetParam().fma;
   const Bounds found = largest_errors(fma);

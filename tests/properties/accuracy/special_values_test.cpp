@@ -74,7 +74,7 @@ protected:
     }
   }
 
-  /// The same for a grid with given parameters: a whole row and a whole column are spoilt.
+  /// Expects that of a grid with given parameters, where a whole row and a whole column are spoilt.
   template <typename T>
   void expect_contained_nans_on_grids() {
     constexpr T kNan = std::numeric_limits<T>::quiet_NaN();

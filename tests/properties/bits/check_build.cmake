@@ -1,10 +1,10 @@
 # See CMakeLists.txt beside this file. OTHER is gcc, clang or aarch64.
 #
-# At -O1, and with the widest instruction set of each class that this machine has, unless
-# SIMDBEZIER_LONG_TESTS is in the environment, as in ./run accuracy: all kernels of a Release build take
-# more than twice as long to compile. What differs between compilers and machines (contraction,
-# order of evaluation, instructions that stand for one another) shows at any level and in any width;
-# what only shows at -O3 are faults of the other optimiser.
+# The library is built at -O1, and with the widest instruction set of each class that this machine
+# has, unless SIMDBEZIER_LONG_TESTS is in the environment, as in ./run accuracy: all kernels of a
+# Release build take more than twice as long to compile. What differs between compilers and machines
+# (contraction, order of evaluation, instructions that stand for one another) shows at any level and
+# in any width; what only shows at -O3 are faults of the other optimiser.
 include(${CMAKE_CURRENT_LIST_DIR}/../../support/run.cmake)
 set(configure -DBUILD_SHARED_LIBS=OFF -DSIMDBEZIER_BUILD_TOOLS=OFF -DSIMDBEZIER_BUILD_BENCH=OFF
               -DSIMDBEZIER_BUILD_EXAMPLES=OFF -DSIMDBEZIER_WERROR=ON)

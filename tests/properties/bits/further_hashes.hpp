@@ -122,7 +122,8 @@ private:
   MutableNets<T> nets_;
 };
 
-/// From nets to nets. Bases that a shape is not allowed to have give their status only.
+/// Hashes operations from nets to nets. Bases that a shape is not allowed to have give their status
+/// only.
 template <typename T>
 void add_operations(Fnv1a& hash, const ControlNets<T>& nets, const Options& options) {
   const Degrees same{nets.degree_u, nets.degree_v};

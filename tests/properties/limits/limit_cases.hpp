@@ -43,7 +43,7 @@ struct LimitTypes {
 [[nodiscard]] std::vector<LimitNet> limit_nets(LimitTypes types, std::size_t count,
                                                std::uint64_t seed);
 
-/// The same of curves, some of them in a plane (two components).
+/// Returns curves likewise, some of them in a plane (two components).
 [[nodiscard]] std::vector<LimitNet> limit_curves(LimitTypes types, std::size_t count,
                                                  std::uint64_t seed);
 

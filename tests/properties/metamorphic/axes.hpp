@@ -45,7 +45,8 @@ inline constexpr const char* kCallNames[] = {
     "scattered", "derivative grid", "derivative samples", "iso_u",
     "iso_v",     "curve rows",      "counted curves",     "curve samples"};
 
-/// Of curves: position, du for d1, duu for d2, normal for the tangent.
+/// The outputs of patches and curves. Those of curves are position, du for d1, duu for d2, normal
+/// for the tangent.
 enum class Output : std::uint8_t {
   position,
   du,

@@ -132,7 +132,7 @@ void degenerate_at_v0(MetaNet& net, Kind kind) {
   }
 }
 
-/// From cartesian to homogeneous values.
+/// Makes homogeneous values of cartesian ones.
 void multiply_weights(MetaNet& net) {
   net = with_each_point(std::move(net), [&](double* point, double weight) {
     std::for_each(point, point + net.components, [&](double& value) { value *= weight; });

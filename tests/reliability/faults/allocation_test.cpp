@@ -16,7 +16,7 @@
 namespace {
 std::atomic<int> g_advice{0};
 }
-/// As of a kernel without large pages; stands before the C library's.
+/// This stands before the C library's function, and answers as a kernel without large pages does.
 extern "C" __attribute__((visibility("default"))) int
 madvise(void* /*memory*/, std::size_t /*bytes*/, int /*advice*/) noexcept {
   ++g_advice;

@@ -19,7 +19,7 @@ struct Job {
 
 /// One job for each way in which the program writes.
 [[nodiscard]] const std::vector<Job>& jobs();
-/// The same as parameters of tests, whose names GoogleTest prints.
+/// Returns the jobs as parameters of tests, whose names GoogleTest prints.
 [[nodiscard]] std::vector<const Job*> job_pointers();
 
 /// A folder with the job's input and, where asked for, an output from before.

@@ -71,7 +71,7 @@ private:
   std::vector<float> values_;
 };
 
-/// The same outputs for as many components as there are: z, or y and z, are null beyond them.
+/// Returns the outputs for as many components as there are: z, or y and z, are null beyond them.
 template <typename T>
 [[nodiscard]] Outputs<T> without_missing(Outputs<T> out, int components) {
   for (Vectors<T>* const group :

@@ -122,7 +122,8 @@ template <typename Slopes>
   }
   return result;
 }
-/// The same with products of twice the digits of a type: of float with 11 bits, of double with 25.
+/// Returns such a net whose products have twice the digits of a type: of float with 11 bits, of
+/// double with 25.
 [[nodiscard]] inline SingularNet long_cancellation(Degrees d, Random& random) {
   const int most = random.below(2) == 0 ? (1 << 11) - 1 : (1 << 25) - 1;
   SingularNet result{shaped_net(d, [&](int, int) { return integer_vector(random, most); })};

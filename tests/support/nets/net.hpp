@@ -103,7 +103,7 @@ inline constexpr double kUnitRoundoff = sizeof(T) == 4 ? 0x1p-24 : 0x1p-53;
   return largest;
 }
 
-/// The same in v.
+/// max |degree * (next - previous)| of one component in v: what bounds on dS/dv are relative to.
 [[nodiscard]] inline double largest_hodograph_v(const Net& net, std::size_t component) {
   double largest = 0;
   for (int j = 0; j < net.degree_v; ++j) {

@@ -51,7 +51,7 @@ namespace simdbezier::tests {
   return net;
 }
 
-/// The same surface in homogeneous coordinates; by weights that are powers of two where the
+/// Returns the surface in homogeneous coordinates, by weights that are powers of two where the
 /// products would not be exact in T.
 template <typename T>
 [[nodiscard]] Net exactly_homogeneous(Net net) {

@@ -80,7 +80,7 @@ template <typename Make>
   return net;
 }
 
-/// The same surface in homogeneous coordinates, up to the rounding of the products.
+/// Returns the surface in homogeneous coordinates, up to the rounding of the products.
 [[nodiscard]] inline Net homogeneous(Net net) {
   for (std::size_t k = 0; k < net.points.size(); ++k) {
     for (double& value : net.points[k]) {

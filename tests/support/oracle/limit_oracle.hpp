@@ -156,7 +156,7 @@ struct AlongSegment {
     rows.push_back(taylor({row, row + static_cast<std::ptrdiff_t>(order)}, at_u, most + 1));
   }
   AlongSegment result{IntegerSeries(most + 1), IntegerSeries(most + 1), IntegerSeries(most + 1)};
-  // At the middle itself along (1,1); both parameters then have the unit 1/2.
+  // The middle itself is left along (1,1); both parameters then have the unit 1/2.
   const bool middle = at_u.step == 0 && at_v.step == 0;
   const Integer step_u = middle ? Integer(1) : at_u.step;
   const Integer step_v = middle ? Integer(1) : at_v.step;

@@ -54,7 +54,7 @@ std::vector<DoubleDouble> hodograph(const Net& net, std::size_t c, Derivative or
       values.push_back(channel_value(net, j, i, c));
     }
   }
-  // In place: what is written has been read by then.
+  // Differences replace the points: what is overwritten has been read by then.
   for (int done = 0; done < order.u; ++done, --columns) {
     const double factor = net.degree_u - done;
     for (std::size_t j = 0; j < rows; ++j) {

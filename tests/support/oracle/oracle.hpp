@@ -71,7 +71,7 @@ inline constexpr std::size_t kWeightChannel = 3;
 
 /// The largest of them: what errors of that derivative are relative to.
 [[nodiscard]] double largest_hodograph(const Net& net, std::size_t component, Derivative order);
-/// In the three components of a polynomial net.
+/// Returns the largest values for the three components of a polynomial net.
 [[nodiscard]] inline Vector3 largest_hodographs(const Net& net, Derivative order) {
   return {largest_hodograph(net, 0, order), largest_hodograph(net, 1, order),
           largest_hodograph(net, 2, order)};

@@ -130,7 +130,7 @@ template <typename Value>
   return factor * chain.error[static_cast<std::size_t>(order)];
 }
 
-/// The same by even and odd parts, of degrees 3 to 5 and up to the second order.
+/// Returns the error by even and odd parts, of degrees 3 to 5 and up to the second order.
 [[nodiscard]] inline double even_odd_error(const std::vector<double>& coefficients, int order,
                                            double x, bool fma) {
   std::vector<Tracked> c;

@@ -227,7 +227,8 @@ template <typename T>
   Truth truth{oracle_sample(net, u, v), {}, weight_sample(net, u, v),
               condition_of(net, u, v),  0,  0};
   truth.normal = oracle_normal(net, truth.sample);
-  // As centred doubles, which the limit formula pulls inwards; a float's 2u-1 is exact there.
+  // The parameters are centred doubles, which the limit formula pulls inwards; a float's 2u-1 is
+  // exact there.
   truth.x = centred ? static_cast<double>(at.x) : 2 * static_cast<double>(at.u) - 1;
   truth.y = centred ? static_cast<double>(at.y) : 2 * static_cast<double>(at.v) - 1;
   return truth;

@@ -99,7 +99,7 @@ struct RowError {
   double rounded_twice = 0;
 };
 
-/// Of even and odd parts: [order of the derivative][degree - 3], rounded up.
+/// The errors of even and odd parts: [order of the derivative][degree - 3], rounded up.
 inline constexpr RowError kEvenOddErrors[3][3] = {{{4, 5}, {5.75, 7.75}, {7.25, 10.5}},
                                                   {{3.34, 4.34}, {5.38, 6.38}, {7.28, 9.36}},
                                                   {{3, 3}, {4.25, 4.75}, {7.75, 8.75}}};

@@ -97,7 +97,7 @@ private:
     return chain;
   }
 
-  /// The same of what comes last, and of edges: the order of operations follows the degree.
+  /// Evaluates what comes last, and edges: the order of operations follows the degree.
   [[nodiscard]] static std::array<T, 3> row_or_edge(const Row& a, T x) {
     if (!by_even_and_odd_parts(a.size() - 1)) {
       return horner(a, x);

@@ -75,8 +75,8 @@ private:
       }
     }
     const std::vector<T> weights(net.weights.begin(), net.weights.end());
-    return process_->evaluate(
-        tools::PatchTask<T>{points, net.degree_u, net.degree_v, weights, u, v, position, du, dv});
+    return process_->evaluate(tools::PluginPatchTask<T>{points, net.degree_u, net.degree_v, weights,
+                                                        u, v, position, du, dv});
   }
 
   PluginProcess process_;

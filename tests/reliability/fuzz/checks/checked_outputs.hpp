@@ -155,7 +155,7 @@ public:
 
   /// What was written for all samples; nothing else may have been.
   [[nodiscard]] Results<T> collect() { return collect(std::vector<bool>(samples_, true)); }
-  /// The same where only some samples belong to the call; the others keep zeros.
+  /// Collects what was written where only some samples belong to the call; the others keep zeros.
   [[nodiscard]] Results<T> collect(const std::vector<bool>& written) {
     Results<T> results;
     results.reserve(samples_);

@@ -25,7 +25,7 @@ inline void require(bool condition, std::string_view what) {
   }
 }
 
-/// The same with a message that takes time to make.
+/// Fails with a message that takes time to make, where the condition is not met.
 template <typename F>
 requires requires(F& message) { std::string(message()); }
 void require(bool condition, F&& message) {

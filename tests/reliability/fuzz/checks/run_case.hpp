@@ -1,4 +1,4 @@
-// From a fuzzer's bytes to a case in the types that the first byte chooses.
+// Turns a fuzzer's bytes into a case in the types that the first byte chooses.
 #pragma once
 
 #include <cstddef>

@@ -27,8 +27,8 @@ enum class Expectation : std::uint8_t { anything, success, failure, untried };
 /// Statuses begin at one of the first elements of a block of their own.
 inline constexpr std::size_t kStatusPlaces = 20;
 
-/// Of `count` samples in a block of `elements`. Where outputs lie within it, `taken` tells which
-/// elements they take.
+/// Says what a call has to do with `count` samples in a block of `elements`. Where outputs lie
+/// within it, `taken` tells which elements they take.
 [[nodiscard]] inline Expectation expect_of(const std::vector<Member>& members, Wide count,
                                            bool statuses, std::size_t elements,
                                            std::vector<std::uint8_t>& taken) {

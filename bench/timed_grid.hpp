@@ -1,4 +1,4 @@
-// One row of grid calls: its name, its data, its call and its check.
+// One row of grids: its name, its data, its call and its check.
 #pragma once
 
 #include <string>
@@ -8,6 +8,7 @@
 
 #include "bench/baselines/baselines.hpp"
 #include "bench/library_call.hpp"
+#include "bench/library_or_baseline.hpp"
 #include "bench/place.hpp"
 #include "bench/reference.hpp"
 #include "bench/rows.hpp"
@@ -27,13 +28,13 @@ struct GridRow {
   Algorithm algorithm;
   simdbezier::Isa isa; ///< for Algorithm::library only
   Size size;
-  Place place;
+  MemoryLevel level;
   int threads = 1;
   Layout layout = Layout::planes;
   bool watertight = true;
-  bool aligned = true; ///< false where planes begin 1, 2, 3… elements behind a line's start
-  bool plain = false;  ///< plain stores, wherever the output ends
-  NetShape shape = {}; ///< bicubic for the baselines
+  bool aligned = true;   ///< false where planes begin 1, 2, 3… elements behind a line's start
+  bool plain = false;    ///< plain stores, wherever the output ends
+  BatchShape shape = {}; ///< bicubic for the baselines
 };
 
 template <typename T>
@@ -44,7 +45,7 @@ std::string grid_row_name(const GridRow& row) {
                                                           : simdbezier::to_string(row.isa);
   name.nu = row.size.nu;
   name.nv = row.size.nv;
-  name.place = row.place;
+  name.level = row.level;
   name.threads = row.threads;
   std::string text = name.text();
   text += row.layout == Layout::triples    ? "/layout:aos"
@@ -60,19 +61,21 @@ std::string grid_row_name(const GridRow& row) {
   return row.shape.rational ? text + "/weights:rational" : text;
 }
 
-/// How many patches fit the cache's share, or leave every cache.
+/// Returns how many patches fit the cache's share, or leave every cache.
 template <typename T>
 std::size_t grid_patch_count(const GridRow& row) {
   const std::size_t bytes = row.size.nu * row.size.nv * value_count(row.outputs) * sizeof(T);
-  return row.place == Place::cache ? cached_patches(bytes) : (kMemoryBytes + bytes - 1) / bytes;
+  return row.level == MemoryLevel::cache ? cached_patches(bytes)
+                                         : (kMemoryBytes + bytes - 1) / bytes;
 }
 
-/// A row that is ready to run: the job, and what the library's call needs besides.
+/// A grid row that is ready to run: the job, and what the library's call needs besides.
 template <typename T>
-class GridCall {
+class TimedGrid final : public LibraryOrBaseline<GridJob<T>> {
 public:
-  explicit GridCall(const GridRow& row)
-      : row_(row), u_(uniform_parameters<T>(row.size.nu)), v_(uniform_parameters<T>(row.size.nv)) {
+  explicit TimedGrid(const GridRow& row)
+      : LibraryOrBaseline<GridJob<T>>(row.algorithm == Algorithm::library), row_(row),
+        u_(uniform_parameters<T>(row.size.nu)), v_(uniform_parameters<T>(row.size.nv)) {
     job_.patches = grid_patch_count<T>(row);
     job_.nu = row.size.nu;
     job_.nv = row.size.nv;
@@ -96,35 +99,13 @@ public:
       break;
     case Algorithm::de_casteljau:
       job_.input = shared_nets<T>(job_.patches);
-      run_ = baselines.de_casteljau;
+      baseline_ = baselines.de_casteljau;
       break;
     case Algorithm::autovectorised:
       job_.input = shared_power_basis<T>(job_.patches);
-      run_ = baselines.autovectorised;
+      baseline_ = baselines.autovectorised;
       break;
     }
-  }
-
-  void operator()() {
-    if (row_.algorithm == Algorithm::library) {
-      (void)evaluate(options_);
-    } else {
-      run_(job_);
-    }
-  }
-
-  std::string check() {
-    poison_grid(job_);
-    std::string failure;
-    if (row_.algorithm == Algorithm::library) {
-      failure = run_verified(*set_, job_.patches, options_,
-                             [this](const auto& options) { return evaluate(options); });
-    } else if (run_ == nullptr) {
-      failure = "this machine has none of the baselines' instruction sets";
-    } else {
-      run_(job_);
-    }
-    return failure.empty() ? check_grid(job_, nets()) : failure;
   }
 
   [[nodiscard]] double items() const {
@@ -135,11 +116,19 @@ public:
   }
 
 private:
-  simdbezier::Status evaluate(const simdbezier::Options& options) const {
+  using LibraryOrBaseline<GridJob<T>>::job_;
+  using LibraryOrBaseline<GridJob<T>>::options_;
+  using LibraryOrBaseline<GridJob<T>>::baseline_;
+
+  simdbezier::Status evaluate(const simdbezier::Options& options) const override {
     return simdbezier::evaluate(*set_,
                                 simdbezier::Grid<T>::uniform(job_.nu, job_.nv, {0, job_.patches}),
                                 outputs_, options);
   }
+
+  [[nodiscard]] bool is_packed() const override { return set_->size() >= job_.patches; }
+  void poison_results() override { poison_grid(job_); }
+  [[nodiscard]] std::string check_results() const override { return check_grid(job_, nets()); }
 
   [[nodiscard]] const T* nets() const {
     return is_bicubic(row_.shape) ? shared_nets<T>(job_.patches)
@@ -149,18 +138,15 @@ private:
   GridRow row_;
   std::vector<T> u_;
   std::vector<T> v_;
-  GridJob<T> job_;
-  void (*run_)(const GridJob<T>&) = nullptr;
   const simdbezier::PatchSet<T>* set_ = nullptr;
   simdbezier::Outputs<T> outputs_;
-  simdbezier::Options options_;
 };
 
 template <typename T>
 void add_grid_row(const GridRow& row) {
-  const bool cache = row.place == Place::cache;
+  const bool cache = row.level == MemoryLevel::cache;
   register_row(grid_row_name<T>(row), cache ? benchmark::kMicrosecond : benchmark::kMillisecond,
-               row.threads, [row] { return GridCall<T>(row); });
+               row.threads, [row] { return TimedGrid<T>(row); });
 }
 
 } // namespace simdbezier_bench
