@@ -73,8 +73,7 @@ struct MeshStages {
   }
   Status write(const Options& how) {
     auto* const to = reinterpret_cast<std::uint32_t*>(triangles.get());
-    return simdbezier::write_triangles(layout, std::span(to, 3 * layout.size().triangles),
-                                       how.threads, {}, how.destination);
+    return simdbezier::write_triangles(layout, std::span(to, 3 * layout.size().triangles), how);
   }
   Status evaluate_grids(const Options& how) {
     simdbezier::Outputs<T> out;

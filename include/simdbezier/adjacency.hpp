@@ -31,7 +31,7 @@ struct EdgeLink {
 
 /// Finds every edge's counterpart.
 ///
-/// sets:        any number of views; their degrees may differ, and an edge of degree 3 of a 3 x 5
+/// nets:        any number of views; their degrees may differ, and an edge of degree 3 of a 3 x 5
 ///              patch may match one of a 7 x 3 patch. Patches are numbered consecutively, view
 ///              after view.
 /// edges:       4 values a patch, [4 * patch + PatchEdge]. They may not overlap the memory from the
@@ -50,7 +50,7 @@ struct EdgeLink {
 ///              On an error nothing has been written.
 /// Cost:        O(edges) by hashing, some 100 ns an edge.
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<S>> sets,
+[[nodiscard]] SIMDBEZIER_API Status find_adjacency(std::span<const ControlNets<S>> nets,
                                                    Values<EdgeLink> edges,
                                                    const Options& options = {}) noexcept;
 

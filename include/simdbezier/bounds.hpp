@@ -26,7 +26,7 @@ struct Boxes {
 
 /// The smallest and largest control values, projected where nets have weights: S lies in the convex
 /// hull of its control points, so also in this box. Exact; homogeneous nets divide, and their boxes
-/// are opened by 4 u of each bound.
+/// are opened by 4 u of each bound. Cost: about the time of reading the nets.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport control_boxes(const ControlNets<T>& nets,
                                                      const std::type_identity_t<Boxes<T>>& out,
@@ -57,6 +57,7 @@ template <typename T>
 ///           and infinite where the weights come near the ends of the number range or the
 ///           differences overflow.
 /// out:      count values.
+/// Cost:     one pass over the control points, some 10 operations a component and point.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport flatness(const ControlNets<T>& nets,
                                                 const std::type_identity_t<Values<T>>& out,

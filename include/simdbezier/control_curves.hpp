@@ -36,7 +36,8 @@ struct ControlCurves {
         (std::ptrdiff_t{degree} + 1) * point; // no int: any degree may come
     return {points, count, degree, curve, point, 1, components, weights, {}};
   }
-  /// As many curves as there are points for. An incomplete one counts, so that calls refuse it.
+  /// Makes as many curves as there are points for. An incomplete one counts, so that calls refuse
+  /// it.
   [[nodiscard]] static constexpr ControlCurves packed(std::span<const S> points, int degree = 3,
                                                       int components = 3,
                                                       Weights weights = Weights::none) noexcept {

@@ -46,7 +46,7 @@ struct ControlNets {
   std::ptrdiff_t component_stride = 1;
   int components = 3; ///< 1 to kMostComponents, without the weight
   Weights weights = Weights::none;
-  /// Where it is known, the memory that all values must lie in (else input_too_small).
+  /// The memory that all values must lie in (else input_too_small), where it is known.
   std::span<const S> memory = {};
 
   /// Points with all of their values side by side, row after row, patch after patch.
@@ -61,7 +61,7 @@ struct ControlNets {
             stride(row), stride(point), 1,        components, weights,
             {}};
   }
-  /// As many nets as there are points for. An incomplete one counts, so that calls refuse it.
+  /// Makes as many nets as there are points for. An incomplete one counts, so that calls refuse it.
   [[nodiscard]] static constexpr ControlNets packed(std::span<const S> points, int degree_u = 3,
                                                     int degree_v = 3, int components = 3,
                                                     Weights weights = Weights::none) noexcept {

@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <utility>
@@ -28,8 +29,8 @@ template <typename T>
 struct CurveStorage;
 }
 
-/// Curves as centred coefficients, T = float or double; all of one degree and number of components,
-/// all with weights or all without.
+/// Curves as centred coefficients, T = float or double. They have one degree and one number of
+/// components, and either all or none of them have weights.
 ///
 /// Immutable: any number of threads may evaluate one set at once. Copies share the storage and
 /// cost one reference count. A default-constructed set holds no curves.
@@ -42,7 +43,8 @@ public:
   [[nodiscard]] SIMDBEZIER_API std::size_t size() const noexcept;
   [[nodiscard]] bool empty() const noexcept { return size() == 0; }
 
-  /// Of every curve; of the default ControlCurves for a default-constructed set.
+  /// What all curves have in common; a default-constructed set has the degree, the components and
+  /// the weights of the default ControlCurves.
   [[nodiscard]] SIMDBEZIER_API int degree() const noexcept;
   [[nodiscard]] SIMDBEZIER_API int components() const noexcept;
   [[nodiscard]] SIMDBEZIER_API bool rational() const noexcept;
@@ -50,7 +52,7 @@ public:
   /// Whether the set was packed with PackOptions::local_origin.
   [[nodiscard]] SIMDBEZIER_API bool has_local_origins() const noexcept;
 
-  /// For the library's own use: the packed arrays (null for an empty set).
+  /// This is for the library's own use: the packed arrays (null for an empty set).
   [[nodiscard]] const detail::CurveStorage<T>* storage() const noexcept { return storage_.get(); }
   explicit CurveSet(std::shared_ptr<const detail::CurveStorage<T>> storage) noexcept
       : storage_(std::move(storage)) {}
@@ -100,14 +102,16 @@ struct CurveGrid {
   }
 };
 
-/// Uniform parameters, ends included: a number of them for each of the curves from `first_curve`
-/// on, as many as n has values. Sample i of the k-th of these curves has the index offset[k] + i.
+/// Uniform parameters, ends included: a number of them for each curve of a range. Sample i of the
+/// k-th of these curves has the index offset[k] + i.
 struct CurveGrids {
   std::span<const std::uint32_t> n; ///< 2 or more
   /// Where each curve's samples begin, ascending by n or more (samples in between are not touched).
   /// Empty: packed without gaps.
   std::span<const std::size_t> offset = {};
-  std::size_t first_curve = 0;
+  /// The curves, as many as n has values: a count, where one is given, has to be that (else
+  /// unequal_lengths).
+  SetRange curves = {};
 };
 
 /// Single samples in any order: sample k lies on curve[k] at t[k].
@@ -118,7 +122,7 @@ struct CurveSamples {
   Parameters parameters = Parameters::unit;
 };
 
-/// As for patches: the room that every output needs.
+/// The number of samples of a call, for which every output needs room, as for patches.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API std::size_t sample_count(const CurveSet<T>& set,
                                                       const CurveGrid<T>& grid) noexcept;
@@ -138,11 +142,13 @@ enum class CurveOutput : std::uint8_t {
   d2,       ///< C''(t)
   tangent   ///< C' / |C'|
 };
-inline constexpr std::size_t kCurveVectorOutputs = 4;
+inline constexpr std::size_t kCurveVectorOutputs =
+    static_cast<std::size_t>(CurveOutput::tangent) + 1;
 
 /// "position", "d1", …: what the C API and Python call an output.
 [[nodiscard]] constexpr const char* output_name(CurveOutput output) noexcept {
-  constexpr const char* kNames[kCurveVectorOutputs] = {"position", "d1", "d2", "tangent"};
+  constexpr const char* kNames[] = {"position", "d1", "d2", "tangent"};
+  static_assert(std::size(kNames) == kCurveVectorOutputs);
   return kNames[static_cast<std::size_t>(output)];
 }
 
@@ -168,6 +174,9 @@ struct CurveOutputs {
   Values<SampleStatus> status; ///< only tangents and curvatures report `limit` and `degenerate`
   int first_component = 0;     ///< as in Outputs
 
+  /// How the vectors are numbered, and how many there are.
+  using Name = CurveOutput;
+  static constexpr std::size_t kVectors = kCurveVectorOutputs;
   [[nodiscard]] constexpr Vectors<T>& operator[](CurveOutput output) noexcept {
     return this->*kMembers[static_cast<std::size_t>(output)];
   }
@@ -176,8 +185,9 @@ struct CurveOutputs {
   }
 
 private:
-  static constexpr Vectors<T> CurveOutputs::*kMembers[kCurveVectorOutputs] = {
+  static constexpr Vectors<T> CurveOutputs::*kMembers[] = {
       &CurveOutputs::position, &CurveOutputs::d1, &CurveOutputs::d2, &CurveOutputs::tangent};
+  static_assert(std::size(kMembers) == kVectors, "every vector output has a member, in its order");
 };
 
 /// Evaluates every curve of a range on one grid.
@@ -208,8 +218,8 @@ template <typename T>
 /// Evaluates single samples, in the grid's own order of operations: where the centred parameters
 /// are equal, the bits are. Runs of samples of one curve are fast. Streaming stores are used with
 /// Destination::memory only.
-/// Returns, besides those of the first call (without bad_grid, bad_patch_range), unequal_lengths |
-/// null_input | bad_patch_index.
+/// Returns, besides the statuses of the first call (without bad_grid, bad_patch_range),
+/// unequal_lengths | null_input | bad_patch_index.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const CurveSet<T>& set, const CurveSamples<T>& samples,
                                              const CurveOutputs<T>& out,

@@ -61,9 +61,9 @@ template <typename T>
     const PatchSet<T>& set, const Samples<T>& samples,
     const std::type_identity_t<DerivativeOutputs<T>>& out, const Options& options = {}) noexcept;
 
-/// The same on one grid of every patch of a range, indexed as in Grid, and with the bits of single
-/// samples at the same centred parameters. Returns what the call for samples does, with bad_grid |
-/// bad_patch_range instead of null_input, unequal_lengths and bad_patch_index.
+/// Evaluates derivatives on one grid of every patch of a range, indexed as in Grid, and with the
+/// bits of single samples at the same centred parameters. Returns what the call for samples does,
+/// with bad_grid | bad_patch_range instead of null_input, unequal_lengths and bad_patch_index.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_derivatives(
     const PatchSet<T>& set, const Grid<T>& grid,

@@ -47,13 +47,14 @@ template <typename T>
                                                            std::size_t curve,
                                                            Isa isa = Isa::automatic) noexcept;
 
-/// The largest position bound of any component of any patch; 0 for an empty set.
+/// The largest position bound of any component of any patch; 0 for an empty set. Cost: that of
+/// error_bounds() for every patch.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API double largest_position_bound(const PatchSet<T>& set,
                                                            Isa isa = Isa::automatic) noexcept;
 
 /// True where every position of the batch is certified to be within `tolerance` of the exact one:
-/// asked of a PatchSet<float>, whether single precision is enough.
+/// asked of a PatchSet<float>, whether single precision is enough. Cost: as above.
 template <typename T>
 [[nodiscard]] bool meets_tolerance(const PatchSet<T>& set, double tolerance,
                                    Isa isa = Isa::automatic) noexcept {

@@ -73,7 +73,7 @@ struct Polylines {
   Status status;
   std::size_t fault_curve = 0;
   std::vector<std::array<T, 3>> points; ///< z (and y) are 0 where curves have no such component
-  std::vector<std::size_t> first; ///< of every curve among the points, and the end of the last
+  std::vector<std::size_t> first; ///< each polyline's first point, and the end of the last one
   double deviation = 0; ///< the distance between all of them and the curves is at most this
 
   [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }

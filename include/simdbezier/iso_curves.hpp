@@ -55,7 +55,7 @@ template <typename S>
                                               Values<double> points,
                                               const Options& options = {}) noexcept;
 
-/// The same for S(., v0): curves of degree degree_u.
+/// The control points of S(., v0), which has degree degree_u, in the same way.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API PackReport iso_v(const ControlNets<S>& nets, double v0,
                                               Values<double> points,
@@ -74,8 +74,8 @@ template <typename T, typename S>
                                               CurveSet<T>& curves,
                                               const PackOptions& options = {}) noexcept;
 
-/// The same of every patch of a set, from the control points that it keeps as they were given; the
-/// curves are packed with the PackOptions::relative_to of the set.
+/// The iso-parametric curve of every patch of a set, from the control points that it keeps as they
+/// were given. The curves are packed with the PackOptions::relative_to of the set.
 ///
 /// patches:    of one shape. The nets that they were packed from need not exist any more.
 /// options:    relative_to is ignored; local_origin is not taken from the set.

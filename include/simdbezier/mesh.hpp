@@ -47,8 +47,8 @@ struct MeshOptions {
   double snap = 0;
   /// Leaves out patches that repeat an earlier one (Topology::is_repeated()).
   bool drop_repeated = false;
-  /// In radians: see split_creases(); infinity: all normals are merged. 0: patches share no
-  /// vertices.
+  /// The angle of split_creases(), in radians. Infinity: all normals are merged. 0: patches share
+  /// no vertices.
   double crease_angle = kUnlimited;
 
   bool normals = true;
@@ -66,9 +66,9 @@ struct MeshPlan {
   /// The patch at fault; 0 where the fault is not that of a single patch.
   std::size_t fault_patch = 0;
   PatchSet<T> set;
-  /// Of all patches given, also of repeated ones that were left out.
+  /// Counts all patches given, also repeated ones that were left out.
   TopologyCounts counts;
-  Topology topology; ///< of the patches of the set
+  Topology topology; ///< how the patches of the set are connected
   MeshLayout layout;
   /// The number of each patch of the set among those given. Empty: the same numbers.
   std::vector<std::uint32_t> patches;
@@ -76,7 +76,7 @@ struct MeshPlan {
   std::vector<std::uint32_t> nv;
   std::vector<double> deviations; ///< certified, of each patch of the set
   double deviation = 0;           ///< the largest of them
-  double diagonal = 0;            ///< of the box of all control points
+  double diagonal = 0;            ///< the length of that of the box of all control points
 
   [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
 };
@@ -89,13 +89,14 @@ struct Mesh {
   std::vector<std::array<T, 3>> positions;
   std::vector<std::array<T, 3>> normals;
   std::vector<std::array<T, 2>> parameters;
-  std::vector<std::uint32_t> patches; ///< of each vertex: its patch's number among those given
+  std::vector<std::uint32_t> patches; ///< each vertex's patch, by its number among those given
   std::vector<std::array<std::uint32_t, 3>> triangles;
   /// Instead of `triangles`, where they were asked for and numbers fit.
   std::vector<std::array<std::uint16_t, 3>> short_triangles;
   /// The distance between mesh and surface is certified to be at most this, rounding included.
   double deviation = 0;
-  /// The same for single patches, in the order of those given; 0 for those left out.
+  /// The certified distance for each single patch, in the order of those given; 0 for those left
+  /// out.
   std::vector<double> deviations;
   TopologyCounts counts;
 

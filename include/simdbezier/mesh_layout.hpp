@@ -45,12 +45,13 @@ public:
   MeshLayout() noexcept = default;
 
   [[nodiscard]] SIMDBEZIER_API MeshSize size() const noexcept;
-  /// Where the triangles of a patch begin; size().triangles for the patch behind the last one.
+  /// The number of a patch's first triangle; size().triangles for the patch behind the last one.
   [[nodiscard]] SIMDBEZIER_API std::size_t first_triangle(std::size_t patch) const noexcept;
-  /// Where the vertices that are a patch's own begin, likewise.
+  /// The number of the first vertex that is a patch's own; size().vertices for the patch behind the
+  /// last one.
   [[nodiscard]] SIMDBEZIER_API std::size_t first_vertex(std::size_t patch) const noexcept;
 
-  /// For the library's own use.
+  /// This is for the library's own use.
   [[nodiscard]] const detail::MeshData* data() const noexcept { return data_.get(); }
   explicit MeshLayout(std::shared_ptr<const detail::MeshData> data) noexcept
       : data_(std::move(data)) {}

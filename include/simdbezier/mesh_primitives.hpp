@@ -8,8 +8,12 @@
 //   Returns      ok | null_output | output_too_small (a span is shorter than the size that the mesh
 //                needs) | size_overflow (more vertices than Index has numbers) | out_of_memory |
 //                unknown_isa and unsupported_isa (of triangles, as resolve_isa()).
-//   Threads      as in Options. Allocation: scratch per thread, and 16 bytes a patch where sizes
-//                are not known from the layout.
+//   Options      Options::threads is honoured, by write_triangles() also isa, executed and
+//                destination; the other members have no meaning.
+//   Allocation   scratch per thread, and 16 bytes a patch where sizes are not known from the
+//                layout.
+//   Cost         O(cells). A size takes about as long as what it is for, since cells are cut in the
+//                same way to be counted.
 #pragma once
 
 #include <cstddef>
@@ -24,23 +28,28 @@ namespace simdbezier {
 
 /// Writes three numbers a triangle; MeshLayout::size() says how many triangles there are.
 ///
+/// options: Destination::automatic streams where the numbers take more than half of the last-level
+///          cache, without a measurement; SIMDBEZIER_DESTINATION counts. Any alignment of Index
+///          will do.
 /// patches: all of them, or some: the first number is that of MeshLayout::first_triangle() of the
 ///          first patch. Returns bad_patch_range where the layout has no such patches.
-/// destination: automatic streams where the numbers take more than half of the last-level cache,
-///          without a measurement; SIMDBEZIER_DESTINATION counts. Any alignment of Index will do.
 template <typename Index>
-[[nodiscard]] SIMDBEZIER_API Status
-write_triangles(const MeshLayout& layout, std::span<Index> triangles, int threads = 0,
-                SetRange patches = {}, Destination destination = Destination::automatic) noexcept;
+[[nodiscard]] SIMDBEZIER_API Status write_triangles(const MeshLayout& layout,
+                                                    std::span<Index> triangles,
+                                                    const Options& options = {},
+                                                    SetRange patches = {}) noexcept;
 
 /// What a mesh of quads and triangles needs.
 struct PolygonSize {
   std::size_t polygons = 0;
   std::size_t indices = 0;
 };
+/// Counts the polygons that write_polygons() writes, and their vertices.
+///
 /// patches: all of them, or some, as for write_triangles().
 [[nodiscard]] SIMDBEZIER_API Status polygon_size(const MeshLayout& layout, PolygonSize& size,
-                                                 int threads = 0, SetRange patches = {}) noexcept;
+                                                 const Options& options = {},
+                                                 SetRange patches = {}) noexcept;
 
 /// Writes a quad for every cell of four vertices, triangles for all others. The certificate holds
 /// if quads are cut from their first to their third vertex.
@@ -50,25 +59,26 @@ struct PolygonSize {
 template <typename Index>
 [[nodiscard]] SIMDBEZIER_API Status write_polygons(const MeshLayout& layout,
                                                    std::span<Index> indices,
-                                                   std::span<std::uint8_t> sizes, int threads = 0,
+                                                   std::span<std::uint8_t> sizes,
+                                                   const Options& options = {},
                                                    SetRange patches = {}) noexcept;
 
-/// How many numbers write_strips() writes.
+/// Counts the numbers that write_strips() writes.
 [[nodiscard]] SIMDBEZIER_API Status strip_size(const MeshLayout& layout, std::size_t& indices,
-                                               int threads = 0) noexcept;
+                                               const Options& options = {}) noexcept;
 
 /// Writes triangle strips; the largest value of Index ends each of them (primitive restart).
 template <typename Index>
 [[nodiscard]] SIMDBEZIER_API Status write_strips(const MeshLayout& layout, std::span<Index> indices,
-                                                 int threads = 0) noexcept;
+                                                 const Options& options = {}) noexcept;
 
 /// A group of neighbouring triangles with vertices of its own, as mesh shaders take them.
 struct MeshCluster {
-  std::uint32_t first_vertex = 0;   ///< in ClusterOutputs::vertices
-  std::uint32_t first_triangle = 0; ///< in ClusterOutputs::corners, three values each
+  std::uint32_t first_vertex = 0;   ///< its place in ClusterOutputs::vertices
+  std::uint32_t first_triangle = 0; ///< its number in ClusterOutputs::corners, three values each
   std::uint32_t vertices = 0;
   std::uint32_t triangles = 0;
-  std::uint32_t patch = 0; ///< of all of its triangles
+  std::uint32_t patch = 0; ///< the one that all of its triangles are part of
 };
 inline constexpr std::uint32_t kMostClusterTriangles = 128;
 inline constexpr std::uint32_t kMostClusterVertices = 128;
@@ -79,8 +89,9 @@ struct ClusterSize {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
 };
+/// Counts the clusters that write_clusters() writes, and the values that they take.
 [[nodiscard]] SIMDBEZIER_API Status cluster_size(const MeshLayout& layout, ClusterSize& size,
-                                                 int threads = 0) noexcept;
+                                                 const Options& options = {}) noexcept;
 
 /// Where clusters go: as many values as ClusterSize says, three corners a triangle.
 struct ClusterOutputs {
@@ -93,6 +104,6 @@ struct ClusterOutputs {
 /// of about 8 x 8 cells.
 [[nodiscard]] SIMDBEZIER_API Status write_clusters(const MeshLayout& layout,
                                                    const ClusterOutputs& out,
-                                                   int threads = 0) noexcept;
+                                                   const Options& options = {}) noexcept;
 
 } // namespace simdbezier

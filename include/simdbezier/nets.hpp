@@ -1,4 +1,4 @@
-// From control nets to control nets: subdivision, sub-patches, degree elevation, reversal,
+// What makes control nets of control nets: subdivision, sub-patches, degree elevation, reversal,
 // transposition, derivatives.
 //
 // Constraints that hold for every call
@@ -60,7 +60,7 @@ struct MutableNets {
   Weights weights = Weights::none;
   std::span<S> memory = {}; ///< as in ControlNets (else output_too_small)
 
-  /// As ControlNets::packed(); a span is the memory of `count` nets.
+  /// Makes a view as ControlNets::packed() does; a span is the memory of `count` nets.
   [[nodiscard]] static constexpr MutableNets packed(S* points, std::size_t count, int degree_u,
                                                     int degree_v, int components = 3,
                                                     Weights weights = Weights::none) noexcept {
@@ -121,7 +121,7 @@ public:
 
   [[nodiscard]] constexpr T t() const noexcept { return t_; }
   [[nodiscard]] constexpr T complement() const noexcept { return complement_; }
-  /// The same place on the reversed curve.
+  /// The parameter of the same point on the reversed curve.
   [[nodiscard]] constexpr UnitParameter mirrored() const noexcept { return {complement_, t_}; }
 
 private:
@@ -160,14 +160,14 @@ template <typename T>
                                                const std::type_identity_t<MutableNets<T>>& high,
                                                const Options& options = {}) noexcept;
 
-/// The same in v.
+/// Cuts every patch at v, in the same way.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport split_v(const ControlNets<T>& nets, AtParameter<T> v,
                                                const std::type_identity_t<MutableNets<T>>& low,
                                                const std::type_identity_t<MutableNets<T>>& high,
                                                const Options& options = {}) noexcept;
 
-/// Both at once, in u first: out[2 * (v half) + (u half)].
+/// Cuts every patch at u, then both parts at v: out[2 * (v half) + (u half)].
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport
 split(const ControlNets<T>& nets, AtParameter<T> u, AtParameter<T> v,
@@ -204,6 +204,7 @@ template <typename T>
 ///             from both ends.
 /// Errors:     float: one rounding (the sums are carried in double). double: at most (n + 2) u
 ///             max|P| per direction. Exact wherever these sums and quotients are.
+/// Cost:       O(degree) multiply-adds a value and direction whose degree rises.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport elevate(const ControlNets<T>& nets,
                                                const std::type_identity_t<MutableNets<T>>& out,
@@ -211,32 +212,35 @@ template <typename T>
 
 /// The derivative patches dS/du: control points degree_u (P[j][i+1] - P[j][i]), degree_u - 1 by
 /// degree_v. A direction of degree 1 keeps it: its two columns are equal, for nets have no degree
-/// 0. Polynomial nets only (bad_weight). Errors: two roundings a value; float: one.
+/// 0. Polynomial nets only (bad_weight). Errors: two roundings a value; float: one. Cost: about the
+/// time of reading and writing the nets.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport hodograph_u(const ControlNets<T>& nets,
                                                    const std::type_identity_t<MutableNets<T>>& out,
                                                    const Options& options = {}) noexcept;
 
-/// dS/dv, likewise.
+/// The derivative patches dS/dv, in the same way.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport hodograph_v(const ControlNets<T>& nets,
                                                    const std::type_identity_t<MutableNets<T>>& out,
                                                    const Options& options = {}) noexcept;
 
 /// The same surface run through backwards in u: Q[j][i] = P[j][degree_u - i]. A copy: for calls
-/// that only read, a view with a negative stride does (reversed_u below).
+/// that only read, a view with a negative stride does (reversed_u below). Cost: about the time of
+/// reading and writing the nets, as for the two below.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport reverse_u(const ControlNets<T>& nets,
                                                  const std::type_identity_t<MutableNets<T>>& out,
                                                  const Options& options = {}) noexcept;
 
-/// Backwards in v: Q[j][i] = P[degree_v - j][i].
+/// The same surface run through backwards in v: Q[j][i] = P[degree_v - j][i].
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport reverse_v(const ControlNets<T>& nets,
                                                  const std::type_identity_t<MutableNets<T>>& out,
                                                  const Options& options = {}) noexcept;
 
-/// u and v exchanged: Q[i][j] = P[j][i]; degree_u of `out` is degree_v of the input.
+/// The same surface with u and v exchanged: Q[i][j] = P[j][i]; degree_u of `out` is degree_v of the
+/// input.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport transpose(const ControlNets<T>& nets,
                                                  const std::type_identity_t<MutableNets<T>>& out,

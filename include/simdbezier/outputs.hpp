@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 
 #include <simdbezier/sample_status.hpp>
 #include <simdbezier/vectors.hpp>
@@ -22,14 +23,53 @@ enum class Output : std::uint8_t {
   curvature, ///< all four members of Curvatures
   status     ///< SampleStatus
 };
-/// Those before Output::curvature are vectors.
+/// The outputs before Output::curvature are vectors.
 inline constexpr auto kVectorOutputs = static_cast<std::size_t>(Output::curvature);
+/// Output::status is the last output, so that this is the number of all of them.
+inline constexpr std::size_t kOutputs = static_cast<std::size_t>(Output::status) + 1;
+
+namespace detail {
+
+/// What has to be known about an output besides its formula.
+struct OutputTraits {
+  Output output;
+  const char* name;     ///< see output_name()
+  int derivative_order; ///< see derivative_order()
+  bool needs_space;     ///< see needs_space()
+};
+inline constexpr OutputTraits kOutputTraits[] = {{Output::position, "position", 0, false},
+                                                 {Output::du, "du", 1, false},
+                                                 {Output::dv, "dv", 1, false},
+                                                 {Output::duu, "duu", 2, false},
+                                                 {Output::duv, "duv", 2, false},
+                                                 {Output::dvv, "dvv", 2, false},
+                                                 {Output::normal, "normal", 1, true},
+                                                 {Output::curvature, "curvature", 2, true},
+                                                 {Output::status, "status", 0, false}};
+
+constexpr bool has_traits_of_all() noexcept {
+  bool all = std::size(kOutputTraits) == kOutputs;
+  for (std::size_t k = 0; k < std::size(kOutputTraits); ++k) {
+    all = all && kOutputTraits[k].output == static_cast<Output>(k);
+  }
+  return all;
+}
+static_assert(has_traits_of_all(), "every Output has a row here, in the order of Output");
+
+} // namespace detail
 
 /// "position", "du", … "status": what the C API, Python and the program call an output.
 [[nodiscard]] constexpr const char* output_name(Output output) noexcept {
-  constexpr const char* kNames[] = {"position", "du",     "dv",        "duu",   "duv",
-                                    "dvv",      "normal", "curvature", "status"};
-  return kNames[static_cast<std::size_t>(output)];
+  return detail::kOutputTraits[static_cast<std::size_t>(output)].name;
+}
+/// The highest order of the derivatives of S that an output is made of. A status has 0, since it
+/// reports what other outputs have found.
+[[nodiscard]] constexpr int derivative_order(Output output) noexcept {
+  return detail::kOutputTraits[static_cast<std::size_t>(output)].derivative_order;
+}
+/// Whether an output exists for points in space alone, because a cross product is part of it.
+[[nodiscard]] constexpr bool needs_space(Output output) noexcept {
+  return detail::kOutputTraits[static_cast<std::size_t>(output)].needs_space;
 }
 
 /// A set of outputs: {Output::position, Output::normal}.
@@ -45,6 +85,12 @@ public:
   [[nodiscard]] constexpr bool holds(Output output) const noexcept {
     return (bits_ & bit(output)) != 0;
   }
+  /// Whether one output at least is part of both sets.
+  [[nodiscard]] constexpr bool holds_any(const OutputSelection& others) const noexcept {
+    return (bits_ & others.bits_) != 0;
+  }
+  /// The set as a number, in which bit k stands for Output(k).
+  [[nodiscard]] constexpr unsigned bits() const noexcept { return bits_; }
   friend constexpr bool operator==(const OutputSelection&, const OutputSelection&) = default;
 
 private:
@@ -54,8 +100,19 @@ private:
   unsigned bits_ = 0;
 };
 
-/// Where the curvatures of a surface go; each may be null: not asked for. From first and second
-/// derivatives; nan where the status is not `regular`.
+/// The members of Curvatures, in their order.
+enum class Curvature : std::uint8_t { gaussian, mean, minimum, maximum };
+inline constexpr std::size_t kCurvatureKinds = static_cast<std::size_t>(Curvature::maximum) + 1;
+
+/// "gaussian", "mean", …: what the C API and Python call a curvature.
+[[nodiscard]] constexpr const char* output_name(Curvature curvature) noexcept {
+  constexpr const char* kNames[] = {"gaussian", "mean", "minimum", "maximum"};
+  static_assert(std::size(kNames) == kCurvatureKinds);
+  return kNames[static_cast<std::size_t>(curvature)];
+}
+
+/// Where the curvatures of a surface go; each may be null: not asked for. They are made of first
+/// and second derivatives, and are nan where the status is not `regular`.
 ///
 /// There is no bound for them: they divide by |du x dv|^2, and lose digits where that is small
 /// (docs/accuracy.md has figures; float is of no use closer than 0.001 to a pole). Principal
@@ -72,6 +129,17 @@ struct Curvatures {
   [[nodiscard]] constexpr bool wanted() const noexcept {
     return gaussian.wanted() || mean.wanted() || minimum.wanted() || maximum.wanted();
   }
+  [[nodiscard]] constexpr Values<T>& operator[](Curvature curvature) noexcept {
+    return this->*kMembers[static_cast<std::size_t>(curvature)];
+  }
+  [[nodiscard]] constexpr const Values<T>& operator[](Curvature curvature) const noexcept {
+    return this->*kMembers[static_cast<std::size_t>(curvature)];
+  }
+
+private:
+  static constexpr Values<T> Curvatures::*kMembers[] = {&Curvatures::gaussian, &Curvatures::mean,
+                                                        &Curvatures::minimum, &Curvatures::maximum};
+  static_assert(std::size(kMembers) == kCurvatureKinds);
 };
 
 /// The outputs of a call; every one is optional, at least one vector or curvature is required. They
@@ -84,7 +152,7 @@ struct Outputs {
   Vectors<T> duu;
   Vectors<T> duv;
   Vectors<T> dvv;
-  Vectors<T> normal; ///< of sets with three components only, as are curvatures
+  Vectors<T> normal; ///< exists for sets with three components only, as curvatures do
   Values<SampleStatus> status;
   Curvatures<T> curvature;
   /// The component that comes out as x; the next ones come out as y and z. Sets of up to two
@@ -92,7 +160,10 @@ struct Outputs {
   /// than three.
   int first_component = 0;
 
-  /// A vector output: one before Output::curvature.
+  /// How the vectors are numbered, and how many there are.
+  using Name = Output;
+  static constexpr std::size_t kVectors = kVectorOutputs;
+  /// The vector output of a name, which has to be one before Output::curvature.
   [[nodiscard]] constexpr Vectors<T>& operator[](Output output) noexcept {
     return this->*kMembers[static_cast<std::size_t>(output)];
   }
@@ -101,9 +172,10 @@ struct Outputs {
   }
 
 private:
-  static constexpr Vectors<T> Outputs::*kMembers[kVectorOutputs] = {
+  static constexpr Vectors<T> Outputs::*kMembers[] = {
       &Outputs::position, &Outputs::du,  &Outputs::dv,    &Outputs::duu,
       &Outputs::duv,      &Outputs::dvv, &Outputs::normal};
+  static_assert(std::size(kMembers) == kVectors, "every vector output has a member, in its order");
 };
 
 } // namespace simdbezier

@@ -59,7 +59,7 @@ public:
   /// Whether the set was packed with PackOptions::local_origin.
   [[nodiscard]] SIMDBEZIER_API bool has_local_origins() const noexcept;
 
-  /// For the library's own use: the packed arrays (null for an empty set).
+  /// This is for the library's own use: the packed arrays (null for an empty set).
   [[nodiscard]] const detail::SetStorage<T>* storage() const noexcept { return storage_.get(); }
   explicit PatchSet(std::shared_ptr<const detail::SetStorage<T>> storage) noexcept
       : storage_(std::move(storage)) {}
@@ -78,7 +78,7 @@ struct PackOptions {
   /// Positions come out relative to this point, which is subtracted from the control points in
   /// double (or wider) before anything is rounded to T. One point for all sets that share edges.
   double relative_to[3] = {0, 0, 0};
-  int threads = 1;          ///< as in Options: 0: as many as pay; 1: the calling thread
+  int threads = 0;          ///< as in Options
   Isa isa = Isa::automatic; ///< see resolve_isa(); results do not depend on it
 };
 
@@ -114,8 +114,9 @@ template <typename T, typename S>
 [[nodiscard]] PackReport pack(const ControlNets<S>& nets, PatchSet<T>& set,
                               const PackOptions& options = {}) noexcept;
 
-/// The same for patches of several degrees, polynomial and rational ones mixed. All need the same
-/// number of components. Results of evaluate calls come in the order of the patches' numbers.
+/// Packs patches of several degrees, polynomial and rational ones mixed, in the same way. All need
+/// the same number of components. Results of evaluate calls come in the order of the patches'
+/// numbers.
 template <typename T, typename S>
 [[nodiscard]] PackReport pack(std::span<const ControlNets<S>> nets, PatchSet<T>& set,
                               const PackOptions& options = {}) noexcept;

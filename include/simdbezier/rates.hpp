@@ -10,6 +10,7 @@
 #include <simdbezier/control_nets.hpp>
 #include <simdbezier/isa.hpp>
 #include <simdbezier/mesh_layout.hpp>
+#include <simdbezier/options.hpp>
 #include <simdbezier/patch_set.hpp>
 #include <simdbezier/topology.hpp>
 
@@ -44,7 +45,7 @@ struct Camera {
   std::array<double, 3> eye = {0, 0, 0};
   std::array<double, 3> direction = {0, 0, -1}; ///< of any length but zero
   double focal_length = 1000;                   ///< in pixels: height / (2 tan(angle of view / 2))
-  double width = 1920;                          ///< of the picture, in pixels
+  double width = 1920;                          ///< the width of the picture, in pixels
   double height = 1080;
   double nearest = 1e-3; ///< nothing closer than this along the direction is drawn
 };
@@ -83,7 +84,7 @@ template <typename T>
 ///           size_overflow | bad_tolerance (pixels, or a member of the camera, that is not above
 ///           zero and finite) | output_too_small.
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API Status pixel_tolerances(std::span<const ControlNets<S>> sets,
+[[nodiscard]] SIMDBEZIER_API Status pixel_tolerances(std::span<const ControlNets<S>> nets,
                                                      const Camera& camera, double pixels,
                                                      std::span<double> out) noexcept;
 
@@ -116,7 +117,7 @@ template <typename S>
 ///           included; 30 us and more for rational patches, other degrees and patches with a forced
 ///           diagonal.
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<S>> sets,
+[[nodiscard]] SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<S>> nets,
                                                      const Topology& topology,
                                                      const RateOptions& options,
                                                      const CertifiedRates& out) noexcept;
@@ -124,30 +125,32 @@ template <typename S>
 /// The certificate of given rates: the best diagonals, and the bound that they have.
 ///
 /// rates:    nu and nv are read, from 1 to kMostSegments; diagonals and deviation are written.
-/// errors:   one value a patch, or empty. threads: as in Options.
+/// errors:   one value a patch, or empty.
+/// options:  Options::threads is honoured, its other members have no meaning.
 /// Returns:  as choose_rates(); bad_rates also for rates outside of that range. Outputs are
 ///           undefined on an error.
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<S>> sets,
+[[nodiscard]] SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<S>> nets,
                                                       const Topology& topology,
                                                       std::span<const double> errors,
                                                       const CertifiedRates& rates,
-                                                      int threads = 0) noexcept;
+                                                      const Options& options = {}) noexcept;
 
 inline constexpr std::uint32_t kMostGridCells = std::uint32_t{1} << 20;
 /// The certificate of meshes whose patches stay apart: each is a grid of nu x nv cells, as
 /// evaluate() numbers its samples, whose diagonals all run from (0,0) to (1,1).
 ///
 /// deviation: one value a patch, `errors` included, which has as many or none.
+/// options:   as for certify_rates().
 /// Returns:   ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
 ///            size_overflow | non_finite_input | bad_weight | bad_rates (outside of 1 to
 ///            kMostGridCells, or spans that are not one value a patch) | bad_tolerance (an error
 ///            below 0 or nan) | out_of_memory. Cost: 30 us and more a patch.
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<S>> sets,
+[[nodiscard]] SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<S>> nets,
                                                       std::uint32_t nu, std::uint32_t nv,
                                                       std::span<const double> errors,
                                                       std::span<double> deviation,
-                                                      int threads = 0) noexcept;
+                                                      const Options& options = {}) noexcept;
 
 } // namespace simdbezier

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <new>
 #include <stdexcept>
 #include <vector>
@@ -36,11 +37,17 @@ struct SurfaceSamples {
 
   [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
 
-  /// A vector output: one before Output::curvature.
+  /// The vector output of a name, which has to be one before Output::curvature.
   [[nodiscard]] std::vector<std::array<T, 3>>& operator[](Output output) noexcept {
-    std::vector<std::array<T, 3>>* const members[kVectorOutputs] = {&position, &du,  &dv,    &duu,
-                                                                    &duv,      &dvv, &normal};
+    std::vector<std::array<T, 3>>* const members[] = {&position, &du,  &dv,    &duu,
+                                                      &duv,      &dvv, &normal};
+    static_assert(std::size(members) == kVectorOutputs, "every vector output has a member");
     return *members[static_cast<std::size_t>(output)];
+  }
+  [[nodiscard]] std::vector<T>& operator[](Curvature curvature) noexcept {
+    std::vector<T>* const members[] = {&gaussian, &mean, &minimum, &maximum};
+    static_assert(std::size(members) == kCurvatureKinds);
+    return *members[static_cast<std::size_t>(curvature)];
   }
 };
 
@@ -58,11 +65,11 @@ Outputs<T> make_room(SurfaceSamples<T>& samples, const OutputSelection& wanted, 
     }
   }
   if (wanted.holds(Output::curvature)) {
-    for (auto* const values :
-         {&samples.gaussian, &samples.mean, &samples.minimum, &samples.maximum}) {
-      values->resize(count);
+    for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
+      const auto curvature = static_cast<Curvature>(k);
+      samples[curvature].resize(count);
+      out.curvature[curvature] = samples[curvature];
     }
-    out.curvature = {samples.gaussian, samples.mean, samples.minimum, samples.maximum};
   }
   if (wanted.holds(Output::status)) {
     samples.sample_status.resize(count);

@@ -20,7 +20,7 @@ enum class Parameters : std::uint8_t { unit, centred };
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API T to_centred(double u) noexcept;
 
-/// Consecutive patches or curves of a set.
+/// Consecutive patches or curves of a set, or patches of a mesh: in all calls on a part of them.
 struct SetRange {
   static constexpr std::size_t kToTheEnd = static_cast<std::size_t>(-1);
   std::size_t first = 0;
@@ -52,16 +52,17 @@ struct Grid {
   }
 };
 
-/// Uniform grids, ends included: one for each of the patches from `first_patch` on, as many as nu
-/// and nv have values. Their samples have compressed-row form: sample (iu, iv) of the k-th of these
-/// patches has the index offset[k] + iv * nu[k] + iu.
+/// Uniform grids, ends included: one for each patch of a range. Their samples have compressed-row
+/// form: sample (iu, iv) of the k-th of these patches has the index offset[k] + iv * nu[k] + iu.
 struct PatchGrids {
   std::span<const std::uint32_t> nu; ///< 2 or more
   std::span<const std::uint32_t> nv; ///< 2 or more; as many as nu
   /// Where each patch's samples begin, ascending by nu*nv or more (samples in between are not
   /// touched). Empty: packed without gaps.
   std::span<const std::size_t> offset = {};
-  std::size_t first_patch = 0;
+  /// The patches, as many as nu and nv have values: a count, where one is given, has to be that
+  /// (else unequal_lengths).
+  SetRange patches = {};
 };
 
 /// Single samples in any order: sample k lies on patch[k] at (u[k], v[k]).

@@ -46,7 +46,7 @@ public:
   constexpr Status(Code code) noexcept : code_(code) {} // NOLINT: Status::ok is a Status
 
   [[nodiscard]] explicit constexpr operator bool() const noexcept { return code_ == ok; }
-  /// For switch.
+  /// What switch takes.
   [[nodiscard]] constexpr Code code() const noexcept { return code_; }
   friend constexpr bool operator==(Status, Status) noexcept = default;
 

@@ -46,12 +46,11 @@ struct Tile {
 template <typename T>
 class TileFunction;
 
-// A copy of a TileFunction borrows what that borrows, not the TileFunction.
+/// What a TileFunction can be made of. Another TileFunction is no such thing, since a copy of one
+/// borrows what that borrows, and not the TileFunction.
 template <typename F, typename T>
-concept TileCallable = !std::same_as<std::remove_cvref_t<F>, TileFunction<T>> &&
-                       requires(F & function, const Tile<T>& tile) {
-  function(tile);
-};
+concept TileCallable =
+    !std::same_as<std::remove_cvref_t<F>, TileFunction<T>> && std::invocable<F&, const Tile<T>&>;
 
 /// A borrowed callable `void(const Tile<T>&)`. It must outlive the call and must not throw; it runs
 /// in the library's floating-point environment (round to nearest, denormals kept).

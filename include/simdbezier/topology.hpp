@@ -21,7 +21,7 @@ struct TopologyData;
 /// edge of the model.
 struct TopologyCounts {
   std::size_t patches = 0;
-  std::size_t edges = 0;              ///< without collapsed ones
+  std::size_t edges = 0;              ///< collapsed ones are not counted
   std::size_t open_edges = 0;         ///< edges of one side
   std::size_t non_manifold_edges = 0; ///< edges of more than two sides
   std::size_t collapsed_sides = 0;    ///< sides that are a point
@@ -64,7 +64,7 @@ public:
   /// Whether a patch has all control points of an earlier one.
   [[nodiscard]] SIMDBEZIER_API bool is_repeated(std::size_t patch) const noexcept;
 
-  /// For the library's own use.
+  /// This is for the library's own use.
   [[nodiscard]] const detail::TopologyData* data() const noexcept { return data_.get(); }
   explicit Topology(std::shared_ptr<const detail::TopologyData> data) noexcept
       : data_(std::move(data)) {}
@@ -78,7 +78,7 @@ private:
 /// Corners are joined through edges, not by their positions: corners that touch only in a point
 /// stay apart. An edge may have any number of sides.
 ///
-/// sets:       any number of views, with any degrees and three components; patches are numbered
+/// nets:       any number of views, with any degrees and three components; patches are numbered
 ///             through, view after view.
 /// topology:   replaced on ok, left as it was otherwise.
 /// Allocation: about 60 bytes a side. Determinism: a function of the control points and of the
@@ -88,7 +88,7 @@ private:
 ///             (where `orient` is asked for) | size_overflow (2^29 patches and more) |
 ///             out_of_memory.
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API Status find_topology(std::span<const ControlNets<S>> sets,
+[[nodiscard]] SIMDBEZIER_API Status find_topology(std::span<const ControlNets<S>> nets,
                                                   Topology& topology,
                                                   const TopologyOptions& options = {}) noexcept;
 

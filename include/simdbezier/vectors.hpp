@@ -66,13 +66,13 @@ struct Vectors {
     return pairs_of;
   }
 
-  /// True for an empty span as well, since the call has to refuse it.
+  /// Whether the output is asked for. An empty span counts, since the call has to refuse it.
   [[nodiscard]] constexpr bool wanted() const noexcept {
     return x != nullptr || y != nullptr || z != nullptr || capacity != kTrusted;
   }
 
 private:
-  /// Records of `members` values, `stride` apart, that fit.
+  /// How many records of `members` values, `stride` apart, fit.
   static constexpr std::size_t records(std::size_t values, std::size_t members,
                                        std::ptrdiff_t stride) noexcept {
     return values < members || stride <= 0

@@ -62,7 +62,7 @@ struct QuantisationBox {
 ///          size_overflow | non_finite_input | bad_tolerance (another format, or points so close to
 ///          each other, or so far apart, that the step is 0 or infinite).
 template <typename S>
-[[nodiscard]] SIMDBEZIER_API Status quantisation_box(std::span<const ControlNets<S>> sets,
+[[nodiscard]] SIMDBEZIER_API Status quantisation_box(std::span<const ControlNets<S>> nets,
                                                      VertexFormat format,
                                                      QuantisationBox& box) noexcept;
 
@@ -72,10 +72,10 @@ struct FormattedOutputs {
   FormattedOutput position;   ///< float32, half, unorm16, snorm16
   FormattedOutput normal;     ///< float32, octahedral16, octahedral8; zero ones become +z
   FormattedOutput parameters; ///< float32, half, unorm16
-  QuantisationBox box;        ///< of positions; what lies outside of it comes to its border
+  QuantisationBox box;        ///< the box of positions; what lies outside of it comes to its border
 };
 
-/// As evaluate_mesh(set, layout, MeshOutputs, …).
+/// Evaluates vertices as evaluate_mesh(set, layout, MeshOutputs, …) does, and formats them.
 ///
 /// Octahedral: n / (|x| + |y| + |z|), of which the lower half is folded over the upper one, is a
 ///             point (s, t) of a square: rounded to the nearest q / 32 767 or q / 127. Source: Z.

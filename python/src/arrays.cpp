@@ -223,7 +223,7 @@ std::vector<std::ptrdiff_t> element_strides(py::array& array) {
     array = array.attr("copy")();
   }
   std::vector<std::ptrdiff_t> strides(static_cast<std::size_t>(array.ndim()));
-  // Where there is one element only, or none, any stride will do: that of a packed array.
+  // Any stride will do where there is one element only, or none: it gets that of a packed array.
   std::ptrdiff_t packed = 1;
   for (py::ssize_t k = array.ndim() - 1; k >= 0; --k) {
     strides[static_cast<std::size_t>(k)] =

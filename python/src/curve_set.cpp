@@ -2,44 +2,44 @@
 #include <simdbezier/curves.hpp>
 #include <simdbezier/error_bounds.hpp>
 
-#include "python/src/module.hpp"
-#include "python/src/wanted_outputs.hpp"
+#include "python/src/py_set.hpp"
 
 namespace simdbezier::python {
 namespace {
 
-const OutputNames kOutputs{vector_names<CurveOutput, kCurveVectorOutputs>(), {"curvature"}};
+struct Curves {
+  template <typename T>
+  using Set = CurveSet<T>;
+  template <typename T>
+  using Out = CurveOutputs<T>;
+  static constexpr const char* kIndex = "curve";
+  static constexpr const char* kNeeds = "two or three components";
 
-class PyCurveSet : public EmptyUntilConstructed {
+  static const OutputNames& names() {
+    static const OutputNames all{output_names<CurveOutput, kCurveVectorOutputs>(), {"curvature"}};
+    return all;
+  }
+  static bool has(const std::string& name, int components) {
+    return components == 2 || components == 3 || (name != "tangent" && name != "curvature");
+  }
+  template <typename T>
+  static void set_values(CurveOutputs<T>& to, const OutputArrays<T>& arrays) {
+    to.curvature = arrays.values("curvature");
+  }
+};
+
+class PyCurveSet : public PySet<Curves> {
 public:
   PyCurveSet(const py::object& points, const py::object& weights, const py::object& dtype,
              const py::object& local_origin, const py::object& relative_to,
-             const py::object& threads) {
-    const AnyPointViews<ControlCurves> any = control_curves(points, weights);
-    const PackOptions options = pack_options(local_origin, relative_to, threads);
-    const bool is_float = wants_float(dtype, any.index() == 0);
-    std::visit(
-        [&]<typename S>(const PointViews<S, ControlCurves>& curves) {
-          is_float ? pack_as<float>(curves.views.front(), options)
-                   : pack_as<double>(curves.views.front(), options);
-        },
-        any);
-  }
+             const py::object& threads)
+      : PySet(control_curves(points, weights), dtype, local_origin, relative_to, threads) {}
 
-  [[nodiscard]] std::size_t size() const {
-    return std::visit([](const auto& set) { return set.size(); }, set_);
-  }
   [[nodiscard]] int degree() const {
     return std::visit([](const auto& set) { return set.degree(); }, set_);
   }
-  [[nodiscard]] int components() const {
-    return std::visit([](const auto& set) { return set.components(); }, set_);
-  }
   [[nodiscard]] bool rational() const {
     return std::visit([](const auto& set) { return set.rational(); }, set_);
-  }
-  [[nodiscard]] py::dtype dtype() const {
-    return set_.index() == 0 ? py::dtype::of<float>() : py::dtype::of<double>();
   }
 
   [[nodiscard]] py::dict evaluate_grid(const py::object& n, const py::object& outputs,
@@ -88,52 +88,8 @@ public:
 
   [[nodiscard]] std::string text() const {
     return "<simdbezier.CurveSet: " + plural(size(), "curve", "curves") + " of degree " +
-           std::to_string(degree()) + (rational() ? ", rational" : "") + ", " +
-           plural(static_cast<std::size_t>(components()), "component", "components") + ", " +
-           py::str(py::object(dtype())).cast<std::string>() + ">";
+           std::to_string(degree()) + (rational() ? ", rational" : "") + ", " + type_text() + ">";
   }
-
-private:
-  template <typename T, typename S>
-  void pack_as(const ControlCurves<S>& curves, const PackOptions& options) {
-    CurveSet<T> packed;
-    PackReport report;
-    {
-      const py::gil_scoped_release release;
-      report = pack(curves, packed, options);
-    }
-    require_ok(report, "points", "relative_to");
-    set_ = std::move(packed);
-  }
-
-  template <typename T, typename Where>
-  static py::dict evaluate_at(const CurveSet<T>& set, const Where& where,
-                              const std::vector<py::ssize_t>& samples, const py::object& outputs,
-                              const py::object& out, const NamedArrays& inputs,
-                              const py::object& threads) {
-    const int components = set.components();
-    const std::vector<std::string> wanted = wanted_outputs(kOutputs, outputs, out);
-    for (const std::string& name : wanted) {
-      if (components != 2 && components != 3 && (name == "tangent" || name == "curvature")) {
-        throw_value_error("outputs", "'" + name + "' needs two or three components, the set has " +
-                                         std::to_string(components));
-      }
-    }
-    const OutputArrays<T> arrays(kOutputs, wanted, out, samples, components, inputs);
-    Options options;
-    options.threads = thread_count(threads);
-    const auto evaluate = [&](CurveOutputs<T>& to) {
-      to.curvature = arrays.values("curvature");
-      const py::gil_scoped_release release;
-      return simdbezier::evaluate(set, where, to, options);
-    };
-    const Status status =
-        evaluate_by_threes<CurveOutputs<T>, CurveOutput>(kOutputs, arrays, components, evaluate);
-    require_ok(status, status == Status::bad_patch_index ? "curve" : "out");
-    return arrays.result();
-  }
-
-  std::variant<CurveSet<float>, CurveSet<double>> set_;
 };
 
 } // namespace

@@ -22,7 +22,8 @@ namespace py = pybind11;
 
 /// Throws where the status is not ok: MemoryError, or ValueError about the argument.
 void require_ok(Status status, const std::string& argument);
-/// The same, with the control point at fault; parameter: the argument where none is.
+/// Throws where the report is not ok, and names the control point at fault, or `parameter` where
+/// none is.
 void require_ok(const PackReport& report, const std::string& points, const std::string& parameter);
 
 /// Makes the exception that throw_index_error() throws part of the module.

@@ -55,13 +55,13 @@ py::object rows(const std::vector<std::array<V, N>>& values, const py::object& m
                         values.empty() ? nullptr : values.front().data(), mesh);
 }
 
-/// The same, or None where the mesh has none.
+/// A view of a mesh's vector, or None where the mesh has none.
 template <typename V, std::size_t N>
 py::object rows_or_none(const std::vector<std::array<V, N>>& values, const py::object& mesh) {
   return values.empty() ? py::object(py::none()) : rows(values, mesh);
 }
 
-/// A property of PyMesh: read(mesh, self).
+/// Makes a property of PyMesh, which is what read(mesh, self) returns.
 template <typename Read>
 auto property(Read read) {
   return [read](const py::object& self) -> py::object {
@@ -70,7 +70,7 @@ auto property(Read read) {
   };
 }
 
-/// One tolerance, or one a patch.
+/// Reads one tolerance, or one a patch.
 void set_tolerance(const py::object& tolerance, py::array_t<double>& several,
                    MeshOptions& options) {
   const bool one_a_patch = py::isinstance<py::array>(tolerance)
@@ -84,7 +84,7 @@ void set_tolerance(const py::object& tolerance, py::array_t<double>& several,
   }
 }
 
-/// n, or (nu, nv) samples.
+/// Reads n or (nu, nv) samples.
 void set_grid(const py::object& grid, MeshOptions& options) {
   if (grid.is_none()) {
     return;

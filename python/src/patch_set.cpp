@@ -2,39 +2,47 @@
 #include <simdbezier/error_bounds.hpp>
 #include <simdbezier/evaluate.hpp>
 
-#include "python/src/module.hpp"
-#include "python/src/wanted_outputs.hpp"
+#include "python/src/py_set.hpp"
 
 namespace simdbezier::python {
 namespace {
 
-const OutputNames kOutputs{vector_names<Output, kVectorOutputs>(),
-                           {"gaussian", "mean", "minimum", "maximum"}};
+struct Patches {
+  template <typename T>
+  using Set = PatchSet<T>;
+  template <typename T>
+  using Out = Outputs<T>;
+  static constexpr const char* kIndex = "patch";
+  static constexpr const char* kNeeds = "three components";
 
-class PyPatchSet : public EmptyUntilConstructed {
+  static const OutputNames& names() {
+    static const OutputNames all{output_names<Output, kVectorOutputs>(),
+                                 output_names<Curvature, kCurvatureKinds>()};
+    return all;
+  }
+  static bool has(const std::string& name, int components) {
+    Output output = names().is_value(name) ? Output::curvature : Output::status;
+    for (std::size_t k = 0; k < kVectorOutputs; ++k) {
+      output = name == names().vectors[k] ? static_cast<Output>(k) : output;
+    }
+    return components == 3 || !needs_space(output);
+  }
+  template <typename T>
+  static void set_values(Outputs<T>& to, const OutputArrays<T>& arrays) {
+    for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
+      const auto curvature = static_cast<Curvature>(k);
+      to.curvature[curvature] = arrays.values(output_name(curvature));
+    }
+  }
+};
+
+class PyPatchSet : public PySet<Patches> {
 public:
   PyPatchSet(const py::object& points, const py::object& weights, const py::object& dtype,
              const py::object& local_origin, const py::object& relative_to,
-             const py::object& threads) {
-    const AnyPointViews<ControlNets> any = control_nets(points, weights);
-    const PackOptions options = pack_options(local_origin, relative_to, threads);
-    const bool is_float = wants_float(dtype, any.index() == 0);
-    std::visit(
-        [&]<typename S>(const PointViews<S, ControlNets>& nets) {
-          is_float ? pack_as<float>(nets, options) : pack_as<double>(nets, options);
-        },
-        any);
-  }
+             const py::object& threads)
+      : PySet(control_nets(points, weights), dtype, local_origin, relative_to, threads) {}
 
-  [[nodiscard]] std::size_t size() const {
-    return std::visit([](const auto& set) { return set.size(); }, set_);
-  }
-  [[nodiscard]] int components() const {
-    return std::visit([](const auto& set) { return set.components(); }, set_);
-  }
-  [[nodiscard]] py::dtype dtype() const {
-    return set_.index() == 0 ? py::dtype::of<float>() : py::dtype::of<double>();
-  }
   [[nodiscard]] PatchShape shape(const py::object& patch) const {
     const std::size_t index = index_of(patch);
     return std::visit([&](const auto& set) { return set.shape(index); }, set_);
@@ -101,25 +109,12 @@ public:
                      : " of several shapes";
     }
     return "<simdbezier.PatchSet: " + plural(count, "patch", "patches") + degrees + ", " +
-           plural(static_cast<std::size_t>(components()), "component", "components") + ", " +
-           py::str(py::object(dtype())).cast<std::string>() + ">";
+           type_text() + ">";
   }
 
 private:
   [[nodiscard]] std::size_t index_of(const py::object& patch) const {
     return element_of(size(), patch, "patch", plural(size(), "patch", "patches"));
-  }
-
-  template <typename T, typename S>
-  void pack_as(const PointViews<S, ControlNets>& nets, const PackOptions& options) {
-    PatchSet<T> packed;
-    PackReport report;
-    {
-      const py::gil_scoped_release release;
-      report = pack(std::span<const ControlNets<S>>(nets.views), packed, options);
-    }
-    require_ok(report, "points", "relative_to");
-    set_ = std::move(packed);
   }
 
   static void require_length(const std::string& argument, py::ssize_t found, py::ssize_t expected) {
@@ -128,35 +123,6 @@ private:
                                       " values, as many as u, found " + std::to_string(found));
     }
   }
-
-  template <typename T, typename Where>
-  static py::dict evaluate_at(const PatchSet<T>& set, const Where& where,
-                              const std::vector<py::ssize_t>& samples, const py::object& outputs,
-                              const py::object& out, const NamedArrays& inputs,
-                              const py::object& threads) {
-    const std::vector<std::string> wanted = wanted_outputs(kOutputs, outputs, out);
-    for (const std::string& name : wanted) {
-      if (set.components() != 3 && (name == "normal" || kOutputs.is_value(name))) {
-        throw_value_error("outputs", "'" + name + "' needs three components, the set has " +
-                                         std::to_string(set.components()));
-      }
-    }
-    const OutputArrays<T> arrays(kOutputs, wanted, out, samples, set.components(), inputs);
-    Options options;
-    options.threads = thread_count(threads);
-    const auto evaluate = [&](Outputs<T>& to) {
-      to.curvature = {arrays.values("gaussian"), arrays.values("mean"), arrays.values("minimum"),
-                      arrays.values("maximum")};
-      const py::gil_scoped_release release;
-      return simdbezier::evaluate(set, where, to, options);
-    };
-    const Status status =
-        evaluate_by_threes<Outputs<T>, Output>(kOutputs, arrays, set.components(), evaluate);
-    require_ok(status, status == Status::bad_patch_index ? "patch" : "out");
-    return arrays.result();
-  }
-
-  std::variant<PatchSet<float>, PatchSet<double>> set_;
 };
 
 } // namespace

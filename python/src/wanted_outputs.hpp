@@ -26,9 +26,9 @@ struct OutputNames {
   }
 };
 
-/// Those of all vector outputs. Name: Output, or CurveOutput.
+/// The names of the first kCount outputs. Name: Output, Curvature or CurveOutput.
 template <typename Name, std::size_t kCount>
-std::vector<std::string> vector_names() {
+std::vector<std::string> output_names() {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < kCount; ++k) {
     names.emplace_back(output_name(static_cast<Name>(k)));
@@ -145,8 +145,8 @@ private:
 };
 
 /// Calls evaluate(to) for three components after three others, until a call is refused. `to` is of
-/// the type To, the library's outputs, whose vectors Name numbers in the order of known.vectors.
-template <typename To, typename Name, typename T, typename Evaluate>
+/// the type To, the library's outputs, whose vectors have the order of known.vectors.
+template <typename To, typename T, typename Evaluate>
 Status evaluate_by_threes(const OutputNames& known, const OutputArrays<T>& arrays, int components,
                           const Evaluate& evaluate) {
   Status status;
@@ -154,7 +154,7 @@ Status evaluate_by_threes(const OutputNames& known, const OutputArrays<T>& array
   for (int first = 0; status && first < end; first += 3) {
     To to;
     for (std::size_t k = 0; k < known.vectors.size(); ++k) {
-      to[static_cast<Name>(k)] =
+      to[static_cast<typename To::Name>(k)] =
           arrays.vectors(known.vectors[k], first, std::min(3, components - first));
     }
     to.status = arrays.status();

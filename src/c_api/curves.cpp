@@ -14,9 +14,11 @@ constexpr Path kOut{"out"};
 
 static_assert(SIMDBEZIER_EDGE_U1 == static_cast<int>(PatchEdge::u1));
 
-constexpr simdbezier_vectors simdbezier_curve_outputs::*kVectors[kCurveVectorOutputs] = {
+/// The vector outputs in the order of CurveOutput.
+constexpr simdbezier_vectors simdbezier_curve_outputs::*kVectors[] = {
     &simdbezier_curve_outputs::position, &simdbezier_curve_outputs::d1,
     &simdbezier_curve_outputs::d2, &simdbezier_curve_outputs::tangent};
+static_assert(std::size(kVectors) == kCurveVectorOutputs, "every vector output has its member");
 
 template <typename T>
 CurveOutputs<T> outputs_of(const simdbezier_curve_outputs* given) {
@@ -45,7 +47,8 @@ template <typename T>
 CurveGrids where_of(const simdbezier_curve_grids* given) {
   const simdbezier_curve_grids known = read(given, kGrids);
   return {span_of(known.n, known.n_length, kGrids / "n"),
-          span_of(known.offset, known.offset_length, kGrids / "offset"), known.first_curve};
+          span_of(known.offset, known.offset_length, kGrids / "offset"),
+          {known.first_curve, SetRange::kToTheEnd}};
 }
 
 template <typename T>
@@ -56,32 +59,14 @@ CurveSamples<T> where_of(const simdbezier_curve_samples* given) {
           parameters_of(known.parameters, kSamples)};
 }
 
-template <typename T>
-Path blamed_output(const CurveOutputs<T>& out, Status status, std::size_t samples,
-                   std::int64_t components) {
-  for (std::size_t k = 0; k < kCurveVectorOutputs; ++k) {
-    if (is_at_fault(out[static_cast<CurveOutput>(k)], status, samples, components)) {
-      return kOut / output_name(static_cast<CurveOutput>(k));
-    }
-  }
-  if (status == Status::output_too_small && out.curvature.wanted() &&
-      out.curvature.capacity < samples) {
-    return kOut / "curvature";
-  }
-  return status == Status::output_too_small ? kOut / "status" : kOut;
-}
-
 template <typename Where>
 simdbezier_status evaluate_at(const char* function, const simdbezier_curve_set* set,
                               const Where* given, const Path& path,
                               const simdbezier_curve_outputs* out,
                               const simdbezier_options* options) noexcept {
-  return evaluate_set(
-      function, set, path, options,
-      [&]<typename T>(std::type_identity<T>) {
-        return SetCall{where_of<T>(given), outputs_of<T>(out)};
-      },
-      [](const auto&... what) { return blamed_output(what...); });
+  return evaluate_set(function, set, path, options, [&]<typename T>(std::type_identity<T>) {
+    return SetCall{where_of<T>(given), outputs_of<T>(out)};
+  });
 }
 
 /// iso_u() or iso_v() of a set.

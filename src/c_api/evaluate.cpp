@@ -15,13 +15,35 @@ constexpr Path kSamples{"samples"};
 constexpr Path kOut{"out"};
 
 static_assert(SIMDBEZIER_SAMPLE_NON_FINITE == static_cast<int>(SampleStatus::non_finite));
-static_assert(SIMDBEZIER_OUTPUT_STATUS == 1 << static_cast<int>(Output::status));
 
 /// The vector outputs in the order of Output.
-constexpr simdbezier_vectors simdbezier_outputs::*kVectors[kVectorOutputs] = {
+constexpr simdbezier_vectors simdbezier_outputs::*kVectors[] = {
     &simdbezier_outputs::position, &simdbezier_outputs::du,  &simdbezier_outputs::dv,
     &simdbezier_outputs::duu,      &simdbezier_outputs::duv, &simdbezier_outputs::dvv,
     &simdbezier_outputs::normal};
+static_assert(std::size(kVectors) == kVectorOutputs, "every vector output has its member");
+
+constexpr simdbezier_values simdbezier_outputs::*kCurvatureValues[] = {
+    &simdbezier_outputs::gaussian, &simdbezier_outputs::mean, &simdbezier_outputs::minimum,
+    &simdbezier_outputs::maximum};
+static_assert(std::size(kCurvatureValues) == kCurvatureKinds);
+
+/// The bits of simdbezier_tile_format::outputs. They stay what they are where outputs are added,
+/// whose bits follow the last one here, wherever Output has them.
+struct OutputBit {
+  std::uint32_t bit;
+  Output output;
+};
+constexpr OutputBit kOutputBits[] = {{SIMDBEZIER_OUTPUT_POSITION, Output::position},
+                                     {SIMDBEZIER_OUTPUT_DU, Output::du},
+                                     {SIMDBEZIER_OUTPUT_DV, Output::dv},
+                                     {SIMDBEZIER_OUTPUT_DUU, Output::duu},
+                                     {SIMDBEZIER_OUTPUT_DUV, Output::duv},
+                                     {SIMDBEZIER_OUTPUT_DVV, Output::dvv},
+                                     {SIMDBEZIER_OUTPUT_NORMAL, Output::normal},
+                                     {SIMDBEZIER_OUTPUT_CURVATURE, Output::curvature},
+                                     {SIMDBEZIER_OUTPUT_STATUS, Output::status}};
+static_assert(std::size(kOutputBits) == kOutputs, "every output has its bit");
 
 template <typename T>
 Outputs<T> outputs_of(const simdbezier_outputs* given) {
@@ -31,9 +53,11 @@ Outputs<T> outputs_of(const simdbezier_outputs* given) {
     const auto output = static_cast<Output>(k);
     out[output] = vectors_of<T>(known.*kVectors[k], kOut / output_name(output));
   }
-  out.curvature = {
-      values_of<T>(known.gaussian, kOut / "gaussian"), values_of<T>(known.mean, kOut / "mean"),
-      values_of<T>(known.minimum, kOut / "minimum"), values_of<T>(known.maximum, kOut / "maximum")};
+  for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
+    const auto curvature = static_cast<Curvature>(k);
+    out.curvature[curvature] =
+        values_of<T>(known.*kCurvatureValues[k], kOut / output_name(curvature));
+  }
   out.status = sample_statuses(known.status, known.status_length, kOut);
   out.first_component = known.first_component;
   return out;
@@ -56,7 +80,8 @@ PatchGrids where_of(const simdbezier_patch_grids* given) {
   const simdbezier_patch_grids known = read(given, kGrids);
   return {span_of(known.nu, known.nu_length, kGrids / "nu"),
           span_of(known.nv, known.nv_length, kGrids / "nv"),
-          span_of(known.offset, known.offset_length, kGrids / "offset"), known.first_patch};
+          span_of(known.offset, known.offset_length, kGrids / "offset"),
+          {known.first_patch, SetRange::kToTheEnd}};
 }
 
 template <typename T>
@@ -68,44 +93,14 @@ Samples<T> where_of(const simdbezier_samples* given) {
           parameters_of(known.parameters, kSamples)};
 }
 
-/// The first output of one number a sample that has too little memory; all of them otherwise.
-template <typename T>
-Path blamed_values(const Outputs<T>& out, std::size_t samples) {
-  const std::pair<const Values<T>*, const char*> all[] = {{&out.curvature.gaussian, "gaussian"},
-                                                          {&out.curvature.mean, "mean"},
-                                                          {&out.curvature.minimum, "minimum"},
-                                                          {&out.curvature.maximum, "maximum"}};
-  for (const auto& [values, name] : all) {
-    if (values->wanted() && values->capacity < samples) {
-      return kOut / name;
-    }
-  }
-  const bool status = out.status.wanted() && out.status.capacity < samples;
-  return status ? kOut / "status" : kOut;
-}
-
-template <typename T>
-Path blamed_output(const Outputs<T>& out, Status status, std::size_t samples,
-                   std::int64_t components) {
-  for (std::size_t k = 0; k < kVectorOutputs; ++k) {
-    if (is_at_fault(out[static_cast<Output>(k)], status, samples, components)) {
-      return kOut / output_name(static_cast<Output>(k));
-    }
-  }
-  return status == Status::output_too_small ? blamed_values(out, samples) : kOut;
-}
-
 /// evaluate() of any kind of samples.
 template <typename Where>
 simdbezier_status evaluate_at(const char* function, const simdbezier_patch_set* set,
                               const Where* given, const Path& path, const simdbezier_outputs* out,
                               const simdbezier_options* options) noexcept {
-  return evaluate_set(
-      function, set, path, options,
-      [&]<typename T>(std::type_identity<T>) {
-        return SetCall{where_of<T>(given), outputs_of<T>(out)};
-      },
-      [](const auto&... what) { return blamed_output(what...); });
+  return evaluate_set(function, set, path, options, [&]<typename T>(std::type_identity<T>) {
+    return SetCall{where_of<T>(given), outputs_of<T>(out)};
+  });
 }
 
 /// evaluate_derivatives() of grids and samples.
@@ -141,15 +136,17 @@ simdbezier_status derivatives_at(const char* function, const simdbezier_patch_se
 TileFormat format_of(const simdbezier_tile_format* given) {
   const Path path{"format"};
   const simdbezier_tile_format known = read_options(given, path);
-  require(known.outputs < 2 * SIMDBEZIER_OUTPUT_STATUS, SIMDBEZIER_BAD_VALUE, path / "outputs");
   TileFormat format;
   if (known.outputs != 0) {
     format.outputs = {};
-    for (unsigned k = 0; k <= static_cast<unsigned>(Output::status); ++k) {
-      if ((known.outputs >> k & 1U) != 0) {
-        format.outputs.add(static_cast<Output>(k));
+    std::uint32_t rest = known.outputs;
+    for (const auto& [bit, output] : kOutputBits) {
+      if ((rest & bit) != 0) {
+        format.outputs.add(output);
+        rest -= bit;
       }
     }
+    require(rest == 0, SIMDBEZIER_BAD_VALUE, path / "outputs");
   }
   format.layout = choice<TileLayout>(known.layout, 3, path / "layout");
   format.samples = known.samples;
@@ -170,10 +167,9 @@ simdbezier_outputs given_back(const Outputs<T>& out, std::size_t samples) noexce
   const auto values = [&](const Values<T>& of) {
     return of.wanted() ? simdbezier_values{of.first, samples, kScalar<T>} : simdbezier_values{};
   };
-  known.gaussian = values(out.curvature.gaussian);
-  known.mean = values(out.curvature.mean);
-  known.minimum = values(out.curvature.minimum);
-  known.maximum = values(out.curvature.maximum);
+  for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
+    known.*kCurvatureValues[k] = values(out.curvature[static_cast<Curvature>(k)]);
+  }
   if (out.status.wanted()) {
     known.status = reinterpret_cast<std::uint8_t*>(out.status.first);
     known.status_length = samples;

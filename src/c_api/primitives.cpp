@@ -37,17 +37,17 @@ auto about(const char* output) {
   };
 }
 
-/// What C++ takes as arguments of their own.
+/// What C++ takes as two arguments.
 struct Primitives {
+  Options options;
   SetRange patches;
-  int threads = 0;
-  Destination destination = Destination::automatic;
 };
 
 Primitives primitives_of(const simdbezier_primitive_options* given) {
   const simdbezier_primitive_options known = read_options(given, kOptions);
-  return {range_of(known.first_patch, known.patch_count), known.threads,
-          destination_of(known.destination)};
+  Primitives how{only_threads(known.threads), range_of(known.first_patch, known.patch_count)};
+  how.options.destination = destination_of(known.destination);
+  return how;
 }
 
 template <typename Index>
@@ -57,9 +57,8 @@ simdbezier_status triangles_of(const char* function, const simdbezier_mesh_layou
   return answer(function, [&] {
     const std::span<Index> out = span_of(triangles, length, {"triangles"});
     const Primitives how = primitives_of(options);
-    require_ok(
-        write_triangles(object_of(layout, kLayout), out, how.threads, how.patches, how.destination),
-        about("triangles"));
+    require_ok(write_triangles(object_of(layout, kLayout), out, how.options, how.patches),
+               about("triangles"));
   });
 }
 
@@ -72,7 +71,7 @@ simdbezier_status polygons_of(const char* function, const simdbezier_mesh_layout
     const std::span<Index> out = span_of(indices, length, {"indices"});
     const std::span<std::uint8_t> of = span_of(sizes, sizes_length, {"sizes"});
     const Primitives how = primitives_of(options);
-    require_ok(write_polygons(object_of(layout, kLayout), out, of, how.threads, how.patches),
+    require_ok(write_polygons(object_of(layout, kLayout), out, of, how.options, how.patches),
                about("indices or sizes"));
   });
 }
@@ -82,7 +81,8 @@ simdbezier_status strips_of(const char* function, const simdbezier_mesh_layout* 
                             Index* indices, std::size_t length, int threads) noexcept {
   return answer(function, [&] {
     const std::span<Index> out = span_of(indices, length, {"indices"});
-    require_ok(write_strips(object_of(layout, kLayout), out, threads), about("indices"));
+    require_ok(write_strips(object_of(layout, kLayout), out, only_threads(threads)),
+               about("indices"));
   });
 }
 
@@ -116,7 +116,7 @@ simdbezier_status simdbezier_polygon_size(const simdbezier_mesh_layout* layout, 
     require_number(indices, "indices");
     const Primitives how = primitives_of(options);
     PolygonSize size;
-    require_ok(polygon_size(object_of(layout, kLayout), size, how.threads, how.patches), about(""));
+    require_ok(polygon_size(object_of(layout, kLayout), size, how.options, how.patches), about(""));
     *polygons = size.polygons;
     *indices = size.indices;
   });
@@ -141,7 +141,7 @@ simdbezier_status simdbezier_strip_size(const simdbezier_mesh_layout* layout, si
   return answer(__func__, [&] {
     require_number(indices, "indices");
     std::size_t size = 0;
-    require_ok(strip_size(object_of(layout, kLayout), size, threads), about(""));
+    require_ok(strip_size(object_of(layout, kLayout), size, only_threads(threads)), about(""));
     *indices = size;
   });
 }
@@ -163,7 +163,7 @@ simdbezier_status simdbezier_cluster_size(const simdbezier_mesh_layout* layout, 
     require_number(vertices, "vertices");
     require_number(triangles, "triangles");
     ClusterSize size;
-    require_ok(cluster_size(object_of(layout, kLayout), size, threads), about(""));
+    require_ok(cluster_size(object_of(layout, kLayout), size, only_threads(threads)), about(""));
     *clusters = size.clusters;
     *vertices = size.vertices;
     *triangles = size.triangles;
@@ -180,7 +180,7 @@ simdbezier_status simdbezier_write_clusters(const simdbezier_mesh_layout* layout
     const ClusterOutputs out{{reinterpret_cast<MeshCluster*>(to.data()), to.size()},
                              span_of(vertices, vertices_length, {"vertices"}),
                              span_of(corners, corners_length, {"corners"})};
-    require_ok(write_clusters(object_of(layout, kLayout), out, threads),
+    require_ok(write_clusters(object_of(layout, kLayout), out, only_threads(threads)),
                about("clusters, vertices or corners"));
   });
 }

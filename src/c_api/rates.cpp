@@ -71,7 +71,7 @@ Path blamed_rates(const RateSpans& rates, std::size_t patches, bool without_diag
   return kRates / "nu or nv";
 }
 
-/// Likewise of calls that have a topology, which may be another model's.
+/// The rates that a call with a topology is about, which may be that of another model.
 Path blamed_rates(const RateSpans& rates, std::size_t patches, const Topology& topology) {
   return topology.counts().patches == patches ? blamed_rates(rates, patches, false) : kTopology;
 }
@@ -137,7 +137,8 @@ simdbezier_status simdbezier_certify_rates(const simdbezier_nets* nets, size_t l
     const std::span<const double> known = span_of(errors, errors_length, kErrors);
     const Topology& joined = object_of(topology, kTopology);
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      const RateReport report = certify_rates(views, joined, known, certified(out), threads);
+      const RateReport report =
+          certify_rates(views, joined, known, certified(out), only_threads(threads));
       require_rates(report, views, [&](Status status) {
         const std::size_t patches = detail::patches_of(views);
         const bool of_errors = status == Status::bad_tolerance || !is_one_each(known, patches);
@@ -155,7 +156,7 @@ simdbezier_status simdbezier_certify_grids(const simdbezier_nets* nets, size_t l
     const std::span<const double> known = span_of(errors, errors_length, kErrors);
     const std::span<double> out = span_of(deviation, deviation_length, {"deviation"});
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      const RateReport report = certify_grids(views, nu, nv, known, out, threads);
+      const RateReport report = certify_grids(views, nu, nv, known, out, only_threads(threads));
       require_rates(report, views, [&](Status status) -> Path {
         const std::size_t patches = detail::patches_of(views);
         if (status == Status::bad_tolerance || !is_one_each(known, patches)) {

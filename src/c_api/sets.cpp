@@ -39,6 +39,31 @@ template <std::size_t N>
 void copy(const double (&from)[N], double (&to)[N]) {
   std::copy_n(from, N, to);
 }
+void copy(const ErrorBounds& from, simdbezier_error_bounds_of_patch& to) {
+  copy(from.position, to.position);
+  copy(from.du, to.du);
+  copy(from.dv, to.dv);
+}
+void copy(const CurveErrorBounds& from, simdbezier_error_bounds_of_curve& to) {
+  copy(from.position, to.position);
+  copy(from.d1, to.d1);
+  copy(from.d2, to.d2);
+}
+
+/// error_bounds() of one patch or curve; path: the argument that says which.
+template <typename Handle, typename Known>
+simdbezier_status bounds_of(const char* function, const Handle* set, std::size_t member,
+                            const Path& path, simdbezier_isa isa, Known* bounds) noexcept {
+  return answer(function, [&] {
+    require_writable(bounds, {"bounds"});
+    with_object(set, kSet, [&](const auto& members) {
+      require_member(members, member, path);
+      Known known{};
+      copy(error_bounds(members, member, resolved(isa)), known);
+      write(bounds, known);
+    });
+  });
+}
 
 /// position_errors() of patches and of curves.
 template <typename Handle>
@@ -164,35 +189,13 @@ int32_t simdbezier_curve_set_has_local_origins(const simdbezier_curve_set* set) 
 simdbezier_status simdbezier_patch_error_bounds(const simdbezier_patch_set* set, size_t patch,
                                                 simdbezier_isa isa,
                                                 simdbezier_error_bounds_of_patch* bounds) {
-  return answer(__func__, [&] {
-    require_writable(bounds, {"bounds"});
-    with_object(set, kSet, [&](const auto& patches) {
-      require_member(patches, patch, {"patch"});
-      const ErrorBounds of = error_bounds(patches, patch, resolved(isa));
-      simdbezier_error_bounds_of_patch known{};
-      copy(of.position, known.position);
-      copy(of.du, known.du);
-      copy(of.dv, known.dv);
-      write(bounds, known);
-    });
-  });
+  return bounds_of(__func__, set, patch, {"patch"}, isa, bounds);
 }
 
 simdbezier_status simdbezier_curve_error_bounds(const simdbezier_curve_set* set, size_t curve,
                                                 simdbezier_isa isa,
                                                 simdbezier_error_bounds_of_curve* bounds) {
-  return answer(__func__, [&] {
-    require_writable(bounds, {"bounds"});
-    with_object(set, kSet, [&](const auto& curves) {
-      require_member(curves, curve, {"curve"});
-      const CurveErrorBounds of = error_bounds(curves, curve, resolved(isa));
-      simdbezier_error_bounds_of_curve known{};
-      copy(of.position, known.position);
-      copy(of.d1, known.d1);
-      copy(of.d2, known.d2);
-      write(bounds, known);
-    });
-  });
+  return bounds_of(__func__, set, curve, {"curve"}, isa, bounds);
 }
 
 simdbezier_status simdbezier_largest_position_bound(const simdbezier_patch_set* set,

@@ -43,7 +43,7 @@ S read(const S* given, const Path& path) {
   return known;
 }
 
-/// The same for options: null stands for a struct of zeros.
+/// Reads a struct of options, for which null stands for zeros.
 template <typename S>
 S read_options(const S* given, const Path& path) {
   return given == nullptr ? S{} : read(given, path);

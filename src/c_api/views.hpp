@@ -53,6 +53,13 @@ private:
   Isa executed_ = Isa::automatic;
 };
 
+/// The options of a call that takes nothing but a number of threads.
+inline Options only_threads(std::int32_t threads) {
+  Options options;
+  options.threads = threads;
+  return options;
+}
+
 inline PackOptions pack_options_of(const simdbezier_pack_options* given) {
   const simdbezier_pack_options known = read_options(given, kOptions);
   PackOptions options;
@@ -131,7 +138,7 @@ ControlCurves<S> curves_of(const simdbezier_control_curves& given, const Path& p
 /// The member of nets or curves that a status is about.
 Path blamed_nets(Status status, const Path& nets);
 
-/// The same where there is one degree.
+/// What of curves a status is about; they have one degree.
 Path blamed_curves(Status status, const Path& curves);
 
 /// Whether values that may be left out are one a patch or a curve.
@@ -163,7 +170,7 @@ auto with_net_array(const simdbezier_nets* nets, std::size_t length, Body body) 
   });
 }
 
-/// Which of several nets holds a patch.
+/// Finds the nets, of several, that hold a patch.
 template <typename S>
 Path nets_with_patch(std::span<const ControlNets<S>> nets, std::size_t patch) {
   std::size_t k = 0;
@@ -238,6 +245,12 @@ inline SetRange range_of(std::size_t first, std::size_t count) {
   return {first, count == 0 ? SetRange::kToTheEnd : std::min(count, SetRange::kToTheEnd - 1)};
 }
 
+/// Whether an output of one number a sample is wanted and has too little memory.
+template <typename V>
+bool is_short(const Values<V>& values, std::size_t samples) {
+  return values.wanted() && values.capacity < samples;
+}
+
 /// One vector output of a call, where it is wanted, that a status is about.
 template <typename T>
 bool is_at_fault(const Vectors<T>& vectors, Status status, std::size_t samples,
@@ -260,7 +273,7 @@ bool is_at_fault(const Vectors<T>& vectors, Status status, std::size_t samples,
 /// What a status of an evaluation is about, where it is not one of the outputs.
 Path blamed_in_call(Status status, const Path& where);
 
-/// Where something is cut: a finite number, or a fraction of whole numbers.
+/// A parameter that something is cut at: a finite number, or a fraction of whole numbers.
 template <typename T>
 UnitParameter<T> parameter_of(const simdbezier_parameter& given, const Path& path) {
   if (given.denominator == 0) {

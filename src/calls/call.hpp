@@ -19,7 +19,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
+#include <type_traits>
 
+#include <simdbezier/curves.hpp>
 #include <simdbezier/options.hpp>
 #include <simdbezier/samples.hpp>
 
@@ -27,6 +30,8 @@
 #include "src/output/output_list.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/dispatch.hpp"
+#include "src/storage/curve_storage.hpp"
+#include "src/storage/patch_storage.hpp"
 
 namespace simdbezier::detail {
 
@@ -121,8 +126,8 @@ struct Given {
 
 /// What a call on patches needs to know to choose a destination or, by `lines` only, a width.
 template <typename T, typename Where>
-[[nodiscard]] CallKind kind_of_patches(CallName name, const Given<T, PatchSet<T>, Where>& in,
-                                       const Request<T>& request, bool lines = false) noexcept {
+[[nodiscard]] CallKind kind_of_call(CallName name, const Given<T, PatchSet<T>, Where>& in,
+                                    const Request<T>& request, bool lines = false) noexcept {
   const SetStorage<T>& set = *in.set.storage();
   const NetShape& shape = set.buckets[0].shape;
   return kind_of_outputs(name, in.out, *request.table, lines)
@@ -133,6 +138,16 @@ template <typename T, typename Where>
       .add(in.options.watertight ? 1 : 0);
 }
 
+/// What a call on curves needs to know to choose a destination.
+template <typename T, typename Where>
+[[nodiscard]] CallKind kind_of_call(CallName name, const Given<T, CurveSet<T>, Where>& in,
+                                    const Request<T>& request) noexcept {
+  const CurveShape& shape = in.set.storage()->shape;
+  return kind_of_outputs(name, in.out, *request.table, false)
+      .add(static_cast<std::uint64_t>(shape.degree))
+      .add(shape.values());
+}
+
 /// nu x nv samples of each of `count` patches; false where there are more than can be counted.
 [[nodiscard]] inline bool multiply_samples(std::size_t nu, std::size_t nv, std::size_t count,
                                            std::size_t& samples) noexcept {
@@ -140,15 +155,72 @@ template <typename T, typename Where>
          !__builtin_mul_overflow(samples, count, &samples);
 }
 
-/// As check_outputs(), for patches.
+/// Checks the outputs of patches: as check_outputs(), and bad_components.
 template <typename T>
 [[nodiscard]] Status check_patch_outputs(const OutputList<T>& out, std::size_t samples,
                                          const Components& components,
                                          std::span<const MemoryRange> inputs) noexcept {
-  if (!components.space() && (out.holds(Output::normal) || out.wants_curvature())) {
+  if (!components.space() && out.holds_any(kSpaceOutputs)) {
     return Status::bad_components;
   }
   return check_outputs(out, samples, components.dimension, inputs);
 }
+
+/// Checks the outputs of curves: as check_outputs(), and bad_components.
+template <typename T>
+[[nodiscard]] Status check_curve_outputs(const OutputList<T>& out, std::size_t samples,
+                                         const Components& components,
+                                         std::span<const MemoryRange> inputs) noexcept {
+  if (!components.all_of_few() && (out.holds(CurveOutput::tangent) || out.wants_curvature())) {
+    return Status::bad_components;
+  }
+  return check_outputs(out, samples, components.dimension, inputs);
+}
+
+/// The patches or curves that a call's grids are for; samples of both name their own.
+template <typename Where>
+[[nodiscard]] SetRange range_of(const Where& where) noexcept {
+  if constexpr (requires { where.nu.size(); }) {
+    return {where.patches.first, where.nu.size()};
+  } else if constexpr (requires { where.n.size(); }) {
+    return {where.curves.first, where.n.size()};
+  } else if constexpr (requires { where.patches; }) {
+    return where.patches;
+  } else if constexpr (requires { where.curves; }) {
+    return where.curves;
+  } else {
+    return {};
+  }
+}
+
+/// What the calls with Outputs or CurveOutputs share: the first step and what it resolves. Set:
+/// PatchSet or CurveSet.
+template <typename T, template <typename> typename Set, typename Where>
+class OutputCall {
+public:
+  template <typename Out>
+  OutputCall(const Set<T>& set, const Where& where, const Out& out, const Options& options) noexcept
+      : in_(set, where, out, options) {}
+
+  Status resolve() noexcept {
+    return request_.resolve(in_.set, range_of(in_.where), in_.first_component, in_.options);
+  }
+  [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
+
+protected:
+  using GivenCall = Given<T, Set<T>, Where>;
+
+  [[nodiscard]] Status check_given(std::size_t samples,
+                                   std::span<const MemoryRange> inputs) const noexcept {
+    if constexpr (std::is_same_v<Set<T>, PatchSet<T>>) {
+      return check_patch_outputs(in_.out, samples, request_.components, inputs);
+    } else {
+      return check_curve_outputs(in_.out, samples, request_.components, inputs);
+    }
+  }
+
+  GivenCall in_;
+  Request<T> request_;
+};
 
 } // namespace simdbezier::detail

@@ -1,7 +1,8 @@
-// Grids of each patch's or curve's own: their sizes, places, parameters and shares of work.
+// Grids of each patch's or curve's own: their sizes, places and parameters, and the call on them.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -9,6 +10,7 @@
 
 #include <simdbezier/curves.hpp>
 
+#include "src/calls/call.hpp"
 #include "src/calls/grid_plan.hpp"
 
 namespace simdbezier::detail {
@@ -18,16 +20,21 @@ class CountedGrids {
 public:
   explicit CountedGrids(const PatchGrids& grids) noexcept
       : nu_(grids.nu), nv_(grids.nv), given_offset_(grids.offset),
-        equal_lengths_(grids.nu.size() == grids.nv.size() && matches(grids.offset)) {}
+        equal_lengths_(grids.nu.size() == grids.nv.size() && matches(grids.offset) &&
+                       matches(grids.patches)) {}
   /// Curves are grids of one row.
   explicit CountedGrids(const CurveGrids& grids) noexcept
       : nu_(grids.n), given_offset_(grids.offset), rows_of_one_(true),
-        equal_lengths_(matches(grids.offset)) {}
+        equal_lengths_(matches(grids.offset) && matches(grids.curves)) {}
 
   /// Counts the samples; to be called before anything else.
   /// ok | null_input | unequal_lengths | bad_grid | bad_offsets | size_overflow | out_of_memory
   [[nodiscard]] Status count() noexcept;
 
+  /// The memory of the sizes, which outputs may not overlap.
+  [[nodiscard]] std::array<MemoryRange, 3> inputs() const noexcept {
+    return {MemoryRange(nu_), MemoryRange(nv_), MemoryRange(given_offset_)};
+  }
   [[nodiscard]] std::size_t size() const noexcept { return nu_.size(); }
   [[nodiscard]] std::size_t nu(std::size_t k) const noexcept { return nu_[k]; }
   [[nodiscard]] std::size_t nv(std::size_t k) const noexcept { return rows_of_one_ ? 1 : nv_[k]; }
@@ -55,6 +62,9 @@ public:
 private:
   [[nodiscard]] bool matches(std::span<const std::size_t> offset) const noexcept {
     return offset.empty() || offset.size() == nu_.size();
+  }
+  [[nodiscard]] bool matches(const SetRange& range) const noexcept {
+    return range.count == SetRange::kToTheEnd || range.count == nu_.size();
   }
 
   std::span<const std::uint32_t> nu_;
@@ -96,6 +106,35 @@ private:
   T* memory_;
   GridPlan<T> large_plan_;
   GridPlan<T> plan_[kPlans];
+};
+
+/// The call on grids of each patch's or curve's own. Work: made of what is given, what is resolved,
+/// the counted grids and a destination.
+template <CallName kName, typename T, template <typename> typename Set, typename Where,
+          typename Work>
+class CountedGridsCall : public OutputCall<T, Set, Where> {
+public:
+  template <typename Out>
+  CountedGridsCall(const Set<T>& set, const Where& where, const Out& out,
+                   const Options& options) noexcept
+      : OutputCall<T, Set, Where>(set, where, out, options), counted_(where) {}
+
+  Status check() noexcept {
+    const Status counted = counted_.count();
+    return counted ? this->check_given(counted_.extent(), counted_.inputs()) : counted;
+  }
+  [[nodiscard]] Work plan(Destination destination) const noexcept {
+    return {this->in_, this->request_, counted_, destination};
+  }
+  [[nodiscard]] std::size_t written() const noexcept {
+    return written_bytes(this->in_.out, counted_.total());
+  }
+  [[nodiscard]] CallKind kind() const noexcept {
+    return kind_of_call(kName, this->in_, this->request_);
+  }
+
+private:
+  CountedGrids counted_;
 };
 
 } // namespace simdbezier::detail

@@ -1,4 +1,4 @@
-// What the calls on curves share: checks of their outputs, and pieces of work as tasks.
+// What the calls on curves share: how outputs are delivered, and pieces of work as tasks.
 #pragma once
 
 #include <algorithm>
@@ -15,32 +15,11 @@
 
 namespace simdbezier::detail {
 
-/// As check_outputs(), for curves.
-template <typename T>
-[[nodiscard]] Status check_curve_outputs(const OutputList<T>& out, std::size_t samples,
-                                         const Components& components,
-                                         std::span<const MemoryRange> inputs) noexcept {
-  if (!components.all_of_few() && (out.holds(CurveOutput::tangent) || out.wants_curvature())) {
-    return Status::bad_components;
-  }
-  return check_outputs(out, samples, components.dimension, inputs);
-}
-
 /// How the vectors of a call are delivered; curvatures are always written directly.
 template <typename T>
 [[nodiscard]] OutputPlan<T> plan_outputs(const OutputList<T>& out,
                                          Destination destination) noexcept {
   return {out, out.wants_vectors() ? destination : Destination::cache};
-}
-
-/// What a call on curves needs to know to choose a destination.
-template <typename T, typename Where>
-[[nodiscard]] CallKind kind_of_curves(CallName name, const Given<T, CurveSet<T>, Where>& in,
-                                      const Request<T>& request) noexcept {
-  const CurveShape& shape = in.set.storage()->shape;
-  return kind_of_outputs(name, in.out, *request.table, false)
-      .add(static_cast<std::uint64_t>(shape.degree))
-      .add(shape.values());
 }
 
 /// Fills in what tasks of all kinds have in common, for curves from `first` on and samples from

@@ -74,8 +74,8 @@ template <typename T>
 /// Whether a measurement, and nothing else, is to decide about so many bytes.
 [[nodiscard]] bool is_measured(std::size_t bytes) noexcept;
 
-/// The same work in both ways, of a call that has claimed its kind. Returns ok | out_of_memory,
-/// before anything is written.
+/// Runs the same work in both ways, of a call that has claimed its kind, and notes which is faster.
+/// Returns ok | out_of_memory, before anything is written.
 [[nodiscard]] Status run_and_decide(const AnyWork& plain, const AnyWork& streaming,
                                     const CallKind& kind, std::size_t bytes,
                                     const Options& options) noexcept;

@@ -93,25 +93,19 @@ private:
 };
 
 template <typename T>
-class CurveGridCall {
+class CurveGridCall : public OutputCall<T, CurveSet, CurveGrid<T>> {
 public:
-  CurveGridCall(const CurveSet<T>& set, const CurveGrid<T>& where, const CurveOutputs<T>& out,
-                const Options& options) noexcept
-      : in_(set, where, out, options) {}
+  using OutputCall<T, CurveSet, CurveGrid<T>>::OutputCall;
 
-  Status resolve() noexcept {
-    return request_.resolve(in_.set, in_.where.curves, in_.first_component, in_.options);
-  }
   Status check() noexcept {
     std::size_t samples = 0;
     if (!multiply_samples(in_.where.n, 1, request_.count, samples)) {
       return Status::size_overflow;
     }
     const MemoryRange inputs[] = {{in_.where.t, in_.where.n * sizeof(T)}};
-    const Status usable = check_curve_outputs(in_.out, samples, request_.components, inputs);
+    const Status usable = this->check_given(samples, inputs);
     return usable ? plan_.build(one_row(in_.where)) : usable;
   }
-  [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
   [[nodiscard]] CurveGridWork<T> plan(Destination destination) const noexcept {
     return {*in_.set.storage(), request_, plan_, in_.out, destination};
   }
@@ -119,12 +113,13 @@ public:
     return written_bytes(in_.out, plan_.nu() * request_.count);
   }
   [[nodiscard]] CallKind kind() const noexcept {
-    return kind_of_curves(CallName::curve_grid, in_, request_).add(plan_.nu());
+    return kind_of_call(CallName::curve_grid, in_, request_).add(plan_.nu());
   }
 
 private:
-  Given<T, CurveSet<T>, CurveGrid<T>> in_;
-  Request<T> request_;
+  using OutputCall<T, CurveSet, CurveGrid<T>>::in_;
+  using OutputCall<T, CurveSet, CurveGrid<T>>::request_;
+
   GridPlan<T> plan_;
 };
 

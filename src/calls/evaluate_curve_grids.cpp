@@ -14,12 +14,11 @@ namespace {
 template <typename T>
 class CurveGridsWork {
 public:
-  CurveGridsWork(const CurveStorage<T>& curves, const Request<T>& request,
-                 const CountedGrids& grids, const OutputList<T>& out,
-                 Destination destination) noexcept
+  CurveGridsWork(const Given<T, CurveSet<T>, CurveGrids>& in, const Request<T>& request,
+                 const CountedGrids& grids, Destination destination) noexcept
       : first_curve_(request.first), grids_(grids),
-        outputs_(plan_outputs(out, destination)), kernels_{curves, *request.table,
-                                                           request.components.first, 0} {
+        outputs_(plan_outputs(in.out, destination)), kernels_{*in.set.storage(), *request.table,
+                                                              request.components.first, 0} {
     kernels_.chunk_samples = staged_samples(outputs_);
   }
 
@@ -75,38 +74,8 @@ private:
 };
 
 template <typename T>
-class CurveGridsCall {
-public:
-  CurveGridsCall(const CurveSet<T>& set, const CurveGrids& where, const CurveOutputs<T>& out,
-                 const Options& options) noexcept
-      : in_(set, where, out, options), counted_(where) {}
-
-  Status resolve() noexcept {
-    return request_.resolve(in_.set, {in_.where.first_curve, in_.where.n.size()},
-                            in_.first_component, in_.options);
-  }
-  Status check() noexcept {
-    const Status counted = counted_.count();
-    const MemoryRange inputs[] = {in_.where.n, in_.where.offset};
-    return counted ? check_curve_outputs(in_.out, counted_.extent(), request_.components, inputs)
-                   : counted;
-  }
-  [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
-  [[nodiscard]] CurveGridsWork<T> plan(Destination destination) const noexcept {
-    return {*in_.set.storage(), request_, counted_, in_.out, destination};
-  }
-  [[nodiscard]] std::size_t written() const noexcept {
-    return written_bytes(in_.out, counted_.total());
-  }
-  [[nodiscard]] CallKind kind() const noexcept {
-    return kind_of_curves(CallName::curve_grids, in_, request_);
-  }
-
-private:
-  Given<T, CurveSet<T>, CurveGrids> in_;
-  Request<T> request_;
-  CountedGrids counted_;
-};
+using CurveGridsCall =
+    CountedGridsCall<CallName::curve_grids, T, CurveSet, CurveGrids, CurveGridsWork<T>>;
 
 } // namespace
 } // namespace detail

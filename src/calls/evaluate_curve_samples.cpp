@@ -69,22 +69,16 @@ private:
 };
 
 template <typename T>
-class CurveSamplesCall {
+class CurveSamplesCall : public OutputCall<T, CurveSet, CurveSamples<T>> {
 public:
-  CurveSamplesCall(const CurveSet<T>& set, const CurveSamples<T>& where, const CurveOutputs<T>& out,
-                   const Options& options) noexcept
-      : in_(set, where, out, options) {}
+  using OutputCall<T, CurveSet, CurveSamples<T>>::OutputCall;
 
-  Status resolve() noexcept {
-    return request_.resolve(in_.set, {}, in_.first_component, in_.options);
-  }
   Status check() noexcept {
     if (in_.where.t.size() != in_.where.curve.size()) {
       return Status::unequal_lengths;
     }
     const MemoryRange inputs[] = {in_.where.curve, in_.where.t};
-    const Status usable =
-        check_curve_outputs(in_.out, in_.where.curve.size(), request_.components, inputs);
+    const Status usable = this->check_given(in_.where.curve.size(), inputs);
     return usable ? check_samples(in_.where.curve, in_.where.t.data() != nullptr, in_.set.size(),
                                   *request_.table)
                   : usable;
@@ -95,8 +89,8 @@ public:
   }
 
 private:
-  Given<T, CurveSet<T>, CurveSamples<T>> in_;
-  Request<T> request_;
+  using OutputCall<T, CurveSet, CurveSamples<T>>::in_;
+  using OutputCall<T, CurveSet, CurveSamples<T>>::request_;
 };
 
 } // namespace

@@ -73,7 +73,8 @@ private:
     together_ = strips_ > 1 ? 1 : std::max<std::size_t>(together_, 1);
   }
 
-  /// Without a division where there is none to be made: small calls feel them.
+  /// The patch of a unit, without a division where there is none to be made, since small calls feel
+  /// them.
   [[nodiscard]] std::size_t patch_of(std::size_t unit) const noexcept {
     return strips_ == 1 ? unit : unit / strips_;
   }
@@ -97,15 +98,10 @@ private:
 };
 
 template <typename T>
-class GridCall {
+class GridCall : public OutputCall<T, PatchSet, Grid<T>> {
 public:
-  GridCall(const PatchSet<T>& set, const Grid<T>& where, const Outputs<T>& out,
-           const Options& options) noexcept
-      : in_(set, where, out, options) {}
+  using OutputCall<T, PatchSet, Grid<T>>::OutputCall;
 
-  Status resolve() noexcept {
-    return request_.resolve(in_.set, in_.where.patches, in_.first_component, in_.options);
-  }
   Status check() noexcept {
     std::size_t samples = 0;
     if (!multiply_samples(in_.where.nu, in_.where.nv, request_.count, samples)) {
@@ -113,10 +109,9 @@ public:
     }
     const MemoryRange inputs[] = {{in_.where.u, in_.where.nu * sizeof(T)},
                                   {in_.where.v, in_.where.nv * sizeof(T)}};
-    const Status usable = check_patch_outputs(in_.out, samples, request_.components, inputs);
+    const Status usable = this->check_given(samples, inputs);
     return usable ? plan_.build(in_.where) : usable;
   }
-  [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
   [[nodiscard]] GridWork<T> plan(Destination destination) const noexcept {
     return {*in_.set.storage(), request_, plan_, in_.out, in_.options, destination};
   }
@@ -125,7 +120,7 @@ public:
            plan_.nu() * plan_.nv() * request_.count >= kLeastMeasured;
   }
   [[nodiscard]] CallKind width_kind() const noexcept {
-    return kind_of_patches(CallName::grid, in_, request_, true).add(plan_.nu()).add(plan_.nv());
+    return kind_of_call(CallName::grid, in_, request_, true).add(plan_.nu()).add(plan_.nv());
   }
   [[nodiscard]] GridWork<T> plan_narrower() const noexcept {
     Request<T> request = request_;
@@ -136,12 +131,13 @@ public:
     return written_bytes(in_.out, plan_.nu() * plan_.nv() * request_.count);
   }
   [[nodiscard]] CallKind kind() const noexcept {
-    return kind_of_patches(CallName::grid, in_, request_).add(plan_.nu()).add(plan_.nv());
+    return kind_of_call(CallName::grid, in_, request_).add(plan_.nu()).add(plan_.nv());
   }
 
 private:
-  Given<T, PatchSet<T>, Grid<T>> in_;
-  Request<T> request_;
+  using OutputCall<T, PatchSet, Grid<T>>::in_;
+  using OutputCall<T, PatchSet, Grid<T>>::request_;
+
   GridPlan<T> plan_;
 };
 

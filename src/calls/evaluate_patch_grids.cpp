@@ -18,11 +18,11 @@ constexpr std::size_t kMostRows = 1024;
 template <typename T>
 class PatchGridsWork {
 public:
-  PatchGridsWork(const SetStorage<T>& set, const Request<T>& request, const CountedGrids& grids,
-                 const OutputList<T>& out, const Options& options, Destination destination) noexcept
-      : kernels_(set, request, out, options), first_patch_(request.first), grids_(grids),
-        outputs_(out, destination) {
-    kernels_.expect_output(written_bytes(out, grids.total()), destination);
+  PatchGridsWork(const Given<T, PatchSet<T>, PatchGrids>& in, const Request<T>& request,
+                 const CountedGrids& grids, Destination destination) noexcept
+      : kernels_(*in.set.storage(), request, in.out, in.options), first_patch_(request.first),
+        grids_(grids), outputs_(in.out, destination) {
+    kernels_.expect_output(written_bytes(in.out, grids.total()), destination);
     outputs_.put_directly(kernels_.direct_rows(grids.least_nu(), false));
     piece_samples_ = Delivery<T>::chunk_samples(outputs_);
     chunk_samples_ = std::max(piece_samples_, grids.most_nu());
@@ -91,38 +91,8 @@ private:
 };
 
 template <typename T>
-class PatchGridsCall {
-public:
-  PatchGridsCall(const PatchSet<T>& set, const PatchGrids& where, const Outputs<T>& out,
-                 const Options& options) noexcept
-      : in_(set, where, out, options), counted_(where) {}
-
-  Status resolve() noexcept {
-    return request_.resolve(in_.set, {in_.where.first_patch, in_.where.nu.size()},
-                            in_.first_component, in_.options);
-  }
-  Status check() noexcept {
-    const Status counted = counted_.count();
-    const MemoryRange inputs[] = {in_.where.nu, in_.where.nv, in_.where.offset};
-    return counted ? check_patch_outputs(in_.out, counted_.extent(), request_.components, inputs)
-                   : counted;
-  }
-  [[nodiscard]] bool empty() const noexcept { return request_.count == 0; }
-  [[nodiscard]] PatchGridsWork<T> plan(Destination destination) const noexcept {
-    return {*in_.set.storage(), request_, counted_, in_.out, in_.options, destination};
-  }
-  [[nodiscard]] std::size_t written() const noexcept {
-    return written_bytes(in_.out, counted_.total());
-  }
-  [[nodiscard]] CallKind kind() const noexcept {
-    return kind_of_patches(CallName::patch_grids, in_, request_);
-  }
-
-private:
-  Given<T, PatchSet<T>, PatchGrids> in_;
-  Request<T> request_;
-  CountedGrids counted_;
-};
+using PatchGridsCall =
+    CountedGridsCall<CallName::patch_grids, T, PatchSet, PatchGrids, PatchGridsWork<T>>;
 
 } // namespace
 } // namespace detail

@@ -68,22 +68,16 @@ private:
 };
 
 template <typename T>
-class SamplesCall {
+class SamplesCall : public OutputCall<T, PatchSet, Samples<T>> {
 public:
-  SamplesCall(const PatchSet<T>& set, const Samples<T>& where, const Outputs<T>& out,
-              const Options& options) noexcept
-      : in_(set, where, out, options) {}
+  using OutputCall<T, PatchSet, Samples<T>>::OutputCall;
 
-  Status resolve() noexcept {
-    return request_.resolve(in_.set, {}, in_.first_component, in_.options);
-  }
   Status check() noexcept {
     if (lengths_differ(in_.where)) {
       return Status::unequal_lengths;
     }
     const MemoryRange inputs[] = {in_.where.patch, in_.where.u, in_.where.v};
-    const Status usable =
-        check_patch_outputs(in_.out, in_.where.patch.size(), request_.components, inputs);
+    const Status usable = this->check_given(in_.where.patch.size(), inputs);
     return usable ? check_samples(in_.set, in_.where, *request_.table) : usable;
   }
   [[nodiscard]] bool empty() const noexcept { return in_.where.patch.empty(); }
@@ -92,8 +86,8 @@ public:
   }
 
 private:
-  Given<T, PatchSet<T>, Samples<T>> in_;
-  Request<T> request_;
+  using OutputCall<T, PatchSet, Samples<T>>::in_;
+  using OutputCall<T, PatchSet, Samples<T>>::request_;
 };
 
 } // namespace

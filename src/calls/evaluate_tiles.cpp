@@ -11,7 +11,7 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-/// Values of all wanted vectors of one sample.
+/// The number of values of all wanted vectors of one sample.
 std::size_t vector_values(const OutputSelection& wanted, std::size_t dimension) noexcept {
   std::size_t values = 0;
   for (std::size_t k = 0; k < kVectorOutputs; ++k) {
@@ -20,7 +20,8 @@ std::size_t vector_values(const OutputSelection& wanted, std::size_t dimension) 
   return values;
 }
 
-/// Half of a common first-level cache: the caller reads what has just been written.
+/// The bytes of a tile, half of a common first-level cache: the caller reads what has just been
+/// written.
 constexpr std::size_t kTileBytes = std::size_t{24} << 10;
 
 /// Which samples one tile holds.
@@ -98,9 +99,8 @@ public:
       take(memory, at, member * samples_);
     }
     if (format_.outputs.holds(Output::curvature)) {
-      for (Values<T>* const values : {&out.curvature.gaussian, &out.curvature.mean,
-                                      &out.curvature.minimum, &out.curvature.maximum}) {
-        *values = take(memory, at, samples_);
+      for (std::size_t k = 0; k < kCurvatures; ++k) {
+        out.curvature[static_cast<Curvature>(k)] = take(memory, at, samples_);
       }
     }
     if (format_.outputs.holds(Output::status)) {
@@ -110,8 +110,8 @@ public:
   }
 
 private:
-  /// A line more than needed: planes of a round number of samples would compete for the same sets
-  /// of the cache.
+  /// The bytes that values take. That is a line more than they need: planes of a round number of
+  /// samples would compete for the same sets of the cache.
   static std::size_t taken(std::size_t values) noexcept {
     return whole_lines(values * sizeof(T)) + 64;
   }
@@ -147,7 +147,7 @@ public:
   }
 
   [[nodiscard]] std::size_t units() const noexcept { return request_.count * shape_.strips; }
-  /// Long, for what the consumer does with a tile is not known.
+  /// The longest duration, for what the consumer does with a tile is not known.
   [[nodiscard]] std::size_t duration() const noexcept { return kLongDuration; }
   [[nodiscard]] std::size_t scratch_bytes() const noexcept {
     return tile_bytes_ + staging_bytes_ + PieceEvaluator<T>::scratch_bytes(shape_.rows);
@@ -206,7 +206,7 @@ public:
   Status resolve() noexcept {
     return request_.resolve(set_, grid_.patches, format_.first_component, options_);
   }
-  /// What of check() needs no memory: all but the parameters.
+  /// Checks all but the parameters, which is what needs no memory.
   Status measure() noexcept {
     const std::size_t dimension = request_.components.dimension;
     const bool curvature = format_.outputs.holds(Output::curvature);
@@ -215,7 +215,7 @@ public:
     if (values == 0) {
       return Status::null_output;
     }
-    if (!request_.components.space() && (curvature || format_.outputs.holds(Output::normal))) {
+    if (!request_.components.space() && format_.outputs.holds_any(kSpaceOutputs)) {
       return Status::bad_components;
     }
     const Status valid = GridPlan<T>::check(grid_);

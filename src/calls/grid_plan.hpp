@@ -13,8 +13,8 @@
 
 namespace simdbezier::detail {
 
-/// Half of x_i = (2i - N) / N for N intervals, by one correctly rounded division, so that
-/// x_i = -x_{N-i} exactly.
+/// The half-centred parameter, which is half of x_i = (2i - N) / N for N intervals, by one
+/// correctly rounded division, so that x_i = -x_{N-i} exactly.
 template <typename T>
 T uniform_parameter(std::size_t i, std::size_t intervals) noexcept {
   const T numerator =
@@ -73,7 +73,7 @@ Grid<T> one_row(const CurveGrid<T>& grid) noexcept {
   return {grid.n, 1, grid.t, &kRow, grid.parameters, {}};
 }
 
-/// Half-centred X = u - 1/2 (exactly half of 2u - 1 rounded once); nan where u is not finite.
+/// The half-centred X = u - 1/2 (exactly half of 2u - 1 rounded once); nan where u is not finite.
 template <typename T>
 T half_centred(T value, Parameters parameters) noexcept;
 

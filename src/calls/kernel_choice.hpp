@@ -1,7 +1,8 @@
-// Which kernels a call on patches runs: decided here and nowhere else.
+// The kernels that a call on patches runs are chosen here and nowhere else.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "src/calls/call.hpp"
 #include "src/calls/destined_call.hpp"
@@ -14,29 +15,63 @@
 
 namespace simdbezier::detail {
 
+/// The kernels that are made for bicubic patches, by what they compute; those of any shape compute
+/// every output.
+enum class BicubicKernel : std::uint8_t { none, first_order, second_order };
+
+/// The bicubic kernel that computes an output. There is no default, so that compilers warn of an
+/// output without an answer.
+constexpr BicubicKernel bicubic_kernel(Output output) noexcept {
+  switch (output) {
+  case Output::position:
+  case Output::du:
+  case Output::dv:
+  case Output::normal:
+  case Output::status: // written beside whatever else there is
+    return BicubicKernel::first_order;
+  case Output::duu:
+  case Output::duv:
+  case Output::dvv:
+    return BicubicKernel::second_order;
+  case Output::curvature:
+    return BicubicKernel::none;
+  }
+  return BicubicKernel::none;
+}
+/// The outputs, status apart, that one of these kernels computes.
+constexpr OutputSelection outputs_of(BicubicKernel kernel) noexcept {
+  return outputs_where([kernel](Output output) {
+    return output != Output::status && bicubic_kernel(output) == kernel;
+  });
+}
+
 /// The narrowest kernels that compute what is asked for.
 struct KernelChoice {
   bool any_shape = false; ///< bicubic patches take the kernels of any shape, too
-  bool first = false;     ///< position, du, dv, normal
+  bool first = false;     ///< an output of BicubicKernel::first_order is wanted
   OutputSet outputs = kPosition;
-  bool second = false; ///< duu, duv, dvv
+  bool second = false; ///< an output of BicubicKernel::second_order is wanted
 
   /// Wishes: an OutputList of patches or an OutputSelection. compact: KernelTable::compact.
   template <typename Wishes>
   KernelChoice(const Wishes& out, const Components& components, bool compact) noexcept
-      : any_shape(compact || out.holds(Output::curvature) || !components.space()) {
+      : any_shape(compact || out.holds_any(kForAnyShape) || !components.space()),
+        first(out.holds_any(kFirstOrder)), second(out.holds_any(kSecondOrder)) {
     const bool p = out.holds(Output::position);
     const bool du = out.holds(Output::du);
     const bool dv = out.holds(Output::dv);
     const bool n = out.holds(Output::normal);
-    first = p || du || dv || n;
-    second = out.holds(Output::duu) || out.holds(Output::duv) || out.holds(Output::dvv);
     if (p && !du && !dv) {
       outputs = n ? kPositionNormal : kPosition;
     } else {
       outputs = p && du && dv && !n ? kPositionDerivatives : kAnyOutputs;
     }
   }
+
+private:
+  static constexpr OutputSelection kForAnyShape = outputs_of(BicubicKernel::none);
+  static constexpr OutputSelection kFirstOrder = outputs_of(BicubicKernel::first_order);
+  static constexpr OutputSelection kSecondOrder = outputs_of(BicubicKernel::second_order);
 };
 
 /// The kernels of one call.

@@ -1,4 +1,4 @@
-// Packing: threads and kernels; src/storage/set_layout.cpp has arguments and memory,
+// Packing: threads and kernels; src/calls/set_layout.cpp has arguments and memory,
 // src/storage/net_faults.hpp what is wrong with a patch, and the arithmetic is in
 // pack/bicubic_pack_kernel.hpp and pack/shape_pack_kernel.hpp.
 #include <algorithm>
@@ -10,12 +10,12 @@
 #include <simdbezier/patch_set.hpp>
 
 #include "src/calls/pack_request.hpp"
+#include "src/calls/set_layout.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/cache_sizes.hpp"
 #include "src/runtime/dispatch.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/net_faults.hpp"
-#include "src/storage/set_layout.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -31,7 +31,7 @@ public:
         streaming_(
             exceeds_caches(storage.count * storage.bytes_of_patch(storage.origins != nullptr))) {}
 
-  /// Patches [begin, end) of the run up to the first fault.
+  /// Packs patches [begin, end) of the run up to the first fault.
   [[nodiscard]] PackReport pack(std::size_t begin, std::size_t end) const {
     const PackReport report = pack_and_inspect(
         begin, end, [&](std::size_t first, std::size_t last) { return call_kernel(first, last); },

@@ -59,7 +59,7 @@ PackReport pack_and_inspect(std::size_t begin, std::size_t end, const Pack& pack
   return {};
 }
 
-/// How the control points of a call are kept; they have no place yet.
+/// The form in which the control points of a call are kept; they have no place yet.
 template <typename S>
 GivenPoints given_form(Weights weights, const PackOptions& options) noexcept {
   GivenPoints given;
@@ -69,7 +69,7 @@ GivenPoints given_form(Weights weights, const PackOptions& options) noexcept {
   return given;
 }
 
-/// Where a pack call keeps its control points, in memory of its own.
+/// The place where a pack call keeps its control points, in memory of its own.
 template <typename S>
 S* writable_points(const GivenPoints& given) noexcept {
   return static_cast<S*>(const_cast<void*>(given.values));
@@ -86,7 +86,7 @@ public:
       }
     }
   }
-  /// To be asked when all threads have finished.
+  /// The lowest fault, to be asked for when all threads have finished.
   [[nodiscard]] const PackReport& report() const noexcept { return lowest_; }
 
 private:

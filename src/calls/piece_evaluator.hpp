@@ -30,7 +30,7 @@ public:
   /// rows: the most in one piece. scratch: aligned to 64 bytes; null where none is needed.
   PieceEvaluator(const PatchKernels<T>& kernels, std::size_t rows, void* scratch) noexcept;
 
-  /// Where a piece goes: planes that begin with its first sample.
+  /// The memory that a piece goes to: planes that begin with its first sample.
   struct Target {
     const Planes<T>* planes = nullptr; ///< of every vector output
     SampleStatus* status = nullptr;    ///< may be null
@@ -71,7 +71,8 @@ public:
       return rest;
     }
   };
-  /// next: the piece after this one on the same plan, as far as the caller knows; null otherwise.
+  /// Evaluates a piece. next: the piece after this one on the same plan, as far as the caller
+  /// knows; null otherwise.
   void run(const GridPlan<T>& plan, const GridPiece& piece, const Target& to,
            const GridPiece* next) noexcept;
 
@@ -97,7 +98,7 @@ private:
     void find_rows(const GridPlan<T>& where, const GridPiece& rows) noexcept;
   };
 
-  /// bucket, piece.patch: where the piece's patches are stored.
+  /// Writes the task of a piece. bucket, piece.patch: where the piece's patches are stored.
   void fill(Prepared& prepared, const PatchStorage<T>& bucket, const GridPlan<T>& plan,
             const GridPiece& piece, const Target& to) const noexcept;
   void run_bucket(const PatchStorage<T>& bucket, const GridPlan<T>& plan, const GridPiece& piece,

@@ -23,8 +23,8 @@ struct SamplePiece {
   Parameters parameters;
 };
 
-/// Where they go: unit-stride planes of every vector output, which begin with the piece's first
-/// sample.
+/// The memory that samples go to: unit-stride planes of every vector output, which begin with the
+/// piece's first sample.
 template <typename T>
 struct SampleTarget {
   const Planes<T>* planes;

@@ -12,7 +12,8 @@
 
 namespace simdbezier::detail {
 
-/// ok | null_input | bad_patch_index; there are as many parameters as indices.
+/// Checks single samples: ok | null_input | bad_patch_index; there are as many parameters as
+/// indices.
 template <typename T>
 [[nodiscard]] Status check_samples(std::span<const std::uint32_t> index, bool parameters,
                                    std::size_t set_size, const KernelTable<T>& table) noexcept {
@@ -26,7 +27,7 @@ template <typename T>
   return highest < set_size ? Status::ok : Status::bad_patch_index;
 }
 
-/// The same for the parameters and indices of patches.
+/// Checks the parameters and indices of samples of patches: ok | null_input | bad_patch_index.
 template <typename T>
 [[nodiscard]] Status check_samples(const PatchSet<T>& set, const Samples<T>& samples,
                                    const KernelTable<T>& table) noexcept {

@@ -32,10 +32,14 @@ std::size_t samples_of(std::size_t nu, std::size_t nv, const SetRange& range,
   return multiply_samples(nu, nv, count, samples) ? addressable(samples) : kTooMany;
 }
 
-std::size_t samples_of(CountedGrids grids, std::size_t first, std::size_t set_size) noexcept {
-  if (first > set_size || grids.size() > set_size - first) {
+template <typename Where>
+std::size_t samples_of_counted(const Where& where, std::size_t set_size) noexcept {
+  std::size_t first = 0;
+  std::size_t size = 0;
+  if (!resolve_range(range_of(where), set_size, first, size)) {
     return 0;
   }
+  CountedGrids grids(where);
   const Status counted = grids.count();
   if (counted == Status::size_overflow) {
     return kTooMany;
@@ -61,7 +65,7 @@ std::size_t sample_count(const PatchSet<T>& set, const Grid<T>& grid) noexcept {
 
 template <typename T>
 std::size_t sample_count(const PatchSet<T>& set, const PatchGrids& grids) noexcept {
-  return detail::samples_of(detail::CountedGrids(grids), grids.first_patch, set.size());
+  return detail::samples_of_counted(grids, set.size());
 }
 
 template <typename T>
@@ -71,7 +75,7 @@ std::size_t sample_count(const CurveSet<T>& set, const CurveGrid<T>& grid) noexc
 
 template <typename T>
 std::size_t sample_count(const CurveSet<T>& set, const CurveGrids& grids) noexcept {
-  return detail::samples_of(detail::CountedGrids(grids), grids.first_curve, set.size());
+  return detail::samples_of_counted(grids, set.size());
 }
 
 #define SIMDBEZIER_INSTANTIATE(T)                                                                  \

@@ -36,7 +36,7 @@ public:
   BothWidths(const AnyWork& widest, const AnyWork& narrower, const ThreadScratch& scratch) noexcept
       : works_{&widest, &narrower}, scratch_(scratch) {}
 
-  /// block: patches.
+  /// Returns the faster width. block: how many patches are evaluated at a time.
   [[nodiscard]] Width measure(std::size_t block) const noexcept {
     const std::size_t probe = std::max<std::size_t>(block / kProbe, 1);
     std::int64_t probed = time(0, probe);

@@ -36,8 +36,8 @@ inline constexpr std::size_t kLeastMeasured = 1024;
 /// What calls of the process have found out.
 CallNotes<Width>& width_notes() noexcept;
 
-/// The same work on both instruction sets, of a call that has claimed its kind. Returns ok |
-/// out_of_memory, before anything is written.
+/// Runs the same work on both instruction sets, of a call that has claimed its kind, and notes
+/// which is faster. Returns ok | out_of_memory, before anything is written.
 [[nodiscard]] Status run_and_choose(const AnyWork& widest, const AnyWork& narrower,
                                     const CallKind& kind, const Options& options) noexcept;
 

@@ -18,7 +18,8 @@ struct TermSums {
   double value = 0; ///< of (roundings + 1) |term|; the one is the coefficient's own
   double du = 0;
   double dv = 0;
-  /// Of |coefficient| by the same factors: sums on the way to a value or derivative are no larger.
+  /// The sum of |coefficient| by the same factors: sums on the way to a value or derivative are no
+  /// larger.
   double way = 0;
   double way_u = 0;
   double way_v = 0;

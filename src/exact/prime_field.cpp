@@ -49,7 +49,7 @@ constexpr std::uint32_t prime_below(std::uint32_t n) {
   return n;
 }
 
-/// As many primes as bicubic patches in single precision need.
+/// The first primes, as many as bicubic patches in single precision need.
 constexpr auto kFirstPrimes = [] {
   std::array<std::uint32_t, 48> primes{};
   std::uint32_t last = std::uint32_t{1} << 31;
@@ -148,7 +148,7 @@ void MixedRadix::put(const PrimeField& field, const Residue remainders[kComponen
 double MixedRadix::component(std::size_t c, int& exponent) const {
   const bool negative = count_ > started_ && digits_[count_ - 1][c] > primes_[count_ - 1] / 2;
   Scaled sum;
-  // Of a negative number x, the digits that complete each to p - 1 are those of -x - 1.
+  // The digits of a negative number x are those that complete each digit of -x - 1 to p - 1.
   for (std::size_t i = count_; i-- > 0;) {
     const std::uint32_t digit = i < started_ ? 0 : digits_[i][c];
     sum.multiply_add(primes_[i], negative ? primes_[i] - 1 - digit : digit);

@@ -58,7 +58,7 @@ template <typename Field, typename IsNotZero>
   return true;
 }
 
-/// The same, decided by doubles and then by as many primes as it takes.
+/// Whether the points fit exactly, decided by doubles and then by as many primes as it takes.
 [[nodiscard]] inline bool fit_exactly(const ExactPoints& given, std::size_t far,
                                       std::size_t count) {
   const BoundedField doubles{given.largest_point(), given.largest_weight()};

@@ -1,4 +1,4 @@
-// From control nets to a layout: the steps of plan_mesh().
+// The steps of plan_mesh(), which lead from control nets to a layout.
 #pragma once
 
 #include <algorithm>
@@ -15,21 +15,21 @@ namespace simdbezier::detail {
 
 /// Views without the patches that a topology calls repeated.
 template <typename S>
-std::vector<ControlNets<S>> without_repeated(std::span<const ControlNets<S>> sets,
+std::vector<ControlNets<S>> without_repeated(std::span<const ControlNets<S>> nets,
                                              const Topology& topology,
                                              std::vector<std::uint32_t>& kept) {
   std::vector<ControlNets<S>> parts;
   std::uint32_t number = 0;
-  for (const ControlNets<S>& nets : sets) {
+  for (const ControlNets<S>& view : nets) {
     bool open = false;
-    for (std::size_t patch = 0; patch < nets.count; ++patch, ++number) {
+    for (std::size_t patch = 0; patch < view.count; ++patch, ++number) {
       if (topology.is_repeated(number)) {
         open = false;
         continue;
       }
       if (!open) {
-        parts.push_back(nets);
-        parts.back().points += static_cast<std::ptrdiff_t>(patch) * nets.patch_stride;
+        parts.push_back(view);
+        parts.back().points += static_cast<std::ptrdiff_t>(patch) * view.patch_stride;
         parts.back().memory = {};
         parts.back().count = 0;
         open = true;
@@ -134,7 +134,8 @@ private:
       std::fill(plan_.nv.begin(), plan_.nv.end(), options_.nv - 1);
       std::size_t raised = 0;
       report.status = separate_vertices(plan_.topology, plan_.nu, plan_.nv, raised);
-      report = report ? certify_rates<S>(nets_, plan_.topology, errors_, rates, options_.threads)
+      report = report ? certify_rates<S>(nets_, plan_.topology, errors_, rates,
+                                         {.threads = options_.threads})
                       : report;
     } else {
       RateOptions how;

@@ -52,7 +52,7 @@ Status write_faces(const MeshPlan<T>& plan, const MeshOptions& options, Mesh<T>&
     triangles.resize(size.triangles);
     Index* const first = triangles.empty() ? nullptr : triangles.front().data();
     return write_triangles<Index>(plan.layout, std::span<Index>(first, 3 * size.triangles),
-                                  options.threads);
+                                  {.threads = options.threads, .isa = options.isa});
   };
   const bool few = size.vertices <= std::numeric_limits<std::uint16_t>::max();
   return options.short_indices && few ? write(mesh.short_triangles) : write(mesh.triangles);

@@ -26,8 +26,8 @@ EdgeLink link_of(const EdgeRings<Index>& rings, std::size_t side) noexcept {
 }
 
 template <typename Index, typename S>
-void link_edges(std::span<const ControlNets<S>> sets, std::span<EdgeLink> links, int threads) {
-  const EdgeRings<Index> rings = find_rings<S, Index>(sets, threads);
+void link_edges(std::span<const ControlNets<S>> nets, std::span<EdgeLink> links, int threads) {
+  const EdgeRings<Index> rings = find_rings<S, Index>(nets, threads);
   auto body = [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t side = begin; side < end; ++side) {
       links[side] = link_of(rings, side);
@@ -37,11 +37,11 @@ void link_edges(std::span<const ControlNets<S>> sets, std::span<EdgeLink> links,
 }
 
 template <typename S>
-Status check(std::span<const ControlNets<S>> sets, const Values<EdgeLink>& edges) noexcept {
-  if (const Status status = check_views(sets); !status) {
+Status check(std::span<const ControlNets<S>> nets, const Values<EdgeLink>& edges) noexcept {
+  if (const Status status = check_views(nets); !status) {
     return status;
   }
-  const std::size_t sides = kPatchEdges * patches_of(sets);
+  const std::size_t sides = kPatchEdges * patches_of(nets);
   if (sides > edges.capacity) {
     return Status::output_too_small;
   }
@@ -49,8 +49,8 @@ Status check(std::span<const ControlNets<S>> sets, const Values<EdgeLink>& edges
     return Status::null_output;
   }
   const MemoryRange written(edges.first, sides * sizeof(EdgeLink));
-  for (const ControlNets<S>& nets : sets) {
-    if (const Status status = check_apart(nets, written); !status) {
+  for (const ControlNets<S>& view : nets) {
+    if (const Status status = check_apart(view, written); !status) {
       return status;
     }
   }
@@ -61,18 +61,18 @@ Status check(std::span<const ControlNets<S>> sets, const Values<EdgeLink>& edges
 } // namespace detail
 
 template <typename S>
-Status find_adjacency(std::span<const ControlNets<S>> sets, Values<EdgeLink> edges,
+Status find_adjacency(std::span<const ControlNets<S>> nets, Values<EdgeLink> edges,
                       const Options& options) noexcept try {
-  const Status status = detail::check(sets, edges);
+  const Status status = detail::check(nets, edges);
   if (status != Status::ok) {
     return status;
   }
   const detail::DefaultFpEnvironment environment;
-  const std::span links(edges.first, kPatchEdges * detail::patches_of(sets));
+  const std::span links(edges.first, kPatchEdges * detail::patches_of(nets));
   if (links.size() < detail::EdgeRings<std::uint32_t>::kPoint) {
-    detail::link_edges<std::uint32_t>(sets, links, options.threads);
+    detail::link_edges<std::uint32_t>(nets, links, options.threads);
   } else {
-    detail::link_edges<std::uint64_t>(sets, links, options.threads);
+    detail::link_edges<std::uint64_t>(nets, links, options.threads);
   }
   return Status::ok;
 } catch (const std::bad_alloc&) {

@@ -20,7 +20,7 @@ class EdgeValues {
 public:
   using Bits = std::conditional_t<sizeof(S) == 4, std::uint32_t, std::uint64_t>;
 
-  /// In the edge's own direction.
+  /// The values of an edge in its own direction.
   EdgeValues(const ControlNets<S>& nets, std::size_t patch, PatchEdge edge) noexcept
       : channels_(static_cast<std::ptrdiff_t>(shape_of(nets).channels())),
         component_stride_(nets.component_stride), weights_(nets.weights) {
@@ -49,7 +49,7 @@ public:
     }
     return false;
   }
-  /// The same edge from its other end on, or as it is.
+  /// The edge from its other end on, or as it is.
   [[nodiscard]] EdgeValues turned(bool turn) const noexcept {
     EdgeValues edge = *this;
     if (turn) {
@@ -222,8 +222,8 @@ void close_rings(const NetViews<S>& views, EdgeRings<Index>& rings, RingTable<In
 } // namespace
 
 template <typename S, typename Index>
-EdgeRings<Index> find_rings(std::span<const ControlNets<S>> sets, int threads) {
-  const NetViews<S> views(sets);
+EdgeRings<Index> find_rings(std::span<const ControlNets<S>> nets, int threads) {
+  const NetViews<S> views(nets);
   const std::size_t sides = kPatchEdges * views.patches();
   EdgeRings<Index> rings;
   if (sides > 0) {

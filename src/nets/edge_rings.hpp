@@ -1,5 +1,5 @@
-// Which sides of patches are equal, as rings of side numbers: what find_adjacency() reports and
-// topologies are built from.
+// Finds which sides of patches are equal, as rings of side numbers: what find_adjacency() reports
+// and topologies are built from.
 #pragma once
 
 #include <cstddef>
@@ -38,6 +38,6 @@ struct EdgeRings {
 
 /// Throws bad_alloc. The views are sound, and their sides fewer than EdgeRings<Index>::kPoint.
 template <typename S, typename Index>
-EdgeRings<Index> find_rings(std::span<const ControlNets<S>> sets, int threads);
+EdgeRings<Index> find_rings(std::span<const ControlNets<S>> nets, int threads);
 
 } // namespace simdbezier::detail

@@ -134,20 +134,20 @@ Status check_input(const ControlNets<S>& nets) noexcept {
 }
 
 template <typename S>
-Status check_views(std::span<const ControlNets<S>> sets) noexcept {
-  if (sets.data() == nullptr && !sets.empty()) {
+Status check_views(std::span<const ControlNets<S>> nets) noexcept {
+  if (nets.data() == nullptr && !nets.empty()) {
     return Status::null_input;
   }
   std::size_t patches = 0;
   constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / 512;
-  for (const ControlNets<S>& nets : sets) {
-    if (const Status status = check_input(nets); !status) {
+  for (const ControlNets<S>& view : nets) {
+    if (const Status status = check_input(view); !status) {
       return status;
     }
-    if (nets.count > kMost - patches) {
+    if (view.count > kMost - patches) {
       return Status::size_overflow;
     }
-    patches += nets.count;
+    patches += view.count;
   }
   return Status::ok;
 }

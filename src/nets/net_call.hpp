@@ -39,14 +39,14 @@ Status check_in_space(const ControlNets<S>& nets) noexcept {
 /// Whether all views can be read, and their patches be counted: as check_input(), and null_input
 /// where there is no list of views, or size_overflow.
 template <typename S>
-Status check_views(std::span<const ControlNets<S>> sets) noexcept;
+Status check_views(std::span<const ControlNets<S>> nets) noexcept;
 
 /// The patches of all views.
 template <typename S>
-std::size_t patches_of(std::span<const ControlNets<S>> sets) noexcept {
+std::size_t patches_of(std::span<const ControlNets<S>> nets) noexcept {
   std::size_t patches = 0;
-  for (const ControlNets<S>& nets : sets) {
-    patches += nets.count;
+  for (const ControlNets<S>& view : nets) {
+    patches += view.count;
   }
   return patches;
 }

@@ -118,7 +118,20 @@ NetReport run_copy(const ControlNets<T>& original, const ControlNets<T>& nets,
                      })};
 }
 
-/// check_nets() where there is one result.
+/// Cuts nets in two, in u or in v, whichever is given.
+template <typename T>
+NetReport run_halves(const ControlNets<T>& nets, const UnitParameter<T>* u,
+                     const UnitParameter<T>* v, const MutableNets<T>& low,
+                     const MutableNets<T>& high, const Options& options) noexcept {
+  const Status status = check_nets<T>(nets, {&low, &high}, nets.degree_u, nets.degree_v);
+  if (status != Status::ok) {
+    return {status};
+  }
+  const auto high_of = [&](const auto* cut) { return cut == nullptr ? nullptr : &high; };
+  return run_split<T>(nets, u, v, {&low, high_of(u), high_of(v), nullptr}, options);
+}
+
+/// Checks as check_nets() does, where there is one result.
 template <typename T>
 Status check_result(const ControlNets<T>& nets, const MutableNets<T>& out, int degree_u,
                     int degree_v) noexcept {
@@ -160,11 +173,7 @@ NetReport split_u(const ControlNets<T>& nets, AtParameter<T> u,
                   const std::type_identity_t<MutableNets<T>>& low,
                   const std::type_identity_t<MutableNets<T>>& high,
                   const Options& options) noexcept {
-  const Status status = detail::check_nets<T>(nets, {&low, &high}, nets.degree_u, nets.degree_v);
-  if (status != Status::ok) {
-    return {status};
-  }
-  return detail::run_split<T>(nets, &u, nullptr, {&low, &high, nullptr, nullptr}, options);
+  return detail::run_halves<T>(nets, &u, nullptr, low, high, options);
 }
 
 template <typename T>
@@ -172,11 +181,7 @@ NetReport split_v(const ControlNets<T>& nets, AtParameter<T> v,
                   const std::type_identity_t<MutableNets<T>>& low,
                   const std::type_identity_t<MutableNets<T>>& high,
                   const Options& options) noexcept {
-  const Status status = detail::check_nets<T>(nets, {&low, &high}, nets.degree_u, nets.degree_v);
-  if (status != Status::ok) {
-    return {status};
-  }
-  return detail::run_split<T>(nets, nullptr, &v, {&low, nullptr, &high, nullptr}, options);
+  return detail::run_halves<T>(nets, nullptr, &v, low, high, options);
 }
 
 template <typename T>

@@ -18,26 +18,26 @@ public:
     std::size_t patch;
   };
 
-  explicit NetViews(std::span<const ControlNets<S>> sets) : sets_(sets) {
-    starts_.reserve(sets.size() + 1);
+  explicit NetViews(std::span<const ControlNets<S>> nets) : nets_(nets) {
+    starts_.reserve(nets.size() + 1);
     starts_.push_back(0);
-    for (const ControlNets<S>& nets : sets) {
-      starts_.push_back(starts_.back() + nets.count);
+    for (const ControlNets<S>& view : nets) {
+      starts_.push_back(starts_.back() + view.count);
     }
   }
   [[nodiscard]] std::size_t patches() const noexcept { return starts_.back(); }
   [[nodiscard]] Place place(std::size_t patch) const noexcept {
     std::size_t low = 0; // the last view that starts at or before the patch and is not empty
-    std::size_t high = sets_.size();
+    std::size_t high = nets_.size();
     while (high - low > 1) {
       const std::size_t middle = low + (high - low) / 2;
       (starts_[middle] <= patch ? low : high) = middle;
     }
-    return {&sets_[low], patch - starts_[low]};
+    return {&nets_[low], patch - starts_[low]};
   }
 
 private:
-  std::span<const ControlNets<S>> sets_;
+  std::span<const ControlNets<S>> nets_;
   std::vector<std::size_t> starts_; ///< first patch of each view, then the number of all
 };
 

@@ -25,8 +25,8 @@ public:
   Delivery(const OutputPlan<T>& plan, const KernelTable<T>& table, std::size_t samples,
            void* scratch) noexcept;
 
-  /// Where the kernel is to put a chunk whose first sample has the caller's index `sample`: the
-  /// planes of each vector output, null where not wanted, until end().
+  /// The planes that the kernel is to put a chunk in, whose first sample has the caller's index
+  /// `sample`, until end(): those of each vector output, null where not wanted.
   const Planes<T>* begin(std::size_t sample) noexcept;
   /// The planes of the chunk after it, where all planes are staged.
   [[nodiscard]] const Planes<T>* next() const noexcept { return planes_[1 - buffer_]; }
@@ -36,7 +36,7 @@ public:
   }
   /// The chunk is computed: `count` samples.
   void end(std::size_t count) noexcept;
-  /// After the last chunk: nothing is left behind, streaming stores are complete.
+  /// Ends the delivery after the last chunk: nothing is left behind, streaming stores are complete.
   void finish() noexcept;
 
 private:

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include <simdbezier/curves.hpp>
 #include <simdbezier/outputs.hpp>
@@ -14,22 +15,43 @@
 
 namespace simdbezier::detail {
 
+static_assert(kCurvatures == kCurvatureKinds);
+
+/// The outputs of patches of which is(Output) holds.
+template <typename Is>
+constexpr OutputSelection outputs_where(const Is& is) noexcept {
+  OutputSelection all;
+  for (std::size_t k = 0; k < kOutputs; ++k) {
+    if (is(static_cast<Output>(k))) {
+      all.add(static_cast<Output>(k));
+    }
+  }
+  return all;
+}
+inline constexpr OutputSelection kSpaceOutputs = outputs_where(needs_space);
+
+/// Calls f(0) … f(kCount - 1), without a loop, so that what is known of each number is known at
+/// compile time: small calls feel loops.
+template <std::size_t kCount, typename F>
+constexpr void for_numbers(const F& f) noexcept {
+  const auto call = [&]<std::size_t... k>(std::index_sequence<k...>) { (f(k), ...); };
+  call(std::make_index_sequence<kCount>());
+}
+
 /// References to the caller's Outputs or CurveOutputs, which must live as long.
 template <typename T>
 struct OutputList {
-  const Vectors<T>* vectors[kVectorOutputs]; ///< by Output or by CurveOutput
+  const Vectors<T>* vectors[kVectorOutputs]; ///< numbered as Output or as CurveOutput
   std::size_t vector_count;
   const Values<T>* curvature[kCurvatures]; ///< in the order of the tasks
   std::size_t curvature_count;
   const Values<SampleStatus>* status; ///< may be null
 
   explicit OutputList(const Outputs<T>& out) noexcept
-      : vector_count(kVectorOutputs), curvature{&out.curvature.gaussian, &out.curvature.mean,
-                                                &out.curvature.minimum, &out.curvature.maximum},
-        curvature_count(kCurvatures), status(&out.status) {
-    for (std::size_t k = 0; k < kVectorOutputs; ++k) {
-      vectors[k] = &out[static_cast<Output>(k)];
-    }
+      : vector_count(kVectorOutputs), curvature_count(kCurvatures), status(&out.status) {
+    for_numbers<kVectorOutputs>([&](std::size_t k) { vectors[k] = &out[static_cast<Output>(k)]; });
+    for_numbers<kCurvatures>(
+        [&](std::size_t k) { curvature[k] = &out.curvature[static_cast<Curvature>(k)]; });
     note_wishes();
   }
   explicit OutputList(const CurveOutputs<T>& out) noexcept
@@ -62,6 +84,11 @@ struct OutputList {
   [[nodiscard]] bool holds(Output output) const noexcept {
     return output == Output::curvature ? wants_curvature_ : wants(output_index(output));
   }
+  /// Whether an output of patches is wanted that is one of these.
+  [[nodiscard]] bool holds_any(const OutputSelection& outputs) const noexcept {
+    return (wanted_ & outputs.bits()) != 0 ||
+           (wants_curvature_ && outputs.holds(Output::curvature));
+  }
   [[nodiscard]] bool holds(CurveOutput output) const noexcept {
     return wants(output_index(output));
   }
@@ -80,7 +107,7 @@ struct OutputList {
   }
 
 private:
-  /// Notes what wanted() says, without branches, since small calls feel them.
+  /// Notes what wanted() of every output says, without branches, since small calls feel them.
   void note_wishes() noexcept {
     static_assert(kTrusted == ~std::size_t(0));
     const auto bits = [](const auto* pointer) { return reinterpret_cast<std::uintptr_t>(pointer); };

@@ -31,7 +31,8 @@ constexpr std::size_t duration_of(std::size_t pieces, std::size_t nanoseconds) n
 /// default, which is 1 inside a parallel region of the caller.
 int thread_count(int requested, std::size_t units, std::size_t duration) noexcept;
 
-/// In nanoseconds: to wake a thread and to wait for it take up to as long.
+/// The shortest work of a thread, in nanoseconds: to wake a thread and to wait for it take up to as
+/// long.
 inline constexpr std::size_t kShortestShare = 20'000;
 
 /// A borrowed callable `void(int worker, std::size_t begin, std::size_t end) noexcept`.
@@ -55,7 +56,8 @@ private:
 /// floating-point environment. One thread is the caller's own, without an OpenMP region.
 void for_blocks(std::size_t units, int threads, BlockBody body) noexcept;
 
-/// The same on as many threads as thread_count() says of units that take so many nanoseconds each.
+/// Calls body likewise, on as many threads as thread_count() says of units that take so many
+/// nanoseconds each.
 template <typename F>
 void divide_work(std::size_t units, std::size_t nanoseconds, int threads, F& body) noexcept {
   for_blocks(units, thread_count(threads, units, duration_of(units, nanoseconds)), BlockBody(body));
@@ -83,7 +85,7 @@ public:
     }
     return bytes_ == 0 || memory_ != nullptr;
   }
-  /// Null where none is needed.
+  /// The scratch of one thread; null where none is needed.
   [[nodiscard]] unsigned char* of(int worker) const noexcept {
     auto* const first = static_cast<unsigned char*>(memory_.get());
     return first == nullptr ? nullptr : first + static_cast<std::size_t>(worker) * bytes_;

@@ -51,7 +51,7 @@ public:
     return {};
   }
 
-  /// After a claim. 0: the next one who asks may claim the kind.
+  /// Notes the answer after a claim. 0: the next one who asks may claim the kind.
   void decide(const CallKind& kind, Choice choice) noexcept {
     const std::uint64_t name = kind.value() & ~kStates;
     for (std::size_t k = 0; k < kProbes; ++k) {

@@ -1,4 +1,5 @@
-// Through the caches or past them: what calls with Destination::automatic have found out.
+// What calls with Destination::automatic have found out: whether to write through the caches or
+// past them.
 #pragma once
 
 #include <simdbezier/options.hpp>
@@ -14,7 +15,7 @@ Destination environment_destination() noexcept;
 using DestinationNotes = CallNotes<Destination>;
 static_assert(Destination::automatic == Destination{} && static_cast<int>(Destination::memory) < 3);
 
-/// Those of the process.
+/// The notes of the process.
 DestinationNotes& destination_notes() noexcept;
 
 } // namespace simdbezier::detail

@@ -1,4 +1,4 @@
-// Which kernel table a call uses.
+// Chooses the kernel table that a call uses.
 #pragma once
 
 #include "src/tables/kernel_table.hpp"

@@ -34,7 +34,7 @@ struct GivenPoints {
   [[nodiscard]] std::size_t value_bytes() const {
     return in_double ? sizeof(double) : sizeof(float);
   }
-  /// The same, from the value number `first` on.
+  /// The points from the value number `first` on.
   [[nodiscard]] GivenPoints from(std::size_t first) const {
     GivenPoints rest = *this;
     rest.values = net(first).values;

@@ -80,7 +80,7 @@ struct PatchStorage {
   }
 };
 
-/// Where a patch of a set of several shapes is.
+/// The place of a patch in a set of several shapes.
 struct PatchPlace {
   std::uint32_t bucket;
   std::size_t index;

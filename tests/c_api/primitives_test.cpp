@@ -30,7 +30,7 @@ std::vector<Index> triangles_of(const MeshLayout& layout, const Range& range) {
   const std::size_t end = range.count == 0 ? 20 : range.first + range.count;
   std::vector<Index> triangles(3 *
                                (layout.first_triangle(end) - layout.first_triangle(range.first)));
-  EXPECT_TRUE(write_triangles(layout, std::span(triangles), 0, range.range()));
+  EXPECT_TRUE(write_triangles(layout, std::span(triangles), {}, range.range()));
   return triangles;
 }
 
@@ -78,7 +78,7 @@ TYPED_TEST(CMesh, HasPolygons) {
   for (const Range& range : kRanges) {
     const simdbezier_primitive_options options = range.options();
     PolygonSize size;
-    ASSERT_TRUE(polygon_size(this->layout_, size, 0, range.range()));
+    ASSERT_TRUE(polygon_size(this->layout_, size, {}, range.range()));
     std::size_t polygons = 7;
     std::size_t indices = 7;
     EXPECT_C_OK(simdbezier_polygon_size(this->c_layout_, &polygons, &indices, &options));
@@ -90,7 +90,7 @@ TYPED_TEST(CMesh, HasPolygons) {
     std::vector<std::uint16_t> got(indices);
     std::vector<std::uint32_t> wide(indices);
     ASSERT_TRUE(
-        write_polygons(this->layout_, std::span(expected), std::span(sizes), 0, range.range()));
+        write_polygons(this->layout_, std::span(expected), std::span(sizes), {}, range.range()));
     EXPECT_C_OK(simdbezier_write_polygons_u16(this->c_layout_, got.data(), indices, c_sizes.data(),
                                               polygons, &options));
     expect_same_bits(got, expected, "polygons");

@@ -233,6 +233,11 @@ TEST_F(PatchGridErrors, LengthsThatDiffer) {
   refuse(Status::unequal_lengths, {nu.first(2), nv});
   refuse(Status::unequal_lengths, {nu, nv, offset.first(2)});
   refuse(Status::unequal_lengths, {nu.first(2), nv.first(2), offset});
+  for (const std::size_t count : {0U, 2U, 4U}) {
+    refuse(Status::unequal_lengths, {nu, nv, offset, {0, count}});
+    EXPECT_EQ(sample_count(set_, PatchGrids{nu, nv, offset, {0, count}}), 0U);
+  }
+  EXPECT_EQ(sample_count(set_, PatchGrids{nu, nv, offset, {0, 3}}), 23U);
 }
 
 TEST_F(PatchGridErrors, MissingInputs) {

@@ -98,6 +98,9 @@ TEST_F(CurveArguments, Counts) {
   const std::uint32_t n[] = {4, 1, 4};
   refuse(Status::bad_grid, CurveGrids{n}, results_.outputs());
   const std::uint32_t good[] = {4, 4, 4};
+  for (const std::size_t count : {0U, 2U, 4U}) {
+    refuse(Status::unequal_lengths, CurveGrids{good, {}, {0, count}}, results_.outputs());
+  }
   const std::size_t close[] = {0, 3, 8};
   refuse(Status::bad_offsets, CurveGrids{good, close}, results_.outputs());
   const std::size_t far[] = {0, 4, kHuge - 2};

@@ -63,7 +63,7 @@ struct EvaluatedMesh {
   void evaluate_all(const Options& options = {}) {
     EXPECT_EQ(evaluate_mesh(set, layout, outputs(), options), Status::ok);
     triangles.resize(3 * layout.size().triangles);
-    EXPECT_EQ(write_triangles(layout, std::span(triangles), 1), Status::ok);
+    EXPECT_EQ(write_triangles(layout, std::span(triangles), {.threads = 1}), Status::ok);
   }
   /// Vertices of a patch's triangles.
   [[nodiscard]] std::set<std::uint32_t> vertices_of(std::size_t p) const {

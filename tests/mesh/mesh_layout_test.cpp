@@ -1,5 +1,6 @@
 // Meshes of models whose topology is known: closed where they are, with no vertex between two
 // others on an edge, whatever the rates.
+#include <algorithm>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -47,7 +48,7 @@ TriangleCensus census_of(const Topology& topology, const Rates& rates) {
   constexpr std::uint32_t kUntouched = 0xabababab;
   std::vector<std::uint32_t> triangles(3 * size.triangles + 1, kUntouched);
   const auto written = std::span(triangles).first(3 * size.triangles);
-  EXPECT_EQ(write_triangles(layout, written, 1), Status::ok);
+  EXPECT_EQ(write_triangles(layout, written, {.threads = 1}), Status::ok);
   EXPECT_EQ(triangles.back(), kUntouched);
   return count_triangles<std::uint32_t>(written, size.vertices);
 }
@@ -160,9 +161,9 @@ void expect_numbers_anywhere(const MeshLayout& layout, const std::vector<std::ui
         SCOPED_TRACE(std::to_string(offset) + ", threads " + std::to_string(threads));
         std::vector<Index> memory(2 * kLine + expected.size(), kGuard);
         const std::span all(memory);
-        ASSERT_EQ(
-            write_triangles(layout, all.subspan(offset, expected.size()), threads, {}, destination),
-            Status::ok);
+        ASSERT_EQ(write_triangles(layout, all.subspan(offset, expected.size()),
+                                  {.threads = threads, .destination = destination}),
+                  Status::ok);
         const auto written = all.subspan(offset, expected.size());
         EXPECT_TRUE(std::equal(expected.begin(), expected.end(), written.begin()));
         for (const auto& beside : {all.first(offset), all.subspan(offset + expected.size())}) {
@@ -183,7 +184,7 @@ TEST(MeshLayout, numbers_are_the_same_wherever_they_go) {
     ASSERT_EQ(lay_out_mesh(topology, {rates.nu, rates.nv, rates.diagonals}, layout), Status::ok);
     ASSERT_LT(layout.size().vertices, 0xabcdU);
     std::vector<std::uint32_t> expected(3 * layout.size().triangles);
-    ASSERT_EQ(write_triangles(layout, std::span(expected), 1), Status::ok);
+    ASSERT_EQ(write_triangles(layout, std::span(expected), {.threads = 1}), Status::ok);
     expect_numbers_anywhere<std::uint32_t>(layout, expected);
     expect_numbers_anywhere<std::uint16_t>(layout, expected);
   }
@@ -234,7 +235,7 @@ TEST(MeshLayout, sides_that_are_points_leave_no_triangle_uncounted) {
       ASSERT_LE(counted, 100U);
       ASSERT_LE(layout.first_triangle(1), counted);
       std::vector<std::uint32_t> triangles(3 * counted + 60, kGuard);
-      ASSERT_EQ(write_triangles(layout, std::span(triangles), 1), Status::ok);
+      ASSERT_EQ(write_triangles(layout, std::span(triangles), {.threads = 1}), Status::ok);
       EXPECT_EQ(std::count(triangles.begin(), triangles.end(), kGuard), 60);
       const TriangleCensus census = count_triangles<std::uint32_t>(
           std::span(triangles).first(3 * counted), layout.size().vertices);
@@ -272,6 +273,14 @@ TEST(MeshLayout, bad_input_is_a_status) {
   EXPECT_EQ(std::count(triangles.begin(), triangles.end(), 99U),
             static_cast<std::ptrdiff_t>(triangles.size()));
   EXPECT_EQ(write_triangles(layout, std::span<std::uint32_t>()), Status::null_output);
+  triangles.resize(3 * layout.size().triangles);
+  for (const Isa wanted : {Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512, Isa::neon64}) {
+    Isa executed = Isa::automatic;
+    const bool runs = std::ranges::count(available_isas(), wanted) > 0;
+    EXPECT_EQ(write_triangles(layout, std::span(triangles), {.isa = wanted, .executed = &executed}),
+              runs ? Status::ok : Status::unsupported_isa);
+    EXPECT_EQ(executed, runs ? wanted : Isa::automatic);
+  }
   const std::vector<std::uint32_t> many(model.patches.size(), 300);
   ASSERT_EQ(lay_out_mesh(topology, {many, many, {}}, layout), Status::ok);
   std::vector<std::uint16_t> narrow(3 * layout.size().triangles);

@@ -28,7 +28,7 @@ struct Case {
 
 std::vector<Triangle> triangles_of(const MeshLayout& layout) {
   std::vector<std::uint32_t> numbers(3 * layout.size().triangles);
-  EXPECT_EQ(write_triangles(layout, std::span(numbers), 1), Status::ok);
+  EXPECT_EQ(write_triangles(layout, std::span(numbers), {.threads = 1}), Status::ok);
   std::vector<Triangle> triangles;
   for (std::size_t k = 0; k < numbers.size(); k += 3) {
     triangles.push_back(turned_to_lowest({numbers[k], numbers[k + 1], numbers[k + 2]}));
@@ -79,10 +79,11 @@ TEST(MeshPrimitives, quads_cut_from_first_to_third_vertex_are_the_triangles) {
   for (const Case& one : cases()) {
     SCOPED_TRACE(one.name);
     PolygonSize size;
-    ASSERT_EQ(polygon_size(one.layout, size, 1), Status::ok);
+    ASSERT_EQ(polygon_size(one.layout, size, {.threads = 1}), Status::ok);
     std::vector<std::uint32_t> indices(size.indices);
     std::vector<std::uint8_t> sizes(size.polygons);
-    ASSERT_EQ(write_polygons(one.layout, std::span(indices), std::span(sizes), 2), Status::ok);
+    ASSERT_EQ(write_polygons(one.layout, std::span(indices), std::span(sizes), {.threads = 2}),
+              Status::ok);
     std::vector<Triangle> found;
     std::size_t at = 0;
     for (const std::uint8_t corners : sizes) {
@@ -96,11 +97,11 @@ TEST(MeshPrimitives, quads_cut_from_first_to_third_vertex_are_the_triangles) {
     EXPECT_EQ(at, indices.size());
     expect_same(one, found);
     EXPECT_EQ(write_polygons(one.layout, std::span(indices).first(indices.size() - 1),
-                             std::span(sizes), 1),
+                             std::span(sizes), {.threads = 1}),
               Status::output_too_small);
-    EXPECT_EQ(
-        write_polygons(one.layout, std::span(indices), std::span(sizes).first(sizes.size() - 1), 1),
-        Status::output_too_small);
+    EXPECT_EQ(write_polygons(one.layout, std::span(indices),
+                             std::span(sizes).first(sizes.size() - 1), {.threads = 1}),
+              Status::output_too_small);
   }
   EXPECT_GT(quads, 1000U);
 }
@@ -120,18 +121,21 @@ TEST(MeshPrimitives, polygons_of_some_patches_are_those_of_all) {
       const bool last = one.layout.first_triangle(patches + 1) == one.layout.size().triangles;
       const SetRange range{patches, last ? 1U : 2U};
       PolygonSize size;
-      ASSERT_EQ(polygon_size(one.layout, size, 2, range), Status::ok);
+      ASSERT_EQ(polygon_size(one.layout, size, {.threads = 2}, range), Status::ok);
       std::vector<std::uint32_t> part(size.indices);
       std::vector<std::uint8_t> part_sizes(size.polygons);
-      ASSERT_EQ(write_polygons(one.layout, std::span(part), std::span(part_sizes), 2, range),
-                Status::ok);
+      ASSERT_EQ(
+          write_polygons(one.layout, std::span(part), std::span(part_sizes), {.threads = 2}, range),
+          Status::ok);
       found.insert(found.end(), part.begin(), part.end());
       found_sizes.insert(found_sizes.end(), part_sizes.begin(), part_sizes.end());
     }
     EXPECT_EQ(found, indices);
     EXPECT_EQ(found_sizes, sizes);
-    EXPECT_EQ(polygon_size(one.layout, all, 1, {0, patches + 2}), Status::bad_patch_range);
-    EXPECT_EQ(write_polygons(one.layout, std::span(indices), std::span(sizes), 1, {patches + 2, 1}),
+    EXPECT_EQ(polygon_size(one.layout, all, {.threads = 1}, {0, patches + 2}),
+              Status::bad_patch_range);
+    EXPECT_EQ(write_polygons(one.layout, std::span(indices), std::span(sizes), {.threads = 1},
+                             {patches + 2, 1}),
               Status::bad_patch_range);
   }
 }
@@ -141,9 +145,9 @@ TEST(MeshPrimitives, strips_are_the_triangles) {
   for (const Case& one : cases()) {
     SCOPED_TRACE(one.name);
     std::size_t size = 0;
-    ASSERT_EQ(strip_size(one.layout, size, 1), Status::ok);
+    ASSERT_EQ(strip_size(one.layout, size, {.threads = 1}), Status::ok);
     std::vector<std::uint32_t> indices(size);
-    ASSERT_EQ(write_strips(one.layout, std::span(indices), 2), Status::ok);
+    ASSERT_EQ(write_strips(one.layout, std::span(indices), {.threads = 2}), Status::ok);
     ASSERT_EQ(indices.back(), kRestart);
     std::vector<Triangle> found;
     std::size_t begin = 0;
@@ -159,7 +163,7 @@ TEST(MeshPrimitives, strips_are_the_triangles) {
       }
     }
     expect_same(one, found);
-    EXPECT_EQ(write_strips(one.layout, std::span(indices).first(size - 1), 1),
+    EXPECT_EQ(write_strips(one.layout, std::span(indices).first(size - 1), {.threads = 1}),
               Status::output_too_small);
   }
 }
@@ -168,11 +172,12 @@ TEST(MeshPrimitives, clusters_are_the_triangles) {
   for (const Case& one : cases()) {
     SCOPED_TRACE(one.name);
     ClusterSize size;
-    ASSERT_EQ(cluster_size(one.layout, size, 1), Status::ok);
+    ASSERT_EQ(cluster_size(one.layout, size, {.threads = 1}), Status::ok);
     std::vector<MeshCluster> clusters(size.clusters);
     std::vector<std::uint32_t> vertices(size.vertices);
     std::vector<std::uint8_t> corners(3 * size.triangles);
-    ASSERT_EQ(write_clusters(one.layout, {clusters, vertices, corners}, 2), Status::ok);
+    ASSERT_EQ(write_clusters(one.layout, {clusters, vertices, corners}, {.threads = 2}),
+              Status::ok);
     std::vector<Triangle> found;
     std::uint32_t next_vertex = 0;
     std::uint32_t next_triangle = 0;
@@ -196,7 +201,8 @@ TEST(MeshPrimitives, clusters_are_the_triangles) {
     EXPECT_EQ(next_vertex, vertices.size());
     expect_same(one, found);
     EXPECT_EQ(write_clusters(one.layout,
-                             {clusters, vertices, std::span(corners).first(corners.size() - 1)}, 1),
+                             {clusters, vertices, std::span(corners).first(corners.size() - 1)},
+                             {.threads = 1}),
               Status::output_too_small);
   }
 }

@@ -58,7 +58,8 @@ struct Rated {
     ASSERT_EQ(find_topology(nets, topology), Status::ok);
     nu[0] = of_u;
     nv[0] = of_v;
-    report = certify_rates<S>({&nets, 1}, topology, {}, {nu, nv, diagonals, deviation}, 1);
+    report =
+        certify_rates<S>({&nets, 1}, topology, {}, {nu, nv, diagonals, deviation}, {.threads = 1});
   }
   [[nodiscard]] double cells() const { return 1.0 * nu[0] * nv[0]; }
 };

@@ -141,7 +141,7 @@ double found_deviation(const TestPatch& patch, const Topology& topology, const C
   MeshLayout layout;
   EXPECT_EQ(lay_out_mesh(topology, {choice.nu, choice.nv, choice.diagonals}, layout), Status::ok);
   std::vector<std::uint32_t> numbers(3 * layout.size().triangles);
-  EXPECT_EQ(write_triangles(layout, std::span(numbers), 1), Status::ok);
+  EXPECT_EQ(write_triangles(layout, std::span(numbers), {.threads = 1}), Status::ok);
   const std::vector<Point> vertices = vertices_of(patch, choice.nu[0], choice.nv[0]);
   EXPECT_EQ(vertices.size(), layout.size().vertices);
   std::vector<std::array<Point, 3>> triangles;

@@ -37,7 +37,7 @@ struct SeparatedMesh {
     EXPECT_EQ(lay_out_mesh(topology, {nu, nv, {}}, layout), Status::ok);
     size = layout.size();
     std::vector<std::uint32_t> triangles(3 * size.triangles);
-    EXPECT_EQ(write_triangles(layout, std::span(triangles), 1), Status::ok);
+    EXPECT_EQ(write_triangles(layout, std::span(triangles), {.threads = 1}), Status::ok);
     census = count_triangles<std::uint32_t>(triangles, size.vertices);
   }
 };

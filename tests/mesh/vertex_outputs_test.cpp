@@ -199,7 +199,8 @@ TYPED_TEST(VertexCalls, write_parts_of_a_mesh) {
     const std::size_t before = 3 * mesh.layout.first_triangle(first);
     const std::size_t behind = 3 * mesh.layout.first_triangle(first + range.count);
     std::vector<std::uint32_t> triangles(behind - before);
-    ASSERT_EQ(write_triangles(mesh.layout, std::span(triangles), 1, range), Status::ok);
+    ASSERT_EQ(write_triangles(mesh.layout, std::span(triangles), {.threads = 1}, range),
+              Status::ok);
     EXPECT_TRUE(std::equal(triangles.begin(), triangles.end(),
                            mesh.triangles.begin() + static_cast<std::ptrdiff_t>(before)));
   }
@@ -268,8 +269,10 @@ TYPED_TEST(VertexCalls, refuse_bad_input) {
   options.isa = absent_isa();
   EXPECT_EQ(evaluate_mesh(mesh.set, mesh.layout, mesh.outputs(), options), Status::unsupported_isa);
   std::vector<std::uint32_t> triangles(3 * mesh.layout.size().triangles - 1);
-  EXPECT_EQ(write_triangles(mesh.layout, std::span(triangles), 1), Status::output_too_small);
-  EXPECT_EQ(write_triangles(mesh.layout, std::span(triangles), 1, {3, 9}), Status::bad_patch_range);
+  EXPECT_EQ(write_triangles(mesh.layout, std::span(triangles), {.threads = 1}),
+            Status::output_too_small);
+  EXPECT_EQ(write_triangles(mesh.layout, std::span(triangles), {.threads = 1}, {3, 9}),
+            Status::bad_patch_range);
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "src/runtime/cache_sizes.hpp"
+#include "tests/support/evaluation.hpp"
 #include "tests/support/isa_fixture.hpp"
 #include "tests/support/nets/generators.hpp"
 

@@ -39,14 +39,14 @@ template <typename T>
   return grid;
 }
 [[nodiscard]] inline PatchGrids part_of(PatchGrids grids, const CallOptions& options) {
-  grids.first_patch = options.first_patch;
+  grids.patches.first = options.first_patch;
   grids.nu = grids.nu.first(std::min(grids.nu.size(), options.patch_count));
   grids.nv = grids.nv.first(std::min(grids.nv.size(), options.patch_count));
   grids.offset = grids.offset.first(std::min(grids.offset.size(), options.patch_count));
   return grids;
 }
 [[nodiscard]] inline CurveGrids part_of(CurveGrids grids, const CallOptions& options) {
-  grids.first_curve = options.first_patch;
+  grids.curves.first = options.first_patch;
   grids.n = grids.n.first(std::min(grids.n.size(), options.patch_count));
   grids.offset = grids.offset.first(std::min(grids.offset.size(), options.patch_count));
   return grids;

@@ -23,7 +23,7 @@ public:
   explicit ResultTable(const std::vector<Output>& outputs)
       : outputs_(outputs), row_(column_count(outputs)) {
     curvature_ = !outputs_.empty() && outputs_.back() == Output::curvature;
-    stride_ = row_.size() - (curvature_ ? kCurvatures : 0);
+    stride_ = row_.size() - (curvature_ ? kCurvatureKinds : 0);
   }
 
   Outputs<T> resize(std::size_t samples) {
@@ -34,9 +34,8 @@ public:
       out[outputs_[k]] =
           Vectors<T>::xyz(values_.data() + 3 * k, static_cast<std::ptrdiff_t>(stride_));
     }
-    if (curvature_) {
-      T* const plane = values_.data() + samples * stride_;
-      out.curvature = {plane, plane + samples, plane + 2 * samples, plane + 3 * samples};
+    for (std::size_t k = 0; curvature_ && k < kCurvatureKinds; ++k) {
+      out.curvature[static_cast<Curvature>(k)] = values_.data() + samples * (stride_ + k);
     }
     return out;
   }
@@ -50,8 +49,6 @@ public:
   }
 
 private:
-  static constexpr std::size_t kCurvatures = 4;
-
   std::vector<Output> outputs_;
   std::vector<T> row_;
   bool curvature_ = false;

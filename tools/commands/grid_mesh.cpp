@@ -40,7 +40,7 @@ void GridMesh<T>::measure(const PatchFile& file, MeshStats& stats) const {
     std::vector<double> deviations(count);
     check(certify_grids<double>(block.nets, static_cast<std::uint32_t>(grid_.nu - 1),
                                 static_cast<std::uint32_t>(grid_.nv - 1), errors, deviations,
-                                arguments_.threads)
+                                {.threads = arguments_.threads})
               .status);
     deviation = std::max(deviation, std::ranges::max(deviations));
   }

@@ -109,7 +109,8 @@ void choose_uniform(const RatedPatches<T>& patches, const Arguments& arguments,
   std::ranges::fill(rates.nv, static_cast<std::uint32_t>(grid.nv - 1));
   std::size_t raised = 0;
   check(separate_vertices(patches.topology, rates.nu, rates.nv, raised));
-  check(certify_rates<T>(patches.nets, patches.topology, patches.errors, rates, arguments.threads)
+  check(certify_rates<T>(patches.nets, patches.topology, patches.errors, rates,
+                         {.threads = arguments.threads})
             .status);
 }
 

@@ -137,7 +137,7 @@ void WeldedMesh<T>::count_faces() {
   faces_ = layout_.size().triangles;
   if (arguments_.mesh.quads) {
     PolygonSize size;
-    check(polygon_size(layout_, size, arguments_.threads));
+    check(polygon_size(layout_, size, {.threads = arguments_.threads}));
     faces_ = size.polygons;
     among_quads_ = 4 * size.polygons - size.indices;
   }
@@ -241,7 +241,7 @@ template <typename T>
 std::span<const std::uint32_t> WeldedMesh<T>::faces(const Block& block) {
   corners_.resize(3 * (layout_.first_triangle(block.first + block.count) -
                        layout_.first_triangle(block.first)));
-  check(write_triangles<std::uint32_t>(layout_, corners_, arguments_.threads,
+  check(write_triangles<std::uint32_t>(layout_, corners_, {.threads = arguments_.threads},
                                        {block.first, block.count}));
   return corners_;
 }
@@ -250,10 +250,11 @@ template <typename T>
 std::span<const std::uint32_t> WeldedMesh<T>::quads(const Block& block) {
   const SetRange range{block.first, block.count};
   PolygonSize size;
-  check(polygon_size(layout_, size, arguments_.threads, range));
+  check(polygon_size(layout_, size, {.threads = arguments_.threads}, range));
   polygons_.resize(size.indices);
   sizes_.resize(size.polygons);
-  check(write_polygons<std::uint32_t>(layout_, polygons_, sizes_, arguments_.threads, range));
+  check(write_polygons<std::uint32_t>(layout_, polygons_, sizes_, {.threads = arguments_.threads},
+                                      range));
   corners_.assign(4 * size.polygons, kNoVertex);
   auto next = polygons_.begin();
   for (std::size_t k = 0; k < sizes_.size(); next += sizes_[k++]) {

@@ -6,7 +6,7 @@
 
 SIMDBEZIER_BEGIN_C
 
-// Which patches' triangles or polygons are written, and how. Null: those of all patches.
+// The patches whose triangles or polygons are written, and how. Null: all patches.
 typedef struct simdbezier_primitive_options {
   size_t struct_size;
   size_t first_patch;

@@ -28,7 +28,7 @@ typedef struct simdbezier_nets {
   simdbezier_scalar scalar;
 } simdbezier_nets;
 
-// MutableNets: the same of memory that a call writes to.
+// MutableNets: the description of nets in memory that a call writes to.
 typedef struct simdbezier_mutable_nets {
   size_t struct_size;
   void* points;
@@ -46,7 +46,8 @@ typedef struct simdbezier_mutable_nets {
   simdbezier_scalar scalar;
 } simdbezier_mutable_nets;
 
-// ControlCurves, likewise.
+// ControlCurves: component c of point P[i] of curve k is points[first + k * curve_stride +
+// i * point_stride + c * component_stride]; a weight stands behind the components.
 typedef struct simdbezier_control_curves {
   size_t struct_size;
   const void* points;

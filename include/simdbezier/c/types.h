@@ -65,7 +65,7 @@ typedef struct simdbezier_fault {
 
 // The strings live until the thread's next call. Returns ok | null_output | bad_struct_size.
 SIMDBEZIER_API simdbezier_status simdbezier_last_fault(simdbezier_fault* fault);
-// The same as one line, such as "simdbezier_pack: nets[0].points: a required input pointer is
+// The last fault as one line, such as "simdbezier_pack: nets[0].points: a required input pointer is
 // null"; never null, lives until the thread's next call.
 SIMDBEZIER_API const char* simdbezier_last_message(void);
 

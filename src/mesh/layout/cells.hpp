@@ -1,4 +1,4 @@
-// From the cells of a patch to what a sink makes of them:
+// Hands the cells of a patch to a sink, which makes of them what it likes:
 //     sink.cell(corners, falling)   a cell with four different vertices, two triangles
 //     sink.cells(first, steps, n, falling)   n of them side by side
 //     sink.triangle(a, b, c)        of any other cell, three different vertices, counter-clockwise
@@ -80,7 +80,7 @@ void cut_cell(const CellSides& cell, bool falling, Sink& sink) {
   }
 }
 
-/// From the vertices of a cell to those of the next one: below and above.
+/// The steps from the vertices of a cell to those of the next one: below and above.
 struct VertexSteps {
   std::uint32_t below;
   std::uint32_t above;
@@ -115,7 +115,7 @@ __attribute__((always_inline)) inline void put_halves(const CellCorners& c, bool
   }
 }
 
-/// Which way the diagonals of a patch's cells run.
+/// The way in which the diagonals of a patch's cells run.
 class CellZones {
 public:
   CellZones(const MeshData& mesh, std::size_t patch)

@@ -1,4 +1,4 @@
-// From rates to the numbers of vertices.
+// Numbers the vertices of a mesh of given rates.
 #pragma once
 
 #include "src/mesh/layout/mesh_data.hpp"

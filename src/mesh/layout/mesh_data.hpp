@@ -23,9 +23,9 @@ struct MeshData {
   std::vector<std::uint32_t> segments;   ///< of each edge
   std::vector<std::uint32_t> inner;      ///< vertex of each patch's first inner point
   std::vector<std::uint64_t> triangles;  ///< before each patch, and of all
-  /// Where edges have more than one vertex a point (split_creases()): of each side, where its
-  /// vertices from its edge's second point to the last but one begin in side_vertices, or kWhole.
-  /// Empty where no edge is split.
+  /// The place in side_vertices, for each side, where its vertices from its edge's second point to
+  /// the last but one begin, or kWhole, where edges have more than one vertex a point
+  /// (split_creases()). It is empty where no edge is split.
   std::vector<std::size_t> side_first;
   std::vector<std::uint32_t> side_vertices;
   std::uint32_t most_segments = 0; ///< of one edge

@@ -47,7 +47,7 @@ public:
     const Line& line = lines_[side];
     return line.chain[line.places[i]];
   }
-  /// From own point i to the next one.
+  /// The chain from own point i to the next one.
   [[nodiscard]] Chain between(std::size_t side, std::uint32_t i) const {
     const Line& line = lines_[side];
     return {&line.chain[line.places[i]], line.places[i + 1] - line.places[i]};

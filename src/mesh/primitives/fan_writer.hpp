@@ -57,7 +57,7 @@ public:
     }
     to_ += std::size_t{3} * n;
   }
-  /// The same where the second leg is a chain.
+  /// Writes the fan where the second leg is a chain.
   void fan_of_second(std::uint32_t first, std::uint32_t step, std::uint32_t n, std::uint32_t apex) {
     put(0, first, apex, first + step);
     put(1, apex, first + 2 * step, first + step);
@@ -66,7 +66,7 @@ public:
     }
     to_ += std::size_t{3} * n;
   }
-  /// The same of the legs in a corner, towards the corner.
+  /// Writes the fan of the legs in a corner, towards the corner.
   void fan_of_first(const CornerLeg& leg, std::uint32_t apex) {
     fan_of_first(leg.far(), 0 - leg.step, leg.segments, apex);
     to_[kTurned ? -1 : -2] = static_cast<Index>(leg.corner);
@@ -98,7 +98,7 @@ public:
   }
 
 private:
-  /// By value: an object whose address is known elsewhere stays in memory.
+  /// It takes itself by value, since an object whose address is known elsewhere stays in memory.
   __attribute__((noinline)) static FanWriter long_corner_half(const CornerLeg& x,
                                                               const CornerLeg& y, FanWriter out) {
     const CornerChain chains[2] = {CornerChain(x), CornerChain(y)};

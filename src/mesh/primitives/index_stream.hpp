@@ -34,7 +34,7 @@ public:
   IndexStream(const IndexStream&) = delete;
   IndexStream& operator=(const IndexStream&) = delete;
 
-  /// Where the next numbers go.
+  /// The place where the next numbers go.
   [[nodiscard]] Index* cursor() const noexcept { return cursor_; }
   /// Numbers up to `end` are written; returns where at least kMostNumbers more can go.
   Index* make_room(Index* end) noexcept {
@@ -44,7 +44,7 @@ public:
     }
     return cursor_;
   }
-  /// To be called after the last number.
+  /// Writes what is left; to be called after the last number.
   void finish(Index* end) noexcept {
     pass_lines(end);
     put_part(end);

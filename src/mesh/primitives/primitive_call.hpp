@@ -25,7 +25,7 @@ Status check_indices(const MeshLayout& layout, std::span<const Index> indices,
   return indices.size() < needed ? Status::output_too_small : Status::ok;
 }
 
-/// Patches of a layout.
+/// The patches of a layout that a call is about.
 struct PatchRange {
   std::size_t first = 0;
   std::size_t count = 0;

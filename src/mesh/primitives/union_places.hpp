@@ -1,4 +1,5 @@
-// Where the points of one rate stand among those of two rates, kept for the pairs that occur often.
+// The places of the points of one rate among those of two rates, kept for the pairs that occur
+// often.
 #pragma once
 
 #include <array>
@@ -16,7 +17,8 @@ class UnionPlaces {
 public:
   static constexpr std::uint32_t kMost = 63;
 
-  /// For i = 0 .. rate: the segments before i / rate on an edge of both rates, at most kMost each.
+  /// For i = 0 .. rate: the segments before i / rate on an edge of both rates, which have at most
+  /// kMost each.
   const std::uint32_t* of(std::uint32_t rate, std::uint32_t other) {
     const std::uint32_t*& known = known_[rate * (kMost + 1) + other];
     if (known == nullptr) {

@@ -115,14 +115,14 @@ Status cluster_sizes(const MeshLayout& layout, int threads, std::vector<ClusterS
 } // namespace
 } // namespace detail
 
-Status polygon_size(const MeshLayout& layout, PolygonSize& size, int threads,
+Status polygon_size(const MeshLayout& layout, PolygonSize& size, const Options& options,
                     SetRange patches) noexcept try {
   detail::PatchRange range;
   if (!range.resolve(layout, patches)) {
     return Status::bad_patch_range;
   }
   std::vector<PolygonSize> sizes;
-  const Status status = detail::polygon_sizes(layout, range, threads, sizes);
+  const Status status = detail::polygon_sizes(layout, range, options.threads, sizes);
   size = status == Status::ok ? sizes.back() : size;
   return status;
 } catch (const std::bad_alloc&) {
@@ -131,13 +131,14 @@ Status polygon_size(const MeshLayout& layout, PolygonSize& size, int threads,
 
 template <typename Index>
 Status write_polygons(const MeshLayout& layout, std::span<Index> indices,
-                      std::span<std::uint8_t> sizes, int threads, SetRange patches) noexcept try {
+                      std::span<std::uint8_t> sizes, const Options& options,
+                      SetRange patches) noexcept try {
   detail::PatchRange range;
   if (!range.resolve(layout, patches)) {
     return Status::bad_patch_range;
   }
   std::vector<PolygonSize> before;
-  Status status = detail::polygon_sizes(layout, range, threads, before);
+  Status status = detail::polygon_sizes(layout, range, options.threads, before);
   if (status == Status::ok) {
     status = detail::check_indices<Index>(layout, indices, before.back().indices);
   }
@@ -147,7 +148,7 @@ Status write_polygons(const MeshLayout& layout, std::span<Index> indices,
   if (status != Status::ok || before.back().polygons == 0) {
     return status;
   }
-  return detail::for_cells(layout, range.first, range.count, threads,
+  return detail::for_cells(layout, range.first, range.count, options.threads,
                            [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
                              const PolygonSize& place = before[patch - range.first];
                              detail::PolygonSink<Index> sink(indices.data() + place.indices,
@@ -158,9 +159,10 @@ Status write_polygons(const MeshLayout& layout, std::span<Index> indices,
   return Status::out_of_memory;
 }
 
-Status strip_size(const MeshLayout& layout, std::size_t& indices, int threads) noexcept try {
+Status strip_size(const MeshLayout& layout, std::size_t& indices, const Options& options) noexcept
+    try {
   std::vector<std::size_t> sizes;
-  const Status status = detail::strip_sizes(layout, threads, sizes);
+  const Status status = detail::strip_sizes(layout, options.threads, sizes);
   indices = status == Status::ok ? sizes.back() : indices;
   return status;
 } catch (const std::bad_alloc&) {
@@ -168,16 +170,17 @@ Status strip_size(const MeshLayout& layout, std::size_t& indices, int threads) n
 }
 
 template <typename Index>
-Status write_strips(const MeshLayout& layout, std::span<Index> indices, int threads) noexcept try {
+Status write_strips(const MeshLayout& layout, std::span<Index> indices,
+                    const Options& options) noexcept try {
   std::vector<std::size_t> before;
-  Status status = detail::strip_sizes(layout, threads, before);
+  Status status = detail::strip_sizes(layout, options.threads, before);
   if (status == Status::ok) {
     status = detail::check_indices<Index>(layout, indices, before.back());
   }
   if (status != Status::ok || before.back() == 0) {
     return status;
   }
-  return detail::for_cells(layout, threads,
+  return detail::for_cells(layout, options.threads,
                            [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
                              detail::StripSink<Index> sink(indices.data() + before[patch], turned);
                              cells.cut(sink);
@@ -187,19 +190,20 @@ Status write_strips(const MeshLayout& layout, std::span<Index> indices, int thre
   return Status::out_of_memory;
 }
 
-Status cluster_size(const MeshLayout& layout, ClusterSize& size, int threads) noexcept try {
+Status cluster_size(const MeshLayout& layout, ClusterSize& size, const Options& options) noexcept
+    try {
   std::vector<ClusterSize> sizes;
-  const Status status = detail::cluster_sizes(layout, threads, sizes);
+  const Status status = detail::cluster_sizes(layout, options.threads, sizes);
   size = status == Status::ok ? sizes.back() : size;
   return status;
 } catch (const std::bad_alloc&) {
   return Status::out_of_memory;
 }
 
-Status write_clusters(const MeshLayout& layout, const ClusterOutputs& out, int threads) noexcept
-    try {
+Status write_clusters(const MeshLayout& layout, const ClusterOutputs& out,
+                      const Options& options) noexcept try {
   std::vector<ClusterSize> before;
-  const Status status = detail::cluster_sizes(layout, threads, before);
+  const Status status = detail::cluster_sizes(layout, options.threads, before);
   const ClusterSize& all = before.back();
   if (status != Status::ok || all.clusters == 0) {
     return status;
@@ -216,23 +220,26 @@ Status write_clusters(const MeshLayout& layout, const ClusterOutputs& out, int t
       all.triangles > std::numeric_limits<std::uint32_t>::max()) {
     return Status::size_overflow;
   }
-  return detail::for_cells(
-      layout, threads, [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
-        detail::ClusterSink sink(&out, before[patch], static_cast<std::uint32_t>(patch), turned);
-        cells.cut_in_bands(detail::kClusterWidth, sink);
-        sink.end_cluster();
-      });
+  return detail::for_cells(layout, options.threads,
+                           [&](std::size_t patch, const detail::CellCutter& cells, bool turned) {
+                             detail::ClusterSink sink(&out, before[patch],
+                                                      static_cast<std::uint32_t>(patch), turned);
+                             cells.cut_in_bands(detail::kClusterWidth, sink);
+                             sink.end_cluster();
+                           });
 } catch (const std::bad_alloc&) {
   return Status::out_of_memory;
 }
 
 template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint32_t>,
-                                              std::span<std::uint8_t>, int, SetRange) noexcept;
+                                              std::span<std::uint8_t>, const Options&,
+                                              SetRange) noexcept;
 template SIMDBEZIER_API Status write_polygons(const MeshLayout&, std::span<std::uint16_t>,
-                                              std::span<std::uint8_t>, int, SetRange) noexcept;
+                                              std::span<std::uint8_t>, const Options&,
+                                              SetRange) noexcept;
 template SIMDBEZIER_API Status write_strips(const MeshLayout&, std::span<std::uint32_t>,
-                                            int) noexcept;
+                                            const Options&) noexcept;
 template SIMDBEZIER_API Status write_strips(const MeshLayout&, std::span<std::uint16_t>,
-                                            int) noexcept;
+                                            const Options&) noexcept;
 
 } // namespace simdbezier

@@ -53,8 +53,8 @@ Status write_all_triangles(const MeshData& mesh, const KernelTable<float>& table
 } // namespace detail
 
 template <typename Index>
-Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, int threads,
-                       SetRange patches, Destination destination) noexcept {
+Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, const Options& options,
+                       SetRange patches) noexcept {
   detail::PatchRange range;
   if (!range.resolve(layout, patches)) {
     return Status::bad_patch_range;
@@ -66,17 +66,22 @@ Status write_triangles(const MeshLayout& layout, std::span<Index> triangles, int
     return status;
   }
   Isa isa = Isa::automatic;
-  if (const Status runs = resolve_isa(Isa::automatic, isa); !runs) {
+  if (const Status runs = resolve_isa(options.isa, isa); !runs) {
     return runs;
   }
-  return detail::write_all_triangles(*layout.data(), detail::kernel_table<float>(isa), range,
-                                     triangles.data(), threads,
-                                     detail::streams_to(destination, needed * sizeof(Index)));
+  const bool streaming = detail::streams_to(options.destination, needed * sizeof(Index));
+  const Status written =
+      detail::write_all_triangles(*layout.data(), detail::kernel_table<float>(isa), range,
+                                  triangles.data(), options.threads, streaming);
+  if (written) {
+    detail::report(isa, options);
+  }
+  return written;
 }
 
-template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint32_t>, int,
-                                               SetRange, Destination) noexcept;
-template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint16_t>, int,
-                                               SetRange, Destination) noexcept;
+template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint32_t>,
+                                               const Options&, SetRange) noexcept;
+template SIMDBEZIER_API Status write_triangles(const MeshLayout&, std::span<std::uint16_t>,
+                                               const Options&, SetRange) noexcept;
 
 } // namespace simdbezier

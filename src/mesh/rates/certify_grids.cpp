@@ -12,7 +12,7 @@ namespace simdbezier {
 namespace detail {
 namespace {
 
-/// All patches of one view.
+/// Certifies all patches of one view.
 template <typename S>
 RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::span<double> deviation,
                    int threads) noexcept {
@@ -52,10 +52,10 @@ RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::spa
 } // namespace detail
 
 template <typename S>
-RateReport certify_grids(std::span<const ControlNets<S>> sets, std::uint32_t nu, std::uint32_t nv,
+RateReport certify_grids(std::span<const ControlNets<S>> nets, std::uint32_t nu, std::uint32_t nv,
                          std::span<const double> errors, std::span<double> deviation,
-                         int threads) noexcept {
-  const std::size_t patches = detail::patches_of(sets);
+                         const Options& options) noexcept {
+  const std::size_t patches = detail::patches_of(nets);
   const auto is_rate = [](std::uint32_t n) { return n >= 1 && n <= kMostGridCells; };
   if (!is_rate(nu) || !is_rate(nv) || deviation.size() != patches ||
       !(errors.empty() || errors.size() == patches)) {
@@ -68,24 +68,24 @@ RateReport certify_grids(std::span<const ControlNets<S>> sets, std::uint32_t nu,
     }
   }
   std::size_t first = 0;
-  for (const ControlNets<S>& nets : sets) {
+  for (const ControlNets<S>& view : nets) {
     RateReport report =
-        detail::certify(nets, {nu, nv}, deviation.subspan(first, nets.count), threads);
+        detail::certify(view, {nu, nv}, deviation.subspan(first, view.count), options.threads);
     if (!report) {
       report.patch += first;
       return report;
     }
-    first += nets.count;
+    first += view.count;
   }
   return {};
 }
 
 template SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<float>>, std::uint32_t,
                                                  std::uint32_t, std::span<const double>,
-                                                 std::span<double>, int) noexcept;
+                                                 std::span<double>, const Options&) noexcept;
 template SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<double>>,
                                                  std::uint32_t, std::uint32_t,
                                                  std::span<const double>, std::span<double>,
-                                                 int) noexcept;
+                                                 const Options&) noexcept;
 
 } // namespace simdbezier

@@ -21,7 +21,7 @@ CellCounts PatchBound::filip(double tolerance, std::uint32_t most) const {
   const auto up = [&](double n) {
     return n <= most ? std::max(1U, static_cast<std::uint32_t>(std::ceil(n))) : most + 1;
   };
-  // With one rate given, the least other one with a/nu^2 + 2 b/(nu nv) + c/nv^2 <= limit.
+  // The least other rate, with one rate given, for which a/nu^2 + 2 b/(nu nv) + c/nv^2 <= limit.
   const auto other = [&](double first, double second, std::uint32_t n) {
     const double left = limit - first / (static_cast<double>(n) * n);
     const double mixed = b / n;

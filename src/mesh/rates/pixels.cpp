@@ -67,27 +67,27 @@ private:
 } // namespace detail
 
 template <typename S>
-Status pixel_tolerances(std::span<const ControlNets<S>> sets, const Camera& camera, double pixels,
+Status pixel_tolerances(std::span<const ControlNets<S>> nets, const Camera& camera, double pixels,
                         std::span<double> out) noexcept {
   const detail::DefaultFpEnvironment environment;
-  const detail::View view(camera);
-  if (!view.is_sound() || !detail::is_positive(pixels)) {
+  const detail::View camera_view(camera);
+  if (!camera_view.is_sound() || !detail::is_positive(pixels)) {
     return Status::bad_tolerance;
   }
-  for (const ControlNets<S>& nets : sets) {
-    if (const Status status = detail::check_in_space(nets); !status) {
+  for (const ControlNets<S>& view : nets) {
+    if (const Status status = detail::check_in_space(view); !status) {
       return status;
     }
   }
-  if (out.size() < detail::patches_of(sets)) {
+  if (out.size() < detail::patches_of(nets)) {
     return Status::output_too_small;
   }
   std::size_t first = 0;
-  for (const ControlNets<S>& nets : sets) {
-    for (std::size_t patch = 0; patch < nets.count; ++patch) {
-      out[first + patch] = view.tolerance(nets, patch, pixels);
+  for (const ControlNets<S>& view : nets) {
+    for (std::size_t patch = 0; patch < view.count; ++patch) {
+      out[first + patch] = camera_view.tolerance(view, patch, pixels);
     }
-    first += nets.count;
+    first += view.count;
   }
   return Status::ok;
 }

@@ -31,9 +31,9 @@ inline CellCounts at_least(const CellCounts& cells, const std::array<double, 2>&
 template <typename S>
 class RateCall {
 public:
-  RateCall(std::span<const ControlNets<S>> sets, const Topology& topology,
+  RateCall(std::span<const ControlNets<S>> nets, const Topology& topology,
            const RateOptions& options, const CertifiedRates& out)
-      : sets_(sets), flags_(topology.data()->flags), options_(options), errors_(options.errors),
+      : nets_(nets), flags_(topology.data()->flags), options_(options), errors_(options.errors),
         out_(out), most_(std::clamp(options.most_segments, 1U, kMostSegments)) {
     const std::vector<double>& displacement = topology.data()->displacement;
     if (!displacement.empty()) {
@@ -50,7 +50,7 @@ public:
     }
   }
 
-  /// Rates with their certificates.
+  /// Chooses rates, with their certificates.
   RateReport choose() {
     if (const RateReport checked = find_faults(); !checked) {
       return checked;
@@ -81,7 +81,7 @@ public:
     return report && measures ? certify() : report;
   }
 
-  /// Where rates have been raised, the bound is looked at again: it does not fall with every step.
+  /// Looks at the bound again where rates have been raised, since it does not fall with every step.
   RateReport settle(bool& changed) {
     const RateReport certified = certify();
     if (!certified) {
@@ -112,8 +112,8 @@ public:
     return checked ? certify() : checked;
   }
 
-  /// The certificate of the rates that are there: the kernel's, and where that one is coarser than
-  /// the tolerance by which PatchBound may have chosen them, PatchBound's.
+  /// Forms the certificate of the rates that are there: the kernel's, and where that one is coarser
+  /// than the tolerance by which PatchBound may have chosen them, PatchBound's.
   RateReport certify() {
     const RateReport ran = run_kernels(false);
     if (!ran) {
@@ -164,7 +164,7 @@ private:
 
   RateReport find_faults() const {
     std::size_t first = 0;
-    for (const ControlNets<S>& nets : sets_) {
+    for (const ControlNets<S>& nets : nets_) {
       const NetReport checked = find_fault(nets, options_.threads);
       if (!checked) {
         return {checked.status, first + checked.patch};
@@ -178,7 +178,7 @@ private:
     std::size_t first = 0;
     Options run;
     run.threads = options_.threads;
-    for (const ControlNets<S>& nets : sets_) {
+    for (const ControlNets<S>& nets : nets_) {
       if (suits_kernel(nets) && nets.count > 0) {
         RateTask<S> task{};
         task.in = view_of(nets);
@@ -207,7 +207,7 @@ private:
   template <typename IsOpen, typename Visit>
   RateReport for_patches(const IsOpen& is_open, const Visit& visit) {
     std::size_t first = 0;
-    for (const ControlNets<S>& nets : sets_) {
+    for (const ControlNets<S>& nets : nets_) {
       std::vector<std::uint32_t> open;
       for (std::size_t patch = 0; patch < nets.count; ++patch) {
         if (is_open(first + patch, suits_kernel(nets))) {
@@ -238,7 +238,7 @@ private:
     return {};
   }
 
-  std::span<const ControlNets<S>> sets_;
+  std::span<const ControlNets<S>> nets_;
   const std::vector<std::uint8_t>& flags_;
   const RateOptions& options_;
   std::span<const double> errors_; ///< of vertices, by rounding and by snapping

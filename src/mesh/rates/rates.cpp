@@ -13,14 +13,14 @@ namespace detail {
 namespace {
 
 template <typename S>
-RateReport check(std::span<const ControlNets<S>> sets, const Topology& topology,
+RateReport check(std::span<const ControlNets<S>> nets, const Topology& topology,
                  std::span<const double> errors, const CertifiedRates& out) noexcept {
   std::size_t patches = 0;
-  for (const ControlNets<S>& nets : sets) {
-    if (const Status status = check_in_space(nets); !status) {
+  for (const ControlNets<S>& view : nets) {
+    if (const Status status = check_in_space(view); !status) {
       return {status, patches};
     }
-    patches += nets.count;
+    patches += view.count;
   }
   const std::size_t joined = topology.counts().patches;
   const auto fits = [&](std::size_t size) { return size == patches; };
@@ -41,28 +41,28 @@ RateReport check(std::span<const ControlNets<S>> sets, const Topology& topology,
 } // namespace detail
 
 template <typename S>
-RateReport certify_rates(std::span<const ControlNets<S>> sets, const Topology& topology,
+RateReport certify_rates(std::span<const ControlNets<S>> nets, const Topology& topology,
                          std::span<const double> errors, const CertifiedRates& rates,
-                         int threads) noexcept try {
+                         const Options& options) noexcept try {
   const detail::DefaultFpEnvironment environment;
-  const RateReport checked = detail::check(sets, topology, errors, rates);
+  const RateReport checked = detail::check(nets, topology, errors, rates);
   if (!checked || rates.nu.empty()) {
     return checked;
   }
-  RateOptions options;
-  options.errors = errors;
-  options.tolerance = kUnlimited; // whatever the certificate is, it is what was asked for
-  options.threads = threads;
-  return detail::RateCall<S>(sets, topology, options, rates).certify_given();
+  RateOptions how;
+  how.errors = errors;
+  how.tolerance = kUnlimited; // whatever the certificate is, it is what was asked for
+  how.threads = options.threads;
+  return detail::RateCall<S>(nets, topology, how, rates).certify_given();
 } catch (const std::bad_alloc&) {
   return {Status::out_of_memory};
 }
 
 template <typename S>
-RateReport choose_rates(std::span<const ControlNets<S>> sets, const Topology& topology,
+RateReport choose_rates(std::span<const ControlNets<S>> nets, const Topology& topology,
                         const RateOptions& options, const CertifiedRates& out) noexcept try {
   const detail::DefaultFpEnvironment environment;
-  const RateReport checked = detail::check(sets, topology, options.errors, out);
+  const RateReport checked = detail::check(nets, topology, options.errors, out);
   if (!checked || out.nu.empty()) {
     return checked;
   }
@@ -72,7 +72,7 @@ RateReport choose_rates(std::span<const ControlNets<S>> sets, const Topology& to
   if (!(options.longest_edge > 0) || !(options.normal_angle > 0)) {
     return {Status::bad_tolerance};
   }
-  detail::RateCall<S> call(sets, topology, options, out);
+  detail::RateCall<S> call(nets, topology, options, out);
   RateReport report = call.choose();
   // Raising the rates of one patch can make its edges coincide with others, or raise its bound.
   bool settled = true;
@@ -106,9 +106,9 @@ template SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<doub
                                                 const CertifiedRates&) noexcept;
 template SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<float>>,
                                                  const Topology&, std::span<const double>,
-                                                 const CertifiedRates&, int) noexcept;
+                                                 const CertifiedRates&, const Options&) noexcept;
 template SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<double>>,
                                                  const Topology&, std::span<const double>,
-                                                 const CertifiedRates&, int) noexcept;
+                                                 const CertifiedRates&, const Options&) noexcept;
 
 } // namespace simdbezier

@@ -11,7 +11,7 @@ namespace {
 /// Patches at corners with at most so many of them are compared one by one.
 constexpr std::size_t kMostAtCorner = 64;
 
-/// Which of the four corners, or sides, of a patch: a bit each.
+/// A bit for each of the four corners, or sides, of a patch.
 using Mask = unsigned;
 
 class Neighbours {
@@ -152,8 +152,8 @@ private:
   bool any_ = false;
 };
 
-/// Which patches are entangled with those with which they share crowded corners only: neighbours
-/// are counted instead of compared.
+/// Finds the patches that are entangled with those with which they share crowded corners only:
+/// neighbours are counted instead of compared.
 class CrowdedCorners {
 public:
   CrowdedCorners(const TopologyData& topology, const CrowdedPlaces& places)

@@ -1,4 +1,5 @@
-// Where cells at a patch's corners and edges must be cut in one way, or must be more than one.
+// Finds where cells at a patch's corners and edges must be cut in one way, or must be more than
+// one.
 #pragma once
 
 #include "src/mesh/topology/net_corners.hpp"

@@ -35,7 +35,7 @@ struct SideNet {
 template <typename S>
 class NetCorners {
 public:
-  explicit NetCorners(std::span<const ControlNets<S>> sets) : views_(sets) {}
+  explicit NetCorners(std::span<const ControlNets<S>> nets) : views_(nets) {}
 
   void read_side(std::size_t side, SideNet& to) const;
   /// The control point of corner 4 * patch + corner.

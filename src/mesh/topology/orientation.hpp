@@ -1,4 +1,4 @@
-// Which patches' normals agree.
+// Finds which patches' normals agree.
 #pragma once
 
 #include "src/mesh/topology/topology_data.hpp"

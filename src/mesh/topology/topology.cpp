@@ -91,7 +91,7 @@ void join_corners(TopologyData& topology) {
     corners.join(corner_at(side, 1), corner_at(first, own.reversed() ? 0 : 1));
   }
   topology.corners = std::move(corners).finish();
-  // From the last corner to the first, so that the lowest one always leads to the latest.
+  // Goes from the last corner to the first, so that the lowest one always leads to the latest.
   topology.next_corner = topology.corners;
   for (std::size_t k = topology.corners.size(); k-- > 0;) {
     const std::uint32_t lowest = topology.corners[k];
@@ -141,26 +141,26 @@ bool has_rounded_points(const NetCorners<S>& nets, const TopologyData& topology)
 }
 
 template <typename S>
-Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& options,
+Status build(std::span<const ControlNets<S>> nets, const TopologyOptions& options,
              TopologyData& topology) {
-  topology.flags.assign(patches_of(sets), 0);
-  const NetCorners<S> nets(sets);
+  topology.flags.assign(patches_of(nets), 0);
+  const NetCorners<S> corners(nets);
   {
-    auto rings = find_rings<S, std::uint32_t>(sets, options.threads);
-    collapse_short_sides(nets, options.point_size, rings);
+    auto rings = find_rings<S, std::uint32_t>(nets, options.threads);
+    collapse_short_sides(corners, options.point_size, rings);
     if (options.snap > 0) {
-      topology.counts.snapped_sides = snap_sides(nets, options.snap, rings);
+      topology.counts.snapped_sides = snap_sides(corners, options.snap, rings);
     }
     number_edges(rings, topology);
   }
   join_corners(topology);
   count_edges(topology);
-  if (options.snap > 0 || options.point_size > 0 || has_rounded_points(nets, topology)) {
-    find_displacements(nets, topology);
+  if (options.snap > 0 || options.point_size > 0 || has_rounded_points(corners, topology)) {
+    find_displacements(corners, topology);
   }
-  mark_repeated(nets, topology);
-  mark_corners(nets, topology);
-  mark_loops(nets, topology);
+  mark_repeated(corners, topology);
+  mark_corners(corners, topology);
+  mark_loops(corners, topology);
   mark_entangled(topology);
   const Status oriented = orient(options, topology);
   if (oriented == Status::ok) {
@@ -170,36 +170,36 @@ Status build(std::span<const ControlNets<S>> sets, const TopologyOptions& option
 }
 
 template <typename S>
-Status check(std::span<const ControlNets<S>> sets, const TopologyOptions& options) noexcept {
+Status check(std::span<const ControlNets<S>> nets, const TopologyOptions& options) noexcept {
   if (!(options.point_size >= 0) || !(options.snap >= 0)) {
     return Status::bad_tolerance;
   }
   std::size_t patches = 0;
-  for (const ControlNets<S>& nets : sets) {
-    if (nets.components != 3) {
+  for (const ControlNets<S>& view : nets) {
+    if (view.components != 3) {
       return Status::bad_components;
     }
-    if (nets.count >= kMostPatches - patches) {
+    if (view.count >= kMostPatches - patches) {
       return Status::size_overflow;
     }
-    patches += nets.count;
+    patches += view.count;
   }
-  return check_views(sets);
+  return check_views(nets);
 }
 
 } // namespace
 } // namespace detail
 
 template <typename S>
-Status find_topology(std::span<const ControlNets<S>> sets, Topology& topology,
+Status find_topology(std::span<const ControlNets<S>> nets, Topology& topology,
                      const TopologyOptions& options) noexcept try {
   const detail::DefaultFpEnvironment environment;
-  const Status status = detail::check(sets, options);
+  const Status status = detail::check(nets, options);
   if (status != Status::ok) {
     return status;
   }
   auto data = std::make_shared<detail::TopologyData>();
-  const Status built = detail::build(sets, options, *data);
+  const Status built = detail::build(nets, options, *data);
   if (built == Status::ok) {
     topology = Topology(std::move(data));
   }

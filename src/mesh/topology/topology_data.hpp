@@ -129,7 +129,7 @@ struct TopologyData {
   [[nodiscard]] bool is_turned(std::size_t patch) const noexcept {
     return (flags[patch] & kTurned) != 0;
   }
-  /// Of a side or a corner, 4 * patch + number.
+  /// Whether a flag holds of a side or a corner, 4 * patch + number.
   [[nodiscard]] bool is_apart(std::size_t place, ApartFlag flag) const noexcept {
     return !apart.empty() && (apart[place / 4] >> place % 4 & unsigned{flag}) != 0;
   }
@@ -155,7 +155,7 @@ struct TopologyData {
         return false;
       }
       const std::size_t other = all.front() == side ? all.back() : all.front();
-      // Where there is none, a number that no patch has.
+      // A number that no patch has stands where there is no such patch.
       behind[k] = all.size() == 1 ? patches() + k : other / kPatchEdges;
       if (behind[k] == patch || std::count(behind, behind + k, behind[k]) > 0) {
         return false;

@@ -47,7 +47,7 @@ public:
     }
     return true;
   }
-  /// The same for a corner, 4 * patch + corner.
+  /// Fetches a corner, 4 * patch + corner, likewise.
   bool fetch_corner(std::uint32_t corner, const Planes<T>& position, const Planes<T>& normal,
                     std::size_t at) noexcept {
     const std::size_t patch = corner / kPatchCorners;
@@ -81,7 +81,7 @@ private:
   static std::uint32_t most_rate(const MeshData& mesh) noexcept {
     return std::min(kMost, mesh.most_rate());
   }
-  /// Two rows with their ends, and two columns without.
+  /// The values of a plane: two rows with their ends, and two columns without.
   static std::size_t plane_values(std::size_t rate) noexcept {
     return kBlockPatches * 2 * (rate + 1 + rate - 1);
   }
@@ -114,8 +114,8 @@ private:
     }
   }
 
-  /// Null where the patch is not like those beside it, or where blocks are asked for too seldom to
-  /// pay.
+  /// The block of a patch; null where the patch is not like those beside it, or where blocks are
+  /// asked for too seldom to pay.
   const Block* block_of(std::size_t patch) noexcept {
     ++asked_;
     const std::size_t number = patch / kBlockPatches;

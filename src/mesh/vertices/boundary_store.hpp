@@ -1,4 +1,4 @@
-// From samples on boundaries to the vertices that are made of them.
+// Makes the vertices on boundaries of the samples there.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace simdbezier::detail {
 
-/// Which of the patches at a vertex gives its position: the lowest of all, or, where the vertex is
-/// split, the lowest of those that have this very one.
+/// The patch, of those at a vertex, that gives its position: the lowest of all, or, where the
+/// vertex is split, the lowest of those that have this very one.
 enum class ValuesOf : std::uint8_t { owner, own_patch };
 
 /// One thread's boundary vertices on their way to memory.

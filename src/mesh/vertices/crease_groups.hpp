@@ -1,4 +1,4 @@
-// Which patches share a vertex where their normals differ.
+// Decides which patches share a vertex where their normals differ.
 #pragma once
 
 #include <algorithm>

@@ -171,7 +171,7 @@ private:
 } // namespace detail
 
 template <typename S>
-Status quantisation_box(std::span<const ControlNets<S>> sets, VertexFormat format,
+Status quantisation_box(std::span<const ControlNets<S>> nets, VertexFormat format,
                         QuantisationBox& box) noexcept {
   if (format != VertexFormat::unorm16 && format != VertexFormat::snorm16) {
     return Status::bad_tolerance;
@@ -179,12 +179,12 @@ Status quantisation_box(std::span<const ControlNets<S>> sets, VertexFormat forma
   const detail::DefaultFpEnvironment environment;
   detail::PointBox points;
   bool finite = true;
-  for (const ControlNets<S>& nets : sets) {
-    if (const Status status = detail::check_in_space(nets); !status) {
+  for (const ControlNets<S>& view : nets) {
+    if (const Status status = detail::check_in_space(view); !status) {
       return status;
     }
-    for (std::size_t patch = 0; patch < nets.count; ++patch) {
-      detail::for_points(nets, patch, [&](const detail::Point3& point) {
+    for (std::size_t patch = 0; patch < view.count; ++patch) {
+      detail::for_points(view, patch, [&](const detail::Point3& point) {
         points.include(point);
         finite = finite && detail::is_finite(point);
       });

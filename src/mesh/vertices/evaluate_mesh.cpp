@@ -118,7 +118,7 @@ struct VertexAttributes {
 
   [[nodiscard]] bool wanted() const noexcept { return parameters.wanted() || patch.wanted(); }
 
-  /// As check_outputs(); vectors have been checked.
+  /// Checks the attributes as check_outputs() does; vectors have been checked.
   [[nodiscard]] Status check(const Outputs<T>& vectors, std::size_t vertices) const noexcept {
     if (patch.capacity < vertices) {
       return Status::output_too_small;

@@ -1,4 +1,4 @@
-// From values to the bits of vertex formats.
+// Turns values into the bits of vertex formats.
 #pragma once
 
 #include <algorithm>

@@ -25,7 +25,7 @@ struct PieceParameters {
   std::size_t rows; ///< of all runs
 };
 
-/// Where its samples go: rows one after the other, patches likewise.
+/// The memory that a patch's samples go to: rows one after the other, patches likewise.
 template <typename T>
 struct PieceTarget {
   Planes<T> position;

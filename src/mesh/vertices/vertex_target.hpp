@@ -1,4 +1,4 @@
-// Where the vertices of a mesh go.
+// The places that the vertices of a mesh go to.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ struct ParameterOutputs {
   }
 };
 
-/// Where vertices go: values of vertex k at [(k - first) * step] of a plane.
+/// Planes that vertices go to: values of vertex k at [(k - first) * step] of a plane.
 template <typename T>
 struct VertexTarget {
   Planes<T> position;

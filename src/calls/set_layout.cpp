@@ -1,4 +1,4 @@
-#include "src/storage/set_layout.hpp"
+#include "src/calls/set_layout.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -76,7 +76,7 @@ std::size_t bucket_of(const ControlNets<S>& nets, const PackOptions& options,
   return buckets.size() - 1;
 }
 
-/// From a patch's number to its place; a set of one shape does not need it.
+/// Leads from a patch's number to its place; a set of one shape does not need it.
 template <typename T>
 void place_patches(std::span<const PackRun> runs, SetStorage<T>& storage) {
   storage.places = std::make_unique<PatchPlace[]>(storage.count);

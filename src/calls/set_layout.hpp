@@ -1,4 +1,4 @@
-// Where packed patches go: buckets of one shape each, and the runs of patches that fill them.
+// The places of packed patches: buckets of one shape each, and the runs of patches that fill them.
 #pragma once
 
 #include <cstddef>
