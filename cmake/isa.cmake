@@ -1,33 +1,85 @@
-# The instruction sets: the only place in the project with -m flags.
-# One row each: name | xsimd architecture tag | compiler flags. Narrowest first.
-# Tuned for generic machines, g++ 12 spills addresses to vector registers, where they queue behind
-# the arithmetic: 18 % of the derivatives' speed on AVX-512.
+# The instruction sets: the only place in the project with -m flags, and the only list of them besides
+# the enumeration Isa. One row each, narrowest first:
+# name | processors | xsimd architecture tag | fuses | compact | compiler flags
+#   fuses: a multiplication and an addition have one rounding. xsimd's fma() for the tag has to be
+#     one instruction then.
+#   compact: hardly any machine depends on the set (kCompact in kernels/simd/vector.hpp).
+#   flags: those of the form -mNAME name what a machine must have, in the compilers' words. Tuned for
+#     generic machines, g++ 12 spills addresses to vector registers, where they queue behind the
+#     arithmetic: 18 % of the derivatives' speed on AVX-512.
+set(simdbezier_isa_rows
+    "scalar|any|void|0|1|"
+    "sse2|x86_64|xsimd::sse2|0|1|-msse2"
+    "avx2|x86_64|xsimd::fma3<xsimd::avx2>|1|0|-mavx2 -mfma -mtune=haswell"
+    "avx512|x86_64|xsimd::avx512bw|1|0|-mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mavx2 -mfma -mtune=haswell"
+    "neon64|aarch64|xsimd::neon64|1|0|")
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
-  set(SIMDBEZIER_ISA_TABLE
-      "scalar|void|"
-      "sse2|xsimd::sse2|-msse2"
-      "avx2|xsimd::fma3<xsimd::avx2>|-mavx2 -mfma -mtune=haswell"
-      "avx512|xsimd::avx512bw|-mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mavx2 -mfma -mtune=haswell")
+  set(simdbezier_processors x86_64)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
-  set(SIMDBEZIER_ISA_TABLE "scalar|void|" "neon64|xsimd::neon64|")
+  set(simdbezier_processors aarch64)
 else()
-  set(SIMDBEZIER_ISA_TABLE "scalar|void|")
+  set(simdbezier_processors other)
 endif()
+
+# Takes a row apart into PREFIX_name, _processors, _arch, _fuses, _compact, and _flags, a list.
+function(simdbezier_read_isa_row row prefix)
+  string(REPLACE "|" ";" fields "${row};")
+  foreach(column IN ITEMS name processors arch fuses compact flags)
+    list(POP_FRONT fields value)
+    set(${prefix}_${column} "${value}" PARENT_SCOPE)
+  endforeach()
+  separate_arguments(value)
+  set(${prefix}_flags ${value} PARENT_SCOPE)
+endfunction()
+
+# What a machine must have for flags, in the compilers' words.
+function(simdbezier_isa_needs flags result)
+  list(FILTER flags INCLUDE REGEX "^-m[a-z0-9.]+$")
+  list(TRANSFORM flags REPLACE "^-m" "")
+  set(${result} ${flags} PARENT_SCOPE)
+endfunction()
+
+# The rows of the processor's family.
+set(SIMDBEZIER_ISA_TABLE ${simdbezier_isa_rows})
+list(FILTER SIMDBEZIER_ISA_TABLE INCLUDE REGEX "^[a-z0-9_]+[|](any|${simdbezier_processors})[|]")
+
+# The widest instruction set of the machine that builds. Where Linux does not say what the processor
+# has, that is the widest one which needs nothing.
+function(simdbezier_widest_isa result)
+  set(words "")
+  if(EXISTS /proc/cpuinfo)
+    file(STRINGS /proc/cpuinfo words REGEX "^flags" LIMIT_COUNT 1)
+  endif()
+  separate_arguments(words)
+  foreach(row IN LISTS SIMDBEZIER_ISA_TABLE)
+    simdbezier_read_isa_row("${row}" row)
+    simdbezier_isa_needs("${row_flags}" needs)
+    list(TRANSFORM needs REPLACE "[.]" "_") # as Linux writes sse4.2
+    list(REMOVE_ITEM needs "" ${words})
+    if("${needs}" STREQUAL "")
+      set(${result} ${row_name} PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()
 
 # A build that names instruction sets contains these and no others: calls on a machine that has none
 # of them return Status::unsupported_isa.
 set(SIMDBEZIER_ISAS "" CACHE STRING
-    "Instruction sets to build, for example avx2;avx512; empty: all of the processor's family")
+    "Instruction sets to build, for example avx2;avx512; native: the widest of this machine; empty: all of the processor's family")
 set(simdbezier_known_isas ${SIMDBEZIER_ISA_TABLE})
 list(TRANSFORM simdbezier_known_isas REPLACE "[|].*" "")
-foreach(isa IN LISTS SIMDBEZIER_ISAS)
+set(simdbezier_wanted_isas ${SIMDBEZIER_ISAS})
+if(simdbezier_wanted_isas STREQUAL "native")
+  simdbezier_widest_isa(simdbezier_wanted_isas)
+endif()
+foreach(isa IN LISTS simdbezier_wanted_isas)
   if(NOT isa IN_LIST simdbezier_known_isas)
     list(JOIN simdbezier_known_isas ", " known)
-    message(FATAL_ERROR "SIMDBEZIER_ISAS: expected some of ${known}, found '${isa}'")
+    message(FATAL_ERROR "SIMDBEZIER_ISAS: expected some of ${known}, or native, found '${isa}'")
   endif()
 endforeach()
-if(SIMDBEZIER_ISAS)
-  list(JOIN SIMDBEZIER_ISAS "|" wanted)
+if(simdbezier_wanted_isas)
+  list(JOIN simdbezier_wanted_isas "|" wanted)
   list(FILTER SIMDBEZIER_ISA_TABLE INCLUDE REGEX "^(${wanted})[|]")
 endif()
 
@@ -54,18 +106,94 @@ endif()
 # The flags of one instruction set, as a list.
 function(simdbezier_isa_flags name result)
   foreach(row IN LISTS SIMDBEZIER_ISA_TABLE)
-    string(REPLACE "|" ";" fields "${row};")
-    list(GET fields 0 row_name)
+    simdbezier_read_isa_row("${row}" row)
     if(row_name STREQUAL name)
-      list(GET fields 2 flags)
-      separate_arguments(flags)
-      set(${result} ${flags} ${simdbezier_jump_flags} PARENT_SCOPE)
+      set(${result} ${row_flags} ${simdbezier_jump_flags} PARENT_SCOPE)
     endif()
   endforeach()
 endfunction()
 
-# Compiles the kernels once per instruction set, appends the objects to `target` and lists
-# them for src/runtime/dispatch.cpp in isa_list.inc.
+# The flags of the kernels besides those of their instruction set.
+#
+# Without optimisation xsimd's small functions leave weak symbols behind that the linker could hand
+# to objects of another instruction set (tests/runtime/check_symbols.cmake watches). -O3 in every
+# other build: below it g++ 12 keeps the registers' arrays in memory, which costs a factor of two;
+# compact sets have -O2, which is half the work and half the code. No errno: sqrt becomes one
+# instruction. No exceptions: their personality routine would be one more symbol to merge. Without
+# -fno-ivopts and -fno-tree-pre g++ 12 makes many addresses of a sweep's few, most of them on the
+# stack: 10 % of the speed of 8 x 8 and 17 x 17 positions.
+# Its SLP vectoriser joins loads of fields that were stored one by one, which then wait for streaming
+# stores (src/tables/drain_queue.hpp); and it drops the rounding to float where two statements like
+# double(float(x)) - y stand side by side, as they do in packing.
+# Clones of functions for one argument are what templates are for, where they pay.
+# g++ 12 warns about its own _mm512_undefined_ps (GCC bug 105593).
+function(simdbezier_kernel_options object compact)
+  set(level -O3)
+  if(compact)
+    set(level -O2)
+  endif()
+  target_compile_options(
+    ${object} PRIVATE $<IF:$<CONFIG:Debug>,-O1,${level}> -fno-math-errno -fno-exceptions
+                      "$<$<CXX_COMPILER_ID:GNU>:-fno-ivopts;-fno-tree-pre;-fno-tree-slp-vectorize;-fno-ipa-cp-clone>"
+                      "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>")
+  if(SIMDBEZIER_SANITIZE)
+    # All that is inlined here would take a sanitizing compiler minutes; a quarter of them where
+    # scopes are not watched. Undefined behaviour of the kernels is looked for where
+    # SIMDBEZIER_KERNEL_FLAGS say so (CMakePresets.json).
+    target_compile_options(${object} PRIVATE -O1 -fno-sanitize=undefined)
+    if(SIMDBEZIER_SANITIZE MATCHES address)
+      target_compile_options(${object} PRIVATE -fno-sanitize-address-use-after-scope)
+    endif()
+  endif()
+  separate_arguments(further UNIX_COMMAND "${SIMDBEZIER_KERNEL_FLAGS}")
+  target_compile_options(${object} PRIVATE ${further})
+endfunction()
+
+# Compiles the kernels for the instruction set of a row, as the objects simdbezier_kernels_NAME.
+function(simdbezier_add_kernel_objects row)
+  simdbezier_read_isa_row("${row}" row)
+  simdbezier_isa_flags(${row_name} flags)
+  string(TOUPPER ${row_name} upper)
+  set(object simdbezier_kernels_${row_name})
+  set(sources bicubic_kernels.cpp shape_kernels.cpp curve_kernels.cpp net_kernels.cpp mesh_kernels.cpp)
+  list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../kernels/)
+  add_library(${object} OBJECT ${sources})
+  # Alone even where other sources are compiled several as one: the longest ones of a build must run
+  # side by side.
+  set_target_properties(${object} PROPERTIES UNITY_BUILD OFF)
+  target_compile_definitions(
+    ${object} PRIVATE SIMDBEZIER_ISA=${row_name} SIMDBEZIER_ARCH=${row_arch}
+                      SIMDBEZIER_KERNELS_${upper} SIMDBEZIER_FUSES=${row_fuses}
+                      SIMDBEZIER_COMPACT=${row_compact})
+  target_compile_options(${object} PRIVATE ${flags})
+  simdbezier_kernel_options(${object} ${row_compact})
+  target_link_libraries(${object} PRIVATE simdbezier_private_flags simdbezier_xsimd)
+  set_target_properties(${object} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+endfunction()
+
+# Writes the table as C++ source: SIMDBEZIER_INSTRUCTION_SET(name, NAME, fuses, runs_here), one a
+# line, of all families. runs_here is an expression over SIMDBEZIER_CPU_HAS(feature).
+function(simdbezier_write_instruction_sets file)
+  set(lines "")
+  foreach(row IN LISTS simdbezier_isa_rows)
+    simdbezier_read_isa_row("${row}" row)
+    string(TOUPPER ${row_name} upper)
+    set(runs_here false)
+    if(row_processors MATCHES "^(any|${simdbezier_processors})$")
+      simdbezier_isa_needs("${row_flags}" needs)
+      list(TRANSFORM needs REPLACE "(.+)" "SIMDBEZIER_CPU_HAS(\"\\1\")")
+      list(PREPEND needs true)
+      list(JOIN needs " && " runs_here)
+    endif()
+    string(APPEND lines
+           "SIMDBEZIER_INSTRUCTION_SET(${row_name}, ${upper}, ${row_fuses} != 0, ${runs_here})\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${file} CONTENT "${lines}")
+endfunction()
+
+# Compiles the kernels once per instruction set, and appends the objects to `target`. The folder
+# `generated` gets isa_list.inc, which lists them for src/runtime/dispatch.cpp, and
+# instruction_sets.inc.
 function(simdbezier_add_isa_kernels target)
   # Nets have many loops, few of them hot, and are moved value by value where they are not packed:
   # vectorised, and unrolled as far as sweeps need it, these were a third more code and no faster.
@@ -75,58 +203,13 @@ function(simdbezier_add_isa_kernels target)
                "$<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize;--param=max-completely-peeled-insns=100>")
   set(entries "")
   foreach(row IN LISTS SIMDBEZIER_ISA_TABLE)
-    string(REPLACE "|" ";" fields "${row};")
-    list(GET fields 0 name)
-    list(GET fields 1 arch)
-    simdbezier_isa_flags(${name} flags)
-    string(TOUPPER ${name} upper)
-    set(object simdbezier_kernels_${name})
-    set(sources bicubic_kernels.cpp shape_kernels.cpp curve_kernels.cpp net_kernels.cpp mesh_kernels.cpp)
-    list(TRANSFORM sources PREPEND ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../kernels/)
-    add_library(${object} OBJECT ${sources})
-    # Alone even where other sources are compiled several as one: the longest ones of a build must
-    # run side by side.
-    set_target_properties(${object} PROPERTIES UNITY_BUILD OFF)
-    set(level -O3)
-    if(name MATCHES "^(scalar|sse2)$")
-      set(level -O2)
-    endif()
-    target_compile_definitions(${object} PRIVATE SIMDBEZIER_ISA=${name} SIMDBEZIER_ARCH=${arch}
-                                                 SIMDBEZIER_KERNELS_${upper})
-    # Without optimisation xsimd's small functions leave weak symbols behind that the linker could
-    # hand to objects of another instruction set (tests/runtime/check_symbols.cmake watches).
-    # -O3 in every other build: below it g++ 12 keeps the registers' arrays in memory, which costs a
-    # factor of two; compact sets (kCompact in kernels/simd/vector.hpp) have -O2, which is half the
-    # work and half the code. No errno: sqrt becomes one instruction. No exceptions: their personality
-    # routine would be one more symbol to merge. Without -fno-ivopts and -fno-tree-pre g++ 12 makes
-    # many addresses of a sweep's few, most of them on the stack: 10 % of the speed of 8 x 8 and
-    # 17 x 17 positions.
-    # Its SLP vectoriser joins loads of fields that were stored one by one, which then wait for
-    # streaming stores (src/tables/drain_queue.hpp); and it drops the rounding to float where two
-    # statements like double(float(x)) - y stand side by side, as they do in packing.
-    # Clones of functions for one argument are what templates are for, where they pay.
-    # g++ 12 warns about its own _mm512_undefined_ps (GCC bug 105593).
-    target_compile_options(
-      ${object} PRIVATE ${flags} $<IF:$<CONFIG:Debug>,-O1,${level}> -fno-math-errno -fno-exceptions
-                        "$<$<CXX_COMPILER_ID:GNU>:-fno-ivopts;-fno-tree-pre;-fno-tree-slp-vectorize;-fno-ipa-cp-clone>"
-                        "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>")
-    if(SIMDBEZIER_SANITIZE)
-      # All that is inlined here would take a sanitizing compiler minutes; a quarter of them where
-      # scopes are not watched. Undefined behaviour of the kernels is looked for where
-      # SIMDBEZIER_KERNEL_FLAGS say so (CMakePresets.json).
-      target_compile_options(${object} PRIVATE -O1 -fno-sanitize=undefined)
-      if(SIMDBEZIER_SANITIZE MATCHES address)
-        target_compile_options(${object} PRIVATE -fno-sanitize-address-use-after-scope)
-      endif()
-    endif()
-    separate_arguments(further UNIX_COMMAND "${SIMDBEZIER_KERNEL_FLAGS}")
-    target_compile_options(${object} PRIVATE ${further})
-    target_link_libraries(${object} PRIVATE simdbezier_private_flags simdbezier_xsimd)
-    set_target_properties(${object} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${object}>)
-    string(APPEND entries "SIMDBEZIER_ISA_ENTRY(${name})\n")
+    simdbezier_add_kernel_objects("${row}")
+    simdbezier_read_isa_row("${row}" row)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:simdbezier_kernels_${row_name}>)
+    string(APPEND entries "SIMDBEZIER_ISA_ENTRY(${row_name})\n")
   endforeach()
   set(generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
   file(CONFIGURE OUTPUT ${generated}/isa_list.inc CONTENT "${entries}")
+  simdbezier_write_instruction_sets(${generated}/instruction_sets.inc)
   target_include_directories(${target} PRIVATE ${generated})
 endfunction()

@@ -1,10 +1,10 @@
 // The formulas of one curve, over V = one register of its samples or a single one.
 //
-// The order of operations is that of a patch's edges (bicubic.hpp, shape/shape_formulas.hpp):
+// The order of operations is that of a patch's edges (bicubic.hpp, poly/series.hpp):
 // row_series(), h * (1 / w), the origin added last, ends replaced.
 #pragma once
 
-#include "kernels/shape/shape_formulas.hpp"
+#include "kernels/poly/series.hpp"
 #include "src/tables/curve_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -51,7 +51,7 @@ class CurveChannel {
   using T = ScalarOf<V>;
 
 public:
-  /// values: those of the channel, in the first cell.
+  /// values are those of the channel in the first cell.
   template <bool kHalves>
   SIMDBEZIER_INLINE CurveChannel(const CurveShape& shape, const T* values,
                                  const CurvePoints<V, kHalves>& at)
@@ -65,7 +65,7 @@ public:
                               [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return chosen(k); });
   }
 
-  /// A position from what the polynomials gave.
+  /// Makes a position of what the polynomials gave.
   SIMDBEZIER_INLINE V finished(const CurveShape& shape, V value) const {
     if (shape.origins) {
       value = value + chosen(shape.origin_at());
@@ -98,7 +98,8 @@ private:
   const PairSelector<V>& ends_;
 };
 
-/// Up to three components of a register of samples, with derivatives by t.
+/// Up to three components of a register of samples have their positions in here, with derivatives
+/// by t.
 template <typename V>
 struct CurveJet {
   V position[3];
@@ -122,7 +123,7 @@ SIMDBEZIER_INLINE void by_cells(const CurvePoints<V, kHalves>& points, Body body
   }
 }
 
-/// From derivatives by a cell's parameter to those by t: nothing that rounds.
+/// These two turn derivatives by the parameter of a cell into those by t. Nothing rounds here.
 template <bool kHalves, typename V>
 SIMDBEZIER_INLINE V scaled_first(V d1) {
   return kHalves ? d1 + d1 : d1;
@@ -132,7 +133,7 @@ SIMDBEZIER_INLINE V scaled_second(V d2) {
   return scaled_first<kHalves>(scaled_first<kHalves>(d2));
 }
 
-/// |a x b|^2
+/// Returns |a x b|^2.
 template <typename V>
 SIMDBEZIER_INLINE V squared_cross(const V a[3], const V b[3]) {
   V n[3];

@@ -40,7 +40,8 @@ SIMDBEZIER_INLINE void for_curve_blocks(const CurveTask<T>& task, std::size_t va
   }
 }
 
-/// Where the registers of a curve of n samples begin. n: at least 1.
+/// Calls body(first) for each register of a curve of n samples, n being at least 1. The last one
+/// may begin within the one before it.
 template <typename V, typename Body>
 SIMDBEZIER_INLINE void for_registers(std::size_t n, Body body) {
   std::size_t first = 0;
@@ -79,7 +80,7 @@ SIMDBEZIER_PART void sweep_component(const CurveTask<T>& task, const CurveShape&
   const std::size_t step = shape.values();
   const T* values =
       task.values + block.begin * step + (task.first_component + slot) * shape.channel_values();
-  // Hardware does not follow across the pauses between blocks.
+  // Hardware does not follow the values across the pauses between blocks.
   const std::size_t ahead = task.prefetch && slot == 0 && first == 0 ? kCurvesAhead * step : 0;
   for_curves<V>(task, block, first, [&](const CurveRange<V>& range) SIMDBEZIER_INLINE_LAMBDA {
     if (ahead > 0) {

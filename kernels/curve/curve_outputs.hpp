@@ -1,12 +1,12 @@
-// From a register of samples of one curve to the planes of a task.
+// Stores a register of samples of one curve in the planes of a task.
 #pragma once
 
 #include "kernels/curve/curve_formulas.hpp"
-#include "kernels/shape/sample_jets.hpp"
+#include "kernels/poly/sample_jets.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Where a register of samples goes: consecutive values from `at` on.
+/// A register of samples goes to consecutive values from `at` on.
 template <typename V>
 struct CurveRange {
   std::size_t curve;
@@ -71,7 +71,7 @@ SIMDBEZIER_RARE void resolve_lanes(const Task& task, const CurveShape& shape,
   }
 }
 
-/// What |C'|^2 has to exceed; inverse: 1 / w of rational curves.
+/// Returns what |C'|^2 has to exceed. inverse is 1 / w of rational curves.
 template <bool kRational, typename V>
 SIMDBEZIER_INLINE V tangent_floor(ScalarOf<V> of_curve, V inverse, V squared) {
   using T = ScalarOf<V>;
@@ -112,7 +112,7 @@ SIMDBEZIER_INLINE void store_tangents(const Task& task, const CurveShape& shape,
   }
 }
 
-/// How far a task needs derivatives.
+/// Returns how far a task needs derivatives.
 template <typename Task>
 SIMDBEZIER_INLINE std::size_t depth_of(const Task& task) {
   if (task.curvature != nullptr || task.out[output_index(CurveOutput::d2)].wanted()) {
@@ -124,7 +124,7 @@ SIMDBEZIER_INLINE std::size_t depth_of(const Task& task) {
              : 0;
 }
 
-/// f(slot) for three components: in a loop where their polynomials are loops as well.
+/// Calls f(slot) for three components. This is a loop where their polynomials are loops as well.
 template <bool kUnrolled, typename F>
 SIMDBEZIER_INLINE void for_slots(const F& f) {
   if constexpr (kUnrolled) {
@@ -137,7 +137,8 @@ SIMDBEZIER_INLINE void for_slots(const F& f) {
   }
 }
 
-/// All outputs that a task wants, of a register of samples; kDepth: see depth_of().
+/// Computes and stores all outputs that a task wants of a register of samples. kDepth is what
+/// depth_of() returns.
 template <std::size_t kKnownOrder, bool kRational, std::size_t kDepth, bool kMixed, typename V,
           bool kHalves, typename Task>
 SIMDBEZIER_INLINE void finish_samples(const Task& task, const CurveShape& shape,

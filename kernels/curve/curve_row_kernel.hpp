@@ -14,13 +14,14 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <typename T>
 inline constexpr std::size_t kLineCurves = 64 / sizeof(T);
 
-/// Values that are passed on while as many are computed, or those of kLineCurves where they are
-/// more. Few, because lines that coefficients push out of the first-level cache cost a store as
-/// much as the way to memory; but stores must have reached that cache before they are read.
+/// This many values are passed on while as many are computed, or those of kLineCurves where they
+/// are more. They are few, because lines that coefficients push out of the first-level cache cost a
+/// store as much as the way to memory; but stores must have reached that cache before they are
+/// read.
 template <typename T>
 inline constexpr std::size_t kRowBatch = 2048 / sizeof(T);
 
-/// Room for rings of all planes, and for what is put together before it is copied.
+/// This is the room for rings of all planes, and for what is put together before it is copied.
 template <typename T>
 inline constexpr std::size_t kRowMemory = 2 * (3 * detail::kMostRow + 3) * kLineCurves<T>;
 
@@ -47,13 +48,14 @@ struct RowRings {
   }
 };
 
-/// Ways to fill a register: with samples of a curve, or with a sample of each of many curves. Any
-/// other number is that of the curves whose samples fill it, by lines, which need no rings.
+/// A register is filled with samples of a curve, or with a sample of each of many curves. Any other
+/// number is that of the curves whose samples fill it, by lines, which need no rings.
 inline constexpr std::size_t kAlong = 0;
 inline constexpr std::size_t kAcross = ~std::size_t(0);
 
-/// Curves [begin, end) to rows, `batch` at a time; rings: passed on meanwhile, null where there are
-/// none. A function of its own, because it is large and there are several ways to it.
+/// Writes curves [begin, end) to rows, `batch` at a time. rings are passed on meanwhile, and null
+/// where there are none. It is a function of its own, because it is large and there are several
+/// ways to it.
 template <std::size_t kKnownOrder, std::size_t kWay, bool kTriples, typename T>
 SIMDBEZIER_KERNEL void
 fill_rows(const CurveTask<T>& shared_task, std::size_t begin, std::size_t end, std::size_t batch,
@@ -91,7 +93,7 @@ fill_rows(const CurveTask<T>& shared_task, std::size_t begin, std::size_t end, s
   }
 }
 
-/// fill_rows() for some degrees and ways.
+/// This is fill_rows() for a degree and a way.
 template <bool kTriples, typename T>
 struct RowFiller {
   void (*fill)(const CurveTask<T>& task, std::size_t begin, std::size_t end, std::size_t batch,
@@ -141,7 +143,7 @@ SIMDBEZIER_PART void stream_rows(const CurveTask<T>& task, const CurveRows<kTrip
   const std::size_t groups = kRowBatch<T> / (3 * task.n * kLineCurves<T>);
   const std::size_t batch = std::max<std::size_t>(groups, 1) * kLineCurves<T>;
   RowRings<kTriples, T> rings;
-  // What a step computes, in lines.
+  // This is what a step computes, in lines.
   rings.lines_per_step = (3 * way.step * sizeof(T) + 63) / 64;
   for (std::size_t k = 0; k < out.kStreams; ++k) {
     rings.ring[k].start(memory, batch * row, out.first[k]);
@@ -160,9 +162,9 @@ SIMDBEZIER_PART void stream_rows(const CurveTask<T>& task, const CurveRows<kTrip
   }
 }
 
-/// Which way rows are filled: short ones of cubics by lines where that pays, with stores that stay
-/// in the caches for triples alone; other rows of fewer samples than a register with curves in its
-/// lanes. aligned: all streams begin on a line.
+/// Chooses how rows are filled: short ones of cubics by lines where that pays, with stores that
+/// stay in the caches for triples alone; other rows of fewer samples than a register with curves in
+/// its lanes. aligned says that all streams begin on a line.
 template <bool kTriples, typename T>
 SIMDBEZIER_PART RowFiller<kTriples, T> choose_filler(const CurveTask<T>& task, bool aligned) {
   constexpr std::size_t kAll = kLanes<vec<T>>;

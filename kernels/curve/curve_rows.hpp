@@ -1,4 +1,4 @@
-// Where positions of curves go: rows of n samples, in x y z triples or in three planes.
+// Positions of curves go to rows of n samples, in x y z triples or in three planes.
 #pragma once
 
 #include "kernels/curve/curve_outputs.hpp"
@@ -8,12 +8,13 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::CurveTask;
 
-/// How far ahead curves are asked for: streaming stores take the buffers that loads from memory
-/// need, so that hardware, which follows the values by itself, comes too late.
+/// This is how far ahead curves are asked for. Streaming stores take the buffers that loads from
+/// memory need, so that hardware, which follows the values by itself, comes too late.
 template <typename T>
 inline constexpr std::size_t kValuesAhead = 2048 / sizeof(T);
 
-/// One stream of triples, or three of planes; curve k's row begins k * row(n) values later.
+/// Rows are one stream of triples, or three of planes. Curve k has its row k * row(n) values behind
+/// that of curve 0.
 template <bool kTriples, typename T>
 struct CurveRows {
   static constexpr std::size_t kStreams = kTriples ? 1 : 3;

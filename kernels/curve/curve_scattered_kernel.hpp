@@ -9,7 +9,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::ScatteredCurveTask;
 
-/// Samples [first, first + own) of a task, all of one curve.
+/// Evaluates samples [first, first + own) of a task, all of one curve.
 template <bool kHalves, bool kRational, std::size_t kDepth, typename T>
 SIMDBEZIER_PART void evaluate_samples(const ScatteredCurveTask<T>& task, const CurveShape& shape,
                                       std::size_t first, std::size_t own) {

@@ -27,18 +27,18 @@ class CurveColumns {
 public:
   static constexpr std::size_t kMostValues = 3 * (kMostOrderAcross + 3);
 
-  /// values: of the first component of the first curve.
+  /// values are those of the first component of the first curve.
   SIMDBEZIER_PART CurveColumns(const CurveShape& shape, const T* values, std::size_t stride)
       : order_(shape.order()), channel_(shape.channel_values()), origins_(shape.origins) {
     const std::size_t count = 3 * channel_;
     for (std::size_t k = 0; k + kQuad<V> < count; k += kQuad<V>) {
       load_across<V>(values + k, stride, value_ + k);
     }
-    // Some of them twice, but nothing behind the last curve.
+    // Some of them are loaded twice, but nothing behind the last curve.
     load_across<V>(values + count - kQuad<V>, stride, value_ + count - kQuad<V>);
   }
 
-  /// One component of kAcrossStep samples. any_end: some of them may be ends.
+  /// Evaluates one component of kAcrossStep samples. any_end says that some of them may be ends.
   SIMDBEZIER_PART void evaluate(std::size_t component, const T* x, bool any_end, V* result) const {
     const V* const c = value_ + component * channel_;
     repeat<kAcrossStep>([&](std::size_t j) SIMDBEZIER_INLINE_LAMBDA {
@@ -77,7 +77,7 @@ SIMDBEZIER_PART bool any_end(const T* x) {
   return any;
 }
 
-/// kCount values of every curve, to rows.
+/// Stores kCount values of every curve in rows.
 template <std::size_t kCount, typename V>
 SIMDBEZIER_PART void store_samples(const V* values, ScalarOf<V>* to, std::size_t stride) {
   repeat<kCount / kQuad<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
@@ -85,7 +85,7 @@ SIMDBEZIER_PART void store_samples(const V* values, ScalarOf<V>* to, std::size_t
   });
 }
 
-/// A register of curves; calls step() after every few samples.
+/// Fills the rows of a register of curves, and calls step() after every few samples.
 template <bool kTriples, typename V, std::size_t kKnownOrder, typename T, typename Step>
 SIMDBEZIER_INLINE void fill_columns(const CurveColumns<V, kKnownOrder>& curves, const T* x,
                                     std::size_t n, const CurveRows<kTriples, T>& rows, Step step) {
@@ -109,7 +109,7 @@ SIMDBEZIER_INLINE void fill_columns(const CurveColumns<V, kKnownOrder>& curves, 
   }
 }
 
-/// Curves [begin, end) to rows, which must have room for whole registers of curves.
+/// Writes curves [begin, end) to rows, which must have room for whole registers of curves.
 template <std::size_t kKnownOrder, bool kTriples, typename T, typename Step>
 SIMDBEZIER_INLINE void fill_across(const CurveTask<T>& task, const CurveShape& shape,
                                    std::size_t begin, std::size_t end,

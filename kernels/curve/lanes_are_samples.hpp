@@ -6,14 +6,14 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// One more sample than whole registers hold, on the curves' end, as in grids of 17 or 33: the
-/// positions there are stored values.
+/// Whether there is one more sample than whole registers hold, on the end of the curves, as in
+/// grids of 17 or 33. Positions there are stored values.
 template <typename V, typename T>
 SIMDBEZIER_PART bool ends_alone(const CurveTask<T>& task) {
   return task.n % kLanes<V> == 1 && task.n > kLanes<V> && task.x[task.n - 1] == T(0.5);
 }
 
-/// Samples [first, first + a register) of curves [begin, end); calls step() after each.
+/// Writes samples [first, first + a register) of curves [begin, end), and calls step() after each.
 template <std::size_t kKnownOrder, bool kTriples, typename T, typename Step>
 SIMDBEZIER_INLINE void sweep_rows(const CurveTask<T>& task, const CurveShape& shape,
                                   std::size_t begin, std::size_t end, std::size_t first,
@@ -46,8 +46,9 @@ SIMDBEZIER_INLINE void sweep_rows(const CurveTask<T>& task, const CurveShape& sh
   }
 }
 
-/// Curves [begin, end) to rows of their own; the last register of a row may repeat samples of the
-/// one before. Streaming: every register of samples is whole lines, triples only.
+/// Writes curves [begin, end) to rows of their own. The last register of a row may repeat samples
+/// of the one before. Where they are streamed, every register of samples is whole lines, and rows
+/// are triples.
 template <std::size_t kKnownOrder, bool kTriples, typename T, typename Step>
 SIMDBEZIER_INLINE void fill_along(const CurveTask<T>& task, const CurveShape& shape,
                                   std::size_t begin, std::size_t end,

@@ -14,8 +14,9 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <typename T>
 inline constexpr std::size_t kLineSamples = 64 / sizeof(T);
 
-/// How many curves a register holds of rows of n samples: 1 where a row is a register or more, 0
-/// where rows are not written by lines. Rows of one register that is a line need no such help.
+/// Returns how many curves a register holds of rows of n samples: 1 where a row is a register or
+/// more, 0 where rows are not written by lines. Rows of one register that is a line need no such
+/// help.
 template <typename T>
 SIMDBEZIER_PART std::size_t curves_in_register(std::size_t n) {
   constexpr std::size_t kAll = kLanes<vec<T>>;
@@ -24,7 +25,7 @@ SIMDBEZIER_PART std::size_t curves_in_register(std::size_t n) {
   }
   return n < kAll ? kAll / n : 1;
 }
-/// The fewest and the most of them.
+/// These are the fewest and the most curves of a register.
 template <typename T>
 inline constexpr std::size_t kLeastCurves = kLineWide<vec<T>> ? 2 : 1;
 template <typename T>
@@ -49,10 +50,11 @@ public:
     }
   }
 
-  /// Curves of one line.
+  /// Returns the number of curves of one line.
   [[nodiscard]] SIMDBEZIER_PART std::size_t curves() const { return kLineSamples<T> / n_; }
 
-  /// The curves whose first component's values begin at `from` and a stride behind each other.
+  /// Writes the curves whose first component has its values at `from` and a stride behind each
+  /// other.
   SIMDBEZIER_PART void put(const T* from, const CurveRows<kTriples, T>& rows,
                            bool streaming) const {
     LinePart<T> value[kParts][3];
@@ -82,7 +84,7 @@ public:
   }
 
 private:
-  /// One place for both kinds of stores: twice the code would gain nothing.
+  /// Both kinds of stores have one place, since twice the code would gain nothing.
   static SIMDBEZIER_PART void store(T* to, LinePart<T> value, bool streaming) {
     if (streaming) {
       store_any<true>(to, value);
@@ -91,7 +93,7 @@ private:
     }
   }
 
-  /// One component: coefficients, then both ends.
+  /// Evaluates one component, whose values are its coefficients and then both ends.
   SIMDBEZIER_PART V position(const T* values, V x) const {
     const V coefficients = join_fours<kCurves, V>(values, stride_);
     V power[kOrderOfCubics];
@@ -111,7 +113,7 @@ private:
   std::size_t place_[kParts]; ///< of each part's first curve
 };
 
-/// Curves [begin, end) to rows. Streaming: rows begin on a line.
+/// Writes curves [begin, end) to rows. Where they are streamed, rows begin on a line.
 template <std::size_t kCurves, bool kTriples, typename T>
 SIMDBEZIER_PART void fill_lines(const CurveTask<T>& task, const CurveShape& shape,
                                 std::size_t begin, std::size_t end, CurveRows<kTriples, T> rows,

@@ -21,7 +21,7 @@ SIMDBEZIER_PART Cell<T> cell_of(const DerivativeTask<T>& task, std::size_t patch
           task.origins == nullptr ? nullptr : task.origins + at * shape.cell_origins()};
 }
 
-/// Taylor coefficients of single channels and of quotients, at the local x, y.
+/// Computes Taylor coefficients of single channels and of quotients, at the local x, y.
 template <typename V>
 class CellDerivatives {
   using T = ScalarOf<V>;
@@ -38,7 +38,7 @@ public:
     }
   }
 
-  /// The derivatives of one component that the orders ask for.
+  /// Computes the derivatives of one component that the orders ask for.
   void evaluate(std::size_t component, TaylorTable<V>& to) const {
     merged_table(component, to);
     if (shape_.rational) {
@@ -95,7 +95,8 @@ private:
     }
   }
 
-  /// The same, but for samples on an edge u = const, what does not depend on u comes from the edge.
+  /// This is table(), but for samples on an edge u = const, what does not depend on u comes from
+  /// the edge.
   void merged_table(std::size_t channel, TaylorTable<V>& to) const {
     table(channel, to);
     if (side_u_ != kInside && orders_.highest_v[0] >= 0) {
@@ -152,16 +153,17 @@ private:
   SIMDBEZIER_PART V origin(std::size_t component, std::size_t which) const {
     return broadcast<V>(cell_.origins[component * detail::kOriginsPerComponent + which]);
   }
-  /// What is added to positions on an edge u = const where derivatives by u use them.
+  /// Returns what is added to positions on an edge u = const where derivatives by u use them.
   SIMDBEZIER_PART V relative_origin_u(std::size_t component) const {
     return point_u_ ? broadcast<V>(corner_u(component))
                     : origin(component, detail::kRelativeOriginsAt + edge_u() - detail::kEdgeU0);
   }
-  /// The corner where an edge u = const begins; for the weight's channel, the edge's mark.
+  /// Returns the corner where an edge u = const begins; for the weight's channel, the edge's mark.
   SIMDBEZIER_PART T corner_u(std::size_t channel) const {
     return cell_.edges[shape_.corners_at() + channel * 4 + edge_u() - detail::kEdgeU0];
   }
-  /// The origin of the edge u = const, if the samples are on one.
+  /// Returns the origin of the edge u = const if the samples are on one, and the cell's own
+  /// elsewhere.
   SIMDBEZIER_PART V origin_u(std::size_t component) const {
     return origin(component, side_u_ == kInside ? 0 : detail::kEdgeOriginsAt + edge_u());
   }
@@ -174,7 +176,7 @@ private:
   bool point_u_ = false; ///< on an edge u = const that is packed around its point
   V x_;
   V y_;
-  // For rational patches: the weight, and that along an edge v = const if the samples are on one.
+  // Rational patches need the weight, and that along an edge v = const if the samples are on one.
   TaylorTable<V> minus_w_;
   TaylorRow<V> minus_w_v_;
   V inverse_;

@@ -6,17 +6,17 @@
 // has no binomial factors. The factorials follow once, at the very end.
 #pragma once
 
-#include "kernels/shape/sample_jets.hpp"
+#include "kernels/poly/sample_jets.hpp"
 #include "src/tables/derivative_task.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::kMostDerivatives;
 
-/// [order in v]: derivatives by v of one channel, or [order in u].
+/// A row is [order in v], the derivatives by v of one channel, or [order in u].
 template <typename V>
 using TaylorRow = V[kMostDerivatives];
-/// [order in u][order in v]
+/// A table is [order in u][order in v].
 template <typename V>
 using TaylorTable = V[kMostDerivatives][kMostDerivatives];
 
@@ -42,7 +42,7 @@ SIMDBEZIER_INLINE void taylor_series(std::size_t order, V t, const Coefficient& 
   }
 }
 
-/// The same of a row or an edge: orders up to 2 have the operations of row_series().
+/// This is taylor_series() of a row or an edge: orders up to 2 have the operations of row_series().
 template <typename V, typename Coefficient>
 SIMDBEZIER_INLINE void taylor_row(std::size_t order, V t, const Coefficient& c, std::size_t highest,
                                   V* to) {
@@ -69,9 +69,9 @@ SIMDBEZIER_PART void divide_row(const V* minus_w, V inverse, std::size_t highest
   }
 }
 
-/// The same in both directions. `orders` has, with every order, all lower ones. The order of the
-/// sum is that of Quotient, for equal bits. to_patch: null, or what to add to the position where
-/// derivatives by u use it; see ColumnPolynomials.
+/// This is divide_row() in both directions. `orders` has, with every order, all lower ones. The
+/// order of the sum is that of Quotient, for equal bits. to_patch is null, or what to add to the
+/// position where derivatives by u use it; see ColumnPolynomials.
 template <typename V>
 SIMDBEZIER_PART void divide_table(const TaylorTable<V>& minus_w, V inverse,
                                   const detail::DerivativeOrders& orders, const V* to_patch,
@@ -97,13 +97,13 @@ SIMDBEZIER_PART void divide_table(const TaylorTable<V>& minus_w, V inverse,
   }
 }
 
-/// n!
+/// Entry n is n!.
 constexpr double kFactorials[kMostDerivatives] = {
     1,     1,      2,       6,        24,        120,        720,         5040,
     40320, 362880, 3628800, 39916800, 479001600, 6227020800, 87178291200, 1307674368000};
 
-/// What turns the Taylor coefficients of a cell into derivatives by u and v: a! b!, rounded once in
-/// double and once in T, and 2 for every order in a direction that has two cells.
+/// Returns what turns the Taylor coefficients of a cell into derivatives by u and v: a! b!, rounded
+/// once in double and once in T, and 2 for every order in a direction that has two cells.
 template <typename T>
 SIMDBEZIER_PART T derivative_factor(int order_u, int order_v, const detail::NetShape& shape) {
   const int doublings = (shape.cells_u() == 2 ? order_u : 0) + (shape.cells_v() == 2 ? order_v : 0);

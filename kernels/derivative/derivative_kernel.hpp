@@ -1,4 +1,4 @@
-// Derivatives of any order: lanes = samples of one patch that lie alike, not necessarily
+// Derivatives of any order. Lanes are samples of one patch that lie alike, not necessarily
 // consecutive ones. They wait until a register is full, or the patch ends.
 #pragma once
 

@@ -1,7 +1,7 @@
-// Passing staged samples on: planes as they are, or as records that are put together in registers.
+// Passes staged samples on: planes as they are, or as records that are put together in registers.
 //
-// Whole cache lines only. In a streaming store nothing may come between the parts of a line, and
-// streams alternate rarely; either costs more than half of the speed of memory.
+// Only whole cache lines are passed on. In a streaming store nothing may come between the parts of
+// a line, and streams alternate rarely; either costs more than half of the speed of memory.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +39,7 @@ SIMDBEZIER_KERNEL void drain_nonuples(const DrainStream<T>& s, std::size_t steps
   drain_packed<kStreaming, 9>(s, steps);
 }
 
-/// False: not with these registers.
+/// Returns false where these registers do not put nine members together.
 template <typename T>
 SIMDBEZIER_INLINE bool drain_as_nonuples(const DrainStream<T>& s, std::size_t steps) {
   if (!kNonuples || (s.streaming && !kNonupleLines)) {
@@ -51,7 +51,7 @@ SIMDBEZIER_INLINE bool drain_as_nonuples(const DrainStream<T>& s, std::size_t st
   return true;
 }
 
-/// Records of any length, at any distance.
+/// Passes on records of any length, at any distance.
 template <typename T>
 SIMDBEZIER_INLINE void drain_records(const DrainStream<T>& s, std::size_t at, T* to,
                                      std::ptrdiff_t stride) {
@@ -73,8 +73,8 @@ SIMDBEZIER_INLINE void drain_records(const DrainStream<T>& s, std::size_t at, T*
   }
 }
 
-/// Records without gaps by way of a buffer, so that they leave in whole lines. Two buffers: a line
-/// read back at once would wait for the small stores that made it.
+/// Passes on records without gaps by way of a buffer, so that they leave in whole lines. There are
+/// two buffers, because a line read back at once would wait for the small stores that made it.
 template <typename T>
 SIMDBEZIER_KERNEL void drain_buffered(const DrainStream<T>& s, std::size_t steps) {
   alignas(64) T buffer[2][kDrainStep<T> * detail::kMostMembers];
@@ -137,8 +137,8 @@ SIMDBEZIER_KERNEL void drain_owed(DrainQueue<T>& queue) {
   queue.owed = 0;
 }
 
-/// To be called by kernels after every few rows: `values` of T have been written since the last
-/// call. Passes about as many on, so that memory and arithmetic overlap; not one line at a time,
+/// Kernels call this after every few rows: `values` of T have been written since the last call. It
+/// passes about as many on, so that memory and arithmetic overlap, but not one line at a time,
 /// since every call costs as much as several.
 template <typename T>
 SIMDBEZIER_INLINE void drain_some(DrainQueue<T>* drain, std::size_t values) {

@@ -81,8 +81,8 @@ struct ColumnTile {
       : first(first_column), active(active_columns), watertight(own_edges),
         column(Groups::repeat(x + first_column), own_edges), corners(column.x) {}
 
-  /// The first `rows` rows of `value`, `step` samples from one to the next. extra: what follows
-  /// them in kExtra tiles.
+  /// Stores the first `rows` rows of `value`, `step` samples from one to the next. extra is what
+  /// follows them in kExtra tiles.
   SIMDBEZIER_PART void store(T* to, std::size_t step, V value, std::size_t rows,
                              const T* extra) const {
     if constexpr (kRows == kLanes<V>) {
@@ -106,7 +106,7 @@ struct ColumnTile {
       }
     }
   }
-  /// kRows rows in reverse order, from the one at `to` back.
+  /// Stores kRows rows in reverse order, from the one at `to` back.
   SIMDBEZIER_PART void store_mirrored(T* to, std::size_t step, V value, const T* extra) const {
     if constexpr (kRows == 1) {
       keep_stores_apart();
@@ -125,7 +125,7 @@ struct ColumnTile {
     }
   }
 
-  /// First of the lanes in which an edge v = const stands.
+  /// Returns the first of the lanes in which an edge v = const stands.
   static SIMDBEZIER_PART std::size_t edge_lane(RowKind kind) {
     return kShared && kind == RowKind::edge_v1 ? kLanes<V> / 2 : 0;
   }
@@ -154,7 +154,7 @@ struct ColumnTile {
     }
   }
 
-  /// Positions on the edge `edge`, or on both where they share a register; and du.
+  /// Returns the positions on the edge `edge`, or on both where they share a register, and du.
   SIMDBEZIER_PART V edge_rows(const Component<T>& c, std::size_t edge, V& du) const {
     if constexpr (!kShared) {
       return edge_position(c, column, edge, du);
@@ -182,7 +182,7 @@ struct ColumnTile {
       return row_second(k, RowPoint<V>(column.x));
     }
   }
-  /// The Y of these edges.
+  /// Returns the Y of these edges.
   static SIMDBEZIER_PART V edge_y(std::size_t edge) {
     constexpr T kBoth[2] = {T(-0.5), T(0.5)};
     if constexpr (kShared) {
@@ -200,7 +200,7 @@ private:
     }
   }
 
-  /// As `active`; known to the compiler where all exist.
+  /// Returns `active`, as a constant where all columns exist.
   SIMDBEZIER_PART std::size_t columns() const { return kWhole ? kColumns : active; }
 
   static SIMDBEZIER_PART void shared_edges(const Component<T>& c, V k[kOrder]) {

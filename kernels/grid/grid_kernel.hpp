@@ -36,16 +36,16 @@ struct ColumnSplit {
   }
 };
 
-/// Where two registers are streamed together: they are one line, or two that lie side by side, of
-/// which memory takes each second one at half of its rate.
+/// Whether two registers are streamed together, because they are one line, or two that lie side by
+/// side. Memory takes each second line at half of its rate.
 template <detail::OutputSet kOutputs, typename T>
 constexpr bool kStreamsPairs =
     kLineWide<RegisterPair<vec<T>>> ? kOutputs == detail::kPosition : kSweepsTwice<kOutputs, T>;
 
-/// Bytes of samples that stay in the first-level cache while one tile follows the other.
+/// So many bytes of samples stay in the first-level cache while one tile follows the other.
 constexpr std::size_t kCachedBytes = 12288;
 
-/// Planes that a kernel writes.
+/// Returns the number of planes that a kernel writes.
 constexpr std::size_t written_planes(detail::OutputSet outputs) {
   return outputs == detail::kPosition         ? 3
          : outputs == detail::kPositionNormal ? 6
@@ -53,7 +53,7 @@ constexpr std::size_t written_planes(detail::OutputSet outputs) {
                                               : 9;
 }
 
-/// Calls a tile's function: one of patches [patch, end).
+/// Calls the function of a tile for patches [patch, end).
 template <detail::OutputSet kOutputs, Known kKnown, typename T>
 struct TileSweeper {
   const GridTask<T>& task;
@@ -67,7 +67,8 @@ struct TileSweeper {
   }
 };
 
-/// The columns behind whole registers, `rest` of them from `first` on: fewer than a register.
+/// Sweeps the columns behind whole registers, `rest` of them from `first` on: fewer than a
+/// register.
 template <typename T, typename Sweeper>
 SIMDBEZIER_INLINE void sweep_rest(const Sweeper& tiles, std::size_t first, std::size_t rest) {
   using V = vec<T>;
@@ -86,8 +87,8 @@ SIMDBEZIER_INLINE void sweep_rest(const Sweeper& tiles, std::size_t first, std::
   }
 }
 
-/// All tiles of patches [patch, end), for tasks of which nothing is known and for rarer outputs:
-/// whole registers and a masked one.
+/// Sweeps all tiles of patches [patch, end), for tasks of which nothing is known and for rarer
+/// outputs: whole registers and a masked one.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART void sweep_registers(const GridTask<T>& task, const RowPiece<T>& piece,
                                      std::size_t patch, std::size_t end) {
@@ -114,7 +115,7 @@ SIMDBEZIER_PART void sweep_registers(const GridTask<T>& task, const RowPiece<T>&
   }
 }
 
-/// All tiles of patches [patch, end), of tasks without origins.
+/// Sweeps all tiles of patches [patch, end), of tasks without origins.
 template <detail::OutputSet kOutputs, Known kKnown, typename T>
 SIMDBEZIER_PART void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
                                  const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
@@ -153,8 +154,9 @@ SIMDBEZIER_PART void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<
   }
 }
 
-/// Patches [patch, end) on the rows of a piece. Registers of 64 bytes have tiles for either kind of
-/// edges; shorter ones ask at run time, since twice the code would be too much for what it gains.
+/// Sweeps patches [patch, end) on the rows of a piece. Registers of 64 bytes have tiles for either
+/// kind of edges; shorter ones ask at run time, since twice the code would be too much for what it
+/// gains.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART void sweep_patches(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
                                    const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
@@ -185,8 +187,8 @@ SIMDBEZIER_PART void sweep_patches(const GridTask<T>& task, const ColumnSplit<ve
   }
 }
 
-/// A task that is a small grid, if it is one and the instruction set has kernels for it: positions,
-/// and with them normals or derivatives.
+/// Sweeps a task that is a small grid, if it is one and the instruction set has kernels for it, and
+/// returns whether it did: positions, and with them normals or derivatives.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool sweep_small_grid(const GridTask<T>& task) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)

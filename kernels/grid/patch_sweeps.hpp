@@ -31,7 +31,7 @@ SIMDBEZIER_PART bool is_watertight(const GridTask<T>& task) {
   return kKnown == Known::watertight || (kKnown != Known::open && task.watertight);
 }
 
-/// Positions and normals, of a tile and the column behind it.
+/// Sweeps positions and normals of a tile and the column behind it.
 template <bool kAny, Known kKnown, typename Piece, typename SomeTile, typename T>
 SIMDBEZIER_PART void sweep_normal_patches(const GridTask<T>& shared_task, const Piece& piece,
                                           const SomeTile& tile, std::size_t patch,
@@ -71,7 +71,7 @@ SIMDBEZIER_PART void sweep_normal_patches(const GridTask<T>& shared_task, const 
   }
 }
 
-/// Positions and derivatives, component by component, of a tile and the column behind it.
+/// Sweeps positions and derivatives, component by component, of a tile and the column behind it.
 template <detail::OutputSet kOutputs, typename Piece, typename SomeTile, typename T>
 SIMDBEZIER_PART void sweep_component_patches(const GridTask<T>& task, const Piece& piece,
                                              const SomeTile& tile, std::size_t patch,
@@ -130,8 +130,8 @@ template <detail::OutputSet kOutputs>
 constexpr bool kUsual = kOutputs == detail::kPosition || kOutputs == detail::kPositionNormal ||
                         kOutputs == detail::kPositionDerivatives;
 
-/// One tile of consecutive patches. It is a function of its own because values that other tiles
-/// keep in registers would leave it too few.
+/// Sweeps one tile of consecutive patches. It is a function of its own because values that other
+/// tiles keep in registers would leave it too few.
 template <detail::OutputSet kOutputs, Known kKnown, typename SomeTile, typename Piece, typename T>
 SIMDBEZIER_KERNEL void sweep_tile(const GridTask<T>& shared_task, const Piece& shared_piece,
                                   std::size_t first_column, std::size_t columns, std::size_t patch,

@@ -8,9 +8,9 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Piece::kAcross: rows come in order, without mirror images, and are as wide as the tile and the
-/// column behind it.
-/// Extra: how to read the column behind the tile, where there is one.
+/// Puts rows into one plane. Where Piece::kAcross holds, rows come in order, without mirror images,
+/// and are as wide as the tile and the column behind it. Extra is how the column behind the tile is
+/// read, where there is one.
 template <typename Piece, typename Tile, typename Extra,
           bool kStream = (Piece::kAcross) && (Tile::kTileRows == 1)>
 class PlaneRows {
@@ -33,8 +33,8 @@ public:
   SIMDBEZIER_PART void finish() {}
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-  /// The first two rows and the last two of a square. edges: its first row and its last one;
-  /// beside: the rows next to these.
+  /// Stores the first two rows and the last two of a square. edges holds its first row and its last
+  /// one, beside the rows next to these.
   SIMDBEZIER_PART void borders(V edges, V beside) {
     store_vector(to_, first_rows(edges, beside));
     store_vector(to_ + (Piece::rows() - 2) * nu_, second_rows(beside, edges));

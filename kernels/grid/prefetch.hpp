@@ -1,4 +1,4 @@
-// Patches that grid kernels will soon come to.
+// Asks for patches that grid kernels will soon come to.
 #pragma once
 
 #include "kernels/simd/operands.hpp"

@@ -15,7 +15,7 @@ struct RecordColumn {
   static constexpr std::size_t kRows = kBufferRows + 2 * kLanes<V>;
   alignas(64) T triple[Groups::kCount][3 * kRows];
 
-  /// Where a row stands in here.
+  /// These two return where a row stands in here.
   static SIMDBEZIER_PART std::size_t edge(std::size_t edge) {
     return edge == detail::kEdgeV0 ? 0 : kLanes<V> / 2;
   }
@@ -36,13 +36,13 @@ struct RecordColumn {
     });
   }
 
-  /// The rows of `piece`, whose first one begins with sample `at` of the task.
+  /// Sweeps the rows of `piece`, whose first one begins with sample `at` of the task.
   SIMDBEZIER_KERNEL void sweep(const GridTask<T>& task, const RowPiece<T>& piece,
                                const SingleColumnTile<V>& tile, std::size_t patch, std::size_t at) {
     using Sweep = RecordSweep<kOutputs, SingleColumnTile<V>>;
     const Sweep sweep(task, tile, patch);
     const V floor = floor_inside(tile.column.x, broadcast<V>(task.normal_floor[patch]));
-    const auto resolve = [&](const typename Sweep::Samples& s, V y, V limit, std::size_t row,
+    const auto resolve = [&](const typename Sweep::RecordValues& s, V y, V limit, std::size_t row,
                              std::size_t lane, std::size_t stored,
                              std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
       if (Sweep::unusual(s, limit)) [[unlikely]] {
@@ -52,10 +52,11 @@ struct RecordColumn {
           part.out[output_index(Output::normal)].component[c] =
               triple[Groups::kCount - 1] + 3 * stored + c;
         }
-        sweep.resolve(part, patch, Suspects{lane, 1, 1, rows, 0, 1, task.nu, 3}, s, y, limit);
+        sweep.resolve(part, patch, UncertainNormals{lane, 1, 1, rows, 0, 1, task.nu, 3}, s, y,
+                      limit);
       }
     };
-    typename Sweep::Samples s;
+    typename Sweep::RecordValues s;
     if (piece.lead || piece.trail) {
       const V y = tile.edge_y(0);
       sweep.edge(0, s);

@@ -14,16 +14,17 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Where kernels put records together.
+/// Whether kernels put records together.
 template <typename V>
 inline constexpr bool kPutsRecords = !kIsScalar<V> && kNonuples;
 
-/// Rows whose normals wait for their length.
+/// So many rows have normals that wait for their length.
 constexpr std::size_t kWaitingRows = 20;
 
-/// Where rows that are mirror images of each other are computed together, and how many rows there
-/// have to be between the edges: positions alone, since six or nine values of two rows have too few
-/// registers. Longer registers stay with single rows until pairs have been measured there.
+/// Whether rows that are mirror images of each other are computed together, and how many rows there
+/// have to be between the edges for that. Positions alone are, since six or nine values of two rows
+/// have too few registers. Longer registers stay with single rows until pairs have been measured
+/// there.
 template <detail::OutputSet kOutputs, typename V>
 inline constexpr bool kPairsRecords = kOutputs == detail::kPosition && !kLineWide<V>;
 constexpr std::size_t kLeastPaired = 6;
@@ -33,9 +34,9 @@ template <detail::OutputSet kOutputs, typename V>
 struct RecordRows {
   using T = ScalarOf<V>;
   using Sweep = RecordSweep<kOutputs, ColumnTile<1, true, false, V>>;
-  using Samples = typename Sweep::Samples;
+  using RecordValues = typename Sweep::RecordValues;
   using Column = RecordColumn<kOutputs, V>;
-  /// p, n and |n|^2 of each row.
+  /// These are p, n and |n|^2 of each row.
   using Waiting = T[kWaitingRows][7][kLanes<V>];
 
   /// What changes from row to row, and what goes with it: in variables of loops of their own, since
@@ -78,18 +79,18 @@ struct RecordRows {
   [[nodiscard]] SIMDBEZIER_PART std::size_t middle(std::size_t row) const {
     return row - (piece.lead ? 1 : 0);
   }
-  SIMDBEZIER_PART V compute_edge(std::size_t row, Samples& s) const {
+  SIMDBEZIER_PART V compute_edge(std::size_t row, RecordValues& s) const {
     sweep.edge(edge(row), s);
     s.assign();
     return sweep.tile.edge_y(edge(row));
   }
-  SIMDBEZIER_PART V compute_middle(const T* y, Samples& s) const {
+  SIMDBEZIER_PART V compute_middle(const T* y, RecordValues& s) const {
     const auto point = RowPowers<T>::template point<1, V>(y);
     sweep.interior(point, s);
     s.assign();
     return point.y;
   }
-  SIMDBEZIER_PART void compute_next(Cursor& next, std::size_t row, Samples& s) const {
+  SIMDBEZIER_PART void compute_next(Cursor& next, std::size_t row, RecordValues& s) const {
     if (row == next.next_edge) [[unlikely]] {
       next.next_edge = next.trail;
       compute_edge(row, s);
@@ -110,47 +111,46 @@ struct RecordRows {
   SIMDBEZIER_PART void put(Cursor next) const {
     const std::size_t rows = piece.rows();
     for (std::size_t row = 0; row < rows; ++row) {
-      Samples s;
+      RecordValues s;
       compute_next(next, row, s);
       next.places.store(s.value, 0);
       end_row(next, row);
     }
   }
 
-  /// As put(); rows that are mirror images of each other are computed together.
+  /// This is put(), but rows that are mirror images of each other are computed together.
   SIMDBEZIER_PART void put_pairs(const RecordPlaces<kOutputs, T>& places,
                                  const Column* column) const {
-    const auto store = [&](Samples& s, RowPlace place, std::size_t in_column)
-                           SIMDBEZIER_INLINE_LAMBDA {
-                             s.assign();
-                             places.store(s.value, place.at);
-                             if (column != nullptr) {
-                               column->move_to(places, place.at, in_column);
-                             }
-                           };
+    const auto store = [&](auto& s, RowPlace place, std::size_t row) SIMDBEZIER_INLINE_LAMBDA {
+      s.assign();
+      places.store(s.value, place.at);
+      if (column != nullptr) {
+        column->move_to(places, place.at, row);
+      }
+    };
     for_rows<RowOrder{1, RowPairs::always, 1}>(
         piece, 0, places.step,
         [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-          Samples s;
+          RecordValues s;
           sweep.edge(edge_of(kind), s);
           store(s, place, Column::edge(edge_of(kind)));
         },
         [&](const T* y, RowPlace place, RowPlace mirror) SIMDBEZIER_INLINE_LAMBDA {
-          Samples s;
-          Samples mirrored;
+          RecordValues s;
+          RecordValues mirrored;
           sweep.pair(RowPowers<T>::template point<1, V>(y), s, mirrored);
           store(s, place, Column::middle(middle(place.row)));
           store(mirrored, mirror, Column::middle(middle(mirror.row)));
         },
         [&](const T* y, RowPlace place, std::size_t /*rows*/) SIMDBEZIER_INLINE_LAMBDA {
-          Samples s;
+          RecordValues s;
           sweep.interior(RowPowers<T>::template point<1, V>(y), s);
           store(s, place, Column::middle(middle(place.row)));
         });
   }
 
-  /// With normals, in two passes. Root and division take as long as all else, and processors do not
-  /// look far enough ahead to begin with the rows behind meanwhile.
+  /// Puts rows with normals, in two passes. Root and division take as long as all else, and
+  /// processors do not look far enough ahead to begin with the rows behind meanwhile.
   SIMDBEZIER_PART void put_normals(Cursor next) const {
     alignas(64) Waiting waiting;
     const std::size_t rows = piece.rows();
@@ -167,13 +167,13 @@ struct RecordRows {
   }
 
 private:
-  /// position: where the next row's positions go, unless they are members of vertices.
+  /// position says where the next row's positions go, unless they are members of vertices.
   SIMDBEZIER_PART void begin_normals(Cursor& next, Waiting& waiting, std::size_t row,
                                      std::size_t last, T*& position) const {
     const bool vertices = next.places.record > 3;
     T(*wait)[kLanes<V>] = waiting[0];
     for (; row < last; ++row, wait += 7) {
-      Samples s;
+      RecordValues s;
       compute_next(next, row, s);
       store_vector(wait[3], s.value[3]);
       store_vector(wait[4], s.value[4]);
@@ -222,16 +222,17 @@ private:
   SIMDBEZIER_PART void look_again(std::size_t row, V floor, bool outside,
                                   std::size_t record) const {
     const bool on_edge = edge(row) < kEdges;
-    Samples s;
+    RecordValues s;
     const V y = on_edge ? compute_edge(row, s) : compute_middle(piece.middle.y + middle(row), s);
-    sweep.resolve(shared_task, patch,
-                  Suspects{0, kLanes<V>, kLanes<V>, 1, at + row * shared_task.nu, 0, 1, record}, s,
-                  y, outside && !on_edge ? no_floor<V>() : floor);
+    sweep.resolve(
+        shared_task, patch,
+        UncertainNormals{0, kLanes<V>, kLanes<V>, 1, at + row * shared_task.nu, 0, 1, record}, s, y,
+        outside && !on_edge ? no_floor<V>() : floor);
   }
 };
 
-/// A register of columns of consecutive patches, and the column behind it where it is the only one;
-/// as sweep_tile().
+/// Sweeps a register of columns of consecutive patches, and the column behind it where it is the
+/// only one; see sweep_tile().
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_KERNEL void sweep_records(const GridTask<T>& shared_task,
                                      const RowPiece<T>& shared_piece, std::size_t first_column,
@@ -267,7 +268,7 @@ SIMDBEZIER_KERNEL void sweep_records(const GridTask<T>& shared_task,
   }
 }
 
-/// All columns of patches [patch, end), at least a register of them.
+/// Sweeps all columns of patches [patch, end), at least a register of them.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART void sweep_record_tiles(const GridTask<T>& task, const RowPiece<T>& piece,
                                         std::size_t patch, std::size_t end) {

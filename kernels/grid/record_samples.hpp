@@ -22,7 +22,7 @@ struct RecordGroups {
   }
 };
 
-/// Where the next row's records go.
+/// Where the records of the next row go.
 template <detail::OutputSet kOutputs, typename T>
 struct RecordPlaces {
   using Groups = RecordGroups<kOutputs>;
@@ -38,7 +38,8 @@ struct RecordPlaces {
     });
   }
 
-  /// A register of samples, `at` values further on: value[3 g + c] is component c of group g.
+  /// Stores a register of samples, `at` values further on. value[3 g + c] is component c of group
+  /// g.
   template <typename V>
   SIMDBEZIER_PART void store(const V* value, std::size_t at) const {
     if constexpr (Groups::kCount > 1) {
@@ -76,13 +77,13 @@ struct RecordSweep {
     }
   }
 
-  /// A register of samples, and what their normals depend on.
-  struct Samples {
+  /// The values of a register of samples, and what their normals depend on.
+  struct RecordValues {
     Jet<V> jet[3];
     V value[3 * Groups::kCount];
     V squared;
 
-    /// All values, except that normals do not have unit length yet.
+    /// Assigns all values, except that normals do not have unit length yet.
     SIMDBEZIER_PART void assign() {
       for (std::size_t c = 0; c < 3; ++c) {
         value[c] = jet[c].p;
@@ -104,32 +105,33 @@ struct RecordSweep {
       }
     }
   };
-  SIMDBEZIER_PART void interior(const RowPoint<V>& at, Samples& s) const {
+  SIMDBEZIER_PART void interior(const RowPoint<V>& at, RecordValues& s) const {
     for (std::size_t c = 0; c < 3; ++c) {
       s.jet[c] = columns[c].interior(at);
     }
   }
-  /// The same at -y as well.
-  SIMDBEZIER_PART void pair(const RowPoint<V>& at, Samples& s, Samples& mirrored) const {
+  /// This is interior() at y and at -y.
+  SIMDBEZIER_PART void pair(const RowPoint<V>& at, RecordValues& s, RecordValues& mirrored) const {
     for (std::size_t c = 0; c < 3; ++c) {
       columns[c].pair(at, s.jet[c], mirrored.jet[c]);
     }
   }
-  SIMDBEZIER_PART void edge(std::size_t edge, Samples& s) const {
+  SIMDBEZIER_PART void edge(std::size_t edge, RecordValues& s) const {
     for (std::size_t c = 0; c < 3; ++c) {
       s.jet[c] = columns[c].edge(component[c], tile, edge);
     }
   }
 
-  [[nodiscard]] static SIMDBEZIER_PART bool unusual(const Samples& s, V floor) {
+  [[nodiscard]] static SIMDBEZIER_PART bool unusual(const RecordValues& s, V floor) {
     if constexpr (Groups::kNormals) {
       return !all_of<V>(s.squared > floor);
     }
     return false;
   }
-  /// The second look at unusual normals, after they have been stored.
-  SIMDBEZIER_PART void resolve(const GridTask<T>& task, std::size_t patch, const Suspects& which,
-                               const Samples& s, V y, V floor) const {
+  /// Takes the second look at unusual normals, after they have been stored.
+  SIMDBEZIER_PART void resolve(const GridTask<T>& task, std::size_t patch,
+                               const UncertainNormals& which, const RecordValues& s, V y,
+                               V floor) const {
     if constexpr (Groups::kNormals) {
       resolve_normals(task, patch, which, tile.column.x, y, s.squared, floor);
     }

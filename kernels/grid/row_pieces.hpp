@@ -4,26 +4,13 @@
 #pragma once
 
 #include "kernels/poly/even_odd.hpp"
+#include "kernels/poly/row_runs.hpp"
 #include "kernels/simd/repeat.hpp"
 #include "kernels/simd/row_groups.hpp"
-#include "src/storage/patch_storage.hpp"
-#include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-using detail::GridTask;
-using detail::RowKind;
-using detail::RowRun;
-
-SIMDBEZIER_PART bool is_edge(RowKind kind) {
-  return kind == RowKind::edge_v0 || kind == RowKind::edge_v1;
-}
-
-SIMDBEZIER_PART std::size_t edge_of(RowKind kind) {
-  return kind == RowKind::edge_v0 ? detail::kEdgeV0 : detail::kEdgeV1;
-}
-
-/// Rows of a piece that are on no edge.
+/// A piece has at most so many rows that are on no edge.
 constexpr std::size_t kMostMiddleRows = 128;
 
 /// Parameters of rows and what RowPoint takes besides, in memory: at constant distances, so that
@@ -31,7 +18,7 @@ constexpr std::size_t kMostMiddleRows = 128;
 template <typename T>
 class RowPowers {
 public:
-  /// y: as RowRun::y.
+  /// y is readable as far as RowRun::y.
   SIMDBEZIER_PART const T* fill(const T* y, std::size_t rows) {
     using V = vec<T>;
     for (std::size_t k = 0; k < rows; k += kLanes<V>) {
@@ -44,8 +31,9 @@ public:
     return values_;
   }
 
-  /// For a register of kRows rows, the first of which has its parameter at y. With several rows,
-  /// powers are computed anew, since stored ones would have to be spread over the lanes.
+  /// Returns the points of a register of kRows rows, the first of which has its parameter at y.
+  /// With several rows, powers are computed anew, since stored ones would have to be spread over
+  /// the lanes.
   template <std::size_t kRows, typename V>
   static SIMDBEZIER_PART RowPoint<V> point(const T* y) {
     if constexpr (kRows > 1) {
@@ -60,17 +48,6 @@ private:
   static constexpr std::size_t kPlane = kMostMiddleRows + detail::kMaxLanes;
   alignas(64) T values_[4 * kPlane];
 };
-
-/// Whether the rows are pairs Y and -Y, from both ends on. Two rows at 0 are none: the sign of a
-/// zero would depend on which of them is the mirror image.
-template <typename T>
-SIMDBEZIER_PART bool are_mirrored(const T* y, std::size_t rows) {
-  bool mirrored = true;
-  for (std::size_t k = 0; k < rows / 2 && mirrored; ++k) {
-    mirrored = y[k] == -y[rows - 1 - k] && y[k] != T(0);
-  }
-  return mirrored;
-}
 
 /// Rows that a tile sweeps in one go: one on an edge, some that are not, one on an edge. A usual
 /// grid is one such piece.
@@ -92,17 +69,17 @@ struct RowPiece {
   [[nodiscard]] SIMDBEZIER_PART std::size_t rows() const {
     return std::size_t{middle.rows} + (lead ? 1 : 0) + (trail ? 1 : 0);
   }
-  /// The parameters of a register of kRows rows, the first of which has its own at y.
+  /// Returns the parameters of a register of kRows rows, the first of which has its own at y.
   template <std::size_t kRows, typename V>
   static SIMDBEZIER_INLINE RowPoint<V> point(const T* y) {
     return RowPowers<T>::template point<kRows, V>(y);
   }
-  /// The columns of a grid whose task says nu; SquarePiece knows them.
+  /// Returns the columns of a grid whose task says nu. SquarePiece knows them.
   static SIMDBEZIER_PART std::size_t columns(std::size_t nu) { return nu; }
 };
 
-/// The same where rows lie across lines and are as wide as their tile, which writes them as a
-/// stream of whole lines.
+/// A piece whose rows lie across lines and are as wide as their tile, which writes them as a stream
+/// of whole lines.
 template <typename T>
 struct AcrossPiece : RowPiece<T> {
   static constexpr bool kAcross = true;
@@ -119,7 +96,7 @@ public:
 
   [[nodiscard]] SIMDBEZIER_PART bool more() const { return run_ != last_; }
 
-  /// powers: has to live as long as the piece is used.
+  /// powers has to live as long as the piece is used.
   SIMDBEZIER_PART RowPiece<T> next(RowPowers<T>& powers) {
     RowPiece<T> piece;
     piece.first = row_;
@@ -142,7 +119,7 @@ public:
   }
 
 private:
-  /// Where edges are not special, they are as good as any row.
+  /// Whether the next row is on an edge. Where edges are not special, they are as good as any row.
   [[nodiscard]] SIMDBEZIER_PART bool at_edge() const { return watertight_ && is_edge(run_->kind); }
   SIMDBEZIER_PART bool take_edge(RowKind& kind) {
     if (!more() || !at_edge()) {
@@ -192,13 +169,13 @@ struct RowOrder {
   std::size_t together; ///< registers that are computed one behind the other, without a loop
 };
 
-/// All rows of a piece, from sample `at` of the planes on. edge(kind, place) for edges; pair(y,
-/// place, mirrored) for a register of rows from `place` on and their mirror images from `mirrored`
-/// back; interior(y, place, rows) for other rows, at most a register of them.
-template <RowOrder kOrder, typename T, typename Edge, typename Pair, typename Interior>
+/// Sweeps all rows of a piece, from sample `at` of the planes on. It calls edge(kind, place) for
+/// edges; pair(y, place, mirrored) for a register of rows from `place` on and their mirror images
+/// from `mirrored` back; interior(y, place, rows) for other rows, at most a register of them.
+template <RowOrder kRowOrder, typename T, typename Edge, typename Pair, typename Interior>
 SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::size_t nu,
                                 const Edge& edge, const Pair& pair, const Interior& interior) {
-  constexpr std::size_t kRows = kOrder.rows;
+  constexpr std::size_t kRows = kRowOrder.rows;
   RowPlace place{at, 0};
   if (piece.lead) {
     edge(piece.lead_kind, place);
@@ -211,8 +188,8 @@ SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::s
     place = place.behind(rows, nu);
     y += rows;
   };
-  if constexpr (kOrder.pairs != RowPairs::never) {
-    if (piece.mirrored && (kOrder.pairs == RowPairs::always || !piece.by_lines)) {
+  if constexpr (kRowOrder.pairs != RowPairs::never) {
+    if (piece.mirrored && (kRowOrder.pairs == RowPairs::always || !piece.by_lines)) {
       RowPlace mirrored{trail.at - nu, trail.row - 1};
       for (; left >= 2 * kRows; left -= 2 * kRows) {
         pair(y, place, mirrored);
@@ -222,7 +199,7 @@ SIMDBEZIER_INLINE void for_rows(const RowPiece<T>& piece, std::size_t at, std::s
       }
     }
   }
-  constexpr std::size_t kTogether = kOrder.together;
+  constexpr std::size_t kTogether = kRowOrder.together;
   if constexpr (kTogether > 1) {
     for (; left >= kTogether * kRows; left -= kTogether * kRows) {
       repeat<kTogether>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {

@@ -57,7 +57,7 @@ struct SmallJets {
   }
 };
 
-/// Normals of 16 consecutive samples that did not all pass the quick test.
+/// Looks again at the normals of 16 consecutive samples that did not all pass the quick test.
 template <typename V>
 SIMDBEZIER_RARE void resolve_small_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch,
                                            std::size_t first, std::size_t active, V squared,
@@ -70,8 +70,8 @@ SIMDBEZIER_RARE void resolve_small_normals(const GridTask<ScalarOf<V>>& task, st
     x[k] = task.x[(first + k) % task.nu];
     y[k] = row == 0 ? T(-0.5) : row <= task.runs[1].rows ? task.runs[1].y[row - 1] : T(0.5);
   }
-  const Suspects suspects{0, kLanes<V>, active, 1, patch * task.patch_step + first, 0, 1};
-  resolve_normals(task, patch, suspects, load_vector<V>(x), load_vector<V>(y), squared, floor);
+  const UncertainNormals uncertain{0, kLanes<V>, active, 1, patch * task.patch_step + first, 0, 1};
+  resolve_normals(task, patch, uncertain, load_vector<V>(x), load_vector<V>(y), squared, floor);
 }
 
 /// Which samples of a small grid stand where.
@@ -103,7 +103,7 @@ struct SmallSamples {
   }
 };
 
-/// Positions with normals, or with du and dv.
+/// Sweeps positions with normals, or with du and dv.
 template <bool kNormals, typename T>
 SIMDBEZIER_KERNEL void sweep_small_jets(const GridTask<T>& shared_task) {
   using V = vec<T>;

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <simdbezier/outputs.hpp>
+
 #include "kernels/simd/vector.hpp"
 #include "src/storage/patch_storage.hpp"
 
@@ -22,7 +24,6 @@ constexpr std::size_t kMostSmall = kMostInner + 2;
 ///                    edges at their ends: group 2 at the first one, 3 at the second, lane e
 class SmallGridSources {
 public:
-  enum Output : std::size_t { kPosition, kDu, kDv };
   static constexpr std::size_t kRegisters = (kMostSmall * kMostSmall + 15) / 16;
 
   constexpr SmallGridSources() = default;
@@ -51,11 +52,11 @@ private:
     const std::size_t u = i == 0 ? 0 : 1; // which of the two edges
     const std::size_t v = j == 0 ? 0 : 1;
     if (on_u && on_v) {
-      return kThird + (output == kPosition ? detail::corner_index(u, v)
-                       : output == kDu     ? lane(2 + u, detail::kEdgeV0 + v)
-                                           : lane(2 + v, detail::kEdgeU0 + u));
+      return kThird + (output == Output::position ? detail::corner_index(u, v)
+                       : output == Output::du     ? lane(2 + u, detail::kEdgeV0 + v)
+                                                  : lane(2 + v, detail::kEdgeU0 + u));
     }
-    if (on_u && output == kDu) {
+    if (on_u && output == Output::du) {
       return kThird + lane(u, j - 1);
     }
     return on_u   ? kBorder + lane(j - 1, detail::kEdgeU0 + u)
@@ -79,9 +80,8 @@ public:
   constexpr SmallGridSizes() {
     for (std::size_t nv = kLeastSmall; nv <= kMostSmall; ++nv) {
       for (std::size_t nu = kLeastSmall; nu <= kMostSmall; ++nu) {
-        tables_[nv - kLeastSmall][nu - kLeastSmall] = {{SmallGridSources::kPosition, nu, nv},
-                                                       {SmallGridSources::kDu, nu, nv},
-                                                       {SmallGridSources::kDv, nu, nv}};
+        tables_[nv - kLeastSmall][nu - kLeastSmall] = {
+            {Output::position, nu, nv}, {Output::du, nu, nv}, {Output::dv, nu, nv}};
       }
     }
   }

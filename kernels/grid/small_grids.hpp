@@ -72,7 +72,8 @@ private:
   }
 };
 
-/// kFull: whole registers of samples, before the last one.
+/// Sweeps the positions of small grids. kFull is the number of whole registers of samples, before
+/// the last one.
 template <std::size_t kFull, typename T>
 SIMDBEZIER_KERNEL void sweep_small_positions(const GridTask<T>& shared_task) {
   using V = vec<T>;

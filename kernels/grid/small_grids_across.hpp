@@ -14,7 +14,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 #if defined(SIMDBEZIER_KERNELS_AVX2)
 
-/// Samples of a small grid at the most.
+/// A small grid has at most so many samples.
 constexpr std::size_t kMostSmallSamples = kMostSmall * kMostSmall;
 
 /// The parameters of a small grid, each in all lanes. Those that are too many are never used.
@@ -42,7 +42,7 @@ struct SmallGridAcross {
             point(task.runs[1].y[3])} {}
 
   [[nodiscard]] SIMDBEZIER_PART std::size_t samples() const { return nu * nv; }
-  /// f(i) for columns and rows between the edges.
+  /// These two call f(i) for the columns and for the rows between the edges.
   template <typename F>
   SIMDBEZIER_INLINE void for_columns(const F& f) const {
     for_inner(nu - 2, f);
@@ -51,7 +51,7 @@ struct SmallGridAcross {
   SIMDBEZIER_INLINE void for_rows(const F& f) const {
     for_inner(nv - 2, f);
   }
-  /// f(r, value) for a cubic at all rows.
+  /// Calls f(r, value) with the value of a cubic at each row.
   template <typename F>
   SIMDBEZIER_INLINE void for_row_values(const V c[kOrder], const F& f) const {
     const std::size_t rows = nv - 2;
@@ -137,7 +137,7 @@ private:
   }
 };
 
-/// The positions of one component, row after row.
+/// Finds the positions of one component, row after row.
 template <typename V, std::size_t kInner>
 SIMDBEZIER_PART void positions_across(const ComponentAcross<V>& c,
                                       const SmallGridAcross<V, kInner>& grid, V* sample) {
@@ -164,7 +164,7 @@ SIMDBEZIER_PART void positions_across(const ComponentAcross<V>& c,
   });
 }
 
-/// Lane p of sample k to to[p * step + k].
+/// Stores lane p of sample k in to[p * step + k].
 template <typename V>
 SIMDBEZIER_PART void put_across(const V* sample, std::size_t samples, ScalarOf<V>* to,
                                 std::size_t step) {
@@ -178,7 +178,7 @@ SIMDBEZIER_PART void put_across(const V* sample, std::size_t samples, ScalarOf<V
   }
 }
 
-/// Samples of one component of a register of patches to the planes of a group.
+/// Stores samples of one component of a register of patches in the planes of an output.
 template <typename V>
 SIMDBEZIER_PART void put_across(const GridTask<ScalarOf<V>>& task, Output output, std::size_t c,
                                 std::size_t patch, const V* sample, std::size_t samples) {
@@ -186,7 +186,7 @@ SIMDBEZIER_PART void put_across(const GridTask<ScalarOf<V>>& task, Output output
              task.patch_step);
 }
 
-/// Calls sweep(patch, new ones) for registers of patches; the task has at least one.
+/// Calls sweep(patch, how many are new) for registers of patches. The task has at least one.
 template <typename T, typename Sweep>
 SIMDBEZIER_INLINE void for_patches_across(const GridTask<T>& task, const Sweep& sweep) {
   constexpr std::size_t kL = kLanes<vec<T>>;

@@ -74,7 +74,7 @@ SIMDBEZIER_KERNEL void sweep_derivatives_across(const GridTask<T>& shared_task) 
   });
 }
 
-/// Normals of a register of patches that did not all pass the quick test.
+/// Looks again at the normals of a register of patches that did not all pass the quick test.
 template <std::size_t kInner, typename V>
 SIMDBEZIER_RARE void resolve_normals_across(const GridTask<ScalarOf<V>>& task,
                                             const SmallGridAcross<V, kInner>& grid,
@@ -84,8 +84,8 @@ SIMDBEZIER_RARE void resolve_normals_across(const GridTask<ScalarOf<V>>& task,
     const V x = broadcast<V>(grid.x[k % grid.nu]);
     const V y = row == 0 ? grid.end[0].y : row + 1 < grid.nv ? grid.row[row - 1].y : grid.end[1].y;
     for (std::size_t p = 0; p < kLanes<V>; ++p) {
-      const Suspects suspects{p, 1, 1, 1, (patch + p) * task.patch_step + k, 0, 1};
-      resolve_normals(task, patch + p, suspects, x, y, squared[k], floor);
+      const UncertainNormals uncertain{p, 1, 1, 1, (patch + p) * task.patch_step + k, 0, 1};
+      resolve_normals(task, patch + p, uncertain, x, y, squared[k], floor);
     }
   }
 }
@@ -146,7 +146,7 @@ SIMDBEZIER_PART void sweep_across(const GridTask<T>& task) {
   }
 }
 
-/// A small grid of at least a register of patches.
+/// Sweeps a small grid of at least a register of patches.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART void sweep_small_grid_across(const GridTask<T>& task) {
   if (task.nu == task.runs[1].rows + std::size_t{2} &&

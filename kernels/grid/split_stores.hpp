@@ -6,7 +6,7 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// The register at `to`, as often as it is asked for, one behind the other.
+/// Stores the register at `to` as often as it is asked for, one behind the other.
 template <typename T>
 SIMDBEZIER_KERNEL void store_registers(T* to, std::size_t registers) {
   const vec<T> value = load_vector<vec<T>>(to);

@@ -14,13 +14,14 @@ struct SharedRows {
   using V = vec<T>;
   static constexpr std::size_t kRegisters = kSide / 2 - 1;
 
-  /// Of the middle's rows in their order; across lines, the first register has those beside edges.
+  /// These are the rows of the middle in their order. Across lines, the first register has those
+  /// beside edges.
   RowPoint<V> rows[kRegisters];
 
   explicit SIMDBEZIER_PART SharedRows(const T* y)
       : SharedRows(y, std::make_index_sequence<kRegisters>()) {}
 
-  /// Of the rows from number `row` of the middle on.
+  /// Returns the parameters of the rows from number `row` of the middle on.
   SIMDBEZIER_PART const RowPoint<V>& from(std::size_t row) const {
     return rows[(row + (kAcross ? 1 : 0)) / 2];
   }
@@ -70,7 +71,7 @@ struct SquarePiece {
 
   explicit SIMDBEZIER_PART SquarePiece(const T* middle_y) : middle{middle_y}, shared(middle_y) {}
 
-  /// As RowPiece has it.
+  /// Returns what RowPiece::point() does.
   template <std::size_t kRows, typename V>
   SIMDBEZIER_INLINE RowPoint<V> point(const T* y) const {
     if constexpr (kTwoRows && kRows == 2) {
@@ -91,16 +92,16 @@ struct SquarePiece {
   }
 };
 
-/// As for other pieces, one register behind the other throughout; RowOrder::together = 1 keeps a
-/// loop.
-template <RowOrder kOrder, typename T, std::size_t kSide, bool kAcross, typename Edge,
+/// This is for_rows() of other pieces, but one register stands behind the other throughout.
+/// RowOrder::together = 1 keeps a loop.
+template <RowOrder kRowOrder, typename T, std::size_t kSide, bool kAcross, typename Edge,
           typename Pair, typename Interior>
 SIMDBEZIER_INLINE void for_rows(const SquarePiece<T, kSide, kAcross>& piece, std::size_t at,
                                 std::size_t nu, const Edge& edge, const Pair& pair,
                                 const Interior& interior) {
-  constexpr std::size_t kRows = kOrder.rows;
+  constexpr std::size_t kRows = kRowOrder.rows;
   constexpr std::size_t kMiddle = kSide - 2;
-  constexpr bool kInPairs = kOrder.pairs != RowPairs::never;
+  constexpr bool kInPairs = kRowOrder.pairs != RowPairs::never;
   constexpr std::size_t kPairs = kInPairs ? kMiddle / (2 * kRows) : 0; // registers
   constexpr std::size_t kSingle = kMiddle - 2 * kPairs * kRows;        // rows
   constexpr std::size_t kFull = kSingle / kRows;
@@ -116,7 +117,7 @@ SIMDBEZIER_INLINE void for_rows(const SquarePiece<T, kSide, kAcross>& piece, std
     interior(y + row, first.behind(row, nu), kRows);
   };
   edge(RowKind::edge_v0, RowPlace{at, 0});
-  if constexpr (kOrder.together > 1) {
+  if constexpr (kRowOrder.together > 1) {
     repeat<kPairs>(pair_at);
     repeat<kFull>(single_at);
   } else {
@@ -134,7 +135,7 @@ SIMDBEZIER_INLINE void for_rows(const SquarePiece<T, kSide, kAcross>& piece, std
   edge(RowKind::edge_v1, last.behind(1, nu));
 }
 
-/// The rows between those beside the edges, two a register: rows(y, place).
+/// Calls rows(y, place) for the rows between those beside the edges, two a register.
 template <typename T, std::size_t kSide, bool kAcross, typename Rows>
 SIMDBEZIER_INLINE void for_inner_rows(const SquarePiece<T, kSide, kAcross>& piece, std::size_t nu,
                                       const Rows& rows) {

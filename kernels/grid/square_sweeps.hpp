@@ -14,7 +14,8 @@ template <detail::OutputSet kOutputs, typename T>
 constexpr bool kSweepsTwice = (kOutputs == detail::kPosition && sizeof(T) * kLanes<vec<T>> >= 32) ||
                               (kOutputs == detail::kPositionDerivatives && kLineWide<vec<T>>);
 
-/// All tiles of patches [patch, end) of a grid of kSide x kSide: the choices of sweep_tiles().
+/// Sweeps all tiles of patches [patch, end) of a grid of kSide x kSide, choosing as sweep_tiles()
+/// does.
 template <detail::OutputSet kOutputs, std::size_t kSide, bool kAcross, typename T>
 SIMDBEZIER_PART void sweep_square(const GridTask<T>& task,
                                   const SquarePiece<T, kSide, kAcross>& piece, std::size_t patch,

@@ -1,11 +1,12 @@
 // One component of one tile: positions, positions with both first derivatives, second derivatives.
 #pragma once
 
+#include "kernels/grid/jet_columns.hpp"
 #include "kernels/grid/plane_rows.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Rows that a buffered column has room for, edges among them.
+/// A buffered column has room for so many rows, edges among them.
 constexpr std::size_t kBufferRows = kMostMiddleRows + 2;
 
 /// A column's planes, the k-th one kPlane values behind the first: one address for all of them.
@@ -23,13 +24,14 @@ template <typename T, std::size_t kPlanes>
 struct ColumnBuffer {
   alignas(64) T values[kPlanes * ColumnPlanes<T>::kPlane];
 
-  /// Where the piece's first row goes: registers of rows behind a lead are lines of the buffer.
+  /// Returns where the first row of the piece goes. Registers of rows behind a lead are lines of
+  /// the buffer.
   template <typename Piece>
   SIMDBEZIER_PART T* first(std::size_t k, const Piece& piece) {
     return values + k * ColumnPlanes<T>::kPlane + (piece.lead ? detail::kMaxLanes - 1 : 0);
   }
-  /// The planes to read single values from. Without own_address(), compilers would take them out of
-  /// the registers that they came from, which costs more.
+  /// Returns the planes to read single values from. Without own_address(), compilers would take
+  /// them out of the registers that they came from, which costs more.
   template <typename Piece>
   SIMDBEZIER_PART ColumnPlanes<T> planes(const Piece& piece) {
     return {own_address(first(0, piece))};
@@ -40,7 +42,7 @@ struct ColumnBuffer {
 template <typename V>
 using SingleColumnTile = ColumnTile<kLanes<V>, true, false, V>;
 
-/// The polynomials in Y of a tile's columns.
+/// Finds the polynomials in Y of a tile's columns.
 template <typename SomeTile, typename V>
 SIMDBEZIER_PART void tile_polynomial(const Component<ScalarOf<V>>& c, const SomeTile& tile,
                                      V q[kOrder]) {
@@ -51,37 +53,38 @@ SIMDBEZIER_PART void tile_polynomial(const Component<ScalarOf<V>>& c, const Some
   }
 }
 
-/// extra: the column behind the tile, ColumnPlanes or SquareColumn.
+/// Sweeps one component's positions. extra is the column behind the tile, ColumnPlanes or
+/// SquareColumn.
 template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams,
           typename Extra>
 SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<ScalarOf<V>>& c,
                                       const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                       std::size_t nu, ScalarOf<V>* to, const Extra& extra) {
-  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
+  using ThisTile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
   V q[kOrder];
   tile_polynomial(c, tile, q);
   const LocalOrigin<V> origin = column_origin(c, tile.column);
   V shared = tile.column.x; // not used
-  if constexpr (Tile::kShared) {
+  if constexpr (ThisTile::kShared) {
     if (tile.watertight) {
       shared = tile.edge_rows(c, 0);
     }
   }
-  PlaneRows<Piece, Tile, typename Extra::Plane> plane(tile, to, nu, extra.plane(0));
-  if constexpr (kSweepsLines<Piece, Tile>) {
+  PlaneRows<Piece, ThisTile, typename Extra::Plane> plane(tile, to, nu, extra.plane(0));
+  if constexpr (kSweepsLines<Piece, ThisTile>) {
     plane.borders(shared, row_value(q, piece.shared.rows[0]));
     for_inner_rows(piece, nu, [&](const T* y, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
       plane.rows(row_value(q, piece.template point<kRows, V>(y)), place, kRows);
     });
     return;
   }
-  constexpr RowOrder kRowOrder{kRows, Piece::kAcross ? RowPairs::never : Tile::kPairs,
+  constexpr RowOrder kRowOrder{kRows, Piece::kAcross ? RowPairs::never : ThisTile::kPairs,
                                kRows == 1 && Piece::kStraight ? 4 : 1};
   for_rows<kRowOrder>(
       piece, 0, nu,
       [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-        plane.edge(Tile::kShared ? shared : tile.edge_rows(c, edge_of(kind)), kind, place);
+        plane.edge(ThisTile::kShared ? shared : tile.edge_rows(c, edge_of(kind)), kind, place);
       },
       [&](const T* y, RowPlace place, RowPlace mirrored) SIMDBEZIER_INLINE_LAMBDA {
         const auto at = piece.template point<kRows, V>(y);
@@ -96,72 +99,6 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
   plane.finish();
 }
 
-/// Position and first derivatives of one component, a register of samples.
-template <typename V>
-struct Jet {
-  V p;
-  V du;
-  V dv;
-};
-
-/// A register of columns as cubics in Y: one component's positions and u derivatives. kAsks:
-/// whether there are origins is found out at run time; there are none otherwise.
-template <typename V, bool kAsks = true>
-struct JetColumns {
-  V q[kOrder];
-  V dq[kOrder];
-  LocalOrigin<V> origin;
-
-  template <typename SomeTile>
-  SIMDBEZIER_PART void build(const Component<ScalarOf<V>>& c, const SomeTile& tile) {
-    if constexpr (SomeTile::kSingle) {
-      single_column_polynomial(c, tile.column, q, dq);
-    } else {
-      column_polynomial(c, tile.column, q, dq);
-    }
-    if constexpr (kAsks) {
-      origin = column_origin(c, tile.column);
-    }
-  }
-  SIMDBEZIER_PART Jet<V> interior(const RowPoint<V>& at) const {
-    Jet<V> jet;
-    jet.p = row_value(q, at, jet.dv);
-    jet.du = row_value(dq, at);
-    if constexpr (kAsks) {
-      jet.p = origin.add_to(jet.p);
-    }
-    return jet;
-  }
-  /// The same at -y as well.
-  SIMDBEZIER_PART void pair(const RowPoint<V>& at, Jet<V>& jet, Jet<V>& mirrored) const {
-    Parts<V> slope;
-    const Parts<V> value = value_parts(q, at, slope);
-    jet.p = value.sum();
-    mirrored.p = value.difference();
-    jet.dv = slope.sum();
-    mirrored.dv = slope.difference();
-    const Parts<V> du = value_parts(dq, at);
-    jet.du = du.sum();
-    mirrored.du = du.difference();
-    if constexpr (kAsks) {
-      jet.p = origin.add_to(jet.p);
-      mirrored.p = origin.add_to(mirrored.p);
-    }
-  }
-  /// On the edge v = const number `edge`, or on both where they share a register.
-  template <typename SomeTile>
-  SIMDBEZIER_PART Jet<V> edge(Component<ScalarOf<V>> c, const SomeTile& tile,
-                              std::size_t edge) const {
-    if constexpr (!kAsks) {
-      c.origins = nullptr;
-    }
-    Jet<V> jet;
-    jet.dv = row_slope(q, RowPoint<V>(tile.edge_y(edge)));
-    jet.p = tile.edge_rows(c, edge, jet.du);
-    return jet;
-  }
-};
-
 /// Where the samples of one component go.
 template <typename T>
 struct JetPlanes {
@@ -170,66 +107,89 @@ struct JetPlanes {
   T* dv;
 };
 
+/// The rows of one component on their way to its three planes.
+template <typename Piece, typename SomeTile, typename Plane, typename V>
+struct JetRows {
+  using Rows = PlaneRows<Piece, SomeTile, Plane>;
+  Rows position;
+  Rows du;
+  Rows dv;
+
+  SIMDBEZIER_INLINE void borders(const Jet<V>& edges, const Jet<V>& beside) {
+    position.borders(edges.p, beside.p);
+    du.borders(edges.du, beside.du);
+    dv.borders(edges.dv, beside.dv);
+  }
+  SIMDBEZIER_INLINE void rows(const Jet<V>& jet, RowPlace place, std::size_t rows) {
+    position.rows(jet.p, place, rows);
+    du.rows(jet.du, place, rows);
+    dv.rows(jet.dv, place, rows);
+  }
+  SIMDBEZIER_INLINE void mirrored(const Jet<V>& jet, RowPlace place) {
+    position.mirrored(jet.p, place);
+    du.mirrored(jet.du, place);
+    dv.mirrored(jet.dv, place);
+  }
+  SIMDBEZIER_INLINE void edge(const Jet<V>& jet, RowKind kind, RowPlace place) {
+    position.edge(jet.p, kind, place);
+    du.edge(jet.du, kind, place);
+    dv.edge(jet.dv, kind, place);
+  }
+  SIMDBEZIER_INLINE void finish() {
+    position.finish();
+    du.finish();
+    dv.finish();
+  }
+};
+
+/// Sweeps one component's positions and first derivatives; extra is the column behind the tile, as
+/// in sweep_position().
 template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams,
           typename Extra>
 SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<ScalarOf<V>>& c,
                                          const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                          std::size_t nu, const JetPlanes<ScalarOf<V>>& to,
                                          const Extra& extra) {
-  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
+  using ThisTile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
   JetColumns<V> columns;
   columns.build(c, tile);
   Jet<V> shared;
-  if constexpr (Tile::kShared) {
+  if constexpr (ThisTile::kShared) {
     if (tile.watertight) {
       shared = columns.edge(c, tile, 0);
     }
   }
-  PlaneRows<Piece, Tile, typename Extra::Plane> position(tile, to.position, nu, extra.plane(0));
-  PlaneRows<Piece, Tile, typename Extra::Plane> du(tile, to.du, nu, extra.plane(1));
-  PlaneRows<Piece, Tile, typename Extra::Plane> dv(tile, to.dv, nu, extra.plane(2));
-  const auto put = [&](const Jet<V>& jet, RowPlace place, std::size_t rows)
-                       SIMDBEZIER_INLINE_LAMBDA {
-                         position.rows(jet.p, place, rows);
-                         du.rows(jet.du, place, rows);
-                         dv.rows(jet.dv, place, rows);
-                       };
-  if constexpr (kSweepsLines<Piece, Tile>) {
-    const Jet<V> beside = columns.interior(piece.shared.rows[0]);
-    position.borders(shared.p, beside.p);
-    du.borders(shared.du, beside.du);
-    dv.borders(shared.dv, beside.dv);
+  JetRows<Piece, ThisTile, typename Extra::Plane, V> to_planes{
+      {tile, to.position, nu, extra.plane(0)},
+      {tile, to.du, nu, extra.plane(1)},
+      {tile, to.dv, nu, extra.plane(2)}};
+  if constexpr (kSweepsLines<Piece, ThisTile>) {
+    to_planes.borders(shared, columns.interior(piece.shared.rows[0]));
     for_inner_rows(piece, nu, [&](const T* y, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-      put(columns.interior(piece.template point<kRows, V>(y)), place, kRows);
+      to_planes.rows(columns.interior(piece.template point<kRows, V>(y)), place, kRows);
     });
     return;
   }
-  constexpr RowOrder kRowOrder{kRows, Piece::kAcross ? RowPairs::never : Tile::kPairs,
+  constexpr RowOrder kRowOrder{kRows, Piece::kAcross ? RowPairs::never : ThisTile::kPairs,
                                Piece::kKnown && Piece::kStraight ? 2 : 1};
   for_rows<kRowOrder>(
       piece, 0, nu,
       [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-        const Jet<V> jet = Tile::kShared ? shared : columns.edge(c, tile, edge_of(kind));
-        position.edge(jet.p, kind, place);
-        du.edge(jet.du, kind, place);
-        dv.edge(jet.dv, kind, place);
+        to_planes.edge(ThisTile::kShared ? shared : columns.edge(c, tile, edge_of(kind)), kind,
+                       place);
       },
       [&](const T* y, RowPlace place, RowPlace mirror) SIMDBEZIER_INLINE_LAMBDA {
         Jet<V> jet;
         Jet<V> mirrored;
         columns.pair(piece.template point<kRows, V>(y), jet, mirrored);
-        put(jet, place, kRows);
-        position.mirrored(mirrored.p, mirror);
-        du.mirrored(mirrored.du, mirror);
-        dv.mirrored(mirrored.dv, mirror);
+        to_planes.rows(jet, place, kRows);
+        to_planes.mirrored(mirrored, mirror);
       },
       [&](const T* y, RowPlace place, std::size_t rows) SIMDBEZIER_INLINE_LAMBDA {
-        put(columns.interior(piece.template point<kRows, V>(y)), place, rows);
+        to_planes.rows(columns.interior(piece.template point<kRows, V>(y)), place, rows);
       });
-  position.finish();
-  du.finish();
-  dv.finish();
+  to_planes.finish();
 }
 
 /// Sweeps one component's second derivatives; those with null planes are computed and dropped.
@@ -239,7 +199,7 @@ SIMDBEZIER_PART void sweep_second(const GridTask<ScalarOf<V>>& task,
                                   const Component<ScalarOf<V>>& c,
                                   const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                   std::size_t component, std::size_t first) {
-  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
+  using ThisTile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
   SecondColumns<V> columns;
   columns.build(c, tile.column);
@@ -247,7 +207,7 @@ SIMDBEZIER_PART void sweep_second(const GridTask<ScalarOf<V>>& task,
   T* const duv = task.out[output_index(Output::duv)].component[component];
   T* const dvv = task.out[output_index(Output::dvv)].component[component];
   const std::size_t nu = task.nu;
-  constexpr RowOrder kRowOrder{kRows, Tile::kOwnLines ? RowPairs::always : RowPairs::never, 1};
+  constexpr RowOrder kRowOrder{kRows, ThisTile::kOwnLines ? RowPairs::always : RowPairs::never, 1};
   for_rows<kRowOrder>(
       piece, first, nu,
       [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {

@@ -58,7 +58,7 @@ struct NormalSweep {
     }
     finish<false>(tangents, y, place, rows, floor);
   }
-  /// kRows rows and their mirror images.
+  /// Sweeps kRows rows and their mirror images.
   SIMDBEZIER_PART void pair(const T* y, RowPlace place, RowPlace mirror, V floor) const {
     const auto at = RowPowers<T>::template point<kRows, V>(y);
     Tangents tangents;
@@ -74,7 +74,7 @@ struct NormalSweep {
     finish<true>(mirrored_tangents, y, mirror, kRows, floor);
   }
 
-  /// On the edge v = const number `edge`, or on both where they share a register.
+  /// Evaluates the edge v = const number `edge`, or both where they share a register.
   SIMDBEZIER_PART NormalSamples<V> edge(std::size_t edge) const {
     NormalSamples<V> s;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -101,10 +101,10 @@ struct NormalSweep {
       return;
     }
     if (!all_of<V>(s.squared > floor)) [[unlikely]] {
-      resolve_normals(
-          shared_task, patch,
-          Suspects{tile.edge_lane(kind), tile.kColumns, tile.active, 1, at, task.nu, status_step},
-          tile.column.x, tile.edge_y(edge_of(kind)), s.squared, floor);
+      resolve_normals(shared_task, patch,
+                      UncertainNormals{tile.edge_lane(kind), tile.kColumns, tile.active, 1, at,
+                                       task.nu, status_step},
+                      tile.column.x, tile.edge_y(edge_of(kind)), s.squared, floor);
     }
   }
 
@@ -115,7 +115,7 @@ private:
     V dv[3];
   };
 
-  /// One component; kMirrored: rows come from `place` back.
+  /// Stores one component. kMirrored says that rows come from `place` back.
   template <bool kMirrored>
   SIMDBEZIER_PART void store_jet(std::size_t c, const Jet<V>& jet, RowPlace place, std::size_t rows,
                                  Tangents& tangents) const {
@@ -128,7 +128,7 @@ private:
     }
   }
 
-  /// Normals of rows whose other outputs have been stored.
+  /// Stores the normals of rows whose other outputs have been stored.
   template <bool kMirrored>
   SIMDBEZIER_PART void finish(const Tangents& tangents, const T* y, RowPlace place,
                               std::size_t rows, V floor) const {
@@ -146,12 +146,12 @@ private:
       const V row_y = RowGroups<kRows, V>::spread(y);
       resolve_normals(
           shared_task, patch,
-          Suspects{0, tile.kColumns, tile.active, rows, place.at, row_step, status_step},
+          UncertainNormals{0, tile.kColumns, tile.active, rows, place.at, row_step, status_step},
           tile.column.x, kMirrored ? -row_y : row_y, squared, floor);
     }
   }
 
-  /// first: plane of the column behind the tile that belongs to component 0.
+  /// first is the plane of the column behind the tile that belongs to component 0.
   template <bool kMirrored>
   SIMDBEZIER_PART void store_rows(Output output, std::size_t c, std::size_t first, V value,
                                   RowPlace place, std::size_t rows) const {
@@ -179,23 +179,24 @@ SIMDBEZIER_PART void sweep_normals(const GridTask<ScalarOf<V>>& task,
                                    const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
                                    std::size_t patch, std::size_t first, std::size_t status_step,
                                    ColumnPlanes<ScalarOf<V>> extra) {
-  using Tile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
+  using ThisTile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
   const NormalSweep<kRows, kWhole, kExtra, kAny, kAsks, V, kStreams> sweep(
       task, shared_task, tile, patch, status_step, extra);
   const V floor = floor_inside(tile.column.x, broadcast<V>(task.normal_floor[patch]));
   const V middle_floor = piece.middle.kind == RowKind::outside ? no_floor<V>() : floor;
   NormalSamples<V> shared;
-  if constexpr (Tile::kShared) {
+  if constexpr (ThisTile::kShared) {
     if (tile.watertight) {
       shared = sweep.edge(0);
     }
   }
-  constexpr RowOrder kRowOrder{kRows, Tile::kNormalPairs ? RowPairs::always : RowPairs::never, 1};
+  constexpr RowOrder kRowOrder{kRows, ThisTile::kNormalPairs ? RowPairs::always : RowPairs::never,
+                               1};
   for_rows<kRowOrder>(
       piece, first, task.nu,
       [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-        if constexpr (Tile::kShared) {
+        if constexpr (ThisTile::kShared) {
           sweep.store_edge(shared, kind, place.at, place.row, floor);
         } else {
           sweep.store_edge(sweep.edge(edge_of(kind)), kind, place.at, place.row, floor);

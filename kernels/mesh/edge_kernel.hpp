@@ -27,7 +27,7 @@ struct SidePoints {
   SIMDBEZIER_PART SidePoints(V parameters, V of_side)
       : along(parameters), across(of_side), point(parameters), end(of_side) {}
 
-  /// One component's position, and the derivative along the side.
+  /// Returns one component's position, and finds the derivative along the side.
   SIMDBEZIER_PART V position(const Component<T>& c, std::size_t edge, V& slope) const {
     V k[kOrder];
     edge_cubic(c, edge, k);
@@ -37,7 +37,7 @@ struct SidePoints {
     }
     return value;
   }
-  /// The derivative across the side, which its control points do not determine.
+  /// Returns the derivative across the side, which its control points do not determine.
   SIMDBEZIER_PART V slope_across(const Component<T>& c) const {
     V q[kOrder];
     if constexpr (kAlongU) {
@@ -54,7 +54,7 @@ struct SidePoints {
   }
 
 private:
-  /// The u derivative's polynomial in Y, on one column for all lanes.
+  /// Finds the u derivative's polynomial in Y, on one column for all lanes.
   SIMDBEZIER_PART void column_slopes(const Component<T>& c, V dq[kOrder]) const {
     V k[kOrder];
     if constexpr (kHasFours<V>) { // all four powers of Y at once
@@ -69,7 +69,7 @@ private:
   }
 };
 
-/// Normals of suspects of a register, once more.
+/// Looks again at the uncertain normals of a register.
 template <typename V>
 SIMDBEZIER_RARE void resolve_side(const detail::EdgeTask<ScalarOf<V>>& task, std::size_t patch,
                                   std::size_t count, V x, V y, V squared, V n[3]) {
@@ -80,14 +80,14 @@ SIMDBEZIER_RARE void resolve_side(const detail::EdgeTask<ScalarOf<V>>& task, std
     store_vector(values[c], n[c]);
     own.out[output_index(Output::normal)].component[c] = values[c];
   }
-  resolve_normals(own, patch, Suspects{0, kLanes<V>, count, 1, 0, 0, 1}, x, y, squared,
+  resolve_normals(own, patch, UncertainNormals{0, kLanes<V>, count, 1, 0, 0, 1}, x, y, squared,
                   broadcast<V>(task.normal_floor[patch]));
   for (std::size_t c = 0; c < 3; ++c) {
     n[c] = load_vector<V>(values[c]);
   }
 }
 
-/// One patch's positions and normals at a register of points, of which `count` are wanted.
+/// Computes one patch's positions and normals at a register of points, of which `count` are wanted.
 template <bool kAlongU, typename V>
 SIMDBEZIER_PART void side_register(const detail::EdgeTask<ScalarOf<V>>& task,
                                    const detail::EdgeTask<ScalarOf<V>>& shared_task,
@@ -119,8 +119,8 @@ SIMDBEZIER_PART void side_register(const detail::EdgeTask<ScalarOf<V>>& task,
   }
 }
 
-/// The directions of sums of unit normals. A single term stays as it is, and so does the first one
-/// where the sum is too short.
+/// Turns sums of unit normals into their directions. A single term stays as it is, and so does the
+/// first one where the sum is too short.
 template <typename V>
 SIMDBEZIER_INLINE void finish_sum(std::size_t terms, const V first[3], V sum[3]) {
   using T = ScalarOf<V>;
@@ -157,7 +157,7 @@ SIMDBEZIER_INLINE void put_points(const detail::Planes<ScalarOf<V>>& planes, std
   }
 }
 
-/// Points [first, first + count) of an edge, a register of them at most.
+/// Computes points [first, first + count) of an edge, a register of them at most.
 template <typename T>
 SIMDBEZIER_PART void
 edge_register(const detail::EdgeTask<T>& task, const detail::EdgeTask<T>& shared_task,

@@ -5,9 +5,9 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// (1-t) a + t b. Not fused, unlike everything that evaluates: a sum of two rounded products is
-/// commutative, so that reversing the net only exchanges its terms; and it is the same on all
-/// instruction sets. Equal points stay as they are, which (1-t) a + t a does not promise: a
+/// Returns (1-t) a + t b. It is not fused, unlike everything that evaluates: a sum of two rounded
+/// products is commutative, so that reversing the net only exchanges its terms; and it is the same
+/// on all instruction sets. Equal points stay as they are, which (1-t) a + t a does not promise: a
 /// collapsed edge must stay collapsed.
 template <typename V>
 SIMDBEZIER_INLINE V between(V a, V b, V complement, V t) {
@@ -33,7 +33,7 @@ struct Middle {
   V half = broadcast<V>(ScalarOf<V>(0.5));
 };
 
-/// One level: the first `count` elements of a line become the points between them and their
+/// Runs one level: the first `count` elements of a line become the points between them and their
 /// successors.
 template <typename V, typename At>
 SIMDBEZIER_INLINE void one_level(ScalarOf<V>* line, std::size_t count, std::size_t block,
@@ -69,8 +69,8 @@ SIMDBEZIER_INLINE void split_axis(ScalarOf<V>* net, ScalarOf<V>* low, const Axis
   }
 }
 
-/// One line's blossoms, `outer` inserted before `inner`: element k of the result has `inner` k
-/// times. `line` is used up; temp has room for another.
+/// Finds the blossoms of one line, with `outer` inserted before `inner`: element k of the result
+/// has `inner` k times. `line` is used up; temp has room for another.
 template <typename V, typename Take>
 SIMDBEZIER_INLINE void blossoms(ScalarOf<V>* line, ScalarOf<V>* temp, std::size_t order,
                                 std::size_t block, const Lever<V>& outer, const Lever<V>& inner,
@@ -87,9 +87,9 @@ SIMDBEZIER_INLINE void blossoms(ScalarOf<V>* line, ScalarOf<V>* temp, std::size_
   }
 }
 
-/// The piece of all lines from one parameter to the other, in place. Which of the two is inserted
-/// first makes a difference in the last bits, so the result is the mean of both orders.
-/// line: room for two lines; temp: for one.
+/// Replaces all lines by their piece from one parameter to the other. Which of the two is inserted
+/// first makes a difference in the last bits, so the result is the mean of both orders. line has
+/// room for two lines, temp for one.
 template <typename V>
 SIMDBEZIER_INLINE void segment_axis(ScalarOf<V>* net, ScalarOf<V>* line, ScalarOf<V>* temp,
                                     const Axis& axis, const Lever<V>& from, const Lever<V>& to) {

@@ -43,14 +43,14 @@ struct SortedTerms {
   [[nodiscard]] SIMDBEZIER_INLINE MaskOf<V> obtuse() const {
     return excess >= broadcast<V>(ScalarOf<V>(0));
   }
-  /// Twice the products of two less the squares.
+  /// Returns twice the products of two terms, less the squares.
   [[nodiscard]] SIMDBEZIER_INLINE V divisor() const {
     const V product = (least + least) * (middle + middle);
     return product - excess * excess;
   }
 };
 
-/// The largest value of sum l_i l_j q_ij / 2 over a triangle, for three squared edge terms.
+/// Returns the largest value of sum l_i l_j q_ij / 2 over a triangle, for three squared edge terms.
 template <typename V>
 SIMDBEZIER_INLINE V triangle_bound(V a, V c, V d) {
   using T = ScalarOf<V>;
@@ -61,7 +61,7 @@ SIMDBEZIER_INLINE V triangle_bound(V a, V c, V d) {
   return select_where<V>(terms.obtuse(), terms.largest * broadcast<V>(T(0.125)), inside);
 }
 
-/// What every zone of cells is bounded by.
+/// The terms that every zone of cells is bounded by.
 template <typename V>
 struct ZoneTerms {
   V uu[4]; ///< of the quarters: h_u^2 |S_uu|, …
@@ -70,14 +70,15 @@ struct ZoneTerms {
   V falling[4];
 };
 
-/// Segments in u and v of every lane, whole numbers.
+/// The segments in u and v of every lane, whole numbers.
 template <typename V>
 struct LaneCells {
   V nu;
   V nv;
 };
 
-/// Squares of steps, and what rounding may have taken from vectors that they are multiplied with.
+/// The squares of steps, and what rounding may have taken from vectors that they are multiplied
+/// with.
 template <typename V>
 struct CellSteps {
   V uu;
@@ -114,7 +115,8 @@ struct DiagonalSquares {
   }
 };
 
-/// The terms of edges along u and v, and the roots of the diagonals' terms, so far squares.
+/// Finds the terms of edges along u and v, and takes the roots of the diagonals' terms, so far
+/// squares.
 template <typename V>
 SIMDBEZIER_INLINE void finish_terms(const QuarterNets<V>& nets, const CellSteps<V>& step,
                                     const SecondTerms<V>& doubt, ZoneTerms<V>& terms) {
@@ -171,11 +173,12 @@ SIMDBEZIER_INLINE MaskOf<V> is_odd(V n) {
   return whole_part<V>(half * n) != half * n;
 }
 
-/// The roundings of a bound itself, a few dozen.
+/// This is for the roundings of a bound itself, a few dozen.
 template <typename T>
 inline constexpr T kBoundSlack = T(1) + 64 * std::numeric_limits<T>::epsilon();
 
-/// The bound of every lane's cells; diagonals: a bit for each zone (PatchRates), where wanted.
+/// Returns the bound of every lane's cells. diagonals gets a bit for each zone (PatchRates), where
+/// it is wanted.
 template <typename V>
 SIMDBEZIER_INLINE V worst_zone(const ZoneTerms<V>& terms, const LaneCells<V>& cells, V* diagonals) {
   using T = ScalarOf<V>;

@@ -34,7 +34,7 @@ struct LeadingVectors {
   SecondVectors<V> falling[4];
 };
 
-/// zone_terms(), and the largest vectors' parts.
+/// This is zone_terms(), and it finds the parts of the largest vectors.
 template <typename V>
 SIMDBEZIER_INLINE ZoneTerms<V> leading_terms(const QuarterNets<V>& nets, const LaneCells<V>& cells,
                                              const SecondTerms<V>& doubt,
@@ -88,7 +88,8 @@ public:
     mixed_v_ = rising ? dot(of.vv, of.uv) : zero - dot(of.vv, of.uv);
   }
 
-  /// A lower bound on it: less by the roundings, which are small beside the sum of the squares.
+  /// Returns a lower bound on it: less by the roundings, which are small beside the sum of the
+  /// squares.
   [[nodiscard]] SIMDBEZIER_INLINE V at_least(const CellSteps<V>& step) const {
     using T = ScalarOf<V>;
     const V two_uv = step.uv + step.uv;
@@ -135,12 +136,11 @@ public:
     }
     const MaskOf<V> odd[2] = {is_odd<V>(cells.nu), is_odd<V>(cells.nv)};
     for (V* const term : {terms.uu, terms.vv, terms.rising, terms.falling}) {
-      const auto join = [&](std::size_t a, std::size_t b, MaskOf<V> where)
-                            SIMDBEZIER_INLINE_LAMBDA {
-                              const V both = larger_of<V>(term[a], term[b]);
-                              term[a] = select_where<V>(where, both, term[a]);
-                              term[b] = select_where<V>(where, both, term[b]);
-                            };
+      const auto join = [&](std::size_t a, std::size_t b, MaskOf<V> in) SIMDBEZIER_INLINE_LAMBDA {
+        const V both = larger_of<V>(term[a], term[b]);
+        term[a] = select_where<V>(in, both, term[a]);
+        term[b] = select_where<V>(in, both, term[b]);
+      };
       join(0, 1, odd[0]);
       join(2, 3, odd[0]);
       join(0, 2, odd[1]);

@@ -19,7 +19,8 @@ template <typename T>
 inline constexpr T kSmallest = std::numeric_limits<T>::denorm_min();
 template <typename T>
 inline constexpr T kInfinity = std::numeric_limits<T>::infinity();
-/// Values below it may be added and doubled, weights above it multiplied by fractions of 1/256.
+/// Values below the first may be added and doubled, weights above the second multiplied by
+/// fractions of 1/256.
 template <typename T>
 inline constexpr T kSafelyLarge = std::numeric_limits<T>::max() / 4;
 template <typename T>
@@ -27,16 +28,16 @@ inline constexpr T kSafelySmall = std::numeric_limits<T>::min() * 256;
 
 // Values are finite, or else the results below are not used: nan needs no care in comparisons.
 
-/// One component, or the weight, over `points` points.
+/// The values of one component, or of the weight, over `points` points.
 template <typename V>
-struct Range {
+struct ValueRange {
   V low;
   V high;
 };
 template <typename V>
-SIMDBEZIER_INLINE Range<V> range_over(const ScalarOf<V>* group, std::size_t points,
-                                      std::size_t channels, std::size_t c) {
-  Range<V> range{value_of<V>(group, c), value_of<V>(group, c)};
+SIMDBEZIER_INLINE ValueRange<V> range_over(const ScalarOf<V>* group, std::size_t points,
+                                           std::size_t channels, std::size_t c) {
+  ValueRange<V> range{value_of<V>(group, c), value_of<V>(group, c)};
   for (std::size_t k = 1; k < points; ++k) {
     const V value = value_of<V>(group, k * channels + c);
     range.low = smaller_of<V>(value, range.low);
@@ -45,7 +46,7 @@ SIMDBEZIER_INLINE Range<V> range_over(const ScalarOf<V>* group, std::size_t poin
   return range;
 }
 
-/// The points themselves: homogeneous nets are projected.
+/// Reads the points themselves: homogeneous nets are projected.
 template <typename V>
 SIMDBEZIER_INLINE void gather_points(const detail::NetView<const ScalarOf<V>>& in, bool rational,
                                      std::size_t first, std::size_t count, ScalarOf<V>* group) {
@@ -57,7 +58,7 @@ SIMDBEZIER_INLINE void gather_points(const detail::NetView<const ScalarOf<V>>& i
 
 /// Opens a range by the rounding of its values, up to u of each, and by that of this very step.
 template <typename V>
-SIMDBEZIER_INLINE Range<V> opened(const Range<V>& range) {
+SIMDBEZIER_INLINE ValueRange<V> opened(const ValueRange<V>& range) {
   using T = ScalarOf<V>;
   const V relative = broadcast<V>(4 * kRoundoff<T>);
   const V absolute = broadcast<V>(4 * kSmallest<T>);
@@ -68,7 +69,8 @@ SIMDBEZIER_INLINE Range<V> opened(const Range<V>& range) {
 
 template <typename T>
 SIMDBEZIER_INLINE void store_range(const detail::BoxTask<T>& task, std::size_t first,
-                                   std::size_t count, std::size_t c, const Range<vec<T>>& range) {
+                                   std::size_t count, std::size_t c,
+                                   const ValueRange<vec<T>>& range) {
   using V = vec<T>;
   alignas(64) T low[kLanes<V>];
   alignas(64) T high[kLanes<V>];
@@ -88,7 +90,7 @@ struct Pieces {
   std::size_t points;
   std::size_t channels;
   std::size_t components;
-  Range<V>* hull; ///< of every component, around the first point
+  ValueRange<V>* hull; ///< of every component, around the first point
 };
 
 /// Opens the hull to the control points of all pieces, 4^levels of them. `net` is used up; behind
@@ -101,7 +103,7 @@ void add_pieces(Pieces<V>& pieces, ScalarOf<V>* net, int levels) {
       project<V>(net, pieces.points, pieces.channels);
     }
     for (std::size_t c = 0; c < pieces.components; ++c) {
-      const Range<V> range = range_over<V>(net, pieces.points, pieces.channels, c);
+      const ValueRange<V> range = range_over<V>(net, pieces.points, pieces.channels, c);
       pieces.hull[c] = {smaller_of<V>(range.low, pieces.hull[c].low),
                         larger_of<V>(range.high, pieces.hull[c].high)};
     }
@@ -121,12 +123,12 @@ void add_pieces(Pieces<V>& pieces, ScalarOf<V>* net, int levels) {
   }
 }
 
-/// The bound of docs/accuracy.md on what rounding did to a component's hull.
+/// Returns the bound of docs/accuracy.md on what rounding did to a component's hull.
 template <typename V>
-SIMDBEZIER_INLINE V hull_margin(const Range<V>& control, const Range<V>& moved, V weight_low,
-                                V weight_high, bool rational, ScalarOf<V> means) {
+SIMDBEZIER_INLINE V hull_margin(const ValueRange<V>& control, const ValueRange<V>& moved,
+                                V weight_low, V weight_high, bool rational, ScalarOf<V> means) {
   using T = ScalarOf<V>;
-  // 1.0625 for the margin's own roundings and all terms of higher order.
+  // The factor 1.0625 is for the margin's own roundings and all terms of higher order.
   constexpr T kSlack = T(1.0625) * kRoundoff<T>;
   const V extent = larger_of<V>(size_of<V>(moved.low), size_of<V>(moved.high));
   const V size = larger_of<V>(size_of<V>(control.low), size_of<V>(control.high));
@@ -145,10 +147,11 @@ SIMDBEZIER_INLINE V hull_margin(const Range<V>& control, const Range<V>& moved, 
   return select_where<V>(unsafe, broadcast<V>(kInfinity<T>), margin);
 }
 
-/// The box of the control points where nothing better is certain: every comparison with nan fails.
+/// Returns the tighter box, or that of the control points where nothing better is certain: every
+/// comparison with nan fails.
 template <typename V>
-SIMDBEZIER_INLINE Range<V> tightened(const Range<V>& control, V origin, const Range<V>& hull,
-                                     V margin) {
+SIMDBEZIER_INLINE ValueRange<V> tightened(const ValueRange<V>& control, V origin,
+                                          const ValueRange<V>& hull, V margin) {
   const V low = (origin + hull.low) - margin;
   const V high = (origin + hull.high) + margin;
   return {select_where<V>(low > control.low, low, control.low),
@@ -164,8 +167,8 @@ Isa box_kernel(const detail::BoxTask<T>& task, std::size_t begin, std::size_t en
   const bool rational = in.channels > components;
   const std::size_t points = in.order_u * in.order_v;
   T* const net = reinterpret_cast<T*>(scratch);
-  Range<V> hull[detail::kMostChannels];
-  Range<V> control[detail::kMostChannels];
+  ValueRange<V> hull[detail::kMostChannels];
+  ValueRange<V> control[detail::kMostChannels];
   V origin[detail::kMostChannels];
   Pieces<V> pieces{axis_u(in.order_u, in.order_v, in.channels),
                    axis_v(in.order_u, in.order_v, in.channels),
@@ -181,7 +184,7 @@ Isa box_kernel(const detail::BoxTask<T>& task, std::size_t begin, std::size_t en
       control[c] = range_over<V>(net, points, in.channels, c);
       control[c] = rational && !in.cartesian ? opened<V>(control[c]) : control[c];
     }
-    Range<V> moved[detail::kMostChannels];
+    ValueRange<V> moved[detail::kMostChannels];
     for (std::size_t c = 0; task.levels > 0 && c < components; ++c) {
       origin[c] = value_of<V>(net, c);
       for (std::size_t k = 0; k < points; ++k) {
@@ -199,7 +202,7 @@ Isa box_kernel(const detail::BoxTask<T>& task, std::size_t begin, std::size_t en
     }
     for (std::size_t c = 0; c < components; ++c) {
       if (task.levels > 0) {
-        const Range<V> w = control[in.channels - 1];
+        const ValueRange<V> w = control[in.channels - 1];
         const V margin = hull_margin<V>(control[c], moved[c], w.low, w.high, rational, means);
         control[c] = tightened<V>(control[c], origin[c], hull[c], margin);
       }

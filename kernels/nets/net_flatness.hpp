@@ -1,5 +1,5 @@
-// Distance to the bilinear patch of the corners; docs/accuracy.md has the proof. Nothing is fused:
-// the bound has the same bits on all instruction sets.
+// The distance of a patch from the bilinear patch of its corners; docs/accuracy.md has the proof.
+// Nothing is fused, so that the bound has the same bits on all instruction sets.
 #pragma once
 
 #include "kernels/nets/net_boxes.hpp"
@@ -19,13 +19,13 @@ struct MovedNet {
   SIMDBEZIER_INLINE V at(std::size_t j, std::size_t i, std::size_t c) const {
     return value_of<V>(group, (j * order_u + i) * channels + c);
   }
-  /// Corner (a, b) in (u, v).
+  /// Returns the corner (a, b) in (u, v).
   SIMDBEZIER_INLINE V corner(std::size_t a, std::size_t b, std::size_t c) const {
     return at(b * (order_v - 1), a * (order_u - 1), c);
   }
 };
 
-/// k / n and (n - k) / n.
+/// Holds k / n and (n - k) / n.
 template <typename V>
 SIMDBEZIER_INLINE Lever<V> share(std::size_t k, std::size_t n) {
   using T = ScalarOf<V>;
@@ -33,7 +33,8 @@ SIMDBEZIER_INLINE Lever<V> share(std::size_t k, std::size_t n) {
   return Lever<V>({static_cast<T>(k) / whole, static_cast<T>(n - k) / whole});
 }
 
-/// The squared distance of the control points from those of the bilinear patch, over extent^2.
+/// Returns the squared distance of the control points from those of the bilinear patch, over
+/// extent^2.
 template <typename V>
 SIMDBEZIER_INLINE V polynomial_distance(const MovedNet<V>& net) {
   using T = ScalarOf<V>;
@@ -56,7 +57,7 @@ SIMDBEZIER_INLINE V polynomial_distance(const MovedNet<V>& net) {
   return worst;
 }
 
-/// N_kl / w_kl of docs/accuracy.md: its squared length over extent^2.
+/// Returns the squared length of N_kl / w_kl of docs/accuracy.md, over extent^2.
 template <typename V>
 SIMDBEZIER_INLINE V rational_control_distance(const MovedNet<V>& net, std::size_t k,
                                               std::size_t l) {
@@ -106,7 +107,7 @@ SIMDBEZIER_INLINE V rational_distance(const MovedNet<V>& net) {
   return worst;
 }
 
-/// The bound for one group whose points are in `group`.
+/// Returns the bound for one group whose points are in `group`.
 template <typename T>
 SIMDBEZIER_INLINE vec<T> flatness_of(const detail::FlatnessTask<T>& task, bool rational, T* group) {
   using V = vec<T>;
@@ -116,7 +117,7 @@ SIMDBEZIER_INLINE vec<T> flatness_of(const detail::FlatnessTask<T>& task, bool r
   V size = zero;
   V extent = zero;
   for (std::size_t c = 0; c < in.components; ++c) {
-    const Range<V> range = range_over<V>(group, points, in.channels, c);
+    const ValueRange<V> range = range_over<V>(group, points, in.channels, c);
     size = larger_of<V>(larger_of<V>(size_of<V>(range.low), size_of<V>(range.high)), size);
     const V origin = value_of<V>(group, c);
     for (std::size_t k = 0; k < points; ++k) {
@@ -128,7 +129,7 @@ SIMDBEZIER_INLINE vec<T> flatness_of(const detail::FlatnessTask<T>& task, bool r
   }
   const MovedNet<V> net{group, in.order_u, in.order_v, in.channels, in.components, extent};
   const V squares = rational ? rational_distance<V>(net) : polynomial_distance<V>(net);
-  // 1.0625 for what the margin itself is rounded by, and for terms of higher order.
+  // The factor 1.0625 is for what the margin itself is rounded by, and for terms of higher order.
   constexpr T kSlack = T(1.0625) * kRoundoff<T>;
   const T roundings = (rational ? 40 : 16) * kSlack * task.root_components;
   const V length =
@@ -137,7 +138,7 @@ SIMDBEZIER_INLINE vec<T> flatness_of(const detail::FlatnessTask<T>& task, bool r
   V bound = select_where<V>(extent > zero, length * extent + denormals, zero);
   MaskOf<V> safe = extent < broadcast<V>(kSafelyLarge<T>);
   if (rational) {
-    const Range<V> w = range_over<V>(group, points, in.channels, in.components);
+    const ValueRange<V> w = range_over<V>(group, points, in.channels, in.components);
     const MaskOf<V> not_light = w.low > broadcast<V>(kSafelySmall<T>);
     const MaskOf<V> not_heavy = w.high < broadcast<V>(kSafelyLarge<T>);
     safe = safe & not_light & not_heavy;

@@ -1,4 +1,4 @@
-// A group of control nets between memory and [value][lane], one patch a lane.
+// Takes a group of control nets from memory to [value][lane], one patch a lane, and back.
 #pragma once
 
 #include "kernels/simd/squares.hpp"
@@ -6,7 +6,7 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Where value k of a group lies.
+/// Returns where value k of a group lies.
 template <typename V>
 SIMDBEZIER_INLINE ScalarOf<V>* lanes_of(ScalarOf<V>* group, std::size_t k) {
   return group + k * kLanes<V>;
@@ -53,7 +53,7 @@ SIMDBEZIER_INLINE void for_each_value(const detail::NetView<S>& nets, std::size_
   }
 }
 
-/// How many values are moved in blocks: in whole groups of packed nets, all except a few.
+/// Returns how many values are moved in blocks: in whole groups of packed nets, all except a few.
 template <typename V, typename S>
 SIMDBEZIER_INLINE std::size_t values_in_blocks(const detail::NetView<S>& nets, std::size_t count) {
   if constexpr ((kBlock<V>) != 0) {
@@ -63,29 +63,32 @@ SIMDBEZIER_INLINE std::size_t values_in_blocks(const detail::NetView<S>& nets, s
   }
 }
 
-/// w P in place of P, and back.
-template <typename V>
-SIMDBEZIER_INLINE void weigh(ScalarOf<V>* group, std::size_t points, std::size_t channels) {
+/// Replaces every component P of every point by change(P, w), where w is the point's weight.
+template <typename V, typename Change>
+SIMDBEZIER_INLINE void for_weighted(ScalarOf<V>* group, std::size_t points, std::size_t channels,
+                                    const Change& change) {
   for (std::size_t k = 0; k < points; ++k) {
     ScalarOf<V>* const point = lanes_of<V>(group, k * channels);
     const V w = value_of<V>(point, channels - 1);
     for (std::size_t c = 0; c + 1 < channels; ++c) {
-      put_value<V>(point, c, value_of<V>(point, c) * w);
-    }
-  }
-}
-template <typename V>
-SIMDBEZIER_INLINE void project(ScalarOf<V>* group, std::size_t points, std::size_t channels) {
-  for (std::size_t k = 0; k < points; ++k) {
-    ScalarOf<V>* const point = lanes_of<V>(group, k * channels);
-    const V w = value_of<V>(point, channels - 1);
-    for (std::size_t c = 0; c + 1 < channels; ++c) {
-      put_value<V>(point, c, divide(value_of<V>(point, c), w));
+      put_value<V>(point, c, change(value_of<V>(point, c), w));
     }
   }
 }
 
-/// Patches [first, first + count), count <= lanes; lanes without a patch repeat the last one.
+/// Puts w P in place of P.
+template <typename V>
+SIMDBEZIER_INLINE void weigh(ScalarOf<V>* group, std::size_t points, std::size_t channels) {
+  for_weighted<V>(group, points, channels, [](V p, V w) SIMDBEZIER_INLINE_LAMBDA { return p * w; });
+}
+/// Puts P in place of w P.
+template <typename V>
+SIMDBEZIER_INLINE void project(ScalarOf<V>* group, std::size_t points, std::size_t channels) {
+  for_weighted<V>(group, points, channels,
+                  [](V p, V w) SIMDBEZIER_INLINE_LAMBDA { return divide(p, w); });
+}
+
+/// Reads patches [first, first + count), count <= lanes. Lanes without a patch repeat the last one.
 /// Adding +0 turns -0 into +0, so that edges that differ only in the sign of a zero stay equal.
 template <typename V, typename S>
 SIMDBEZIER_INLINE void read_group(const detail::NetView<const S>& nets, std::size_t first,
@@ -105,7 +108,7 @@ SIMDBEZIER_INLINE void read_group(const detail::NetView<const S>& nets, std::siz
   }
 }
 
-/// As read_group(), in homogeneous coordinates.
+/// This is read_group(), but in homogeneous coordinates.
 template <typename V, typename S>
 SIMDBEZIER_INLINE void gather_group(const detail::NetView<const S>& nets, std::size_t first,
                                     std::size_t count, ScalarOf<V>* group) {
@@ -115,7 +118,7 @@ SIMDBEZIER_INLINE void gather_group(const detail::NetView<const S>& nets, std::s
   }
 }
 
-/// The way back; `group` is used up.
+/// Writes a group back to memory; `group` is used up.
 template <typename V, typename S>
 SIMDBEZIER_INLINE void scatter_group(ScalarOf<V>* group, const detail::NetView<S>& nets,
                                      std::size_t first, std::size_t count) {
@@ -135,7 +138,7 @@ SIMDBEZIER_INLINE void scatter_group(ScalarOf<V>* group, const detail::NetView<S
   }
 }
 
-/// The input's point that point k of `order` is; false where it is none of them.
+/// Finds the point of the input that point k of `order` is. Returns false where it is none of them.
 SIMDBEZIER_INLINE bool kept_point(const detail::KeptPoints& kept, std::size_t k, std::size_t order,
                                   std::size_t order_in, std::size_t& source) {
   source = kept.all || k == 0 ? k : order_in - 1;
@@ -153,7 +156,7 @@ struct EdgeView {
   std::size_t order;
   std::ptrdiff_t stride;
 };
-/// The edge in u (at v = 0 or 1), or in v.
+/// Returns the edge in u (at v = 0 or 1), or in v.
 template <typename S>
 SIMDBEZIER_INLINE EdgeView<S> edge_of(const detail::NetView<S>& nets, std::size_t patch, bool in_u,
                                       bool last) {

@@ -1,5 +1,6 @@
-// Linear maps of both directions of a net: degree elevation, derivatives, other bases. In double,
-// whatever the nets are made of: sums of float nets are then nearly exact, and rounded once.
+// Linear maps of both directions of a net: degree elevation, derivatives, other bases. They run in
+// double, whatever the nets are made of: sums of float nets are then nearly exact, and rounded
+// once.
 #pragma once
 
 #include "kernels/nets/net_group.hpp"
@@ -7,7 +8,8 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// One value of a row's image; `in` is the value's place in element 0, elements `block` apart.
+/// Returns one value of a row's image. `in` is the value's place in element 0, and elements are
+/// `block` apart.
 SIMDBEZIER_INLINE Wide mapped_value(const detail::LinearMap::Row& row, bool keeps_constants,
                                     const double* in, std::size_t block) {
   const detail::LinearMap::Pair& front = row.pair[0];
@@ -19,7 +21,7 @@ SIMDBEZIER_INLINE Wide mapped_value(const detail::LinearMap::Row& row, bool keep
     const detail::LinearMap::Pair& pair = row.pair[q];
     const Wide a = value_of<Wide>(in, pair.a * block);
     const Wide b = value_of<Wide>(in, pair.b * block);
-    // Not fused, so that the pair is commutative, and the same on all instruction sets.
+    // This is not fused, so that the pair is commutative, and the same on all instruction sets.
     const Wide left = Wide(pair.entry_a) * a;
     const Wide right = Wide(pair.entry_b) * b;
     sum = sum + (left + right);
@@ -34,7 +36,7 @@ SIMDBEZIER_INLINE Wide mapped_value(const detail::LinearMap::Row& row, bool keep
   return keeps_constants ? select_where<Wide>(same, first, value) : value;
 }
 
-/// All lines from `in` to `out`.
+/// Maps all lines from `in` to `out`.
 SIMDBEZIER_INLINE void map_axis(const detail::LinearMap& map, const double* in, double* out,
                                 const Axis& axis) {
   for (std::size_t line = 0; line < axis.lines; ++line) {

@@ -46,7 +46,7 @@ SIMDBEZIER_INLINE LaneCells<V> filip_cells(const RateGroup<V>& group, V t, V mos
 template <typename V>
 class CellCandidates {
 public:
-  /// best: cells that hold. centre: those that a bound's proportion to the tolerance gives.
+  /// best are cells that hold. centre are those that a bound's proportion to the tolerance gives.
   SIMDBEZIER_INLINE CellCandidates(const CellScreen<V>& screen, const LaneCells<V>& centre,
                                    const LaneCells<V>& best, V most) {
     using T = ScalarOf<V>;
@@ -70,8 +70,8 @@ public:
     }
   }
 
-  /// The fewest cells that are still open and fewer than `best`, the first of equally many; `best`
-  /// where there are none.
+  /// Returns the fewest cells that are still open and fewer than `best`, the first of equally many,
+  /// or `best` where there are none.
   [[nodiscard]] SIMDBEZIER_INLINE LaneCells<V> fewest(const LaneCells<V>& best) const {
     LaneCells<V> found = best;
     V product = best.nu * best.nv;
@@ -107,9 +107,9 @@ struct CertifiedCells {
   V diagonals;
 };
 
-/// The fewest cells near those that the bound of an even pair of rates, in proportion to the
-/// tolerance, asks for. Where none of them holds, it is what Filip's bound gives, whose own bound
-/// may be above t.
+/// Returns the fewest cells near those that the bound of an even pair of rates, in proportion to
+/// the tolerance, asks for. Where none of them holds, it is what Filip's bound gives, whose own
+/// bound may be above t.
 ///
 /// Few cells need all vectors looked at: the vectors that set the even pair's bound show of most
 /// cells that they do not hold. Every lane has candidates of its own, so that lanes do not wait for
@@ -146,7 +146,7 @@ SIMDBEZIER_INLINE CertifiedCells<V> choose_cells(const RateScratch<V>& scratch,
   }
 }
 
-/// Reads a group of patches; its results are one a lane.
+/// Reads a group of patches. Its results are one a lane.
 template <typename T>
 SIMDBEZIER_INLINE RateGroup<vec<T>> read_rate_group(const detail::RateTask<T>& task,
                                                     std::size_t first, std::size_t count,
@@ -186,7 +186,7 @@ SIMDBEZIER_INLINE bool is_usual_size(T size) {
   return size > kSafelySmall<T> && size < kSafelyLarge<T>;
 }
 
-/// What is left of a patch's tolerance for its triangles.
+/// Returns what is left of a patch's tolerance for its triangles.
 template <typename T>
 SIMDBEZIER_INLINE double tolerance_of(const detail::RateTask<T>& task, std::size_t patch) {
   const double wanted = task.tolerances == nullptr ? task.tolerance : task.tolerances[patch];

@@ -52,7 +52,7 @@ struct QuarterNets {
   }
 };
 
-/// Scratch of a group, and what bounds need besides.
+/// Scratch memory of a group.
 template <typename V>
 struct RateScratch {
   SpaceVector<V> points[16]; ///< around the first one, over a power of two of about their size
@@ -65,24 +65,24 @@ struct RateGroup {
   SecondTerms<V> doubt;   ///< what rounding may have taken from vectors
 };
 
-/// The control values of both halves of a line, which have one in common.
-template <std::size_t kOrder, typename V>
+/// Finds the control values of both halves of a line, which have one in common.
+template <std::size_t kValues, typename V>
 SIMDBEZIER_INLINE void halve(const V* line, std::size_t step, V* to, std::size_t to_step) {
   const V half = broadcast<V>(ScalarOf<V>(0.5));
-  V part[kOrder];
-  for (std::size_t k = 0; k < kOrder; ++k) {
+  V part[kValues];
+  for (std::size_t k = 0; k < kValues; ++k) {
     part[k] = line[k * step];
   }
-  for (std::size_t level = 0; level < kOrder; ++level) {
+  for (std::size_t level = 0; level < kValues; ++level) {
     to[level * to_step] = part[0];
-    to[(2 * kOrder - 2 - level) * to_step] = part[kOrder - 1 - level];
-    for (std::size_t k = 0; k + 1 + level < kOrder; ++k) {
+    to[(2 * kValues - 2 - level) * to_step] = part[kValues - 1 - level];
+    for (std::size_t k = 0; k + 1 + level < kValues; ++k) {
       part[k] = half * (part[k] + part[k + 1]);
     }
   }
 }
 
-/// Quarters of a net of kColumns x kRows, side by side.
+/// Cuts a net of kColumns x kRows into quarters, side by side.
 template <std::size_t kColumns, std::size_t kRows, typename V>
 SIMDBEZIER_INLINE void quarter_net(const V (&net)[kColumns * kRows],
                                    V (&to)[(2 * kColumns - 1) * (2 * kRows - 1)]) {
@@ -96,24 +96,24 @@ SIMDBEZIER_INLINE void quarter_net(const V (&net)[kColumns * kRows],
   }
 }
 
-/// Both halves of a line, from degrees 1 and 2 to 3.
-template <std::size_t kOrder, typename V, typename Put>
+/// Raises both halves of a line from degrees 1 and 2 to 3.
+template <std::size_t kValues, typename V, typename Put>
 SIMDBEZIER_INLINE void raise_halves(const V* from, std::size_t step, Put put) {
   using T = ScalarOf<V>;
-  static_assert(kOrder == 2 || kOrder == 3);
+  static_assert(kValues == 2 || kValues == 3);
   const V third = broadcast<V>(T(1) / T(3));
   const V rest = broadcast<V>(T(2) / T(3));
   put(0, from[0]);
   for (std::size_t h = 0; h < 2; ++h) {
-    const V* const line = from + h * (kOrder - 1) * step;
-    if constexpr (kOrder == 2) {
+    const V* const line = from + h * (kValues - 1) * step;
+    if constexpr (kValues == 2) {
       put(3 * h + 1, rest * line[0] + third * line[step]);
       put(3 * h + 2, third * line[0] + rest * line[step]);
     } else {
       put(3 * h + 1, third * line[0] + rest * line[step]);
       put(3 * h + 2, rest * line[step] + third * line[2 * step]);
     }
-    put(3 * h + 3, line[(kOrder - 1) * step]);
+    put(3 * h + 3, line[(kValues - 1) * step]);
   }
 }
 
@@ -133,7 +133,7 @@ struct SecondSquares {
       to[k] = kFirst ? values[k] * values[k] : madd(values[k], values[k], to[k]);
     }
   }
-  /// The largest vector among some rows of a net of kColumns.
+  /// Returns the largest vector among some rows of a net of kColumns.
   template <std::size_t kColumns>
   static SIMDBEZIER_INLINE V largest(const V* net, std::size_t columns, std::size_t rows) {
     V found = net[0];
@@ -153,8 +153,9 @@ struct SecondSquares {
   }
 };
 
-/// S_uu (or S_vv: kAlongV): second differences times 6, over quarters, raised in the direction that
-/// has lost two degrees. One component at a time: it stays in registers.
+/// Forms S_uu (or S_vv: kAlongV): second differences times 6, over quarters, raised in the
+/// direction that has lost two degrees. One component is formed at a time, since it stays in
+/// registers.
 template <bool kAlongV, bool kFirst, typename V>
 SIMDBEZIER_KERNEL void form_straight(RateScratch<V>& scratch, V SpaceVector<V>::*c,
                                      SecondSquares<V>& squares) {
@@ -178,7 +179,7 @@ SIMDBEZIER_KERNEL void form_straight(RateScratch<V>& scratch, V SpaceVector<V>::
                     });
   }
 }
-/// S_uv likewise, by differences in both directions times 9.
+/// Forms S_uv likewise, by differences in both directions times 9.
 template <bool kFirst, typename V>
 SIMDBEZIER_KERNEL void form_mixed(RateScratch<V>& scratch, V SpaceVector<V>::*c,
                                   SecondSquares<V>& squares) {
@@ -204,7 +205,7 @@ SIMDBEZIER_KERNEL void form_mixed(RateScratch<V>& scratch, V SpaceVector<V>::*c,
     });
   }
 }
-/// The quarters' nets, and the largest vectors of the whole patch.
+/// Forms the nets of the quarters, and finds the largest vectors of the whole patch.
 template <typename V>
 SIMDBEZIER_INLINE void form_quarters(RateScratch<V>& scratch, SecondTerms<V>& whole) {
   using S = SpaceVector<V>;

@@ -1,7 +1,7 @@
-// Control points -> centred coefficients, edge cubics, corners: a group of patches at a time, one
-// patch a lane.
+// Turns control points into centred coefficients, edge cubics and corners: a group of patches at a
+// time, one patch a lane.
 //
-// Input and output are turned in registers; in between, a group's control points lie in memory as
+// Input and output are turned in registers. In between, a group's control points lie in memory as
 // [point][component][lane], since three components of them are more than the registers hold.
 #pragma once
 
@@ -25,8 +25,8 @@ using CarriedIn =
 template <typename T>
 inline constexpr double kSafeSquares = sizeof(T) == sizeof(float) ? 0x1p236 : 0x1p1000;
 
-/// A whole group at `from`; returns the sum of squares, which only says where to look again, so
-/// that it may round differently from one instruction set to the other.
+/// Reads a whole group at `from`. Returns the sum of squares, which only says where to look again,
+/// so that it may round differently from one instruction set to the other.
 template <typename T, typename S, bool kMoved, typename Lanes>
 SIMDBEZIER_INLINE Wide read_group(const detail::PackTask<T, S>& task, const S* from,
                                   std::ptrdiff_t stride, Lanes& lanes) {
@@ -68,7 +68,7 @@ struct PackedPlaces {
   bool streams; ///< whole lines go past the caches
 };
 
-/// 16 values of each patch, from registers that may carry more than doubles.
+/// Stores 16 values of each patch, from registers that may carry more than doubles.
 template <typename W, typename T>
 SIMDBEZIER_INLINE void store_block(const W values[16], T* to, std::size_t stride, bool streams) {
   Wide out[16];
@@ -93,7 +93,7 @@ SIMDBEZIER_INLINE void split_origins(PackedComponent<W>& formed, std::size_t c, 
                    static_cast<std::ptrdiff_t>(detail::kOriginBlock));
 }
 
-/// The control points as given, with +0 for -0.
+/// Keeps the control points as given, with +0 for -0.
 template <typename S>
 SIMDBEZIER_INLINE void keep_points(const S* from, std::ptrdiff_t stride, S* to, bool streams) {
   for (std::size_t p = 0; p < kWideLanes; ++p) {
@@ -158,7 +158,7 @@ bool pack_group(const detail::PackTask<T, S>& task, const S* from, std::ptrdiff_
   return all_of<Wide>(squares <= Wide(kSafeSquares<T>));
 }
 
-/// Nets of any layout, `count` of them, as kWideLanes packed ones; the last is repeated.
+/// Copies nets of any layout, `count` of them, to kWideLanes packed ones; the last is repeated.
 template <typename T, typename S>
 void gather_nets(const detail::PackTask<T, S>& task, std::size_t first, std::size_t count,
                  S* packed) {
@@ -182,7 +182,7 @@ void copy_values(const T* from, std::size_t count, T* to) {
   }
 }
 
-/// The last, incomplete group of a range: computed whole, copied in part.
+/// Packs the last, incomplete group of a range: it is computed whole, and copied in part.
 template <typename T, typename S, bool kMoved>
 bool pack_rest(const detail::PackTask<T, S>& task, const S* packed, std::size_t count,
                const PackedPlaces<T, S>& to) {

@@ -37,14 +37,14 @@ struct ExactProduct {
   friend bool operator==(const ExactProduct&, const ExactProduct&) = default;
 
 private:
-  /// x rounded to 26 bits.
+  /// Returns x rounded to 26 bits.
   static double leading(double x) {
     const double far = x * 0x8000001p0;
     return far - (far - x);
   }
 };
 
-/// a b = c d.
+/// Whether a b = c d.
 template <typename S>
 bool products_are_equal(S a, S b, S c, S d) {
   const double ab = static_cast<double>(a) * static_cast<double>(b);

@@ -28,7 +28,7 @@ class CollapsedEdges {
 public:
   explicit CollapsedEdges(const Task& task) : task_(task), wanted_(task.shape.rational) {}
 
-  /// Finds those of patches [first, first + count), whose control points have been stored.
+  /// Finds the edges of patches [first, first + count), whose control points have been stored.
   void find(std::size_t first, std::size_t count) {
     first_ = first;
     count_ = count;
@@ -43,12 +43,12 @@ public:
   }
 
   [[nodiscard]] bool any(std::size_t edge) const { return any_[edge]; }
-  /// The patches whose edge is a point.
+  /// Returns the patches whose edge is a point.
   [[nodiscard]] MaskOf<Wide> which(std::size_t edge) const {
     return load_vector<Wide>(points_[edge]) > Wide(0.0);
   }
 
-  /// To be called when all else of the patches has been written.
+  /// Packs these edges, when all else of the patches has been written.
   void pack() const {
     for (std::size_t e = 0; e < kEdges; ++e) {
       for (std::size_t p = 0; any_[e] && p < count_; ++p) {
@@ -116,7 +116,7 @@ private:
     }
   }
 
-  /// begin: the cell in which the edge begins, and whose corner there is the point.
+  /// begin is the cell in which the edge begins, and whose corner there is the point.
   void pack_cell_edge(std::size_t patch, std::size_t cell, std::size_t begin,
                       std::size_t edge) const {
     const detail::NetShape& shape = task_.shape;
@@ -147,7 +147,7 @@ private:
     }
   }
 
-  /// The least weight of an edge's control points.
+  /// Returns the least weight of an edge's control points.
   [[nodiscard]] double least_weight(std::size_t patch, std::size_t edge) const {
     const EdgePoints points(task_, patch, edge);
     double least = static_cast<double>(points.weight(0));

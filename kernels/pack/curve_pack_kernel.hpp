@@ -102,7 +102,8 @@ private:
         cell * shape_.cell_values() + channel * shape_.channel_values() + k, value);
   }
 
-  /// One component's control value, homogeneous where there are weights, and its Cartesian one.
+  /// Returns one component's control value, homogeneous where there are weights, and finds its
+  /// Cartesian one.
   SIMDBEZIER_INLINE W read_value(std::size_t point, std::size_t component, Wide& cartesian) const {
     const Wide value = value_at(point, component);
     const Wide origin(component < 3 ? task_.relative_to[component] : 0.0);
@@ -151,7 +152,7 @@ private:
     }
   }
 
-  /// Returns the sum of squares of its control values.
+  /// Packs one component. Returns the sum of squares of its control values.
   Wide pack_component(std::size_t c, TangentFloor<T>& floor) {
     W control[detail::kMostOrder];
     Wide points[detail::kMostOrder];
@@ -191,7 +192,8 @@ private:
     return squares;
   }
 
-  /// See zero_signs.hpp. Curves that it applies to have one cell.
+  /// Keeps even parts from zero as zero_signs.hpp explains. Curves that it applies to have one
+  /// cell.
   SIMDBEZIER_INLINE void keep_from_zero() const {
     for (std::size_t p = 0; p < count_; ++p) {
       for (std::size_t c = 0; c < shape_.channels(); ++c) {
@@ -246,8 +248,8 @@ private:
   const detail::CurvePackTask<T, S>& task_;
   const detail::CurveShape shape_;
   std::size_t order_;
-  /// Asked for once: where compilers expect few calls, they leave functions of CurveShape as
-  /// symbols.
+  /// This is asked for once: where compilers expect few calls, they leave functions of CurveShape
+  /// as symbols.
   std::size_t curve_values_;
   std::size_t components_;
   std::size_t first_ = 0;

@@ -1,7 +1,8 @@
 // Sums and products carried in two doubles, for packing double control points; lanes are
-// independent. Only what packing needs. Nothing is fused: the bits are the same on every
-// instruction set. Source: T. J. Dekker, "A floating-point technique for extending the available
-// precision", Numerische Mathematik 18 (1971); two_sum after D. E. Knuth, TAOCP vol. 2, 4.2.2.
+// independent. There is only what packing needs. Nothing is fused, so that the bits are the same on
+// every instruction set. Source: T. J. Dekker, "A floating-point technique for extending the
+// available precision", Numerische Mathematik 18 (1971); two_sum after D. E. Knuth, TAOCP vol. 2,
+// 4.2.2.
 #pragma once
 
 #include "kernels/simd/transpose.hpp"
@@ -13,14 +14,14 @@ struct DoubleDouble {
   Wide low;
 };
 
-/// a + b without error. Commutative and odd, which edge coefficients rely on: both sides of a
-/// reversed edge must get the same bits.
+/// Returns a + b without error. It is commutative and odd, which edge coefficients rely on: both
+/// sides of a reversed edge must get the same bits.
 SIMDBEZIER_INLINE DoubleDouble two_sum(Wide a, Wide b) {
   const Wide sum = a + b;
   const Wide part = sum - a;
   return {sum, (a - (sum - part)) + (b - part)};
 }
-/// a - b without error: two_sum(a, -b) operation by operation.
+/// Returns a - b without error, as two_sum(a, -b) does, operation by operation.
 SIMDBEZIER_INLINE DoubleDouble two_difference(Wide a, Wide b) {
   const Wide sum = a - b;
   const Wide part = sum - a;
@@ -59,14 +60,14 @@ SIMDBEZIER_INLINE W difference_of(DoubleDouble a, DoubleDouble b) {
   return renormalised(two_difference(a.high, b.high), a.low - b.low);
 }
 
-/// a times a power of two.
+/// Returns a times a power of two.
 SIMDBEZIER_INLINE Wide scaled(Wide a, double power) { return a * Wide(power); }
 SIMDBEZIER_INLINE DoubleDouble scaled(DoubleDouble a, double power) {
   return {a.high * Wide(power), a.low * Wide(power)};
 }
 
-/// 3 a, and that times a power of two: in one product of single doubles, which rounds as 3 a does,
-/// since what is carried in them comes from floats and is far from the ends of their range.
+/// Returns 3 a, or that times a power of two: in one product of single doubles, which rounds as 3 a
+/// does, since what is carried in them comes from floats and is far from the ends of their range.
 SIMDBEZIER_INLINE Wide tripled(Wide a, double power = 1) { return Wide(3 * power) * a; }
 SIMDBEZIER_INLINE DoubleDouble tripled(DoubleDouble a) {
   const Wide two(2.0);
@@ -76,7 +77,8 @@ SIMDBEZIER_INLINE DoubleDouble tripled(DoubleDouble a, double power) {
   return scaled(tripled(a), power);
 }
 
-/// a * b, exact up to 2^-106 of it where both halves have all of their bits; odd in a and in b.
+/// Returns a * b, exact up to 2^-106 of it where both halves have all of their bits; it is odd in a
+/// and in b.
 SIMDBEZIER_INLINE DoubleDouble two_product(Wide a, Wide b) {
   const Wide a0 = leading_bits(a);
   const Wide b0 = leading_bits(b);
@@ -86,13 +88,13 @@ SIMDBEZIER_INLINE DoubleDouble two_product(Wide a, Wide b) {
   return {rounded, (((a0 * b0 - rounded) + a0 * b1) + a1 * b0) + a1 * b1};
 }
 
-/// a * b where b is a single double.
+/// Returns a * b where b is a single double.
 SIMDBEZIER_INLINE Wide product(Wide a, Wide b) { return a * b; }
 SIMDBEZIER_INLINE DoubleDouble product(DoubleDouble a, Wide b) {
   return renormalised(two_product(a.high, b), a.low * b);
 }
 
-/// A single double, carried.
+/// Returns a single double as W carries it.
 template <typename W>
 SIMDBEZIER_INLINE W carried(Wide a) {
   if constexpr (sizeof(W) == sizeof(Wide)) {
@@ -102,7 +104,7 @@ SIMDBEZIER_INLINE W carried(Wide a) {
   }
 }
 
-/// Rounded to one double.
+/// Returns the value rounded to one double.
 SIMDBEZIER_INLINE Wide to_wide(Wide a) { return a; }
 SIMDBEZIER_INLINE Wide to_wide(DoubleDouble a) { return a.high + a.low; }
 

@@ -14,8 +14,8 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Half-centred power coefficients of a cubic: c[k] multiplies X^k, X = u - 1/2. W is what they are
-/// carried in; control values may be single doubles.
+/// Finds the half-centred power coefficients of a cubic: c[k] multiplies X^k, X = u - 1/2. W is
+/// what they are carried in; control values may be single doubles.
 template <typename W, typename In>
 SIMDBEZIER_INLINE void centred_cubic(In b0, In b1, In b2, In b3, W c[detail::kOrder]) {
   const W inner = difference_of<W>(b2, b1);
@@ -33,7 +33,7 @@ struct PackedComponent {
   W edges[detail::kOrder * detail::kEdges];  ///< [power][edge]
 };
 
-/// net: [j][i].
+/// Forms one component. net is [j][i].
 template <typename W, typename In>
 SIMDBEZIER_INLINE void form_component(const In net[16], PackedComponent<W>& out) {
   constexpr std::size_t n = detail::kOrder;
@@ -67,11 +67,11 @@ SIMDBEZIER_INLINE Wide take_origin(W& constant) {
   return origin;
 }
 
-/// The value of |du x dv|^2 above which the plain cross product is good (2^-14 for float, 2^-40 for
-/// double, of what the hodographs allow), from what |du| and |dv| stay below.
+/// Returns the value of |du x dv|^2 above which the plain cross product is good (2^-14 for float,
+/// 2^-40 for double, of what the hodographs allow), from what |du| and |dv| stay below.
 ///
-/// Infinity where the squares could leave the range of T. Powers of two are kept as such: 2^e is
-/// x without its mantissa, and all products that pass the comparisons are exact.
+/// It is infinity where the squares could leave the range of T. Powers of two are kept as such: 2^e
+/// is x without its mantissa, and all products that pass the comparisons are exact.
 template <typename T>
 SIMDBEZIER_INLINE Wide normal_floor(Wide hodograph_u, Wide hodograph_v) {
   constexpr bool kSingle = sizeof(T) == sizeof(float);
@@ -94,7 +94,7 @@ SIMDBEZIER_INLINE Wide normal_floor(Wide hodograph_u, Wide hodograph_v) {
 template <typename T>
 class NormalFloor {
 public:
-  /// One component of the control points as they are stored, [j][i].
+  /// Adds one component of the control points as they are stored, [j][i].
   SIMDBEZIER_INLINE void add(const Wide points[16]) {
     for (int j = 0; j < 4; ++j) {
       for (int i = 0; i < 3; ++i) {
@@ -112,8 +112,8 @@ private:
   Wide size_v_ = Wide(0.0);
 };
 
-/// What a floor of rational patches or curves is made of; infinity, which nothing passes, where
-/// sizes or weights are such that products of the test could leave the range of T.
+/// Returns what a floor of rational patches or curves is made of. It is infinity, which nothing
+/// passes, where sizes or weights are such that products of the test could leave the range of T.
 template <typename T>
 SIMDBEZIER_INLINE Wide error_size(Wide size, Wide heaviest) {
   constexpr bool kSingle = sizeof(T) == sizeof(float);

@@ -1,4 +1,5 @@
-// Where the plain cross product of du and dv is good enough as a normal, for patches of any shape.
+// Decides where the plain cross product of du and dv is good enough as a normal, for patches of any
+// shape.
 #pragma once
 
 #include "kernels/pack/pack_formulas.hpp"
@@ -32,7 +33,7 @@ public:
       : order_u_(shape.order_u()), order_v_(shape.order_v()), in_space_(shape.components == 3),
         origins_(origins), weights_(shape.rational ? weights : nullptr) {}
 
-  /// One component of the control points, Cartesian, [j][i].
+  /// Adds one component of the control points, Cartesian, [j][i].
   void add(const Wide* points) {
     if (!in_space_) {
       return;
@@ -48,7 +49,7 @@ public:
     }
   }
 
-  /// NetShape::floors() values.
+  /// Finds as many floors as NetShape::floors() says.
   void finish(Wide floors[2]) {
     floors[0] = floors[1] = Wide(0.0);
     if (!in_space_) {
@@ -71,7 +72,7 @@ public:
       heaviest = larger_of<Wide>(weights_[k], heaviest);
     }
     const Wide four_reaches = Wide(4.0) * reach_;
-    // sqrt(2) c, rounded up.
+    // This is sqrt(2) c, rounded up.
     const Wide factor(sizeof(T) == sizeof(float) ? 0x1.7p-10 : 0x1.7p-20);
     floors[0] =
         error_size<T>(factor * (m * (steps_u + size_u_ * four_reaches)) * heaviest, heaviest);
@@ -80,7 +81,7 @@ public:
   }
 
 private:
-  /// f(a, b, size_u_ or size_v_) for all neighbours in u and in v.
+  /// Calls f(a, b, size_u_ or size_v_) for all neighbours in u and in v.
   template <typename F>
   SIMDBEZIER_INLINE void for_neighbours(const F& f) {
     for (std::size_t j = 0; j < order_v_; ++j) {

@@ -17,7 +17,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::kMostOrder;
 
-/// C(n,k) 2^(k-n), exact.
+/// The factors C(n,k) 2^(k-n), which are exact.
 struct CentringFactors {
   double at[kMostOrder][kMostOrder] = {};
 

@@ -16,7 +16,7 @@ public:
   explicit NetReader(const detail::NetPackTask<T, S>& task)
       : task_(task), order_u_(task.shape.order_u()), order_v_(task.shape.order_v()) {}
 
-  /// Patches [first, first + count); lanes behind them repeat the last one.
+  /// Begins with patches [first, first + count); lanes behind them repeat the last one.
   void begin(std::size_t first, std::size_t count) {
     for (std::size_t p = 0; p < kWideLanes; ++p) {
       const std::size_t patch = first + (p < count ? p : count - 1);
@@ -24,7 +24,7 @@ public:
     }
   }
 
-  /// One channel of all points, [j][i], as it stands in the caller's memory.
+  /// Reads one channel of all points, [j][i], as it stands in the caller's memory.
   void read(std::size_t channel, Wide* values) const {
     for (std::size_t j = 0; j < order_v_; ++j) {
       std::ptrdiff_t at = static_cast<std::ptrdiff_t>(channel) * task_.nets.component_stride +
@@ -39,7 +39,8 @@ public:
     }
   }
 
-  /// All values of the first `count` patches, as they were given except for the sign of zeros.
+  /// Copies all values of the first `count` patches, as they were given except for the sign of
+  /// zeros.
   void copy(std::size_t count, S* to) const {
     const ControlNets<S>& nets = task_.nets;
     const std::size_t values = order_u_ * order_v_ * task_.shape.channels();
@@ -51,8 +52,8 @@ public:
     }
   }
 
-  /// One component: `points` come as read() has them and become Cartesian and relative to the set's
-  /// origin; `values` are the same, or times the weight where there are weights (else null).
+  /// Moves one component: `points` come as read() has them and become Cartesian and relative to the
+  /// set's origin; `values` are the same, or times the weight where there are weights (else null).
   void move(std::size_t component, const Wide* weights, Wide* points, W* values) const {
     const Wide origin(component < 3 ? task_.relative_to[component] : 0.0);
     const std::size_t count = order_u_ * order_v_;
@@ -113,7 +114,7 @@ public:
       flush();
     }
   }
-  /// Zeros up to a whole cache line of floats.
+  /// Puts zeros up to a whole cache line of floats.
   SIMDBEZIER_INLINE void finish() {
     while (filled_ != 0 || blocks_ % 2 != 0) {
       put(Wide(0.0));

@@ -58,13 +58,13 @@ public:
 private:
   // Points ---------------------------------------------------------------------------------------
 
-  /// One component of all points: values_, and Cartesian ones in points_.
+  /// Reads one component of all points to values_, and the Cartesian ones to points_.
   void read_component(std::size_t c) {
     reader_.read(c, points_);
     reader_.move(c, shape_.rational ? weights_ : nullptr, points_, values_);
   }
 
-  /// Normal floor, and whether all values are of a size that cannot do harm.
+  /// Finds the normal floor, and whether all values are of a size that cannot do harm.
   bool pack_points() {
     const std::size_t points = shape_.points();
     Wide squares(0.0);
@@ -173,7 +173,7 @@ private:
            (shape_.cells_v() == 1 || corner / 2 == cell_v);
   }
 
-  /// One component's control values of a cell, and its corners, which are points.
+  /// Reads one component's control values of a cell, and its corners, which are points.
   void read_cell_component(std::size_t cell, std::size_t c, Wide* corners) {
     read_component(c);
     take_cell(values_, cell);
@@ -231,8 +231,8 @@ private:
     store_origins(cell, c, origins);
   }
 
-  /// Of the edge u = side, to the cell's own origin. A point need not be what its origin is, which
-  /// is rounded to T: it is rounded when it is near.
+  /// Returns the origin of the edge u = side relative to the cell's own. A point need not be what
+  /// its origin is, which is rounded to T: it is rounded when it is near.
   [[nodiscard]] Wide relative_origin(const Origins& origins, std::size_t cell,
                                      std::size_t side) const {
     const std::size_t edge = detail::kEdgeU0 + side;
@@ -278,7 +278,7 @@ private:
   std::size_t first_ = 0;
   std::size_t count_ = 0;
   TinyEvenCoefficients<T> tiny_; ///< of a cell
-  // About 150 KiB on the stack where registers have eight doubles.
+  // These take about 150 KiB on the stack where registers have eight doubles.
   Wide weights_[kMostPoints];
   Wide points_[kMostPoints];    ///< of one component
   W values_[kMostPoints];       ///< of one component: control values, then coefficients

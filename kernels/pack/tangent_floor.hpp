@@ -32,7 +32,7 @@ public:
       step_ = larger_of<Wide>(weight * magnitude(points[i] - points[i - 1]), step_);
     }
   }
-  /// Infinity where products of the test could leave the range of T.
+  /// Returns the floor, or infinity where products of the test could leave the range of T.
   SIMDBEZIER_INLINE Wide value() const {
     const Wide degree(static_cast<double>(shape_.degree));
     if (weights_ != nullptr) {

@@ -30,7 +30,7 @@ inline constexpr double kSafeSecond = sizeof(T) == sizeof(float) ? 0x1p-98 : 0x1
 template <typename T>
 inline constexpr double kSafeFourth = sizeof(T) == sizeof(float) ? 0x1p-48 : 0x1p-850;
 
-/// The degree of an edge.
+/// Returns the degree of an edge.
 constexpr int degree_along(const detail::NetShape& shape, std::size_t edge) {
   return edge == detail::kEdgeV0 || edge == detail::kEdgeV1 ? shape.degree_u : shape.degree_v;
 }
@@ -39,7 +39,7 @@ constexpr int degree_along(const detail::NetShape& shape, std::size_t edge) {
 template <typename T>
 class TinyEvenCoefficients {
 public:
-  /// The even coefficients of an edge, as `at(k)` gives them, before they are rounded.
+  /// Looks at the even coefficients of an edge, as `at(k)` gives them, before they are rounded.
   template <typename At>
   SIMDBEZIER_INLINE void look_at(int degree, const At& at) {
     if (detail::is_even_odd(degree)) {
@@ -49,7 +49,7 @@ public:
       }
     }
   }
-  /// The edges of one channel, [power][edge].
+  /// Looks at the edges of one channel, [power][edge].
   template <typename W>
   SIMDBEZIER_INLINE void look_at_edges(const detail::NetShape& shape, const W* edges) {
     for (std::size_t e = 0; e < detail::kEdges; ++e) {
@@ -81,7 +81,8 @@ private:
   bool found_ = false;     ///< of single values
 };
 
-/// Packed coefficients c[k * step] of one edge or curve, 0 <= k <= degree.
+/// Changes the constant of one edge or curve where it has to be. Its packed coefficients are c[k *
+/// step], 0 <= k <= degree.
 template <typename T>
 SIMDBEZIER_INLINE void keep_even_part_from_zero(T* c, std::size_t step, int degree) {
   if (!detail::is_even_odd(degree) || c[0] != T(0)) {
@@ -95,7 +96,7 @@ SIMDBEZIER_INLINE void keep_even_part_from_zero(T* c, std::size_t step, int degr
   }
 }
 
-/// The four edges of every channel of one cell, in the blocks of `count` patches.
+/// Keeps the four edges of every channel of one cell from zero, in the blocks of `count` patches.
 template <typename T>
 SIMDBEZIER_RARE void keep_edges_from_zero(const detail::NetShape& shape, T* blocks,
                                           std::size_t count) {

@@ -17,13 +17,13 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 using detail::kEdges;
 using detail::kOrder;
 
-/// c[0] + t c[1] + t^2 c[2] + t^3 c[3], for columns.
+/// Returns c[0] + t c[1] + t^2 c[2] + t^3 c[3], for columns.
 template <typename V>
 SIMDBEZIER_INLINE V horner(const V c[kOrder], V t) {
   return madd(madd(madd(c[3], t, c[2]), t, c[1]), t, c[0]);
 }
 
-/// The same value, bit for bit, and its derivative.
+/// Returns the same value, bit for bit, and finds its derivative.
 template <typename V>
 SIMDBEZIER_INLINE V horner(const V c[kOrder], V t, V& derivative) {
   const V b1 = madd(c[3], t, c[2]);
@@ -32,7 +32,7 @@ SIMDBEZIER_INLINE V horner(const V c[kOrder], V t, V& derivative) {
   return madd(b0, t, c[0]);
 }
 
-/// The derivative alone.
+/// Returns the derivative alone.
 template <typename V>
 SIMDBEZIER_INLINE V horner_slope(const V c[kOrder], V t) {
   V slope;
@@ -40,7 +40,7 @@ SIMDBEZIER_INLINE V horner_slope(const V c[kOrder], V t) {
   return slope;
 }
 
-/// The second derivative: two more synthetic divisions, and a factor 2 that rounds nothing.
+/// Returns the second derivative: two more synthetic divisions, and a factor 2 that rounds nothing.
 template <typename V>
 SIMDBEZIER_INLINE V horner_second(const V c[kOrder], V t) {
   const V b1 = madd(c[3], t, c[2]);
@@ -55,7 +55,7 @@ struct Column {
   PairSelector<V> edges;
   bool on_edge; ///< false: no lane is on an edge u = const
 
-  /// Not watertight: edges are as good as any column.
+  /// Where patches are not watertight, edges are as good as any column.
   SIMDBEZIER_INLINE Column(V half_centred, bool watertight)
       : x(half_centred),
         edges(x == broadcast<V>(ScalarOf<V>(-0.5)), x == broadcast<V>(ScalarOf<V>(0.5))),
@@ -71,7 +71,7 @@ struct Component {
   const T* origins;      ///< of the set; null where it has none
   std::size_t origin_at; ///< of this component in there
 
-  /// task: any that holds coefficients, edges and origins.
+  /// task is any that holds coefficients, edges and origins.
   template <typename Task>
   SIMDBEZIER_INLINE Component(const Task& task, std::size_t patch, std::size_t component)
       : matrix(own_address(task.coefficients + patch * detail::kCoefficients +
@@ -82,7 +82,7 @@ struct Component {
         origins(task.origins),
         origin_at(patch * detail::kOriginBlock + component * detail::kOriginsPerComponent) {}
 
-  /// The patch's next one, at constant distances: addresses made anew take registers.
+  /// Returns the patch's next component, at constant distances: addresses made anew take registers.
   [[nodiscard]] SIMDBEZIER_INLINE Component next() const {
     Component after = *this;
     after.matrix += kOrder * kOrder;
@@ -92,7 +92,8 @@ struct Component {
     return after;
   }
 
-  /// The origins of the patch and, from kEdgeOriginsAt on, of its edges; for sets with origins.
+  /// Returns the origins of the patch and, from kEdgeOriginsAt on, of its edges; for sets with
+  /// origins.
   SIMDBEZIER_INLINE const T* origin() const { return origins + origin_at; }
 };
 
@@ -138,8 +139,8 @@ SIMDBEZIER_INLINE void column_polynomial(const Component<ScalarOf<V>>& c, const 
   replace_edge_columns(c, column, q);
 }
 
-/// The same two for a single column, which all lanes share: all four powers of Y at once, for a
-/// quarter of the operations.
+/// This is column_polynomial() for a single column, which all lanes share: it computes all four
+/// powers of Y at once, for a quarter of the operations.
 template <typename V>
 SIMDBEZIER_INLINE void single_column_polynomial(const Component<ScalarOf<V>>& c,
                                                 const Column<V>& column, V q[kOrder]) {
@@ -178,10 +179,11 @@ struct SecondColumns {
     replace_edge_columns(c, column, q);
   }
 
-  /// Away from the edges v = 0 and 1, where duu comes from the edge: edge_second().
+  /// These are for samples away from the edges v = 0 and 1, where duu comes from the edge:
+  /// edge_second().
   SIMDBEZIER_INLINE Parts<V> duu_parts(const RowPoint<V>& at) const { return value_parts(ddq, at); }
   SIMDBEZIER_INLINE Parts<V> duv_parts(const RowPoint<V>& at) const { return slope_parts(dq, at); }
-  /// Half of it, which is doubled last.
+  /// Returns the parts of half of dvv, which is doubled last.
   SIMDBEZIER_INLINE Parts<V> half_dvv_parts(const RowPoint<V>& at) const {
     return half_second_parts(q, at);
   }
@@ -206,7 +208,7 @@ struct LocalOrigin {
   }
 };
 
-/// The origin of a column; one on an edge u = const has that edge's origin.
+/// Returns the origin of a column. One on an edge u = const has that edge's origin.
 template <typename V>
 SIMDBEZIER_INLINE LocalOrigin<V> column_origin(const Component<ScalarOf<V>>& c,
                                                const Column<V>& column) {
@@ -227,7 +229,8 @@ SIMDBEZIER_INLINE void edge_cubic(const Component<ScalarOf<V>>& c, std::size_t e
   }
 }
 
-/// From the value of the edge's cubic to the position: origin added, corners as stored.
+/// Turns the value of the edge's cubic into the position: the origin is added, and corners are as
+/// stored.
 template <typename V>
 SIMDBEZIER_INLINE V finished_edge(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                   std::size_t edge, V value) {
@@ -237,7 +240,7 @@ SIMDBEZIER_INLINE V finished_edge(const Component<ScalarOf<V>>& c, const Column<
   return column.edges.replace(value, c.corner + detail::corner_index(0, edge));
 }
 
-/// Position on the edge v = 0 or 1 (`edge` = kEdgeV0 or kEdgeV1).
+/// Returns the position on the edge v = 0 or 1 (`edge` = kEdgeV0 or kEdgeV1).
 template <typename V>
 SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                   std::size_t edge) {
@@ -254,7 +257,7 @@ SIMDBEZIER_INLINE V edge_position(const Component<ScalarOf<V>>& c, const Column<
   return finished_edge(c, column, edge, row_value(k, RowPoint<V>(column.x), du));
 }
 
-/// d2S/du2 on the edge v = 0 or 1.
+/// Returns d2S/du2 on the edge v = 0 or 1.
 template <typename V>
 SIMDBEZIER_INLINE V edge_second(const Component<ScalarOf<V>>& c, const Column<V>& column,
                                 std::size_t edge) {
@@ -263,7 +266,7 @@ SIMDBEZIER_INLINE V edge_second(const Component<ScalarOf<V>>& c, const Column<V>
   return row_second(k, RowPoint<V>(column.x));
 }
 
-/// N = du x dv and |N|^2.
+/// Finds N = du x dv and returns |N|^2.
 template <typename V>
 SIMDBEZIER_INLINE V cross_product(const V du[3], const V dv[3], V n[3]) {
   n[0] = msub(du[1], dv[2], du[2] * dv[1]);
@@ -272,8 +275,8 @@ SIMDBEZIER_INLINE V cross_product(const V du[3], const V dv[3], V n[3]) {
   return madd(n[0], n[0], madd(n[1], n[1], n[2] * n[2]));
 }
 
-/// IEEE square root and division: reproducible, unlike the reciprocal estimates, and hidden behind
-/// the other arithmetic.
+/// Gives n unit length. The IEEE square root and division are reproducible, unlike the reciprocal
+/// estimates, and hidden behind the other arithmetic.
 template <typename V>
 SIMDBEZIER_INLINE void normalise(V n[3], V squared_length) {
   const V inverse = divide(broadcast<V>(ScalarOf<V>(1)), square_root(squared_length));

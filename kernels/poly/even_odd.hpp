@@ -54,15 +54,15 @@ struct RowPoint {
       : y(the_y), square(the_square), twice(the_twice), twice_square(the_twice_square) {}
 };
 
-// The parts of cubics whose coefficients stand in an array; those of degrees 4 and 5 are in
-// shape/shape_formulas.hpp. Functions, and no object that holds what they share: the compiler finds
-// that by itself, and would keep objects in memory.
+// These are the parts of cubics whose coefficients stand in an array; those of degrees 4 and 5 are
+// in poly/series.hpp. They are functions, and there is no object that holds what they share: the
+// compiler finds that by itself, and would keep objects in memory.
 
 template <typename V>
 SIMDBEZIER_INLINE Parts<V> value_parts(const V c[4], const RowPoint<V>& at) {
   return {madd(c[2], at.square, c[0]), at.y * madd(c[3], at.square, c[1])};
 }
-/// The same, and those of the slope.
+/// Returns the parts of the value, and finds those of the slope.
 template <typename V>
 SIMDBEZIER_INLINE Parts<V> value_parts(const V c[4], const RowPoint<V>& at, Parts<V>& slope) {
   const V odd = madd(c[3], at.square, c[1]);
@@ -79,12 +79,12 @@ SIMDBEZIER_INLINE Parts<V> half_second_parts(const V c[4], const RowPoint<V>& at
   return {c[2], (at.twice + at.y) * c[3]};
 }
 
-/// A cubic row, edge or curve at one parameter.
+/// Returns the value of a cubic row, edge or curve at one parameter.
 template <typename V>
 SIMDBEZIER_INLINE V row_value(const V c[4], const RowPoint<V>& at) {
   return value_parts(c, at).sum();
 }
-/// The same value, bit for bit, and its derivative.
+/// Returns the same value, bit for bit, and finds its derivative.
 template <typename V>
 SIMDBEZIER_INLINE V row_value(const V c[4], const RowPoint<V>& at, V& slope) {
   Parts<V> of_slope;

@@ -1,4 +1,4 @@
-// Normals of a register of samples that did not all pass the quick test.
+// The second look at the normals of a register of samples that did not all pass the quick test.
 #pragma once
 
 #include <limits>
@@ -8,8 +8,9 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Which lanes are samples, and which ones: a row of them, or several.
-struct Suspects {
+/// The normals of a register that are to be looked at: which lanes are samples, and which ones.
+/// They are a row, or several.
+struct UncertainNormals {
   std::size_t lane;    ///< first lane
   std::size_t columns; ///< lanes a row
   std::size_t active;  ///< of them in the grid
@@ -20,27 +21,27 @@ struct Suspects {
   std::size_t value_step = 1; ///< values from one sample's normal to the next
 };
 
-/// A floor with which every normal takes a second look.
+/// Returns a floor with which every normal takes a second look.
 template <typename V>
 SIMDBEZIER_INLINE V no_floor() {
   return broadcast<V>(static_cast<ScalarOf<V>>(__builtin_inf()));
 }
-/// The patch's floor where t lies in the patch's range, elsewhere infinity: outside of the patch no
-/// bound holds.
+/// Returns the patch's floor where t lies in the patch's range, and infinity elsewhere: outside of
+/// the patch no bound holds.
 template <typename V>
 SIMDBEZIER_INLINE V floor_inside(V t, V floor) {
   using T = ScalarOf<V>;
-  // Named, since clang warns of & between calls that give bool.
+  // These are named, since clang warns of & between calls that give bool.
   const MaskOf<V> below = t <= broadcast<V>(T(0.5));
   const MaskOf<V> above = t >= broadcast<V>(T(-0.5));
   return select_where<V>(below & above, floor, no_floor<V>());
 }
 
-/// Lane by lane, for those that did not pass. Rare, so kept out of line; vectors come by value, or
-/// the fast path would have to keep them in memory.
+/// Resolves, lane by lane, the normals that did not pass. They are rare, so this is kept out of
+/// line; vectors come by value, or the fast path would have to keep them in memory.
 template <typename V>
 SIMDBEZIER_RARE void resolve_normals(const detail::SampleTask<ScalarOf<V>>& task, std::size_t patch,
-                                     Suspects s, V x, V y, V squared, V floor) {
+                                     UncertainNormals s, V x, V y, V squared, V floor) {
   using T = ScalarOf<V>;
   const V vectors[4] = {squared, floor, x, y};
   alignas(64) T lanes[4][kLanes<V>];

@@ -1,37 +1,22 @@
-// One scattered sample, V = T: what edges, normals that need a second look and instruction sets
-// without registers are left to.
+// One scattered sample of a bicubic patch, V = T: registers of samples leave it those on edges and
+// those whose normal needs a second look.
 #pragma once
 
 #include "kernels/poly/bicubic.hpp"
-#include "src/tables/kernel_table.hpp"
+#include "kernels/poly/half_centred.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-using detail::ScatteredTask;
-
-/// Exact where the parameter is centred, rounded once where it is not: one of shift and scale
-/// leaves values as they are, so that one operation does.
-template <typename V>
-SIMDBEZIER_PART V half_centred(const ScatteredTask<ScalarOf<V>>& task, V given) {
-  return madd(given, broadcast<V>(task.scale), broadcast<V>(-task.shift));
-}
-
-/// As above; nan where the parameter is not finite.
+/// The place of a sample in the parameter plane.
 template <typename T>
-SIMDBEZIER_PART T finite_half_centred(const ScatteredTask<T>& task, T given) {
-  return given - given == T(0) ? half_centred(task, given) : static_cast<T>(__builtin_nan(""));
-}
-
-/// Where in the parameter plane a sample lies.
-template <typename T>
-struct Place {
+struct SamplePlace {
   std::size_t patch;
   Column<T> column;
   T y;
   bool on_edge; ///< v = 0 or 1
   std::size_t edge;
 
-  SIMDBEZIER_PART Place(const ScatteredTask<T>& task, std::size_t k)
+  SIMDBEZIER_PART SamplePlace(const ScatteredTask<T>& task, std::size_t k)
       : patch(task.patch[k]), column(finite_half_centred(task, task.u[k]), task.watertight),
         y(finite_half_centred(task, task.v[k])),
         on_edge(task.watertight && (y == T(-0.5) || y == T(0.5))),
@@ -50,7 +35,7 @@ SIMDBEZIER_PART void store_point(const detail::Planes<T>& planes, std::size_t at
 
 template <typename T>
 SIMDBEZIER_PART void store_normal(const ScatteredTask<T>& task, std::size_t k,
-                                  const Place<T>& place, const T du[3], const T dv[3]) {
+                                  const SamplePlace<T>& place, const T du[3], const T dv[3]) {
   const T x = place.column.x;
   const T y = place.y;
   T n[3];
@@ -69,10 +54,10 @@ SIMDBEZIER_PART void store_normal(const ScatteredTask<T>& task, std::size_t k,
   store_point(task.out[output_index(Output::normal)], k, n);
 }
 
-/// Position and first derivatives.
+/// Evaluates the position and the first derivatives.
 template <typename T>
 SIMDBEZIER_PART void evaluate_first(const ScatteredTask<T>& task, std::size_t k,
-                                    const Place<T>& place) {
+                                    const SamplePlace<T>& place) {
   T p[3];
   T du[3];
   T dv[3];
@@ -99,7 +84,7 @@ SIMDBEZIER_PART void evaluate_first(const ScatteredTask<T>& task, std::size_t k,
 
 template <typename T>
 SIMDBEZIER_PART void evaluate_second(const ScatteredTask<T>& task, std::size_t k,
-                                     const Place<T>& place) {
+                                     const SamplePlace<T>& place) {
   T duu[3];
   T duv[3];
   T dvv[3];
@@ -117,10 +102,10 @@ SIMDBEZIER_PART void evaluate_second(const ScatteredTask<T>& task, std::size_t k
   store_point(task.out[output_index(Output::dvv)], k, dvv);
 }
 
-/// Sample k from start to end: the outputs of order <= 1, or (kSecond) those of order 2.
+/// Evaluates sample k from start to end: the outputs of order <= 1, or (kSecond) those of order 2.
 template <bool kSecond, typename T>
 SIMDBEZIER_KERNEL void evaluate_sample(const ScatteredTask<T>& task, std::size_t k) {
-  const Place<T> place(task, k);
+  const SamplePlace<T> place(task, k);
   if (task.status != nullptr && (place.column.x != place.column.x || place.y != place.y)) {
     task.status[k] = SampleStatus::non_finite;
   }

@@ -11,8 +11,8 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// The samples that come `kAhead` samples after those of a block, or nothing.
-template <bool kPrefetch, Outcome kOutcome, typename V>
+/// Asks for the samples that come `kAhead` samples after those of a block, or for nothing.
+template <bool kPrefetch, detail::OutputSet kOutputs, typename V>
 class Ahead {
 public:
   SIMDBEZIER_PART Ahead(const ScatteredTask<ScalarOf<V>>&, std::size_t, const std::uint32_t*) {}
@@ -20,15 +20,16 @@ public:
   SIMDBEZIER_PART void ask() const {}
 };
 
-template <Outcome kOutcome, typename V>
-class Ahead<true, kOutcome, V> {
+template <detail::OutputSet kOutputs, typename V>
+class Ahead<true, kOutputs, V> {
 public:
   using T = ScalarOf<V>;
 
   SIMDBEZIER_PART Ahead(const ScatteredTask<T>& task, std::size_t first, const std::uint32_t* patch)
       : coefficients_(task.coefficients),
-        floors_(kOutcome == kNormals && !(task.common_floor < kInfinity) ? task.normal_floor
-                                                                         : nullptr),
+        floors_(kOutputs == detail::kAnyOutputs && !(task.common_floor < kInfinity)
+                    ? task.normal_floor
+                    : nullptr),
         patch_(first + kAhead + kLanes<V> <= task.patches_known ? patch + kAhead : patch) {}
 
   /// Asks for the lines of kQuads patches. A few at a time: while more lines are under way than
@@ -56,10 +57,10 @@ private:
   const std::uint32_t* patch_;
 };
 
-/// Horner in X for one group, all components.
-template <std::size_t kGroup, Outcome kOutcome, typename V>
+/// Runs Horner's rule in X for one group, all components.
+template <std::size_t kGroup, detail::OutputSet kOutputs, typename V>
 SIMDBEZIER_PART void evaluate_group(const ScalarOf<V>* coefficients, const std::uint32_t* patch,
-                                    V all_x, Polynomials<kOutcome, V> q[3]) {
+                                    V all_x, Polynomials<kOutputs, V> q[3]) {
   using T = ScalarOf<V>;
   constexpr std::size_t kParts = kOrder / kQuad<V>; // of a row of powers of Y
   const V x = lane_broadcast<kGroup>(all_x);
@@ -87,17 +88,17 @@ SIMDBEZIER_PART void evaluate_group(const ScalarOf<V>* coefficients, const std::
   }
 }
 
-template <Outcome kOutcome, typename V>
-SIMDBEZIER_PART void groups_to_powers(Polynomials<kOutcome, V>& q) {
-  for (std::size_t derivative = 0; derivative < kPolynomials<kOutcome>; ++derivative) {
+template <detail::OutputSet kOutputs, typename V>
+SIMDBEZIER_PART void groups_to_powers(Polynomials<kOutputs, V>& q) {
+  for (std::size_t derivative = 0; derivative < kPolynomials<kOutputs>; ++derivative) {
     for (std::size_t l = 0; l < kOrder; l += kQuad<V>) {
       lane_transpose(q.power[derivative] + l);
     }
   }
 }
 
-/// Normal floors of samples of any patches. Those of the lanes are one more access to memory each,
-/// for values that seldom matter.
+/// Normal floors of samples of any patches. To read those of the lanes is one more access to memory
+/// each, for values that seldom matter.
 template <typename V>
 struct FloorsOfMany {
   const ScatteredTask<ScalarOf<V>>& task;
@@ -106,14 +107,15 @@ struct FloorsOfMany {
   SIMDBEZIER_PART V each() const { return gather_lanes<V>(task.normal_floor, patch, 1); }
 };
 
-/// patch: one index for each lane. kPrefetch: the lines of later samples are asked for.
-template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename V>
+/// Evaluates a block of samples of any patches. patch has one index for each lane. kPrefetch says
+/// that the lines of later samples are asked for.
+template <bool kOrigins, detail::OutputSet kOutputs, bool kPrefetch, typename V>
 SIMDBEZIER_PART void evaluate_mixed(const Block<V>& block, const std::uint32_t* patch,
-                                    WaitingNormals<kOutcome, V>& waiting) {
+                                    WaitingNormals<kOutputs, V>& waiting) {
   const auto& task = block.task;
   waiting.take_root();
-  Polynomials<kOutcome, V> q[3];
-  const Ahead<kPrefetch, kOutcome, V> ahead(task, block.first, patch);
+  Polynomials<kOutputs, V> q[3];
+  const Ahead<kPrefetch, kOutputs, V> ahead(task, block.first, patch);
   ahead.template ask<0>();
   evaluate_group<0>(task.coefficients, patch, block.x, q);
   ahead.template ask<1>();
@@ -124,7 +126,7 @@ SIMDBEZIER_PART void evaluate_mixed(const Block<V>& block, const std::uint32_t* 
     ahead.template ask<3>();
     evaluate_group<3>(task.coefficients, patch, block.x, q);
   }
-  Tangents<kOutcome, V> tangents;
+  Tangents<kOutputs, V> tangents;
   for (std::size_t c = 0; c < 3; ++c) {
     groups_to_powers(q[c]);
     V origin = block.x; // not used

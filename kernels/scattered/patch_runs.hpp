@@ -1,4 +1,4 @@
-// Consecutive samples of one patch: lanes = samples, coefficients broadcast.
+// Consecutive samples of one patch: lanes are samples, and coefficients are broadcast.
 #pragma once
 
 #include "kernels/scattered/scattered_block.hpp"
@@ -13,16 +13,17 @@ struct FloorOfOne {
   SIMDBEZIER_PART V each() const { return broadcast<V>(floor); }
 };
 
-/// kRegisters blocks share every broadcast: with one of them, loads would be the limit.
-template <bool kOrigins, Outcome kOutcome, std::size_t kRegisters, typename V>
+/// Evaluates blocks of samples of one patch. kRegisters of them share every broadcast: with one of
+/// them, loads would be the limit.
+template <bool kOrigins, detail::OutputSet kOutputs, std::size_t kRegisters, typename V>
 SIMDBEZIER_PART void evaluate_run(const Block<V> block[kRegisters], std::size_t patch,
-                                  WaitingNormals<kOutcome, V>& waiting) {
+                                  WaitingNormals<kOutputs, V>& waiting) {
   const auto& task = block[0].task;
-  Tangents<kOutcome, V> tangents[kRegisters];
+  Tangents<kOutputs, V> tangents[kRegisters];
   waiting.take_root();
   Component<ScalarOf<V>> component(task, patch, 0);
   for (std::size_t c = 0; c < 3; ++c, component = component.next()) {
-    Polynomials<kOutcome, V> q[kRegisters];
+    Polynomials<kOutputs, V> q[kRegisters];
     for (std::size_t l = 0; l < kOrder; ++l) {
       V k[kOrder];
       matrix_column(component, l, k);

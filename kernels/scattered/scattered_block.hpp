@@ -11,33 +11,24 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// What a kernel computes.
-enum Outcome : std::size_t {
-  kPositions,  ///< from q
-  kFirstOrder, ///< from q and dq: positions, du, dv
-  kNormals,    ///< these and normals
-  kSecondOrder ///< from q, dq and ddq: second derivatives
-};
+/// A column needs so many polynomials in Y: one for each order of derivatives by u.
+template <detail::OutputSet kOutputs>
+inline constexpr std::size_t kPolynomials = detail::depth(kOutputs) + 1;
 
-/// Polynomials in Y that a column needs.
-template <Outcome kOutcome>
-inline constexpr std::size_t kPolynomials = kOutcome == kPositions     ? 1
-                                            : kOutcome == kSecondOrder ? 3
-                                                                       : 2;
-
-/// q, its derivative in X, and its second derivative, as far as they are needed.
-template <Outcome kOutcome, typename V>
+/// The polynomials are q, its derivative in X, and its second derivative, as far as they are
+/// needed.
+template <detail::OutputSet kOutputs, typename V>
 struct Polynomials {
-  V power[kPolynomials<kOutcome>][kOrder];
+  V power[kPolynomials<kOutputs>][kOrder];
 
-  /// Coefficient l of all of them: Horner in X.
+  /// Finds coefficient l of all of them by Horner's rule in X.
   SIMDBEZIER_PART void set(std::size_t l, const V k[kOrder], V x) {
-    if constexpr (kOutcome == kPositions) {
+    if constexpr (detail::depth(kOutputs) == 0) {
       power[0][l] = horner(k, x);
     } else {
       power[0][l] = horner(k, x, power[1][l]);
     }
-    if constexpr (kOutcome == kSecondOrder) {
+    if constexpr (detail::depth(kOutputs) == 2) {
       power[2][l] = horner_second(k, x);
     }
   }
@@ -67,7 +58,7 @@ struct Block {
     }
   }
 
-  /// Strictly inside of the patch: nothing special about any sample.
+  /// Returns which samples are strictly inside of the patch: there is nothing special about those.
   SIMDBEZIER_PART MaskOf<V> interior() const {
     const V half = broadcast<V>(T(0.5));
     return (x < half) & (x > -half) & (y < half) & (y > -half);
@@ -77,7 +68,7 @@ struct Block {
 /// The normals of one block, made unit vectors while the next block is computed: root and quotient
 /// take so long that processors run out of room for what is behind them, unless their operands have
 /// been there for a while.
-template <Outcome kOutcome, typename V>
+template <detail::OutputSet kOutputs, typename V>
 class WaitingNormals {
 public:
   SIMDBEZIER_PART void take_root() {}
@@ -85,11 +76,11 @@ public:
 };
 
 template <typename V>
-class WaitingNormals<kNormals, V> {
+class WaitingNormals<detail::kAnyOutputs, V> {
 public:
   using T = ScalarOf<V>;
 
-  /// n = du x dv and |n|^2 of the samples from `first` on.
+  /// Takes n = du x dv and |n|^2 of the samples from `first` on.
   SIMDBEZIER_PART void put(const V n[3], V squared, std::size_t first) {
     for (std::size_t c = 0; c < 3; ++c) {
       n_[c] = n[c];
@@ -99,7 +90,7 @@ public:
     waiting_ = true;
   }
 
-  // The two steps of normalise(), with other work before and between them.
+  // These are the two steps of normalise(), with other work before and between them.
   SIMDBEZIER_PART void take_root() {
     if (waiting_) {
       length_ = square_root(length_);
@@ -124,14 +115,14 @@ private:
 };
 
 /// What is left to do about a block once its three components are known.
-template <Outcome kOutcome, typename V>
+template <detail::OutputSet kOutputs, typename V>
 struct Tangents {
   V du[3];
   V dv[3];
 };
 
-/// Here the compiler knows whether there are origins: asking for them costs random samples a tenth
-/// of their speed and more.
+/// Adds the origin, if there is one. Here the compiler knows whether there are origins: asking for
+/// them costs random samples a tenth of their speed and more.
 template <bool kOrigins, typename V>
 SIMDBEZIER_PART V with_origin(V p, V origin) {
   if constexpr (kOrigins) {
@@ -140,15 +131,15 @@ SIMDBEZIER_PART V with_origin(V p, V origin) {
   return p;
 }
 
-/// One component, from its columns' polynomials in Y.
-template <bool kOrigins, Outcome kOutcome, typename V>
-SIMDBEZIER_PART void finish_component(const Block<V>& block, const Polynomials<kOutcome, V>& q,
-                                      std::size_t c, V origin, Tangents<kOutcome, V>& tangents) {
+/// Finishes one component, from its columns' polynomials in Y.
+template <bool kOrigins, detail::OutputSet kOutputs, typename V>
+SIMDBEZIER_PART void finish_component(const Block<V>& block, const Polynomials<kOutputs, V>& q,
+                                      std::size_t c, V origin, Tangents<kOutputs, V>& tangents) {
   const RowPoint<V> at(block.y);
-  if constexpr (kOutcome == kPositions) {
+  if constexpr (detail::depth(kOutputs) == 0) {
     block.store(block.task.out[output_index(Output::position)].component[c],
                 with_origin<kOrigins>(row_value(q.power[0], at), origin));
-  } else if constexpr (kOutcome != kSecondOrder) {
+  } else if constexpr (detail::depth(kOutputs) == 1) {
     const V p = row_value(q.power[0], at, tangents.dv[c]);
     tangents.du[c] = row_value(q.power[1], at);
     block.store_if_wanted(Output::position, c, with_origin<kOrigins>(p, origin));
@@ -161,33 +152,11 @@ SIMDBEZIER_PART void finish_component(const Block<V>& block, const Polynomials<k
   }
 }
 
-/// The samples of a block that the interior's formula does not fit, or whose normal did not pass
-/// the quick test. Vectors come by value, or the fast path would have to keep them in memory.
-template <bool kSecond, typename V>
-SIMDBEZIER_RARE void evaluate_again(const ScatteredTask<ScalarOf<V>>& task, std::size_t first, V x,
-                                    V y, V squared, V floor) {
-  using T = ScalarOf<V>;
-  const V vectors[4] = {x, y, squared, floor};
-  alignas(64) T lanes[4][kLanes<V>];
-  for (int i = 0; i < 4; ++i) {
-    store_vector(lanes[i], vectors[i]);
-  }
-  for (std::size_t i = 0; i < kLanes<V>; ++i) {
-    const T ax = lanes[0][i] < 0 ? -lanes[0][i] : lanes[0][i];
-    const T ay = lanes[1][i] < 0 ? -lanes[1][i] : lanes[1][i];
-    const bool edge = task.watertight && (ax == T(0.5) || ay == T(0.5));
-    const bool finite = ax - ax == T(0) && ay - ay == T(0);
-    const bool normal = lanes[2][i] > lanes[3][i] && ax <= T(0.5) && ay <= T(0.5);
-    if (edge || !finite || !normal) {
-      evaluate_sample<kSecond>(task, first + i);
-    }
-  }
-}
-
-/// As above for outputs without normals: for these the formula holds outside of the patch as well.
-template <bool kSecond, typename V>
-SIMDBEZIER_RARE void evaluate_again(const ScatteredTask<ScalarOf<V>>& task, std::size_t first, V x,
-                                    V y) {
+/// Evaluates the samples of a block again, one by one, that the interior's formula does not fit, or
+/// for which unusual(lane, |x|, |y|) holds.
+template <bool kSecond, typename V, typename Unusual>
+SIMDBEZIER_INLINE void evaluate_lanes_again(const ScatteredTask<ScalarOf<V>>& task,
+                                            std::size_t first, V x, V y, const Unusual& unusual) {
   using T = ScalarOf<V>;
   alignas(64) T lanes[2][kLanes<V>];
   store_vector(lanes[0], x);
@@ -196,20 +165,44 @@ SIMDBEZIER_RARE void evaluate_again(const ScatteredTask<ScalarOf<V>>& task, std:
     const T ax = lanes[0][i] < 0 ? -lanes[0][i] : lanes[0][i];
     const T ay = lanes[1][i] < 0 ? -lanes[1][i] : lanes[1][i];
     const bool edge = task.watertight && (ax == T(0.5) || ay == T(0.5));
-    if (edge || ax - ax != T(0) || ay - ay != T(0)) {
+    const bool finite = ax - ax == T(0) && ay - ay == T(0);
+    if (edge || !finite || unusual(i, ax, ay)) {
       evaluate_sample<kSecond>(task, first + i);
     }
   }
 }
 
-/// Normals, where they are wanted, and the samples that have to be evaluated again.
-/// Floor: normal_floor of the samples' patches, and at first a bound on all of them.
-template <bool kOrigins, Outcome kOutcome, typename V, typename Floor>
-SIMDBEZIER_INLINE void finish_block(const Block<V>& block, const Tangents<kOutcome, V>& tangents,
-                                    const Floor& floor, WaitingNormals<kOutcome, V>& waiting) {
+/// This is evaluate_lanes_again() for samples whose normal may not have passed the quick test.
+/// Vectors come by value, or the fast path would have to keep them in memory.
+template <typename V>
+SIMDBEZIER_RARE void evaluate_normals_again(const ScatteredTask<ScalarOf<V>>& task,
+                                            std::size_t first, V x, V y, V squared, V floor) {
+  using T = ScalarOf<V>;
+  alignas(64) T lanes[2][kLanes<V>];
+  store_vector(lanes[0], squared);
+  store_vector(lanes[1], floor);
+  evaluate_lanes_again<false>(task, first, x, y,
+                              [&](std::size_t i, T ax, T ay) SIMDBEZIER_INLINE_LAMBDA {
+                                return !(lanes[0][i] > lanes[1][i]) || ax > T(0.5) || ay > T(0.5);
+                              });
+}
+
+/// This is evaluate_lanes_again() for outputs without normals, for which the formula holds outside
+/// of the patch as well.
+template <bool kSecond, typename V>
+SIMDBEZIER_RARE void evaluate_again(const ScatteredTask<ScalarOf<V>>& task, std::size_t first, V x,
+                                    V y) {
+  evaluate_lanes_again<kSecond>(task, first, x, y, [](std::size_t, auto, auto) { return false; });
+}
+
+/// Finishes normals, where they are wanted, and the samples that have to be evaluated again. Floor
+/// gives the normal_floor of the samples' patches, and at first a bound on all of them.
+template <bool kOrigins, detail::OutputSet kOutputs, typename V, typename Floor>
+SIMDBEZIER_INLINE void finish_block(const Block<V>& block, const Tangents<kOutputs, V>& tangents,
+                                    const Floor& floor, WaitingNormals<kOutputs, V>& waiting) {
   const auto& task = block.task;
   const MaskOf<V> interior = block.interior();
-  if constexpr (kOutcome == kNormals) {
+  if constexpr (kOutputs == detail::kAnyOutputs) {
     V n[3];
     const V squared = cross_product(tangents.du, tangents.dv, n);
     const auto all_above = [&](V enough) SIMDBEZIER_INLINE_LAMBDA {
@@ -225,11 +218,10 @@ SIMDBEZIER_INLINE void finish_block(const Block<V>& block, const Tangents<kOutco
     }
     const V enough = floor.each();
     if (!all_above(enough)) {
-      evaluate_again<kOutcome == kSecondOrder>(task, block.first, block.x, block.y, squared,
-                                               enough);
+      evaluate_normals_again(task, block.first, block.x, block.y, squared, enough);
     }
   } else if (!all_of<V>(interior)) [[unlikely]] {
-    evaluate_again<kOutcome == kSecondOrder>(task, block.first, block.x, block.y);
+    evaluate_again<detail::depth(kOutputs) == 2>(task, block.first, block.x, block.y);
   }
 }
 

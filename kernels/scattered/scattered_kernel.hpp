@@ -6,8 +6,8 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// The largest index, 0 where there is none. It is a kernel because only the wider instruction sets
-/// have a maximum of unsigned integers.
+/// Returns the largest index, 0 where there is none. It is a kernel because only the wider
+/// instruction sets have a maximum of unsigned integers.
 inline std::uint32_t highest_index(const std::uint32_t* index, std::size_t count) {
   std::uint32_t highest = 0;
   for (std::size_t k = 0; k < count; ++k) {
@@ -16,8 +16,9 @@ inline std::uint32_t highest_index(const std::uint32_t* index, std::size_t count
   return highest;
 }
 
-/// The last samples, fewer than a register: by way of a register of each array, whose other lanes
-/// are the middle of the last patch. second: evaluate() computes second derivatives.
+/// Evaluates the last samples, fewer than a register, by way of a register of each array, whose
+/// other lanes are the middle of the last patch. second says that evaluate() computes second
+/// derivatives.
 template <typename T>
 SIMDBEZIER_KERNEL void evaluate_rest(const ScatteredTask<T>& task, std::size_t first, bool second,
                                      void (*evaluate)(const ScatteredTask<T>&)) {
@@ -42,10 +43,9 @@ SIMDBEZIER_KERNEL void evaluate_rest(const ScatteredTask<T>& task, std::size_t f
   part.count = part.patches_known = kN;
   part.status = task.status == nullptr ? nullptr : status;
   const auto for_planes = [&](const auto& f) {
+    constexpr OutputSelection kSecondOrder = detail::outputs_of_order(2);
     for (std::size_t g = 0; g < kVectorOutputs; ++g) {
-      const auto output = static_cast<Output>(g);
-      const bool is_second =
-          output == Output::duu || output == Output::duv || output == Output::dvv;
+      const bool is_second = (kSecondOrder.bits() >> g & 1) != 0;
       for (std::size_t c = 0; c < 3; ++c) {
         if (is_second == second && task.out[g].component[c] != nullptr) {
           f(part.out[g].component[c], task.out[g].component[c] + first, value[g][c]);
@@ -65,56 +65,56 @@ SIMDBEZIER_KERNEL void evaluate_rest(const ScatteredTask<T>& task, std::size_t f
   }
 }
 
-template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename T>
+template <bool kOrigins, detail::OutputSet kOutputs, bool kPrefetch, typename T>
 void evaluate_block(const ScatteredTask<T>& task);
 
-/// kPrefetch: the set is not in a cache. Both cases have code of their own: to prefetch lines that
-/// are in the cache costs a third of the speed, and to ask at run time up to a tenth. Sets with
-/// origins are always prefetched.
-template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename V>
+/// Evaluates all samples. kPrefetch says that the set is not in a cache. Both cases have code of
+/// their own: to prefetch lines that are in the cache costs a third of the speed, and to ask at run
+/// time up to a tenth. Sets with origins are always prefetched.
+template <bool kOrigins, detail::OutputSet kOutputs, bool kPrefetch, typename V>
 SIMDBEZIER_PART void evaluate_samples(const ScatteredTask<ScalarOf<V>>& task) {
-  constexpr std::size_t kWide = kOutcome == kPositions ? 2 : 1; // registers for a long run
+  constexpr std::size_t kWide = detail::depth(kOutputs) == 0 ? 2 : 1; // registers for a long run
   constexpr std::size_t kN = kLanes<V>;
-  WaitingNormals<kOutcome, V> waiting;
+  WaitingNormals<kOutputs, V> waiting;
   std::size_t k = 0;
   while (k + kN <= task.count) {
     const std::uint32_t* const patch = task.patch + k;
     if (!all_equal<kN>(patch, *patch)) {
-      evaluate_mixed<kOrigins, kOutcome, kPrefetch>(Block<V>(task, k), patch, waiting);
+      evaluate_mixed<kOrigins, kOutputs, kPrefetch>(Block<V>(task, k), patch, waiting);
       k += kN;
       continue;
     }
     if constexpr (kWide == 2) {
       if (k + 2 * kN <= task.count && all_equal<kN>(patch + kN, *patch)) {
         const Block<V> pair[2] = {{task, k}, {task, k + kN}};
-        evaluate_run<kOrigins, kOutcome, 2>(pair, *patch, waiting);
+        evaluate_run<kOrigins, kOutputs, 2>(pair, *patch, waiting);
         k += 2 * kN;
         continue;
       }
     }
     const Block<V> single[1] = {{task, k}};
-    evaluate_run<kOrigins, kOutcome, 1>(single, *patch, waiting);
+    evaluate_run<kOrigins, kOutputs, 1>(single, *patch, waiting);
     k += kN;
   }
   waiting.take_root();
   waiting.store(task);
   if (k < task.count) {
-    evaluate_rest(task, k, kOutcome == kSecondOrder,
-                  evaluate_block<kOrigins, kOutcome, kPrefetch, ScalarOf<V>>);
+    evaluate_rest(task, k, detail::depth(kOutputs) == 2,
+                  evaluate_block<kOrigins, kOutputs, kPrefetch, ScalarOf<V>>);
   }
 }
 
-template <bool kOrigins, Outcome kOutcome, bool kPrefetch, typename T>
+template <bool kOrigins, detail::OutputSet kOutputs, bool kPrefetch, typename T>
 SIMDBEZIER_KERNEL void evaluate_block(const ScatteredTask<T>& task) {
-  evaluate_samples<kOrigins, kOutcome, kPrefetch, vec<T>>(task);
+  evaluate_samples<kOrigins, kOutputs, kPrefetch, vec<T>>(task);
 }
 
-template <bool kOrigins, Outcome kOutcome, typename T>
-SIMDBEZIER_PART void evaluate_outcome(const ScatteredTask<T>& task) {
+template <bool kOrigins, detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_PART void evaluate_outputs(const ScatteredTask<T>& task) {
   if (kOrigins || task.prefetch) {
-    evaluate_block<kOrigins, kOutcome, true>(task);
+    evaluate_block<kOrigins, kOutputs, true>(task);
   } else {
-    evaluate_block<kOrigins, kOutcome, kOrigins>(task);
+    evaluate_block<kOrigins, kOutputs, kOrigins>(task);
   }
 }
 
@@ -124,11 +124,11 @@ SIMDBEZIER_PART void evaluate_wanted(const ScatteredTask<T>& task) {
     return task.out[output_index(output)].wanted();
   };
   if (wanted(Output::normal)) {
-    evaluate_outcome<kOrigins, kNormals>(task);
+    evaluate_outputs<kOrigins, detail::kAnyOutputs>(task);
   } else if (wanted(Output::du) || wanted(Output::dv)) {
-    evaluate_outcome<kOrigins, kFirstOrder>(task);
+    evaluate_outputs<kOrigins, detail::kPositionDerivatives>(task);
   } else if (wanted(Output::position)) {
-    evaluate_outcome<kOrigins, kPositions>(task);
+    evaluate_outputs<kOrigins, detail::kPosition>(task);
   }
 }
 
@@ -140,7 +140,7 @@ SIMDBEZIER_KERNEL void scattered_kernel(ScatteredTask<T>& task) {
   };
   task.origins == nullptr ? evaluate_wanted<false>(task) : evaluate_wanted<true>(task);
   if (wanted(Output::duu) || wanted(Output::duv) || wanted(Output::dvv)) {
-    evaluate_outcome<false, kSecondOrder>(task);
+    evaluate_outputs<false, detail::kSecondDerivatives>(task);
   }
 }
 

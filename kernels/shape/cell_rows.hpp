@@ -1,7 +1,7 @@
 // The rows of a grid by the cells that they are in, for patches of any shape.
 #pragma once
 
-#include "kernels/grid/row_pieces.hpp"
+#include "kernels/poly/row_runs.hpp"
 #include "kernels/shape/shape_cell.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -15,7 +15,7 @@ struct ShapeRow {
   bool outside;
 };
 
-/// Rows that are evaluated together, at most.
+/// At most so many rows are evaluated together.
 inline constexpr std::size_t kRowGroup = 8;
 
 /// Rows of one row of cells.
@@ -26,7 +26,7 @@ struct CellRows {
   std::size_t count = 0;
   std::size_t together = 0; ///< equal parts of them, of 4 to kRowGroup rows
   std::size_t edges = 0;    ///< rows on edges, from the end of `row` back
-  /// Behind the last one it stands kRowGroup - 1 times more, so that groups are whole.
+  /// The last row stands kRowGroup - 1 times more behind itself, so that groups are whole.
   ShapeRow<T> row[kMost + kRowGroup];
 
   [[nodiscard]] SIMDBEZIER_PART const ShapeRow<T>& edge_row(std::size_t k) const {

@@ -21,11 +21,11 @@ struct ShapePlan {
   using Slots = Channels<kRational, kComponents>;
   using OrderU = Order<kU>;
   using OrderV = Order<kV>;
-  /// The same for all degrees: for functions that do not depend on them.
+  /// This is the plan for all degrees, for functions that do not depend on them.
   using AnyDegree = ShapePlan<kHighest, kRational, kComponents, 0, 0>;
   static_assert(kOneCell || !kKnown);
 
-  /// The same shape, with constants for what the plan says.
+  /// Returns the shape of a set with constants for what the plan says.
   static SIMDBEZIER_INLINE NetShape shape(NetShape of_set) {
     of_set.rational = kRational;
     if constexpr (kComponents == 3) {
@@ -52,7 +52,7 @@ struct ColumnPolynomials {
   Powers power[kSlots]; ///< [slot][derivative][power of Y]
 
   ColumnPolynomials() = default;
-  /// Piece by piece, so that a copy can live in registers.
+  /// Copies piece by piece, so that a copy can live in registers.
   SIMDBEZIER_INLINE ColumnPolynomials(const ColumnPolynomials& from) {
     repeat<kSlots>([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
       repeat<(kDepth + 1) * kMostPowers>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
@@ -62,7 +62,7 @@ struct ColumnPolynomials {
     });
   }
 
-  /// kRows rows at once. origins: null where there are none.
+  /// Evaluates kRows rows at once. origins is null where there are none.
   template <std::size_t kRows>
   SIMDBEZIER_INLINE void evaluate(const typename P::Slots& slots, typename P::OrderV order,
                                   const V* y, const ColumnOrigins<V>* origins,
@@ -85,8 +85,8 @@ struct ColumnPolynomials {
     }
   }
 
-  /// Samples at y and -y, which share most of their arithmetic, of an order that is known and takes
-  /// even and odd parts. First derivatives where there are no weights.
+  /// Evaluates samples at y and -y, which share most of their arithmetic, of an order that is known
+  /// and takes even and odd parts. There are first derivatives where there are no weights.
   SIMDBEZIER_INLINE void evaluate_pair(const typename P::Slots& slots, V y,
                                        const ColumnOrigins<V>* origins, SampleJet<V>& jet,
                                        SampleJet<V>& mirrored) const {

@@ -1,12 +1,12 @@
 // Curvatures of a register of samples, from their first and second derivatives.
 #pragma once
 
-#include "kernels/shape/sample_jets.hpp"
+#include "kernels/poly/sample_jets.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// 1 / x for x = power_of_two_below(…), without a division: flipping the exponent's bits gives 2 /
-/// x, for 0 and infinity as well.
+/// Returns 1 / x for x = power_of_two_below(…), without a division: flipping the exponent's bits
+/// gives 2 / x, for 0 and infinity as well.
 template <typename V>
 SIMDBEZIER_PART V inverse_of_power_of_two(V x) {
   using T = ScalarOf<V>;
@@ -66,7 +66,7 @@ struct CurvatureFrame {
   }
 };
 
-/// Gaussian, mean, smaller and larger principal curvature; see Curvatures.
+/// Finds the Gaussian, the mean, the smaller and the larger principal curvature; see Curvatures.
 template <typename V>
 SIMDBEZIER_PART void curvatures(const SampleJet<V>& jet, const CurvatureFrame<V>& at,
                                 V out[detail::kCurvatures]) {

@@ -2,26 +2,30 @@
 // from the first row to the last.
 #pragma once
 
-#include "kernels/grid/row_pieces.hpp"
+#include "kernels/poly/row_runs.hpp"
 #include "kernels/shape/shape_rows.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// How many planes outputs have: up to three components.
+/// Returns how many planes outputs have: up to three components.
 template <typename T>
 SIMDBEZIER_PART std::size_t wanted_components(const GridTask<T>& task) {
   const std::size_t left = static_cast<std::size_t>(task.shape->components) - task.first_component;
   return left < 3 ? left : 3;
 }
 
-/// The edge v = const that a run of rows is on; kEdges where it is on none, or edges are as good as
-/// any row.
+/// Returns the edge v = const that a run of rows is on, or kEdges where it is on none, or edges are
+/// as good as any row.
 template <typename T>
 SIMDBEZIER_PART std::size_t own_edge(const GridTask<T>& task, const RowRun<T>& run) {
   return task.watertight && is_edge(run.kind) ? edge_of(run.kind) : kEdges;
 }
 
-/// All rows of a register of columns. kFull: all lanes are columns.
+/// Sweeps all rows of a register of columns. kFull says that all lanes are columns.
+///
+/// The loop over runs stands in this file three times. With edge rows inside of the loop over a
+/// run, or single and paired rows in one loop, polynomials leave the registers, which costs 10 to
+/// 30 % of the speed (docs/experiments.md).
 template <typename P, bool kFull, typename T>
 SIMDBEZIER_PART void sweep_rows(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
                                 const typename ShapeColumns<P, vec<T>>::Edges& edges,
@@ -56,7 +60,7 @@ SIMDBEZIER_PART void sweep_rows(const GridTask<T>& task, const ShapeColumns<P, v
   }
 }
 
-/// The same for positions, of which edges need nothing that the columns give.
+/// This is sweep_rows() for positions, of which edges need nothing that the columns give.
 template <typename P, bool kFull, typename T>
 SIMDBEZIER_PART void
 sweep_positions(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
@@ -103,12 +107,12 @@ SIMDBEZIER_PART bool pairs_pay(const GridTask<T>& task) {
   return mirrored;
 }
 
-/// Plans whose rows can be evaluated two at a time.
+/// Whether the rows of a plan can be evaluated two at a time.
 template <typename P>
 inline constexpr bool kInPairs = takes_even_odd(P::OrderV::kMost) &&
                                  (P::kDepth == 0 || (P::kDepth == 1 && P::kSingle));
 
-/// Rows of whole registers where pairs_pay().
+/// Sweeps rows of whole registers where pairs_pay().
 template <typename P, typename T>
 SIMDBEZIER_PART void sweep_pairs(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
                                  const typename ShapeColumns<P, vec<T>>::Edges& edges,
@@ -149,7 +153,8 @@ SIMDBEZIER_PART void sweep_pairs(const GridTask<T>& task, const ShapeColumns<P, 
   }
 }
 
-/// The columns from `first` on of one patch; components from `component` on. pairs: pairs_pay().
+/// Sweeps the columns from `first` on of one patch, and components from `component` on. pairs is
+/// what pairs_pay() returns.
 template <typename P, typename T>
 SIMDBEZIER_PART void sweep_columns(const GridTask<T>& task, const NetShape& shape,
                                    std::size_t patch, std::size_t first, std::size_t component,

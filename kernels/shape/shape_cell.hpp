@@ -1,7 +1,7 @@
 // Cells of a patch, and a register of columns of them; see net_shape.hpp.
 #pragma once
 
-#include "kernels/shape/sample_jets.hpp"
+#include "kernels/poly/sample_jets.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -21,7 +21,8 @@ struct CellColumns {
         any_high(cells == 2 && !all_of<V>(low)) {}
 };
 
-/// The edge v = const of its cell that a local parameter is on; kEdges where it is on none.
+/// Returns the edge v = const of its cell that a local parameter is on, or kEdges where it is on
+/// none.
 template <typename T>
 SIMDBEZIER_PART std::size_t edge_of_cell(T local) {
   return local == T(-0.5) ? detail::kEdgeV0 : local == T(0.5) ? detail::kEdgeV1 : kEdges;
@@ -52,7 +53,7 @@ struct CellRow {
   Cell<T> high;
 
   SIMDBEZIER_PART CellRow(Cell<T> of_low, Cell<T> of_high) : low(of_low), high(of_high) {}
-  /// Task: any that holds the arrays of a set.
+  /// Task is any that holds the arrays of a set.
   template <typename Task>
   SIMDBEZIER_PART CellRow(const Task& task, const NetShape& shape, std::size_t patch,
                           std::size_t row)
@@ -82,7 +83,7 @@ struct Channels {
       : first_(first_component),
         count_(static_cast<std::size_t>(shape.components) - first_component),
         weight_(static_cast<std::size_t>(shape.components)) {}
-  /// The packed channel of a slot.
+  /// Returns the packed channel of a slot.
   SIMDBEZIER_PART std::size_t channel(std::size_t slot) const {
     return slot == kWeight ? weight_ : first_ + slot;
   }
@@ -93,13 +94,13 @@ struct Channels {
   }
   /// Whether there are three components from the first one on, at least.
   SIMDBEZIER_PART bool are_three() const { return kMost == 3 && (kComponents != 0 || count_ > 2); }
-  /// f(slot) for the components. Unrolled only where their number is known, because that keeps
-  /// polynomials in registers: it is much code.
+  /// Calls f(slot) for the components. Calls are unrolled only where their number is known, because
+  /// that keeps polynomials in registers: it is much code.
   template <typename F>
   SIMDBEZIER_INLINE void for_components(const F& f) const {
     for_slots<kMost>(f);
   }
-  /// The same, and f(kWeight) in the end.
+  /// Calls f(slot) for the components, and f(kWeight) in the end.
   template <typename F>
   SIMDBEZIER_INLINE void for_channels(const F& f) const {
     for_slots<kSlots>(f);

@@ -1,4 +1,4 @@
-// From the packed values of a patch to a register of its columns, as polynomials in the local Y.
+// Turns the packed values of a patch into a register of its columns, as polynomials in the local Y.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,8 @@ public:
         order_u_(shape_.order_u()), order_v_(shape_.order_v()),
         abreast_(shape_.order_v() < 4 ? 2 : even_share(shape_.order_v(), 8)) {}
 
-  /// The columns in one row of cells, to which `edges` belong. room: as long as they are used.
+  /// Builds the columns in one row of cells, to which `edges` belong. room lives as long as they
+  /// are used.
   SIMDBEZIER_PART void build(const CellRow<T>& row, const Edges& edges, ColumnOrigins<V>& room) {
     origins_ = nullptr;
     if (edges.has_origins() || edges.has_points()) [[unlikely]] {
@@ -94,7 +95,8 @@ private:
     std::size_t edges;
   };
 
-  /// kMixed: some lanes are in the low cell, and some in the high one; else all are in `low`.
+  /// Builds one slot. kMixed says that some lanes are in the low cell, and some in the high one;
+  /// else all are in `low`.
   template <bool kMixed>
   SIMDBEZIER_PART void build_slot(const Cell<T>& low, const Cell<T>& high, const ChannelStep& step,
                                   std::size_t slot, Powers& to) const {
@@ -141,7 +143,7 @@ private:
     }
   }
 
-  /// All powers of Y, kCount at once; the last ones may be computed twice.
+  /// Builds all powers of Y, kCount at once; the last ones may be computed twice.
   template <std::size_t kCount, typename Load, typename Replace>
   SIMDBEZIER_INLINE void build_runs(const T* matrix, const Load& load, const Replace& replace,
                                     Powers& to) const {
@@ -151,7 +153,8 @@ private:
     }
   }
 
-  /// The powers [first, first + kCount) of Y; replace(value, first, i): what is on an edge.
+  /// Builds the powers [first, first + kCount) of Y. replace(value, first, i) puts in what is on an
+  /// edge.
   template <std::size_t kCount, typename Load, typename Replace>
   SIMDBEZIER_INLINE void build_powers(const T* matrix, std::size_t first, const Load& load,
                                       const Replace& replace, Powers& to) const {
@@ -173,7 +176,7 @@ private:
     });
   }
 
-  /// put(derivative, value) for each power's value and derivatives by u.
+  /// Calls put(derivative, value) for each power's value and derivatives by u.
   template <typename W, typename Put>
   SIMDBEZIER_INLINE void put_series(Series<W>& s, const Put& put) const {
     if constexpr (!P::kOneCell) {
@@ -213,8 +216,8 @@ private:
   ColumnPolynomials<P, V> polynomials_;
 };
 
-/// ShapeColumns::build() as a function, which grids and scattered samples share: for plans whose
-/// loops have polynomials in memory anyway.
+/// This is ShapeColumns::build() as a function, which grids and scattered samples share: for plans
+/// whose loops have polynomials in memory anyway.
 template <typename P, typename V>
 SIMDBEZIER_KERNEL void build_columns(ShapeColumns<P, V>& columns, const CellRow<ScalarOf<V>>& row,
                                      const ShapeEdges<P, V>& edges, ColumnOrigins<V>& room) {

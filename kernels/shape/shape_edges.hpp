@@ -9,7 +9,7 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// From derivatives by the local X to those by u: factors 1, or 2 and 4.
+/// Turns derivatives by the local X into those by u: the factors are 1, or 2 and 4.
 template <std::size_t kDepth, typename V>
 SIMDBEZIER_PART void scale_by_cells(Series<V>& s, std::size_t cells) {
   if (cells == 2) {
@@ -28,7 +28,7 @@ class ShapeEdges {
   static constexpr std::size_t kDepth = P::kDepth;
 
 public:
-  /// The edges of one row of cells. x: of the columns in the whole patch.
+  /// Holds the edges of one row of cells. x is that of the columns in the whole patch.
   SIMDBEZIER_PART ShapeEdges(const NetShape& shape, const CellColumns<V>& columns, V x,
                              bool watertight, std::size_t first_component, const CellRow<T>& row)
       : shape_(P::shape(shape)), columns_(columns), x_(x), watertight_(watertight),
@@ -66,7 +66,8 @@ public:
     }
   }
 
-  /// Positions of three components on an edge v = const, all at once; false where there are others.
+  /// Finds positions of three components on an edge v = const, all at once. Returns false where
+  /// there are other components.
   SIMDBEZIER_PART bool find_positions(std::size_t edge, V position[3]) const {
     const typename P::OrderU order(shape_.order_u());
     if (P::kWeighted || !slots_.are_three() || has_origins() || takes_even_odd(order.value())) {
@@ -113,7 +114,7 @@ public:
     });
   }
 
-  /// What replace_row() replaces.
+  /// Copies what replace_row() replaces.
   static SIMDBEZIER_PART void copy_row(const SampleJet<V>& from, SampleJet<V>& jet) {
     for (std::size_t c = 0; c < P::Slots::kMost; ++c) {
       jet.position[c] = from.position[c];
@@ -178,8 +179,9 @@ private:
           on_edge ? replaced(zero, at + detail::kRelativeOriginsAt, &Cell<T>::origins) : zero;
     }
   }
-  /// The points of lanes on edges u = const that are points, in sets without origins: numerators
-  /// are zero there, and points stand in the corners. Other lanes get -0, which adds nothing.
+  /// Finds the points of lanes on edges u = const that are points, in sets without origins:
+  /// numerators are zero there, and points stand in the corners. Other lanes get -0, which adds
+  /// nothing.
   SIMDBEZIER_PART void find_point(std::size_t slot, ColumnOrigins<V>& found) const {
     const V zero = broadcast<V>(T(0));
     const std::size_t corners = shape_.corners_at();
@@ -214,7 +216,7 @@ private:
     return s;
   }
 
-  /// A value of each lane's cell.
+  /// Returns a value of each lane's cell.
   SIMDBEZIER_PART V chosen(std::size_t at, const T* Cell<T>::*values) const {
     if constexpr (P::kOneCell) {
       return broadcast<V>((row_.low.*values)[at]);
@@ -223,7 +225,8 @@ private:
                              broadcast<V>((row_.high.*values)[at]));
     }
   }
-  /// The lanes on edges u = const get a value of their cell's: of the pair at `at`.
+  /// Returns `inside`, where the lanes on edges u = const get a value of their cell's: that of the
+  /// pair at `at`.
   SIMDBEZIER_PART V replaced(V inside, std::size_t at, const T* Cell<T>::*values) const {
     const PairSelector<V>& edges = columns_.local.edges;
     const V low = edges.replace(inside, row_.low.*values + at);

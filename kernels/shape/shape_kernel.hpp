@@ -6,18 +6,22 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
+/// Returns the outputs that a task wants, status apart: bit k stands for Output(k).
 template <typename Task>
-SIMDBEZIER_PART std::size_t highest_derivative(const Task& task) {
-  bool second = task.out[output_index(Output::duu)].wanted() ||
-                task.out[output_index(Output::duv)].wanted() ||
-                task.out[output_index(Output::dvv)].wanted();
-  for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
-    second = second || task.curvature[k] != nullptr;
+SIMDBEZIER_PART unsigned wanted_outputs(const Task& task) {
+  unsigned wanted = wants_curvatures(task) ? 1U << output_index(Output::curvature) : 0;
+  for (std::size_t k = 0; k < kVectorOutputs; ++k) {
+    wanted |= task.out[k].wanted() ? 1U << k : 0;
   }
-  const bool first = task.out[output_index(Output::du)].wanted() ||
-                     task.out[output_index(Output::dv)].wanted() ||
-                     task.out[output_index(Output::normal)].wanted();
-  return second ? 2 : first ? 1 : 0;
+  return wanted;
+}
+/// Returns how far derivatives go for all outputs that a task wants.
+template <typename Task>
+SIMDBEZIER_PART int highest_derivative(const Task& task) {
+  constexpr unsigned kFirst = detail::outputs_of_order(1).bits();
+  constexpr unsigned kSecond = detail::outputs_of_order(2).bits();
+  const unsigned wanted = wanted_outputs(task);
+  return (wanted & kSecond) != 0 ? 2 : (wanted & kFirst) != 0 ? 1 : 0;
 }
 
 template <std::size_t kDepth, bool kRational>
@@ -79,13 +83,14 @@ template <std::size_t kDepth, bool kRational, typename Task, typename Run>
 SIMDBEZIER_INLINE void with_grid_plan(const Task& task, const Run& run) {
   const NetShape& shape = *task.shape;
   const bool in_space = shape.components == 3 && task.first_component == 0;
+  [[maybe_unused]] constexpr unsigned kSpace = detail::kSpaceOutputs.bits();
   if constexpr (!kCompact && kDepth == 0 && !kRational) {
     if (in_space && with_common_degrees(shape, run)) {
       return;
     }
   }
   if constexpr (!kCompact && (kDepth == 1 || (kDepth == 0 && kRational))) {
-    if (in_space && (kRational || task.out[output_index(Output::normal)].wanted())) {
+    if (in_space && (kRational || (wanted_outputs(task) & kSpace) != 0)) {
       return with_order_v<kDepth, kRational, 3>(shape, run);
     }
   }

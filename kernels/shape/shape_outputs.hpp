@@ -1,4 +1,4 @@
-// From a register of samples to the planes of a task.
+// Stores a register of samples in the planes of a task.
 #pragma once
 
 #include "kernels/poly/normal_lanes.hpp"
@@ -29,14 +29,15 @@ struct SampleRange {
   }
 };
 
-/// The floor of all samples of a patch; those of a rational one have floors of their own above it.
+/// Returns the floor of all samples of a patch. Those of a rational one have floors of their own
+/// above it.
 template <typename P, typename V>
 SIMDBEZIER_PART V patch_floor(const SampleTask<ScalarOf<V>>& task, std::size_t patch) {
   using T = ScalarOf<V>;
   return broadcast<V>(P::kWeighted ? kLeastSquare<T> : task.normal_floor[patch]);
 }
 
-/// The floor of samples on a rational patch; see ShapeFloor.
+/// Returns the floor of samples on a rational patch; see ShapeFloor.
 template <typename V>
 SIMDBEZIER_PART V rational_floor(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
                                  const SampleJet<V>& jet, V squared) {
@@ -54,7 +55,7 @@ SIMDBEZIER_PART V rational_floor(const SampleTask<ScalarOf<V>>& task, const Samp
   return select_where<V>(squared < no_floor<V>(), floor, no_floor<V>());
 }
 
-/// The second look at samples whose |du x dv|^2 is not above their floor.
+/// Takes the second look at samples whose |du x dv|^2 is not above their floor.
 template <typename P, typename V>
 SIMDBEZIER_PART void look_again(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
                                 const SampleJet<V>& jet, V squared) {
@@ -63,7 +64,7 @@ SIMDBEZIER_PART void look_again(const SampleTask<ScalarOf<V>>& task, const Sampl
     floor = rational_floor(task, range, jet, squared);
   }
   if (!all_of<V>(squared > floor)) {
-    const Suspects row{0, kLanes<V>, range.active, 1, range.at, 0, 1};
+    const UncertainNormals row{0, kLanes<V>, range.active, 1, range.at, 0, 1};
     resolve_normals(task, range.patch, row, range.x, range.y, squared, floor);
   }
 }
@@ -95,7 +96,8 @@ SIMDBEZIER_PART void store_group(const SampleTask<ScalarOf<V>>& task, Output out
 /// their roots and divisions are under way together.
 inline constexpr std::size_t kTogether = 8;
 
-/// Values of several registers to one plane. step: from one value to the next.
+/// Stores values of several registers in one plane. step is the distance from one value to the
+/// next.
 template <typename V>
 SIMDBEZIER_PART void store_values(ScalarOf<V>* plane, const SampleRange<V>* range, const V* value,
                                   std::size_t step, std::size_t count) {
@@ -111,7 +113,8 @@ SIMDBEZIER_PART void store_values(ScalarOf<V>* plane, const SampleRange<V>* rang
   }
 }
 
-/// Curvatures become nan afterwards where a sample has no normal, or only a limit of one.
+/// Stores curvatures. They become nan afterwards where a sample has no normal, or only a limit of
+/// one.
 template <typename P, typename V>
 SIMDBEZIER_PART void store_curvatures(const SampleTask<ScalarOf<V>>& task,
                                       const SampleRange<V>* range, const SampleJet<V>* jet,
@@ -142,7 +145,7 @@ SIMDBEZIER_PART bool wants_curvatures(const SampleTask<T>& task) {
   return wanted;
 }
 
-/// All outputs that a task wants and a kernel of this plan computes.
+/// Stores all outputs that a task wants and a kernel of this plan computes.
 template <typename P, typename V>
 SIMDBEZIER_PART void store_sample(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
                                   const SampleJet<V>& jet) {
@@ -164,15 +167,16 @@ SIMDBEZIER_PART void store_sample(const SampleTask<ScalarOf<V>>& task, const Sam
   }
 }
 
-/// The same as a function, for scattered samples: their loops have jets in memory anyway.
+/// This is store_sample() as a function, for scattered samples: their loops have jets in memory
+/// anyway.
 template <typename P, typename V>
 SIMDBEZIER_KERNEL void store_shared(const SampleTask<ScalarOf<V>>& task,
                                     const SampleRange<V>& range, const SampleJet<V>& jet) {
   store_sample<P>(task, range, jet);
 }
 
-/// All outputs of at most kTogether registers of the same columns, from memory. A function for all
-/// degrees.
+/// Stores all outputs of at most kTogether registers of the same columns, from memory. It is a
+/// function for all degrees.
 template <typename P, typename V>
 SIMDBEZIER_KERNEL void store_jets(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>* range,
                                   const SampleJet<V>* jet, std::size_t count) {

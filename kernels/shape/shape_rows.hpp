@@ -22,7 +22,7 @@ struct PositionRows {
   T* plane;
   std::size_t active; ///< lanes that are columns
 
-  /// kCount rows at once; what goes beyond them is the last one again.
+  /// Puts kCount rows at once. What goes beyond them is the last one again.
   template <std::size_t kCount>
   SIMDBEZIER_PART void put(const CellRows<T>& rows) const {
     for (std::size_t r = 0; r < rows.count; r += kCount) {
@@ -54,7 +54,7 @@ struct PositionRows {
     }
   }
 
-  /// How many rows go at once where rows take even and odd parts.
+  /// So many rows go at once where rows take even and odd parts.
   static constexpr std::size_t kEvenOddRows = 4;
 };
 
@@ -98,8 +98,8 @@ public:
     }
   }
 
-  /// Positions that are not divided by weights: on an edge v = const nothing comes from the
-  /// columns.
+  /// Whether these are positions that are not divided by weights: on an edge v = const nothing
+  /// comes from the columns then.
   static constexpr bool kPositions = P::kDepth == 0 && !P::kWeighted;
 
 private:

@@ -3,12 +3,10 @@
 
 #include <cstdint>
 
-#include "kernels/scattered/bicubic_sample.hpp"
+#include "kernels/poly/half_centred.hpp"
 #include "kernels/shape/shape_outputs.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
-
-using detail::ScatteredTask;
 
 /// The lanes of `yes` keep what `jet` has, the others get what `other` has.
 template <typename P, typename V>
@@ -33,9 +31,9 @@ SIMDBEZIER_PART void keep_lanes(MaskOf<V> yes, const SampleJet<V>& other, Sample
   }
 }
 
-/// Samples of one patch in one row of cells, at the local y and at x, of which `columns` are made.
-/// edge: the edge v = const of the cells that all of them are on; kEdges where it is none. It is
-/// out of line because it is large and has several callers.
+/// Evaluates samples of one patch in one row of cells, at the local y and at x, of which `columns`
+/// are made. edge is the edge v = const of the cells that all of them are on, or kEdges where it is
+/// none. It is out of line because it is large and has several callers.
 template <typename P, typename V>
 SIMDBEZIER_KERNEL void evaluate_row(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
                                     std::size_t patch, std::size_t cell,
@@ -54,8 +52,8 @@ SIMDBEZIER_KERNEL void evaluate_row(const ScatteredTask<ScalarOf<V>>& task, cons
   }
 }
 
-/// Samples of one patch at half-centred x, y; edge: as above, for samples that are all the same
-/// one.
+/// Evaluates samples of one patch at half-centred x, y. edge is as for evaluate_row(), for samples
+/// that are all the same one.
 template <typename P, typename V>
 SIMDBEZIER_PART void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, const NetShape& shape,
                                     std::size_t patch, V x, V y, std::size_t edge,
@@ -71,7 +69,7 @@ SIMDBEZIER_PART void evaluate_lanes(const ScatteredTask<ScalarOf<V>>& task, cons
   }
 }
 
-/// What the normals of scattered samples are tested with.
+/// Returns what the normals of scattered samples are tested with.
 template <typename P, typename V>
 SIMDBEZIER_PART V sample_floor(const ScatteredTask<ScalarOf<V>>& task,
                                const SampleRange<V>& range) {
@@ -79,10 +77,11 @@ SIMDBEZIER_PART V sample_floor(const ScatteredTask<ScalarOf<V>>& task,
   return floor_inside(range.y, floor_inside(range.x, floor));
 }
 
-/// Samples [k, k + count) of one patch, at most a register of them; further lanes repeat the last.
-/// Returns those that need a call of their own: samples on an edge v = const of their cell, and
-/// samples that are not finite. alone: this is that call, and count is 1. A register has one
-/// formula, which is that of samples off these edges unless it is called for a sample alone.
+/// Evaluates samples [k, k + count) of one patch, at most a register of them; further lanes repeat
+/// the last. Returns those that need a call of their own: samples on an edge v = const of their
+/// cell, and samples that are not finite. alone says that this is that call, and count is 1. A
+/// register has one formula, which is that of samples off these edges unless it is called for a
+/// sample alone.
 template <typename P, typename T>
 SIMDBEZIER_KERNEL std::uint32_t evaluate_together(const ScatteredTask<T>& task,
                                                   const NetShape& shape, std::size_t k,
@@ -116,9 +115,9 @@ SIMDBEZIER_KERNEL std::uint32_t evaluate_together(const ScatteredTask<T>& task,
   return alone ? 0 : special;
 }
 
-/// One sample, which nothing shares a register with: lanes = powers of Y, in a quarter of the time.
-/// False, and nothing is done, where it is on an edge of its cell or not finite, or the set has
-/// origins.
+/// Evaluates one sample, which nothing shares a register with: lanes are powers of Y, in a quarter
+/// of the time. Returns false, and does nothing, where it is on an edge of its cell or not finite,
+/// or the set has origins.
 template <typename P, typename T>
 SIMDBEZIER_KERNEL bool evaluate_single(const ScatteredTask<T>& task, const NetShape& shape,
                                        std::size_t k) {

@@ -8,8 +8,8 @@
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-/// Where the lanes of one register come from. A code of 0 to 15 is that lane of the first register,
-/// 16 to 31 of the second, 32 to 47 of the third.
+/// An assembly says where the lanes of one register come from. A code of 0 to 15 is that lane of
+/// the first register, 16 to 31 of the second, 32 to 47 of the third.
 class Assembly {
 public:
   Assembly() = default;
@@ -23,8 +23,8 @@ public:
     const __m512 both = _mm512_permutex2var_ps(first, index_, second);
     return vec<float>(_mm512_mask_permutexvar_ps(both, from_third_, index_, third));
   }
-  /// The same where all quads of the third register are alike: no second permutation across lanes,
-  /// which would cost a multiply-add.
+  /// This is operator() where all quads of the third register are alike: there is no second
+  /// permutation across lanes, which would cost a multiply-add.
   SIMDBEZIER_INLINE vec<float> with_quad(vec<float> first, vec<float> second,
                                          vec<float> quad) const {
     const __m512 both = _mm512_permutex2var_ps(first, index_, second);

@@ -10,13 +10,13 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <typename V>
 constexpr bool kHasFours = kLanes<V> >= 4;
 
-/// values[i] in lane i of every group.
+/// Returns values[i] in lane i of every group.
 template <typename V>
 SIMDBEZIER_INLINE V repeat_four(const ScalarOf<V>* values) {
   return RowGroups<kLanes<V> / 4, V>::repeat(values);
 }
 
-/// Four groups of four values that follow each other in memory.
+/// Loads four groups of four values that follow each other in memory.
 template <typename V>
 SIMDBEZIER_INLINE void load_fours(const ScalarOf<V>* values, V four[4]) {
   for (std::size_t i = 0; i < 4; ++i) {
@@ -24,8 +24,8 @@ SIMDBEZIER_INLINE void load_fours(const ScalarOf<V>* values, V four[4]) {
   }
 }
 
-/// Lane k of each group, in all lanes of the group. Floats stay within 128 bits, which leaves the
-/// pipes of the multiply-adds alone.
+/// Returns lane k of each group, in all lanes of the group. Floats stay within 128 bits, which
+/// leaves the pipes of the multiply-adds alone.
 template <std::size_t k, typename V>
 SIMDBEZIER_INLINE V broadcast_in_four(V v) {
   if constexpr (kQuad<V> == 4) {
@@ -36,12 +36,12 @@ SIMDBEZIER_INLINE V broadcast_in_four(V v) {
 #elif defined(SIMDBEZIER_KERNELS_AVX2)
     return V(_mm256_permute4x64_pd(v, k * 0x55));
 #else
-    return v; // no register of four doubles
+    return broadcast_in_groups<4, k>(v);
 #endif
   }
 }
 
-/// Groups of values that belong to powers 0 to 3, taken apart: a register for each power.
+/// Takes groups of values that belong to powers 0 to 3 apart: there is a register for each power.
 template <typename V>
 SIMDBEZIER_INLINE void split_fours(V v, V power[4]) {
   power[0] = broadcast_in_four<0>(v);

@@ -1,5 +1,5 @@
-// Cache lines to memory, in parts that are registers where those have 256 or 512 bits; planes into
-// records in 128 bits.
+// Moves cache lines to memory, in parts that are registers where those have more than 128 bits; and
+// planes into records in 128 bits.
 #pragma once
 
 #include <cstddef>
@@ -8,19 +8,13 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-inline constexpr std::size_t kPartBytes = 64;
-#elif defined(SIMDBEZIER_KERNELS_AVX2)
-inline constexpr std::size_t kPartBytes = 32;
-#else
-inline constexpr std::size_t kPartBytes = 16;
-#endif
+inline constexpr std::size_t kPartBytes = sizeof(vec<float>) < 16 ? 16 : sizeof(vec<float>);
 
 template <typename T, std::size_t kBytes>
 struct VectorOf {
   typedef T type __attribute__((vector_size(kBytes)));
 };
-/// What lines are moved in, and 128 bits of it.
+/// Lines are moved in parts, or in 128 bits of it.
 template <typename T>
 using LinePart = typename VectorOf<T, kPartBytes>::type;
 template <typename T>
@@ -28,7 +22,7 @@ using Part128 = typename VectorOf<T, 16>::type;
 
 template <typename T>
 inline constexpr std::size_t kPartLanes = kPartBytes / sizeof(T);
-/// Values in 128 bits.
+/// There are so many values in 128 bits.
 template <typename T>
 inline constexpr std::size_t kGroupLanes = 16 / sizeof(T);
 
@@ -39,7 +33,8 @@ SIMDBEZIER_INLINE Vector load_any(const T* from) {
   return value;
 }
 
-/// Streaming: `to` is aligned to the vector; takes effect on x86 only.
+/// Stores a vector. Where it is streamed, which takes effect on x86 only, `to` is aligned to the
+/// vector.
 template <bool kStreaming, typename Vector, typename T>
 SIMDBEZIER_INLINE void store_any(T* to, Vector value) {
 #if defined(__x86_64__) && !defined(SIMDBEZIER_KERNELS_SCALAR)
@@ -49,7 +44,7 @@ SIMDBEZIER_INLINE void store_any(T* to, Vector value) {
     _mm_stream_ps(reinterpret_cast<float*>(to), bits);
     return;
   }
-#if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
+#if defined(__AVX__)
   if constexpr (kStreaming && sizeof(Vector) == 32) {
     __m256 bits;
     __builtin_memcpy(&bits, &value, sizeof(bits));
@@ -57,7 +52,7 @@ SIMDBEZIER_INLINE void store_any(T* to, Vector value) {
     return;
   }
 #endif
-#if defined(SIMDBEZIER_KERNELS_AVX512)
+#if defined(__AVX512F__)
   if constexpr (kStreaming && sizeof(Vector) == 64) {
     __m512 bits;
     __builtin_memcpy(&bits, &value, sizeof(bits));

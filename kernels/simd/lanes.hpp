@@ -56,8 +56,8 @@ private:
 };
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-// One load of the pair into all lanes and one masked in-lane permute: half of the work of two
-// masked broadcasts, which matters where every sixth sample is on an edge.
+// This is one load of the pair into all lanes and one masked in-lane permute: half of the work of
+// two masked broadcasts, which matters where every sixth sample is on an edge.
 template <>
 class PairSelector<vec<float>> {
 public:
@@ -72,7 +72,7 @@ public:
     return vec<float>(_mm512_mask_permutevar_ps(inside, lanes_, pairs, index_));
   }
 
-  /// The lanes of either edge, and which of the pair each of them takes.
+  /// These are the lanes of either edge, and which of the pair each of them takes.
   SIMDBEZIER_INLINE __mmask16 lanes() const { return lanes_; }
   SIMDBEZIER_INLINE __m512i index() const { return index_; }
 
@@ -99,7 +99,7 @@ private:
 };
 #endif
 
-/// The power of two at or below |x|; 0 for a denormal x, infinity where x is not finite.
+/// Returns the power of two at or below |x|; 0 for a denormal x, infinity where x is not finite.
 template <typename V>
 SIMDBEZIER_INLINE V power_of_two_below(V x) {
   if constexpr (!kIsScalar<V>) {
@@ -136,7 +136,8 @@ SIMDBEZIER_INLINE void store_vector(ScalarOf<V>* to, V value) {
 template <typename V>
 inline constexpr bool kLineWide = kLanes<V> * sizeof(ScalarOf<V>) == 64;
 
-/// Past the caches; `to` at a line's start. The call ends with streaming_fence().
+/// Stores a register past the caches; `to` is at a line's start. The call ends with
+/// streaming_fence().
 template <typename V>
 SIMDBEZIER_INLINE void store_streaming(ScalarOf<V>* to, V value) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
@@ -150,8 +151,8 @@ SIMDBEZIER_INLINE void store_streaming(ScalarOf<V>* to, V value) {
 #endif
 }
 
-/// The same where a call streams, otherwise through the caches; registers of less than a line never
-/// stream.
+/// Stores past the caches where a call streams, and through them elsewhere. Registers of less than
+/// a line never stream.
 template <typename V>
 SIMDBEZIER_INLINE void store_line(ScalarOf<V>* to, V value, bool streams) {
   if constexpr (kLineWide<V>) {
@@ -171,7 +172,7 @@ SIMDBEZIER_INLINE void masked_store(double* to, vec<double> value, std::size_t n
   _mm512_mask_storeu_pd(to, static_cast<__mmask8>((1U << n) - 1U), value);
 }
 #elif defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_SSE2)
-// In halves: on some processors vmaskmovps to memory costs as much as twenty stores.
+// This stores halves: on some processors vmaskmovps to memory costs as much as twenty stores.
 SIMDBEZIER_INLINE void store_first_of_128(float* to, __m128 value, std::size_t n) {
   if ((n & 2) != 0) {
     _mm_storel_pi(reinterpret_cast<__m64*>(to), value);

@@ -16,11 +16,12 @@ template <typename T>
 class LineRing {
 public:
   static constexpr std::size_t kLine = 64 / sizeof(T);
-  /// Room for batches of `values`, which are whole lines.
+  /// Returns the room for batches of `values`, which are whole lines.
   static constexpr std::size_t room(std::size_t values) { return 2 * (values + kLine); }
 
   LineRing() = default;
-  /// ring: room(batch), at a line's start. to: where the stream goes, aligned to T.
+  /// ring has room(batch) values, from a line's start on. to is where the stream goes, aligned to
+  /// T.
   SIMDBEZIER_INLINE void start(T* ring, std::size_t batch, T* to) {
     ring_ = ring;
     batch_ = batch;
@@ -28,7 +29,7 @@ public:
     to_ = to - phase_;
   }
 
-  /// Where the next batch is to be written.
+  /// Returns where the next batch is to be written.
   [[nodiscard]] SIMDBEZIER_INLINE T* batch() const { return half() + phase_; }
 
   /// The batch is written: `values` of them, fewer in the last one only. What was passed on until
@@ -44,7 +45,7 @@ public:
     }
   }
 
-  /// Passes on up to `lines`; returns how many fewer there were.
+  /// Passes on up to `lines`, and returns how many fewer there were.
   SIMDBEZIER_INLINE std::size_t pass_on(std::size_t lines) {
     const std::size_t count = lines < lines_ ? lines : lines_;
     if (count > 0) {
@@ -75,7 +76,7 @@ public:
 private:
   [[nodiscard]] SIMDBEZIER_INLINE T* half() const { return ring_ + half_ * (batch_ + kLine); }
 
-  /// The first `end` values of a line, less those that belong to others.
+  /// Stores the first `end` values of a line, less those that belong to others.
   SIMDBEZIER_INLINE void put_part(std::size_t end) {
     for (std::size_t k = foreign_; k < end; ++k) {
       to_[k] = from_[k];

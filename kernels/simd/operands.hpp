@@ -9,7 +9,8 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// The same address in a register of its own, so that what is read behind it needs no index.
+/// Returns the same address in a register of its own, so that what is read behind it needs no
+/// index.
 template <typename T>
 SIMDBEZIER_INLINE T* own_address(T* address) {
   asm("" : "+r"(address));
@@ -23,8 +24,9 @@ SIMDBEZIER_INLINE void prefetch_line(const void* address) {
   __builtin_prefetch(address);
 }
 
-/// a * *t + c, with *t in all lanes. Where the instruction set can, *t is never in a register, and
-/// the result takes the place of a: with two operands in registers nothing has to be copied.
+/// Returns a * *t + c, with *t in all lanes. Where the instruction set can, *t is never in a
+/// register, and the result takes the place of a: with two operands in registers nothing has to be
+/// copied.
 template <typename V>
 SIMDBEZIER_INLINE V madd_by(V a, const ScalarOf<V>* t, V c) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)

@@ -9,8 +9,8 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Where a result's value comes from that has the low (high) units of a and b in turn, in each
-/// `quad` of `lanes` values; a unit is kUnit values.
+/// Returns where a value comes from in a result that has the low (high) units of a and b in turn,
+/// in each `quad` of `lanes` values; a unit is kUnit values.
 template <std::size_t kUnit, bool kHigh>
 constexpr int zipped(std::size_t lane, std::size_t lanes, std::size_t quad) {
   const std::size_t k = lane % quad / kUnit;
@@ -27,7 +27,7 @@ SIMDBEZIER_INLINE B zip(B a, B b) {
   (std::make_index_sequence<kAll>());
 }
 
-/// Transposes the matrices of 16 / sizeof(T) registers. B: a vector of T that the compiler knows.
+/// Transposes the matrices of 16 / sizeof(T) registers. B is a vector of T that the compiler knows.
 template <typename T, typename B>
 SIMDBEZIER_INLINE void transpose_quads(B m[16 / sizeof(T)]) {
   if constexpr (sizeof(T) == 8) {

@@ -1,5 +1,6 @@
-// 128-bit lanes of a register: loads that bring each of them from another place, and permutations
-// that stay within them, which cost no multiply-add its turn (permutations across lanes do).
+// The 128-bit lanes of a register: loads that bring each of them from another place, and
+// permutations that stay within them, which cost no multiply-add its turn (permutations across
+// lanes do).
 //
 // A register has kQuads lanes of kQuad values: 4 floats or 2 doubles.
 #pragma once
@@ -32,7 +33,7 @@ SIMDBEZIER_INLINE V from_bits(__m512 v) {
   }
 }
 
-/// Two adjacent lanes of two places.
+/// Loads two adjacent lanes of two places.
 template <typename T>
 SIMDBEZIER_INLINE __m512d two_halves(const T* low, const T* high) {
   __m256d first;
@@ -51,7 +52,7 @@ SIMDBEZIER_INLINE void compute_here(V& value) {
   __m512 bits = to_bits(value);
   asm volatile("" : "+v"(bits));
   value = from_bits<V>(bits);
-#elif defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_SSE2)
+#elif defined(SIMDBEZIER_KERNELS_AVX2)
   typename V::register_type bits = value;
   asm volatile("" : "+x"(bits));
   value = V(bits);
@@ -64,8 +65,8 @@ SIMDBEZIER_INLINE void compute_here(V& value) {
 #endif
 }
 
-/// Lane q of chunk[j] becomes the j-th 128 bits of the 64 bytes at from[q]. Halves of cache lines
-/// and one permutation a register: whole lines would need two.
+/// Loads lane q of chunk[j] from the j-th 128 bits of the 64 bytes at from[q]. It takes halves of
+/// cache lines and one permutation a register: whole lines would need two.
 template <typename V>
 SIMDBEZIER_INLINE void load_quads(const ScalarOf<V>* const from[kQuads<V>], V chunk[4]) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
@@ -89,14 +90,30 @@ SIMDBEZIER_INLINE void load_quads(const ScalarOf<V>* const from[kQuads<V>], V ch
   }
 #else
   for (std::size_t j = 0; j < 4; ++j) {
-    chunk[j] = load_vector<V>(from[0] + j * kQuad<V>);
+    alignas(64) ScalarOf<V> lanes[kLanes<V>];
+    for (std::size_t q = 0; q < kQuads<V>; ++q) {
+      __builtin_memcpy(lanes + q * kQuad<V>, from[q] + j * kQuad<V>, 16);
+    }
+    chunk[j] = load_vector<V>(lanes);
   }
 #endif
 }
 
 // Within 128-bit lanes ----------------------------------------------------------------------------
 
-/// Value k of each lane, in all places of the lane.
+/// Returns value k of each group of kGroup lanes, in all lanes of the group. This is for any
+/// instruction set, by way of memory.
+template <std::size_t kGroup, std::size_t k, typename V>
+SIMDBEZIER_INLINE V broadcast_in_groups(V v) {
+  alignas(64) ScalarOf<V> lanes[kLanes<V>];
+  store_vector(lanes, v);
+  for (std::size_t i = 0; i < kLanes<V>; ++i) {
+    lanes[i] = lanes[i / kGroup * kGroup + k];
+  }
+  return load_vector<V>(lanes);
+}
+
+/// Returns value k of each lane, in all places of the lane.
 template <std::size_t k, typename V>
 SIMDBEZIER_INLINE V lane_broadcast(V v) {
   [[maybe_unused]] constexpr bool kFloat = sizeof(ScalarOf<V>) == sizeof(float);
@@ -112,12 +129,6 @@ SIMDBEZIER_INLINE V lane_broadcast(V v) {
   } else {
     return V(_mm256_permute_pd(v, k * 0xf));
   }
-#elif defined(SIMDBEZIER_KERNELS_SSE2)
-  if constexpr (kFloat) {
-    return V(_mm_shuffle_ps(v, v, k * 0x55));
-  } else {
-    return V(_mm_shuffle_pd(v, v, k * 0x3));
-  }
 #elif defined(SIMDBEZIER_KERNELS_NEON64)
   if constexpr (kFloat) {
     return V(vdupq_laneq_f32(v, k));
@@ -125,7 +136,7 @@ SIMDBEZIER_INLINE V lane_broadcast(V v) {
     return V(vdupq_laneq_f64(v, k));
   }
 #else
-  return v;
+  return broadcast_in_groups<kQuad<V>, k>(v);
 #endif
 }
 
@@ -145,7 +156,7 @@ SIMDBEZIER_INLINE void lane_transpose(V r[kQuad<V>]) {
 
 // Indices -----------------------------------------------------------------------------------------
 
-/// Lane i becomes from[step * index[i]]. In registers: a reload of what single stores have put
+/// Loads from[step * index[i]] to lane i, in registers: a reload of what single stores have put
 /// together would wait for all of them.
 template <typename V>
 SIMDBEZIER_INLINE V gather_lanes(const ScalarOf<V>* from, const std::uint32_t* index,
@@ -154,15 +165,7 @@ SIMDBEZIER_INLINE V gather_lanes(const ScalarOf<V>* from, const std::uint32_t* i
   const auto at = [&](std::size_t i) __attribute__((always_inline)) {
     return from[step * std::size_t{index[i]}];
   };
-#if defined(SIMDBEZIER_KERNELS_SCALAR)
-  return at(0);
-#elif defined(SIMDBEZIER_KERNELS_NEON64)
-  alignas(16) ScalarOf<V> lanes[kLanes<V>];
-  for (std::size_t i = 0; i < kLanes<V>; ++i) {
-    lanes[i] = at(i);
-  }
-  return load_vector<V>(lanes);
-#else
+#if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
   if constexpr (kFloat) {
     const auto four = [&](std::size_t i) __attribute__((always_inline)) {
       return _mm_setr_ps(at(i), at(i + 1), at(i + 2), at(i + 3));
@@ -171,10 +174,8 @@ SIMDBEZIER_INLINE V gather_lanes(const ScalarOf<V>* from, const std::uint32_t* i
     return V(_mm512_maskz_insertf32x8(0xffff,
                                       _mm512_castps256_ps512(_mm256_set_m128(four(4), four(0))),
                                       _mm256_set_m128(four(12), four(8)), 1));
-#elif defined(SIMDBEZIER_KERNELS_AVX2)
-    return V(_mm256_set_m128(four(4), four(0)));
 #else
-    return V(four(0));
+    return V(_mm256_set_m128(four(4), four(0)));
 #endif
   } else {
     const auto two = [&](std::size_t i) __attribute__((always_inline)) {
@@ -184,12 +185,16 @@ SIMDBEZIER_INLINE V gather_lanes(const ScalarOf<V>* from, const std::uint32_t* i
     return V(_mm512_maskz_insertf64x4(0xff,
                                       _mm512_castpd256_pd512(_mm256_set_m128d(two(2), two(0))),
                                       _mm256_set_m128d(two(6), two(4)), 1));
-#elif defined(SIMDBEZIER_KERNELS_AVX2)
-    return V(_mm256_set_m128d(two(2), two(0)));
 #else
-    return V(two(0));
+    return V(_mm256_set_m128d(two(2), two(0)));
 #endif
   }
+#else
+  alignas(64) ScalarOf<V> lanes[kLanes<V>];
+  for (std::size_t i = 0; i < kLanes<V>; ++i) {
+    lanes[i] = at(i);
+  }
+  return load_vector<V>(lanes);
 #endif
 }
 

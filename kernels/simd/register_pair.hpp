@@ -17,7 +17,7 @@ struct RegisterPair {
 
   RegisterPair() = default;
   SIMDBEZIER_INLINE RegisterPair(V first, V second) : low(first), high(second) {}
-  /// The value in all lanes.
+  /// Has the value in all lanes.
   explicit SIMDBEZIER_INLINE RegisterPair(ScalarOf<V> value)
       : low(broadcast<V>(value)), high(low) {}
 
@@ -43,14 +43,14 @@ struct Traits<RegisterPair<V>> {
   static constexpr std::size_t kLanes = 2 * Traits<V>::kLanes;
 };
 
-/// The first n lanes, more than those of one register.
+/// Stores the first n lanes, more than those of one register.
 template <typename V>
 SIMDBEZIER_INLINE void masked_store(ScalarOf<V>* to, RegisterPair<V> value, std::size_t n) {
   store_vector(to, value.low);
   masked_store(to + kLanes<V>, value.high, n - kLanes<V>);
 }
 
-/// One half right after the other: a line, or two of them.
+/// Streams one half right after the other: they are a line, or two of them.
 template <typename V>
 SIMDBEZIER_INLINE void store_streaming(ScalarOf<V>* to, RegisterPair<V> value) {
   using Part = LinePart<ScalarOf<V>>;

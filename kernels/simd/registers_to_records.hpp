@@ -1,6 +1,6 @@
-// Planes into packed records of three, six or nine members, and these to memory.
+// Puts planes into packed records of three, six or nine members, and these to memory.
 //
-// form_records(): a register of each plane becomes as many registers of records, in the order of
+// form_records() makes a register of each plane as many registers of records, in the order of
 // memory. Processors have one or two places for shuffles, so their number counts.
 #pragma once
 
@@ -16,7 +16,8 @@
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 #if !defined(SIMDBEZIER_KERNELS_AVX512) && !defined(SIMDBEZIER_KERNELS_AVX2)
-/// Element e of x y z x y z … comes from plane e % 3 at e / 3.
+/// Element e of x y z x y z … comes from plane e % 3 at e / 3. These are the indices of the two
+/// shuffles that make it.
 SIMDBEZIER_INLINE constexpr int from_xy(std::size_t e, std::size_t lanes) {
   return static_cast<int>(e % 3 == 2 ? 0 : e / 3 + (e % 3) * lanes);
 }
@@ -32,7 +33,7 @@ SIMDBEZIER_INLINE LinePart<T> triple_part(LinePart<T> x, LinePart<T> y, LinePart
   return __builtin_shufflevector(xy, z, with_z(kLane, kOut * kN + kLane, kN)...);
 }
 
-/// A part of each plane to packed records.
+/// Puts a part of each plane into packed records.
 template <typename T>
 SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[3], LinePart<T> (&line)[3]) {
   constexpr auto kLanes = std::make_index_sequence<kPartLanes<T>>{};
@@ -41,10 +42,17 @@ SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[3], LinePart<T> (&lin
   line[2] = triple_part<T, 2>(p[0], p[1], p[2], kLanes);
 }
 
-/// The same for six planes, in pairs of members.
+/// Puts six planes into records: in pairs of members where parts have 128 bits, and by way of
+/// memory elsewhere.
 template <typename T>
 SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[6], LinePart<T> (&line)[6]) {
-  if constexpr (kGroupLanes<T> == 4) {
+  if constexpr (kPartBytes != 16) {
+    T values[6 * kPartLanes<T>];
+    for (std::size_t e = 0; e < 6 * kPartLanes<T>; ++e) {
+      values[e] = p[e % 6][e / 6];
+    }
+    __builtin_memcpy(&line, values, sizeof(values));
+  } else if constexpr (kGroupLanes<T> == 4) {
     const auto put = [&line](std::size_t first, Part128<T> a, Part128<T> b, Part128<T> c) {
       line[first] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
       line[first + 1] = __builtin_shufflevector(c, a, 0, 1, 6, 7);
@@ -65,7 +73,7 @@ SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[6], LinePart<T> (&lin
 }
 #endif
 
-/// Nine members: whether they are put together in registers, and whether into lines.
+/// Whether nine members are put together in lines, and whether in registers at all.
 inline constexpr bool kNonupleLines = kPartBytes == 64;
 inline constexpr bool kNonuples = kPartBytes >= 32;
 
@@ -75,7 +83,7 @@ SIMDBEZIER_INLINE void store_lines(const LinePart<T> (&line)[kMembers], T* to,
   (store_any<kStreaming>(to + k * kPartLanes<T>, line[k]), ...);
 }
 
-/// Nine members of which eight are turned around in pieces of 128 bits.
+/// Stores nine members, of which eight are turned around in pieces of 128 bits.
 template <typename T, std::size_t... k>
 SIMDBEZIER_INLINE void store_pieces(const LinePart<T> (&p)[9], T* to, std::index_sequence<k...>) {
   using V = vec<T>;
@@ -89,7 +97,8 @@ SIMDBEZIER_INLINE void store_pieces(const LinePart<T> (&p)[9], T* to, std::index
   ((to[9 * k + 8] = p[8][k]), ...);
 }
 
-/// A part of each plane to packed records at `to`. Streaming: whole lines, `to` at a line's start.
+/// Puts a part of each plane into packed records at `to`. Where they are streamed, they are whole
+/// lines, and `to` is at a line's start.
 template <bool kStreaming, typename T, std::size_t kMembers>
 SIMDBEZIER_INLINE void store_records(const LinePart<T> (&p)[kMembers], T* to) {
   if constexpr (kMembers == 9 && !kNonupleLines) {
@@ -101,7 +110,7 @@ SIMDBEZIER_INLINE void store_records(const LinePart<T> (&p)[kMembers], T* to) {
   }
 }
 
-/// The same where a register may be a line: streaming or not is known late.
+/// This is store_records() where a register may be a line: streaming or not is known late.
 template <typename T, std::size_t kMembers>
 SIMDBEZIER_INLINE void store_records(const LinePart<T> (&p)[kMembers], T* to, bool streaming) {
   if constexpr (kPartBytes < 64) {
@@ -118,7 +127,8 @@ SIMDBEZIER_INLINE void store_records(const LinePart<T> (&p)[kMembers], T* to, bo
   }
 }
 
-/// A register of samples, to triples that begin at `to`. Streaming: `to` is at a line's start.
+/// Stores a register of samples as triples that begin at `to`. Where they are streamed, `to` is at
+/// a line's start.
 template <typename V>
 SIMDBEZIER_INLINE void store_triples(const V value[3], ScalarOf<V>* to, bool streaming) {
   using T = ScalarOf<V>;
@@ -144,7 +154,7 @@ SIMDBEZIER_INLINE void store_triples(const V value[3], ScalarOf<V>* to, bool str
 
 // From memory ------------------------------------------------------------------------------------
 
-/// kDrainStep samples of kMembers planes to packed records.
+/// Puts kDrainStep samples of kMembers planes into packed records.
 template <bool kStreaming, std::size_t kMembers, typename T>
 SIMDBEZIER_INLINE void interleave(const T* const plane[kMembers], std::size_t at, T* to) {
   constexpr std::size_t kN = kPartLanes<T>;

@@ -11,7 +11,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 // and the number of lanes have no common divisor. So each plane is turned once, for all results,
 // and these are blended, which is cheaper than a shuffle.
 
-/// The record whose member `member` belongs to lane `lane` of a line.
+/// Returns the record whose member `member` belongs to lane `lane` of a line.
 SIMDBEZIER_INLINE constexpr int turned(std::size_t member, std::size_t lane, std::size_t lanes) {
   std::size_t e = lane;
   while (e % 3 != member) {
@@ -34,7 +34,7 @@ SIMDBEZIER_INLINE Part blend_line(Part x, Part y, Part z, std::index_sequence<kL
       xy, z, static_cast<int>((kLine * kN + kLane) % 3 == 2 ? kN + kLane : kLane)...);
 }
 
-/// A part of each plane to packed records.
+/// Puts a part of each plane into packed records.
 template <typename T>
 SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[3], LinePart<T> (&line)[3]) {
   constexpr auto kLanes = std::make_index_sequence<kPartLanes<T>>{};
@@ -46,7 +46,7 @@ SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[3], LinePart<T> (&lin
   line[2] = blend_line<2>(x, y, z, kLanes);
 }
 
-/// Lower, upper halves of a and b.
+/// These two return the lower and the upper halves of a and b.
 template <typename Part>
 SIMDBEZIER_INLINE Part lower_halves(Part a, Part b) {
   return __builtin_bit_cast(Part, _mm256_permute2f128_ps(__builtin_bit_cast(__m256, a),
@@ -65,7 +65,8 @@ SIMDBEZIER_INLINE void pieces_of(const __m256d (&pair)[3], LinePart<float> (&pie
   piece[2] = __builtin_bit_cast(LinePart<float>, _mm256_unpackhi_pd(pair[1], pair[2]));
 }
 
-/// The same for six planes: in each half first, a: samples 0 1 (of doubles 0), b: 2 3 (1).
+/// Puts six planes into records: in each half first, where a has the samples 0 1 (of doubles 0),
+/// and b has 2 3 (1).
 template <typename T>
 SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[6], LinePart<T> (&line)[6]) {
   LinePart<T> a[3];

@@ -1,8 +1,8 @@
-// Planes into packed records, for registers of 512 bits.
+// Puts planes into packed records, for registers of 512 bits.
 //
-// By shuffles of two registers across all lanes: 6, 18 and 38 of them. Members are joined in units
-// (one member, pairs, fours), whose registers hold whole runs of samples; the lines are then merged
-// from those units of which they have a part.
+// It does so by shuffles of two registers across all lanes: 6, 18 and 38 of them. Members are
+// joined in units (one member, pairs, fours), whose registers hold whole runs of samples; the lines
+// are then merged from those units of which they have a part.
 #pragma once
 
 #include <utility>
@@ -17,13 +17,14 @@ inline constexpr std::size_t kUnit = kMembers == 9   ? 4
                                      : kMembers == 6 ? 2
                                                      : 1;
 
-/// Where the values of lines are among the sources: kUnit registers for each unit of members, one
-/// for a member that is left over.
+/// Says where the values of lines are among the sources: there are kUnit registers for each unit of
+/// members, one for a member that is left over.
 template <std::size_t kMembers, std::size_t kN>
 struct RecordLines {
   static constexpr std::size_t kU = kUnit<kMembers>;
 
-  /// The lane of `source` that lane `lane` of a line comes from, kN where it comes from another.
+  /// Returns the lane of `source` that lane `lane` of a line comes from, kN where it comes from
+  /// another.
   static constexpr std::size_t place(std::size_t line, std::size_t source, std::size_t lane) {
     const std::size_t e = line * kN + lane;
     const std::size_t record = e / kMembers;
@@ -43,7 +44,7 @@ struct RecordLines {
     }
     return false;
   }
-  /// How many sources before this one the line has values of.
+  /// Returns how many sources before this one the line has values of.
   static constexpr std::size_t before(std::size_t line, std::size_t source) {
     std::size_t count = 0;
     for (std::size_t s = 0; s < source; ++s) {
@@ -58,8 +59,8 @@ struct RecordLines {
     }
     return source;
   }
-  /// Index of the shuffle that adds `source` to a line; with the second source values of the first
-  /// take their places, too.
+  /// Returns the index of the shuffle that adds `source` to a line. With the second source, values
+  /// of the first take their places, too.
   static constexpr int index(std::size_t line, std::size_t source, std::size_t lane) {
     const std::size_t own = place(line, source, lane);
     if (own < kN) {
@@ -93,7 +94,7 @@ SIMDBEZIER_INLINE LinePart<T> merge_line(const LinePart<T> (&source)[kMembers],
   return line;
 }
 
-/// Units of kWidth values of a and b in turn, from the lower or the upper half of them.
+/// Joins units of kWidth values of a and b in turn, from the lower or the upper half of them.
 template <std::size_t kWidth, std::size_t kHalf, typename Part, std::size_t... kLane>
 SIMDBEZIER_INLINE Part join_half(Part a, Part b, std::index_sequence<kLane...>) {
   constexpr std::size_t kN = sizeof...(kLane);
@@ -125,7 +126,7 @@ SIMDBEZIER_INLINE void merge_lines(const LinePart<T> (&source)[kMembers],
   ((line[kLine] = merge_line<kLine, T>(source, all)), ...);
 }
 
-/// A part of each plane to packed records.
+/// Puts a part of each plane into packed records.
 template <typename T, std::size_t kMembers>
 SIMDBEZIER_INLINE void form_records(const LinePart<T> (&p)[kMembers],
                                     LinePart<T> (&line)[kMembers]) {

@@ -8,7 +8,8 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// f(0), f(1), … f(kCount - 1), each in code of its own, so that arrays can live in registers.
+/// Calls f(0), f(1), … f(kCount - 1), each in code of its own, so that arrays can live in
+/// registers.
 template <std::size_t kCount, typename F>
 SIMDBEZIER_INLINE void repeat(const F& f) {
   [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) SIMDBEZIER_INLINE_LAMBDA {
@@ -17,13 +18,14 @@ SIMDBEZIER_INLINE void repeat(const F& f) {
   (std::make_index_sequence<kCount>());
 }
 
-/// f<count>() for the count, which is one of kCounts.
+/// Calls f<count>() for the count, which is one of kCounts.
 template <std::size_t... kCounts, typename F>
 SIMDBEZIER_INLINE void with_one_of(std::size_t count, const F& f) {
   ((count == kCounts ? f.template operator()<kCounts>() : void()), ...);
 }
 
-/// How long parts of a whole are, if they are as few as they can be and none is longer than most.
+/// Returns how long parts of a whole are, if they are as few as they can be and none is longer than
+/// most.
 SIMDBEZIER_INLINE std::size_t even_share(std::size_t whole, std::size_t most) {
   const auto parts = static_cast<unsigned>((whole + most - 1) / most);
   return parts < 2 ? whole : (static_cast<unsigned>(whole) + parts - 1) / parts;

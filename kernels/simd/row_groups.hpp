@@ -9,7 +9,7 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// One value through an integer register: the floating-point pipes have enough to do.
+/// Moves one value through an integer register: the floating-point pipes have enough to do.
 template <typename T>
 SIMDBEZIER_INLINE void move_value(T* to, const T* from) {
   std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t> bits;
@@ -17,8 +17,8 @@ SIMDBEZIER_INLINE void move_value(T* to, const T* from) {
   __builtin_memcpy(to, &bits, sizeof(T));
 }
 
-// Stores the first n of the kWidth lanes from kLane on. Where kWidth is 1, kLane is the first lane
-// or that of the upper half.
+// These store the first n of the kWidth lanes from kLane on. Where kWidth is 1, kLane is the first
+// lane or that of the upper half.
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 /// A part of a register in a register of its own. g++ makes one instruction of taking it out and a
 /// masked store, which faults on lanes that are masked out, unlike masked stores themselves: memory
@@ -88,13 +88,13 @@ SIMDBEZIER_INLINE void store_lanes_from(ScalarOf<V>* to, V value, std::size_t n)
 }
 #endif
 
-/// For any instruction set, by way of memory.
+/// These row groups are for any instruction set, by way of memory.
 template <std::size_t kRows, typename V>
 struct PortableRowGroups {
   using T = ScalarOf<V>;
   static constexpr std::size_t kColumns = kLanes<V> / kRows;
 
-  /// values[r] in all lanes of group r.
+  /// Returns values[r] in all lanes of group r.
   static SIMDBEZIER_INLINE V spread(const T* values) {
     if constexpr (kRows == 1) {
       return broadcast<V>(*values);
@@ -109,7 +109,7 @@ struct PortableRowGroups {
     }
   }
 
-  /// values[i] in lane i of every group.
+  /// Returns values[i] in lane i of every group.
   static SIMDBEZIER_INLINE V repeat(const T* values) {
     if constexpr (kRows == 1) {
       return load_vector<V>(values);
@@ -179,7 +179,7 @@ struct RowGroups<2, vec<float>> : PortableRowGroups<2, vec<float>> {
   }
 };
 
-/// The first rows, and the second rows, of two registers of two rows each.
+/// These two return the first rows and the second rows of two registers of two rows each.
 SIMDBEZIER_INLINE vec<float> first_rows(vec<float> a, vec<float> b) {
   return vec<float>(_mm512_shuffle_f32x4(a, b, 0x44));
 }
@@ -255,18 +255,6 @@ struct RowGroups<2, vec<double>> : PortableRowGroups<2, vec<double>> {
   static SIMDBEZIER_INLINE vec<double> spread(const double* values) {
     const __m256d both = _mm256_broadcast_pd(reinterpret_cast<const __m128d*>(values));
     return vec<double>(_mm256_permute_pd(both, 0b1100));
-  }
-};
-#elif defined(SIMDBEZIER_KERNELS_SSE2)
-template <>
-struct RowGroups<2, vec<float>> : PortableRowGroups<2, vec<float>> {
-  static SIMDBEZIER_INLINE vec<float> repeat(const float* values) {
-    const __m128 both = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(values)));
-    return vec<float>(_mm_movelh_ps(both, both));
-  }
-  static SIMDBEZIER_INLINE vec<float> spread(const float* values) {
-    const __m128 both = _mm_castpd_ps(_mm_load_sd(reinterpret_cast<const double*>(values)));
-    return vec<float>(_mm_unpacklo_ps(both, both));
   }
 };
 #endif

@@ -1,12 +1,12 @@
-// As many registers as a register has lanes, turned: lane p of register k becomes lane k of
-// register p. Between nets that lie one after the other and groups of [value][lane].
+// Turns as many registers as a register has lanes: lane p of register k becomes lane k of register
+// p. This leads from nets that lie one after the other to groups of [value][lane] and back.
 #pragma once
 
 #include "kernels/simd/transpose.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Whether turn_square() exists: elsewhere values are moved one by one.
+/// Whether turn_square() exists. Elsewhere values are moved one by one.
 template <typename V>
 inline constexpr bool kHasSquares = false;
 
@@ -63,13 +63,13 @@ SIMDBEZIER_INLINE void turn_square(vec<float> values[4]) {
 }
 #endif
 
-/// Values of a block: those that are moved at once.
+/// A block has so many values, which are moved at once.
 template <typename V>
 inline constexpr std::size_t kBlock = sizeof(ScalarOf<V>) == sizeof(double) ? kTransposed
                                       : kHasSquares<V>                      ? kLanes<V>
                                                                             : 0;
 
-/// group[k][p] = from[p * stride + k] + 0 for a block of k and all lanes p.
+/// Loads group[k][p] = from[p * stride + k] + 0 for a block of k and all lanes p.
 template <typename V, typename S>
 SIMDBEZIER_INLINE void load_block(const S* from, std::ptrdiff_t stride, ScalarOf<V>* group) {
   V values[kBlock<V>];
@@ -86,7 +86,7 @@ SIMDBEZIER_INLINE void load_block(const S* from, std::ptrdiff_t stride, ScalarOf
   }
 }
 
-/// to[p * stride + k] = group[k][p] + 0, rounded to S.
+/// Stores to[p * stride + k] = group[k][p] + 0, rounded to S.
 template <typename V, typename S>
 SIMDBEZIER_INLINE void store_block(const ScalarOf<V>* group, S* to, std::ptrdiff_t stride) {
   V values[kBlock<V>];

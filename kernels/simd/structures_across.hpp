@@ -13,7 +13,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <typename V>
 using Bits = typename VectorOf<ScalarOf<V>, kLanes<V> * sizeof(ScalarOf<V>)>::type;
 
-/// 128 bits at from, from + step, …, side by side.
+/// Loads 128 bits at from, from + step, …, side by side.
 template <typename V>
 SIMDBEZIER_INLINE Bits<V> join_quads(const ScalarOf<V>* from, std::size_t step) {
   Bits<V> value;
@@ -30,13 +30,16 @@ SIMDBEZIER_INLINE Bits<V> join_quads(const ScalarOf<V>* from, std::size_t step) 
 #endif
   __builtin_memcpy(&value, &bits, sizeof(value));
 #else
-  (void)step;
-  __builtin_memcpy(&value, from, sizeof(value));
+  alignas(64) ScalarOf<V> lanes[kLanes<V>];
+  for (std::size_t q = 0; q < kQuads<V>; ++q) {
+    __builtin_memcpy(lanes + q * kQuad<V>, from + q * step, 16);
+  }
+  __builtin_memcpy(&value, lanes, sizeof(value));
 #endif
   return value;
 }
 
-/// The reverse of join_quads().
+/// Stores what join_quads() loads.
 template <typename V>
 SIMDBEZIER_INLINE void part_quads(Bits<V> value, ScalarOf<V>* to, std::size_t step) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
@@ -52,12 +55,16 @@ SIMDBEZIER_INLINE void part_quads(Bits<V> value, ScalarOf<V>* to, std::size_t st
   store_any<false>(to, _mm256_castps256_ps128(bits));
   store_any<false>(to + step, _mm256_extractf128_ps(bits, 1));
 #else
-  (void)step;
-  __builtin_memcpy(to, &value, sizeof(value));
+  alignas(64) ScalarOf<V> lanes[kLanes<V>];
+  __builtin_memcpy(lanes, &value, sizeof(value));
+  for (std::size_t q = 0; q < kQuads<V>; ++q) {
+    __builtin_memcpy(to + q * step, lanes + q * kQuad<V>, 16);
+  }
 #endif
 }
 
-/// The first four values of each of kStructures structures, repeated in each structure's lanes.
+/// Loads the first four values of each of kStructures structures, repeated in each structure's
+/// lanes.
 template <std::size_t kStructures, typename V>
 SIMDBEZIER_INLINE V join_fours(const ScalarOf<V>* from, [[maybe_unused]] std::size_t step) {
   if constexpr (kStructures == 1) {
@@ -73,6 +80,12 @@ SIMDBEZIER_INLINE V join_fours(const ScalarOf<V>* from, [[maybe_unused]] std::si
     } else {
       return V(two_halves(from, from + step));
     }
+#else
+    alignas(64) ScalarOf<V> lanes[kLanes<V>];
+    for (std::size_t i = 0; i < kLanes<V>; ++i) {
+      lanes[i] = from[i * kStructures / kLanes<V> * step + i % 4];
+    }
+    return load_vector<V>(lanes);
 #endif
   }
 }
@@ -84,7 +97,7 @@ SIMDBEZIER_INLINE void for_each_index(const F& f, std::index_sequence<k...>) {
   (f(k), ...);
 }
 
-/// values[k], lane p = from[p * stride + k], for k < kQuad.
+/// Loads values[k], lane p = from[p * stride + k], for k < kQuad.
 template <typename V>
 SIMDBEZIER_INLINE void load_across(const ScalarOf<V>* from, std::size_t stride, V* values) {
   constexpr auto kAll = std::make_index_sequence<kQuad<V>>{};
@@ -99,7 +112,7 @@ SIMDBEZIER_INLINE void load_across(const ScalarOf<V>* from, std::size_t stride, 
                  kAll);
 }
 
-/// to[p * stride + k] = lane p of values[k], for k < kQuad.
+/// Stores to[p * stride + k] = lane p of values[k], for k < kQuad.
 template <typename V>
 SIMDBEZIER_INLINE void store_across(const V* values, ScalarOf<V>* to, std::size_t stride) {
   constexpr auto kAll = std::make_index_sequence<kQuad<V>>{};

@@ -1,7 +1,7 @@
-// Between arrays of structures and registers whose lanes are structures, in blocks of 8 values.
-// Arithmetic is in double; memory holds float or double. Shuffles inside of 128 bits are nearly
-// free where those across are not, so 4x4 blocks of floats are turned in place and the halves of
-// registers are joined on their way from or to memory.
+// Turns arrays of structures into registers whose lanes are structures, and back, in blocks of 8
+// values. Arithmetic is in double; memory holds float or double. Shuffles inside of 128 bits are
+// nearly free where those across are not, so 4x4 blocks of floats are turned in place and the
+// halves of registers are joined on their way from or to memory.
 #pragma once
 
 #include "kernels/simd/lanes.hpp"
@@ -14,7 +14,7 @@ using Wide = vec<double>;
 inline constexpr std::size_t kWideLanes = kLanes<Wide>;
 inline constexpr std::size_t kTransposed = 8;
 
-/// x rounded to T.
+/// Returns x rounded to T.
 template <typename T>
 SIMDBEZIER_INLINE Wide rounded_to(Wide x) {
   if constexpr (sizeof(T) == sizeof(double)) {
@@ -29,12 +29,17 @@ SIMDBEZIER_INLINE Wide rounded_to(Wide x) {
 #elif defined(SIMDBEZIER_KERNELS_NEON64)
     return Wide(vcvt_f64_f32(vcvt_f32_f64(x)));
 #else
-    return static_cast<double>(static_cast<float>(x));
+    alignas(64) double lanes[kWideLanes];
+    store_vector<Wide>(lanes, x);
+    for (std::size_t p = 0; p < kWideLanes; ++p) {
+      lanes[p] = static_cast<double>(static_cast<float>(lanes[p]));
+    }
+    return load_vector<Wide>(lanes);
 #endif
   }
 }
 
-/// x without its 27 lowest bits: two such values have an exact product.
+/// Returns x without its 27 lowest bits: two such values have an exact product.
 SIMDBEZIER_INLINE Wide leading_bits(Wide x) {
   constexpr unsigned long long kKept = ~0ULL << 27;
 #if defined(SIMDBEZIER_KERNELS_SCALAR)
@@ -51,11 +56,6 @@ SIMDBEZIER_INLINE Wide magnitude(Wide x) {
   return abs(x);
 #endif
 }
-
-#if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2) ||                      \
-    defined(SIMDBEZIER_KERNELS_SSE2)
-SIMDBEZIER_INLINE __m128 low_pairs(__m128 a, __m128 b) { return _mm_movelh_ps(a, b); }
-#endif
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 SIMDBEZIER_INLINE void turn_8x8(__m512d m[8]) {
@@ -88,7 +88,21 @@ SIMDBEZIER_INLINE void turn_4x4(__m256d m[4]) {
 }
 #endif
 
-/// values[k], lane p = from[p * stride + k].
+/// This is load_transposed() for any instruction set, by way of memory.
+template <typename T>
+SIMDBEZIER_INLINE void load_lanes_transposed(const T* from, std::ptrdiff_t stride,
+                                             Wide values[kTransposed]) {
+  alignas(64) double lanes[kWideLanes];
+  for (std::size_t k = 0; k < kTransposed; ++k) {
+    for (std::size_t p = 0; p < kWideLanes; ++p) {
+      lanes[p] = static_cast<double>(
+          from[static_cast<std::ptrdiff_t>(p) * stride + static_cast<std::ptrdiff_t>(k)]);
+    }
+    values[k] = load_vector<Wide>(lanes);
+  }
+}
+
+/// Loads values[k], lane p = from[p * stride + k].
 SIMDBEZIER_INLINE void load_transposed(const float* from, std::ptrdiff_t stride,
                                        Wide values[kTransposed]) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
@@ -127,14 +141,7 @@ SIMDBEZIER_INLINE void load_transposed(const float* from, std::ptrdiff_t stride,
     values[k + 3] = Wide(_mm_cvtps_pd(_mm_movehl_ps(high, high)));
   }
 #else
-  alignas(64) double lanes[kWideLanes];
-  for (std::size_t k = 0; k < kTransposed; ++k) {
-    for (std::size_t p = 0; p < kWideLanes; ++p) {
-      lanes[p] = static_cast<double>(
-          from[static_cast<std::ptrdiff_t>(p) * stride + static_cast<std::ptrdiff_t>(k)]);
-    }
-    values[k] = load_vector<Wide>(lanes);
-  }
+  load_lanes_transposed(from, stride, values);
 #endif
 }
 
@@ -168,17 +175,11 @@ SIMDBEZIER_INLINE void load_transposed(const double* from, std::ptrdiff_t stride
     values[k + 1] = Wide(_mm_unpackhi_pd(a, b));
   }
 #else
-  alignas(64) double lanes[kWideLanes];
-  for (std::size_t k = 0; k < kTransposed; ++k) {
-    for (std::size_t p = 0; p < kWideLanes; ++p) {
-      lanes[p] = from[static_cast<std::ptrdiff_t>(p) * stride + static_cast<std::ptrdiff_t>(k)];
-    }
-    values[k] = load_vector<Wide>(lanes);
-  }
+  load_lanes_transposed(from, stride, values);
 #endif
 }
 
-#if defined(SIMDBEZIER_KERNELS_SCALAR) || defined(SIMDBEZIER_KERNELS_NEON64)
+/// This is store_transposed() for any instruction set, by way of memory.
 template <typename T>
 SIMDBEZIER_INLINE void store_lanes_transposed(const Wide values[kTransposed], T* to,
                                               std::ptrdiff_t stride) {
@@ -191,10 +192,9 @@ SIMDBEZIER_INLINE void store_lanes_transposed(const Wide values[kTransposed], T*
     }
   }
 }
-#endif
 
-/// to[p * stride + k] = lane p of values[k], rounded, with +0 for -0. streams: rows that are lines
-/// go past the caches.
+/// Stores to[p * stride + k] = lane p of values[k], rounded, with +0 for -0. streams says that rows
+/// that are lines go past the caches.
 SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], float* to,
                                         std::ptrdiff_t stride, bool /*streams*/ = false) {
 #if defined(SIMDBEZIER_KERNELS_AVX512)
@@ -221,8 +221,8 @@ SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], float* t
   }
 #elif defined(SIMDBEZIER_KERNELS_SSE2)
   for (int k = 0; k < 8; k += 4) {
-    const __m128 a = low_pairs(_mm_cvtpd_ps(values[k]), _mm_cvtpd_ps(values[k + 1]));
-    const __m128 b = low_pairs(_mm_cvtpd_ps(values[k + 2]), _mm_cvtpd_ps(values[k + 3]));
+    const __m128 a = _mm_movelh_ps(_mm_cvtpd_ps(values[k]), _mm_cvtpd_ps(values[k + 1]));
+    const __m128 b = _mm_movelh_ps(_mm_cvtpd_ps(values[k + 2]), _mm_cvtpd_ps(values[k + 3]));
     const __m128 zero = _mm_setzero_ps();
     _mm_storeu_ps(to + k, _mm_add_ps(_mm_shuffle_ps(a, b, 0x88), zero));
     _mm_storeu_ps(to + k + stride, _mm_add_ps(_mm_shuffle_ps(a, b, 0xdd), zero));
@@ -267,7 +267,7 @@ SIMDBEZIER_INLINE void store_transposed(const Wide values[kTransposed], double* 
 #endif
 }
 
-/// Two blocks side by side; 16 floats of one place are a cache line.
+/// Stores two blocks side by side. 16 floats of one place are a cache line.
 template <typename T>
 SIMDBEZIER_INLINE void store_transposed_16(const Wide values[2 * kTransposed], T* to,
                                            std::ptrdiff_t stride, bool streams) {

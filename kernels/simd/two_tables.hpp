@@ -12,11 +12,11 @@ class TwoTables {
 
 public:
   explicit SIMDBEZIER_INLINE TwoTables(MaskOf<V> first) : first_(first) {}
-  /// Entry i.
+  /// Returns entry i.
   SIMDBEZIER_INLINE V entry(const T* first, const T* second, std::size_t i) const {
     return select_where<V>(first_, broadcast<V>(first[i]), broadcast<V>(second[i]));
   }
-  /// PairSelector::replace() by entries i and i + 1.
+  /// This is PairSelector::replace() by entries i and i + 1.
   SIMDBEZIER_INLINE V replace(const PairSelector<V>& pairs, V inside, const T* first,
                               const T* second, std::size_t i) const {
     return select_where<V>(first_, pairs.replace(inside, first + i),
@@ -28,8 +28,8 @@ private:
 };
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-// Both tables in one register, of which each entry is one permutation: broadcasts from memory, two
-// for each entry, would take as long as all else that columns take.
+// Both tables are in one register, of which each entry is one permutation: broadcasts from memory,
+// two for each entry, would take as long as all else that columns take.
 template <>
 class TwoTables<vec<float>> {
   using V = vec<float>;

@@ -37,28 +37,22 @@
 #define SIMDBEZIER_PART inline
 #endif
 #define SIMDBEZIER_INLINE inline __attribute__((always_inline))
-/// The same for lambdas: [&](int a) SIMDBEZIER_INLINE_LAMBDA { … }
+/// Lambdas say it so: [&](int a) SIMDBEZIER_INLINE_LAMBDA { … }
 #define SIMDBEZIER_INLINE_LAMBDA __attribute__((always_inline))
 /// A kernel that seldom runs: small rather than fast, and out of the way of the others.
 #define SIMDBEZIER_RARE SIMDBEZIER_KERNEL __attribute__((cold))
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-#if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512) ||                      \
-    defined(SIMDBEZIER_KERNELS_NEON64)
-inline constexpr bool kFused = true;
-#else
-inline constexpr bool kFused = false;
-#endif
+// These are two columns of the table in cmake/isa.cmake.
+
+/// Whether a multiplication and an addition have one rounding.
+inline constexpr bool kFused = SIMDBEZIER_FUSES != 0;
 
 /// Whether this is one of the instruction sets that hardly any machine depends on. They are there
 /// to be right everywhere, and get one kernel for each purpose: no special code for a size, a
 /// degree or an arrangement that another kernel can handle as well.
-#if defined(SIMDBEZIER_KERNELS_SCALAR) || defined(SIMDBEZIER_KERNELS_SSE2)
-inline constexpr bool kCompact = true;
-#else
-inline constexpr bool kCompact = false;
-#endif
+inline constexpr bool kCompact = SIMDBEZIER_COMPACT != 0;
 
 // Which V holds what -----------------------------------------------------------------------------
 
@@ -147,8 +141,8 @@ SIMDBEZIER_INLINE V vector_fms(V a, V b, V c) {
 }
 #endif
 
-/// a * b + c: rounded once in the FMA class, after each operation elsewhere. Every product that is
-/// added to something goes through here.
+/// Returns a * b + c: rounded once in the FMA class, after each operation elsewhere. Every product
+/// that is added to something goes through here.
 template <typename V>
 SIMDBEZIER_INLINE V madd(V a, V b, V c) {
   if constexpr (!kFused) {
@@ -160,7 +154,8 @@ SIMDBEZIER_INLINE V madd(V a, V b, V c) {
   }
 }
 
-/// a * b - c, as madd. (xsimd 8.1 negates by subtracting from +0, which does not make -0 of +0.)
+/// Returns a * b - c, as madd() does. (xsimd 8.1 negates by subtracting from +0, which does not
+/// make -0 of +0.)
 template <typename V>
 SIMDBEZIER_INLINE V msub(V a, V b, V c) {
   if constexpr (!kFused) {
@@ -192,7 +187,7 @@ SIMDBEZIER_INLINE V vector_divide(V a, V b) {
 }
 #endif
 
-/// Correctly rounded, on every instruction set.
+/// Returns the correctly rounded root, on every instruction set.
 template <typename V>
 SIMDBEZIER_INLINE V square_root(V a) {
   if constexpr (!kIsScalar<V>) {

@@ -12,7 +12,11 @@ namespace {
 // Numbers of C are those of C++; a new Status gets a name in types.h.
 static_assert(static_cast<int>(SIMDBEZIER_NOT_ORIENTABLE) == Status::not_orientable);
 static_assert(static_cast<int>(SIMDBEZIER_OUT_OF_MEMORY) == Status::out_of_memory);
-static_assert(SIMDBEZIER_ISA_NEON64 == static_cast<int>(Isa::neon64));
+#define SIMDBEZIER_INSTRUCTION_SET(name, upper, fuses, runs_here)                                  \
+  static_assert(SIMDBEZIER_ISA_##upper == static_cast<int>(Isa::name));                            \
+  static_assert(static_cast<int>(Isa::name) < kIsas);
+#include "instruction_sets.inc"
+#undef SIMDBEZIER_INSTRUCTION_SET
 static_assert(SIMDBEZIER_HOMOGENEOUS == static_cast<int>(Weights::homogeneous));
 static_assert(SIMDBEZIER_TO_MEMORY == static_cast<int>(Destination::memory));
 static_assert(SIMDBEZIER_CENTRED == static_cast<int>(Parameters::centred));

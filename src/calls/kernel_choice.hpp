@@ -1,4 +1,6 @@
-// The kernels that a call on patches runs are chosen here and nowhere else.
+// Chooses the kernels that a call on patches runs. What they have inside for each kind of outputs,
+// patches of any shape and scattered samples choose by the task: kernels/shape/shape_kernel.hpp,
+// kernels/scattered/scattered_kernel.hpp.
 #pragma once
 
 #include <cstddef>

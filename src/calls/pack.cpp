@@ -54,23 +54,15 @@ private:
     T* const origins =
         storage_.origins == nullptr ? nullptr : storage_.origins + run_.place * shape.origins();
     T* const floor = storage_.normal_floor + run_.place * shape.floors();
+    const PackArrays<T, S> arrays{
+        {shift[0], shift[1], shift[2]}, coefficients, edges, points, origins, floor};
     if (shape.is_bicubic() && !table_.compact) {
-      const PackTask<T, S> task{nets_.points,
-                                nets_.patch_stride,
-                                nets_.row_stride,
-                                nets_.point_stride,
-                                nets_.component_stride,
-                                {shift[0], shift[1], shift[2]},
-                                coefficients,
-                                edges,
-                                points,
-                                origins,
-                                floor,
+      const PackTask<T, S> task{arrays,           nets_.points,       nets_.patch_stride,
+                                nets_.row_stride, nets_.point_stride, nets_.component_stride,
                                 streaming_};
       return packing_kernel<S>(table_)(task, begin, end);
     }
-    const NetPackTask<T, S> task{
-        nets_, shape, {shift[0], shift[1], shift[2]}, coefficients, edges, points, origins, floor};
+    const NetPackTask<T, S> task{arrays, nets_, shape};
     return packing_kernel<S>(*table_.shapes)(task, begin, end);
   }
 

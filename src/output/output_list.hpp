@@ -17,19 +17,6 @@ namespace simdbezier::detail {
 
 static_assert(kCurvatures == kCurvatureKinds);
 
-/// The outputs of patches of which is(Output) holds.
-template <typename Is>
-constexpr OutputSelection outputs_where(const Is& is) noexcept {
-  OutputSelection all;
-  for (std::size_t k = 0; k < kOutputs; ++k) {
-    if (is(static_cast<Output>(k))) {
-      all.add(static_cast<Output>(k));
-    }
-  }
-  return all;
-}
-inline constexpr OutputSelection kSpaceOutputs = outputs_where(needs_space);
-
 /// Calls f(0) … f(kCount - 1), without a loop, so that what is known of each number is known at
 /// compile time: small calls feel loops.
 template <std::size_t kCount, typename F>

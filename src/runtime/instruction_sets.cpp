@@ -1,4 +1,5 @@
-// All instruction sets, whether this build has them or not: one row for each.
+// All instruction sets, whether this build has them or not. instruction_sets.inc is the table of
+// cmake/isa.cmake: SIMDBEZIER_INSTRUCTION_SET(name, NAME, fuses, runs_here) for each of them.
 #include <simdbezier/isa.hpp>
 
 #include "src/runtime/dispatch.hpp"
@@ -6,47 +7,26 @@
 namespace simdbezier {
 namespace {
 
-using Probe = bool (*)() noexcept;
-
-bool never() noexcept { return false; }
-bool always() noexcept { return true; }
-
-#if defined(__x86_64__)
 // The compiler's built-in honours what the operating system saves (XCR0), which xsimd 8.1's own
 // probe does not.
-bool has_avx2() noexcept {
-  return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
-}
-bool has_avx512() noexcept {
-  return has_avx2() && __builtin_cpu_supports("avx512f") != 0 &&
-         __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
-         __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512vl") != 0;
-}
-constexpr Probe has_sse2 = always; // the baseline
-constexpr Probe has_neon64 = never;
-#else
-constexpr Probe has_sse2 = never;
-constexpr Probe has_avx2 = never;
-constexpr Probe has_avx512 = never;
-#if defined(__aarch64__)
-constexpr Probe has_neon64 = always; // the baseline
-#else
-constexpr Probe has_neon64 = never;
-#endif
-#endif
+#define SIMDBEZIER_CPU_HAS(feature) (__builtin_cpu_supports(feature) != 0)
+
+using Probe = bool (*)() noexcept;
 
 struct InstructionSet {
   Isa isa;
   std::string_view name;
-  bool fuses;      ///< a multiplication and an addition with one rounding
+  bool fuses;      ///< a multiplication and an addition have one rounding
   Probe runs_here; ///< on this machine and its operating system
 };
 
+#define SIMDBEZIER_INSTRUCTION_SET(name, upper, fuses, runs_here)                                  \
+  {Isa::name, #name, fuses, []() noexcept { return runs_here; }},
 constexpr InstructionSet kSets[] = {
-    {Isa::automatic, "automatic", false, never}, {Isa::scalar, "scalar", false, always},
-    {Isa::sse2, "sse2", false, has_sse2},        {Isa::avx2, "avx2", true, has_avx2},
-    {Isa::avx512, "avx512", true, has_avx512},   {Isa::neon64, "neon64", true, has_neon64},
+    {Isa::automatic, "automatic", false, []() noexcept { return false; }},
+#include "instruction_sets.inc"
 };
+#undef SIMDBEZIER_INSTRUCTION_SET
 
 const InstructionSet* find(Isa isa) noexcept {
   for (const InstructionSet& set : kSets) {

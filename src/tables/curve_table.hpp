@@ -29,7 +29,7 @@ struct TangentAnswer {
   SampleStatus status;
 };
 
-/// See src/exact/tangent_fallback.hpp.
+/// Decides a sample in doubt; see src/exact/tangent_fallback.hpp.
 template <typename T>
 using ResolveTangent = void (*)(const TangentQuery<T>& query, TangentAnswer<T>& answer);
 

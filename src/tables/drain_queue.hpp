@@ -1,4 +1,4 @@
-// From staging to the caller's memory: what is left to pass on while a kernel computes.
+// What is left to pass on from staging to the caller's memory while a kernel computes.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,11 @@
 
 namespace simdbezier::detail {
 
-/// Samples that a drain passes on at a time: whole cache lines in every layout.
+/// A drain passes on so many samples at a time: whole cache lines in every layout.
 template <typename T>
 inline constexpr std::size_t kDrainStep = 64 / sizeof(T);
 
-/// Values that a kernel computes before it passes any on: 32 lines.
+/// A kernel computes so many values before it passes any on: 32 lines.
 template <typename T>
 inline constexpr std::size_t kDrainBurst = 32 * kDrainStep<T>;
 

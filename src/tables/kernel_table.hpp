@@ -11,11 +11,13 @@
 #include <simdbezier/sample_status.hpp>
 
 #include "src/storage/patch_arrays.hpp"
+#include "src/tables/output_needs.hpp"
 
 namespace simdbezier {
 
-/// The number of an output's planes in a task. A class of planes that enumerators index costs tiles
-/// up to a twentieth of their speed: its operators are functions when g++ first sees them.
+/// Returns the number of an output's planes in a task. A class of planes that enumerators index
+/// costs tiles up to a twentieth of their speed: its operators are functions when g++ first sees
+/// them.
 constexpr std::size_t output_index(Output output) noexcept {
   return static_cast<std::size_t>(output);
 }
@@ -131,21 +133,31 @@ enum OutputSet : std::size_t {
   kOutputSets
 };
 
-/// Nets to pack, and where the arrays of patch 0 begin.
-template <typename T, typename S>
-struct PackTask {
-  const S* points;
-  std::ptrdiff_t patch_stride;
-  std::ptrdiff_t row_stride;
-  std::ptrdiff_t point_stride;
-  std::ptrdiff_t component_stride;
-  double relative_to[3];
+/// Returns how far the derivatives go that a set of outputs is computed from.
+constexpr std::size_t depth(OutputSet outputs) noexcept {
+  return outputs == kPosition ? 0 : outputs == kSecondDerivatives ? 2 : 1;
+}
 
+/// What packs of all shapes have in common: where the arrays of patch 0 begin, and what positions
+/// become relative to.
+template <typename T, typename S>
+struct PackArrays {
+  double relative_to[3]; ///< of the first three components
   T* coefficients;
   T* edges;
   S* control_points; ///< as given, see given_points.hpp
   T* origins;        ///< null where none are wanted
   T* normal_floor;
+};
+
+/// Bicubic nets in space to pack.
+template <typename T, typename S>
+struct PackTask : PackArrays<T, S> {
+  const S* points;
+  std::ptrdiff_t patch_stride;
+  std::ptrdiff_t row_stride;
+  std::ptrdiff_t point_stride;
+  std::ptrdiff_t component_stride;
   bool streaming; ///< past the caches where lines are whole; KernelTable::fence() completes that
 };
 
@@ -160,7 +172,7 @@ struct PackDoubt {
 template <typename T, typename S>
 using PackKernel = PackDoubt (*)(const PackTask<T, S>& task, std::size_t begin, std::size_t end);
 
-/// The packing kernel of `table` for control points in S.
+/// Returns the packing kernel of `table` for control points in S.
 template <typename S, typename Table>
 constexpr auto packing_kernel(const Table& table) noexcept {
   if constexpr (std::is_same_v<S, float>) {
@@ -170,18 +182,11 @@ constexpr auto packing_kernel(const Table& table) noexcept {
   }
 }
 
-/// Nets of any shape to pack, and where the arrays of patch 0 begin.
+/// Nets of any shape to pack.
 template <typename T, typename S>
-struct NetPackTask {
+struct NetPackTask : PackArrays<T, S> {
   ControlNets<S> nets;
   NetShape shape;
-  double relative_to[3]; ///< of the first three components
-
-  T* coefficients;
-  T* edges;
-  S* control_points; ///< as given, see given_points.hpp
-  T* origins;        ///< null where none are wanted
-  T* normal_floor;
 };
 
 template <typename T, typename S>

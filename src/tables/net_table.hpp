@@ -10,7 +10,7 @@
 
 namespace simdbezier::detail {
 
-/// Bytes of one value of a group, whatever the instruction set and the type.
+/// One value of a group has so many bytes, whatever the instruction set and the type.
 inline constexpr std::size_t kLineBytes = 64;
 
 /// Nets in memory, read or written: ControlNets and MutableNets with sizes instead of degrees.
@@ -44,7 +44,8 @@ struct Weighting {
   T complement;
 };
 
-/// Cuts in u (into out[0] and out[1]), in v (out[0] and out[2]), or both. Scratch: three nets.
+/// Cuts in u (into out[0] and out[1]), in v (out[0] and out[2]), or both. The scratch has room for
+/// three nets.
 template <typename T>
 struct SplitTask {
   NetView<const T> in;
@@ -55,7 +56,7 @@ struct SplitTask {
   Weighting<T> v;
 };
 
-/// Scratch: four nets.
+/// A piece of each net. Its scratch has room for four nets.
 template <typename T>
 struct SegmentTask {
   NetView<const T> in;
@@ -89,7 +90,8 @@ struct LinearMap {
   bool keeps_constants = false; ///< rows sum to 1: of equal values comes that value
 };
 
-/// Maps both directions, in double. Scratch: three nets of the larger order in each direction.
+/// Maps both directions, in double. The scratch has room for three nets of the larger order in each
+/// direction.
 template <typename T>
 struct MapTask {
   NetView<const T> in;
@@ -100,7 +102,7 @@ struct MapTask {
   KeptPoints kept_v;
 };
 
-/// Scratch: one net, and two for each level.
+/// Boxes of nets. Their scratch has room for one net, and two for each level.
 template <typename T>
 struct BoxTask {
   NetView<const T> in;
@@ -109,7 +111,7 @@ struct BoxTask {
   int levels; ///< 0: boxes of the control points
 };
 
-/// Scratch: one net.
+/// Distances from bilinear patches. Their scratch has room for one net.
 template <typename T>
 struct FlatnessTask {
   NetView<const T> in;
@@ -117,7 +119,7 @@ struct FlatnessTask {
   T root_components; ///< sqrt(components), rounded up
 };
 
-/// Rates of bicubic patches: tables/rate_task.hpp.
+/// The rates of bicubic patches are in src/tables/rate_task.hpp.
 template <typename T>
 struct RateTask;
 

@@ -10,7 +10,7 @@ namespace simdbezier::detail {
 inline constexpr std::uint32_t kUndecided = 0xffffffff;
 
 /// Certifies rates, given ones or those that the kernel chooses, for bicubic polynomial nets of
-/// three components. Scratch: kRateValues values.
+/// three components. The scratch has kRateValues values.
 template <typename T>
 struct RateTask {
   NetView<const T> in;
@@ -25,8 +25,8 @@ struct RateTask {
   double* deviations;       ///< -1 where undecided
 };
 
-/// Values of scratch, as NetTable's other kernels count them: points, and the nets of four quarters
-/// side by side.
+/// The scratch has so many values, as NetTable's other kernels count them: points, and the nets of
+/// four quarters side by side.
 inline constexpr std::size_t kRateValues = 3 * 16 + 9 * 7 * 7 + 4 * 3;
 
 } // namespace simdbezier::detail

@@ -1,4 +1,4 @@
-# cmake -DNM=… -DOBJDUMP=… -DISA=avx2 -DOBJECTS=a.o;b.o -P check_symbols.cmake
+# cmake -DNM=… -DOBJDUMP=… -DISA=avx2 -DCOMPACT=0 -DOBJECTS=a.o;b.o -P check_symbols.cmake
 # Fails on a weak or global definition whose name does not carry the instruction set, on
 # initialisers that would run on every machine, and where a kernel's prefetches are missing, which
 # compilers drop from functions that seem to do nothing else.
@@ -23,7 +23,7 @@ foreach(object IN LISTS OBJECTS)
   set(prefetching)
   if(object MATCHES "shape_kernels")
     set(prefetching scatter_shape)
-  elseif(object MATCHES "bicubic_kernels" AND NOT ISA MATCHES "^(scalar|sse2)$")
+  elseif(object MATCHES "bicubic_kernels" AND NOT COMPACT)
     set(prefetching sweep_tile evaluate_block)
   endif()
   if(prefetching)

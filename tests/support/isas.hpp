@@ -10,7 +10,14 @@
 
 namespace simdbezier::tests {
 
-inline constexpr Isa kEveryIsa[] = {Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512, Isa::neon64};
+/// Every instruction set that has a name, whether this build has it or not.
+inline const std::vector<Isa> kEveryIsa = [] {
+  std::vector<Isa> isas;
+  for (unsigned k = 1; isa_from_name(to_string(static_cast<Isa>(k))); ++k) {
+    isas.push_back(static_cast<Isa>(k));
+  }
+  return isas;
+}();
 
 [[nodiscard]] inline bool is_available(Isa isa) {
   return std::ranges::count(available_isas(), isa) > 0;

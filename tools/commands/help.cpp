@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <simdbezier/isa.hpp>
+
 namespace simdbezier::tools {
 
 namespace {
@@ -35,11 +37,22 @@ constexpr CommandText kCommandTexts[] = {
 constexpr std::string_view kExitCodes =
     "Exit codes: 0 done, 1 bad input or failed write, 2 bad usage.\n";
 constexpr std::string_view kEnvironment =
-    "SIMDBEZIER_ISA=scalar|sse2|avx2|avx512|neon64 in the environment overrides the\n"
+    " in the environment overrides the\n"
     "choice of instruction set, SIMDBEZIER_DESTINATION=memory|cache whether large\n"
     "results go past the caches, SIMDBEZIER_SPLIT_STORES=slow|fast what is measured\n"
     "otherwise; OMP_NUM_THREADS limits what --threads 0 takes.\n"
     "TMPDIR names the folder of temporary files where the output is a pipe.\n";
+
+// What the environment may say, whichever instruction sets this machine has.
+std::string environment() {
+  std::string text = "SIMDBEZIER_ISA=";
+  std::string_view separator;
+  for (unsigned k = 1; isa_from_name(to_string(static_cast<Isa>(k))); ++k) {
+    text += std::string(separator) + std::string(to_string(static_cast<Isa>(k)));
+    separator = "|";
+  }
+  return text + std::string(kEnvironment);
+}
 
 // A term and what it means, in lines of at most kWidth.
 std::string explained(const std::string& term, std::string_view meaning) {
@@ -98,7 +111,7 @@ std::string program_help() {
   }
   return text + "\nOptions:\n" + options_of("simdbezier") + "\nExamples:\n" + indented(examples) +
          "\n'simdbezier COMMAND --help' lists the options of a command.\n" +
-         std::string(kExitCodes) + std::string(kEnvironment);
+         std::string(kExitCodes) + environment();
 }
 
 } // namespace
@@ -111,7 +124,7 @@ std::string help_text(std::optional<Command> command) {
   const std::string name(text.name);
   return "usage: simdbezier " + name + " " + std::string(text.usage) + "\n\n" +
          std::string(text.purpose) + "\n\nOptions:\n" + options_of(name) + "\nExamples:\n" +
-         indented(text.examples) + "\n" + std::string(kExitCodes) + std::string(kEnvironment);
+         indented(text.examples) + "\n" + std::string(kExitCodes) + environment();
 }
 
 } // namespace simdbezier::tools

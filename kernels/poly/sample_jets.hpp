@@ -1,7 +1,7 @@
 // Samples with their derivatives, and the quotient rule of rational patches and curves.
 #pragma once
 
-#include "kernels/shape/shape_formulas.hpp"
+#include "kernels/poly/series.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -40,14 +40,15 @@ struct Quotient {
   SIMDBEZIER_INLINE V first(V h_x, V s, V minus_w_x) const {
     return madd(s, minus_w_x, h_x) * inverse;
   }
-  /// s_x, s_y: first derivatives of S; twice the same where this is not a mixed one.
+  /// s_x and s_y are first derivatives of S; they are the same one where this is not a mixed one.
   SIMDBEZIER_INLINE V second(V h_xy, V s, V s_x, V s_y, V minus_w_x, V minus_w_y,
                              V minus_w_xy) const {
     return madd(s_y, minus_w_x, madd(s_x, minus_w_y, madd(s, minus_w_xy, h_xy))) * inverse;
   }
 };
 
-/// The quotient rule: h and its derivatives become those of h / w. The weight's are negated.
+/// Divides a series by the quotient rule: h and its derivatives become those of h / w. The weight's
+/// are negated.
 template <std::size_t kDepth, typename V>
 SIMDBEZIER_INLINE void divide_series(const Quotient<V>& quotient, const Series<V>& weight,
                                      Series<V>& s) {

@@ -28,18 +28,6 @@ private:
   std::size_t order_;
 };
 
-/// repeat() for every coefficient, but a loop where the compiler does not know how many there are.
-template <std::size_t kFixed, typename F>
-SIMDBEZIER_INLINE void for_coefficients(Order<kFixed> order, const F& f) {
-  if constexpr (kFixed != 0) {
-    repeat<kFixed>(f);
-  } else {
-    for (std::size_t k = 0; k < order.value(); ++k) {
-      f(k);
-    }
-  }
-}
-
 /// A polynomial's value, first and second derivative, the latter two as far as kDepth goes, while
 /// Horner's rule runs through its coefficients: the last two, then one after the other.
 template <typename V>
@@ -96,8 +84,8 @@ struct Series {
   }
 };
 
-/// sum_k c(k) t^k, and derivatives up to kDepth, for order >= 2, at kCount parameters at once,
-/// which share the loads of coefficients and hide each other's latency.
+/// Finds sum_k c(k) t^k, and derivatives up to kDepth, for order >= 2, at kCount parameters at
+/// once, which share the loads of coefficients and hide each other's latency.
 template <std::size_t kDepth, std::size_t kCount, typename V, typename N, typename Coefficient>
 SIMDBEZIER_INLINE void horner_rows(N order, const V* t, const Coefficient& c, Series<V>* s) {
   const std::size_t degree = order.value() - 1;
@@ -116,26 +104,36 @@ SIMDBEZIER_INLINE void horner_rows(N order, const V* t, const Coefficient& c, Se
   each([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA { s[i].template finish<kDepth>(degree, t[i]); });
 }
 
-/// The same of a row, an edge or a curve with kOrder coefficients, by even and odd parts; `second`
-/// is half of it. Single values, where objects would end up in memory.
-template <std::size_t kDepth, std::size_t kOrder, typename V, typename Coefficient>
-SIMDBEZIER_INLINE void even_odd_series(V t, const Coefficient& c, Series<V>& s) {
-  const V square = t * t;
-  V even_first = c(2);
-  if constexpr (kOrder > 4) {
+/// The upper ends of the even and the odd part of a polynomial of kTerms coefficients, as Horner's
+/// rule in t^2 begins with them. Here and below results are single values, since objects would end
+/// up in memory.
+template <std::size_t kTerms, typename V, typename Coefficient>
+SIMDBEZIER_INLINE void begin_even_odd(V square, const Coefficient& c, V& even_first, V& odd_first) {
+  even_first = c(2);
+  if constexpr (kTerms > 4) {
     even_first = madd(c(4), square, even_first);
   }
-  V odd_first = c(3);
-  if constexpr (kOrder > 5) {
+  odd_first = c(3);
+  if constexpr (kTerms > 5) {
     odd_first = madd(c(5), square, odd_first);
   }
+}
+
+/// The series of a row, an edge or a curve with kTerms coefficients, by even and odd parts;
+/// `second` is half of the second derivative.
+template <std::size_t kDepth, std::size_t kTerms, typename V, typename Coefficient>
+SIMDBEZIER_INLINE void even_odd_series(V t, const Coefficient& c, Series<V>& s) {
+  const V square = t * t;
+  V even_first;
+  V odd_first;
+  begin_even_odd<kTerms>(square, c, even_first, odd_first);
   const V odd = madd(odd_first, square, c(1));
   s.value = madd(even_first, square, c(0)) + t * odd;
   if constexpr (kDepth > 0) {
-    if constexpr (kOrder > 4) {
+    if constexpr (kTerms > 4) {
       even_first = madd(c(4), square, even_first);
     }
-    if constexpr (kOrder > 5) {
+    if constexpr (kTerms > 5) {
       odd_first = madd(c(5), square, odd_first);
     }
     s.first = madd(odd_first, square + square, odd) + (t + t) * even_first;
@@ -143,60 +141,55 @@ SIMDBEZIER_INLINE void even_odd_series(V t, const Coefficient& c, Series<V>& s) 
   if constexpr (kDepth > 1) {
     const V twice = square + square;
     V half_odd = ((t + t) + t) * odd_first;
-    if constexpr (kOrder > 5) {
+    if constexpr (kTerms > 5) {
       half_odd = madd(c(5), (twice + twice) * t, half_odd);
     }
-    if constexpr (kOrder > 4) {
+    if constexpr (kTerms > 4) {
       even_first = madd(c(4), twice + twice, even_first);
     }
     s.second = even_first + half_odd;
   }
 }
 
-/// The two parts of its value, of which -t has the difference. Plain values, as above.
-template <std::size_t kOrder, typename V, typename Coefficient>
+/// The even and the odd part of the value: their sum is the value at t, their difference that at
+/// -t.
+template <std::size_t kTerms, typename V, typename Coefficient>
 SIMDBEZIER_INLINE void even_odd_parts(V t, const Coefficient& c, V& even, V& odd) {
   const V square = t * t;
-  V even_first = c(2);
-  if constexpr (kOrder > 4) {
-    even_first = madd(c(4), square, even_first);
-  }
-  V odd_first = c(3);
-  if constexpr (kOrder > 5) {
-    odd_first = madd(c(5), square, odd_first);
-  }
+  V even_first;
+  V odd_first;
+  begin_even_odd<kTerms>(square, c, even_first, odd_first);
   even = madd(even_first, square, c(0));
   odd = t * madd(odd_first, square, c(1));
 }
 
-/// Those of its slope.
-template <std::size_t kOrder, typename V, typename Coefficient>
+/// The even and the odd part of the slope, as even_odd_parts() has those of the value.
+template <std::size_t kTerms, typename V, typename Coefficient>
 SIMDBEZIER_INLINE void even_odd_slope_parts(V t, const Coefficient& c, V& even, V& odd) {
   const V square = t * t;
-  V even_first = c(2);
-  if constexpr (kOrder > 4) {
-    even_first = madd(c(4), square, madd(c(4), square, even_first));
-  }
-  V odd_first = c(3);
-  if constexpr (kOrder > 5) {
-    odd_first = madd(c(5), square, odd_first);
+  V even_first;
+  V odd_first;
+  begin_even_odd<kTerms>(square, c, even_first, odd_first);
+  if constexpr (kTerms > 4) {
+    even_first = madd(c(4), square, even_first);
   }
   const V value_odd = madd(odd_first, square, c(1));
-  if constexpr (kOrder > 5) {
+  if constexpr (kTerms > 5) {
     odd_first = madd(c(5), square, odd_first);
   }
   even = madd(odd_first, square + square, value_odd);
   odd = (t + t) * even_first;
 }
 
-/// The same of an order that takes even and odd parts, at kCount parameters at once.
+/// This is even_odd_series() of an order that takes even and odd parts, at kCount parameters at
+/// once.
 template <std::size_t kDepth, std::size_t kCount, std::size_t kFixed, typename V,
           typename Coefficient>
 SIMDBEZIER_INLINE void even_odd_rows(Order<kFixed> order, const V* t, const Coefficient& c,
                                      Series<V>* s) {
-  const auto each = [&]<std::size_t kOrder>() SIMDBEZIER_INLINE_LAMBDA {
+  const auto each = [&]<std::size_t kTerms>() SIMDBEZIER_INLINE_LAMBDA {
     repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
-      even_odd_series<kDepth, kOrder>(t[i], c, s[i]);
+      even_odd_series<kDepth, kTerms>(t[i], c, s[i]);
     });
   };
   if constexpr (kFixed != 0) {
@@ -210,7 +203,7 @@ SIMDBEZIER_INLINE void even_odd_rows(Order<kFixed> order, const V* t, const Coef
   }
 }
 
-/// The same of any row, edge or curve, at kCount parameters at once.
+/// Finds the series of any row, edge or curve, at kCount parameters at once.
 template <std::size_t kDepth, std::size_t kCount, std::size_t kFixed, typename V,
           typename Coefficient>
 SIMDBEZIER_INLINE void rows_series(Order<kFixed> order, const V* t, const Coefficient& c,
@@ -234,10 +227,10 @@ SIMDBEZIER_INLINE Series<V> row_series(Order<kFixed> order, V t, const Coefficie
   return s;
 }
 
-/// The same of kCount polynomials at one parameter: columns, whose coefficients stand in memory as
-/// [power][polynomial], with `step` from one power to the next; load: from an address and the
-/// polynomial's number to a register. Their sums stay in registers while the loop runs, however
-/// long it is, and one address serves all of them.
+/// This is horner_rows() of kCount polynomials at one parameter: columns, whose coefficients stand
+/// in memory as [power][polynomial], with `step` from one power to the next. load turns an address
+/// and the polynomial's number into a register. The sums stay in registers while the loop runs,
+/// however long it is, and one address serves all of them.
 template <std::size_t kDepth, std::size_t kCount, typename V, typename N, typename Load>
 SIMDBEZIER_INLINE void horner_series_abreast(N order, V t, const ScalarOf<V>* coefficients,
                                              std::size_t step, const Load& load, Series<V>* s) {
@@ -261,8 +254,8 @@ SIMDBEZIER_INLINE void horner_series_abreast(N order, V t, const ScalarOf<V>* co
                      SIMDBEZIER_INLINE_LAMBDA { s[i].template finish<kDepth>(degree, t); });
 }
 
-/// A half-centred parameter of a direction that is cut in two, half-centred in its cell. One
-/// rounding, and odd: the cells of a reversed direction see mirrored parameters.
+/// Returns a half-centred parameter of a direction that is cut in two, half-centred in its cell.
+/// There is one rounding, and it is odd: the cells of a reversed direction see mirrored parameters.
 template <typename V>
 SIMDBEZIER_INLINE V cell_parameter(V x) {
   using T = ScalarOf<V>;
