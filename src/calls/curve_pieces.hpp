@@ -56,7 +56,7 @@ struct CurvePiece {
 };
 
 /// Samples of a piece where outputs are staged: curves are short, and a piece of fewer than two of
-/// the kernels' blocks (kernels/curve/curve_kernel.hpp) costs more than it gains by staying in the
+/// the kernels' blocks (kernels/curve/curve_blocks.hpp) costs more than it gains by staying in the
 /// first-level cache.
 template <typename T>
 [[nodiscard]] std::size_t staged_samples(const OutputPlan<T>& outputs) noexcept {
