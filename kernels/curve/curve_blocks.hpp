@@ -26,6 +26,7 @@ struct CurveBlock {
   std::size_t end;
 };
 
+/// Calls body(block) for all curves of a task, and passes on what was staged before in between.
 template <typename T, typename Body>
 SIMDBEZIER_INLINE void for_curve_blocks(const CurveTask<T>& task, std::size_t values, Body body) {
   const std::size_t most = task.n < kBlockSamples ? kBlockSamples / task.n : 1;
@@ -62,6 +63,7 @@ SIMDBEZIER_INLINE void for_curves(const CurveTask<T>& task, CurveBlock block, st
   }
 }
 
+/// Returns how many values a task writes for each sample, so far as they are vectors.
 template <typename T>
 SIMDBEZIER_PART std::size_t values_per_sample(const CurveTask<T>& task) {
   std::size_t values = 0;

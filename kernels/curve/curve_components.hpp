@@ -3,7 +3,8 @@
 //
 // Curves of few samples are swept side by side, so that one register of parameters serves a block
 // of them, and their coefficients come from the first-level cache. Long curves are swept one after
-// the other, with their coefficients in registers: the parameters are fewer to load then.
+// the other, with their coefficients in registers: a register of samples then loads its parameters
+// and the ends alone.
 #pragma once
 
 #include "kernels/curve/curve_blocks.hpp"
@@ -23,6 +24,9 @@ struct ComponentPlanes {
         d1(task.out[output_index(CurveOutput::d1)].component[slot]),
         d2(task.out[output_index(CurveOutput::d2)].component[slot]) {}
 
+  [[nodiscard]] SIMDBEZIER_INLINE bool wanted() const {
+    return position != nullptr || d1 != nullptr || d2 != nullptr;
+  }
   /// Stores what is wanted of a register of samples.
   template <std::size_t kDepth, bool kHalves, bool kMixed, typename V>
   SIMDBEZIER_INLINE void store(const CurveRange<V>& range, const CurveShape& shape,
@@ -126,19 +130,13 @@ SIMDBEZIER_PART void store_ends(const CurveTask<T>& task, const CurveShape& shap
   const T* const values = task.values + (shape.cells() - 1) * shape.cell_values() +
                           (task.first_component + slot) * shape.channel_values() + shape.ends_at() +
                           1;
-  T* const position = task.out[output_index(CurveOutput::position)].component[slot] + task.n - 1;
+  T* const position = ComponentPlanes<T>(task, slot).position + task.n - 1;
   for (std::size_t curve = block.begin; curve < block.end; ++curve) {
     move_value(position + curve * task.n, values + curve * shape.values());
   }
 }
 
-template <typename T>
-SIMDBEZIER_PART bool wants_slot(const CurveTask<T>& task, std::size_t slot) {
-  return task.out[output_index(CurveOutput::position)].component[slot] != nullptr ||
-         task.out[output_index(CurveOutput::d1)].component[slot] != nullptr ||
-         task.out[output_index(CurveOutput::d2)].component[slot] != nullptr;
-}
-
+/// Sweeps all curves, a few of them at a time.
 template <std::size_t kKnownOrder, bool kHalves, std::size_t kDepth, typename T>
 SIMDBEZIER_KERNEL void sweep_components(const CurveTask<T>& shared_task) {
   using V = vec<T>;
@@ -150,7 +148,7 @@ SIMDBEZIER_KERNEL void sweep_components(const CurveTask<T>& shared_task) {
   const std::size_t swept = task.n - (lone_end ? 1 : 0);
   for_curve_blocks(task, values_per_sample(task), [&](CurveBlock block) SIMDBEZIER_INLINE_LAMBDA {
     for (std::size_t slot = 0; slot < 3; ++slot) {
-      if (!wants_slot(task, slot)) {
+      if (!ComponentPlanes<T>(task, slot).wanted()) {
         continue;
       }
       sweep_slot<V, kKnownOrder, kHalves, kDepth>(task, shape, block, swept, slot);
