@@ -7,6 +7,8 @@
 // quotients of the last one are on their way. Normals of both patches meet in registers.
 #pragma once
 
+#include <algorithm>
+
 #include "kernels/drain/drain_kernel.hpp"
 #include "kernels/poly/bicubic.hpp"
 #include "kernels/poly/normal_lanes.hpp"
@@ -14,42 +16,52 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// A register of parameters on a side v = const (kAlongU) or u = const.
-template <bool kAlongU, typename V>
+/// R registers of parameters on a side v = const (kAlongU) or u = const.
+template <bool kAlongU, std::size_t R, typename V>
 struct SidePoints {
   using T = ScalarOf<V>;
 
-  V along;
+  V along[R];
   V across; ///< -1/2 or 1/2, in all lanes
-  RowPoint<V> point;
-  RowPoint<V> end;
 
-  SIMDBEZIER_PART SidePoints(V parameters, V of_side)
-      : along(parameters), across(of_side), point(parameters), end(of_side) {}
+  SIMDBEZIER_PART SidePoints(const V (&parameters)[R], V of_side) : across(of_side) {
+    std::copy_n(parameters, R, along);
+  }
 
-  /// Returns one component's position, and finds the derivative along the side.
-  SIMDBEZIER_PART V position(const Component<T>& c, std::size_t edge, V& slope) const {
+  /// Finds component `at` of the positions, and of the derivatives along the side.
+  SIMDBEZIER_PART void positions(const Component<T>& c, std::size_t at, std::size_t edge,
+                                 V (&values)[R][3], V (&slopes)[R][3]) const {
     V k[kOrder];
     edge_cubic(c, edge, k);
-    const V value = row_value(k, point, slope);
-    if (c.origins != nullptr) [[unlikely]] {
-      return value + broadcast<V>(c.origin()[detail::kEdgeOriginsAt + edge]);
+    for (std::size_t r = 0; r < R; ++r) {
+      values[r][at] = row_value(k, RowPoint<V>(along[r]), slopes[r][at]);
+      if (c.origins != nullptr) [[unlikely]] {
+        values[r][at] = values[r][at] + broadcast<V>(c.origin()[detail::kEdgeOriginsAt + edge]);
+      }
     }
-    return value;
   }
-  /// Returns the derivative across the side, which its control points do not determine.
-  SIMDBEZIER_PART V slope_across(const Component<T>& c) const {
-    V q[kOrder];
+  /// Finds component `at` of the derivatives across the side, which its control points do not
+  /// determine.
+  SIMDBEZIER_PART void slopes_across(const Component<T>& c, std::size_t at,
+                                     V (&slopes)[R][3]) const {
     if constexpr (kAlongU) {
+      V q[R][kOrder];
       for (std::size_t l = 0; l < kOrder; ++l) {
         V k[kOrder];
         matrix_column(c, l, k);
-        q[l] = horner(k, along);
+        for (std::size_t r = 0; r < R; ++r) {
+          q[r][l] = horner(k, along[r]);
+        }
       }
-      return row_slope(q, end);
+      for (std::size_t r = 0; r < R; ++r) {
+        slopes[r][at] = row_slope(q[r], RowPoint<V>(across));
+      }
     } else {
+      V q[kOrder];
       column_slopes(c, q);
-      return row_value(q, point);
+      for (std::size_t r = 0; r < R; ++r) {
+        slopes[r][at] = row_value(q, RowPoint<V>(along[r]));
+      }
     }
   }
 
@@ -87,34 +99,45 @@ SIMDBEZIER_RARE void resolve_side(const detail::EdgeTask<ScalarOf<V>>& task, std
   }
 }
 
-/// Computes one patch's positions and normals at a register of points, of which `count` are wanted.
-template <bool kAlongU, typename V>
-SIMDBEZIER_PART void side_register(const detail::EdgeTask<ScalarOf<V>>& task,
-                                   const detail::EdgeTask<ScalarOf<V>>& shared_task,
-                                   const typename detail::EdgeJob<ScalarOf<V>>::Member& member,
-                                   V along_side, std::size_t count, V p[3], V n[3]) {
+/// Computes one patch's positions and normals at R registers of points, of which the first `count`
+/// lanes each are wanted.
+template <bool kAlongU, std::size_t R, typename V>
+SIMDBEZIER_PART void side_registers(const detail::EdgeTask<ScalarOf<V>>& task,
+                                    const detail::EdgeTask<ScalarOf<V>>& shared_task,
+                                    const typename detail::EdgeJob<ScalarOf<V>>::Member& member,
+                                    const V (&along_side)[R], std::size_t count, V (&p)[R][3],
+                                    V (&n)[R][3]) {
   using T = ScalarOf<V>;
   static_assert(detail::kEdgeV0 == 0 && detail::kEdgeV1 == 1 && detail::kEdgeU0 == 2);
   const bool far = member.side % 2 != 0;
-  const SidePoints<kAlongU, V> points(along_side, broadcast<V>(far ? T(0.5) : T(-0.5)));
-  V along[3];
-  V across[3];
+  const SidePoints<kAlongU, R, V> points(along_side, broadcast<V>(far ? T(0.5) : T(-0.5)));
+  V along[R][3];
+  V across[R][3];
   Component<T> component(task, member.patch, 0);
   for (std::size_t c = 0; c < 3; ++c, component = component.next()) {
-    p[c] = points.position(component, member.side, along[c]);
-    across[c] = points.slope_across(component);
+    points.positions(component, c, member.side, p, along);
+    points.slopes_across(component, c, across);
   }
   if (!task.out[output_index(Output::normal)].wanted()) {
     return;
   }
-  const V squared = kAlongU ? cross_product(along, across, n) : cross_product(across, along, n);
-  normalise(n, squared);
-  if (!all_of<V>(squared > broadcast<V>(task.normal_floor[member.patch]))) [[unlikely]] {
-    V again[3] = {n[0], n[1], n[2]};
-    resolve_side(shared_task, member.patch, count, kAlongU ? points.along : points.across,
-                 kAlongU ? points.across : points.along, squared, again);
-    for (std::size_t c = 0; c < 3; ++c) {
-      n[c] = again[c];
+  const V floor = broadcast<V>(task.normal_floor[member.patch]);
+  V squared[R];
+  for (std::size_t r = 0; r < R; ++r) {
+    squared[r] = kAlongU ? cross_product(along[r], across[r], n[r])
+                         : cross_product(across[r], along[r], n[r]);
+  }
+  for (std::size_t r = 0; r < R; ++r) {
+    normalise(n[r], squared[r]);
+  }
+  for (std::size_t r = 0; r < R; ++r) {
+    if (!all_of<V>(squared[r] > floor)) [[unlikely]] {
+      V again[3] = {n[r][0], n[r][1], n[r][2]};
+      resolve_side(shared_task, member.patch, count, kAlongU ? points.along[r] : points.across,
+                   kAlongU ? points.across : points.along[r], squared[r], again);
+      for (std::size_t c = 0; c < 3; ++c) {
+        n[r][c] = again[c];
+      }
     }
   }
 }
@@ -157,55 +180,77 @@ SIMDBEZIER_INLINE void put_points(const detail::Planes<ScalarOf<V>>& planes, std
   }
 }
 
-/// Computes points [first, first + count) of an edge, a register of them at most.
-template <typename T>
+/// Computes R registers of an edge's points, the first `count` lanes each: the points from first[r]
+/// on.
+template <std::size_t R, typename T>
 SIMDBEZIER_PART void
-edge_register(const detail::EdgeTask<T>& task, const detail::EdgeTask<T>& shared_task,
-              const detail::EdgeJob<T>& job, std::size_t first, std::size_t count) {
+edge_registers(const detail::EdgeTask<T>& task, const detail::EdgeTask<T>& shared_task,
+               const detail::EdgeJob<T>& job, const std::size_t (&first)[R], std::size_t count) {
   using V = vec<T>;
   const detail::Planes<T>& positions = task.out[output_index(Output::position)];
   const detail::Planes<T>& normals = task.out[output_index(Output::normal)];
-  const V along = load_vector<V>(job.along + first);
-  V first_normal[3];
-  V sum[3];
+  V first_normal[R][3];
+  V sum[R][3];
   for (std::size_t m = 0; m < job.members; ++m) {
     const auto& member = job.member[m];
-    const V along_side = along * broadcast<V>(member.direction) + broadcast<V>(T(0)); // no -0
-    V p[3];
-    V n[3];
+    V along_side[R];
+    for (std::size_t r = 0; r < R; ++r) { // no -0
+      along_side[r] = load_vector<V>(job.along + first[r]) * broadcast<V>(member.direction) +
+                      broadcast<V>(T(0));
+    }
+    V p[R][3];
+    V n[R][3];
     if (member.side < detail::kEdgeU0) {
-      side_register<true>(task, shared_task, member, along_side, count, p, n);
+      side_registers<true, R>(task, shared_task, member, along_side, count, p, n);
     } else {
-      side_register<false>(task, shared_task, member, along_side, count, p, n);
+      side_registers<false, R>(task, shared_task, member, along_side, count, p, n);
     }
-    if (m == 0 && positions.wanted()) {
-      put_points(positions, job.place + first, task.step, count, p);
-    }
-    for (std::size_t c = 0; c < 3; ++c) {
-      n[c] = broadcast<V>(member.sign) * n[c];
-      first_normal[c] = m == 0 ? n[c] : first_normal[c];
-      sum[c] = m == 0 ? n[c] : sum[c] + n[c];
+    for (std::size_t r = 0; r < R; ++r) {
+      if (m == 0 && positions.wanted()) {
+        put_points(positions, job.place + first[r], task.step, count, p[r]);
+      }
+      for (std::size_t c = 0; c < 3; ++c) {
+        n[r][c] = broadcast<V>(member.sign) * n[r][c];
+        first_normal[r][c] = m == 0 ? n[r][c] : first_normal[r][c];
+        sum[r][c] = m == 0 ? n[r][c] : sum[r][c] + n[r][c];
+      }
     }
   }
   if (normals.wanted()) {
-    finish_sum(job.members, first_normal, sum);
-    put_points(normals, job.place + first, task.step, count, sum);
+    for (std::size_t r = 0; r < R; ++r) {
+      finish_sum(job.members, first_normal[r], sum[r]);
+      put_points(normals, job.place + first[r], task.step, count, sum[r]);
+    }
+  }
+}
+
+/// Two registers at once, so that roots and quotients of one go on beside those of the other. The
+/// last register ends with the last point: some points are computed twice instead of stored one by
+/// one.
+template <typename T>
+SIMDBEZIER_PART void edge_points(const detail::EdgeTask<T>& task,
+                                 const detail::EdgeTask<T>& shared_task,
+                                 const detail::EdgeJob<T>& job) {
+  constexpr std::size_t kL = kLanes<vec<T>>;
+  const std::size_t count = std::min(job.points, kL);
+  const std::size_t last = job.points - count;
+  for (std::size_t first = 0; first < job.points; first += 2 * kL) {
+    if (job.points - first > kL) {
+      edge_registers<2>(task, shared_task, job, {first, std::min(first + kL, last)}, count);
+    } else {
+      edge_registers<1>(task, shared_task, job, {std::min(first, last)}, count);
+    }
   }
 }
 
 template <typename T>
 SIMDBEZIER_KERNEL void edge_kernel(detail::EdgeTask<T>& shared_task) {
-  constexpr std::size_t kL = kLanes<vec<T>>;
   shared_task.executed = Isa::SIMDBEZIER_ISA;
   // A copy, because stores through vector types might change anything that others can see.
   const detail::EdgeTask<T> task = shared_task;
   for (std::size_t k = 0; k < task.count; ++k) {
-    const detail::EdgeJob<T>& job = task.jobs[k];
-    for (std::size_t first = 0; first < job.points; first += kL) {
-      const std::size_t left = job.points - first;
-      edge_register(task, shared_task, job, first, left < kL ? left : kL);
-    }
-    drain_some(task.drain, 6 * job.points);
+    edge_points(task, shared_task, task.jobs[k]);
+    drain_some(task.drain, 6 * task.jobs[k].points);
   }
 }
 

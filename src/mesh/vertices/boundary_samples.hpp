@@ -63,7 +63,7 @@ public:
     return whole_lines(wishes.samples * sizeof(BoundaryEntry)) +
            whole_lines(2 * mesh.most_sides * sizeof(std::uint32_t)) +
            2 * whole_lines(line_values(mesh) * sizeof(T)) +
-           whole_lines(CornerCache<T>::memory_values(planes(wishes)) * sizeof(T)) +
+           whole_lines(CornerCache<T>::memory_corners() * sizeof(CornerValues<T>)) +
            whole_lines(UnionLines<T>::memory_values() * sizeof(T)) +
            whole_lines(BoundaryRings<T>::memory_values(mesh, planes(wishes)) * sizeof(T)) +
            planes(wishes) * whole_lines(plane_values(wishes) * sizeof(T));
@@ -72,7 +72,7 @@ public:
                   ParameterLines<T>& lines, unsigned char* memory) noexcept
       : mesh_(mesh), topology_(*mesh.topology.data()), wishes_(wishes), runner_(runner),
         lines_(lines), corners_(runner, mesh.patches(), wishes.dimension, wishes.normals,
-                                take<T>(memory, CornerCache<T>::memory_values(planes(wishes)))),
+                                take<CornerValues<T>>(memory, CornerCache<T>::memory_corners())),
         unions_(take<T>(memory, UnionLines<T>::memory_values())),
         rings_(mesh, runner, lines, wishes.dimension, wishes.normals,
                take<T>(memory, BoundaryRings<T>::memory_values(mesh, planes(wishes)))) {

@@ -13,16 +13,21 @@
 
 namespace simdbezier::detail {
 
+/// What is known of a corner.
+template <typename T>
+struct CornerValues {
+  T position[3];
+  T normal[3];
+};
+
 /// One thread's cache.
 template <typename T>
 class CornerCache {
 public:
-  /// Values of scratch, for corners of `planes` values each.
-  [[nodiscard]] static std::size_t memory_values(std::size_t planes) noexcept {
-    return kBlocks * kBlockCorners * planes + PointBlock<T>::kPoints;
-  }
+  /// Corners of scratch, whose memory begins on a line of the cache.
+  [[nodiscard]] static std::size_t memory_corners() noexcept { return kBlocks * kBlockCorners; }
   CornerCache(PatchRunner<T>& runner, std::size_t patches, std::size_t dimension, bool normals,
-              T* memory) noexcept
+              CornerValues<T>* memory) noexcept
       : runner_(runner), patches_(patches), dimension_(dimension), normals_(normals),
         memory_(memory) {
     std::fill_n(known_, kBlocks, ~std::size_t(0));
@@ -33,35 +38,26 @@ public:
     runs_[1] = {y_ + 1, 1, RowKind::edge_v1};
   }
 
-  /// What is known of corner 4 * patch + corner, as sample 0 of planes of which a PointBlock may be
-  /// read. Valid until the next call.
-  void look_up(std::uint32_t corner, Planes<T>& position, Planes<T>& normal) noexcept {
+  /// Corner 4 * patch + corner. Valid until the next call.
+  const CornerValues<T>& at(std::uint32_t corner) noexcept {
     const std::size_t block = corner / kBlockCorners;
     const std::size_t slot = block % kBlocks;
-    T* const values = memory_ + slot * kBlockCorners * planes();
-    if (known_[slot] != block) {
+    CornerValues<T>* const values = memory_ + slot * kBlockCorners;
+    if (known_[slot] != block) [[unlikely]] {
       known_[slot] = block;
       evaluate(block * kBlockPatches, values);
     }
-    T* from = values + corner % kBlockCorners;
-    for (std::size_t c = 0; c < dimension_; ++c, from += kBlockCorners) {
-      position.component[c] = from;
-    }
-    for (std::size_t c = 0; c < 3 && normals_; ++c, from += kBlockCorners) {
-      normal.component[c] = from;
-    }
+    return values[corner % kBlockCorners];
   }
-  /// Copies it to sample `at` of planes.
+  /// Copies a corner to sample `at` of planes.
   void fetch(std::uint32_t corner, const Planes<T>& position, const Planes<T>& normal,
-             std::size_t at) noexcept {
-    Planes<T> known_position;
-    Planes<T> known_normal;
-    look_up(corner, known_position, known_normal);
+             std::size_t to) noexcept {
+    const CornerValues<T>& known = at(corner);
     for (std::size_t c = 0; c < dimension_; ++c) {
-      position.component[c][at] = *known_position.component[c];
+      position.component[c][to] = known.position[c];
     }
     for (std::size_t c = 0; c < 3 && normals_; ++c) {
-      normal.component[c][at] = *known_normal.component[c];
+      normal.component[c][to] = known.normal[c];
     }
   }
 
@@ -70,22 +66,26 @@ private:
   static constexpr std::size_t kBlockPatches = 8;
   static constexpr std::size_t kBlockCorners = kBlockPatches * kPatchCorners;
 
-  [[nodiscard]] std::size_t planes() const noexcept { return dimension_ + (normals_ ? 3 : 0); }
-
-  void evaluate(std::size_t first, T* values) noexcept {
+  __attribute__((noinline)) void evaluate(std::size_t first, CornerValues<T>* values) noexcept {
     const std::size_t last = std::min(patches_, first + kBlockPatches);
     for (std::size_t patch = first; patch < last;) {
       const std::size_t count = runner_.together(patch, last - patch);
-      T* const to = values + kPatchCorners * (patch - first);
+      const std::size_t at = kPatchCorners * (patch - first);
       PieceTarget<T> target;
       for (std::size_t c = 0; c < dimension_; ++c) {
-        target.position.component[c] = to + c * kBlockCorners;
+        target.position.component[c] = planes_[c] + at;
       }
       for (std::size_t c = 0; c < 3 && normals_; ++c) {
-        target.normal.component[c] = to + (dimension_ + c) * kBlockCorners;
+        target.normal.component[c] = planes_[3 + c] + at;
       }
       runner_.run(patch, count, {x_, 2, runs_, 2, 2}, target);
       patch += count;
+    }
+    for (std::size_t k = 0; k < kPatchCorners * (last - first); ++k) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        values[k].position[c] = planes_[c][k];
+        values[k].normal[c] = planes_[3 + c][k];
+      }
     }
   }
 
@@ -93,7 +93,8 @@ private:
   std::size_t patches_;
   std::size_t dimension_;
   bool normals_;
-  T* memory_;
+  CornerValues<T>* memory_;
+  T planes_[6][kBlockCorners] = {}; ///< what kernels write: positions, then normals
   std::size_t known_[kBlocks];
   T x_[kMaxLanes + 2];
   T y_[kMaxLanes + 2];

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "src/tables/mesh_table.hpp"
 
@@ -42,12 +43,38 @@ struct PointBlock {
       return __builtin_shufflevector(low, high, 0, 2);
     }
   }
-  static Values square_root(const Values& values) noexcept {
-    Values root = values; // g++ at -O1 warns of one that is set lane by lane
-    for (std::size_t k = 0; k < kPoints; ++k) {
-      root[k] = std::sqrt(root[k]);
+};
+
+/// Turns sums of unit normals into normals: sum * inverse + kept * first + 0, where first is the
+/// first term. That is the sum's direction; a single term stays as it is, and so does the first one
+/// where the sum is less than a thousandth of what it could be. Values are those of one point, or
+/// of a block of points.
+template <typename Values>
+struct MergedScale {
+  Values inverse;
+  Values kept; ///< 1 where the first term stays, else 0
+
+  /// square: of the sum's length.
+  template <typename T>
+  MergedScale(const Values& square, T terms) noexcept {
+    const T least = kLeastSum<T> * terms;
+    const Values zero = square - square; // squares of sums of unit vectors are finite
+    const auto merges = square >= (terms > 1 ? least * least : std::numeric_limits<T>::infinity());
+    kept = merges ? zero : zero + T(1);
+    inverse = (T(1) - kept) / root_of(square + kept);
+  }
+
+private:
+  static Values root_of(const Values& values) noexcept {
+    if constexpr (std::is_arithmetic_v<Values>) {
+      return std::sqrt(values);
+    } else {
+      Values roots = values; // g++ at -O1 warns of one that is set lane by lane
+      for (std::size_t k = 0; k < sizeof values / sizeof values[0]; ++k) {
+        roots[k] = std::sqrt(roots[k]);
+      }
+      return roots;
     }
-    return root;
   }
 };
 
@@ -74,20 +101,15 @@ public:
     ++terms_;
   }
 
-  /// Writes the directions of some points to every step-th place; a single term stays as it is, and
-  /// so does the first one where the sum is less than a thousandth of what it could be.
+  /// Writes the normals of some points to every step-th place.
   void finish(std::size_t points, const Planes<T>& to, std::size_t place,
               std::size_t step) const noexcept {
     using Values = typename Block::Values;
-    const T least = kLeastSum<T> * static_cast<T>(terms_);
     const Values square = sum_[0] * sum_[0] + sum_[1] * sum_[1] + sum_[2] * sum_[2];
-    const Values zero = square - square; // squares of sums of unit vectors are finite
-    const auto merges = square >= (terms_ > 1 ? least * least : std::numeric_limits<T>::infinity());
-    const Values kept = merges ? zero : zero + T(1);
-    const Values inverse = (T(1) - kept) / Block::square_root(square + kept);
+    const MergedScale<Values> scale(square, static_cast<T>(terms_));
     for (std::size_t c = 0; c < 3; ++c) {
       // never -0
-      const Values value = sum_[c] * inverse + kept * first_[c] + T(0);
+      const Values value = sum_[c] * scale.inverse + scale.kept * first_[c] + T(0);
       Block::store(value, points, to.component[c] + place * step, step);
     }
   }
@@ -96,6 +118,36 @@ private:
   std::size_t terms_ = 1;
   typename Block::Values first_[3];
   typename Block::Values sum_[3];
+};
+
+/// The sum of unit normals at one point.
+template <typename T>
+class NormalSum {
+public:
+  NormalSum(const T (&normal)[3], bool reversed) noexcept {
+    const T sign = reversed ? T(-1) : T(1);
+    for (std::size_t c = 0; c < 3; ++c) {
+      first_[c] = sum_[c] = sign * normal[c];
+    }
+  }
+  void add(const T (&normal)[3], bool reversed) noexcept {
+    const T sign = reversed ? T(-1) : T(1);
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum_[c] += sign * normal[c];
+    }
+    terms_ += 1;
+  }
+  void finish(T (&normal)[3]) const noexcept {
+    const MergedScale<T> scale(sum_[0] * sum_[0] + sum_[1] * sum_[1] + sum_[2] * sum_[2], terms_);
+    for (std::size_t c = 0; c < 3; ++c) {
+      normal[c] = sum_[c] * scale.inverse + scale.kept * first_[c] + T(0); // never -0
+    }
+  }
+
+private:
+  T first_[3];
+  T sum_[3];
+  T terms_ = 1;
 };
 
 } // namespace simdbezier::detail

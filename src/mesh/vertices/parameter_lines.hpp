@@ -63,7 +63,8 @@ private:
   std::uint64_t known_ = 0; ///< a bit for each n
 };
 
-/// One thread's lines of the parameters of edges that have two rates, for pairs of small rates.
+/// One thread's lines of the parameters of edges that have two rates, which may be equal, for pairs
+/// of small rates.
 template <typename T>
 class UnionLines {
 public:
@@ -77,7 +78,7 @@ public:
     const std::size_t slot = slot_of(a, b);
     return rates_[slot][0] == a && rates_[slot][1] == b;
   }
-  /// Half-centred parameters of the points between the ends of an edge with rates a < b <= kMost,
+  /// Half-centred parameters of the points between the ends of an edge with rates a <= b <= kMost,
   /// then kMaxLanes more readable values. Valid until one is asked for that is not there.
   const T* line(std::uint32_t a, std::uint32_t b) noexcept {
     const std::size_t slot = slot_of(a, b);

@@ -31,24 +31,21 @@ public:
       return false;
     }
     const std::size_t place = mesh_.corners[lowest] - to.first;
-    Planes<T> position;
-    Planes<T> normal;
-    corners_.look_up(lowest, position, normal);
-    for (std::size_t c = 0; c < 3 && to.position.component[c] != nullptr; ++c) {
-      to.position.component[c][place * to.step] = *position.component[c];
-    }
+    const CornerValues<T>& own = corners_.at(lowest);
+    put(own.position, to.position, place, to.step);
     if (!normals_) {
       return true;
     }
-    NormalSums<T> sums(normal, 0, topology_.is_turned(lowest / kPatchCorners));
+    NormalSum<T> sum(own.normal, topology_.is_turned(lowest / kPatchCorners));
     for (std::uint32_t corner = topology_.next_corner[lowest]; corner != lowest;
          corner = topology_.next_corner[corner]) {
       if (!topology_.is_apart(corner, kApartCorner)) {
-        corners_.look_up(corner, position, normal);
-        sums.add(normal, 0, topology_.is_turned(corner / kPatchCorners));
+        sum.add(corners_.at(corner).normal, topology_.is_turned(corner / kPatchCorners));
       }
     }
-    sums.finish(1, to.normal, place, to.step);
+    T merged[3];
+    sum.finish(merged);
+    put(merged, to.normal, place, to.step);
     return true;
   }
 
@@ -61,21 +58,23 @@ public:
     const auto sides = topology_.sides_of(edge);
     const std::uint32_t rate = mesh_.rate(sides.front());
     const std::uint32_t other = mesh_.rate(sides.back());
-    const auto [low, high] = std::minmax(rate, other);
-    const bool single = segments == rate; // the other rate is a divisor of it
+    // No branches: in a mesh of many rates nothing predicts which of both is larger.
+    const std::uint32_t low = std::min(rate, other);
+    const std::uint32_t high = std::max(rate, other);
+    const bool united = high <= UnionLines<T>::kMost; // equal rates as well
     const std::uint32_t bucket = runner_.edge_bucket(sides.front() / kPatchEdges);
     if (sides.size() > 2 || mesh_.is_split(sides.front()) || to.parameters.wanted() ||
-        !(single ? ParameterLines<T>::is_kept(rate) : high <= UnionLines<T>::kMost) ||
+        !(united || (segments == high && ParameterLines<T>::is_kept(high))) ||
         bucket == PatchRunner<T>::kNoEdges ||
         bucket != runner_.edge_bucket(sides.back() / kPatchEdges)) {
       return false;
     }
-    if (count_ == kMost || bucket_ != bucket || !(single || unions_.holds(low, high))) {
+    if (count_ == kMost || bucket_ != bucket || (united && !unions_.holds(low, high))) {
       run(to);
     }
     bucket_ = bucket;
     EdgeJob<T>& job = jobs_[count_++];
-    job.along = single ? lines_.line(rate) : unions_.line(low, high);
+    job.along = united ? unions_.line(low, high) : lines_.line(high);
     job.points = segments - 1;
     job.place = mesh_.edge_first[edge] - to.first;
     job.members = 0;
@@ -99,6 +98,13 @@ public:
 
 private:
   static constexpr std::size_t kMost = 64;
+
+  static void put(const T (&values)[3], const Planes<T>& to, std::size_t place,
+                  std::size_t step) noexcept {
+    for (std::size_t c = 0; c < 3 && to.component[c] != nullptr; ++c) {
+      to.component[c][place * step] = values[c];
+    }
+  }
 
   const MeshData& mesh_;
   const TopologyData& topology_;
