@@ -4,6 +4,7 @@
 
 #include "kernels/nets/quarter_nets.hpp"
 #include "kernels/simd/lanes.hpp"
+#include "kernels/simd/repeat.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -77,6 +78,13 @@ struct LaneCells {
   V nv;
 };
 
+/// The longest step of n segments: parameters of samples are rounded.
+template <typename V>
+SIMDBEZIER_INLINE V cell_step(V n) {
+  using T = ScalarOf<V>;
+  return divide(broadcast<V>(T(1)), n) + broadcast<V>(T(4 * 0x1p-24));
+}
+
 /// The squares of steps, and what rounding may have taken from vectors that they are multiplied
 /// with.
 template <typename V>
@@ -87,11 +95,8 @@ struct CellSteps {
   V doubt;
 
   SIMDBEZIER_INLINE CellSteps(const LaneCells<V>& cells, const SecondTerms<V>& doubts) {
-    using T = ScalarOf<V>;
-    const V one = broadcast<V>(T(1));
-    const V slack = broadcast<V>(T(4 * 0x1p-24));
-    const V hu = divide(one, cells.nu) + slack;
-    const V hv = divide(one, cells.nv) + slack;
+    const V hu = cell_step<V>(cells.nu);
+    const V hv = cell_step<V>(cells.nv);
     uu = hu * hu;
     uv = (hu + hu) * hv;
     vv = hv * hv;
@@ -105,65 +110,89 @@ struct DiagonalSquares {
   V rising;
   V falling;
 
-  SIMDBEZIER_INLINE DiagonalSquares(const CellSteps<V>& step, const SpaceVector<V>& vector_uu,
-                                    const SpaceVector<V>& vector_uv,
-                                    const SpaceVector<V>& vector_vv) {
-    const SpaceVector<V> s = step.uu * vector_uu + step.vv * vector_vv;
-    const SpaceVector<V> t = step.uv * vector_uv;
+  SIMDBEZIER_INLINE DiagonalSquares(const CellSteps<V>& step, const SecondVectors<V>& vectors) {
+    const SpaceVector<V> s = step.uu * vectors.uu + step.vv * vectors.vv;
+    const SpaceVector<V> t = step.uv * vectors.uv;
     rising = (s + t).square();
     falling = (s - t).square();
   }
 };
 
-/// Finds the terms of edges along u and v, and takes the roots of the diagonals' terms, so far
-/// squares.
+/// The largest of some squares.
 template <typename V>
-SIMDBEZIER_INLINE void finish_terms(const QuarterNets<V>& nets, const CellSteps<V>& step,
-                                    const SecondTerms<V>& doubt, ZoneTerms<V>& terms) {
-  for (std::size_t k = 0; k < 4; ++k) {
-    terms.uu[k] = step.uu * (nets.largest[k].uu + doubt.uu);
-    terms.vv[k] = step.vv * (nets.largest[k].vv + doubt.vv);
-    terms.rising[k] = square_root(terms.rising[k]) + step.doubt;
-    terms.falling[k] = square_root(terms.falling[k]) + step.doubt;
+struct LargestSquare {
+  V square = broadcast<V>(ScalarOf<V>(0));
+
+  /// place: of the vector that it is the square of
+  SIMDBEZIER_INLINE void include(V other, V /*place*/) { square = larger_of<V>(other, square); }
+  SIMDBEZIER_INLINE void include(const LargestSquare& other) { include(other.square, square); }
+};
+
+/// The largest squares of each quarter. Largest is LargestSquare, or also knows which vectors make
+/// them.
+template <typename Largest>
+struct QuarterSquares {
+  Largest rising[4];
+  Largest falling[4];
+};
+
+/// Finds them; vectors that quarters have in common are looked at only once.
+template <typename Largest, typename V>
+SIMDBEZIER_INLINE QuarterSquares<Largest> largest_squares(const QuarterNets<V>& nets,
+                                                          const CellSteps<V>& step) {
+  using T = ScalarOf<V>;
+  QuarterSquares<Largest> found;
+  const SecondVectors<V>* at = nets.at;
+  V place = broadcast<V>(T(0));
+  const auto take_next = [&](Largest& rising, Largest& falling) SIMDBEZIER_INLINE_LAMBDA {
+    const DiagonalSquares<V> squares(step, *at);
+    rising.include(squares.rising, place);
+    falling.include(squares.falling, place);
+    place = place + broadcast<V>(T(1));
+    ++at;
+  };
+  for (std::size_t j = 0; j < 7; ++j) {
+    Largest rising[3]; // among low columns, in the common one, and among high columns
+    Largest falling[3];
+    // These stay loops: of code that is written out, g++ 12 does all products first, and moves them
+    // to memory and back.
+#pragma GCC unroll 1
+    for (std::size_t i = 0; i < 3; ++i) {
+      take_next(rising[0], falling[0]);
+    }
+    take_next(rising[1], falling[1]);
+#pragma GCC unroll 1
+    for (std::size_t i = 0; i < 3; ++i) {
+      take_next(rising[2], falling[2]);
+    }
+    repeat<2>([&](std::size_t u) SIMDBEZIER_INLINE_LAMBDA {
+      rising[2 * u].include(rising[1]);
+      falling[2 * u].include(falling[1]);
+      if (j < 4) { // row 3 is common to both
+        found.rising[u].include(rising[2 * u]);
+        found.falling[u].include(falling[2 * u]);
+      }
+      if (j > 2) {
+        found.rising[2 + u].include(rising[2 * u]);
+        found.falling[2 + u].include(falling[2 * u]);
+      }
+    });
   }
+  return found;
 }
 
-/// Finds the terms of all quarters; vectors that quarters have in common are looked at only once.
-template <typename V>
-SIMDBEZIER_INLINE ZoneTerms<V> zone_terms(const QuarterNets<V>& nets, const LaneCells<V>& cells,
-                                          const SecondTerms<V>& doubt) {
-  const V zero = broadcast<V>(ScalarOf<V>(0));
-  const CellSteps<V> step(cells, doubt);
-  constexpr std::size_t kBegin[4] = {0, 3, 4, 7}; // low, common and high rows and columns
-  V rising[3][3];
-  V falling[3][3];
-  for (std::size_t v = 0; v < 3; ++v) {
-    for (std::size_t u = 0; u < 3; ++u) {
-      V up = zero;
-      V down = zero;
-      for (std::size_t j = kBegin[v]; j < kBegin[v + 1]; ++j) {
-        for (std::size_t i = kBegin[u]; i < kBegin[u + 1]; ++i) {
-          const std::size_t k = 7 * j + i;
-          const DiagonalSquares<V> squares(step, nets.uu[k], nets.uv[k], nets.vv[k]);
-          up = larger_of<V>(squares.rising, up);
-          down = larger_of<V>(squares.falling, down);
-        }
-      }
-      rising[v][u] = up;
-      falling[v][u] = down;
-    }
-  }
+/// Finds the terms of all quarters.
+template <typename Largest, typename V>
+SIMDBEZIER_INLINE ZoneTerms<V> zone_terms(const QuarterNets<V>& nets, const CellSteps<V>& step,
+                                          const SecondTerms<V>& doubt,
+                                          const QuarterSquares<Largest>& squares) {
   ZoneTerms<V> terms;
-  const auto of_quarter = [](const V(&parts)[3][3], std::size_t u,
-                             std::size_t v) SIMDBEZIER_INLINE_LAMBDA {
-    return larger_of<V>(larger_of<V>(parts[v][u], parts[v][u + 1]),
-                        larger_of<V>(parts[v + 1][u], parts[v + 1][u + 1]));
-  };
   for (std::size_t k = 0; k < 4; ++k) {
-    terms.rising[k] = of_quarter(rising, k % 2, k / 2);
-    terms.falling[k] = of_quarter(falling, k % 2, k / 2);
+    terms.uu[k] = step.uu * (nets.largest_uu[k] + doubt.uu);
+    terms.vv[k] = step.vv * (nets.largest_vv[k] + doubt.vv);
+    terms.rising[k] = square_root(squares.rising[k].square) + step.doubt;
+    terms.falling[k] = square_root(squares.falling[k].square) + step.doubt;
   }
-  finish_terms(nets, step, doubt, terms);
   return terms;
 }
 
@@ -177,51 +206,66 @@ SIMDBEZIER_INLINE MaskOf<V> is_odd(V n) {
 template <typename T>
 inline constexpr T kBoundSlack = T(1) + 64 * std::numeric_limits<T>::epsilon();
 
-/// Returns the bound of every lane's cells. diagonals gets a bit for each zone (PatchRates), where
-/// it is wanted.
+/// Returns the largest of a term's values in a zone: 0 and 1 are the halves in a direction, 2 goes
+/// across the middle.
 template <typename V>
-SIMDBEZIER_INLINE V worst_zone(const ZoneTerms<V>& terms, const LaneCells<V>& cells, V* diagonals) {
+SIMDBEZIER_INLINE V term_in_zone(const V (&quarters)[4], std::size_t zone_u, std::size_t zone_v) {
+  const auto in_half = [&](std::size_t v) SIMDBEZIER_INLINE_LAMBDA {
+    const V* const half = quarters + 2 * v;
+    return zone_u == 2 ? larger_of<V>(half[0], half[1]) : half[zone_u];
+  };
+  return zone_v == 2 ? larger_of<V>(in_half(0), in_half(1)) : in_half(zone_v);
+}
+
+/// The bound of triangles in one zone.
+template <typename V>
+struct ZoneBound {
+  V bound;
+  MaskOf<V> falls; ///< whether the falling diagonal is the better one
+
+  SIMDBEZIER_INLINE ZoneBound(const ZoneTerms<V>& terms, std::size_t u, std::size_t v) {
+    const V rising = term_in_zone<V>(terms.rising, u, v);
+    const V falling = term_in_zone<V>(terms.falling, u, v);
+    bound = triangle_bound<V>(term_in_zone<V>(terms.uu, u, v), term_in_zone<V>(terms.vv, u, v),
+                              smaller_of<V>(rising, falling));
+    falls = !(rising < falling);
+  }
+};
+
+/// Returns the bound of even numbers of cells: no zone is across the middle.
+template <typename V>
+SIMDBEZIER_INLINE V bound_of_even(const ZoneTerms<V>& terms) {
+  V worst = broadcast<V>(ScalarOf<V>(0));
+  repeat<4>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+    worst = larger_of<V>(ZoneBound<V>(terms, k % 2, k / 2).bound, worst);
+  });
+  return worst * broadcast<V>(kBoundSlack<ScalarOf<V>>);
+}
+
+/// Returns the bound of every lane's cells. diagonals gets a bit for each zone (PatchRates).
+template <typename V>
+SIMDBEZIER_INLINE V bound_of_cells(const QuarterNets<V>& nets, const LaneCells<V>& cells,
+                                   const SecondTerms<V>& doubt, V& diagonals) {
   using T = ScalarOf<V>;
   const V zero = broadcast<V>(T(0));
   const V one = broadcast<V>(T(1));
+  const CellSteps<V> step(cells, doubt);
+  const ZoneTerms<V> terms =
+      zone_terms(nets, step, doubt, largest_squares<LargestSquare<V>>(nets, step));
   const MaskOf<V> odd[2] = {is_odd<V>(cells.nu), is_odd<V>(cells.nv)};
   const MaskOf<V> several[2] = {cells.nu > one, cells.nv > one};
   V worst = zero;
-  V bits = zero;
-  for (std::size_t zone_v = 0; zone_v < 3; ++zone_v) {
-    for (std::size_t zone_u = 0; zone_u < 3; ++zone_u) {
-      V a = zero;
-      V c = zero;
-      V rising = zero;
-      V falling = zero;
-      for (std::size_t k = 0; k < 4; ++k) {
-        if ((zone_u == 2 || k % 2 == zone_u) && (zone_v == 2 || k / 2 == zone_v)) {
-          a = larger_of<V>(terms.uu[k], a);
-          c = larger_of<V>(terms.vv[k], c);
-          rising = larger_of<V>(terms.rising[k], rising);
-          falling = larger_of<V>(terms.falling[k], falling);
-        }
-      }
-      const MaskOf<V> occurs =
-          (zone_u == 2 ? odd[0] : several[0]) & (zone_v == 2 ? odd[1] : several[1]);
-      const V bound = triangle_bound<V>(a, c, smaller_of<V>(rising, falling));
-      worst = larger_of<V>(select_where<V>(occurs, bound, zero), worst);
-      if (diagonals != nullptr) {
-        const V bit = broadcast<V>(static_cast<T>(1U << (3 * zone_v + zone_u)));
-        bits = bits + select_where<V>(occurs & !(rising < falling), bit, zero);
-      }
-    }
-  }
-  if (diagonals != nullptr) {
-    *diagonals = bits;
-  }
+  diagonals = zero;
+  repeat<9>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+    const std::size_t u = k % 3;
+    const std::size_t v = k / 3;
+    const ZoneBound<V> zone(terms, u, v);
+    const MaskOf<V> occurs = (u == 2 ? odd[0] : several[0]) & (v == 2 ? odd[1] : several[1]);
+    worst = larger_of<V>(select_where<V>(occurs, zone.bound, zero), worst);
+    const V bit = broadcast<V>(static_cast<T>(1U << k));
+    diagonals = diagonals + select_where<V>(occurs & zone.falls, bit, zero);
+  });
   return worst * broadcast<V>(kBoundSlack<T>);
-}
-
-template <typename V>
-SIMDBEZIER_INLINE V bound_of_cells(const QuarterNets<V>& nets, const LaneCells<V>& cells,
-                                   const SecondTerms<V>& doubt, V* diagonals) {
-  return worst_zone<V>(zone_terms(nets, cells, doubt), cells, diagonals);
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -3,101 +3,76 @@
 #pragma once
 
 #include "kernels/nets/cell_bounds.hpp"
+#include "kernels/simd/operands.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Second derivatives in one place, as vectors.
+/// The largest of some squares, and the place of the vector that it is the square of.
 template <typename V>
-struct SecondVectors {
-  SpaceVector<V> uu;
-  SpaceVector<V> uv;
-  SpaceVector<V> vv;
+struct LeadingSquare {
+  V square = broadcast<V>(ScalarOf<V>(0));
+  V place = broadcast<V>(ScalarOf<V>(0));
 
-  /// The lanes of `mask` get the vectors of `by`.
-  SIMDBEZIER_INLINE void replace(MaskOf<V> mask, const SecondVectors& by) {
-    const auto choose = [&](SpaceVector<V>& old,
-                            const SpaceVector<V>& other) SIMDBEZIER_INLINE_LAMBDA {
-      old = {select_where<V>(mask, other.x, old.x), select_where<V>(mask, other.y, old.y),
-             select_where<V>(mask, other.z, old.z)};
-    };
-    choose(uu, by.uu);
-    choose(uv, by.uv);
-    choose(vv, by.vv);
+  SIMDBEZIER_INLINE void include(V other, V at) {
+    place = select_where<V>(other > square, at, place);
+    square = larger_of<V>(other, square);
   }
+  SIMDBEZIER_INLINE void include(const LeadingSquare& other) { include(other.square, other.place); }
 };
 
-/// The second derivatives that make each quarter's largest vectors along the two diagonals. They
-/// are kept because for cells of about the same shape they most often make the largest ones again.
+/// Copies the vectors in every lane's place: value by value, since keeping the vectors of the
+/// largest squares in registers would take nine selections for every vector that is looked at.
 template <typename V>
-struct LeadingVectors {
-  SecondVectors<V> rising[4];
-  SecondVectors<V> falling[4];
-};
-
-/// This is zone_terms(), and it finds the parts of the largest vectors.
-template <typename V>
-SIMDBEZIER_INLINE ZoneTerms<V> leading_terms(const QuarterNets<V>& nets, const LaneCells<V>& cells,
-                                             const SecondTerms<V>& doubt,
-                                             LeadingVectors<V>& leading) {
-  const V none = broadcast<V>(ScalarOf<V>(-1));
-  const CellSteps<V> step(cells, doubt);
-  ZoneTerms<V> terms;
-  for (std::size_t k = 0; k < 4; ++k) {
-    V rising = none;
-    V falling = none;
-    SecondVectors<V> up{};
-    SecondVectors<V> down{};
-    for (std::size_t j = 0; j < 4; ++j) {
-      for (std::size_t i = 0; i < 4; ++i) {
-        const std::size_t at = QuarterNets<V>::first_of(k) + 7 * j + i;
-        const SecondVectors<V> parts{nets.uu[at], nets.uv[at], nets.vv[at]};
-        const DiagonalSquares<V> squares(step, parts.uu, parts.uv, parts.vv);
-        up.replace(squares.rising > rising, parts);
-        down.replace(squares.falling > falling, parts);
-        rising = larger_of<V>(squares.rising, rising);
-        falling = larger_of<V>(squares.falling, falling);
-      }
+SIMDBEZIER_INLINE void take_vectors(const QuarterNets<V>& nets, V place, SecondVectors<V>& to) {
+  using T = ScalarOf<V>;
+  constexpr std::size_t kValues = sizeof(SecondVectors<V>) / sizeof(V);
+  alignas(64) T places[kLanes<V>];
+  store_vector<V>(places, place);
+  for (std::size_t p = 0; p < kLanes<V>; ++p) {
+    const T* const from = own_address(
+        reinterpret_cast<const T*>(nets.at + static_cast<std::ptrdiff_t>(places[p])) + p);
+    T* const lane = own_address(reinterpret_cast<T*>(&to) + p);
+    for (std::size_t k = 0; k < kValues; ++k) {
+      __builtin_memcpy(lane + k * kLanes<V>, from + k * kLanes<V>, sizeof(T));
     }
-    leading.rising[k] = up;
-    leading.falling[k] = down;
-    terms.rising[k] = rising;
-    terms.falling[k] = falling;
   }
-  finish_terms(nets, step, doubt, terms);
-  return terms;
 }
 
-/// Whether triangle_bound() may be at most t, by products instead of a quotient.
+/// Whether triangle_bound() may be at most an eighth of `limit`, by products instead of a quotient.
 template <typename V>
-SIMDBEZIER_INLINE MaskOf<V> is_triangle_within(V a, V c, V d, V t) {
+SIMDBEZIER_INLINE MaskOf<V> is_triangle_within(V a, V c, V d, V limit) {
   const SortedTerms<V> terms(a, c, d);
-  const V divisor = terms.divisor();
-  const MaskOf<V> side = terms.largest * broadcast<V>(ScalarOf<V>(0.125)) <= t;
-  const MaskOf<V> circle = terms.least * terms.middle * terms.largest <= t * (divisor + divisor);
-  return side & (circle | terms.obtuse());
+  const V quarter = limit * broadcast<V>(ScalarOf<V>(0.25));
+  const MaskOf<V> circle = terms.least * terms.middle * (limit - terms.largest) >=
+                           quarter * (terms.excess * terms.excess);
+  return (terms.largest <= limit) & (circle | terms.obtuse());
 }
 
-/// The square of a vector along a diagonal, as a quadratic form of the steps.
+/// The square of a vector along a diagonal of cells with steps 1 and hv: a polynomial of hv.
 template <typename V>
 class SquareForm {
 public:
-  SIMDBEZIER_INLINE SquareForm(const SecondVectors<V>& of, bool rising)
-      : squares_{of.uu.square(), of.uv.square(), of.vv.square()}, same_(dot(of.uu, of.vv)) {
-    const V zero = broadcast<V>(ScalarOf<V>(0));
-    mixed_u_ = rising ? dot(of.uu, of.uv) : zero - dot(of.uu, of.uv);
-    mixed_v_ = rising ? dot(of.vv, of.uv) : zero - dot(of.vv, of.uv);
+  SquareForm() = default;
+  SIMDBEZIER_INLINE SquareForm(const SecondVectors<V>& of, bool rising) {
+    using T = ScalarOf<V>;
+    // This takes off what roundings may have added: they are small beside the sum of the squares.
+    const V rest = broadcast<V>(T(1) - T(1e-5));
+    const V four = broadcast<V>(rising ? T(4) : T(-4));
+    const V same = dot(of.uu, of.vv);
+    factor_[0] = rest * of.uu.square();
+    factor_[1] = four * dot(of.uu, of.uv);
+    factor_[2] = madd(broadcast<V>(T(4)) * rest, of.uv.square(), same + same);
+    factor_[3] = four * dot(of.vv, of.uv);
+    factor_[4] = rest * of.vv.square();
   }
 
-  /// Returns a lower bound on it: less by the roundings, which are small beside the sum of the
-  /// squares.
-  [[nodiscard]] SIMDBEZIER_INLINE V at_least(const CellSteps<V>& step) const {
-    using T = ScalarOf<V>;
-    const V two_uv = step.uv + step.uv;
-    const V squares = madd(step.uu * step.uu, squares_.uu,
-                           madd(step.vv * step.vv, squares_.vv, step.uv * step.uv * squares_.uv));
-    const V cross = madd((step.uu + step.uu) * step.vv, same_,
-                         madd(two_uv * step.uu, mixed_u_, two_uv * step.vv * mixed_v_));
-    return larger_of<V>(madd(squares, broadcast<V>(T(1) - T(1e-5)), cross), broadcast<V>(T(0)));
+  /// Returns a lower bound on it, which may be below 0.
+  [[nodiscard]] SIMDBEZIER_INLINE V at_least(V hv) const {
+    V sum = factor_[4];
+    for (std::size_t k = 4; k-- > 0;) {
+      sum = madd(sum, hv, factor_[k]);
+    }
+    return sum;
   }
 
 private:
@@ -105,71 +80,86 @@ private:
     return madd(a.x, b.x, madd(a.y, b.y, a.z * b.z));
   }
 
-  SecondTerms<V> squares_;
-  V same_;
-  V mixed_u_;
-  V mixed_v_;
+  V factor_[5];
 };
 
 /// Whether the bound of cells can be at most t at all, judged by what it would be, without
-/// rounding, if each quarter had its leading vectors only. Zones across the middle combine the
-/// terms of both halves, so their bound is no smaller than that of either half.
+/// rounding, if each quarter had its leading vectors only: those that set the bound of cells of
+/// about the same shape. Zones across the middle combine the terms of both halves, so their bound
+/// is no smaller than that of either half.
 template <typename V>
 class CellScreen {
 public:
-  SIMDBEZIER_INLINE CellScreen(const QuarterNets<V>& nets, const LeadingVectors<V>& leading,
+  SIMDBEZIER_INLINE CellScreen(const QuarterNets<V>& nets,
+                               const QuarterSquares<LeadingSquare<V>>& leading,
                                const SecondTerms<V>& doubt, V t)
-      : quarter_{{nets.largest[0], leading, 0, doubt},
-                 {nets.largest[1], leading, 1, doubt},
-                 {nets.largest[2], leading, 2, doubt},
-                 {nets.largest[3], leading, 3, doubt}},
-        doubt_(doubt), above_(t * broadcast<V>(ScalarOf<V>(1) + ScalarOf<V>(1e-3))) {}
+      : doubt_(doubt) {
+    using T = ScalarOf<V>;
+    // It is above 8 t by more than triangle_bound() may err by. No bound of scaled patches comes
+    // near 1e3, and products with a larger limit might overflow.
+    limit_ = smaller_of<V>(t * broadcast<V>(T(8) * (T(1) + T(1e-4))), broadcast<V>(T(1e4)));
+    SecondVectors<V> rising[4]; // all before the first is used: single lanes take long to arrive
+    SecondVectors<V> falling[4];
+    for (std::size_t k = 0; k < 4; ++k) {
+      take_vectors(nets, leading.rising[k].place, rising[k]);
+      take_vectors(nets, leading.falling[k].place, falling[k]);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      rising_[k] = SquareForm<V>(rising[k], true);
+      falling_[k] = SquareForm<V>(falling[k], false);
+      uu_[k] = nets.largest_uu[k] + doubt.uu;
+      vv_[k] = nets.largest_vv[k] + doubt.vv;
+    }
+  }
 
-  [[nodiscard]] SIMDBEZIER_INLINE MaskOf<V> may_hold(const LaneCells<V>& cells) const {
-    const CellSteps<V> step(cells, doubt_);
+  /// Judges cells of steps hu and hv, `inverse` being 1 / hu. odd_u says whether their number in u
+  /// is odd in all lanes; where it is not said although it is so, more cells pass.
+  [[nodiscard]] SIMDBEZIER_INLINE MaskOf<V> may_hold(V inverse, V hv, bool odd_u,
+                                                     bool odd_v) const {
+    const V zero = broadcast<V>(ScalarOf<V>(0));
+    const V ratio = hv * inverse; // everything is in units of hu^2
+    const V limit = limit_ * (inverse * inverse);
+    const V doubt = madd(ratio, madd(ratio, doubt_.vv, doubt_.uv + doubt_.uv), doubt_.uu);
     ZoneTerms<V> terms;
     for (std::size_t k = 0; k < 4; ++k) {
-      terms.uu[k] = step.uu * quarter_[k].uu;
-      terms.vv[k] = step.vv * quarter_[k].vv;
-      terms.rising[k] = quarter_[k].rising.at_least(step);
-      terms.falling[k] = quarter_[k].falling.at_least(step);
+      terms.uu[k] = uu_[k];
+      terms.vv[k] = vv_[k];
+      terms.rising[k] = rising_[k].at_least(ratio);
+      terms.falling[k] = falling_[k].at_least(ratio);
     }
-    const MaskOf<V> odd[2] = {is_odd<V>(cells.nu), is_odd<V>(cells.nv)};
-    for (V* const term : {terms.uu, terms.vv, terms.rising, terms.falling}) {
-      const auto join = [&](std::size_t a, std::size_t b, MaskOf<V> in) SIMDBEZIER_INLINE_LAMBDA {
-        const V both = larger_of<V>(term[a], term[b]);
-        term[a] = select_where<V>(in, both, term[a]);
-        term[b] = select_where<V>(in, both, term[b]);
-      };
-      join(0, 1, odd[0]);
-      join(2, 3, odd[0]);
-      join(0, 2, odd[1]);
-      join(1, 3, odd[1]);
+    const auto join = [&](std::size_t a, std::size_t b) SIMDBEZIER_INLINE_LAMBDA {
+      for (V* const term : {terms.uu, terms.vv, terms.rising, terms.falling}) {
+        term[a] = larger_of<V>(term[a], term[b]);
+      }
+    };
+    if (odd_u) {
+      join(0, 1);
+      join(2, 3);
     }
-    MaskOf<V> possible = above_ > broadcast<V>(ScalarOf<V>(0));
+    if (odd_v) {
+      join(0, 2);
+      join(1, 3);
+    }
+    MaskOf<V> possible = limit > zero;
     for (std::size_t k = 0; k < 4; ++k) {
-      const V across = square_root(smaller_of<V>(terms.rising[k], terms.falling[k])) + step.doubt;
-      possible = possible & is_triangle_within<V>(terms.uu[k], terms.vv[k], across, above_);
+      if ((odd_u && k % 2 == 1) || (odd_v && k / 2 == 1)) {
+        continue; // is in the zone of its neighbour
+      }
+      const V square = smaller_of<V>(terms.rising[k], terms.falling[k]);
+      const V across = square_root(larger_of<V>(square, zero)) + doubt;
+      possible =
+          possible & is_triangle_within<V>(terms.uu[k], ratio * ratio * terms.vv[k], across, limit);
     }
     return possible;
   }
 
 private:
-  struct Quarter {
-    SquareForm<V> rising;
-    SquareForm<V> falling;
-    V uu;
-    V vv;
-
-    SIMDBEZIER_INLINE Quarter(const SecondTerms<V>& largest, const LeadingVectors<V>& leading,
-                              std::size_t k, const SecondTerms<V>& doubt)
-        : rising(leading.rising[k], true), falling(leading.falling[k], false),
-          uu(largest.uu + doubt.uu), vv(largest.vv + doubt.vv) {}
-  };
-
-  Quarter quarter_[4];
-  const SecondTerms<V>& doubt_;
-  V above_; ///< t, and more than triangle_bound() may err by
+  SquareForm<V> rising_[4];
+  SquareForm<V> falling_[4];
+  V uu_[4];
+  V vv_[4];
+  SecondTerms<V> doubt_;
+  V limit_;
 };
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -2,7 +2,8 @@
 // other kinds, and corners whose diagonal is forced, are left to src/mesh/rates/patch_bound.hpp.
 #pragma once
 
-#include "kernels/nets/cell_screen.hpp"
+#include "kernels/nets/cell_candidates.hpp"
+#include "kernels/simd/operands.hpp"
 #include "src/tables/rate_task.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -41,64 +42,6 @@ SIMDBEZIER_INLINE LaneCells<V> filip_cells(const RateGroup<V>& group, V t, V mos
   return {select_where<V>(first, by_u.nu, by_v.nu), select_where<V>(first, by_u.nv, by_v.nv)};
 }
 
-/// Candidates for the fewest cells that hold: neighbours of those that a bound's proportion to the
-/// tolerance gives, in about the order of their number.
-template <typename V>
-class CellCandidates {
-public:
-  /// best are cells that hold. centre are those that a bound's proportion to the tolerance gives.
-  SIMDBEZIER_INLINE CellCandidates(const CellScreen<V>& screen, const LaneCells<V>& centre,
-                                   const LaneCells<V>& best, V most) {
-    using T = ScalarOf<V>;
-    const V one = broadcast<V>(T(1));
-    const V filip = best.nu * best.nv;
-    V fewest = filip; // of those that may hold
-    static constexpr signed char kSteps[kCount][2] = {{-1, 0}, {0, -1}, {0, 0}, {-1, 1}, {1, -1},
-                                                      {0, 1},  {1, 0},  {1, 1}, {0, 2},  {2, 0},
-                                                      {1, 2},  {2, 1},  {2, 2}};
-    for (std::size_t k = 0; k < kCount; ++k) {
-      const auto stepped = [&](V n, signed char by) SIMDBEZIER_INLINE_LAMBDA {
-        return smaller_of<V>(larger_of<V>(n + broadcast<V>(T(by)), one), most);
-      };
-      cells_[k] = {stepped(centre.nu, kSteps[k][0]), stepped(centre.nv, kSteps[k][1])};
-      const V product = cells_[k].nu * cells_[k].nv;
-      open_[k] = product < filip;
-      if (any_of<V>(product < fewest)) {
-        open_[k] = open_[k] & screen.may_hold(cells_[k]);
-        fewest = select_where<V>(open_[k] & (product < fewest), product, fewest);
-      }
-    }
-  }
-
-  /// Returns the fewest cells that are still open and fewer than `best`, the first of equally many,
-  /// or `best` where there are none.
-  [[nodiscard]] SIMDBEZIER_INLINE LaneCells<V> fewest(const LaneCells<V>& best) const {
-    LaneCells<V> found = best;
-    V product = best.nu * best.nv;
-    for (std::size_t k = 0; k < kCount; ++k) {
-      const V other = cells_[k].nu * cells_[k].nv;
-      const MaskOf<V> fewer = open_[k] & (other < product);
-      product = select_where<V>(fewer, other, product);
-      found.nu = select_where<V>(fewer, cells_[k].nu, found.nu);
-      found.nv = select_where<V>(fewer, cells_[k].nv, found.nv);
-    }
-    return found;
-  }
-  /// Lanes with `mask` do without these cells.
-  SIMDBEZIER_INLINE void close(const LaneCells<V>& cells, MaskOf<V> mask) {
-    for (std::size_t k = 0; k < kCount; ++k) {
-      const MaskOf<V> same = (cells_[k].nu == cells.nu) & (cells_[k].nv == cells.nv);
-      open_[k] = open_[k] & !(same & mask);
-    }
-  }
-
-private:
-  static constexpr std::size_t kCount = 13;
-
-  LaneCells<V> cells_[kCount];
-  MaskOf<V> open_[kCount];
-};
-
 /// Cells with their certificate.
 template <typename V>
 struct CertifiedCells {
@@ -126,17 +69,16 @@ SIMDBEZIER_INLINE CertifiedCells<V> choose_cells(const RateScratch<V>& scratch,
     return larger_of<V>(two * whole_part<V>(half * n), two);
   };
   const LaneCells<V> pair{even(smaller_of<V>(filip.nu, most)), even(smaller_of<V>(filip.nv, most))};
-  LeadingVectors<V> leading;
-  const V bound =
-      worst_zone<V>(leading_terms(scratch.nets, pair, group.doubt, leading), pair, nullptr);
+  const CellSteps<V> step(pair, group.doubt);
+  const auto leading = largest_squares<LeadingSquare<V>>(scratch.nets, step);
+  const V bound = bound_of_even<V>(zone_terms(scratch.nets, step, group.doubt, leading));
   const V scale = smaller_of<V>(square_root(divide(bound, t)), one);
   const LaneCells<V> centre{whole_part<V>(pair.nu * scale), whole_part<V>(pair.nv * scale)};
-  CellCandidates<V> candidates(CellScreen<V>(scratch.nets, leading, group.doubt, t), centre, filip,
-                               most);
+  CellCandidates<V> candidates(CellScreen<V>(scratch.nets, leading, group.doubt, t), centre, most);
   for (;;) {
     CertifiedCells<V> result;
     result.cells = candidates.fewest(filip);
-    result.bound = bound_of_cells<V>(scratch.nets, result.cells, group.doubt, &result.diagonals);
+    result.bound = bound_of_cells<V>(scratch.nets, result.cells, group.doubt, result.diagonals);
     const MaskOf<V> fewer = result.cells.nu * result.cells.nv < filip.nu * filip.nv;
     const MaskOf<V> fails = fewer & !(result.bound <= t);
     if (!any_of<V>(fails)) {
@@ -262,9 +204,22 @@ SIMDBEZIER_INLINE void certify_group(const detail::RateTask<T>& task, std::size_
   CertifiedCells<V> certified;
   certified.cells = {load_vector<V>(lanes.nu), load_vector<V>(lanes.nv)};
   certified.bound =
-      bound_of_cells<V>(scratch.nets, certified.cells, group.doubt, &certified.diagonals);
+      bound_of_cells<V>(scratch.nets, certified.cells, group.doubt, certified.diagonals);
   lanes.store(certified);
   lanes.put_bounds(task, first, count);
+}
+
+/// Asks for packed nets before their turn: a group takes long enough for them to arrive, while
+/// their first use would wait for them.
+template <typename T>
+SIMDBEZIER_INLINE void prefetch_nets(const detail::NetView<const T>& nets, std::size_t begin,
+                                     std::size_t end) {
+  constexpr std::size_t kLine = detail::kLineBytes / sizeof(T);
+  for (std::size_t p = begin; nets.packed && p < end; ++p) {
+    for (std::size_t k = 0; k < 3 * 16; k += kLine) {
+      prefetch_line(net_at(nets, p) + k);
+    }
+  }
 }
 
 template <typename T>
@@ -275,6 +230,8 @@ Isa rate_kernel(const detail::RateTask<T>& task, std::size_t begin, std::size_t 
   auto& scratch = *reinterpret_cast<RateScratch<V>*>(memory);
   for_groups<V>(begin, end, [&](std::size_t first, std::size_t count) {
     const RateGroup<V> group = read_rate_group<T>(task, first, count, scratch);
+    const std::size_t next = first + count;
+    prefetch_nets(task.in, next, end - next < kLanes<V> ? end : next + kLanes<V>);
     if (task.choose) {
       choose_group<T>(task, first, count, scratch, group);
     } else {

@@ -2,9 +2,8 @@
 // lanes are patches.
 #pragma once
 
-#include <type_traits>
-
 #include "kernels/nets/net_boxes.hpp"
+#include "kernels/simd/repeat.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -35,6 +34,14 @@ struct SecondTerms {
   V vv;
 };
 
+/// Second derivatives in one place, as vectors.
+template <typename V>
+struct SecondVectors {
+  SpaceVector<V> uu;
+  SpaceVector<V> uv;
+  SpaceVector<V> vv;
+};
+
 /// Control vectors of the second derivatives over the four quarters, raised to degrees 3, 3:
 /// [j][i] of a net of 7 x 7. Quarter 2 * (half of v) + (half of u) has 4 x 4 of them, and its
 /// outermost ones in common with its neighbours.
@@ -42,14 +49,9 @@ template <typename V>
 struct QuarterNets {
   static constexpr std::size_t kSide = 7;
 
-  SpaceVector<V> uu[kSide * kSide];
-  SpaceVector<V> uv[kSide * kSide];
-  SpaceVector<V> vv[kSide * kSide];
-  SecondTerms<V> largest[4]; ///< of each quarter: its largest vectors
-
-  static constexpr std::size_t first_of(std::size_t quarter) {
-    return 3 * (quarter / 2) * kSide + 3 * (quarter % 2);
-  }
+  SecondVectors<V> at[kSide * kSide];
+  V largest_uu[4]; ///< of each quarter: its largest vectors
+  V largest_vv[4];
 };
 
 /// Scratch memory of a group.
@@ -64,37 +66,6 @@ struct RateGroup {
   SecondTerms<V> largest; ///< vectors of the whole patch
   SecondTerms<V> doubt;   ///< what rounding may have taken from vectors
 };
-
-/// Finds the control values of both halves of a line, which have one in common.
-template <std::size_t kValues, typename V>
-SIMDBEZIER_INLINE void halve(const V* line, std::size_t step, V* to, std::size_t to_step) {
-  const V half = broadcast<V>(ScalarOf<V>(0.5));
-  V part[kValues];
-  for (std::size_t k = 0; k < kValues; ++k) {
-    part[k] = line[k * step];
-  }
-  for (std::size_t level = 0; level < kValues; ++level) {
-    to[level * to_step] = part[0];
-    to[(2 * kValues - 2 - level) * to_step] = part[kValues - 1 - level];
-    for (std::size_t k = 0; k + 1 + level < kValues; ++k) {
-      part[k] = half * (part[k] + part[k + 1]);
-    }
-  }
-}
-
-/// Cuts a net of kColumns x kRows into quarters, side by side.
-template <std::size_t kColumns, std::size_t kRows, typename V>
-SIMDBEZIER_INLINE void quarter_net(const V (&net)[kColumns * kRows],
-                                   V (&to)[(2 * kColumns - 1) * (2 * kRows - 1)]) {
-  constexpr std::size_t kWide = 2 * kColumns - 1;
-  V halves[kWide * kRows];
-  for (std::size_t j = 0; j < kRows; ++j) {
-    halve<kColumns>(net + j * kColumns, 1, halves + j * kWide, 1);
-  }
-  for (std::size_t i = 0; i < kWide; ++i) {
-    halve<kRows>(halves + i, kWide, to + i, kWide);
-  }
-}
 
 /// Raises both halves of a line from degrees 1 and 2 to 3.
 template <std::size_t kValues, typename V, typename Put>
@@ -117,111 +88,160 @@ SIMDBEZIER_INLINE void raise_halves(const V* from, std::size_t step, Put put) {
   }
 }
 
-/// Squares of vectors, summed up component by component: z, y, x.
+/// Second differences of a patch: the control vectors of its second derivatives, times 6, 9 and 6.
 template <typename V>
-struct SecondSquares {
-  V whole_uu[8];
-  V whole_uv[9];
-  V whole_vv[8];
-  V uu[3 * 7]; ///< of quarters side by side, as in quarter_net()
-  V uv[5 * 5];
-  V vv[7 * 3];
+struct SecondDifferences {
+  SpaceVector<V> uu[4 * 2]; ///< [j][i]
+  SpaceVector<V> uv[3 * 3];
+  SpaceVector<V> vv[2 * 4];
 
-  template <bool kFirst, std::size_t kCount>
-  static SIMDBEZIER_INLINE void add(const V (&values)[kCount], V (&to)[kCount]) {
-    for (std::size_t k = 0; k < kCount; ++k) {
-      to[k] = kFirst ? values[k] * values[k] : madd(values[k], values[k], to[k]);
-    }
-  }
-  /// Returns the largest vector among some rows of a net of kColumns.
-  template <std::size_t kColumns>
-  static SIMDBEZIER_INLINE V largest(const V* net, std::size_t columns, std::size_t rows) {
-    V found = net[0];
-    for (std::size_t j = 0; j < rows; ++j) {
-      for (std::size_t i = 0; i < columns; ++i) {
-        found = larger_of<V>(net[j * kColumns + i], found);
+  SIMDBEZIER_INLINE explicit SecondDifferences(const SpaceVector<V> (&points)[16]) {
+    using T = ScalarOf<V>;
+    const V six = broadcast<V>(T(6));
+    const V nine = broadcast<V>(T(9));
+    for (std::size_t j = 0; j < 4; ++j) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        const SpaceVector<V>* const row = points + 4 * j + i;
+        uu[2 * j + i] = six * ((row[2] - row[1]) - (row[1] - row[0]));
+        const SpaceVector<V>* const column = points + j + 4 * i;
+        vv[4 * i + j] = six * ((column[8] - column[4]) - (column[4] - column[0]));
       }
     }
-    return square_root(found);
-  }
-  [[nodiscard]] SIMDBEZIER_INLINE SecondTerms<V> whole() const {
-    return {largest<2>(whole_uu, 2, 4), largest<3>(whole_uv, 3, 3), largest<4>(whole_vv, 4, 2)};
-  }
-  [[nodiscard]] SIMDBEZIER_INLINE SecondTerms<V> of(std::size_t u, std::size_t v) const {
-    return {largest<3>(uu + 3 * 3 * v + u, 2, 4), largest<5>(uv + 5 * 2 * v + 2 * u, 3, 3),
-            largest<7>(vv + 7 * v + 3 * u, 4, 2)};
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const SpaceVector<V>* const at = points + 4 * j + i;
+        uv[3 * j + i] = nine * ((at[5] - at[4]) - (at[1] - at[0]));
+      }
+    }
   }
 };
 
-/// Forms S_uu (or S_vv: kAlongV): second differences times 6, over quarters, raised in the
-/// direction that has lost two degrees. One component is formed at a time, since it stays in
-/// registers.
-template <bool kAlongV, bool kFirst, typename V>
-SIMDBEZIER_KERNEL void form_straight(RateScratch<V>& scratch, V SpaceVector<V>::*c,
-                                     SecondSquares<V>& squares) {
-  constexpr std::size_t kStep = kAlongV ? 4 : 1;
-  constexpr std::size_t kColumns = kAlongV ? 4 : 2;
-  const V six = broadcast<V>(ScalarOf<V>(6));
-  V second[8];
-  for (std::size_t k = 0; k < 8; ++k) {
-    const SpaceVector<V>* const at = scratch.points + 4 * (k / kColumns) + k % kColumns;
-    second[k] = six * ((at[2 * kStep].*c - at[kStep].*c) - (at[kStep].*c - at[0].*c));
+/// Returns the root of the largest of some squares, rows of a net of kColumns.
+template <std::size_t kColumns, typename V>
+SIMDBEZIER_INLINE V largest_length(const V* net, std::size_t columns, std::size_t rows) {
+  V found = net[0];
+  for (std::size_t j = 0; j < rows; ++j) {
+    for (std::size_t i = 0; i < columns; ++i) {
+      found = larger_of<V>(net[j * kColumns + i], found);
+    }
   }
-  squares.template add<kFirst>(second, kAlongV ? squares.whole_vv : squares.whole_uu);
-  V parts[21];
-  quarter_net<kColumns, 8 / kColumns>(second, parts);
-  squares.template add<kFirst>(parts, kAlongV ? squares.vv : squares.uu);
-  SpaceVector<V>* const net = kAlongV ? scratch.nets.vv : scratch.nets.uu;
-  for (std::size_t line = 0; line < 7; ++line) {
-    raise_halves<2>(parts + (kAlongV ? 1 : 3) * line, kAlongV ? 7 : 1,
-                    [&](std::size_t k, V value) SIMDBEZIER_INLINE_LAMBDA {
-                      net[kAlongV ? 7 * k + line : 7 * line + k].*c = value;
-                    });
-  }
+  return square_root(found);
 }
-/// Forms S_uv likewise, by differences in both directions times 9.
-template <bool kFirst, typename V>
-SIMDBEZIER_KERNEL void form_mixed(RateScratch<V>& scratch, V SpaceVector<V>::*c,
-                                  SecondSquares<V>& squares) {
-  const V nine = broadcast<V>(ScalarOf<V>(9));
-  V uv[9];
-  for (std::size_t k = 0; k < 9; ++k) {
-    const SpaceVector<V>* const at = scratch.points + 4 * (k / 3) + k % 3;
-    uv[k] = nine * ((at[5].*c - at[4].*c) - (at[1].*c - at[0].*c));
+/// Returns the length of the largest of some vectors.
+template <std::size_t kCount, typename V>
+SIMDBEZIER_INLINE V largest_length(const SpaceVector<V> (&vectors)[kCount]) {
+  V found = vectors[0].square();
+  for (std::size_t k = 1; k < kCount; ++k) {
+    found = larger_of<V>(vectors[k].square(), found);
   }
-  squares.template add<kFirst>(uv, squares.whole_uv);
-  V parts[25];
-  quarter_net<3, 3>(uv, parts);
-  squares.template add<kFirst>(parts, squares.uv);
-  V rows[35];
-  for (std::size_t j = 0; j < 5; ++j) {
-    raise_halves<3>(parts + 5 * j, 1, [&](std::size_t i, V value) SIMDBEZIER_INLINE_LAMBDA {
-      rows[7 * j + i] = value;
+  return square_root(found);
+}
+
+/// Forms the nets of S_uu over quarters (or S_vv: kAlongV), raised in the direction that has lost
+/// two degrees. One component is formed at a time: what de Casteljau's algorithm works on stays in
+/// registers, and each line across its direction is raised as soon as it is found.
+template <bool kAlongV, typename V>
+SIMDBEZIER_KERNEL void form_straight(const SecondDifferences<V>& second, V SpaceVector<V>::*c,
+                                     QuarterNets<V>& nets) {
+  const V half = broadcast<V>(ScalarOf<V>(0.5));
+  // Lines of degree 3. Roundings depend on the order in which the directions are halved, which is
+  // u, v: the line in the middle is halved itself, or found between the others when they are.
+  V first[4];
+  V middle[4];
+  V last[4];
+  repeat<4>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+    first[k] = kAlongV ? second.vv[k].*c : second.uu[2 * k].*c;
+    last[k] = kAlongV ? second.vv[4 + k].*c : second.uu[2 * k + 1].*c;
+    middle[k] = half * (first[k] + last[k]);
+  });
+  const auto put_across = [&](std::size_t at, std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+    const V across[3] = {first[k], kAlongV ? half * (first[k] + last[k]) : middle[k], last[k]};
+    raise_halves<2>(across, 1, [&](std::size_t m, V value) SIMDBEZIER_INLINE_LAMBDA {
+      (kAlongV ? nets.at[7 * m + at].vv : nets.at[7 * at + m].uu).*c = value;
     });
+  };
+  repeat<4>([&](std::size_t level) SIMDBEZIER_INLINE_LAMBDA {
+    put_across(level, 0);
+    if (level < 3) {
+      put_across(6 - level, 3 - level);
+    }
+    for (std::size_t k = 0; k + level < 3; ++k) {
+      first[k] = half * (first[k] + first[k + 1]);
+      middle[k] = half * (middle[k] + middle[k + 1]);
+      last[k] = half * (last[k] + last[k + 1]);
+    }
+  });
+}
+
+/// Forms the net of S_uv likewise.
+template <typename V>
+SIMDBEZIER_KERNEL void form_mixed(const SecondDifferences<V>& second, V SpaceVector<V>::*c,
+                                  QuarterNets<V>& nets) {
+  const V half = broadcast<V>(ScalarOf<V>(0.5));
+  V rows[3][5];
+  for (std::size_t j = 0; j < 3; ++j) {
+    const SpaceVector<V>* const row = second.uv + 3 * j;
+    rows[j][0] = row[0].*c;
+    rows[j][4] = row[2].*c;
+    rows[j][1] = half * (row[0].*c + row[1].*c);
+    rows[j][3] = half * (row[1].*c + row[2].*c);
+    rows[j][2] = half * (rows[j][1] + rows[j][3]);
   }
+  V raised[5 * 7];
+  const auto put_row = [&](std::size_t at, const V(&row)[5]) SIMDBEZIER_INLINE_LAMBDA {
+    raise_halves<3>(row, 1, [&](std::size_t i, V value) SIMDBEZIER_INLINE_LAMBDA {
+      raised[7 * at + i] = value;
+    });
+  };
+  repeat<3>([&](std::size_t level) SIMDBEZIER_INLINE_LAMBDA {
+    put_row(level, rows[0]);
+    if (level < 2) {
+      put_row(4 - level, rows[2 - level]);
+    }
+    for (std::size_t j = 0; j + level < 2; ++j) {
+      for (std::size_t i = 0; i < 5; ++i) {
+        rows[j][i] = half * (rows[j][i] + rows[j + 1][i]);
+      }
+    }
+  });
   for (std::size_t i = 0; i < 7; ++i) {
-    raise_halves<3>(rows + i, 7, [&](std::size_t j, V value) SIMDBEZIER_INLINE_LAMBDA {
-      scratch.nets.uv[7 * j + i].*c = value;
+    raise_halves<3>(raised + i, 7, [&](std::size_t j, V value) SIMDBEZIER_INLINE_LAMBDA {
+      nets.at[7 * j + i].uv.*c = value;
     });
   }
 }
+
+/// Finds the largest vectors of the quarters, of degrees that have not been raised: raising keeps
+/// the vectors of S_uu in columns 0, 3 and 6, and those of S_vv in such rows.
+template <typename V>
+SIMDBEZIER_INLINE void find_largest(QuarterNets<V>& nets) {
+  V uu[7 * 3];
+  V vv[3 * 7];
+  for (std::size_t k = 0; k < 7; ++k) {
+    for (std::size_t m = 0; m < 3; ++m) {
+      uu[3 * k + m] = nets.at[7 * k + 3 * m].uu.square();
+      vv[7 * m + k] = nets.at[21 * m + k].vv.square();
+    }
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::size_t u = k % 2;
+    const std::size_t v = k / 2;
+    nets.largest_uu[k] = largest_length<3>(uu + 3 * 3 * v + u, 2, 4);
+    nets.largest_vv[k] = largest_length<7>(vv + 7 * v + 3 * u, 4, 2);
+  }
+}
+
 /// Forms the nets of the quarters, and finds the largest vectors of the whole patch.
 template <typename V>
 SIMDBEZIER_INLINE void form_quarters(RateScratch<V>& scratch, SecondTerms<V>& whole) {
-  using S = SpaceVector<V>;
-  SecondSquares<V> squares;
-  const auto form = [&]<bool kFirst>(std::bool_constant<kFirst>, V S::*c) SIMDBEZIER_INLINE_LAMBDA {
-    form_straight<false, kFirst>(scratch, c, squares);
-    form_mixed<kFirst>(scratch, c, squares);
-    form_straight<true, kFirst>(scratch, c, squares);
-  };
-  form(std::true_type(), &S::z);
-  form(std::false_type(), &S::y);
-  form(std::false_type(), &S::x);
-  whole = squares.whole();
-  for (std::size_t k = 0; k < 4; ++k) {
-    scratch.nets.largest[k] = squares.of(k % 2, k / 2);
+  const SecondDifferences<V> second(scratch.points);
+  whole = {largest_length(second.uu), largest_length(second.uv), largest_length(second.vv)};
+  for (V SpaceVector<V>::*const c : {&SpaceVector<V>::x, &SpaceVector<V>::y, &SpaceVector<V>::z}) {
+    form_straight<false>(second, c, scratch.nets);
+    form_mixed(second, c, scratch.nets);
+    form_straight<true>(second, c, scratch.nets);
   }
+  find_largest(scratch.nets);
 }
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
