@@ -1,221 +1,164 @@
-// See edge_rings.hpp. Every edge is reduced to a direction that both of its sides agree on, then
-// hashed; edges of one hash are compared value by value.
+// See edge_rings.hpp. Edges are hashed without regard to their direction; those of one hash are
+// compared value by value, from the end on that all sides of a ring agree on.
 #include "src/nets/edge_rings.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <memory>
-#include <type_traits>
 
-#include "src/nets/net_views.hpp"
+#include "src/nets/edge_keys.hpp"
+#include "src/nets/edge_values.hpp"
 #include "src/runtime/batch.hpp"
-#include "src/storage/net_shape.hpp"
 
 namespace simdbezier::detail {
 namespace {
 
-/// The values of one edge, from the end on at which the direction that both sides agree on begins.
-template <typename S>
-class EdgeValues {
+/// So many sides before one is entered into the table, its place there is fetched.
+constexpr std::size_t kAhead = 32;
+
+/// Open addressing: the latest side of each ring, at a place that the low half of its hash leads
+/// to, with the high half.
+template <typename Index>
+class RingTable {
 public:
-  using Bits = std::conditional_t<sizeof(S) == 4, std::uint32_t, std::uint64_t>;
+  struct Slot {
+    std::uint32_t high = 0;
+    Index latest = EdgeRings<Index>::kPoint; ///< that is: none
+  };
 
-  /// The values of an edge in its own direction.
-  EdgeValues(const ControlNets<S>& nets, std::size_t patch, PatchEdge edge) noexcept
-      : channels_(static_cast<std::ptrdiff_t>(shape_of(nets).channels())),
-        component_stride_(nets.component_stride), weights_(nets.weights) {
-    const bool in_u = edge == PatchEdge::v0 || edge == PatchEdge::v1;
-    degree_ = in_u ? nets.degree_u : nets.degree_v;
-    stride_ = in_u ? nets.point_stride : nets.row_stride;
-    first_ = nets.points + static_cast<std::ptrdiff_t>(patch) * nets.patch_stride;
-    if (edge == PatchEdge::v1) {
-      first_ += nets.degree_v * nets.row_stride;
-    } else if (edge == PatchEdge::u1) {
-      first_ += nets.degree_u * nets.point_stride;
-    }
-  }
+  explicit RingTable(std::size_t sides)
+      : slots_(std::bit_ceil(sides + sides / 4)), mask_(slots_.size() - 1) {}
 
-  /// The agreed direction has the smaller bits where both first differ. Whether that is against the
-  /// edge's own: not where both give the same values.
-  [[nodiscard]] bool runs_against() const noexcept {
-    for (std::ptrdiff_t k = 0; k <= degree_ / 2; ++k) {
-      for (std::ptrdiff_t c = 0; c < channels_; ++c) {
-        const Bits forward = bits(k, c);
-        const Bits backward = bits(degree_ - k, c);
-        if (forward != backward) {
-          return backward < forward;
-        }
+  void prefetch(std::uint64_t hash) const noexcept { __builtin_prefetch(&slots_[hash & mask_]); }
+
+  /// Enters a side, and returns the latest one before with the same hash of which same(side) is
+  /// true, or the side itself if there is none.
+  template <typename Same>
+  Index enter(std::uint64_t hash, Index side, const Same& same) noexcept {
+    const auto high = static_cast<std::uint32_t>(hash >> 32);
+    std::size_t at = hash & mask_;
+    for (;; at = (at + 1) & mask_) {
+      const Slot& slot = slots_[at];
+      const bool is_free = slot.latest == EdgeRings<Index>::kPoint;
+      const bool is_like = slot.high == high;
+      // Taken together, since which of the two it is cannot be predicted.
+      if ((is_free | is_like) && (is_free || same(slot.latest))) {
+        break;
       }
     }
-    return false;
-  }
-  /// The edge from its other end on, or as it is.
-  [[nodiscard]] EdgeValues turned(bool turn) const noexcept {
-    EdgeValues edge = *this;
-    if (turn) {
-      edge.first_ += degree_ * stride_;
-      edge.stride_ = -stride_;
-    }
-    return edge;
-  }
-
-  [[nodiscard]] bool operator==(const EdgeValues& other) const noexcept {
-    if (degree_ != other.degree_ || channels_ != other.channels_ || weights_ != other.weights_) {
-      return false;
-    }
-    for (std::ptrdiff_t k = 0; k <= degree_; ++k) {
-      for (std::ptrdiff_t c = 0; c < channels_; ++c) {
-        if (bits(k, c) != other.bits(k, c)) {
-          return false;
-        }
-      }
-    }
-    return true;
-  }
-
-  /// Whether all points are equal, whatever their weights.
-  [[nodiscard]] bool collapsed() const noexcept {
-    const std::ptrdiff_t components = weights_ == Weights::none ? channels_ : channels_ - 1;
-    for (std::ptrdiff_t k = 1; k <= degree_; ++k) {
-      for (std::ptrdiff_t c = 0; c < components; ++c) {
-        if (!same_coordinate(k, c)) {
-          return false;
-        }
-      }
-    }
-    return true;
-  }
-
-  /// Multiplication and the high half's return to the low one (the finaliser of MurmurHash3), on
-  /// sums of four values at a time, whose products do not wait for each other.
-  [[nodiscard]] std::uint64_t hash() const noexcept {
-    return channels_ == 3 ? hash_of<3>() : hash_of<0>();
-  }
-  void prefetch() const noexcept {
-    __builtin_prefetch(first_);
-    __builtin_prefetch(first_ + degree_ * stride_);
+    const Index latest = slots_[at].latest;
+    slots_[at] = {high, side};
+    return latest == EdgeRings<Index>::kPoint ? side : latest;
   }
 
 private:
-  /// kChannels: how many there are, or 0 where that is known at run time only.
-  template <std::ptrdiff_t kChannels>
-  [[nodiscard]] std::uint64_t hash_of() const noexcept {
-    constexpr std::uint64_t kFactors[4] = {0x9e3779b97f4a7c15ULL, 0xbf58476d1ce4e5b9ULL,
-                                           0x94d049bb133111ebULL, 0xd6e8feb86659fd93ULL};
-    const std::ptrdiff_t channels = kChannels > 0 ? kChannels : channels_;
-    const auto mixed = [](std::uint64_t state) {
-      state *= 0xff51afd7ed558ccdULL;
-      return state ^ (state >> 33);
-    };
-    std::uint64_t state = static_cast<std::uint64_t>(degree_) * 64 +
-                          static_cast<std::uint64_t>(channels) * 4 +
-                          static_cast<std::uint64_t>(weights_);
-    for (std::ptrdiff_t k = 0; k <= degree_; ++k) {
-      for (std::ptrdiff_t first = 0; first < channels; first += 4) {
-        std::uint64_t sum = 0;
-        for (std::ptrdiff_t c = first; c < channels && c < first + 4; ++c) {
-          sum += bits(k, c) * kFactors[c - first];
-        }
-        state = mixed(state ^ sum);
+  std::vector<Slot> slots_;
+  std::size_t mask_;
+};
+
+/// What hashing finds of every side.
+template <typename Index>
+struct HashedSides {
+  EdgeRings<Index>& rings;
+  std::uint64_t* hashes;
+};
+
+/// Hashes the edges of patches [first, last), which are in one view.
+template <typename Keys, typename S, typename Index>
+void hash_patches(const AllEdges<S>& edges, std::size_t view, Keys keys, std::size_t first,
+                  std::size_t last, HashedSides<Index> to) noexcept {
+  Index* const next = to.rings.next.data();
+  std::uint8_t* const turned = to.rings.turned.data();
+  const bool weighted = edges.form(view, 0).weights != Weights::none;
+  for (std::size_t patch = first; patch < last; ++patch) {
+    const S* const net = edges.views().net(view, patch);
+    keys.read(net);
+    const std::size_t side = kPatchEdges * patch;
+    bool closed = false;
+    for (std::size_t k = 0; k < kPatchEdges; ++k) {
+      to.hashes[side + k] = keys.hash(k);
+      turned[side + k] = keys.runs_against(k) ? 1 : 0;
+      next[side + k] = static_cast<Index>(side + k);
+      closed |= keys.may_be_closed(k);
+    }
+    // Different keys at both ends tell the direction, and that the edge is no point; but points
+    // are compared without their weights, which keys contain.
+    for (std::size_t k = 0; (closed || weighted) && k < kPatchEdges; ++k) {
+      const EdgeValues<S> edge(edges.form(view, k), net);
+      if (keys.may_be_closed(k)) {
+        turned[side + k] = edge.runs_against() ? 1 : 0;
+      }
+      if (edge.collapsed()) {
+        next[side + k] = EdgeRings<Index>::kPoint;
       }
     }
-    state *= 0xc4ceb9fe1a85ec53ULL;
-    return state ^ (state >> 33);
   }
-
-  /// Value c of point k; -0 as +0.
-  [[nodiscard]] Bits bits(std::ptrdiff_t k, std::ptrdiff_t c) const noexcept {
-    const auto value = std::bit_cast<Bits>(first_[k * stride_ + c * component_stride_]);
-    constexpr Bits kSign = Bits{1} << (8 * sizeof(Bits) - 1);
-    return value == kSign ? 0 : value;
-  }
-
-  /// Whether point k has the coordinate of point 0.
-  [[nodiscard]] bool same_coordinate(std::ptrdiff_t k, std::ptrdiff_t c) const noexcept {
-    if (weights_ != Weights::homogeneous) {
-      return bits(k, c) == bits(0, c);
-    }
-    const auto point = [&](std::ptrdiff_t i) {
-      const S* const values = first_ + i * stride_;
-      return values[c * component_stride_] / values[(channels_ - 1) * component_stride_];
-    };
-    return point(k) == point(0);
-  }
-
-  const S* first_;
-  std::ptrdiff_t degree_;
-  std::ptrdiff_t stride_;
-  std::ptrdiff_t channels_;
-  std::ptrdiff_t component_stride_;
-  Weights weights_;
-};
-
-template <typename S>
-EdgeValues<S> edge_of(const NetViews<S>& views, std::size_t side) noexcept {
-  const auto [nets, patch] = views.place(side / kPatchEdges);
-  return {*nets, patch, static_cast<PatchEdge>(side % kPatchEdges)};
 }
 
-/// Open addressing: the latest side of each ring, at a place that its hash leads to.
-template <typename Index>
-struct RingTable {
-  static constexpr Index kNone = EdgeRings<Index>::kPoint;
-  std::unique_ptr<Index[]> hash; ///< of every side
-  std::vector<Index> slot;
-
-  explicit RingTable(std::size_t sides)
-      : hash(std::make_unique_for_overwrite<Index[]>(sides)),
-        slot(std::bit_ceil(sides + sides / 2), kNone) {}
-};
-
 template <typename S, typename Index>
-void hash_edges(const NetViews<S>& views, EdgeRings<Index>& rings, RingTable<Index>& table,
-                int threads) noexcept {
+void hash_edges(const AllEdges<S>& edges, HashedSides<Index> to, int threads) noexcept {
   auto body = [&](int, std::size_t begin, std::size_t end) {
-    for (std::size_t side = begin; side < end; ++side) {
-      const EdgeValues<S> edge = edge_of(views, side);
-      const bool turned = edge.runs_against();
-      table.hash[side] = static_cast<Index>(edge.turned(turned).hash());
-      rings.turned[side] = turned ? 1 : 0;
-      rings.next[side] = edge.collapsed() ? EdgeRings<Index>::kPoint : static_cast<Index>(side);
-    }
+    edges.views().for_views(begin, end, [&](const auto& nets, auto view, auto first, auto last) {
+      if (shape_of(nets).is_bicubic()) {
+        hash_patches(edges, view, EdgeKeys<S, 3, 3>(nets), first, last, to);
+      } else {
+        hash_patches(edges, view, EdgeKeys<S, 0, 0>(nets), first, last, to);
+      }
+    });
   };
-  const std::size_t sides = rings.next.size();
-  divide_work(sides, 20, threads, body);
+  divide_work(edges.views().patches(), 40, threads, body);
 }
 
+/// Links sides of equal hashes, and compares their values a block later, when they have come into a
+/// cache. Returns whether all were equal, too; where not, the links are of no use.
 template <typename S, typename Index>
-void close_rings(const NetViews<S>& views, EdgeRings<Index>& rings, RingTable<Index>& table) {
+bool link_by_hashes(const AllEdges<S>& edges, EdgeRings<Index>& rings,
+                    const std::uint64_t* hashes) {
+  constexpr std::size_t kBlock = 128;
   const std::size_t sides = rings.next.size();
-  const std::size_t mask = table.slot.size() - 1;
-  const auto place = [&](std::size_t side) { return table.hash[side] & mask; };
-  const auto agreed = [&](std::size_t side) {
-    return edge_of(views, side).turned(rings.turned[side] != 0);
-  };
-  // Slots lie anywhere in a table that no near cache holds, and the edges that they name in memory.
-  constexpr std::size_t kAhead = 16;
-  for (std::size_t side = 0; side < sides; ++side) {
-    __builtin_prefetch(&table.slot[place(std::min(side + kAhead, sides - 1))]);
-    const Index soon = table.slot[place(std::min(side + kAhead / 2, sides - 1))];
-    if (soon != RingTable<Index>::kNone) {
-      edge_of(views, soon).prefetch();
+  RingTable<Index> table(sides);
+  Index later[kBlock];
+  EdgeValues<S> earlier[kBlock];
+  for (std::size_t begin = 0; begin < sides; begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, sides);
+    std::size_t count = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      table.prefetch(hashes[k + kAhead]);
+      if (rings.is_point(k)) {
+        continue;
+      }
+      const auto side = static_cast<Index>(k);
+      const Index latest = table.enter(hashes[k], side, [](Index) { return true; });
+      if (latest != side) {
+        rings.link(latest, side);
+        earlier[count] = edges[latest].turned(rings.turned[latest] != 0);
+        earlier[count].prefetch();
+        later[count++] = side;
+      }
     }
-    if (rings.is_point(side)) {
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!(edges[later[k]].turned(rings.turned[later[k]] != 0) == earlier[k])) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// Links sides of equal values, also where others have the same hash.
+template <typename S, typename Index>
+void link_by_values(const AllEdges<S>& edges, EdgeRings<Index>& rings,
+                    const std::uint64_t* hashes) {
+  RingTable<Index> table(rings.next.size());
+  const auto agreed = [&](Index side) { return edges[side].turned(rings.turned[side] != 0); };
+  for (std::size_t k = 0; k < rings.next.size(); ++k) {
+    if (rings.is_point(k)) {
       continue;
     }
-    std::size_t at = place(side);
-    for (;; at = (at + 1) & mask) {
-      const Index latest = table.slot[at];
-      if (latest == RingTable<Index>::kNone) {
-        break;
-      }
-      if (table.hash[latest] == table.hash[side] && agreed(latest) == agreed(side)) {
-        rings.next[side] = rings.next[latest];
-        rings.next[latest] = static_cast<Index>(side);
-        break;
-      }
-    }
-    table.slot[at] = static_cast<Index>(side);
+    const auto side = static_cast<Index>(k);
+    rings.next[k] = side;
+    const auto same = [&](Index latest) { return agreed(latest) == agreed(side); };
+    rings.link(table.enter(hashes[k], side, same), side);
   }
 }
 
@@ -223,15 +166,18 @@ void close_rings(const NetViews<S>& views, EdgeRings<Index>& rings, RingTable<In
 
 template <typename S, typename Index>
 EdgeRings<Index> find_rings(std::span<const ControlNets<S>> nets, int threads) {
-  const NetViews<S> views(nets);
-  const std::size_t sides = kPatchEdges * views.patches();
+  const AllEdges<S> edges(nets);
+  const std::size_t sides = kPatchEdges * edges.views().patches();
   EdgeRings<Index> rings;
   if (sides > 0) {
     rings.next.resize(sides);
     rings.turned.resize(sides);
-    RingTable<Index> table(sides);
-    hash_edges(views, rings, table, threads);
-    close_rings(views, rings, table);
+    const auto hashes = std::make_unique_for_overwrite<std::uint64_t[]>(sides + kAhead);
+    std::fill_n(hashes.get() + sides, kAhead, 0);
+    hash_edges<S, Index>(edges, {rings, hashes.get()}, threads);
+    if (!link_by_hashes(edges, rings, hashes.get())) {
+      link_by_values(edges, rings, hashes.get());
+    }
   }
   return rings;
 }

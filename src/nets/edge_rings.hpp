@@ -26,6 +26,12 @@ struct EdgeRings {
 
   [[nodiscard]] bool is_point(std::size_t side) const noexcept { return next[side] == kPoint; }
   [[nodiscard]] bool is_alone(std::size_t side) const noexcept { return next[side] == side; }
+  /// Puts a side that is alone behind the last one of a ring, or behind itself: nothing changes.
+  void link(Index last, Index side) noexcept {
+    const Index first = next[last];
+    next[last] = side;
+    next[side] = first;
+  }
   /// Takes a side's ring apart: all of its sides count as points.
   void make_point(std::size_t side) noexcept {
     while (!is_point(side)) {

@@ -1,6 +1,7 @@
 // Views of control nets whose patches are numbered through, view after view.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -26,14 +27,37 @@ public:
     }
   }
   [[nodiscard]] std::size_t patches() const noexcept { return starts_.back(); }
-  [[nodiscard]] Place place(std::size_t patch) const noexcept {
+  /// The view that a patch is in.
+  [[nodiscard]] std::size_t view_of(std::size_t patch) const noexcept {
     std::size_t low = 0; // the last view that starts at or before the patch and is not empty
     std::size_t high = nets_.size();
     while (high - low > 1) {
       const std::size_t middle = low + (high - low) / 2;
       (starts_[middle] <= patch ? low : high) = middle;
     }
-    return {&nets_[low], patch - starts_[low]};
+    return low;
+  }
+  [[nodiscard]] Place place(std::size_t patch) const noexcept {
+    const std::size_t view = view_of(patch);
+    return {&nets_[view], patch - starts_[view]};
+  }
+  /// The first value of a patch, which is in the view.
+  [[nodiscard]] const S* net(std::size_t view, std::size_t patch) const noexcept {
+    return nets_[view].points +
+           static_cast<std::ptrdiff_t>(patch - starts_[view]) * nets_[view].patch_stride;
+  }
+
+  /// Calls visit(view, its number, first, last + 1) for the patches [begin, end), those of one view
+  /// at a time: cheaper than to look for the place of each.
+  template <typename Visit>
+  void for_views(std::size_t begin, std::size_t end, const Visit& visit) const {
+    for (std::size_t view = 0; view < nets_.size(); ++view) {
+      const std::size_t first = std::max(begin, starts_[view]);
+      const std::size_t last = std::min(end, starts_[view + 1]);
+      if (first < last) {
+        visit(nets_[view], view, first, last);
+      }
+    }
   }
 
 private:

@@ -6,6 +6,7 @@
 #include <tools/formats/teapot.hpp>
 #include <tools/patches/edge_counts.hpp>
 
+#include "src/nets/edge_keys.hpp"
 #include "tests/nets/net_batches.hpp"
 #include "tests/support/nets/data_files.hpp"
 
@@ -158,6 +159,42 @@ TEST(Adjacency, RandomSoupsDouble) {
     SCOPED_TRACE(seed);
     expect_links(random_soup<double>(seed));
   }
+}
+
+/// Patches with edges A B C D, A C B D, and both from the other end on, in different places.
+template <typename T>
+Batch<T> crossed_edges(Weights weights) {
+  Batch<T> batch = random_batch<T>({3, 3, 3, weights}, 4, 71);
+  const Batch<T> points = random_batch<T>({3, 3, 3, weights}, 1, 72);
+  constexpr int kOrders[4][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {3, 1, 2, 0}, {3, 2, 1, 0}};
+  for (std::size_t p = 0; p < 4; ++p) {
+    for (int k = 0; k < 4; ++k) {
+      const int row = p == 2 ? 3 : p == 3 ? k : 0;
+      const int column = p == 3 ? 0 : k;
+      for (int c = 0; c < static_cast<int>(batch.channels()); ++c) {
+        batch.at(p, row, column, c) = points.at(0, 0, kOrders[p][k], c);
+      }
+    }
+  }
+  return batch;
+}
+
+// Hashes do not tell from which end an edge is read, and so cannot tell all edges apart.
+TEST(Adjacency, EqualHashesOfDifferentEdges) {
+  const Batch<float> batch = crossed_edges<float>(Weights::none);
+  detail::EdgeKeys<float, 3, 3> keys(batch.nets());
+  keys.read(&batch.at(0, 0, 0, 0));
+  const std::uint64_t hash = keys.hash(0);
+  keys.read(&batch.at(1, 0, 0, 0));
+  EXPECT_EQ(keys.hash(0), hash);
+
+  for (const Weights weights : {Weights::none, Weights::cartesian, Weights::homogeneous}) {
+    expect_links<float>({crossed_edges<float>(weights)});
+    expect_links<double>({crossed_edges<double>(weights)});
+  }
+  const std::vector<EdgeLink> links = links_of<float>({batch}, 1);
+  EXPECT_EQ(links[0], (EdgeLink{EdgeKind::shared, PatchEdge::u0, true, 3}));
+  EXPECT_EQ(links[4], (EdgeLink{EdgeKind::shared, PatchEdge::v1, true, 2}));
 }
 
 // The soups hold what they are meant to hold.

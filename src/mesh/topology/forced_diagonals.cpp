@@ -84,40 +84,54 @@ bool is_pillow(const TopologyData& topology, const DistinctSides& distinct, std:
 } // namespace
 
 template <typename S>
-void mark_corners(const NetCorners<S>& nets, TopologyData& topology) {
+void mark_corners(const NetCorners<S>& nets, std::span<const std::uint8_t> doubts,
+                  std::span<const std::uint32_t> candidates, TopologyData& topology) {
+  const auto mark = [&](std::size_t patch, std::size_t corner) {
+    topology.flags[patch] |= static_cast<std::uint8_t>(kThroughCorner << corner);
+  };
   const DistinctSides distinct(topology);
-  for (std::size_t patch = 0; patch < topology.patches(); ++patch) {
-    const bool plain = topology.has_plain_sides(patch);
+  for (const std::uint32_t patch : candidates) {
     for (std::size_t corner = 0; corner < kPatchCorners; ++corner) {
       const std::size_t k = kPatchCorners * patch + corner;
       const CornerSides at(k);
       const bool point_u = topology.sides[at.in_u].collapsed();
       const bool point_v = topology.sides[at.in_v].collapsed();
-      const bool pillow = !plain && !point_u && !point_v && is_pillow(topology, distinct, k);
-      if (pillow || point_u != point_v || nets.sides_leave_together(patch, corner)) {
-        topology.flags[patch] |= static_cast<std::uint8_t>(kThroughCorner << corner);
+      const bool pillow = !point_u && !point_v && is_pillow(topology, distinct, k);
+      if (pillow || point_u != point_v) {
+        mark(patch, corner);
+      }
+    }
+  }
+  for (std::size_t patch = 0; patch < topology.patches(); ++patch) {
+    for (std::size_t corner = 0; doubts[patch] != 0 && corner < kPatchCorners; ++corner) {
+      if ((doubts[patch] & kMayLeaveTogether << corner) != 0 &&
+          nets.sides_leave_together(patch, corner)) {
+        mark(patch, corner);
       }
     }
   }
 }
 
 template <typename S>
-void mark_loops(const NetCorners<S>& nets, TopologyData& topology) {
-  for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
-    const std::uint32_t side = topology.sides_of(edge)[0];
-    if (topology.corner_of(side, 0) != topology.corner_of(side, 1)) {
-      const Point3 d =
-          nets.corner_point(corner_at(side, 1)) - nets.corner_point(corner_at(side, 0));
-      if (d.x[0] == 0 && d.x[1] == 0 && d.x[2] == 0) {
-        topology.loops.push_back(side);
+void mark_loops(const NetCorners<S>& nets, std::span<const std::uint8_t> doubts,
+                TopologyData& topology) {
+  for (std::size_t patch = 0; patch < topology.patches(); ++patch) {
+    for (std::size_t k = 0; doubts[patch] != 0 && k < kPatchEdges; ++k) {
+      const std::size_t side = kPatchEdges * patch + k;
+      if ((doubts[patch] & kEndsMayMeet << k) != 0 && topology.owns_edge(side) &&
+          topology.corner_of(side, 0) != topology.corner_of(side, 1) && nets.ends_meet(side)) {
+        topology.loops.push_back(static_cast<std::uint32_t>(side));
       }
     }
   }
 }
 
-template void mark_corners(const NetCorners<float>&, TopologyData&);
-template void mark_corners(const NetCorners<double>&, TopologyData&);
-template void mark_loops(const NetCorners<float>&, TopologyData&);
-template void mark_loops(const NetCorners<double>&, TopologyData&);
+#define SIMDBEZIER_FORCED_DIAGONALS(S)                                                             \
+  template void mark_corners(const NetCorners<S>&, std::span<const std::uint8_t>,                  \
+                             std::span<const std::uint32_t>, TopologyData&);                       \
+  template void mark_loops(const NetCorners<S>&, std::span<const std::uint8_t>, TopologyData&);
+SIMDBEZIER_FORCED_DIAGONALS(float)
+SIMDBEZIER_FORCED_DIAGONALS(double)
+#undef SIMDBEZIER_FORCED_DIAGONALS
 
 } // namespace simdbezier::detail

@@ -21,31 +21,6 @@ Point3 way_along(const ControlNets<S>& nets, const S* end, std::ptrdiff_t stride
   return way;
 }
 
-/// Whether the next control points on two ways from `end` certainly lie in different directions.
-/// That is so in almost every corner, and cheaper to see from values as they are.
-template <typename S>
-bool certainly_part(const ControlNets<S>& nets, const S* end, std::ptrdiff_t stride_a,
-                    std::ptrdiff_t stride_b) {
-  if (nets.weights == Weights::homogeneous) {
-    return false;
-  }
-  S square_a = 0;
-  S square_b = 0;
-  S product = 0;
-  for (std::ptrdiff_t c = 0; c < 3; ++c) {
-    const S* const from = end + c * nets.component_stride;
-    const S a = from[stride_a] - *from;
-    const S b = from[stride_b] - *from;
-    square_a += a * a;
-    square_b += b * b;
-    product += a * b;
-  }
-  // Elsewhere products may vanish or overflow; differences are rounded once, wherever points are.
-  const auto is_usual = [](S square) { return square > S(0x1p-60) && square < S(0x1p60); };
-  return is_usual(square_a) && is_usual(square_b) &&
-         product * std::fabs(product) < S(0.98) * square_a * square_b;
-}
-
 /// Whether patch b read in one of eight ways has the values of patch a.
 template <typename S>
 bool same_in(const ControlNets<S>& a, std::size_t patch_a, const ControlNets<S>& b,
@@ -111,6 +86,27 @@ bool NetCorners<S>::side_within(std::size_t side, double distance) const {
 }
 
 template <typename S>
+std::vector<std::uint8_t> NetCorners<S>::doubts() const {
+  std::vector<std::uint8_t> doubts(views_.patches(), std::uint8_t{0xff});
+  views_.for_views(0, views_.patches(), [&](const auto& nets, auto view, auto first, auto last) {
+    if (nets.weights == Weights::homogeneous) {
+      return;
+    }
+    const QuickLook<S> look(nets);
+    for (std::size_t patch = first; patch < last; ++patch) {
+      doubts[patch] = look.doubts(views_.net(view, patch));
+    }
+  });
+  return doubts;
+}
+
+template <typename S>
+bool NetCorners<S>::ends_meet(std::size_t side) const noexcept {
+  const Point3 way = corner_point(corner_at(side, 1)) - corner_point(corner_at(side, 0));
+  return way.x[0] == 0 && way.x[1] == 0 && way.x[2] == 0;
+}
+
+template <typename S>
 bool NetCorners<S>::sides_leave_together(std::size_t patch, std::size_t corner) const noexcept {
   const auto at = views_.place(patch);
   const ControlNets<S>& nets = *at.nets;
@@ -120,9 +116,6 @@ bool NetCorners<S>::sides_leave_together(std::size_t patch, std::size_t corner) 
       values_at(nets, at.patch, at_u1 ? nets.degree_u : 0, at_v1 ? nets.degree_v : 0);
   const std::ptrdiff_t in_u = at_u1 ? -nets.point_stride : nets.point_stride;
   const std::ptrdiff_t in_v = at_v1 ? -nets.row_stride : nets.row_stride;
-  if (certainly_part(nets, end, in_u, in_v)) {
-    return false;
-  }
   int exponent = 0;
   const Point3 a = scaled_to_one(way_along(nets, end, in_u, nets.degree_u), exponent);
   const Point3 b = scaled_to_one(way_along(nets, end, in_v, nets.degree_v), exponent);
@@ -203,9 +196,6 @@ FourEdges edges_of(const TopologyData& topology, std::size_t patch) {
 /// Whether another patch has the same four edges, or may have: one would be at each of the edges,
 /// and so at the one with the fewest sides. Patches all of whose sides are points may be the same.
 bool may_be_repeated(const TopologyData& topology, std::size_t patch) {
-  if (topology.has_plain_sides(patch)) {
-    return false;
-  }
   constexpr std::size_t kMostCompared = 64;
   std::span<const std::uint32_t> fewest;
   for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
@@ -226,26 +216,26 @@ bool may_be_repeated(const TopologyData& topology, std::size_t patch) {
 } // namespace
 
 template <typename S>
-void mark_repeated(const NetCorners<S>& nets, TopologyData& topology) {
+void mark_repeated(const NetCorners<S>& nets, std::span<const std::uint32_t> candidates,
+                   TopologyData& topology) {
   // Only patches with the same four edges can be the same.
-  struct Candidate {
+  struct EdgesOf {
     FourEdges edges;
     std::uint32_t patch;
   };
-  std::vector<Candidate> candidates;
-  for (std::uint32_t patch = 0; patch < topology.patches(); ++patch) {
+  std::vector<EdgesOf> patches;
+  for (const std::uint32_t patch : candidates) {
     if (may_be_repeated(topology, patch)) {
-      candidates.push_back({edges_of(topology, patch), patch});
+      patches.push_back({edges_of(topology, patch), patch});
     }
   }
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+  std::sort(patches.begin(), patches.end(), [](const EdgesOf& a, const EdgesOf& b) {
     return a.edges != b.edges ? a.edges < b.edges : a.patch < b.patch;
   });
-  for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
+  for (std::size_t begin = 0, end = 0; begin < patches.size(); begin = end) {
     std::vector<std::uint32_t> group;
-    for (end = begin; end < candidates.size() && candidates[end].edges == candidates[begin].edges;
-         ++end) {
-      group.push_back(candidates[end].patch);
+    for (end = begin; end < patches.size() && patches[end].edges == patches[begin].edges; ++end) {
+      group.push_back(patches[end].patch);
     }
     mark_repeated_of(nets, group, topology);
   }
@@ -255,7 +245,9 @@ void mark_repeated(const NetCorners<S>& nets, TopologyData& topology) {
 
 template class NetCorners<float>;
 template class NetCorners<double>;
-template void mark_repeated(const NetCorners<float>&, TopologyData&);
-template void mark_repeated(const NetCorners<double>&, TopologyData&);
+template void mark_repeated(const NetCorners<float>&, std::span<const std::uint32_t>,
+                            TopologyData&);
+template void mark_repeated(const NetCorners<double>&, std::span<const std::uint32_t>,
+                            TopologyData&);
 
 } // namespace simdbezier::detail

@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include <simdbezier/control_nets.hpp>
 
 #include "src/mesh/net_points.hpp"
+#include "src/mesh/topology/quick_look.hpp"
 #include "src/mesh/topology/topology_data.hpp"
 #include "src/nets/net_views.hpp"
 
@@ -48,6 +50,12 @@ public:
   /// Whether all control points of a side lie within a distance of both of its ends.
   [[nodiscard]] bool side_within(std::size_t side, double distance) const;
 
+  /// The CornerDoubt flags of each patch.
+  [[nodiscard]] std::vector<std::uint8_t> doubts() const;
+
+  /// Whether both ends of a side are in one place.
+  [[nodiscard]] bool ends_meet(std::size_t side) const noexcept;
+
   /// Whether both sides at a corner leave it in one direction, so that the triangle of its cell has
   /// almost no area however small cells are.
   [[nodiscard]] bool sides_leave_together(std::size_t patch, std::size_t corner) const noexcept;
@@ -62,8 +70,9 @@ private:
   NetViews<S> views_;
 };
 
-/// Marks patches that repeat an earlier one.
+/// Marks patches that repeat an earlier one. candidates: as of entanglement_candidates().
 template <typename S>
-void mark_repeated(const NetCorners<S>& nets, TopologyData& topology);
+void mark_repeated(const NetCorners<S>& nets, std::span<const std::uint32_t> candidates,
+                   TopologyData& topology);
 
 } // namespace simdbezier::detail

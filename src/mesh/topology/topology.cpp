@@ -24,30 +24,39 @@ constexpr std::size_t kMostPatches = std::size_t{1} << 29;
 /// Numbers edges in the order of their first sides, and tells every side which way it runs.
 void number_edges(const EdgeRings<std::uint32_t>& rings, TopologyData& topology) {
   const std::size_t sides = rings.next.size();
-  std::size_t points = 0;
+  auto& first = topology.first;
   std::size_t edges = 0;
   for (std::size_t side = 0; side < sides; ++side) {
-    points += rings.is_point(side) ? 1 : 0;
     edges += rings.next[side] <= side ? 1 : 0; // the last side of a ring leads back to its first
   }
-  topology.counts.collapsed_sides = points;
-  topology.sides.resize(sides);
-  topology.first.reserve(edges + 1);
-  topology.members.reserve(sides - points);
-  for (std::size_t first = 0; first < sides; ++first) {
-    if (rings.is_point(first) || !topology.sides[first].collapsed()) {
-      continue; // the latter: of an earlier side's edge
+  // Every side hands its edge's number on to the next one of its ring, the last one to nobody,
+  // behind all sides: which sides these are follows no rule, so that branches would take longer.
+  topology.sides.resize(sides + 1);
+  first.assign(edges + 2, 0); // [edge + 2]: how many sides it has
+  std::uint32_t numbered = 0;
+  for (std::size_t side = 0; side < sides; ++side) {
+    if (rings.is_point(side)) {
+      ++topology.counts.collapsed_sides;
+      continue;
     }
-    const auto edge = static_cast<std::uint32_t>(topology.first.size());
-    topology.first.push_back(static_cast<std::uint32_t>(topology.members.size()));
-    std::size_t side = first;
-    do {
-      topology.sides[side] = Side(edge, rings.turned[side] != rings.turned[first]);
-      topology.members.push_back(static_cast<std::uint32_t>(side));
-      side = rings.next[side];
-    } while (side != first);
+    const bool is_first = topology.sides[side].collapsed(); // no earlier side has numbered it
+    const Side own = is_first ? Side(numbered, false) : topology.sides[side];
+    numbered += is_first ? 1 : 0;
+    topology.sides[side] = own;
+    ++first[own.edge() + 2];
+    const std::uint32_t next = rings.next[side];
+    const bool turns = rings.turned[side] != rings.turned[next];
+    topology.sides[next > side ? next : sides] = Side(own.edge(), own.reversed() != turns);
   }
-  topology.first.push_back(static_cast<std::uint32_t>(topology.members.size()));
+  topology.sides.pop_back();
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  topology.members.resize(sides - topology.counts.collapsed_sides);
+  for (std::size_t side = 0; side < sides; ++side) {
+    if (!topology.sides[side].collapsed()) {
+      topology.members[first[topology.sides[side].edge() + 1]++] = static_cast<std::uint32_t>(side);
+    }
+  }
+  first.pop_back();
 }
 
 /// Sets of corners that are one, each named by its lowest member.
@@ -56,51 +65,57 @@ public:
   explicit JoinedCorners(std::size_t count) : parent_(count) {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
+  /// Rem's algorithm: climbs from both at once, on the side that is higher, and hangs what it
+  /// leaves there below the other.
   void join(std::uint32_t a, std::uint32_t b) noexcept {
-    a = find(a);
-    b = find(b);
-    (a < b ? parent_[b] : parent_[a]) = std::min(a, b);
+    while (parent_[a] != parent_[b]) {
+      if (parent_[a] < parent_[b]) {
+        std::swap(a, b);
+      }
+      const std::uint32_t above = parent_[a];
+      parent_[a] = parent_[b];
+      if (above == a) {
+        return;
+      }
+      a = above;
+    }
   }
   [[nodiscard]] std::vector<std::uint32_t> finish() && {
-    for (std::uint32_t corner = 0; corner < parent_.size(); ++corner) {
-      parent_[corner] = find(corner);
+    for (std::uint32_t& parent : parent_) { // is lower, and has its lowest member already
+      parent = parent_[parent];
     }
     return std::move(parent_);
   }
 
 private:
-  [[nodiscard]] std::uint32_t find(std::uint32_t corner) noexcept {
-    while (parent_[corner] != corner) {
-      corner = parent_[corner] = parent_[parent_[corner]];
-    }
-    return corner;
-  }
-  std::vector<std::uint32_t> parent_;
+  std::vector<std::uint32_t> parent_; ///< a corner's own number, or that of a lower one
 };
 
 void join_corners(TopologyData& topology) {
   JoinedCorners corners(topology.sides.size());
-  for (std::size_t side = 0; side < topology.sides.size(); ++side) {
-    const Side& own = topology.sides[side];
-    if (own.collapsed()) {
-      corners.join(corner_at(side, 0), corner_at(side, 1));
-      continue;
+  for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
+    const auto sides = topology.sides_of(edge);
+    for (const std::uint32_t side : sides.subspan(1)) {
+      const std::size_t begin = topology.sides[side].reversed() ? 1 : 0;
+      corners.join(corner_at(side, begin), corner_at(sides[0], 0));
+      corners.join(corner_at(side, 1 - begin), corner_at(sides[0], 1));
     }
-    const std::size_t first = topology.members[topology.first[own.edge()]];
-    corners.join(corner_at(side, 0), corner_at(first, own.reversed() ? 1 : 0));
-    corners.join(corner_at(side, 1), corner_at(first, own.reversed() ? 0 : 1));
+  }
+  for (std::size_t side = 0; topology.counts.collapsed_sides > 0 && side < topology.sides.size();
+       ++side) {
+    if (topology.sides[side].collapsed()) {
+      corners.join(corner_at(side, 0), corner_at(side, 1));
+    }
   }
   topology.corners = std::move(corners).finish();
   // Goes from the last corner to the first, so that the lowest one always leads to the latest.
   topology.next_corner = topology.corners;
   for (std::size_t k = topology.corners.size(); k-- > 0;) {
     const std::uint32_t lowest = topology.corners[k];
-    if (lowest == k) {
-      ++topology.counts.corners;
-    } else {
-      topology.next_corner[k] = topology.next_corner[lowest];
-      topology.next_corner[lowest] = static_cast<std::uint32_t>(k);
-    }
+    std::uint32_t& latest = topology.next_corner[lowest];
+    topology.next_corner[k] = latest;
+    latest = lowest == k ? latest : static_cast<std::uint32_t>(k);
+    topology.counts.corners += lowest == k ? 1 : 0;
   }
 }
 
@@ -132,6 +147,9 @@ void collapse_short_sides(const NetCorners<S>& nets, double point_size,
 /// quotients there, which find_adjacency() compares in the type of the values.
 template <typename S>
 bool has_rounded_points(const NetCorners<S>& nets, const TopologyData& topology) {
+  if (topology.counts.collapsed_sides == 0) {
+    return false;
+  }
   for (std::size_t side = 0; side < topology.sides.size(); ++side) {
     if (topology.sides[side].collapsed() && nets.is_homogeneous(side / kPatchEdges)) {
       return true;
@@ -158,12 +176,14 @@ Status build(std::span<const ControlNets<S>> nets, const TopologyOptions& option
   if (options.snap > 0 || options.point_size > 0 || has_rounded_points(corners, topology)) {
     find_displacements(corners, topology);
   }
-  mark_repeated(corners, topology);
-  mark_corners(corners, topology);
-  mark_loops(corners, topology);
-  mark_entangled(topology);
+  const std::vector<std::uint32_t> candidates = entanglement_candidates(topology);
+  mark_repeated(corners, candidates, topology);
+  mark_entangled(candidates, topology);
+  const std::vector<std::uint8_t> doubts = corners.doubts();
+  mark_corners(corners, doubts, candidates, topology);
+  mark_loops(corners, doubts, topology);
   const Status oriented = orient(options, topology);
-  if (oriented == Status::ok) {
+  if (oriented == Status::ok && topology.counts.turned_edges > 0) {
     mark_apart(topology);
   }
   return oriented;

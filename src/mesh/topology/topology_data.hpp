@@ -141,29 +141,6 @@ struct TopologyData {
     return given != (is_turned(a / kPatchEdges) != is_turned(b / kPatchEdges));
   }
 
-  /// Whether no side of a patch is a point, and behind each lies at most one patch, which is
-  /// neither this one nor behind another side: then no patch shares two edges with this one.
-  [[nodiscard]] bool has_plain_sides(std::size_t patch) const noexcept {
-    std::size_t behind[kPatchEdges];
-    for (std::size_t k = 0; k < kPatchEdges; ++k) {
-      const std::size_t side = kPatchEdges * patch + k;
-      if (sides[side].collapsed()) {
-        return false;
-      }
-      const auto all = sides_of(sides[side].edge());
-      if (all.size() > 2) {
-        return false;
-      }
-      const std::size_t other = all.front() == side ? all.back() : all.front();
-      // A number that no patch has stands where there is no such patch.
-      behind[k] = all.size() == 1 ? patches() + k : other / kPatchEdges;
-      if (behind[k] == patch || std::count(behind, behind + k, behind[k]) > 0) {
-        return false;
-      }
-    }
-    return true;
-  }
-
   /// Calls at_corner(lowest of the joined corners) and at_edge(edge) for those that a patch owns.
   template <typename AtCorner, typename AtEdge>
   void for_owned(std::size_t patch, const AtCorner& at_corner, const AtEdge& at_edge) const {
