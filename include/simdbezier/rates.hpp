@@ -88,8 +88,9 @@ template <typename S>
                                                      const Camera& camera, double pixels,
                                                      std::span<double> out) noexcept;
 
-/// Finds the fewest cells of every patch, and their diagonals, with which its triangles are within
-/// its tolerance. A patch's rates depend on its own control points and tolerance, and on where its
+/// Finds few cells of every patch (the fewest near the proportion of rows and columns that the
+/// bound on the whole patch suggests), and their diagonals, with which its triangles are within its
+/// tolerance. A patch's rates depend on its own control points and tolerance, and on where its
 /// topology forces a diagonal; rates of 1 are raised where the mesh would be degenerate
 /// (separate_vertices()).
 ///

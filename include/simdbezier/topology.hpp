@@ -82,7 +82,9 @@ private:
 ///             through, view after view.
 /// topology:   replaced on ok, left as it was otherwise.
 /// Allocation: about 60 bytes a side. Determinism: a function of the control points and of the
-///             options other than `threads`. Cost: some 0.2 to 0.7 us a patch.
+///             options other than `threads`. Cost: some 0.2 to 0.7 us a patch; more where hundreds
+///             of patches have one edge and disagree, or thousands have the same four edges or
+///             values that are nan.
 /// Returns:    ok | null_input | input_too_small | bad_degree | bad_components (not three) |
 ///             bad_stride | bad_tolerance (a point_size or snap below 0, or nan) | not_orientable
 ///             (where `orient` is asked for) | size_overflow (2^29 patches and more) |

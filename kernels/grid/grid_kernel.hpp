@@ -2,6 +2,8 @@
 // which columns go to which tile (grid/column_tile.hpp). With L lanes a row of nu columns is nu / L
 // whole registers and a rest, which takes
 //   1 column           the buffered column (kExtra) of the last whole register
+//   more               a whole register that begins within the last one (overlaps())
+//   without whole registers, or where overlapping does not pay:
 //   up to L/2          a tile of 2 rows a register
 //   more               a masked register
 // Without normals one component is swept after the other (4 or 8 registers of polynomials, one to
@@ -67,13 +69,28 @@ struct TileSweeper {
   }
 };
 
+/// Whether the last `rest` columns of `first` and more take a register of their own that begins
+/// within the one before it. Some columns are computed twice, by idle lanes. That saves stores of
+/// parts of registers, which AVX2 has no good instruction for, and makes pairs of rows of the tile.
+/// Normals are so much arithmetic that two rows in one register are better where they fit.
+template <detail::OutputSet kOutputs, typename V>
+SIMDBEZIER_PART bool overlaps(std::size_t first, std::size_t rest) {
+  constexpr std::size_t kShort = kOutputs == detail::kPositionNormal ? kLanes<V> / 2
+                                 : kUsual<kOutputs>                  ? 1
+                                                                     : 0;
+  return !kLineWide<V> && first > 0 && rest > kShort;
+}
+
 /// Sweeps the columns behind whole registers, `rest` of them from `first` on: fewer than a
 /// register.
-template <typename T, typename Sweeper>
+template <detail::OutputSet kOutputs, typename T, typename Sweeper>
 SIMDBEZIER_INLINE void sweep_rest(const Sweeper& tiles, std::size_t first, std::size_t rest) {
   using V = vec<T>;
   constexpr std::size_t kHalf = kLanes<V> / 2;
   constexpr std::size_t kRows = kHalf > 1 ? 2 : 1; // of a tile of so many columns
+  if (overlaps<kOutputs, V>(first, rest)) {
+    return tiles.template sweep<ColumnTile<1, true, false, V>>(first + rest - kLanes<V>, kLanes<V>);
+  }
   if (rest > kHalf) {
     return tiles.template sweep<ColumnTile<1, false, false, V>>(first, rest);
   }
@@ -110,7 +127,9 @@ SIMDBEZIER_PART void sweep_registers(const GridTask<T>& task, const RowPiece<T>&
     }
     tiles.template sweep<ColumnTile<1, true, false, V>>(first, kL);
   }
-  if (first < task.nu) {
+  if (!task.streaming && overlaps<kOutputs, V>(first, task.nu - first)) {
+    tiles.template sweep<ColumnTile<1, true, false, V>>(task.nu - kL, kL);
+  } else if (first < task.nu) {
     tiles.template sweep<ColumnTile<1, false, false, V>>(first, task.nu - first);
   }
 }
@@ -138,11 +157,6 @@ SIMDBEZIER_PART void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<
     if (split.column && first + 2 * kL == split.full) {
       return tiles.template sweep<ColumnTile<1, true, true, W>>(first, 2 * kL);
     }
-    if constexpr (!kLineWide<V>) { // seldom so few columns of longer ones
-      if (split.rest > kL / 2 && first + kL == split.full) {
-        return tiles.template sweep<ColumnTile<1, false, false, W>>(first, kL + split.rest);
-      }
-    }
   }
   for (; first < plain; first += kL) {
     tiles.template sweep<ColumnTile<1, true, false, V>>(first, kL);
@@ -150,7 +164,7 @@ SIMDBEZIER_PART void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<
   if (split.column) {
     tiles.template sweep<ColumnTile<1, true, true, V>>(plain, kL);
   } else {
-    sweep_rest<T>(tiles, split.full, split.rest);
+    sweep_rest<kOutputs, T>(tiles, split.full, split.rest);
   }
 }
 

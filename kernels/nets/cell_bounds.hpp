@@ -2,6 +2,9 @@
 // of src/mesh/rates/patch_bound.hpp; docs/tessellation.md has the proof.
 #pragma once
 
+#include <cstddef>
+#include <limits>
+
 #include "kernels/nets/quarter_nets.hpp"
 #include "kernels/simd/lanes.hpp"
 #include "kernels/simd/repeat.hpp"

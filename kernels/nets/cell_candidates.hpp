@@ -2,6 +2,8 @@
 // candidates of its own.
 #pragma once
 
+#include <cstddef>
+
 #include "kernels/nets/cell_screen.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

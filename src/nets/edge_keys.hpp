@@ -5,12 +5,17 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <simdbezier/control_nets.hpp>
+#include <simdbezier/patch_edge.hpp>
+
 #include "src/nets/edge_values.hpp"
+#include "src/storage/net_shape.hpp"
 
 namespace simdbezier::detail {
 
 /// A key for every control point of a net's boundary, and what follows from the keys of an edge.
-/// Points with the same compared_bits() have the same key; others hardly ever.
+/// Points with the same compared_bits() have the same key; others hardly ever, unless they are made
+/// to.
 ///
 /// kDegree, kChannels: those of the net, in both directions, or 0 where they are known at run time
 /// only.
@@ -81,7 +86,7 @@ private:
       }
       key = (key + bits) * 0x9e3779b97f4a7c15ULL;
     }
-    return key ^ 0xd6e8feb86659fd93ULL; // else a point of zeros would hide the other factor
+    return key | 1; // products by odd numbers keep what the other factor is
   }
 
   std::ptrdiff_t first_[kPatchEdges]; ///< as in EdgeForm

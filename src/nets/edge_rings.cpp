@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <memory>
+#include <vector>
 
 #include "src/nets/edge_keys.hpp"
 #include "src/nets/edge_values.hpp"
@@ -56,9 +57,9 @@ private:
   std::size_t mask_;
 };
 
-/// What hashing finds of every side.
+/// Where the results of hashing go: of every side its hash, and a ring of its own.
 template <typename Index>
-struct HashedSides {
+struct HashTarget {
   EdgeRings<Index>& rings;
   std::uint64_t* hashes;
 };
@@ -66,7 +67,7 @@ struct HashedSides {
 /// Hashes the edges of patches [first, last), which are in one view.
 template <typename Keys, typename S, typename Index>
 void hash_patches(const AllEdges<S>& edges, std::size_t view, Keys keys, std::size_t first,
-                  std::size_t last, HashedSides<Index> to) noexcept {
+                  std::size_t last, HashTarget<Index> to) noexcept {
   Index* const next = to.rings.next.data();
   std::uint8_t* const turned = to.rings.turned.data();
   const bool weighted = edges.form(view, 0).weights != Weights::none;
@@ -96,7 +97,7 @@ void hash_patches(const AllEdges<S>& edges, std::size_t view, Keys keys, std::si
 }
 
 template <typename S, typename Index>
-void hash_edges(const AllEdges<S>& edges, HashedSides<Index> to, int threads) noexcept {
+void hash_edges(const AllEdges<S>& edges, HashTarget<Index> to, int threads) noexcept {
   auto body = [&](int, std::size_t begin, std::size_t end) {
     edges.views().for_views(begin, end, [&](const auto& nets, auto view, auto first, auto last) {
       if (shape_of(nets).is_bicubic()) {

@@ -197,6 +197,26 @@ TEST(Adjacency, EqualHashesOfDifferentEdges) {
   EXPECT_EQ(links[4], (EdgeLink{EdgeKind::shared, PatchEdge::v1, true, 2}));
 }
 
+// Sums of products of these points' values are 0, so that a key made of them alone would hide the
+// other points of an edge from its hash, and thousands of edges would share one place in a table.
+TEST(Adjacency, NoPointHidesOthersFromHashes) {
+  constexpr float kHiding[2][3] = {{0.235063955F, -9.74690712e-26F, 2.47840054e-10F},
+                                   {0.360965073F, -3.61747298e-26F, -1.70671812e-30F}};
+  Batch<float> batch = random_batch<float>({3, 3, 3, Weights::none}, 2, 73);
+  std::uint64_t hashes[2];
+  for (std::size_t p = 0; p < 2; ++p) {
+    for (int k = 0; k < 2; ++k) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        batch.at(p, 0, k, c) = kHiding[k][c];
+      }
+    }
+    detail::EdgeKeys<float, 3, 3> keys(batch.nets());
+    keys.read(&batch.at(p, 0, 0, 0));
+    hashes[p] = keys.hash(0);
+  }
+  EXPECT_NE(hashes[0], hashes[1]);
+}
+
 // The soups hold what they are meant to hold.
 TEST(Adjacency, SoupsHaveEveryKind) {
   std::size_t kinds[4] = {};

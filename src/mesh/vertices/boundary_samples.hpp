@@ -149,6 +149,7 @@ public:
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
   /// What samples are made with.
   [[nodiscard]] CornerCache<T>& corners() noexcept { return corners_; }
+  /// add_edge() may put other lines in its place: whoever waits with a line of it goes first.
   [[nodiscard]] UnionLines<T>& unions() noexcept { return unions_; }
   [[nodiscard]] const Planes<T>& positions() const noexcept { return positions_; }
   [[nodiscard]] const Planes<T>& normals() const noexcept { return normals_; }

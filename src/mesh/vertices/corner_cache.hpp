@@ -49,7 +49,7 @@ public:
     }
     return values[corner % kBlockCorners];
   }
-  /// Copies a corner to sample `at` of planes.
+  /// Copies a corner to sample `to` of planes.
   void fetch(std::uint32_t corner, const Planes<T>& position, const Planes<T>& normal,
              std::size_t to) noexcept {
     const CornerValues<T>& known = at(corner);

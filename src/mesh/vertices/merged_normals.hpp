@@ -47,8 +47,8 @@ struct PointBlock {
 
 /// Turns sums of unit normals into normals: sum * inverse + kept * first + 0, where first is the
 /// first term. That is the sum's direction; a single term stays as it is, and so does the first one
-/// where the sum is less than a thousandth of what it could be. Values are those of one point, or
-/// of a block of points.
+/// where the sum is less than a thousandth of what it could be. finish_sum() of the kernels for
+/// edges does the same operations. Values are those of one point, or of a block of points.
 template <typename Values>
 struct MergedScale {
   Values inverse;
