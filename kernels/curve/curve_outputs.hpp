@@ -29,15 +29,6 @@ struct CurveRange {
   }
 };
 
-/// Asks for the values of a curve that comes soon.
-template <typename T>
-SIMDBEZIER_INLINE void prefetch_values(const T* values, std::size_t count) {
-  constexpr std::size_t kLine = 64 / sizeof(T);
-  for (std::size_t i = 0; i < count; i += kLine) {
-    prefetch_line(values + i);
-  }
-}
-
 /// Decides each lane that did not pass the quick test by itself; out of line, because it is rare.
 template <typename V, typename Task>
 SIMDBEZIER_RARE void resolve_lanes(const Task& task, const CurveShape& shape,

@@ -214,11 +214,8 @@ SIMDBEZIER_INLINE void certify_group(const detail::RateTask<T>& task, std::size_
 template <typename T>
 SIMDBEZIER_INLINE void prefetch_nets(const detail::NetView<const T>& nets, std::size_t begin,
                                      std::size_t end) {
-  constexpr std::size_t kLine = detail::kLineBytes / sizeof(T);
   for (std::size_t p = begin; nets.packed && p < end; ++p) {
-    for (std::size_t k = 0; k < 3 * 16; k += kLine) {
-      prefetch_line(net_at(nets, p) + k);
-    }
+    prefetch_values(net_at(nets, p), 3 * 16);
   }
 }
 

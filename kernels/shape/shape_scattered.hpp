@@ -145,16 +145,13 @@ template <typename T>
 SIMDBEZIER_PART void prefetch_sample(const ScatteredTask<T>& task, const NetShape& shape,
                                      std::size_t k) {
   constexpr std::size_t kAhead = 8;
-  constexpr std::size_t kLine = 64 / sizeof(T);
   if (k + kAhead < task.count) {
     const std::size_t next = k + kAhead;
     const bool high_u = shape.cells_u() == 2 && half_centred(task, task.u[next]) >= T(0);
     const bool high_v = shape.cells_v() == 2 && half_centred(task, task.v[next]) >= T(0);
     const std::size_t cell = task.patch[next] * shape.cells() + high_v * shape.cells_u() + high_u;
-    const T* const from = task.coefficients + cell * shape.cell_coefficients();
-    for (std::size_t i = 0; i < shape.cell_coefficients(); i += kLine) {
-      prefetch_line(from + i);
-    }
+    prefetch_values(task.coefficients + cell * shape.cell_coefficients(),
+                    shape.cell_coefficients());
   }
 }
 

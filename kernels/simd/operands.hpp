@@ -23,6 +23,14 @@ SIMDBEZIER_INLINE void prefetch_line(const void* address) {
   asm volatile("" : "+r"(address));
   __builtin_prefetch(address);
 }
+/// Asks for `count` values that are needed soon.
+template <typename T>
+SIMDBEZIER_INLINE void prefetch_values(const T* values, std::size_t count) {
+  constexpr std::size_t kLine = 64 / sizeof(T);
+  for (std::size_t i = 0; i < count; i += kLine) {
+    prefetch_line(values + i);
+  }
+}
 
 /// Returns a * *t + c, with *t in all lanes. Where the instruction set can, *t is never in a
 /// register, and the result takes the place of a: with two operands in registers nothing has to be
