@@ -45,6 +45,7 @@ struct MeshStages {
     simdbezier::RateOptions options;
     options.tolerance = tolerance;
     options.threads = how.threads;
+    options.isa = how.isa;
     const auto nets_of = views();
     return simdbezier::choose_rates(std::span<const simdbezier::ControlNets<T>>(&nets_of, 1),
                                     topology, options, {nu, nv, diagonals, deviations})

@@ -4,13 +4,19 @@
 #include "kernels/nets/net_flatness.hpp"
 #include "kernels/nets/net_maps.hpp"
 #include "kernels/nets/net_rates.hpp"
+#include "kernels/nets/vector_sizes.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 template <typename T>
 constexpr detail::NetTable<T> make_net_table() {
-  return {split_kernel<T>, segment_kernel<T>,  map_kernel<T>,
-          box_kernel<T>,   flatness_kernel<T>, rate_kernel<T>};
+  return {split_kernel<T>,
+          segment_kernel<T>,
+          map_kernel<T>,
+          box_kernel<T>,
+          flatness_kernel<T>,
+          rate_kernel<T>,
+          {largest_kernel, diagonal_kernel}};
 }
 
 extern const detail::NetTable<float> net_table_f32;

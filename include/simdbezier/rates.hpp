@@ -36,7 +36,8 @@ struct RateOptions {
   /// point to the next: the total turn of the control net's normals over the number of segments.
   double normal_angle = kUnlimited;
   std::uint32_t most_segments = kMostSegments;
-  int threads = 0; ///< as in Options
+  int threads = 0;          ///< as in Options
+  Isa isa = Isa::automatic; ///< see resolve_isa()
 };
 
 /// A pinhole camera: a point that is one unit away along the direction and x units off that axis
@@ -127,7 +128,7 @@ template <typename S>
 ///
 /// rates:    nu and nv are read, from 1 to kMostSegments; diagonals and deviation are written.
 /// errors:   one value a patch, or empty.
-/// options:  Options::threads is honoured, its other members have no meaning.
+/// options:  threads and isa are honoured, the other members have no meaning.
 /// Returns:  as choose_rates(); bad_rates also for rates outside of that range. Outputs are
 ///           undefined on an error.
 template <typename S>

@@ -135,7 +135,7 @@ private:
       std::size_t raised = 0;
       report.status = separate_vertices(plan_.topology, plan_.nu, plan_.nv, raised);
       report = report ? certify_rates<S>(nets_, plan_.topology, errors_, rates,
-                                         {.threads = options_.threads})
+                                         {.threads = options_.threads, .isa = options_.isa})
                       : report;
     } else {
       RateOptions how;
@@ -143,6 +143,7 @@ private:
       how.longest_edge = options_.longest_edge;
       how.normal_angle = options_.normal_angle;
       how.threads = options_.threads;
+      how.isa = options_.isa;
       if (const Status status = find_tolerances(how); !status) {
         return status;
       }

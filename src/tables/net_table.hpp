@@ -7,6 +7,7 @@
 #pragma once
 
 #include "src/tables/kernel_table.hpp"
+#include "src/tables/vector_sizes.hpp"
 
 namespace simdbezier::detail {
 
@@ -119,7 +120,8 @@ struct FlatnessTask {
   T root_components; ///< sqrt(components), rounded up
 };
 
-/// The rates of bicubic patches are in src/tables/rate_task.hpp.
+/// The rates of bicubic polynomial patches are in src/tables/rate_task.hpp, and what those of
+/// others need in src/tables/vector_sizes.hpp.
 template <typename T>
 struct RateTask;
 
@@ -136,6 +138,7 @@ struct NetTable {
   NetKernel<BoxTask<T>> boxes;
   NetKernel<FlatnessTask<T>> flatness;
   NetKernel<RateTask<T>> rates;
+  SizeKernels sizes; ///< in double, whatever T is
 };
 
 } // namespace simdbezier::detail

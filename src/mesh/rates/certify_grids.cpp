@@ -15,7 +15,7 @@ namespace {
 /// Certifies all patches of one view.
 template <typename S>
 RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::span<double> deviation,
-                   int threads) noexcept {
+                   Isa isa, int threads) noexcept {
   if (const Status status = check_in_space(nets); !status) {
     return {status};
   }
@@ -26,7 +26,7 @@ RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::spa
   std::atomic<std::size_t> unreadable = nets.count; // the first patch that is
   auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
     try {
-      PatchBound bound;
+      PatchBound bound(isa);
       for (std::size_t patch = begin; patch < end; ++patch) {
         if (bound.read(nets, patch, 0)) {
           deviation[patch] += bound.rising_bound(cells);
@@ -67,10 +67,14 @@ RateReport certify_grids(std::span<const ControlNets<S>> nets, std::uint32_t nu,
       return {Status::bad_tolerance, patch};
     }
   }
+  Isa isa = Isa::automatic;
+  if (const Status runs = resolve_isa(options.isa, isa); !runs) {
+    return {runs};
+  }
   std::size_t first = 0;
   for (const ControlNets<S>& view : nets) {
     RateReport report =
-        detail::certify(view, {nu, nv}, deviation.subspan(first, view.count), options.threads);
+        detail::certify(view, {nu, nv}, deviation.subspan(first, view.count), isa, options.threads);
     if (!report) {
       report.patch += first;
       return report;

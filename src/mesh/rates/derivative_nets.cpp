@@ -8,66 +8,70 @@ namespace {
 
 /// Differences of neighbours in one direction, times the degree.
 void differentiate(const VectorNet& net, bool in_u, VectorNet& to) {
-  const std::size_t step = in_u ? 1 : net.columns;
+  const std::size_t step = in_u ? 1 : net.stride;
   const std::size_t length = in_u ? net.columns : net.rows;
+  to.shape_like(net);
   if (length < 2) {
-    to.resize(1, 1);
+    to.columns = 1;
+    to.rows = 1;
     to.at[0] = {};
     return;
   }
-  VectorNet result;
-  result.resize(in_u ? net.columns - 1 : net.columns, in_u ? net.rows : net.rows - 1);
-  for (std::size_t j = 0; j < result.rows; ++j) {
-    for (std::size_t i = 0; i < result.columns; ++i) {
-      const std::size_t k = j * net.columns + i;
-      result(i, j) = static_cast<double>(length - 1) * (net.at[k + step] - net.at[k]);
+  (in_u ? to.columns : to.rows) -= 1;
+  for (std::size_t j = 0; j < to.rows; ++j) {
+    for (std::size_t i = 0; i < to.columns; ++i) {
+      const std::size_t k = j * net.stride + i;
+      to.at[k] = static_cast<double>(length - 1) * (net.at[k + step] - net.at[k]);
     }
   }
-  to = std::move(result);
 }
 
-/// One line of a net.
-struct Line {
-  ControlVector* first;
+/// The lines of a net in one direction: vector i of line k stands at i * step + k * across. Loops
+/// pass from line to line first, which do the same.
+struct Lines {
+  std::size_t points;
   std::size_t step;
   std::size_t count;
+  std::size_t across;
 
-  [[nodiscard]] ControlVector& operator[](std::size_t k) const { return first[k * step]; }
+  Lines(const VectorNet& net, bool in_u)
+      : points(in_u ? net.columns : net.rows), step(in_u ? 1 : net.stride),
+        count(in_u ? net.rows : net.columns), across(in_u ? net.stride : 1) {}
 };
 
-template <typename Visit>
-void for_lines(VectorNet& net, bool in_u, const Visit& visit) {
-  const std::size_t lines = in_u ? net.rows : net.columns;
-  for (std::size_t k = 0; k < lines; ++k) {
-    visit(in_u ? Line{&net(0, k), 1, net.columns} : Line{&net(k, 0), net.columns, net.rows});
+/// Sets the vectors to[k] = a from[k] + b next[k] of all lines.
+void blend(const Lines& lines, double a, const ControlVector* from, double b,
+           const ControlVector* next, ControlVector* to) {
+  for (std::size_t k = 0; k < lines.count;
+       ++k, from += lines.across, next += lines.across, to += lines.across) {
+    *to = a * *from + b * *next;
   }
 }
 
-void raise_direction(VectorNet& net, bool in_u, std::size_t count) {
-  while ((in_u ? net.columns : net.rows) < count) {
-    VectorNet raised;
-    raised.resize(net.columns + (in_u ? 1 : 0), net.rows + (in_u ? 0 : 1));
-    const std::size_t lines = in_u ? net.rows : net.columns;
-    for (std::size_t k = 0; k < lines; ++k) {
-      const Line from =
-          in_u ? Line{&net(0, k), 1, net.columns} : Line{&net(k, 0), net.columns, net.rows};
-      const Line to = in_u ? Line{&raised(0, k), 1, raised.columns}
-                           : Line{&raised(k, 0), raised.columns, raised.rows};
-      for (std::size_t i = 0; i < to.count; ++i) {
-        const double share = static_cast<double>(i) / static_cast<double>(from.count);
-        to[i] = i == 0            ? from[0]
-                : i == from.count ? from[i - 1]
-                                  : share * from[i - 1] + (1 - share) * from[i];
-      }
-    }
-    net = std::move(raised);
+void copy_points(const Lines& lines, const ControlVector* from, ControlVector* to) {
+  for (std::size_t k = 0; k < lines.count; ++k) {
+    to[k * lines.across] = from[k * lines.across];
   }
+}
+
+/// Raises the degree in one direction by one. A point depends on those before it, so that going
+/// backwards reads none that is raised already.
+void raise_once(VectorNet& net, bool in_u) {
+  const Lines lines(net, in_u);
+  ControlVector* at = &net.at[lines.points * lines.step];
+  copy_points(lines, at - lines.step, at);
+  for (std::size_t i = lines.points - 1; i > 0; --i) {
+    at -= lines.step;
+    const double share = static_cast<double>(i) / static_cast<double>(lines.points);
+    blend(lines, share, at - lines.step, 1 - share, at, at);
+  }
+  ++(in_u ? net.columns : net.rows);
 }
 
 } // namespace
 
 void HullBox::include(const VectorNet& net) {
-  for (const ControlVector& v : net.at) {
+  for (const ControlVector& v : net.at) { // all of a patch's degrees
     for (std::size_t c = 0; c < 3; ++c) {
       low_[c] = std::min(low_[c], v.x[c] / v.x[3]);
       high_[c] = std::max(high_[c], v.x[c] / v.x[3]);
@@ -144,20 +148,22 @@ bool VectorPatch::read(const ControlNets<S>& nets, std::size_t patch) {
   for (std::size_t c = 0; c < 3; ++c) {
     largest = std::max({largest, std::fabs(low[c]), std::fabs(high[c])});
   }
-  exponent = largest > 0 ? std::ilogb(largest) : 0;
-  largest = std::scalbn(largest, -exponent);
-  const int weight_exponent = std::ilogb(largest_weight);
-  for (ControlVector& v : net.at) {
-    v.x[3] = std::scalbn(v.x[3], -weight_exponent);
-  }
+  scale = largest > 0 ? power_of_two_below(largest) : PowerOfTwo();
+  const PowerOfTwo down = scale.inverse();
+  const PowerOfTwo weight_down = power_of_two_below(largest_weight).inverse();
+  largest = largest * down;
+  double middle[3];
   for (std::size_t c = 0; c < 3; ++c) {
-    const double least = std::scalbn(low[c], -exponent);
-    const double middle = least + (std::scalbn(high[c], -exponent) - least) / 2;
-    for (ControlVector& v : net.at) {
-      v.x[c] = (std::scalbn(v.x[c], -exponent) - middle) * v.x[3];
+    const double least = low[c] * down;
+    middle[c] = least + (high[c] * down - least) / 2;
+  }
+  for (ControlVector& v : net.at) {
+    v.x[3] = v.x[3] * weight_down;
+    for (std::size_t c = 0; c < 3; ++c) {
+      v.x[c] = (v.x[c] * down - middle[c]) * v.x[3];
     }
   }
-  largest *= std::scalbn(largest_weight, -weight_exponent);
+  largest *= largest_weight * weight_down;
   return true;
 }
 
@@ -165,32 +171,77 @@ template bool VectorPatch::read(const ControlNets<float>&, std::size_t);
 template bool VectorPatch::read(const ControlNets<double>&, std::size_t);
 
 void form_second_nets(const VectorNet& net, SecondNets& to) {
-  VectorNet du;
-  VectorNet dv;
-  differentiate(net, true, du);
-  differentiate(net, false, dv);
-  differentiate(du, true, to.uu);
-  differentiate(du, false, to.uv);
-  differentiate(dv, false, to.vv);
+  VectorNet first;
+  differentiate(net, true, first);
+  differentiate(first, true, to.uu);
+  differentiate(first, false, to.uv);
+  differentiate(net, false, first);
+  differentiate(first, false, to.vv);
 }
 
 void cut_net(VectorNet& net, bool in_u, double t, bool keep_high) {
-  for_lines(net, in_u, [&](const Line& line) {
-    for (std::size_t level = 1; level < line.count; ++level) {
-      for (std::size_t k = 0; k + level < line.count; ++k) {
-        // The kept end is where values come to rest: each pass leaves one of them.
-        const std::size_t at = keep_high ? k : line.count - 1 - k;
-        const ControlVector& a = keep_high ? line[at] : line[at - 1];
-        const ControlVector& b = keep_high ? line[at + 1] : line[at];
-        line[at] = (1 - t) * a + t * b;
-      }
+  const Lines lines(net, in_u);
+  for (std::size_t level = 1; level < lines.points; ++level) {
+    for (std::size_t i = 0; i + level < lines.points; ++i) {
+      // The kept end is where values come to rest: each pass leaves one of them.
+      const std::size_t at = keep_high ? i : lines.points - 1 - i;
+      ControlVector* const to = &net.at[at * lines.step];
+      blend(lines, 1 - t, keep_high ? to : to - lines.step, t, keep_high ? to + lines.step : to,
+            to);
     }
-  });
+  }
+}
+
+void halve_net(const VectorNet& net, bool in_u, VectorNet& low, VectorNet& high) {
+  const Lines lines(net, in_u);
+  low.shape_like(net);
+  high = net;
+  copy_points(lines, high.at.data(), low.at.data());
+  for (std::size_t level = 1; level < lines.points; ++level) {
+    for (std::size_t i = 0; i + level < lines.points; ++i) {
+      ControlVector* const to = &high.at[i * lines.step];
+      blend(lines, 0.5, to, 0.5, to + lines.step, to);
+    }
+    copy_points(lines, high.at.data(), &low.at[level * lines.step]);
+  }
 }
 
 void raise_net(VectorNet& net, std::size_t columns, std::size_t rows) {
-  raise_direction(net, true, columns);
-  raise_direction(net, false, rows);
+  while (net.columns < columns) {
+    raise_once(net, true);
+  }
+  while (net.rows < rows) {
+    raise_once(net, false);
+  }
+}
+
+void raise_all(SecondNets& nets, const VectorNet& like) {
+  raise_net(nets.uu, like.columns, like.rows);
+  raise_net(nets.uv, like.columns, like.rows);
+  raise_net(nets.vv, like.columns, like.rows);
+}
+
+void VectorPlanes::read(const VectorNet& net) {
+  const std::size_t count = net.columns * net.rows;
+  stride_ = (count + kListStep - 1) / kListStep * kListStep;
+  values_.resize(4 * stride_);
+  const std::size_t stride = stride_;
+  double* to = values_.data();
+  const auto put = [&](const ControlVector& v) {
+    to[0] = v.x[0];
+    to[stride] = v.x[1];
+    to[2 * stride] = v.x[2];
+    to[3 * stride] = v.x[3];
+    ++to;
+  };
+  for (std::size_t j = 0; j < net.rows; ++j) {
+    for (std::size_t i = 0; i < net.columns; ++i) {
+      put(net(i, j));
+    }
+  }
+  while (to != values_.data() + stride) {
+    put({});
+  }
 }
 
 } // namespace simdbezier::detail

@@ -8,6 +8,8 @@
 #include <simdbezier/control_nets.hpp>
 
 #include "src/mesh/rates/chord_bound.hpp"
+#include "src/mesh/rates/power_of_two.hpp"
+#include "src/tables/vector_sizes.hpp"
 
 namespace simdbezier::detail {
 
@@ -26,38 +28,33 @@ struct ControlVector {
   }
 };
 
-/// A net of control vectors, [j][i] as in ControlNets.
+/// A net of control vectors, [j][i] as in ControlNets. Rows are as far apart as the patch's, so
+/// that a net of less degree can be raised where it stands; what lies between them is undefined.
 struct VectorNet {
   std::size_t columns = 0; ///< degree in u, plus 1
   std::size_t rows = 0;
+  std::size_t stride = 0;
   std::vector<ControlVector> at;
 
+  /// Takes the sizes of a net that fills its rows; values are undefined.
   void resize(std::size_t new_columns, std::size_t new_rows) {
     columns = new_columns;
     rows = new_rows;
+    stride = new_columns;
     at.resize(columns * rows);
   }
+  /// Takes the sizes of a net, and room for as many vectors as it has.
+  void shape_like(const VectorNet& net) {
+    columns = net.columns;
+    rows = net.rows;
+    stride = net.stride;
+    at.resize(net.at.size());
+  }
   [[nodiscard]] ControlVector& operator()(std::size_t i, std::size_t j) {
-    return at[j * columns + i];
+    return at[j * stride + i];
   }
   [[nodiscard]] const ControlVector& operator()(std::size_t i, std::size_t j) const {
-    return at[j * columns + i];
-  }
-};
-
-/// A box that holds a part of the surface, and the smallest of its weights. Distances from points
-/// of a rational surface S = X / w are bounded by the vectors v of X - q w, with q in the box: with
-/// its middle c and its half-diagonal R, |v_X - q v_w| <= |v_X - c v_w| + R |v_w|.
-struct Hull {
-  double middle[3] = {0, 0, 0};
-  double radius = 0;
-  double smallest_weight = 1;
-
-  [[nodiscard]] double size(const ControlVector& v) const {
-    const double x = v.x[0] - middle[0] * v.x[3];
-    const double y = v.x[1] - middle[1] * v.x[3];
-    const double z = v.x[2] - middle[2] * v.x[3];
-    return std::sqrt(x * x + y * y + z * z) + radius * std::fabs(v.x[3]);
+    return at[j * stride + i];
   }
 };
 
@@ -81,9 +78,9 @@ struct VectorPatch {
   VectorNet net;
   bool rational = false;
   double largest = 0; ///< of all values, for rounding
-  /// Values are those given over two to this power: the largest is between 1 and 2, so that squares
-  /// neither overflow nor vanish. So is the largest weight, by a power that need not be known.
-  int exponent = 0;
+  /// Values are those given over this: the largest is between 1 and 2, so that squares neither
+  /// overflow nor vanish. So is the largest weight, by a power that need not be known.
+  PowerOfTwo scale;
 
   /// Reads a patch: false where a value is not finite, or a weight not positive.
   template <typename S>
@@ -104,7 +101,24 @@ void form_second_nets(const VectorNet& net, SecondNets& to);
 /// algorithm.
 void cut_net(VectorNet& net, bool in_u, double t, bool keep_high);
 
-/// Raises both degrees.
+/// The parts over [0, 1/2] and [1/2, 1] in one direction, by the same algorithm.
+void halve_net(const VectorNet& net, bool in_u, VectorNet& low, VectorNet& high);
+
+/// Raises both degrees, to at most those of the patch.
 void raise_net(VectorNet& net, std::size_t columns, std::size_t rows);
+
+/// Raises the nets to the degrees of a patch.
+void raise_all(SecondNets& nets, const VectorNet& like);
+
+/// The vectors of a net as kernels read them.
+class VectorPlanes {
+public:
+  void read(const VectorNet& net);
+  [[nodiscard]] VectorList list() const { return {values_.data(), stride_, stride_}; }
+
+private:
+  std::vector<double> values_; ///< [component][vector]
+  std::size_t stride_ = 0;
+};
 
 } // namespace simdbezier::detail

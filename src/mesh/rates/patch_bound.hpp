@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include <simdbezier/isa.hpp>
 #include <simdbezier/mesh_layout.hpp>
 
 #include "src/mesh/rates/derivative_nets.hpp"
@@ -13,6 +14,10 @@ namespace simdbezier::detail {
 /// Bounds for any rates, in double, for patches of any degree and weights.
 class PatchBound {
 public:
+  /// Vectors are measured by the kernels of an instruction set that is there; bounds are the same
+  /// on all of them.
+  explicit PatchBound(Isa isa) noexcept;
+
   /// False where a control point is not finite or a weight not positive.
   template <typename S>
   [[nodiscard]] bool read(const ControlNets<S>& nets, std::size_t patch, std::uint8_t flags);
@@ -45,28 +50,50 @@ private:
   /// Quarters, halves, all: what a zone of cells lies in.
   static constexpr QuarterSet kZones[] = {1, 2, 4, 8, 3, 12, 5, 10, kAll};
 
-  /// Calls visit(quarters, zone) for the zones that there are.
-  template <typename Visit>
-  static void for_zones(const CellCounts& cells, const Visit& visit);
+  /// The second derivatives of a part of the patch, raised to the patch's degrees.
+  struct RaisedPlanes {
+    VectorPlanes uu;
+    VectorPlanes uv;
+    VectorPlanes vv;
+  };
+  /// Bounds for either diagonal.
+  struct DiagonalBounds {
+    double rising;
+    double falling;
+  };
+  class Look;
+
   void find_hulls();
+  void take_quarter(std::size_t quarter, SecondNets& nets);
   [[nodiscard]] const Hull& hull_of(QuarterSet quarters) const {
     return hulls_[patch_.rational ? quarters : kAll];
   }
-  [[nodiscard]] double zone_bound(QuarterSet quarters, const CellCounts& cells, bool falling) const;
+  [[nodiscard]] double largest_of(const VectorNet& net, QuarterSet quarters);
   [[nodiscard]] double corner_bound(std::size_t corner, const CellCounts& cells) const;
+  /// Whether the bound for rates is above t; `zone` is one that is likely to be, and becomes the
+  /// first one found.
+  [[nodiscard]] bool exceeds(const CellCounts& cells, double t, std::size_t& zone) const;
   /// choose() by Filip's bound alone, which is coarser and has a formula for the counts.
   [[nodiscard]] CellCounts filip(double t, std::uint32_t most) const;
   /// A bound in the patch's own scale as one in space, rounded up.
   [[nodiscard]] double in_space(double bound) const;
 
+  const SizeKernels& sizes_;
   VectorPatch patch_;
   std::uint8_t flags_ = 0;
-  SecondNets nets_;                  ///< of the whole patch
-  SecondBounds whole_{};             ///< their largest vectors
-  SecondBounds doubt_{};             ///< what rounding may have taken from the largest vectors
-  std::array<SecondNets, 4> raised_; ///< of the quarters, all to the patch's degrees
+  SecondNets nets_;      ///< of the whole patch
+  SecondBounds whole_{}; ///< their largest vectors
+  SecondBounds doubt_{}; ///< what rounding may have taken from the largest vectors
+  std::array<RaisedPlanes, 4> quarters_;
   std::array<SecondBounds, kAll + 1> largest_; ///< of the sets in kZones
   std::array<Hull, kAll + 1> hulls_;           ///< of sets of quarters
+
+  // These keep their memory from one patch to the next.
+  VectorPlanes planes_;
+  SecondNets halves_[2];
+  SecondNets parts_[2];
+  VectorNet net_halves_[2];
+  VectorNet net_parts_[2];
 };
 
 } // namespace simdbezier::detail

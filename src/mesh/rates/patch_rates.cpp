@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 #include "src/mesh/rates/patch_bound.hpp"
 
@@ -10,7 +11,7 @@ namespace simdbezier::detail {
 CellCounts PatchBound::filip(double tolerance, std::uint32_t most) const {
   // Derivatives are far below the largest limit: one cell keeps it, and no quotient overflows.
   constexpr double kLargestLimit = 1e30;
-  const double t = std::scalbn(tolerance, -patch_.exponent);
+  const double t = tolerance * patch_.scale.inverse();
   const double limit =
       std::min(kLargestLimit, 8 * t * hulls_[kAll].smallest_weight /
                                   (kRounding * step_slack(most) * step_slack(most)));
@@ -51,7 +52,8 @@ CellCounts PatchBound::filip(double tolerance, std::uint32_t most) const {
 }
 
 CellCounts PatchBound::raise(CellCounts cells, double t, std::uint32_t most) const {
-  while (cells.nu <= most && cells.nv <= most && !(bound(cells) <= t)) {
+  std::size_t zone = 0;
+  while (cells.nu <= most && cells.nv <= most && exceeds(cells, t, zone)) {
     if (cells.nu == most && cells.nv == most) {
       return {most + 1, most + 1};
     }
@@ -68,32 +70,38 @@ CellCounts PatchBound::choose(double t, std::uint32_t most) const {
       return {most + 1, most + 1};
     }
   }
-  if (best.product() == 1 && bound(best) <= t) {
-    return best;
-  }
   // Rates near those that the bound of an even pair, in proportion to the tolerance, asks for.
   const CellCounts even{std::max(2U, best.nu & ~1U), std::max(2U, best.nv & ~1U)};
   const double scale = std::min(1.0, std::sqrt(bound(even) / t));
-  const auto centre_u = static_cast<std::int64_t>(even.nu * scale);
-  const auto centre_v = static_cast<std::int64_t>(even.nv * scale);
-  best = raise(best, t, most); // a corner's own diagonal, which Filip's bound holds for as well
-  if (best.nu > most) {
-    return best;
+  const auto near_centre = [&](std::uint32_t n, std::int64_t step) {
+    const auto centre = static_cast<std::int64_t>(n * scale);
+    return static_cast<std::uint32_t>(std::clamp<std::int64_t>(centre + step, 1, most));
+  };
+  CellCounts candidates[16];
+  for (std::int64_t k = 0; k < 16; ++k) {
+    candidates[k] = {near_centre(even.nu, k / 4 - 1), near_centre(even.nv, k % 4 - 1)};
   }
-  for (std::int64_t i = centre_u - 1; i <= centre_u + 2; ++i) {
-    for (std::int64_t j = centre_v - 1; j <= centre_v + 2; ++j) {
-      const auto clamp = [&](std::int64_t n) {
-        return static_cast<std::uint32_t>(std::clamp<std::int64_t>(n, 1, most));
-      };
-      const CellCounts cells{clamp(i), clamp(j)};
-      const bool fewer = cells.product() < best.product() ||
-                         (cells.product() == best.product() && cells.nu < best.nu);
-      if (fewer && bound(cells) <= t) {
-        best = cells;
-      }
+  const auto fewer = [](const CellCounts& a, const CellCounts& b) {
+    return a.product() < b.product() || (a.product() == b.product() && a.nu < b.nu);
+  };
+  std::sort(std::begin(candidates), std::end(candidates), fewer);
+  // The first that holds is the best one. Filip's rates are raised only where none of fewer cells
+  // holds: they may not where a corner's diagonal is forced, which his bound does not know of.
+  std::size_t zone = 0;
+  bool raised = false;
+  for (const CellCounts& cells : candidates) {
+    if (!raised && !fewer(cells, best)) {
+      best = raise(best, t, most);
+      raised = true;
+    }
+    if (raised && (best.nu > most || !fewer(cells, best))) {
+      return best;
+    }
+    if (!exceeds(cells, t, zone)) {
+      return cells;
     }
   }
-  return best;
+  return raised ? best : raise(best, t, most);
 }
 
 } // namespace simdbezier::detail

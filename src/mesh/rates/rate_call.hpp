@@ -31,10 +31,12 @@ inline CellCounts at_least(const CellCounts& cells, const std::array<double, 2>&
 template <typename S>
 class RateCall {
 public:
+  /// isa: one that is there, for options.isa.
   RateCall(std::span<const ControlNets<S>> nets, const Topology& topology,
-           const RateOptions& options, const CertifiedRates& out)
-      : nets_(nets), flags_(topology.data()->flags), options_(options), errors_(options.errors),
-        out_(out), most_(std::clamp(options.most_segments, 1U, kMostSegments)) {
+           const RateOptions& options, Isa isa, const CertifiedRates& out)
+      : nets_(nets), flags_(topology.data()->flags), options_(options), isa_(isa),
+        errors_(options.errors), out_(out),
+        most_(std::clamp(options.most_segments, 1U, kMostSegments)) {
     const std::vector<double>& displacement = topology.data()->displacement;
     if (!displacement.empty()) {
       own_errors_ = displacement;
@@ -178,6 +180,7 @@ private:
     std::size_t first = 0;
     Options run;
     run.threads = options_.threads;
+    run.isa = isa_;
     for (const ControlNets<S>& nets : nets_) {
       if (suits_kernel(nets) && nets.count > 0) {
         RateTask<S> task{};
@@ -217,7 +220,7 @@ private:
       std::vector<Status> found(open.size(), Status::ok);
       auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
         try {
-          PatchBound bound;
+          PatchBound bound(isa_);
           for (std::size_t k = begin; k < end; ++k) {
             const std::size_t patch = first + open[k];
             found[k] = bound.read(nets, open[k], flags_[patch]) ? visit(patch, bound)
@@ -241,6 +244,7 @@ private:
   std::span<const ControlNets<S>> nets_;
   const std::vector<std::uint8_t>& flags_;
   const RateOptions& options_;
+  Isa isa_;
   std::span<const double> errors_; ///< of vertices, by rounding and by snapping
   std::vector<double> own_errors_;
   const CertifiedRates& out_;

@@ -49,11 +49,15 @@ RateReport certify_rates(std::span<const ControlNets<S>> nets, const Topology& t
   if (!checked || rates.nu.empty()) {
     return checked;
   }
+  Isa isa = Isa::automatic;
+  if (const Status runs = resolve_isa(options.isa, isa); !runs) {
+    return {runs};
+  }
   RateOptions how;
   how.errors = errors;
   how.tolerance = kUnlimited; // whatever the certificate is, it is what was asked for
   how.threads = options.threads;
-  return detail::RateCall<S>(nets, topology, how, rates).certify_given();
+  return detail::RateCall<S>(nets, topology, how, isa, rates).certify_given();
 } catch (const std::bad_alloc&) {
   return {Status::out_of_memory};
 }
@@ -72,7 +76,11 @@ RateReport choose_rates(std::span<const ControlNets<S>> nets, const Topology& to
   if (!(options.longest_edge > 0) || !(options.normal_angle > 0)) {
     return {Status::bad_tolerance};
   }
-  detail::RateCall<S> call(nets, topology, options, out);
+  Isa isa = Isa::automatic;
+  if (const Status runs = resolve_isa(options.isa, isa); !runs) {
+    return {runs};
+  }
+  detail::RateCall<S> call(nets, topology, options, isa, out);
   RateReport report = call.choose();
   // Raising the rates of one patch can make its edges coincide with others, or raise its bound.
   bool settled = true;
