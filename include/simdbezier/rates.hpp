@@ -67,11 +67,13 @@ struct CertifiedRates {
 };
 
 /// Upper bounds on the distance of evaluated positions of each patch from the exact ones: the norm
-/// of error_bounds(). out: one value a patch. isa: as there.
+/// of error_bounds(). out: one value a patch.
+/// options: threads and isa count, the other members have no meaning. Allocation: none.
+/// Cost:    some 0.1 us a bicubic patch, 1 us with weights.
 /// Returns: ok | output_too_small | unknown_isa | unsupported_isa.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status position_errors(const PatchSet<T>& set, std::span<double> out,
-                                                    Isa isa = Isa::automatic) noexcept;
+                                                    const Options& options = {}) noexcept;
 
 /// Tolerances for choose_rates() with which no point of a surface is seen more than `pixels` away
 /// from its place on the mesh, from this camera.
@@ -128,7 +130,7 @@ template <typename S>
 ///
 /// rates:    nu and nv are read, from 1 to kMostSegments; diagonals and deviation are written.
 /// errors:   one value a patch, or empty.
-/// options:  threads and isa are honoured, the other members have no meaning.
+/// options:  threads and isa count, the other members have no meaning.
 /// Returns:  as choose_rates(); bad_rates also for rates outside of that range. Outputs are
 ///           undefined on an error.
 template <typename S>

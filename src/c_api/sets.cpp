@@ -72,7 +72,7 @@ simdbezier_status errors_of(const char* function, const Handle* set, simdbezier_
   return answer(function, [&] {
     const std::span<double> out = span_of(errors, length, {"errors"});
     with_object(set, kSet, [&](const auto& members) {
-      require_ok(position_errors(members, out, resolved(isa)),
+      require_ok(position_errors(members, out, {.threads = 1, .isa = resolved(isa)}),
                  [](Status) { return Path{"length"}; });
     });
   });

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "src/certificate/certificate_sums.hpp"
+#include "src/certificate/position_bounds.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/patch_storage.hpp"
 
@@ -26,16 +28,22 @@ struct Bound {
   }
 };
 
+/// The certificates of patches of one shape.
 template <typename T>
 class Certificate {
 public:
-  Certificate(const PatchStorage<T>& storage, std::size_t index, bool fused)
-      : storage_(storage), shape_(storage.shape), index_(index),
-        net_(storage.given.net(index * storage.shape.control_values())),
-        u_{shape_.order_u(), shape_.cells_u() == 2, fused}, v_{shape_.order_v(),
-                                                               shape_.cells_v() == 2, fused},
-        per_step_(fused ? 1 : 2) {}
+  /// derivatives: whether their bounds are wanted as well.
+  Certificate(const PatchStorage<T>& storage, bool fused, bool derivatives)
+      : Certificate(storage, {storage.shape.order_u(), storage.shape.cells_u() == 2, fused},
+                    {storage.shape.order_v(), storage.shape.cells_v() == 2, fused}, derivatives) {}
 
+  /// Goes to one of the storage's patches.
+  void look_at(std::size_t index) {
+    index_ = index;
+    net_ = storage_.given.net(index * shape_.control_values());
+  }
+
+  /// The bounds of one component of the patch.
   [[nodiscard]] Bound component(std::size_t c) const {
     Bound bound;
     for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
@@ -62,6 +70,17 @@ private:
   static constexpr double kDenormals =
       64 * static_cast<double>(std::numeric_limits<T>::denorm_min());
 
+  /// Edges are rounded as rows are.
+  Certificate(const PatchStorage<T>& storage, const DirectionRoundings& u,
+              const DirectionRoundings& v, bool derivatives)
+      : storage_(storage), shape_(storage.shape), net_(storage.given.net(0)),
+        matrix_(as_column(u), v), along_u_(u, DirectionRoundings()),
+        along_v_(DirectionRoundings(), v), per_step_(u.fused ? 1 : 2), derivatives_(derivatives) {}
+
+  static DirectionRoundings as_column(DirectionRoundings direction) {
+    direction.column = true;
+    return direction;
+  }
   [[nodiscard]] std::size_t weight() const { return static_cast<std::size_t>(shape_.components); }
 
   /// This covers a polynomial's edges v = const as well. Their terms are sums of these; even and
@@ -69,16 +88,14 @@ private:
   [[nodiscard]] TermSums matrix(std::size_t cell, std::size_t channel) const {
     const T* const c = storage_.coefficients + index_ * shape_.coefficients() +
                        cell * shape_.cell_coefficients() + channel * shape_.matrix();
-    DirectionRoundings columns = u_;
-    columns.column = true;
-    return {columns, v_, [&](std::size_t k, std::size_t l) { return c[k * shape_.order_v() + l]; }};
+    const std::size_t order = shape_.order_v();
+    return {matrix_, derivatives_, [&](std::size_t k, std::size_t l) { return c[k * order + l]; }};
   }
   [[nodiscard]] TermSums edge(std::size_t cell, std::size_t channel, std::size_t e) const {
     const T* const c = storage_.edges + index_ * shape_.edges() + cell * shape_.cell_edges() +
                        channel * shape_.edge_powers() * kEdges + e;
     const bool along_u = e == kEdgeV0 || e == kEdgeV1;
-    constexpr DirectionRoundings kNone;
-    return {along_u ? u_ : kNone, along_u ? kNone : v_,
+    return {along_u ? along_u_ : along_v_, derivatives_,
             [&](std::size_t k, std::size_t l) { return c[(k + l) * kEdges]; }};
   }
   [[nodiscard]] double origin(std::size_t cell, std::size_t channel, std::size_t at) const {
@@ -196,14 +213,42 @@ private:
 
   const PatchStorage<T>& storage_;
   const NetShape& shape_;
-  std::size_t index_;
+  std::size_t index_ = 0;
   GivenNet net_;
-  DirectionRoundings u_; ///< of edges; columns are rounded otherwise
-  DirectionRoundings v_; ///< of edges and rows
+  TermFactors matrix_;
+  TermFactors along_u_; ///< of edges
+  TermFactors along_v_;
   double per_step_;
+  bool derivatives_;
 };
 
 } // namespace
+
+template <typename T>
+void find_position_bounds(const PatchSet<T>& set, bool fused, std::size_t begin, std::size_t end,
+                          PositionBound* out) noexcept {
+  const PatchStorage<T>* last = nullptr;
+  std::optional<Certificate<T>> certificate;
+  for (std::size_t patch = begin; patch < end; ++patch, ++out) {
+    const PatchPlace place = set.storage()->place(patch);
+    const PatchStorage<T>& storage = set.storage()->buckets[place.bucket];
+    if (&storage != last) {
+      certificate.emplace(storage, fused, false);
+      last = &storage;
+    }
+    certificate->look_at(place.index);
+    out->fill(0);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(storage.shape.components); ++c) {
+      (*out)[c] = certificate->component(c).position;
+    }
+  }
+}
+
+template void find_position_bounds(const PatchSet<float>&, bool, std::size_t, std::size_t,
+                                   PositionBound*) noexcept;
+template void find_position_bounds(const PatchSet<double>&, bool, std::size_t, std::size_t,
+                                   PositionBound*) noexcept;
+
 } // namespace detail
 
 template <typename T>
@@ -223,7 +268,8 @@ ErrorBounds error_bounds(const PatchSet<T>& set, std::size_t patch, Isa isa) noe
   const detail::DefaultFpEnvironment environment;
   const detail::PatchPlace place = set.storage()->place(patch);
   const detail::PatchStorage<T>& storage = set.storage()->buckets[place.bucket];
-  const detail::Certificate<T> certificate(storage, place.index, fuses_multiply_add(chosen));
+  detail::Certificate<T> certificate(storage, fuses_multiply_add(chosen), true);
+  certificate.look_at(place.index);
   for (int c = 0; c < storage.shape.components; ++c) {
     const detail::Bound bound = certificate.component(static_cast<std::size_t>(c));
     bounds.position[c] = bound.position;
@@ -233,23 +279,8 @@ ErrorBounds error_bounds(const PatchSet<T>& set, std::size_t patch, Isa isa) noe
   return bounds;
 }
 
-template <typename T>
-double largest_position_bound(const PatchSet<T>& set, Isa isa) noexcept {
-  double largest = 0;
-  detail::in_default_environment([&]() noexcept { // bounds may be denormal
-    for (std::size_t patch = 0; patch < set.size(); ++patch) {
-      const ErrorBounds bounds = error_bounds(set, patch, isa);
-      largest = std::max(largest,
-                         *std::max_element(std::begin(bounds.position), std::end(bounds.position)));
-    }
-  });
-  return largest;
-}
-
 template SIMDBEZIER_API ErrorBounds error_bounds(const PatchSet<float>&, std::size_t, Isa) noexcept;
 template SIMDBEZIER_API ErrorBounds error_bounds(const PatchSet<double>&, std::size_t,
                                                  Isa) noexcept;
-template SIMDBEZIER_API double largest_position_bound(const PatchSet<float>&, Isa) noexcept;
-template SIMDBEZIER_API double largest_position_bound(const PatchSet<double>&, Isa) noexcept;
 
 } // namespace simdbezier

@@ -6,43 +6,77 @@
 #include <limits>
 
 #include "src/certificate/direction_roundings.hpp"
+#include "src/storage/net_shape.hpp"
 
 namespace simdbezier::detail {
+
+/// What the terms of a polynomial are multiplied by in the sums below, which depends on its degrees
+/// and not on its coefficients.
+class TermFactors {
+public:
+  TermFactors(const DirectionRoundings& u, const DirectionRoundings& v)
+      : order_u_(u.order), order_v_(v.order) {
+    for (std::size_t k = 0; k < order_u_; ++k) {
+      for (std::size_t l = 0; l < order_v_; ++l) {
+        at_[k * order_v_ + l] = {std::ldexp(1.0, -static_cast<int>(k + l)),
+                                 u.value(k) + v.value(l) + 1, u.slope(k) + v.value(l) + 1,
+                                 u.value(k) + v.slope(l) + 1};
+      }
+    }
+  }
+
+private:
+  friend struct TermSums;
+  struct Factors {
+    double scale; ///< 2^-(k+l)
+    double value; ///< roundings of a term, and one of its coefficient
+    double du;
+    double dv;
+  };
+  std::size_t order_u_;
+  std::size_t order_v_;
+  Factors at_[kMostOrder * kMostOrder]; ///< [power k of X][power l of Y]
+};
 
 /// Sums over the terms of a polynomial at |X| = |Y| = 1/2, where they are largest.
 struct TermSums {
   double constant = 0; ///< the coefficient of power 0
   double size = 0;     ///< of |term|
-  double size_u = 0;
-  double size_v = 0;
-  double value = 0; ///< of (roundings + 1) |term|; the one is the coefficient's own
-  double du = 0;
-  double dv = 0;
+  double value = 0;    ///< of (roundings + 1) |term|; the one is the coefficient's own
   /// The sum of |coefficient| by the same factors: sums on the way to a value or derivative are no
   /// larger.
   double way = 0;
+
+  // Likewise of the derivatives; 0 where they are not asked for.
+  double size_u = 0;
+  double size_v = 0;
+  double du = 0;
+  double dv = 0;
   double way_u = 0;
   double way_v = 0;
 
   /// Terms C_kl 2^-(k+l), and for derivatives k C_kl 2^-(k+l-1). at(k, l): the coefficient.
   template <typename At>
-  TermSums(const DirectionRoundings& u, const DirectionRoundings& v, const At& at)
+  TermSums(const TermFactors& factors, bool derivatives, const At& at)
       : constant(static_cast<double>(at(0, 0))) {
-    for (std::size_t k = 0; k < u.order; ++k) {
-      for (std::size_t l = 0; l < v.order; ++l) {
+    const TermFactors::Factors* factor = factors.at_;
+    for (std::size_t k = 0; k < factors.order_u_; ++k) {
+      for (std::size_t l = 0; l < factors.order_v_; ++l, ++factor) {
         const double c = std::fabs(static_cast<double>(at(k, l)));
-        const double term = std::ldexp(c, -static_cast<int>(k + l));
-        const double term_u = 2 * static_cast<double>(k) * term;
-        const double term_v = 2 * static_cast<double>(l) * term;
+        const double term = c * factor->scale;
         size += term;
-        size_u += term_u;
-        size_v += term_v;
-        value += (u.value(k) + v.value(l) + 1) * term;
-        du += (u.slope(k) + v.value(l) + 1) * term_u;
-        dv += (u.value(k) + v.slope(l) + 1) * term_v;
+        value += factor->value * term;
         way += c;
-        way_u += static_cast<double>(k) * c;
-        way_v += static_cast<double>(l) * c;
+        if (derivatives) {
+          const double term_u = 2 * static_cast<double>(k) * term;
+          const double term_v = 2 * static_cast<double>(l) * term;
+          size_u += term_u;
+          size_v += term_v;
+          du += factor->du * term_u;
+          dv += factor->dv * term_v;
+          way_u += static_cast<double>(k) * c;
+          way_v += static_cast<double>(l) * c;
+        }
       }
     }
   }

@@ -6,6 +6,7 @@
 #include <simdbezier/error_bounds.hpp>
 
 #include "src/certificate/certificate_sums.hpp"
+#include "src/certificate/position_bounds.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/curve_storage.hpp"
 
@@ -28,10 +29,24 @@ struct PolynomialBounds {
 template <typename T>
 class CurveCertificate {
 public:
-  CurveCertificate(const CurveStorage<T>& storage, std::size_t curve, bool fused)
-      : shape_(storage.shape), values_(storage.values + curve * storage.shape.values()),
-        net_(storage.given.net(curve * storage.shape.control_values())),
-        roundings_{shape_.order(), shape_.cells() == 2, fused}, per_step_(fused ? 1 : 2) {}
+  /// derivatives: the highest whose bounds are wanted.
+  CurveCertificate(const CurveStorage<T>& storage, bool fused, std::size_t derivatives)
+      : storage_(storage), shape_(storage.shape), values_(storage.values),
+        net_(storage.given.net(0)), derivatives_(derivatives), per_step_(fused ? 1 : 2) {
+    const DirectionRoundings roundings{shape_.order(), shape_.cells() == 2, fused};
+    for (std::size_t k = 0; k < shape_.order(); ++k) {
+      scale_[k] = std::ldexp(1.0, -static_cast<int>(k));
+      for (std::size_t d = 0; d < 3; ++d) {
+        roundings_[k][d] = roundings.derivative(d, k);
+      }
+    }
+  }
+
+  /// Goes to one of the curves.
+  void look_at(std::size_t curve) {
+    values_ = storage_.values + curve * shape_.values();
+    net_ = storage_.given.net(curve * shape_.control_values());
+  }
 
   /// Absolute errors of one component, by t.
   [[nodiscard]] ByOrder bounds(std::size_t component) const {
@@ -66,10 +81,10 @@ private:
     const T* const a = channel(cell, index);
     for (std::size_t k = 0; k < shape_.order(); ++k) {
       double way = std::fabs(static_cast<double>(a[k]));
-      double term = std::ldexp(way, -static_cast<int>(k));
-      for (std::size_t d = 0; d < 3 && d <= k; ++d) {
+      double term = way * scale_[k];
+      for (std::size_t d = 0; d <= derivatives_ && d <= k; ++d) {
         bounds.size.at[d] += term;
-        bounds.error.at[d] += kUnit * (roundings_.derivative(d, k) + 1) * term;
+        bounds.error.at[d] += kUnit * (roundings_[k][d] + 1) * term;
         bounds.way.at[d] += way;
         way *= static_cast<double>(k - d);
         term *= 2 * static_cast<double>(k - d);
@@ -169,14 +184,36 @@ private:
     return error;
   }
 
+  const CurveStorage<T>& storage_;
   const CurveShape& shape_;
   const T* values_;
   GivenNet net_;
-  DirectionRoundings roundings_;
+  std::size_t derivatives_;
+  double scale_[kMostOrder]; ///< 2^-power
+  double roundings_[kMostOrder][3];
   int per_step_;
 };
 
 } // namespace
+
+template <typename T>
+void find_position_bounds(const CurveSet<T>& set, bool fused, std::size_t begin, std::size_t end,
+                          PositionBound* out) noexcept {
+  CurveCertificate<T> certificate(*set.storage(), fused, 0);
+  for (std::size_t curve = begin; curve < end; ++curve, ++out) {
+    certificate.look_at(curve);
+    out->fill(0);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(set.components()); ++c) {
+      (*out)[c] = certificate.bounds(c).at[0];
+    }
+  }
+}
+
+template void find_position_bounds(const CurveSet<float>&, bool, std::size_t, std::size_t,
+                                   PositionBound*) noexcept;
+template void find_position_bounds(const CurveSet<double>&, bool, std::size_t, std::size_t,
+                                   PositionBound*) noexcept;
+
 } // namespace detail
 
 template <typename T>
@@ -194,7 +231,8 @@ CurveErrorBounds error_bounds(const CurveSet<T>& set, std::size_t curve, Isa isa
     return bounds;
   }
   const detail::DefaultFpEnvironment environment;
-  const detail::CurveCertificate<T> certificate(*set.storage(), curve, fuses_multiply_add(chosen));
+  detail::CurveCertificate<T> certificate(*set.storage(), fuses_multiply_add(chosen), 2);
+  certificate.look_at(curve);
   for (std::size_t c = 0; c < static_cast<std::size_t>(set.components()); ++c) {
     const detail::ByOrder error = certificate.bounds(c);
     bounds.position[c] = error.at[0];

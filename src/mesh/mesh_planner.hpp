@@ -123,7 +123,7 @@ private:
     plan_.deviations.resize(patches);
     diagonals_.resize(patches);
     errors_.resize(patches);
-    return position_errors(plan_.set, errors_, options_.isa);
+    return position_errors(plan_.set, errors_, {.threads = options_.threads, .isa = options_.isa});
   }
 
   Status choose() {

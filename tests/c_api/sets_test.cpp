@@ -27,7 +27,7 @@ TYPED_TEST(CSets, HavePositionErrorsOfEveryInstructionSet) {
     const auto c_isa = static_cast<simdbezier_isa>(isa);
     std::vector<double> expected(6);
     std::vector<double> errors(6);
-    ASSERT_TRUE(position_errors(patches, std::span<double>(expected), isa));
+    ASSERT_TRUE(position_errors(patches, std::span<double>(expected), {.isa = isa}));
     EXPECT_C_OK(simdbezier_position_errors(c_patches.get(), c_isa, errors.data(), 6));
     expect_same_bits(errors, expected, "errors of patches");
     different.insert(errors);
@@ -38,7 +38,7 @@ TYPED_TEST(CSets, HavePositionErrorsOfEveryInstructionSet) {
     EXPECT_EQ(chosen, c_isa);
     expected.resize(24);
     errors.resize(24);
-    ASSERT_TRUE(position_errors(curves, std::span<double>(expected), isa));
+    ASSERT_TRUE(position_errors(curves, std::span<double>(expected), {.isa = isa}));
     EXPECT_C_OK(simdbezier_curve_position_errors(c_curves.get(), c_isa, errors.data(), 24));
     expect_same_bits(errors, expected, "errors of curves");
   }

@@ -163,7 +163,7 @@ TEST(MeshOptions, deviations_are_those_of_the_instruction_set) {
     const MeshPlan<float> plan = plan_mesh<float>(nets, options);
     ASSERT_EQ(plan.status, Status::ok);
     std::vector<double> rounding(plan.set.size());
-    ASSERT_TRUE(position_errors(plan.set, rounding, isa));
+    ASSERT_TRUE(position_errors(plan.set, rounding, {.isa = isa}));
     for (std::size_t p = 0; p < rounding.size(); ++p) {
       EXPECT_GE(plan.deviations[p], rounding[p]) << to_string(isa);
       EXPECT_LE(plan.deviations[p], rounding[p] + 0.01) << to_string(isa);
@@ -176,7 +176,7 @@ TEST(MeshOptions, deviations_are_those_of_the_instruction_set) {
   }
   std::vector<double> rounding(nets.count);
   EXPECT_EQ(position_errors(plan_mesh<float>(nets, {.nu = 2, .nv = 2}).set, rounding,
-                            static_cast<Isa>(99)),
+                            {.isa = static_cast<Isa>(99)}),
             Status::unsupported_isa);
 }
 

@@ -2,12 +2,15 @@
 #include <simdbezier/flatten.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
 #include "src/calls/curve_input.hpp"
 #include "src/mesh/rates/chord_bound.hpp"
+#include "src/mesh/rates/power_of_two.hpp"
 #include "src/runtime/attempt.hpp"
+#include "src/runtime/batch.hpp"
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
@@ -71,7 +74,7 @@ public:
       return 0;
     }
     const double all = n * (n - 1) * (most + doubt) / lightest * (1 + 1e-12);
-    return std::scalbn(larger_bound(0, all), exponent_) + std::numeric_limits<double>::denorm_min();
+    return larger_bound(0, all) * scale_ + std::numeric_limits<double>::denorm_min();
   }
 
 private:
@@ -87,12 +90,14 @@ private:
         largest = std::max(largest, std::fabs(point_[i][c]));
       }
     }
-    exponent_ = largest > 0 ? std::ilogb(largest) : 0;
-    const int weight_exponent = std::ilogb(*std::max_element(weight_, weight_ + points_));
+    scale_ = largest > 0 ? power_of_two_below(largest) : PowerOfTwo();
+    const PowerOfTwo down = scale_.inverse();
+    const PowerOfTwo weight_down =
+        power_of_two_below(*std::max_element(weight_, weight_ + points_)).inverse();
     for (std::size_t i = 0; i < points_; ++i) {
-      weight_[i] = std::scalbn(weight_[i], -weight_exponent);
+      weight_[i] = weight_[i] * weight_down;
       for (std::size_t c = 0; c < components_; ++c) {
-        point_[i][c] = std::scalbn(point_[i][c], -exponent_);
+        point_[i][c] = point_[i][c] * down;
       }
     }
   }
@@ -121,7 +126,7 @@ private:
   std::size_t components_ = 0;
   bool rational_ = false;
   bool divided_ = false;
-  int exponent_ = 0;
+  PowerOfTwo scale_; ///< which points were divided by
   double point_[kMostDegree + 1][kMostComponents];
   double weight_[kMostDegree + 1];
   double radius_ = 0; ///< no point is farther from the middle of the box
@@ -141,6 +146,32 @@ std::uint32_t points_for(double second, double t, std::uint32_t most) {
     ++n;
   }
   return n < most ? static_cast<std::uint32_t>(n) + 1 : 0;
+}
+
+/// Chooses one curve's points: ok | non_finite_input | bad_weight | bad_tolerance.
+template <typename S>
+Status choose_points(const ControlCurves<S>& curves, const FlattenOptions& options,
+                     std::size_t curve, std::span<std::uint32_t> points,
+                     std::span<double> deviation) noexcept {
+  CurveBound bound;
+  if (const Status status = bound.read(curves, curve); !status) {
+    return status;
+  }
+  const double wanted = options.tolerances.empty() ? options.tolerance : options.tolerances[curve];
+  const double error = options.errors.empty() ? 0 : options.errors[curve];
+  // Less one rounding, so that bound and error together stay below what was wanted.
+  const double t = wanted * (1 - 0x1p-51) - error;
+  const double second = bound.second();
+  const bool possible = t > 0 && error >= 0;
+  const std::uint32_t count = possible ? points_for(second, t, options.most_points) : 0;
+  if (count == 0) {
+    return Status::bad_tolerance;
+  }
+  points[curve] = count;
+  if (!deviation.empty()) {
+    deviation[curve] = bound_of(second, count - 1) + error;
+  }
+  return Status::ok;
 }
 
 Status check_lengths(std::size_t curves, const FlattenOptions& options, std::size_t points,
@@ -168,8 +199,12 @@ Status flatten_into(const ControlCurves<S>& curves, double tolerance, const Opti
   std::vector<double> errors(set.size());
   std::vector<double> deviation(set.size());
   std::vector<std::uint32_t> points(set.size());
-  Status status = position_errors(set, std::span<double>(errors), options.isa);
-  const FlattenReport report = choose_polylines(curves, {tolerance, {}, errors}, points, deviation);
+  Status status = position_errors(set, std::span<double>(errors), options);
+  FlattenOptions wanted;
+  wanted.tolerance = tolerance;
+  wanted.errors = errors;
+  wanted.threads = options.threads;
+  const FlattenReport report = choose_polylines(curves, wanted, points, deviation);
   if (!status || !report) {
     lines.fault_curve = report.curve;
     return status ? report.status : status;
@@ -205,27 +240,22 @@ FlattenReport choose_polylines(const ControlCurves<S>& curves, const FlattenOpti
       !status) {
     return {status};
   }
-  const detail::DefaultFpEnvironment environment;
-  detail::CurveBound bound;
-  for (std::size_t curve = 0; curve < curves.count; ++curve) {
-    if (const Status status = bound.read(curves, curve); !status) {
-      return {status, curve};
+  const auto choose = [&](std::size_t curve) {
+    return detail::choose_points(curves, options, curve, points, deviation);
+  };
+  std::atomic<std::size_t> fault = curves.count; // the first one
+  auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
+    for (std::size_t curve = begin; curve < end; ++curve) {
+      if (!choose(curve)) {
+        detail::lower(fault, curve);
+        return;
+      }
     }
-    const double wanted =
-        options.tolerances.empty() ? options.tolerance : options.tolerances[curve];
-    const double error = options.errors.empty() ? 0 : options.errors[curve];
-    // Less one rounding, so that bound and error together stay below what was wanted.
-    const double t = wanted * (1 - 0x1p-51) - error;
-    const double second = bound.second();
-    const bool possible = t > 0 && error >= 0;
-    const std::uint32_t count = possible ? detail::points_for(second, t, options.most_points) : 0;
-    if (count == 0) {
-      return {Status::bad_tolerance, curve};
-    }
-    points[curve] = count;
-    if (!deviation.empty()) {
-      deviation[curve] = detail::bound_of(second, count - 1) + error;
-    }
+  };
+  detail::divide_work(curves.count, 150, options.threads, body);
+  if (const std::size_t curve = fault; curve < curves.count) {
+    const detail::DefaultFpEnvironment environment;
+    return {choose(curve), curve};
   }
   return {};
 }

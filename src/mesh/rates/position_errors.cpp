@@ -1,11 +1,12 @@
 // position_errors() of rates.hpp and flatten.hpp.
+#include <algorithm>
 #include <cmath>
 
-#include <simdbezier/error_bounds.hpp>
 #include <simdbezier/flatten.hpp>
 #include <simdbezier/rates.hpp>
 
-#include "src/runtime/fp_environment.hpp"
+#include "src/certificate/position_bounds.hpp"
+#include "src/runtime/batch.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -14,31 +15,45 @@ namespace {
 /// An upper bound on the norm of a vector of errors.
 double norm_bound(std::span<const double> errors) noexcept {
   double square = 0;
-  double norm = 0; // taken where squares overflow or vanish
   for (const double error : errors) {
     square += error * error;
-    norm = std::hypot(norm, error);
   }
+  const auto long_way = [&] { // where squares overflow or vanish
+    double norm = 0;
+    for (const double error : errors) {
+      norm = std::hypot(norm, error);
+    }
+    return norm;
+  };
   const bool usual = square > 0x1p-900 && square < 0x1p900;
-  return (usual ? std::sqrt(square) : norm) * (1 + 0x1p-40);
+  return (usual ? std::sqrt(square) : long_way()) * (1 + 0x1p-40);
 }
 
 /// components: of a position.
 template <typename Set>
 Status find_errors(const Set& set, std::size_t components, std::span<double> out,
-                   Isa isa) noexcept {
+                   const Options& options) noexcept {
   if (out.size() < set.size()) {
     return Status::output_too_small;
   }
   Isa chosen = Isa::automatic;
-  if (const Status status = resolve_isa(isa, chosen); !status) {
+  if (const Status status = resolve_isa(options.isa, chosen); !status) {
     return status;
   }
-  const DefaultFpEnvironment environment;
-  for (std::size_t k = 0; k < set.size(); ++k) {
-    const auto bounds = error_bounds(set, k, chosen);
-    out[k] = norm_bound(std::span(bounds.position).first(components));
-  }
+  constexpr std::size_t kBlock = 32;
+  const std::size_t blocks = (set.size() + kBlock - 1) / kBlock;
+  auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
+    PositionBound bounds[kBlock];
+    const std::size_t last = std::min(set.size(), end * kBlock);
+    for (std::size_t first = begin * kBlock; first < last; first += kBlock) {
+      const std::size_t count = std::min(kBlock, last - first);
+      find_position_bounds(set, fuses_multiply_add(chosen), first, first + count, bounds);
+      for (std::size_t k = 0; k < count; ++k) {
+        out[first + k] = norm_bound(std::span(bounds[k]).first(components));
+      }
+    }
+  };
+  divide_work(blocks, 100 * kBlock, options.threads, body);
   return Status::ok;
 }
 
@@ -46,19 +61,21 @@ Status find_errors(const Set& set, std::size_t components, std::span<double> out
 } // namespace detail
 
 template <typename T>
-Status position_errors(const PatchSet<T>& set, std::span<double> out, Isa isa) noexcept {
-  return detail::find_errors(set, 3, out, isa);
+Status position_errors(const PatchSet<T>& set, std::span<double> out,
+                       const Options& options) noexcept {
+  return detail::find_errors(set, 3, out, options);
 }
 template <typename T>
-Status position_errors(const CurveSet<T>& set, std::span<double> out, Isa isa) noexcept {
-  return detail::find_errors(set, kMostComponents, out, isa);
+Status position_errors(const CurveSet<T>& set, std::span<double> out,
+                       const Options& options) noexcept {
+  return detail::find_errors(set, kMostComponents, out, options);
 }
 
 #define SIMDBEZIER_INSTANTIATE(T)                                                                  \
   template SIMDBEZIER_API Status position_errors(const PatchSet<T>&, std::span<double>,            \
-                                                 Isa) noexcept;                                    \
+                                                 const Options&) noexcept;                         \
   template SIMDBEZIER_API Status position_errors(const CurveSet<T>&, std::span<double>,            \
-                                                 Isa) noexcept;
+                                                 const Options&) noexcept;
 SIMDBEZIER_INSTANTIATE(float)
 SIMDBEZIER_INSTANTIATE(double)
 #undef SIMDBEZIER_INSTANTIATE
