@@ -14,12 +14,14 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 /// A number of coefficients: fixed for the compiler, or (0) known at run time.
 template <std::size_t kFixed>
 struct Order {
+  static constexpr bool kKnown = true;
   static constexpr std::size_t kMost = kFixed;
   explicit constexpr Order(std::size_t) {}
   SIMDBEZIER_INLINE constexpr std::size_t value() const { return kFixed; }
 };
 template <>
 struct Order<0> {
+  static constexpr bool kKnown = false;
   static constexpr std::size_t kMost = detail::kMostOrder;
   explicit constexpr Order(std::size_t order) : order_(order) {}
   SIMDBEZIER_INLINE constexpr std::size_t value() const { return order_; }
@@ -227,6 +229,21 @@ SIMDBEZIER_INLINE Series<V> row_series(Order<kFixed> order, V t, const Coefficie
   return s;
 }
 
+/// Finds the values alone of horner_rows(), of coefficients that stand side by side in memory: an
+/// address goes from one to the next, where an index would have to be made an address each time.
+template <std::size_t kCount, typename V>
+SIMDBEZIER_INLINE void horner_values(std::size_t order, const V* t, const V* coefficients,
+                                     V* values) {
+  const V* c = coefficients + (order - 1);
+  const V last = *c;
+  repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA { values[i] = last; });
+  do {
+    const V next = *--c;
+    repeat<kCount>([&](std::size_t i)
+                       SIMDBEZIER_INLINE_LAMBDA { values[i] = madd(values[i], t[i], next); });
+  } while (c != coefficients);
+}
+
 /// This is horner_rows() of kCount polynomials at one parameter: columns, whose coefficients stand
 /// in memory as [power][polynomial], with `step` from one power to the next. load turns an address
 /// and the polynomial's number into a register. The sums stay in registers while the loop runs,
@@ -235,16 +252,22 @@ template <std::size_t kDepth, std::size_t kCount, typename V, typename N, typena
 SIMDBEZIER_INLINE void horner_series_abreast(N order, V t, const ScalarOf<V>* coefficients,
                                              std::size_t step, const Load& load, Series<V>* s) {
   const std::size_t degree = order.value() - 1;
-  const ScalarOf<V>* c = coefficients + (degree - 1) * step;
+  const ScalarOf<V>* c = coefficients + degree * step;
+  V last[kCount];
+  repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA { last[i] = load(c, i); });
+  c -= step;
+  if constexpr (!N::kKnown) { // else the last coefficients' addresses would serve these as well
+    c = own_address(c);
+  }
   repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
-    s[i].template begin<kDepth>(load(c + step, i), load(c, i), t);
+    s[i].template begin<kDepth>(last[i], load(c, i), t);
   });
   if (degree > 1) {
     c -= step;
     repeat<kCount>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
       s[i].template add_third<kDepth>(load(c, i), t);
     });
-    for (std::size_t k = degree - 2; k-- > 0;) {
+    while (c != coefficients) {
       c -= step;
       repeat<kCount>([&](std::size_t i)
                          SIMDBEZIER_INLINE_LAMBDA { s[i].template add<kDepth>(load(c, i), t); });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/poly/sample_jets.hpp"
+#include "kernels/simd/extrema.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -20,31 +21,20 @@ SIMDBEZIER_PART V inverse_of_power_of_two(V x) {
   }
 }
 
-/// A vector over a power of two of about its size, so that products stay in range; `inverse` is one
-/// over that power. Nothing is rounded.
+/// Returns one over a power of two of about a vector's size: scaled by it, products stay in range,
+/// and nothing is rounded.
 template <typename V>
-struct ScaledTangent {
-  V inverse;
-  V value[3];
-
-  explicit SIMDBEZIER_PART ScaledTangent(const V tangent[3]) {
-    V size = broadcast<V>(ScalarOf<V>(0));
-    for (std::size_t c = 0; c < 3; ++c) {
-      const V power = power_of_two_below(tangent[c]);
-      size = select_where<V>(power > size, power, size);
-    }
-    inverse = inverse_of_power_of_two(size);
-    for (std::size_t c = 0; c < 3; ++c) {
-      value[c] = tangent[c] * inverse;
-    }
-  }
-};
+SIMDBEZIER_PART V inverse_size(const V tangent[3]) {
+  return inverse_of_power_of_two(
+      larger_of(larger_of(power_of_two_below(tangent[0]), power_of_two_below(tangent[1])),
+                power_of_two_below(tangent[2])));
+}
 
 /// What curvatures take from first derivatives alone. Roots and divisions end here and in
 /// curvatures(), so that those of several samples are under way together.
 template <typename V>
 struct CurvatureFrame {
-  V inverse_u; ///< of the scaled tangents
+  V inverse_u; ///< what tangents are scaled by
   V inverse_v;
   V n[3];
   V inverse_area2;
@@ -53,16 +43,24 @@ struct CurvatureFrame {
   V g;
 
   SIMDBEZIER_PART void find(const SampleJet<V>& jet) {
-    const ScaledTangent<V> du(jet.du);
-    const ScaledTangent<V> dv(jet.dv);
-    inverse_u = du.inverse;
-    inverse_v = dv.inverse;
-    const V area2 = cross_product(du.value, dv.value, n); // EG - F^2, without its cancellation
-    e = dot(du.value, du.value);
-    f = dot(du.value, dv.value);
-    g = dot(dv.value, dv.value);
+    const V scale_u = inverse_size(jet.du);
+    const V scale_v = inverse_size(jet.dv);
+    V du[3];
+    V dv[3];
+    repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
+      du[c] = jet.du[c] * scale_u;
+      dv[c] = jet.dv[c] * scale_v;
+    });
+    V normal[3];
+    const V area2 = cross_product(du, dv, normal); // EG - F^2, without its cancellation
+    normalise(normal, area2);
     inverse_area2 = divide(broadcast<V>(ScalarOf<V>(1)), area2);
-    normalise(n, area2);
+    inverse_u = scale_u;
+    inverse_v = scale_v;
+    e = dot(du, du);
+    f = dot(du, dv);
+    g = dot(dv, dv);
+    repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA { n[c] = normal[c]; });
   }
 };
 
@@ -80,8 +78,8 @@ SIMDBEZIER_PART void curvatures(const SampleJet<V>& jet, const CurvatureFrame<V>
   const V twice_f_m = (at.f + at.f) * m;
   const V mean = madd(half * (madd(at.e, k, at.g * l) - twice_f_m), at.inverse_area2, zero);
   const V discriminant = msub(mean, mean, gaussian);
-  // Rounding makes it negative at umbilics; nan stays nan.
-  const V spread = square_root(select_where<V>(discriminant < zero, zero, discriminant));
+  // Rounding makes it negative at umbilics; nan, which comes second, stays nan.
+  const V spread = square_root(larger_of(zero, discriminant));
   out[0] = gaussian;
   out[1] = mean;
   out[2] = mean - spread;

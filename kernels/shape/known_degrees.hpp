@@ -196,7 +196,8 @@ SIMDBEZIER_KERNEL void sweep_known(const GridTask<T>& shared_task) {
   const bool pairs = kInPairs<P> && pairs_pay(task);
   const std::size_t components = P::kSingle ? wanted_components(task) : 1;
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
-    for (std::size_t first = 0; first < task.nu; first += kLanes<vec<T>>) {
+    for (std::size_t next = 0; next < task.nu; next += kLanes<vec<T>>) {
+      const std::size_t first = register_start<vec<T>>(next, task.nu, 1);
       for (std::size_t c = 0; c < components; ++c) {
         sweep_columns<P>(task, shape, patch, first, c, pairs);
       }

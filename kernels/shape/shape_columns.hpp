@@ -39,16 +39,11 @@ public:
       edges.find_origins(room);
       origins_ = &room;
     }
-    const ChannelStep step{shape_.matrix(), shape_.edge_powers() * 4};
     if (any_low() && any_high()) {
-      slots_.for_channels([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-        build_slot<true>(row.low, row.high, step, slot, polynomials_.power[slot]);
-      });
+      build_slots<true>(row.low, row.high);
     } else {
       const Cell<T>& cell = any_low() ? row.low : row.high;
-      slots_.for_channels([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-        build_slot<false>(cell, cell, step, slot, polynomials_.power[slot]);
-      });
+      build_slots<false>(cell, cell);
     }
   }
 
@@ -89,19 +84,44 @@ public:
   }
 
 private:
-  /// Values from one channel to the next.
-  struct ChannelStep {
-    std::size_t matrix;
-    std::size_t edges;
-  };
-
-  /// Builds one slot. kMixed says that some lanes are in the low cell, and some in the high one;
+  /// Builds all slots. kMixed says that some lanes are in the low cell, and some in the high one;
   /// else all are in `low`.
   template <bool kMixed>
-  SIMDBEZIER_PART void build_slot(const Cell<T>& low, const Cell<T>& high, const ChannelStep& step,
-                                  std::size_t slot, Powers& to) const {
-    const T* const matrix = low.coefficients + slots_.channel(slot) * step.matrix;
-    const T* const edges = low.edges + slots_.channel(slot) * step.edges;
+  SIMDBEZIER_PART void build_slots(const Cell<T>& low, const Cell<T>& high) {
+    const auto run = [&]<std::size_t kCount>()
+                         SIMDBEZIER_INLINE_LAMBDA { build_runs<kMixed, kCount>(low, high); };
+    if constexpr (P::kKnown) {
+      run.template operator()<P::OrderV::kMost>();
+    } else if constexpr (kAnyNumber<kMixed>) {
+      with_one_of<2, 4, 5, 6, 7, 8>(abreast_, run);
+    } else {
+      with_one_of<2, 4>(abreast_ < 4 ? 2 : 4, run);
+    }
+  }
+
+  /// Builds all powers of Y, kCount at once; the last ones may be computed twice.
+  template <bool kMixed, std::size_t kCount>
+  SIMDBEZIER_INLINE void build_runs(const Cell<T>& low, const Cell<T>& high) {
+    const std::size_t order_v = order_v_.value();
+    const std::size_t matrix = shape_.matrix();
+    const std::size_t edges = shape_.edge_powers() * 4;
+    for (std::size_t l = 0; l < order_v; l += kCount) {
+      const std::size_t first = std::min(l, order_v - kCount);
+      slots_.for_channels([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
+        const std::size_t channel = slots_.channel(slot);
+        build_slot<kMixed, kCount>(low, high, channel * matrix + first, channel * edges + first * 4,
+                                   first, polynomials_.power[slot]);
+      });
+    }
+  }
+
+  /// Builds the powers [first, first + kCount) of Y of one slot, of which coefficients and edges
+  /// stand at these places of its cells.
+  template <bool kMixed, std::size_t kCount>
+  SIMDBEZIER_INLINE void build_slot(const Cell<T>& low, const Cell<T>& high, std::size_t matrix_at,
+                                    std::size_t edges_at, std::size_t first, Powers& to) const {
+    const T* const matrix = low.coefficients + matrix_at;
+    const T* const edges = low.edges + edges_at;
     const std::ptrdiff_t matrix_to_high = high.coefficients - low.coefficients;
     const std::ptrdiff_t edges_to_high = high.edges - low.edges;
     const TwoTables<V> cells(columns_.low);
@@ -114,58 +134,42 @@ private:
         return broadcast<V>(c[i]);
       }
     };
-    const auto replace = [&](V inside, std::size_t first, std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+    const auto replace = [&](Series<V>* s) SIMDBEZIER_INLINE_LAMBDA {
       if constexpr (kMixed) { // two powers of an edge are a table
-        const T* const two = edges + (first + i / 2 * 2) * 4;
-        return cells.replace(columns_.local.edges, inside, two, two + edges_to_high,
-                             i % 2 * 4 + detail::kEdgeU0);
+        replace_each<kCount>(s, [&](V inside, std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+          const T* const two = edges + i / 2 * 8;
+          return cells.replace(columns_.local.edges, inside, two, two + edges_to_high,
+                               i % 2 * 4 + detail::kEdgeU0);
+        });
+      } else if constexpr (P::kKnown) { // whose masks are in registers
+        replace_each<kCount>(s, [&](V inside, std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+          return columns_.local.edges.replace(inside, edges + i * 4 + detail::kEdgeU0);
+        });
       } else {
-        return columns_.local.edges.replace(inside, edges + (first + i) * 4 + detail::kEdgeU0);
+        columns_.on_edges.template replace<kCount>(
+            edges + detail::kEdgeU0,
+            [&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA -> V& { return s[i].value; });
       }
     };
-    build_all_powers<kMixed>(matrix, load, replace, to);
+    build_powers<kCount>(matrix, load, replace, to[0] + first);
   }
 
-  template <bool kMixed, typename Load, typename Replace>
-  SIMDBEZIER_INLINE void build_all_powers(const T* matrix, const Load& load, const Replace& replace,
-                                          Powers& to) const {
-    if constexpr (P::kKnown) {
-      build_powers<P::OrderV::kMost>(matrix, 0, load, replace, to);
-    } else {
-      const auto run = [&]<std::size_t kCount>() SIMDBEZIER_INLINE_LAMBDA {
-        build_runs<kCount>(matrix, load, replace, to);
-      };
-      if constexpr (kAnyNumber<kMixed>) {
-        with_one_of<2, 4, 5, 6, 7, 8>(abreast_, run);
-      } else {
-        with_one_of<2, 4>(abreast_ < 4 ? 2 : 4, run);
-      }
-    }
-  }
-
-  /// Builds all powers of Y, kCount at once; the last ones may be computed twice.
-  template <std::size_t kCount, typename Load, typename Replace>
-  SIMDBEZIER_INLINE void build_runs(const T* matrix, const Load& load, const Replace& replace,
-                                    Powers& to) const {
-    const std::size_t order_v = order_v_.value();
-    for (std::size_t l = 0; l < order_v; l += kCount) {
-      build_powers<kCount>(matrix, std::min(l, order_v - kCount), load, replace, to);
-    }
-  }
-
-  /// Builds the powers [first, first + kCount) of Y. replace(value, first, i) puts in what is on an
-  /// edge.
-  template <std::size_t kCount, typename Load, typename Replace>
-  SIMDBEZIER_INLINE void build_powers(const T* matrix, std::size_t first, const Load& load,
-                                      const Replace& replace, Powers& to) const {
-    Series<V> s[kCount];
-    horner_series_abreast<kDepth, kCount>(order_u_, columns_.local.x, matrix + first,
-                                          order_v_.value(), load, s);
+  /// Puts in replaced(value, i) where lanes are on an edge.
+  template <std::size_t kCount, typename Replaced>
+  SIMDBEZIER_INLINE void replace_each(Series<V>* s, const Replaced& replaced) const {
     if (columns_.local.on_edge) {
       repeat<kCount>([&](std::size_t i)
-                         SIMDBEZIER_INLINE_LAMBDA { s[i].value = replace(s[i].value, first, i); });
+                         SIMDBEZIER_INLINE_LAMBDA { s[i].value = replaced(s[i].value, i); });
     }
-    V* at = to[0] + first;
+  }
+  /// Builds kCount powers of Y. replace(s) puts in what is on an edge.
+  template <std::size_t kCount, typename Load, typename Replace>
+  SIMDBEZIER_INLINE void build_powers(const T* matrix, const Load& load, const Replace& replace,
+                                      V* at) const {
+    Series<V> s[kCount];
+    horner_series_abreast<kDepth, kCount>(order_u_, columns_.local.x, matrix, order_v_.value(),
+                                          load, s);
+    replace(s);
     if constexpr (!P::kKnown) { // else they would not be in registers
       at = own_address(at);
     }

@@ -32,17 +32,20 @@ public:
   SIMDBEZIER_PART ShapeEdges(const NetShape& shape, const CellColumns<V>& columns, V x,
                              bool watertight, std::size_t first_component, const CellRow<T>& row)
       : shape_(P::shape(shape)), columns_(columns), x_(x), watertight_(watertight),
-        first_component_(first_component), slots_(shape_, first_component), row_(row) {}
+        first_component_(first_component), slots_(shape_, first_component), row_(&row) {}
+
+  /// Goes on to another row of cells.
+  SIMDBEZIER_PART void enter(const CellRow<T>& row) { row_ = &row; }
 
   /// Whether the set has origins.
-  SIMDBEZIER_PART bool has_origins() const { return row_.low.origins != nullptr; }
+  SIMDBEZIER_PART bool has_origins() const { return row_->low.origins != nullptr; }
 
   /// Whether an edge u = const of this row of cells has the mark of a point, in a rational patch.
   SIMDBEZIER_PART bool has_points() const {
     if constexpr (P::kWeighted) {
       const std::size_t marks = shape_.corners_at() + slots_.channel(P::Slots::kWeight) * 4;
       return columns_.local.on_edge &&
-             (row_.low.edges[marks] != T(0) || row_.high.edges[marks + 1] != T(0));
+             (row_->low.edges[marks] != T(0) || row_->high.edges[marks + 1] != T(0));
     } else {
       return false;
     }
@@ -51,8 +54,8 @@ public:
   /// Finds origins; to be called where there are origins or points.
   SIMDBEZIER_PART void find_origins(ColumnOrigins<V>& found) const {
     ShapeEdges<typename P::AnyDegree, V>::all_origins(shape_, x_, watertight_, first_component_,
-                                                      row_.low.edges, row_.low.origins,
-                                                      row_.high.edges, row_.high.origins, found);
+                                                      row_->low.edges, row_->low.origins,
+                                                      row_->high.edges, row_->high.origins, found);
   }
 
   /// Replaces what an edge v = const has of its own: kEdgeV0 or kEdgeV1 of these cells.
@@ -69,30 +72,29 @@ public:
   /// Finds positions of three components on an edge v = const, all at once. Returns false where
   /// there are other components.
   SIMDBEZIER_PART bool find_positions(std::size_t edge, V position[3]) const {
-    const typename P::OrderU order(shape_.order_u());
-    if (P::kWeighted || !slots_.are_three() || has_origins() || takes_even_odd(order.value())) {
+    if (P::kWeighted || !slots_.are_three() || has_origins() || takes_even_odd(shape_.order_u())) {
       return false;
     }
-    const std::size_t step = shape_.edge_powers() * 4;
-    const std::size_t at = slots_.channel(0) * step + edge;
-    Series<V> s[3];
-    const auto find = [&](const auto& load) SIMDBEZIER_INLINE_LAMBDA {
-      horner_series_abreast<0, 3>(order, columns_.local.x, row_.low.edges + at, 4, load, s);
-    };
+    const std::size_t powers = slots_.channel(0) * shape_.edge_powers() * 4 + edge;
+    const std::size_t corners =
+        shape_.corners_at() + slots_.channel(0) * 4 + detail::corner_index(0, edge);
     if (columns_.any_low && columns_.any_high) {
-      const std::ptrdiff_t to_high = row_.high.edges - row_.low.edges;
-      find([&](const T* c, std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
-        const T* const low = c + i * step;
-        return select_where<V>(columns_.low, broadcast<V>(low[0]), broadcast<V>(low[to_high]));
+      const std::ptrdiff_t to_high = row_->high.edges - row_->low.edges;
+      horner_positions(
+          row_->low.edges + powers, position, [&](const T* c) SIMDBEZIER_INLINE_LAMBDA {
+            return select_where<V>(columns_.low, broadcast<V>(c[0]), broadcast<V>(c[to_high]));
+          });
+      repeat<3>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+        position[i] = replaced(position[i], corners + i * 4, &Cell<T>::edges);
       });
     } else {
-      const std::ptrdiff_t to_own = columns_.any_low ? 0 : row_.high.edges - row_.low.edges;
-      find([&](const T* c, std::size_t i)
-               SIMDBEZIER_INLINE_LAMBDA { return broadcast<V>((c + i * step)[to_own]); });
+      const T* const edges = columns_.any_low ? row_->low.edges : row_->high.edges;
+      horner_positions(edges + powers, position,
+                       [](const T* c) SIMDBEZIER_INLINE_LAMBDA { return broadcast<V>(*c); });
+      columns_.on_edges.template replace<3>(
+          own_address(edges + corners),
+          [&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA -> V& { return position[i]; });
     }
-    repeat<3>([&](std::size_t slot) SIMDBEZIER_INLINE_LAMBDA {
-      position[slot] = with_corners(slot, edge, s[slot].value);
-    });
     return true;
   }
 
@@ -128,6 +130,24 @@ public:
   }
 
 private:
+  /// Horner's rule for an edge of three components, from the constant coefficient of the first one
+  /// on. One index serves all of them.
+  template <typename Load>
+  SIMDBEZIER_INLINE void horner_positions(const T* first, V position[3], const Load& load) const {
+    const std::size_t step = shape_.edge_powers() * 4;
+    const T* const of[3] = {own_address(first), own_address(first + step),
+                            own_address(first + 2 * step)};
+    const V x = columns_.local.x;
+    std::size_t at = (shape_.order_u() - 1) * 4;
+    repeat<3>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA { position[i] = load(of[i] + at); });
+    do {
+      at -= 4;
+      repeat<3>([&](std::size_t i) SIMDBEZIER_INLINE_LAMBDA {
+        position[i] = madd(position[i], x, load(of[i] + at));
+      });
+    } while (at != 0);
+  }
+
   SIMDBEZIER_KERNEL void row_of_edge(std::size_t edge, SampleJet<V>& jet) const {
     compute_row(edge, jet);
   }
@@ -219,21 +239,21 @@ private:
   /// Returns a value of each lane's cell.
   SIMDBEZIER_PART V chosen(std::size_t at, const T* Cell<T>::*values) const {
     if constexpr (P::kOneCell) {
-      return broadcast<V>((row_.low.*values)[at]);
+      return broadcast<V>((row_->low.*values)[at]);
     } else {
-      return select_where<V>(columns_.low, broadcast<V>((row_.low.*values)[at]),
-                             broadcast<V>((row_.high.*values)[at]));
+      return select_where<V>(columns_.low, broadcast<V>((row_->low.*values)[at]),
+                             broadcast<V>((row_->high.*values)[at]));
     }
   }
   /// Returns `inside`, where the lanes on edges u = const get a value of their cell's: that of the
   /// pair at `at`.
   SIMDBEZIER_PART V replaced(V inside, std::size_t at, const T* Cell<T>::*values) const {
     const PairSelector<V>& edges = columns_.local.edges;
-    const V low = edges.replace(inside, row_.low.*values + at);
+    const V low = edges.replace(inside, row_->low.*values + at);
     if constexpr (P::kOneCell) {
       return low;
     } else {
-      return select_where<V>(columns_.low, low, edges.replace(inside, row_.high.*values + at));
+      return select_where<V>(columns_.low, low, edges.replace(inside, row_->high.*values + at));
     }
   }
 
@@ -243,7 +263,7 @@ private:
   bool watertight_;
   std::size_t first_component_;
   typename P::Slots slots_;
-  const CellRow<T>& row_;
+  const CellRow<T>* row_;
 };
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -55,14 +55,22 @@ SIMDBEZIER_PART V rational_floor(const SampleTask<ScalarOf<V>>& task, const Samp
   return select_where<V>(squared < no_floor<V>(), floor, no_floor<V>());
 }
 
+/// Returns what |du x dv|^2 of samples has to be above.
+template <typename P, typename V>
+SIMDBEZIER_PART V normal_floor(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
+                               const SampleJet<V>& jet, V squared) {
+  if constexpr (P::kWeighted) {
+    return rational_floor(task, range, jet, squared);
+  } else {
+    return range.floor;
+  }
+}
+
 /// Takes the second look at samples whose |du x dv|^2 is not above their floor.
 template <typename P, typename V>
 SIMDBEZIER_PART void look_again(const SampleTask<ScalarOf<V>>& task, const SampleRange<V>& range,
                                 const SampleJet<V>& jet, V squared) {
-  V floor = range.floor;
-  if constexpr (P::kWeighted) {
-    floor = rational_floor(task, range, jet, squared);
-  }
+  const V floor = normal_floor<P>(task, range, jet, squared);
   if (!all_of<V>(squared > floor)) {
     const UncertainNormals row{0, kLanes<V>, range.active, 1, range.at, 0, 1};
     resolve_normals(task, range.patch, row, range.x, range.y, squared, floor);
@@ -113,6 +121,23 @@ SIMDBEZIER_PART void store_values(ScalarOf<V>* plane, const SampleRange<V>* rang
   }
 }
 
+/// Stores the curvatures of one register of samples in the planes that are wanted.
+template <typename V>
+SIMDBEZIER_PART void store_curvature(ScalarOf<V>* const* plane, bool all_whole,
+                                     const SampleRange<V>& range, const V* curvature) {
+  if (all_whole) { // nothing has to be asked
+    const std::size_t at = range.at;
+    repeat<detail::kCurvatures>(
+        [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { store_vector(plane[k] + at, curvature[k]); });
+    return;
+  }
+  for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
+    if (plane[k] != nullptr) {
+      range.store(plane[k], curvature[k]);
+    }
+  }
+}
+
 /// Stores curvatures. They become nan afterwards where a sample has no normal, or only a limit of
 /// one.
 template <typename P, typename V>
@@ -120,18 +145,26 @@ SIMDBEZIER_PART void store_curvatures(const SampleTask<ScalarOf<V>>& task,
                                       const SampleRange<V>* range, const SampleJet<V>* jet,
                                       std::size_t count) {
   CurvatureFrame<V> frame[kTogether];
-  V curvature[kTogether][detail::kCurvatures];
+  V n[3];
+  MaskOf<V> all_regular(true);
   for (std::size_t i = 0; i < count; ++i) {
     frame[i].find(jet[i]);
+    const V squared = cross_product(jet[i].du, jet[i].dv, n);
+    const MaskOf<V> regular = squared > normal_floor<P>(task, range[i], jet[i], squared);
+    all_regular = all_regular & regular;
+  }
+  ScalarOf<V>* const plane[] = {task.curvature[0], task.curvature[1], task.curvature[2],
+                                task.curvature[3]};
+  bool all_whole = range[0].active == kLanes<V>;
+  for (ScalarOf<V>* const each : plane) {
+    all_whole = all_whole && each != nullptr;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    curvatures(jet[i], frame[i], curvature[i]);
+    V curvature[detail::kCurvatures];
+    curvatures(jet[i], frame[i], curvature);
+    store_curvature(plane, all_whole, range[i], curvature);
   }
-  for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
-    store_values(task.curvature[k], range, curvature[0] + k, detail::kCurvatures, count);
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    V n[3];
+  for (std::size_t i = 0; i < count && !all_of<V>(all_regular); ++i) {
     look_again<P>(task, range[i], jet[i], cross_product(jet[i].du, jet[i].dv, n));
   }
 }
