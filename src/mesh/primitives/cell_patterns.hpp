@@ -85,6 +85,23 @@ public:
     return end;
   }
 
+  /// Writes numbers larger by `base` than those at `from`, in registers that begin where 16 bytes
+  /// do, except for the first one; returns where they end. Up to kNumbers behind them are read and
+  /// overwritten.
+  static Index* shift(const Index* from, std::uint32_t base, std::size_t count, Index* to) {
+    const Register more = spread(base);
+    Index* const end = to + count;
+    store(to, load(from, 0) + more);
+    const std::size_t misplaced = reinterpret_cast<std::uintptr_t>(to) % 16 / sizeof(Index);
+    to += kLanes - misplaced;
+    from += kLanes - misplaced;
+    for (; to < end; to += 2 * kLanes, from += 2 * kLanes) {
+      store(to, load(from, 0) + more);
+      store(to + kLanes, load(from, 1) + more);
+    }
+    return end;
+  }
+
   static constexpr std::size_t kNumbers = 48 / sizeof(Index);
 
 private:

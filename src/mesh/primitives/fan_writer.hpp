@@ -6,7 +6,8 @@
 
 #include "src/mesh/layout/cells.hpp"
 #include "src/mesh/primitives/cell_patterns.hpp"
-#include "src/mesh/primitives/union_places.hpp"
+#include "src/mesh/primitives/rung.hpp"
+#include "src/mesh/primitives/union_counts.hpp"
 
 namespace simdbezier::detail {
 
@@ -34,7 +35,7 @@ public:
 
 private:
   std::uint32_t segments_;
-  std::uint32_t at_[2 * UnionPlaces::kMost + 1];
+  std::uint32_t at_[2 * UnionCounts::kMost + 1];
 };
 
 /// Writes triangles with room behind them.
@@ -48,32 +49,29 @@ public:
     put(0, a, b, c);
     to_ += 3;
   }
-  /// A half of a cell whose first leg is a chain: `n` segments from vertex `first` on.
-  void fan_of_first(std::uint32_t first, std::uint32_t step, std::uint32_t n, std::uint32_t apex) {
-    put(0, first, first + step, apex);
-    put(1, first + step, first + 2 * step, apex);
-    for (std::uint32_t k = 2; k < n; ++k) {
-      put(k, first + k * step, first + (k + 1) * step, apex);
+  /// A cell of n segments of a side between two rungs.
+  ///
+  /// kSideFirst: see FanOrder. kFanFirst: whether the fan, which begins at `start`, comes before
+  /// the other triangle. descending: the side's numbers from `start` to `far`.
+  template <bool kSideFirst, bool kFanFirst>
+  void cell(const Rung<Index>& start, const Rung<Index>& far, bool descending, std::uint32_t n) {
+    // What comes first is written first, because there are numbers behind it that do not count.
+    constexpr bool kEndsAtSide = FanOrder{kSideFirst, kTurned}.ends_at_side();
+    if (!kFanFirst) {
+      Rung<Index>::template put_other<kEndsAtSide>(start, far, to_);
+      to_ += 3;
     }
-    to_ += std::size_t{3} * n;
-  }
-  /// Writes the fan where the second leg is a chain.
-  void fan_of_second(std::uint32_t first, std::uint32_t step, std::uint32_t n, std::uint32_t apex) {
-    put(0, first, apex, first + step);
-    put(1, apex, first + 2 * step, first + step);
-    for (std::uint32_t k = 2; k < n; ++k) {
-      put(k, apex, first + (k + 1) * step, first + k * step);
+    fan<kSideFirst>(start, descending, n);
+    if (kFanFirst) {
+      Rung<Index>::template put_other<kEndsAtSide>(start, far, to_);
+      to_ += 3;
     }
-    to_ += std::size_t{3} * n;
   }
-  /// Writes the fan of the legs in a corner, towards the corner.
-  void fan_of_first(const CornerLeg& leg, std::uint32_t apex) {
-    fan_of_first(leg.far(), 0 - leg.step, leg.segments, apex);
-    to_[kTurned ? -1 : -2] = static_cast<Index>(leg.corner);
-  }
-  void fan_of_second(const CornerLeg& leg, std::uint32_t apex) {
-    fan_of_second(leg.far(), 0 - leg.step, leg.segments, apex);
-    const bool single = leg.segments == 1;
+  /// The fan of a leg in a corner around the inner vertex, towards the corner.
+  template <bool kSideFirst>
+  void corner_fan(const CornerLeg& leg, std::uint32_t inner) {
+    fan<kSideFirst>(Rung<Index>(leg.far(), inner), leg.step == 1, leg.segments);
+    const bool single = !kSideFirst && leg.segments == 1;
     to_[(single != kTurned) ? -1 : -2] = static_cast<Index>(leg.corner);
   }
   /// The half of a cell that has the corner: cut_half() of its legs. One further vertex at most on
@@ -92,12 +90,33 @@ public:
     put(2, x2, y2, y1);
     to_ += std::size_t{3} * (x.segments + y.segments - 1);
   }
-  /// n cells side by side.
-  void cells(const CellRun<Index>& run, std::uint32_t base, std::uint32_t n) {
-    to_ = run.write(base, n, to_);
+
+  /// n cells side by side: a pattern, whose numbers become larger by `base`.
+  void cells(const Index* pattern, std::uint32_t n, std::uint32_t base) {
+    to_ = CellRun<Index>::shift(pattern, base, std::size_t{6} * n, to_);
   }
 
 private:
+  template <bool kSideFirst>
+  void fan(const Rung<Index>& start, bool descending, std::uint32_t n) {
+    start.template put_fan<kSideFirst, kTurned>(descending, to_);
+    if (n > Rung<Index>::kTogether) [[unlikely]] {
+      put_long_fan<kSideFirst>(start.side(), descending ? ~0U : 1, n, start.inner(), *this);
+    }
+    to_ += std::size_t{3} * n;
+  }
+  /// The triangles behind those in registers. It takes the writer by value, since an object whose
+  /// address is known elsewhere stays in memory.
+  template <bool kSideFirst>
+  __attribute__((noinline)) static void put_long_fan(std::uint32_t first, std::uint32_t step,
+                                                     std::uint32_t n, std::uint32_t apex,
+                                                     FanWriter out) {
+    for (std::uint32_t k = Rung<Index>::kTogether; k < n; ++k) {
+      const std::uint32_t a = first + k * step;
+      const std::uint32_t b = a + step;
+      kSideFirst ? out.put(k, a, b, apex) : out.put(k, apex, b, a);
+    }
+  }
   /// It takes itself by value, since an object whose address is known elsewhere stays in memory.
   __attribute__((noinline)) static FanWriter long_corner_half(const CornerLeg& x,
                                                               const CornerLeg& y, FanWriter out) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "src/mesh/layout/mesh_data.hpp"
-#include "src/mesh/primitives/union_places.hpp"
+#include "src/mesh/primitives/union_counts.hpp"
 
 namespace simdbezier::detail {
 
@@ -14,8 +14,8 @@ struct LinearSide {
   std::uint32_t zero = 0; ///< the number that point 0 would have if it were not a corner
   std::uint32_t step = 0; ///< 1 or -1
   std::uint32_t segments = 0;
-  std::uint32_t end[2] = {0, 0};         ///< the corners
-  const std::uint32_t* places = nullptr; ///< of the patch's own points
+  std::uint32_t end[2] = {0, 0};        ///< the corners
+  const std::uint8_t* counts = nullptr; ///< segments from each of the patch's points to the next
 
   [[nodiscard]] std::uint32_t at(std::uint32_t place) const noexcept { return zero + place * step; }
 };
@@ -27,16 +27,11 @@ public:
 
   /// False where the patch is not a usual one.
   bool move_to(std::size_t patch) {
-    const auto usual = [](std::uint32_t rate) { return rate >= 2 && rate <= UnionPlaces::kMost; };
-    if (!usual(mesh_.nu[patch]) || !usual(mesh_.nv[patch])) {
-      return false;
-    }
-    for (std::size_t k = 0; k < kPatchEdges; ++k) {
-      if (!read(kPatchEdges * patch + k, sides_[k])) {
-        return false;
-      }
-    }
-    return !is_folded(patch);
+    const auto usual = [](std::uint32_t rate) { return rate >= 2 && rate <= UnionCounts::kMost; };
+    const std::uint32_t nu = mesh_.nu[patch];
+    const std::uint32_t nv = mesh_.nv[patch];
+    return usual(nu) && usual(nv) && read<0>(patch, nu) && read<1>(patch, nu) &&
+           read<2>(patch, nv) && read<3>(patch, nv) && !is_folded(patch);
   }
   [[nodiscard]] const LinearSide& operator[](std::size_t side) const { return sides_[side]; }
 
@@ -49,30 +44,35 @@ private:
     };
     return same(0, 2) || same(0, 3) || same(1, 2) || same(1, 3);
   }
-  bool read(std::size_t number, LinearSide& to) {
+  /// Reads side k. It is compiled for each, so that the compiler knows where things are.
+  template <std::size_t k>
+  __attribute__((always_inline)) bool read(std::size_t patch, std::uint32_t rate) {
+    const std::size_t number = kPatchEdges * patch + k;
     const Side side = topology_.sides[number];
     if (side.collapsed() || mesh_.is_split(number)) {
       return false;
     }
-    const auto all = topology_.sides_of(side.edge());
-    const std::uint32_t rate = mesh_.rate(number);
+    const std::uint32_t edge = side.edge();
+    const auto all = topology_.sides_of(edge);
     const std::uint32_t other = all.size() == 1 ? rate : mesh_.rate(all[all[0] == number ? 1 : 0]);
-    if (all.size() > 2 || other > UnionPlaces::kMost) {
+    if (all.size() > 2 || other > UnionCounts::kMost) {
       return false;
     }
-    to.segments = mesh_.segments[side.edge()];
-    to.step = side.reversed() ? ~0U : 1;
-    to.zero = mesh_.edge_first[side.edge()] + (side.reversed() ? to.segments - 1 : ~0U);
-    to.end[0] = mesh_.corners[corner_at(number, 0)];
-    to.end[1] = mesh_.corners[corner_at(number, 1)];
-    to.places = places_.of(rate, other);
+    LinearSide& to = sides_[k];
+    to.segments = mesh_.segments[edge];
+    const std::uint32_t backwards = side.reversed() ? ~0U : 0; // no branch: it is anyone's guess
+    to.step = backwards | 1;
+    to.zero = mesh_.edge_first[edge] + (to.segments & backwards) - 1;
+    to.end[0] = mesh_.corners[kPatchCorners * patch + kSideCorners[k][0]];
+    to.end[1] = mesh_.corners[kPatchCorners * patch + kSideCorners[k][1]];
+    to.counts = counts_.of(rate, other);
     return true;
   }
 
   const MeshData& mesh_;
   const TopologyData& topology_;
   LinearSide sides_[kPatchEdges];
-  UnionPlaces places_;
+  UnionCounts counts_;
 };
 
 } // namespace simdbezier::detail

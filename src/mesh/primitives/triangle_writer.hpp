@@ -31,11 +31,12 @@ public:
 private:
   template <bool kTurned>
   Index* write_regular(std::size_t patch, Index* to) {
+    RowPatterns<Index>& patterns = patterns_[kTurned ? 1 : 0];
     // Asked a mesh: some patches of others are plain as well, but which ones is hard to predict.
     if (!mesh_.has_unions) {
-      return PlainPatch<Index, kTurned>(mesh_, patch, sides_).write(stream_, to);
+      return PlainPatch<Index, kTurned>(mesh_, patch, sides_, patterns).write(stream_, to);
     }
-    return RegularPatch<Index, kTurned>(mesh_, patch, sides_).write(stream_, to);
+    return RegularPatch<Index, kTurned>(mesh_, patch, sides_, patterns).write(stream_, to);
   }
   Index* write_any(std::size_t patch, bool turned) {
     boundary_.move_to(patch);
@@ -46,6 +47,7 @@ private:
 
   const MeshData& mesh_;
   LinearSides sides_;
+  RowPatterns<Index> patterns_[2]{RowPatterns<Index>(false), RowPatterns<Index>(true)};
   PatchBoundary boundary_;
   IndexStream<Index> stream_;
 };

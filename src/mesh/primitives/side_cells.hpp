@@ -1,0 +1,46 @@
+// The cells at one side of a patch, one after the other.
+#pragma once
+
+#include "src/mesh/primitives/fan_writer.hpp"
+#include "src/mesh/primitives/linear_sides.hpp"
+
+namespace simdbezier::detail {
+
+enum class SideNumber { v0, v1, u0, u1 };
+
+/// Cells of side kSide but those in the patch's corners.
+template <SideNumber kSide, typename Index, bool kTurned>
+class SideCells {
+public:
+  /// From inner vertex `inner` on, with `step` to the next one.
+  SideCells(const LinearSide& side, std::uint32_t inner, std::uint32_t step)
+      : counts_(side.counts), descending_(side.step != 1), rung_(side.at(counts_[0]), inner),
+        inner_step_(0, step) {}
+
+  /// Writes cell k, which comes after cell k - 1.
+  void put(std::uint32_t k, bool falling, FanWriter<Index, kTurned>& out) {
+    const std::uint32_t n = counts_[k];
+    const Rung<Index> next = rung_.after(n, descending_, inner_step_);
+    constexpr bool kHigh = kSide == SideNumber::v1 || kSide == SideNumber::u1;
+    constexpr bool kRunsInU = kSide == SideNumber::v0 || kSide == SideNumber::v1;
+    // The fan is in the half that has its right angle at the side; halves come in the order of
+    // CellCutter.
+    falling ? put_between<kRunsInU, !kHigh, !kHigh>(next, n, out)
+            : put_between<!kRunsInU, kHigh, kRunsInU != kHigh>(next, n, out);
+    rung_ = next;
+  }
+
+private:
+  template <bool kSideFirst, bool kForwards, bool kFanFirst>
+  void put_between(const Rung<Index>& next, std::uint32_t n, FanWriter<Index, kTurned>& out) const {
+    out.template cell<kSideFirst, kFanFirst>(kForwards ? rung_ : next, kForwards ? next : rung_,
+                                             descending_ == kForwards, n);
+  }
+
+  const std::uint8_t* counts_;
+  bool descending_;
+  Rung<Index> rung_;
+  Rung<Index> inner_step_;
+};
+
+} // namespace simdbezier::detail
