@@ -51,8 +51,8 @@ struct MeshStages {
                                     topology, options, {nu, nv, diagonals, deviations})
         .status;
   }
-  Status lay_out(const Options& /*how*/) {
-    return simdbezier::lay_out_mesh(topology, {nu, nv, diagonals}, layout);
+  Status lay_out(const Options& how) {
+    return simdbezier::lay_out_mesh(topology, {nu, nv, diagonals}, layout, how);
   }
   /// Makes room for the samples of grids, and for the vertices and triangles of a mesh.
   bool make_room() {

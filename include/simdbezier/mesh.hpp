@@ -112,7 +112,7 @@ struct Mesh {
 ///           tolerances are given as well; out_of_memory.
 /// Memory:   allocates what the plan holds, and working memory for edges and rates. A mesh is
 ///           planned whole; vertices and triangles can then be had range by range.
-/// Threads:  MeshOptions::threads; joining edges is mostly one thread's work.
+/// Threads:  MeshOptions::threads.
 /// Cost:     find_topology() and choose_rates(), see there.
 template <typename T, typename S>
 [[nodiscard]] MeshPlan<T> plan_mesh(std::span<const ControlNets<S>> nets,

@@ -81,6 +81,9 @@ private:
 /// nets:       any number of views, with any degrees and three components; patches are numbered
 ///             through, view after view.
 /// topology:   replaced on ok, left as it was otherwise.
+/// Threads:    TopologyOptions::threads. What no thread can do alone, one does: joining corners of
+///             patches whose numbers are far apart, snapping, and all that concerns repeated
+///             patches and those that meet in more than a corner or an edge.
 /// Allocation: about 60 bytes a side. Determinism: a function of the control points and of the
 ///             options other than `threads`. Cost: some 0.2 to 0.7 us a patch; more where hundreds
 ///             of patches have one edge and disagree, or thousands have the same four edges or

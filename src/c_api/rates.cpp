@@ -211,12 +211,13 @@ simdbezier_status simdbezier_lay_out_mesh(const simdbezier_topology* topology,
     const RateSpans of = rates_of(rates);
     const Topology& joined = object_of(topology, kTopology);
     MeshLayout made;
-    require_ok(lay_out_mesh(joined, {of.nu, of.nv, of.diagonals}, made), [&](Status status) {
-      if (status == Status::bad_rates) {
-        return blamed_rates(of, joined.counts().patches, of.diagonals.empty());
-      }
-      return status == Status::out_of_memory ? Path{} : kRates;
-    });
+    require_ok(lay_out_mesh(joined, {of.nu, of.nv, of.diagonals}, made, only_threads(1)),
+               [&](Status status) {
+                 if (status == Status::bad_rates) {
+                   return blamed_rates(of, joined.counts().patches, of.diagonals.empty());
+                 }
+                 return status == Status::out_of_memory ? Path{} : kRates;
+               });
     give(layout, std::move(made));
   });
 }

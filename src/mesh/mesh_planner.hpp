@@ -194,8 +194,8 @@ private:
   }
 
   Status lay_out() {
-    const Status status =
-        lay_out_mesh(plan_.topology, {plan_.nu, plan_.nv, diagonals_}, plan_.layout);
+    const Status status = lay_out_mesh(plan_.topology, {plan_.nu, plan_.nv, diagonals_},
+                                       plan_.layout, {.threads = options_.threads});
     if (!status || options_.crease_angle == kUnlimited) {
       return status;
     }

@@ -3,13 +3,15 @@
 #include "src/nets/edge_rings.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
-#include <memory>
+#include <numeric>
 #include <vector>
 
 #include "src/nets/edge_keys.hpp"
 #include "src/nets/edge_values.hpp"
 #include "src/runtime/batch.hpp"
+#include "src/runtime/fresh_vector.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -22,13 +24,15 @@ constexpr std::size_t kAhead = 32;
 template <typename Index>
 class RingTable {
 public:
-  struct Slot {
-    std::uint32_t high = 0;
-    Index latest = EdgeRings<Index>::kPoint; ///< that is: none
-  };
-
   explicit RingTable(std::size_t sides)
-      : slots_(std::bit_ceil(sides + sides / 4)), mask_(slots_.size() - 1) {}
+      : slots_(std::bit_ceil(sides + sides / 4 + 1)), mask_(slots_.size() - 1) {}
+
+  /// To be called first, by the thread that enters sides.
+  void clear() noexcept {
+    std::fill(slots_.begin(), slots_.end(), Slot{0, EdgeRings<Index>::kPoint});
+  }
+  /// How many rings there is room for.
+  [[nodiscard]] std::size_t room() const noexcept { return mask_; }
 
   void prefetch(std::uint64_t hash) const noexcept { __builtin_prefetch(&slots_[hash & mask_]); }
 
@@ -53,7 +57,12 @@ public:
   }
 
 private:
-  std::vector<Slot> slots_;
+  struct Slot {
+    std::uint32_t high;
+    Index latest; ///< kPoint: none
+  };
+
+  FreshVector<Slot> slots_;
   std::size_t mask_;
 };
 
@@ -110,49 +119,127 @@ void hash_edges(const AllEdges<S>& edges, HashTarget<Index> to, int threads) noe
   divide_work(edges.views().patches(), 40, threads, body);
 }
 
-/// Links sides of equal hashes, and compares their values a block later, when they have come into a
-/// cache. Returns whether all were equal, too; where not, the links are of no use.
+/// Links one part of all sides, which equal hashes are in together, so that each part can be linked
+/// by a thread of its own.
 template <typename S, typename Index>
-bool link_by_hashes(const AllEdges<S>& edges, EdgeRings<Index>& rings,
-                    const std::uint64_t* hashes) {
-  constexpr std::size_t kBlock = 128;
-  const std::size_t sides = rings.next.size();
-  RingTable<Index> table(sides);
-  Index later[kBlock];
-  EdgeValues<S> earlier[kBlock];
-  for (std::size_t begin = 0; begin < sides; begin += kBlock) {
-    const std::size_t end = std::min(begin + kBlock, sides);
+class PartLinker {
+public:
+  PartLinker(const AllEdges<S>& edges, EdgeRings<Index>& rings,
+             std::span<const std::uint64_t> hashes, std::size_t part, std::size_t parts)
+      : edges_(edges), rings_(rings), hashes_(hashes), part_(part), parts_(parts),
+        own_(std::min(kPassed, hashes.size()) + kAhead),
+        table_(hashes.size() / parts + (parts > 1 ? kUneven : 0)) {}
+
+  /// Links sides of equal hashes. Returns whether all of them are equal and there was room for all;
+  /// where not, the links are of no use.
+  [[nodiscard]] bool run() noexcept {
+    table_.clear();
+    for (std::size_t begin = 0; begin < hashes_.size(); begin += kPassed) {
+      const auto own = own_sides(begin, std::min(begin + kPassed, hashes_.size()));
+      if (count_ + own.size() > table_.room()) {
+        return false;
+      }
+      for (std::size_t first = 0; first < own.size(); first += kCompared) {
+        if (!link(first, std::min(first + kCompared, own.size()))) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+private:
+  static constexpr std::size_t kPassed = 4096;  ///< sides that are passed to find those of the part
+  static constexpr std::size_t kCompared = 128; ///< sides that are linked before they are compared
+  static constexpr std::size_t kUneven = 256;   ///< room for parts that are not all of one size
+
+  /// The part's sides of [begin, end), ascending.
+  [[nodiscard]] std::span<const Index> own_sides(std::size_t begin, std::size_t end) noexcept {
+    std::size_t count = 0;
+    if (parts_ == 1) {
+      count = end - begin;
+      std::iota(own_.begin(), own_.begin() + static_cast<std::ptrdiff_t>(count),
+                static_cast<Index>(begin));
+    }
+    for (std::size_t side = begin; parts_ > 1 && side < end; ++side) {
+      own_[count] = static_cast<Index>(side);
+      count += (hashes_[side] >> 32) * parts_ >> 32 == part_ ? 1 : 0;
+    }
+    std::fill_n(own_.begin() + static_cast<std::ptrdiff_t>(count), kAhead,
+                static_cast<Index>(begin));
+    return {own_.data(), count};
+  }
+
+  /// Links own sides [begin, end), and compares their values afterwards, when these have come into
+  /// a cache.
+  [[nodiscard]] bool link(std::size_t begin, std::size_t end) noexcept {
+    Index later[kCompared];
+    EdgeValues<S> earlier[kCompared];
     std::size_t count = 0;
     for (std::size_t k = begin; k < end; ++k) {
-      table.prefetch(hashes[k + kAhead]);
-      if (rings.is_point(k)) {
+      table_.prefetch(hashes_[own_[k + kAhead]]);
+      const Index side = own_[k];
+      if (rings_.is_point(side)) {
         continue;
       }
-      const auto side = static_cast<Index>(k);
-      const Index latest = table.enter(hashes[k], side, [](Index) { return true; });
+      const Index latest = table_.enter(hashes_[side], side, [](Index) { return true; });
       if (latest != side) {
-        rings.link(latest, side);
-        earlier[count] = edges[latest].turned(rings.turned[latest] != 0);
+        rings_.link(latest, side);
+        earlier[count] = agreed(latest);
         earlier[count].prefetch();
         later[count++] = side;
+      } else {
+        ++count_;
       }
     }
     for (std::size_t k = 0; k < count; ++k) {
-      if (!(edges[later[k]].turned(rings.turned[later[k]] != 0) == earlier[k])) {
+      if (!(agreed(later[k]) == earlier[k])) {
         return false;
       }
     }
+    return true;
   }
-  return true;
+  /// The values of a side in the direction on which its ring agrees.
+  [[nodiscard]] EdgeValues<S> agreed(Index side) const noexcept {
+    return edges_[side].turned(rings_.turned[side] != 0);
+  }
+
+  const AllEdges<S>& edges_;
+  EdgeRings<Index>& rings_;
+  std::span<const std::uint64_t> hashes_;
+  std::size_t part_;
+  std::size_t parts_;
+  FreshVector<Index> own_; ///< those passed last, and some behind them that are fetched in vain
+  RingTable<Index> table_;
+  std::size_t count_ = 0; ///< of rings
+};
+
+/// Links sides of equal hashes, as many parts at once as there are threads; see PartLinker::run().
+template <typename S, typename Index>
+bool link_by_hashes(const AllEdges<S>& edges, EdgeRings<Index>& rings,
+                    std::span<const std::uint64_t> hashes, int threads) {
+  const Shares parts(hashes.size(), 10, threads);
+  std::vector<PartLinker<S, Index>> linkers;
+  for (std::size_t part = 0; part < parts.count(); ++part) {
+    linkers.emplace_back(edges, rings, hashes, part, parts.count());
+  }
+  std::atomic<bool> linked = true;
+  parts.run([&](std::size_t part) {
+    if (!linkers[part].run()) {
+      linked = false;
+    }
+  });
+  return linked;
 }
 
 /// Links sides of equal values, also where others have the same hash.
 template <typename S, typename Index>
 void link_by_values(const AllEdges<S>& edges, EdgeRings<Index>& rings,
-                    const std::uint64_t* hashes) {
-  RingTable<Index> table(rings.next.size());
+                    std::span<const std::uint64_t> hashes) {
+  RingTable<Index> table(hashes.size());
+  table.clear();
   const auto agreed = [&](Index side) { return edges[side].turned(rings.turned[side] != 0); };
-  for (std::size_t k = 0; k < rings.next.size(); ++k) {
+  for (std::size_t k = 0; k < hashes.size(); ++k) {
     if (rings.is_point(k)) {
       continue;
     }
@@ -173,11 +260,10 @@ EdgeRings<Index> find_rings(std::span<const ControlNets<S>> nets, int threads) {
   if (sides > 0) {
     rings.next.resize(sides);
     rings.turned.resize(sides);
-    const auto hashes = std::make_unique_for_overwrite<std::uint64_t[]>(sides + kAhead);
-    std::fill_n(hashes.get() + sides, kAhead, 0);
-    hash_edges<S, Index>(edges, {rings, hashes.get()}, threads);
-    if (!link_by_hashes(edges, rings, hashes.get())) {
-      link_by_values(edges, rings, hashes.get());
+    FreshVector<std::uint64_t> hashes(sides);
+    hash_edges<S, Index>(edges, {rings, hashes.data()}, threads);
+    if (!link_by_hashes<S, Index>(edges, rings, hashes, threads)) {
+      link_by_values<S, Index>(edges, rings, hashes);
     }
   }
   return rings;

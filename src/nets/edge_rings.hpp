@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include <simdbezier/control_nets.hpp>
 #include <simdbezier/patch_edge.hpp>
+
+#include "src/runtime/fresh_vector.hpp"
 
 namespace simdbezier::detail {
 
@@ -20,9 +21,9 @@ template <typename Index>
 struct EdgeRings {
   static constexpr Index kPoint = std::numeric_limits<Index>::max();
 
-  std::vector<Index> next; ///< kPoint: all points of the side are equal
+  FreshVector<Index> next; ///< kPoint: all points of the side are equal
   /// Whether a side runs against the direction on which all of its ring agree.
-  std::vector<std::uint8_t> turned;
+  FreshVector<std::uint8_t> turned;
 
   [[nodiscard]] bool is_point(std::size_t side) const noexcept { return next[side] == kPoint; }
   [[nodiscard]] bool is_alone(std::size_t side) const noexcept { return next[side] == side; }

@@ -21,10 +21,7 @@ namespace {
 // Shares are static, so that every thread writes the same pages in every call of equal shape.
 void run_share(std::size_t units, int worker, int workers, BlockBody body) {
   const auto share = [&](int k) {
-    // units / workers each, the first units % workers one more; no product that could overflow.
-    const auto n = static_cast<std::size_t>(workers);
-    const auto i = static_cast<std::size_t>(k);
-    return units / n * i + (i < units % n ? i : units % n);
+    return share_begin(units, static_cast<std::size_t>(workers), static_cast<std::size_t>(k));
   };
   const DefaultFpEnvironment environment;
   body(worker, share(worker), share(worker + 1));

@@ -63,10 +63,53 @@ void divide_work(std::size_t units, std::size_t nanoseconds, int threads, F& bod
   for_blocks(units, thread_count(threads, units, duration_of(units, nanoseconds)), BlockBody(body));
 }
 
+/// Where share k of n begins, and where share n - 1 ends for k == n: units / n each, the first
+/// units % n one more.
+constexpr std::size_t share_begin(std::size_t units, std::size_t n, std::size_t k) noexcept {
+  return units / n * k + (k < units % n ? k : units % n); // no product that could overflow
+}
+
+/// Work cut into shares, one for each thread that divide_work() would take. They stay the same
+/// however many threads are granted, so that what one step found in a share the next one can use.
+class Shares {
+public:
+  Shares(std::size_t units, std::size_t nanoseconds, int threads) noexcept
+      : units_(units), count_(static_cast<std::size_t>(
+                           thread_count(threads, units, duration_of(units, nanoseconds)))) {}
+
+  [[nodiscard]] std::size_t count() const noexcept { return count_; }
+  [[nodiscard]] std::size_t begin(std::size_t share) const noexcept {
+    return share_begin(units_, count_, share);
+  }
+  [[nodiscard]] std::size_t end(std::size_t share) const noexcept { return begin(share + 1); }
+
+  /// Calls body(share) noexcept for each, on threads of their own as far as they are granted.
+  template <typename F>
+  void run(const F& body) const noexcept {
+    auto some = [&](int, std::size_t first, std::size_t last) {
+      for (std::size_t share = first; share < last; ++share) {
+        body(share);
+      }
+    };
+    for_blocks(count_, static_cast<int>(count_), BlockBody(some));
+  }
+
+private:
+  std::size_t units_;
+  std::size_t count_;
+};
+
 /// Lowers a number that several threads lower.
 inline void lower(std::atomic<std::size_t>& least, std::size_t to) noexcept {
   std::size_t now = least;
   while (to < now && !least.compare_exchange_weak(now, to)) {
+  }
+}
+
+/// Raises one likewise.
+inline void raise(std::atomic<std::size_t>& most, std::size_t to) noexcept {
+  std::size_t now = most;
+  while (to > now && !most.compare_exchange_weak(now, to)) {
   }
 }
 

@@ -113,7 +113,7 @@ std::vector<EdgeLink> links_of(const std::vector<Batch<T>>& soup, int threads) {
 template <typename T>
 void expect_links(const std::vector<Batch<T>>& soup) {
   const std::vector<EdgeLink> expected = brute_force(soup);
-  for (const int threads : {1, 3}) {
+  for (const int threads : {1, 2, 3, 7}) {
     const std::vector<EdgeLink> links = links_of(soup, threads);
     ASSERT_EQ(links.size(), expected.size());
     for (std::size_t k = 0; k < links.size(); ++k) {

@@ -113,7 +113,8 @@ void WeldedMesh<T>::choose_cells() {
 
 template <typename T>
 void WeldedMesh<T>::lay_out() {
-  const Status status = lay_out_mesh(topology_, {rates_.nu, rates_.nv, rates_.diagonals}, layout_);
+  const Status status = lay_out_mesh(topology_, {rates_.nu, rates_.nv, rates_.diagonals}, layout_,
+                                     {.threads = arguments_.threads});
   if (status == Status::size_overflow) {
     bad_input(resolution_options(arguments_.mesh) + ": expected at most " +
               std::to_string(kMostMeshVertices) + " vertices, found more");

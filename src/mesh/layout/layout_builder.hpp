@@ -9,14 +9,17 @@ namespace simdbezier::detail {
 bool are_rates(const Topology& topology, std::span<const std::uint32_t> rates) noexcept;
 
 /// Fills a layout for rates that are_rates() accepts: ok | size_overflow.
-Status build_layout(const Topology& topology, const PatchRates& rates, MeshData& mesh);
+Status build_layout(const Topology& topology, const PatchRates& rates, MeshData& mesh,
+                    int threads = 1);
 
 /// Numbers the vertices of a layout whose segments are known. corner_groups: of each corner of a
 /// patch the lowest one that it shares a vertex with. side_vertices, where edges are split, hold
-/// the number of a side's group at each point, and then its vertex. Returns ok | size_overflow.
-Status number_vertices(std::span<const std::uint32_t> corner_groups, MeshData& mesh);
+/// the number of a side's group at each point, and then its vertex; one thread numbers these.
+/// Returns ok | size_overflow.
+Status number_vertices(std::span<const std::uint32_t> corner_groups, MeshData& mesh,
+                       int threads = 1);
 
 /// Adds to a complete layout what evaluation has to know beforehand.
-void measure_boundaries(MeshData& mesh);
+void measure_boundaries(MeshData& mesh, int threads = 1);
 
 } // namespace simdbezier::detail

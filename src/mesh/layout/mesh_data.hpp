@@ -10,6 +10,7 @@
 
 #include "src/mesh/layout/edge_union.hpp"
 #include "src/mesh/topology/topology_data.hpp"
+#include "src/runtime/fresh_vector.hpp"
 
 namespace simdbezier::detail {
 
@@ -18,11 +19,11 @@ struct MeshData {
   std::vector<std::uint32_t> nu;
   std::vector<std::uint32_t> nv;
   std::vector<std::uint16_t> diagonals;  ///< of each patch, see PatchRates
-  std::vector<std::uint32_t> corners;    ///< vertex of [4 * patch + corner]
-  std::vector<std::uint32_t> edge_first; ///< vertex of each edge's first inner point
-  std::vector<std::uint32_t> segments;   ///< of each edge
-  std::vector<std::uint32_t> inner;      ///< vertex of each patch's first inner point
-  std::vector<std::uint64_t> triangles;  ///< before each patch, and of all
+  FreshVector<std::uint32_t> corners;    ///< vertex of [4 * patch + corner]
+  FreshVector<std::uint32_t> edge_first; ///< vertex of each edge's first inner point
+  FreshVector<std::uint32_t> segments;   ///< of each edge
+  FreshVector<std::uint32_t> inner;      ///< vertex of each patch's first inner point
+  FreshVector<std::uint64_t> triangles;  ///< before each patch, and of all
   /// The place in side_vertices, for each side, where its vertices from its edge's second point to
   /// the last but one begin, or kWhole, where edges have more than one vertex a point
   /// (split_creases()). It is empty where no edge is split.

@@ -1,11 +1,16 @@
 // See mesh_layout.hpp.
 #include <simdbezier/mesh_layout.hpp>
 
+#include <algorithm>
+#include <atomic>
 #include <limits>
 #include <new>
 
 #include "src/mesh/layout/cells.hpp"
 #include "src/mesh/layout/layout_builder.hpp"
+#include "src/mesh/layout/segment_counts.hpp"
+#include "src/mesh/layout/vertex_numbers.hpp"
+#include "src/runtime/batch.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -13,44 +18,6 @@ namespace {
 
 /// Vertices are counted in 64 bits and have to fit 32, without the largest number.
 constexpr std::uint64_t kMostVertices = std::numeric_limits<std::uint32_t>::max();
-
-constexpr std::size_t kManySides = 8;
-
-void count_segments(const TopologyData& topology, MeshData& mesh) {
-  EdgeRates rates;
-  std::vector<std::uint32_t> scratch;
-  mesh.segments.resize(topology.edges());
-  bool has_unions = false;
-  for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
-    const auto sides = topology.sides_of(edge);
-    if (sides.size() <= 2) {
-      mesh.segments[edge] = segments_of(mesh.rate(sides.front()), mesh.rate(sides.back()));
-    } else {
-      mesh.rates_of(edge, rates);
-      if (sides.size() > kManySides) {
-        mesh.crowded_edges.push_back({edge, rates});
-      }
-      mesh.segments[edge] = union_segments(rates, scratch);
-    }
-    mesh.most_segments = std::max(mesh.most_segments, mesh.segments[edge]);
-    const std::uint32_t most = mesh.segments[edge];
-    has_unions |= most != mesh.rate(sides.front()) || most != mesh.rate(sides.back());
-  }
-  mesh.has_unions = has_unions;
-}
-
-/// The triangles of a patch: two a cell, one more for every vertex that its sides have besides its
-/// own ones, and one less for every cell at a side that is a point. Where that is less than
-/// none, all points of the patch are one vertex, and it has no triangle.
-std::uint64_t triangles_of(const TopologyData& topology, const MeshData& mesh, std::size_t patch) {
-  std::int64_t triangles = 2 * std::int64_t{mesh.nu[patch]} * mesh.nv[patch];
-  for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
-    const Side& own = topology.sides[side];
-    triangles += own.collapsed() ? 0 : std::int64_t{mesh.segments[own.edge()]};
-    triangles -= mesh.rate(side);
-  }
-  return static_cast<std::uint64_t>(std::max<std::int64_t>(triangles, 0));
-}
 
 /// Counts what the cells of a patch become.
 struct TriangleCounter {
@@ -98,56 +65,14 @@ std::size_t boundary_samples(const TopologyData& topology, const MeshData& mesh,
   return samples;
 }
 
-/// The vertices of an edge's points, from `vertices` on; returns the next free one.
-std::uint64_t number_edge(std::uint32_t edge, std::uint64_t vertices, MeshData& mesh) {
-  const auto sides = mesh.topology.data()->sides_of(edge);
-  const std::uint32_t points = mesh.segments[edge] - 1;
-  mesh.edge_first[edge] = static_cast<std::uint32_t>(vertices);
-  if (!mesh.is_split(sides[0])) {
-    return vertices + points;
-  }
-  for (std::uint32_t k = 0; k < points; ++k) {
-    std::uint32_t groups = 0;
-    for (const std::uint32_t side : sides) {
-      std::uint32_t& vertex = mesh.side_vertices[mesh.side_first[side] + k];
-      groups = std::max(groups, vertex + 1);
-      vertex += static_cast<std::uint32_t>(vertices);
-    }
-    vertices += groups;
-  }
-  return vertices;
-}
-
 } // namespace
 
-Status number_vertices(std::span<const std::uint32_t> corner_groups, MeshData& mesh) {
+Status number_vertices(std::span<const std::uint32_t> corner_groups, MeshData& mesh, int threads) {
   const TopologyData& topology = *mesh.topology.data();
-  mesh.corners.resize(topology.corners.size());
-  mesh.edge_first.resize(topology.edges());
-  mesh.inner.resize(topology.patches());
-  mesh.triangles.resize(topology.patches() + 1);
-  std::uint64_t vertices = 0;
-  for (std::size_t patch = 0; patch < topology.patches(); ++patch) {
-    for (std::size_t k = kPatchCorners * patch; k < kPatchCorners * (patch + 1); ++k) {
-      if (topology.corners[k] == k) {
-        topology.for_joined(k, [&](std::size_t corner) {
-          const std::uint32_t lowest = corner_groups[corner];
-          mesh.corners[corner] =
-              lowest == corner ? static_cast<std::uint32_t>(vertices++) : mesh.corners[lowest];
-        });
-      }
-    }
-    for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
-      if (topology.owns_edge(side)) {
-        vertices = number_edge(topology.sides[side].edge(), vertices, mesh);
-      }
-    }
-    mesh.inner[patch] = static_cast<std::uint32_t>(vertices);
-    vertices += mesh.inner_points(patch);
-    mesh.triangles[patch + 1] = mesh.triangles[patch] + triangles_of(topology, mesh, patch);
-    if (vertices > kMostVertices) {
-      return Status::size_overflow;
-    }
+  const std::uint64_t vertices =
+      VertexNumbers(corner_groups, mesh, mesh.side_first.empty() ? threads : 1).run();
+  if (vertices > kMostVertices) {
+    return Status::size_overflow;
   }
   mesh.vertices = static_cast<std::uint32_t>(vertices);
   if (std::any_of(topology.flags.begin(), topology.flags.end(),
@@ -157,18 +82,33 @@ Status number_vertices(std::span<const std::uint32_t> corner_groups, MeshData& m
   return Status::ok;
 }
 
-void measure_boundaries(MeshData& mesh) {
+void measure_boundaries(MeshData& mesh, int threads) {
   const TopologyData& topology = *mesh.topology.data();
-  mesh.most_boundary_vertices = 0;
-  for (std::size_t patch = 0; patch < mesh.patches(); ++patch) {
-    mesh.most_boundary_vertices = std::max<std::size_t>(
-        mesh.most_boundary_vertices, mesh.inner[patch] - mesh.first_vertex(patch));
-    mesh.most_boundary_samples =
-        std::max(mesh.most_boundary_samples, boundary_samples(topology, mesh, patch));
-  }
-  for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
-    mesh.most_sides = std::max(mesh.most_sides, topology.sides_of(edge).size());
-  }
+  std::atomic<std::size_t> most_vertices = 0;
+  std::atomic<std::size_t> most_samples = 0;
+  std::atomic<std::size_t> most_sides = 1;
+  auto of_patches = [&](int, std::size_t begin, std::size_t end) {
+    std::size_t vertices = 0;
+    std::size_t samples = 0;
+    for (std::size_t patch = begin; patch < end; ++patch) {
+      vertices = std::max<std::size_t>(vertices, mesh.inner[patch] - mesh.first_vertex(patch));
+      samples = std::max(samples, boundary_samples(topology, mesh, patch));
+    }
+    raise(most_vertices, vertices);
+    raise(most_samples, samples);
+  };
+  divide_work(mesh.patches(), 15, threads, of_patches);
+  auto of_edges = [&](int, std::size_t begin, std::size_t end) {
+    std::size_t sides = 1;
+    for (std::size_t edge = begin; edge < end; ++edge) {
+      sides = std::max(sides, topology.sides_of(edge).size());
+    }
+    raise(most_sides, sides);
+  };
+  divide_work(topology.edges(), 1, threads, of_edges);
+  mesh.most_boundary_vertices = most_vertices;
+  mesh.most_boundary_samples = most_samples;
+  mesh.most_sides = most_sides;
 }
 
 bool are_rates(const Topology& topology, std::span<const std::uint32_t> rates) noexcept {
@@ -177,21 +117,22 @@ bool are_rates(const Topology& topology, std::span<const std::uint32_t> rates) n
                      [](std::uint32_t n) { return n >= 1 && n <= kMostSegments; });
 }
 
-Status build_layout(const Topology& topology, const PatchRates& rates, MeshData& mesh) {
+Status build_layout(const Topology& topology, const PatchRates& rates, MeshData& mesh,
+                    int threads) {
   const TopologyData& data = *topology.data();
   mesh.topology = topology;
   mesh.nu.assign(rates.nu.begin(), rates.nu.end());
   mesh.nv.assign(rates.nv.begin(), rates.nv.end());
   mesh.diagonals.assign(rates.diagonals.begin(), rates.diagonals.end());
   mesh.diagonals.resize(data.patches());
-  count_segments(data, mesh);
-  return number_vertices(data.corners, mesh);
+  SegmentCounts(data, mesh, threads).run();
+  return number_vertices(data.corners, mesh, threads);
 }
 
 } // namespace detail
 
-Status lay_out_mesh(const Topology& topology, const PatchRates& rates, MeshLayout& layout) noexcept
-    try {
+Status lay_out_mesh(const Topology& topology, const PatchRates& rates, MeshLayout& layout,
+                    const Options& options) noexcept try {
   const std::size_t patches = topology.counts().patches;
   if (!detail::are_rates(topology, rates.nu) || !detail::are_rates(topology, rates.nv) ||
       !(rates.diagonals.empty() || rates.diagonals.size() == patches)) {
@@ -202,9 +143,9 @@ Status lay_out_mesh(const Topology& topology, const PatchRates& rates, MeshLayou
     return Status::ok;
   }
   auto mesh = std::make_shared<detail::MeshData>();
-  const Status status = detail::build_layout(topology, rates, *mesh);
+  const Status status = detail::build_layout(topology, rates, *mesh, options.threads);
   if (status == Status::ok) {
-    detail::measure_boundaries(*mesh);
+    detail::measure_boundaries(*mesh, options.threads);
     layout = MeshLayout(std::move(mesh));
   }
   return status;

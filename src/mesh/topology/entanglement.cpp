@@ -2,9 +2,13 @@
 #include "src/mesh/topology/entanglement.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <vector>
 
 #include "src/mesh/topology/neighbours.hpp"
+#include "src/runtime/batch.hpp"
+#include "src/runtime/fresh_vector.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -15,7 +19,7 @@ constexpr std::size_t kMostAtCorner = 64;
 /// Corners with so many patches that they are not compared one by one.
 class CrowdedPlaces {
 public:
-  explicit CrowdedPlaces(const std::vector<std::uint32_t>& corners) : patches_(corners.size()) {
+  explicit CrowdedPlaces(std::span<const std::uint32_t> corners) : patches_(corners.size()) {
     for (const std::uint32_t corner : corners) {
       if (!is_more(patches_[corner])) {
         ++patches_[corner];
@@ -133,46 +137,116 @@ private:
   std::vector<Pair> edge_pairs_;
 };
 
-} // namespace
+/// Looks for corners whose patches are candidates. From each corner, its patches reach others along
+/// edges and diagonals. Patches that share two corners, and not just the edge between them, reach
+/// the one from the other in two ways; and a patch that has a corner twice reaches it from itself,
+/// or another one in two ways.
+class ReachedCorners {
+public:
+  /// For corners where at most so many patches meet, one or more.
+  ReachedCorners(const TopologyData& topology, std::size_t patches)
+      : topology_(&topology), patches_(patches), slots_(2 * std::bit_ceil(3 * patches + 1)) {}
 
-std::vector<std::uint32_t> entanglement_candidates(const TopologyData& topology) {
-  // From each corner, its patches reach others along edges and diagonals. Patches that share two
-  // corners, and not just the edge between them, reach the one from the other in two ways; and a
-  // patch that has a corner twice reaches it from itself, or another one in two ways.
-  constexpr std::uint32_t kItself = ~0U;
-  constexpr std::uint32_t kDiagonal = 1U << 31;
-  std::vector<std::uint64_t> reached(topology.corners.size(), ~std::uint64_t{0});
-  std::vector<bool> found(topology.patches());
-  const auto along = [&](std::size_t side) { return topology.sides[side].edge(); };
-  for (std::size_t corner = 0; corner < topology.corners.size(); ++corner) {
-    if (topology.corners[corner] != corner) {
-      continue;
-    }
+  [[nodiscard]] std::size_t most_patches() const noexcept { return patches_; }
+
+  enum class Answer : std::uint8_t { no, yes, crowded };
+  /// Whether patches reach a corner in two ways from this one, where not too many meet.
+  [[nodiscard]] Answer twice_from(std::uint32_t corner) noexcept {
+    constexpr std::uint64_t kItself = ~std::uint64_t{0};
+    constexpr std::uint64_t kDiagonal = std::uint64_t{1} << 32;
+    Slot* const slots = slots_.data();
+    const std::size_t mask = slots_.size() - 1;
+    const std::uint64_t from = (std::uint64_t{corner} + 1) << 32;
     bool twice = false;
-    const auto reach = [&](std::size_t to, std::uint32_t way) {
-      std::uint64_t& last = reached[topology.corners[to]];
-      const std::uint64_t now = std::uint64_t{corner} << 32 | way;
-      twice |= (last >> 32 == corner) & (last != now);
-      last = now;
+    const auto reach = [&](std::size_t to, std::uint64_t way) {
+      if (topology_->corners[to] < corner) {
+        return; // from there, the same ways lead here
+      }
+      const std::uint64_t key = from | topology_->corners[to];
+      std::size_t at = key & mask;
+      while ((slots[at].key ^ key) - 1 < 0xffffffff) { // another corner, from the same one
+        at = (at + 1) & mask;
+      }
+      twice |= (slots[at].key == key) & (slots[at].way != way);
+      slots[at] = {key, way};
     };
+    const auto along = [&](std::size_t side) { return topology_->sides[side].edge(); };
     reach(corner, kItself);
-    topology.for_joined(corner, [&](std::size_t k) {
+    std::size_t k = corner;
+    std::size_t left = patches_;
+    do {
       const std::size_t patch = k / kPatchCorners;
       reach(k ^ 1, along(kPatchEdges * patch + k % kPatchCorners / 2));
       reach(k ^ 2, along(kPatchEdges * patch + 2 + k % 2));
-      reach(k ^ 3, kDiagonal | static_cast<std::uint32_t>(patch));
-    });
-    if (twice) {
-      topology.for_joined(corner, [&](std::size_t k) { found[k / kPatchCorners] = true; });
+      reach(k ^ 3, kDiagonal | patch);
+      k = topology_->next_corner[k];
+    } while (k != corner && --left > 0);
+    return k != corner ? Answer::crowded : twice ? Answer::yes : Answer::no;
+  }
+
+private:
+  struct Slot {
+    std::uint64_t key = 0; ///< where ways began, plus 1, and the corner that they led to
+    std::uint64_t way = 0;
+  };
+
+  const TopologyData* topology_;
+  std::size_t patches_;
+  std::vector<Slot> slots_; ///< what was reached from earlier corners counts as free
+};
+
+/// All patches at corners with the answer yes. Corners of patches with another answer than no are
+/// asked again, with room for all that meet there.
+std::vector<std::uint32_t> patches_at(const TopologyData& topology, ReachedCorners& reached,
+                                      std::span<const ReachedCorners::Answer> of_patches) {
+  std::vector<std::uint32_t> found;
+  for (std::size_t corner = 0; corner < topology.corners.size(); ++corner) {
+    if (of_patches[corner / kPatchCorners] == ReachedCorners::Answer::no ||
+        topology.corners[corner] != corner) {
+      continue;
+    }
+    std::size_t meeting = 0;
+    topology.for_joined(corner, [&](auto) { ++meeting; });
+    if (meeting > reached.most_patches()) {
+      reached = ReachedCorners(topology, 2 * meeting);
+    }
+    if (reached.twice_from(static_cast<std::uint32_t>(corner)) == ReachedCorners::Answer::yes) {
+      topology.for_joined(corner, [&](std::size_t joined) {
+        found.push_back(static_cast<std::uint32_t>(joined / kPatchCorners));
+      });
     }
   }
-  std::vector<std::uint32_t> candidates;
-  for (std::uint32_t patch = 0; patch < topology.patches(); ++patch) {
-    if (found[patch]) {
-      candidates.push_back(patch);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> entanglement_candidates(const TopologyData& topology, int threads) {
+  using Answer = ReachedCorners::Answer;
+  constexpr std::size_t kUsualPatches = 170; // for a table that fits the fastest cache
+  const Shares shares(topology.patches(), 15, threads);
+  std::vector<ReachedCorners> reached(shares.count(), ReachedCorners(topology, kUsualPatches));
+  FreshVector<Answer> answers(topology.patches()); // the largest of those of a patch's corners
+  std::atomic<bool> is_usual = true;
+  shares.run([&](std::size_t share) {
+    Answer most = Answer::no;
+    for (std::size_t patch = shares.begin(share); patch < shares.end(share); ++patch) {
+      Answer answer = Answer::no;
+      for (std::size_t k = kPatchCorners * patch; k < kPatchCorners * (patch + 1); ++k) {
+        if (topology.corners[k] == k) {
+          answer = std::max(answer, reached[share].twice_from(static_cast<std::uint32_t>(k)));
+        }
+      }
+      answers[patch] = answer;
+      most = std::max(most, answer);
     }
-  }
-  return candidates;
+    if (most != Answer::no) {
+      is_usual = false;
+    }
+  });
+  return is_usual ? std::vector<std::uint32_t>() : patches_at(topology, reached[0], answers);
 }
 
 void mark_entangled(std::span<const std::uint32_t> candidates, TopologyData& topology) {

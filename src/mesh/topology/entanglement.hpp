@@ -13,7 +13,7 @@ namespace simdbezier::detail {
 /// more than one corner, or one edge with its ends; and some more near those. Of usual models these
 /// are none, so that nothing else needs to ask for what only such patches can be: entangled,
 /// repeated, or half of a pillow.
-std::vector<std::uint32_t> entanglement_candidates(const TopologyData& topology);
+std::vector<std::uint32_t> entanglement_candidates(const TopologyData& topology, int threads);
 
 /// Marks those of the candidates that are as entanglement_candidates() says. All others meet so
 /// that no two edges of a mesh can have the same two vertices, whatever the rates.

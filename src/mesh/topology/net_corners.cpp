@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "src/runtime/batch.hpp"
+
 namespace simdbezier::detail {
 namespace {
 
@@ -85,17 +87,18 @@ bool NetCorners<S>::side_within(std::size_t side, double distance) const {
 }
 
 template <typename S>
-std::vector<std::uint8_t> NetCorners<S>::doubts() const {
-  std::vector<std::uint8_t> doubts(views_.patches(), std::uint8_t{0xff});
-  views_.for_views(0, views_.patches(), [&](const auto& nets, auto view, auto first, auto last) {
-    if (nets.weights == Weights::homogeneous) {
-      return;
-    }
-    const QuickLook<S> look(nets);
-    for (std::size_t patch = first; patch < last; ++patch) {
-      doubts[patch] = look.doubts(views_.net(view, patch));
-    }
-  });
+FreshVector<std::uint8_t> NetCorners<S>::doubts(int threads) const {
+  FreshVector<std::uint8_t> doubts(views_.patches());
+  auto body = [&](int, std::size_t begin, std::size_t end) {
+    views_.for_views(begin, end, [&](const auto& nets, auto view, auto first, auto last) {
+      const QuickLook<S> look(nets);
+      for (std::size_t patch = first; patch < last; ++patch) {
+        const bool has_points = nets.weights != Weights::homogeneous;
+        doubts[patch] = has_points ? look.doubts(views_.net(view, patch)) : std::uint8_t{0xff};
+      }
+    });
+  };
+  divide_work(views_.patches(), 15, threads, body);
   return doubts;
 }
 

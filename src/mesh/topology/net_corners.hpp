@@ -14,6 +14,7 @@
 #include "src/mesh/topology/quick_look.hpp"
 #include "src/mesh/topology/topology_data.hpp"
 #include "src/nets/net_views.hpp"
+#include "src/runtime/fresh_vector.hpp"
 
 namespace simdbezier::detail {
 
@@ -51,7 +52,7 @@ public:
   [[nodiscard]] bool side_within(std::size_t side, double distance) const;
 
   /// The CornerDoubt flags of each patch.
-  [[nodiscard]] std::vector<std::uint8_t> doubts() const;
+  [[nodiscard]] FreshVector<std::uint8_t> doubts(int threads) const;
 
   /// Whether both ends of a side are in one place.
   [[nodiscard]] bool ends_meet(std::size_t side) const noexcept;

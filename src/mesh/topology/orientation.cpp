@@ -2,6 +2,9 @@
 #include "src/mesh/topology/orientation.hpp"
 
 #include <algorithm>
+#include <atomic>
+
+#include "src/runtime/batch.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -43,42 +46,86 @@ bool turn_all(const TopologyData& topology, std::vector<bool>& turned) {
   return orientable;
 }
 
-/// Calls visit(a, b) for the edges of two sides, a < b, whose normals disagree.
-template <typename Visit>
-void for_disagreeing(const TopologyData& topology, const Visit& visit) {
-  for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
-    const auto sides = topology.sides_of(edge);
-    if (sides.size() == 2 && topology.disagree(sides[0], sides[1])) {
-      visit(sides[0], sides[1]);
+/// Whether an edge has two sides whose normals disagree.
+bool is_turned_edge(const TopologyData& topology, std::size_t edge) {
+  const auto sides = topology.sides_of(edge);
+  return sides.size() == 2 && topology.disagree(sides[0], sides[1]);
+}
+
+std::size_t count_turned_edges(const TopologyData& topology, int threads) {
+  std::atomic<std::size_t> all = 0;
+  auto body = [&](int, std::size_t begin, std::size_t end) {
+    std::size_t turned = 0;
+    for (std::size_t edge = begin; edge < end; ++edge) {
+      turned += is_turned_edge(topology, edge) ? 1 : 0;
     }
-  }
+    all += turned;
+  };
+  divide_work(topology.edges(), 3, threads, body);
+  return all;
 }
 
 /// Marks those of joined corners to which no row of agreeing edges leads from the lowest one.
-void mark_corners_apart(std::uint32_t lowest, TopologyData& topology) {
-  std::vector<std::uint32_t> reached = {lowest};
-  for (std::size_t k = 0; k < reached.size(); ++k) {
-    topology.for_neighbours(reached[k], [&](std::size_t side, std::size_t other, std::uint32_t to) {
-      const bool two = !topology.sides[side].collapsed() &&
-                       topology.sides_of(topology.sides[side].edge()).size() == 2;
-      if (!(two && topology.disagree(side, other)) &&
-          std::find(reached.begin(), reached.end(), to) == reached.end()) {
-        reached.push_back(to);
+class ApartCorners {
+public:
+  explicit ApartCorners(TopologyData& topology)
+      : topology_(topology), reached_(topology.corners.size()), passed_(topology.edges()) {}
+
+  void mark(std::uint32_t lowest) {
+    reach(lowest);
+    while (!open_.empty()) {
+      const std::uint32_t corner = open_.back();
+      open_.pop_back();
+      const std::size_t patch = corner / kPatchCorners;
+      for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
+        for (std::size_t end = 0; end < 2; ++end) {
+          if (corner_at(side, end) == corner) {
+            pass(side, end);
+          }
+        }
       }
+    }
+    topology_.for_joined(lowest, [&](std::size_t k) {
+      topology_.apart[k / kPatchCorners] |=
+          static_cast<std::uint8_t>(reached_[k] ? 0 : kApartCorner << k % kPatchCorners);
     });
   }
-  topology.for_joined(lowest, [&](std::size_t k) {
-    if (std::find(reached.begin(), reached.end(), k) == reached.end()) {
-      topology.apart[k / kPatchCorners] |=
-          static_cast<std::uint8_t>(kApartCorner << k % kPatchCorners);
+
+private:
+  void reach(std::uint32_t corner) {
+    if (!reached_[corner]) {
+      reached_[corner] = true;
+      open_.push_back(corner);
     }
-  });
-}
+  }
+  /// Reaches what an end of a side leads to. All sides of an edge lead to the same corners, so that
+  /// each of its ends is passed once, however many sides there are.
+  void pass(std::size_t side, std::size_t end) {
+    const Side own = topology_.sides[side];
+    if (own.collapsed()) {
+      reach(corner_at(side, 1 - end));
+      return;
+    }
+    const std::size_t edge_end = own.reversed() ? 1 - end : end;
+    if ((passed_[own.edge()] >> edge_end & 1) != 0 || is_turned_edge(topology_, own.edge())) {
+      return;
+    }
+    passed_[own.edge()] |= static_cast<std::uint8_t>(1U << edge_end);
+    for (const std::uint32_t other : topology_.sides_of(own.edge())) {
+      reach(corner_at(other, topology_.sides[other].reversed() ? 1 - edge_end : edge_end));
+    }
+  }
+
+  TopologyData& topology_;
+  std::vector<bool> reached_;        ///< corners
+  std::vector<std::uint8_t> passed_; ///< of each edge: 1 << end
+  std::vector<std::uint32_t> open_;  ///< corners that have been reached, but not left
+};
 
 } // namespace
 
 Status orient(const TopologyOptions& options, TopologyData& topology) {
-  for_disagreeing(topology, [&](auto, auto) { ++topology.counts.turned_edges; });
+  topology.counts.turned_edges = count_turned_edges(topology, options.threads);
   std::vector<bool> turned(topology.patches());
   if (topology.counts.turned_edges > 0) {
     topology.counts.orientable = turn_all(topology, turned);
@@ -96,15 +143,20 @@ Status orient(const TopologyOptions& options, TopologyData& topology) {
 
 void mark_apart(TopologyData& topology) {
   std::vector<std::uint32_t> corners;
-  for_disagreeing(topology, [&](std::uint32_t a, std::uint32_t b) {
-    topology.apart.resize(topology.patches());
-    topology.apart[b / kPatchEdges] |= static_cast<std::uint8_t>(kApartSide << b % kPatchEdges);
-    corners.insert(corners.end(), {topology.corner_of(a, 0), topology.corner_of(a, 1)});
-  });
+  for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
+    if (is_turned_edge(topology, edge)) {
+      const std::uint32_t a = topology.sides_of(edge)[0];
+      const std::uint32_t b = topology.sides_of(edge)[1];
+      topology.apart.resize(topology.patches());
+      topology.apart[b / kPatchEdges] |= static_cast<std::uint8_t>(kApartSide << b % kPatchEdges);
+      corners.insert(corners.end(), {topology.corner_of(a, 0), topology.corner_of(a, 1)});
+    }
+  }
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  ApartCorners apart(topology);
   for (const std::uint32_t corner : corners) {
-    mark_corners_apart(corner, topology);
+    apart.mark(corner);
   }
 }
 

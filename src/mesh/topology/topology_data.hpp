@@ -9,23 +9,33 @@
 
 #include <simdbezier/topology.hpp>
 
+#include "src/runtime/fresh_vector.hpp"
+
 namespace simdbezier::detail {
 
 /// A side of a patch: its edge, and whether the edge's own direction, that of its first side, runs
 /// against the side's.
 class Side {
 public:
-  constexpr Side() noexcept = default;
+  constexpr Side() noexcept = default; ///< of no value yet
   constexpr Side(std::uint32_t edge, bool reversed) noexcept
       : bits_(2 * edge + (reversed ? 1 : 0)) {}
+
+  /// A side that is a point, and has no edge.
+  static constexpr Side point() noexcept {
+    Side side(0, false);
+    side.bits_ = kCollapsed;
+    return side;
+  }
 
   [[nodiscard]] constexpr bool collapsed() const noexcept { return bits_ == kCollapsed; }
   [[nodiscard]] constexpr std::uint32_t edge() const noexcept { return bits_ / 2; }
   [[nodiscard]] constexpr bool reversed() const noexcept { return bits_ % 2 != 0; }
+  friend constexpr bool operator==(const Side&, const Side&) noexcept = default;
 
 private:
   static constexpr std::uint32_t kCollapsed = 0xffffffff;
-  std::uint32_t bits_ = kCollapsed;
+  std::uint32_t bits_;
 };
 
 /// The corners of a patch are numbered 2 v + u; sides run from the first to the second.
@@ -76,12 +86,12 @@ constexpr bool has_forced_diagonal(std::uint8_t flags) noexcept {
 enum ApartFlag : std::uint8_t { kApartCorner = 1, kApartSide = 16 };
 
 struct TopologyData {
-  std::vector<Side> sides;          ///< [4 * patch + PatchEdge]
-  std::vector<std::uint32_t> first; ///< of each edge in `members`, and the end of the last one
-  std::vector<std::uint32_t>
+  FreshVector<Side> sides;          ///< [4 * patch + PatchEdge]
+  FreshVector<std::uint32_t> first; ///< of each edge in `members`, and the end of the last one
+  FreshVector<std::uint32_t>
       members; ///< 4 * patch + PatchEdge of the sides of all edges, ascending
-  std::vector<std::uint32_t> corners; ///< [4 * patch + corner]: the lowest number of those joined
-  std::vector<std::uint32_t> next_corner; ///< [4 * patch + corner]: the next one of those joined,
+  FreshVector<std::uint32_t> corners; ///< [4 * patch + corner]: the lowest number of those joined
+  FreshVector<std::uint32_t> next_corner; ///< [4 * patch + corner]: the next one of those joined,
                                           ///< ascending, and from the last back to the lowest
   std::vector<std::uint8_t> flags;        ///< PatchFlag, of each patch
   /// Repeated patches, ascending, and the first patch with the control points of each.
@@ -99,6 +109,17 @@ struct TopologyData {
   /// The sides of an edge, ascending.
   [[nodiscard]] std::span<const std::uint32_t> sides_of(std::size_t edge) const noexcept {
     return {members.data() + first[edge], first[edge + 1] - first[edge]};
+  }
+  /// The first edge whose first side is this one or a later one.
+  [[nodiscard]] std::size_t edge_from(std::size_t side) const noexcept {
+    std::size_t low = 0;
+    for (std::size_t high = edges(); low < high;) {
+      const std::size_t middle = low + (high - low) / 2;
+      const bool is_before = members[first[middle]] < side;
+      low = is_before ? middle + 1 : low;
+      high = is_before ? high : middle;
+    }
+    return low;
   }
   /// The corner where a side begins (end 0) or ends (1).
   [[nodiscard]] std::uint32_t corner_of(std::size_t side, std::size_t end) const noexcept {
