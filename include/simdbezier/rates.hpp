@@ -118,8 +118,8 @@ template <typename S>
 ///           on an error. The topology has to be that of these nets: their numbers of patches are
 ///           all that is compared.
 /// Cost:     on AVX-512, 0.25 to 0.4 us a bicubic float patch and 0.65 us in double, certificate
-///           included. With weights, of another degree or with a forced diagonal: 4 to 15 us up to degree
-///           5, 70 us of degree 15 (AVX2).
+///           included. With weights, of another degree or with a forced diagonal: 4 to 15 us up to
+///           degree 5, 70 us of degree 15 (AVX2).
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<S>> nets,
                                                      const Topology& topology,
