@@ -81,13 +81,13 @@ private:
 /// nets:       any number of views, with any degrees and three components; patches are numbered
 ///             through, view after view.
 /// topology:   replaced on ok, left as it was otherwise.
-/// Threads:    TopologyOptions::threads. What no thread can do alone, one does: joining corners of
+/// Threads:    TopologyOptions::threads. Some steps are one thread's work: joining corners of
 ///             patches whose numbers are far apart, snapping, and all that concerns repeated
 ///             patches and those that meet in more than a corner or an edge.
 /// Allocation: about 60 bytes a side. Determinism: a function of the control points and of the
-///             options other than `threads`. Cost: some 0.2 to 0.7 us a patch; more where hundreds
-///             of patches have one edge and disagree, or thousands have the same four edges or
-///             values that are nan.
+///             options other than `threads`. Cost: some 0.2 to 0.7 us a patch; more where
+///             thousands of patches have the same four edges, or values that are nan: these take
+///             the square of their number.
 /// Returns:    ok | null_input | input_too_small | bad_degree | bad_components (not three) |
 ///             bad_stride | bad_tolerance (a point_size or snap below 0, or nan) | not_orientable
 ///             (where `orient` is asked for) | size_overflow (2^29 patches and more) |
