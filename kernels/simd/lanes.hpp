@@ -97,6 +97,26 @@ private:
   __mmask8 lanes_;
   __m512i index_;
 };
+#elif defined(SIMDBEZIER_KERNELS_AVX2)
+// As on AVX-512: one load serves both edges and two registers. Of doubles it takes two
+// instructions, and loses by it.
+template <>
+class PairSelector<vec<float>> {
+public:
+  SIMDBEZIER_INLINE PairSelector(MaskOf<vec<float>> first, MaskOf<vec<float>> second)
+      : lanes_(first | second), index_(_mm256_srli_epi32(_mm256_castps_si256(second), 31)) {}
+  SIMDBEZIER_INLINE bool worthwhile() const { return any(lanes_); }
+  SIMDBEZIER_INLINE vec<float> replace(vec<float> inside, const float* pair) const {
+    double both;
+    __builtin_memcpy(&both, pair, sizeof(both));
+    const __m256 pairs = _mm256_castpd_ps(_mm256_set1_pd(both));
+    return select(lanes_, vec<float>(_mm256_permutevar_ps(pairs, index_)), inside);
+  }
+
+private:
+  MaskOf<vec<float>> lanes_;
+  __m256i index_; ///< which of the pair each lane takes
+};
 #endif
 
 /// Returns the power of two at or below |x|; 0 for a denormal x, infinity where x is not finite.
