@@ -146,18 +146,23 @@ void pairs_store(T* out, std::size_t count, const T* inputs) {
     c[k] = broadcast<V>(inputs[1 + k]);
     hide(c[k]);
   }
+  constexpr std::size_t kGroup = 4; // counting one by one would be a fifth of all instructions
+  static_assert(kHornerBlockBytes % (2 * kGroup * sizeof(V)) == 0);
   T parameter = inputs[0];
   T square = parameter * parameter;
   T* mirrored = out + count / 2;
-  for (T* const end = mirrored; out != end; out += kStride, mirrored += kStride) {
-    reload(parameter);
-    reload(square);
-    const V z = broadcast<V>(square);
-    const V even = c[2] * z + c[0];
-    V odd = broadcast<V>(parameter) * (c[3] * z + c[1]);
-    hide(odd); // rounded before the sum
-    *reinterpret_cast<V*>(out) = even + odd;
-    *reinterpret_cast<V*>(mirrored) = even - odd;
+  for (T* const end = mirrored; out != end; out += kGroup * kStride, mirrored += kGroup * kStride) {
+#pragma GCC unroll 4
+    for (std::size_t k = 0; k < kGroup; ++k) {
+      reload(parameter);
+      reload(square);
+      const V z = broadcast<V>(square);
+      const V even = c[2] * z + c[0];
+      V odd = broadcast<V>(parameter) * (c[3] * z + c[1]);
+      hide(odd); // rounded before the sum
+      *reinterpret_cast<V*>(out + k * kStride) = even + odd;
+      *reinterpret_cast<V*>(mirrored + k * kStride) = even - odd;
+    }
   }
 }
 
