@@ -65,6 +65,7 @@ int main(int argc, char** argv) {
   register_scattered_rows();
   register_net_rows();
   register_tessellate_rows();
+  register_tolerance_rows();
   register_pack_rows();
   register_curve_rows();
   register_peer_rows();

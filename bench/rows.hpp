@@ -24,6 +24,7 @@ void register_mesh_peer_rows();
 void register_peer_rows();
 void register_limit_rows();
 void register_tessellate_rows();
+void register_tolerance_rows();
 
 /// Where the data of a row are while it runs; its name calls that the destination.
 enum class MemoryLevel { cache, memory };

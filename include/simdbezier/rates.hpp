@@ -69,7 +69,7 @@ struct CertifiedRates {
 /// Upper bounds on the distance of evaluated positions of each patch from the exact ones: the norm
 /// of error_bounds(). out: one value a patch.
 /// options: threads and isa count, the other members have no meaning. Allocation: none.
-/// Cost:    some 0.2 us a bicubic patch, 1 us with weights.
+/// Cost:    some 0.2 us a bicubic patch, 3 us with weights.
 /// Returns: ok | output_too_small | unknown_isa | unsupported_isa.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status position_errors(const PatchSet<T>& set, std::span<double> out,
