@@ -20,7 +20,7 @@ FlattenOptions flatten_options_of(const simdbezier_flatten_options* given) {
   options.tolerance = known.tolerance;
   options.tolerances = span_of(known.tolerances, known.tolerances_length, kOptions / "tolerances");
   options.errors = span_of(known.errors, known.errors_length, kOptions / "errors");
-  options.threads = 1;
+  options.threads = known.threads;
   options.most_points = known.most_points == 0 ? kMostPolylinePoints : known.most_points;
   return options;
 }

@@ -53,6 +53,7 @@ RateOptions rate_options_of(const simdbezier_rate_options* given) {
     options.normal_angle = known.normal_angle;
   }
   options.threads = known.threads;
+  options.isa = isa_of(known.isa, kOptions / "isa");
   return options;
 }
 
@@ -85,16 +86,24 @@ Path blamed_limit(const RateOptions& options, std::size_t patch) {
 }
 
 /// Refuses the call as C++ did. blamed(status) names what bad_tolerance and bad_rates are about.
+/// Only options name an instruction set.
 template <typename S, typename Blamed>
 void require_rates(const RateReport& report, std::span<const ControlNets<S>> nets, Blamed blamed) {
   if (report) {
     return;
   }
-  const bool of_nets = report.status != Status::bad_tolerance && report.status != Status::bad_rates;
-  throw Fault{code_of(report.status),
-              of_nets ? blamed_nets(report.status, nets_with_patch(nets, report.patch))
-                      : blamed(report.status),
-              report.patch};
+  const auto blamed_here = [&]() -> Path {
+    switch (report.status.code()) {
+    case Status::bad_tolerance:
+    case Status::bad_rates:
+      return blamed(report.status);
+    case Status::unsupported_isa:
+      return kOptions / "isa";
+    default:
+      return blamed_nets(report.status, nets_with_patch(nets, report.patch));
+    }
+  };
+  throw Fault{code_of(report.status), blamed_here(), report.patch};
 }
 
 } // namespace
@@ -205,19 +214,20 @@ simdbezier_status simdbezier_separate_vertices(const simdbezier_topology* topolo
 
 simdbezier_status simdbezier_lay_out_mesh(const simdbezier_topology* topology,
                                           const simdbezier_rates* rates,
+                                          const simdbezier_options* options,
                                           simdbezier_mesh_layout** layout) {
   return answer(__func__, [&] {
     require_place(layout, {"layout"});
     const RateSpans of = rates_of(rates);
     const Topology& joined = object_of(topology, kTopology);
+    const CallOptions how(options);
     MeshLayout made;
-    require_ok(lay_out_mesh(joined, {of.nu, of.nv, of.diagonals}, made, only_threads(1)),
-               [&](Status status) {
-                 if (status == Status::bad_rates) {
-                   return blamed_rates(of, joined.counts().patches, of.diagonals.empty());
-                 }
-                 return status == Status::out_of_memory ? Path{} : kRates;
-               });
+    require_ok(lay_out_mesh(joined, {of.nu, of.nv, of.diagonals}, made, *how), [&](Status status) {
+      if (status == Status::bad_rates) {
+        return blamed_rates(of, joined.counts().patches, of.diagonals.empty());
+      }
+      return status == Status::out_of_memory ? Path{} : kRates;
+    });
     give(layout, std::move(made));
   });
 }

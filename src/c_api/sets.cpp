@@ -67,13 +67,15 @@ simdbezier_status bounds_of(const char* function, const Handle* set, std::size_t
 
 /// position_errors() of patches and of curves.
 template <typename Handle>
-simdbezier_status errors_of(const char* function, const Handle* set, simdbezier_isa isa,
-                            double* errors, std::size_t length) noexcept {
+simdbezier_status errors_of(const char* function, const Handle* set, double* errors,
+                            std::size_t length, const simdbezier_options* options) noexcept {
   return answer(function, [&] {
     const std::span<double> out = span_of(errors, length, {"errors"});
+    const CallOptions how(options);
     with_object(set, kSet, [&](const auto& members) {
-      require_ok(position_errors(members, out, {.threads = 1, .isa = resolved(isa)}),
-                 [](Status) { return Path{"length"}; });
+      require_ok(position_errors(members, out, *how), [](Status status) {
+        return status == Status::output_too_small ? Path{"length"} : kOptions / "isa";
+      });
     });
   });
 }
@@ -208,13 +210,13 @@ simdbezier_status simdbezier_largest_position_bound(const simdbezier_patch_set* 
   });
 }
 
-simdbezier_status simdbezier_position_errors(const simdbezier_patch_set* set, simdbezier_isa isa,
-                                             double* errors, size_t length) {
-  return errors_of(__func__, set, isa, errors, length);
+simdbezier_status simdbezier_position_errors(const simdbezier_patch_set* set, double* errors,
+                                             size_t length, const simdbezier_options* options) {
+  return errors_of(__func__, set, errors, length, options);
 }
 
-simdbezier_status simdbezier_curve_position_errors(const simdbezier_curve_set* set,
-                                                   simdbezier_isa isa, double* errors,
-                                                   size_t length) {
-  return errors_of(__func__, set, isa, errors, length);
+simdbezier_status simdbezier_curve_position_errors(const simdbezier_curve_set* set, double* errors,
+                                                   size_t length,
+                                                   const simdbezier_options* options) {
+  return errors_of(__func__, set, errors, length, options);
 }

@@ -4,6 +4,7 @@
 
 #include "tests/c_api/c_refusal.hpp"
 #include "tests/c_api/c_world.hpp"
+#include "tests/support/isas.hpp"
 
 namespace simdbezier::tests::bad_input_test {
 namespace {
@@ -113,7 +114,13 @@ const Refusal<World> kCases[] = {
     {SIMDBEZIER_OUTPUT_TOO_SMALL, "length",
      [](World& w) {
        double error = 0;
-       return simdbezier_position_errors(w.set.get(), SIMDBEZIER_ISA_AUTOMATIC, &error, 1);
+       return simdbezier_position_errors(w.set.get(), &error, 1, nullptr);
+     }},
+    {SIMDBEZIER_UNSUPPORTED_ISA, "options->isa",
+     [](World& w) {
+       double errors[8] = {};
+       w.options.isa = static_cast<simdbezier_isa>(absent_isa());
+       return simdbezier_position_errors(w.set.get(), errors, 8, &w.options);
      }},
 
     // Strides.

@@ -1,5 +1,6 @@
 // What a caller of simdbezier.h may get wrong on the way from nets to a mesh.
 #include "tests/c_api/c_mesh_world.hpp"
+#include "tests/support/isas.hpp"
 
 namespace simdbezier::tests::bad_meshes_test {
 namespace {
@@ -97,6 +98,13 @@ const Refusal<MeshWorld> kRates[] = {
      [](MeshWorld& w) { return w.rate_options.longest_edge = -1, w.choose(); }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->normal_angle",
      [](MeshWorld& w) { return w.rate_options.normal_angle = -1, w.choose(); }},
+    {SIMDBEZIER_UNSUPPORTED_ISA, "options->isa",
+     [](MeshWorld& w) {
+       w.rate_options.isa = static_cast<simdbezier_isa>(absent_isa());
+       return w.choose();
+     }},
+    {SIMDBEZIER_BAD_VALUE, "options->isa",
+     [](MeshWorld& w) { return w.rate_options.isa = -1, w.choose(); }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->errors",
      [](MeshWorld& w) {
        w.rate_options.errors = w.numbers;

@@ -17,7 +17,7 @@ struct MeshWorld : World {
     mesh_options.tolerance = 0.5;
     EXPECT_C_OK(simdbezier_find_topology(&nets, 1, nullptr, &topology));
     EXPECT_C_OK(choose());
-    EXPECT_C_OK(simdbezier_lay_out_mesh(topology, &rates, &layout));
+    EXPECT_C_OK(simdbezier_lay_out_mesh(topology, &rates, nullptr, &layout));
     vertices = simdbezier_mesh_layout_vertices(layout);
     memory.resize(12 * vertices, 0x5a);
     mesh_out.position = c_triples(triples);
@@ -75,7 +75,9 @@ struct MeshWorld : World {
     return simdbezier_certify_grids(&nets, 1, nu_, nv_, numbers, numbers_length, deviation,
                                     rates.deviation_length, 0);
   }
-  simdbezier_status lay_out() { return simdbezier_lay_out_mesh(topology, &rates, &made_layout); }
+  simdbezier_status lay_out() {
+    return simdbezier_lay_out_mesh(topology, &rates, &options, &made_layout);
+  }
   simdbezier_status plan() {
     return simdbezier_plan_mesh(&nets, 1, SIMDBEZIER_F64, &mesh_options, &made_plan);
   }

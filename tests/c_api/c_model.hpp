@@ -59,7 +59,7 @@ protected:
     options.tolerance = 1e-3;
     EXPECT_C_OK(simdbezier_choose_rates(&this->c_nets_, 1, this->c_topology_, &options, &rates_));
     ASSERT_TRUE(lay_out_mesh(this->topology_, {nu_, nv_, diagonals_}, layout_));
-    EXPECT_C_OK(simdbezier_lay_out_mesh(this->c_topology_, &rates_, &c_layout_));
+    EXPECT_C_OK(simdbezier_lay_out_mesh(this->c_topology_, &rates_, nullptr, &c_layout_));
     ASSERT_EQ(simdbezier_mesh_layout_vertices(c_layout_), layout_.size().vertices);
     ASSERT_EQ(simdbezier_mesh_layout_triangles(c_layout_), layout_.size().triangles);
   }

@@ -87,8 +87,7 @@ void expect_flattened(const ControlCurves<From>& curves,
 
   const CCurveSet set = c_pack<To>(c_curves);
   std::vector<double> errors(curves.count);
-  EXPECT_C_OK(simdbezier_curve_position_errors(set.get(), SIMDBEZIER_ISA_AUTOMATIC, errors.data(),
-                                               errors.size()));
+  EXPECT_C_OK(simdbezier_curve_position_errors(set.get(), errors.data(), errors.size(), nullptr));
   auto options = sized<simdbezier_flatten_options>();
   options.tolerance = 1e-3;
   options.errors = errors.data();

@@ -28,7 +28,9 @@ TYPED_TEST(CSets, HavePositionErrorsOfEveryInstructionSet) {
     std::vector<double> expected(6);
     std::vector<double> errors(6);
     ASSERT_TRUE(position_errors(patches, std::span<double>(expected), {.isa = isa}));
-    EXPECT_C_OK(simdbezier_position_errors(c_patches.get(), c_isa, errors.data(), 6));
+    auto c_options = sized<simdbezier_options>();
+    c_options.isa = c_isa;
+    EXPECT_C_OK(simdbezier_position_errors(c_patches.get(), errors.data(), 6, &c_options));
     expect_same_bits(errors, expected, "errors of patches");
     different.insert(errors);
     classes.insert(fuses_multiply_add(isa));
@@ -39,7 +41,7 @@ TYPED_TEST(CSets, HavePositionErrorsOfEveryInstructionSet) {
     expected.resize(24);
     errors.resize(24);
     ASSERT_TRUE(position_errors(curves, std::span<double>(expected), {.isa = isa}));
-    EXPECT_C_OK(simdbezier_curve_position_errors(c_curves.get(), c_isa, errors.data(), 24));
+    EXPECT_C_OK(simdbezier_curve_position_errors(c_curves.get(), errors.data(), 24, &c_options));
     expect_same_bits(errors, expected, "errors of curves");
   }
   EXPECT_EQ(different.size(), classes.size()) << "the instruction set could be missed";

@@ -84,6 +84,7 @@ typedef struct simdbezier_rate_options {
   double normal_angle;    // 0: no limit
   uint32_t most_segments; // 0: SIMDBEZIER_MOST_SEGMENTS
   int32_t threads;
+  simdbezier_isa isa;
 } simdbezier_rate_options;
 
 // Camera. Zeros: its usual values.
@@ -136,9 +137,11 @@ SIMDBEZIER_API simdbezier_status simdbezier_separate_vertices(const simdbezier_t
                                                               uint32_t* nv, size_t nv_length,
                                                               size_t* raised);
 
-// lay_out_mesh(): of nu, nv and, where they are not null, diagonals. layout: written on ok only.
+// lay_out_mesh(): of nu, nv and, where they are not null, diagonals. Of the options, threads count.
+// layout: written on ok only.
 SIMDBEZIER_API simdbezier_status simdbezier_lay_out_mesh(const simdbezier_topology* topology,
                                                          const simdbezier_rates* rates,
+                                                         const simdbezier_options* options,
                                                          simdbezier_mesh_layout** layout);
 SIMDBEZIER_API void simdbezier_mesh_layout_free(simdbezier_mesh_layout* layout);
 // MeshLayout::size(), first_triangle(), first_vertex(); 0 of null.

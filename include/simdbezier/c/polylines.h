@@ -22,6 +22,7 @@ typedef struct simdbezier_flatten_options {
   const double* errors; // simdbezier_curve_position_errors(), or null
   size_t errors_length;
   uint32_t most_points; // 0: SIMDBEZIER_MOST_POLYLINE_POINTS
+  int32_t threads;      // as in simdbezier_options
 } simdbezier_flatten_options;
 
 // choose_polylines(): points and deviation have one value a curve, and deviation may be null.

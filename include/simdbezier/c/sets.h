@@ -241,15 +241,16 @@ simdbezier_patch_error_bounds(const simdbezier_patch_set* set, size_t patch, sim
 SIMDBEZIER_API simdbezier_status
 simdbezier_curve_error_bounds(const simdbezier_curve_set* set, size_t curve, simdbezier_isa isa,
                               simdbezier_error_bounds_of_curve* bounds);
-// largest_position_bound(), position_errors(): the latter have one value a patch or a curve.
+// largest_position_bound(), position_errors(): the latter have one value a patch or a curve; of
+// their options, threads and isa count.
 SIMDBEZIER_API simdbezier_status simdbezier_largest_position_bound(const simdbezier_patch_set* set,
                                                                    simdbezier_isa isa,
                                                                    double* bound);
 SIMDBEZIER_API simdbezier_status simdbezier_position_errors(const simdbezier_patch_set* set,
-                                                            simdbezier_isa isa, double* errors,
-                                                            size_t length);
-SIMDBEZIER_API simdbezier_status simdbezier_curve_position_errors(const simdbezier_curve_set* set,
-                                                                  simdbezier_isa isa,
-                                                                  double* errors, size_t length);
+                                                            double* errors, size_t length,
+                                                            const simdbezier_options* options);
+SIMDBEZIER_API simdbezier_status
+simdbezier_curve_position_errors(const simdbezier_curve_set* set, double* errors, size_t length,
+                                 const simdbezier_options* options);
 
 SIMDBEZIER_END_C
