@@ -18,7 +18,8 @@
 //               degrees and weights: docs/accuracy.md, error_bounds().
 //   Watertight  positions on an edge depend only on that edge's control points and are
 //               bit-equal on both sides whatever the orientation; corners are control points.
-//               (On edges near the smallest denormals, zeros may differ in their signs.)
+//               (On edges near the smallest denormals, and at centred parameters below 2^-24 or
+//               2^-53, zeros may differ in their signs.)
 //               An edge whose control points are all one is that point, whatever its weights, and
 //               derivatives along it are exactly zero.
 //   Bits        equal for any thread count, batch size, place in the batch, layout, alignment and

@@ -10,10 +10,11 @@
 namespace simdbezier {
 
 /// How parameters are given: u in [0,1], or centred x = 2u-1 in [-1,1] (no rounding inside). What
-/// lies outside extrapolates, for magnitudes below 2^64 (float) and 2^512 (double): beyond them the
-/// square of a parameter is infinite, and directions of degree 3 to 5 give infinities or nan.
-/// Normals are never nan for any finite parameter. Kernels work with x/2, so that an x of the
-/// smallest denormal counts as 0.
+/// lies outside extrapolates, for |2u-1| below 2^64 (float) and 2^512 (double): beyond them
+/// multiples of the parameter's square are infinite, and directions of degree 3 to 5 give
+/// infinities or nan. Second derivatives by a parameter of degree 5 take its cube, and end at 2^43
+/// and 2^341. Normals are never nan for any finite parameter. Kernels work with x/2, so that an x
+/// of the smallest denormal counts as 0.
 enum class Parameters : std::uint8_t { unit, centred };
 
 /// The centred parameter 2u-1 of a double u, computed in double and rounded once to T.
