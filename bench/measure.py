@@ -4,11 +4,12 @@
 usage: bench/measure.py [options] BENCH OUT.json
 
 BENCH is simdbezier_bench. Every run takes the rows that are compared with each other (one grid, one
-destination) and their limits, three times each in random order; all runs are repeated ROUNDS
-times, so that a row's repetitions lie minutes apart and its spread shows what the machine does
-meanwhile. Shares of limits are formed run by run, since memory is shared with whatever else runs.
-One-thread rows are pinned to a core. OUT.json is small enough to keep in a repository; ratios.py
-and plots.py read it.
+destination) and their limits, several times each in random order: fifteen short times in cache,
+where a neighbour that comes and goes would otherwise make one of two rows half as fast, three times
+to memory. All runs are repeated ROUNDS times, so that a row's repetitions lie minutes apart and its
+spread shows what the machine does meanwhile. Shares of limits are formed run by run, since memory
+is shared with whatever else runs. One-thread rows are pinned to a core. OUT.json is small enough to
+keep in a repository; ratios.py and plots.py read it.
 
   --core N        the core of one-thread rows; default: the last this process may use
   --rounds N      default 3
@@ -33,7 +34,6 @@ import tempfile
 sys.dont_write_bytecode = True  # results.py is imported from the source tree
 from results import limit_of, natural_order, repetitions  # noqa: E402
 
-REPETITIONS = 3
 SECONDS_A_RUN = 12.0
 
 # f32 is measured in full, f64 on the instruction sets that matter, and to memory whole and broken
@@ -98,7 +98,11 @@ def seconds(name):
     """Roughly what one repetition of a row takes, with its share of the preparation."""
     if "memory" in name or name.startswith("limit/fill"):
         return 0.6 if "de_casteljau" in name or "f64" in name else 0.3
-    return 0.3 if name.startswith(("scattered", "tiles", "limit/random")) else 0.05
+    return 0.3 if name.startswith(("scattered", "tiles", "limit/random")) else 0.02
+
+
+def repetitions_of(rows):
+    return 15 if all(seconds(row) < 0.1 for row in rows) else 3
 
 
 def size(name):
@@ -112,7 +116,7 @@ def runs(chosen):
         part, cost = [], 0.0
         for _, same in itertools.groupby(members, key=size):  # these are compared
             same = list(same)
-            more = REPETITIONS * sum(map(seconds, same))
+            more = repetitions_of(same) * sum(map(seconds, same))
             if part and cost + more > SECONDS_A_RUN:
                 yield part
                 part, cost = [], 0.0
@@ -140,7 +144,7 @@ def measure(options, rows):
     with tempfile.NamedTemporaryFile(suffix=".json") as report, locked(options.lock):
         result = subprocess.run(
             [options.bench, f"--benchmark_filter=^({pattern})$",
-             f"--benchmark_repetitions={REPETITIONS}", "--benchmark_min_time=0.02",
+             f"--benchmark_repetitions={repetitions_of(rows)}", "--benchmark_min_time=0.01",
              "--benchmark_enable_random_interleaving=true", f"--benchmark_out={report.name}"],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False, env=environment,
             preexec_fn=(lambda: os.sched_setaffinity(0, {options.core})) if pinned else None)

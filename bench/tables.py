@@ -24,7 +24,7 @@ import sys
 from pathlib import Path
 
 sys.dont_write_bytecode = True  # results.py is imported from the source tree
-from results import read  # noqa: E402
+from results import VALUES, read  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ("README.md", "docs/performance.md")
@@ -54,6 +54,13 @@ class Results:
         """Of the limit, in the same runs."""
         row = self.rows.get(name)
         return row and row.share
+
+    def limit_in_cache(self, outputs, kind, isa):
+        """Samples a second, by the arithmetic of rows in pairs or by stores to the cache, whichever
+        allows less; every vector of a sample counts as a position."""
+        pairs, fill = self.rate(f"limit/pairs_store/{kind}/{isa}"), self.rate("limit/fill_cache")
+        positions = min(pairs, fill if kind == "f32" else fill / 2)
+        return positions / (VALUES[outputs] / VALUES["position"])
 
     def ratio(self, name, reference):
         own, other = self.rate(name), self.rate(reference)
@@ -134,9 +141,10 @@ def cache(results):
                 line.append(cells(
                     (rate and rate / 1e9, ".2f"),
                     (results.ratio(own, grid(outputs, kind, "de_casteljau", n)), ".0f"),
-                    (results.ratio(own, grid(outputs, kind, "autovectorised", n)), ".2f")))
+                    (results.ratio(own, grid(outputs, kind, "autovectorised", n)), ".2f"),
+                    (rate and rate / results.limit_in_cache(outputs, kind, isa), ".2f")))
             rows.append(line)
-    title = "in cache: 10⁹/s / × de Casteljau / × auto-vectorised"
+    title = "in cache: 10⁹/s / × de Casteljau / × auto-vectorised / share of limit"
     return table([title, *(f"{n}×{n}" for n in SIZES)], rows)
 
 
@@ -154,7 +162,8 @@ def memory(results):
             for n in sizes:
                 line.append(cells(*((results.share(grid(outputs, kind, isa, n, "memory", layout)),
                                      ".2f") for layout in layouts)))
-            rows.append(line)
+            if set(line[1:]) != {MISSING}:
+                rows.append(line)
     title = "to memory: share of `limit/fill_stream`"
     return table([title, *(f"{n}×{n}" for n in sizes)], rows)
 
