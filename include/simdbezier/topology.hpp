@@ -46,9 +46,10 @@ struct TopologyOptions {
   /// Then turns all patches: triangles run the other way round, and normals point to the other
   /// side.
   bool flip = false;
-  /// Open sides whose control points are within this distance of each other's, one by one in either
-  /// direction, become one edge (weights have to be equal): a mesh has the points of the lowest of
-  /// them there. 0: only sides with equal control points are one.
+  /// Pairs of open sides whose control points are within this distance of each other's, one by one
+  /// in either direction, become one edge (weights have to be equal), the closest first: a mesh has
+  /// the points of the lower one there. Open sides that are no longer than this become points, as
+  /// by point_size. 0: only sides with equal control points are one.
   double snap = 0;
   int threads = 0; ///< as in Options
 };

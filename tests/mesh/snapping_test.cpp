@@ -76,6 +76,25 @@ TEST(Snapping, closes_what_nearly_matches) {
   }
 }
 
+/// The sides at a ball's poles are as close to each other as their own ends are, whichever way
+/// round.
+TEST(Snapping, makes_points_of_open_sides_that_are_as_short) {
+  for (const MeshModel& model : mesh_models()) {
+    if (model.name.starts_with("ball")) {
+      for (unsigned seed = 0; seed < 4; ++seed) {
+        SCOPED_TRACE(model.name + ", seed " + std::to_string(seed));
+        const Mesh<double> mesh = mesh_of(shaken(model, 1e-4, seed), 0.05, 1e-3, 0);
+        ASSERT_EQ(mesh.status, Status::ok);
+        EXPECT_EQ(mesh.counts.open_edges, 0U);
+        EXPECT_TRUE(mesh.counts.orientable);
+        const TriangleCensus census = census_of(mesh);
+        EXPECT_EQ(census.open + census.crowded + census.degenerate, 0U);
+        EXPECT_EQ(census.euler, 2);
+      }
+    }
+  }
+}
+
 /// Two planes side by side whose common side is off by up to a distance: what a vertex is moved by
 /// is part of the certificate.
 TEST(Snapping, is_part_of_the_certificate) {

@@ -1,6 +1,7 @@
 // See topology.hpp.
 #include <simdbezier/topology.hpp>
 
+#include <algorithm>
 #include <new>
 
 #include "src/mesh/topology/corner_joiner.hpp"
@@ -21,15 +22,19 @@ namespace {
 
 constexpr std::size_t kMostPatches = std::size_t{1} << 29;
 
-/// Collapsed sides beyond those that are points exactly.
+/// Collapsed sides beyond those that are points exactly: all within point_size, and open ones
+/// within `snap` as well. Those would match their neighbours either way round, so that any pairs of
+/// them, around a pole for example, would be joined.
 template <typename S>
-void collapse_short_sides(const NetCorners<S>& nets, double point_size,
+void collapse_short_sides(const NetCorners<S>& nets, const TopologyOptions& options,
                           EdgeRings<std::uint32_t>& rings) {
-  if (point_size == 0) {
+  const double open_size = std::max(options.point_size, options.snap);
+  if (open_size == 0) {
     return;
   }
   for (std::size_t side = 0; side < rings.next.size(); ++side) {
-    if (!rings.is_point(side) && nets.side_within(side, point_size)) {
+    const double size = rings.is_alone(side) ? open_size : options.point_size;
+    if (size > 0 && !rings.is_point(side) && nets.side_within(side, size)) {
       rings.make_point(side);
     }
   }
@@ -58,7 +63,7 @@ Status build(std::span<const ControlNets<S>> nets, const TopologyOptions& option
   const NetCorners<S> corners(nets);
   {
     auto rings = find_rings<S, std::uint32_t>(nets, options.threads);
-    collapse_short_sides(corners, options.point_size, rings);
+    collapse_short_sides(corners, options, rings);
     if (options.snap > 0) {
       topology.counts.snapped_sides = snap_sides(corners, options.snap, rings);
     }
