@@ -108,6 +108,8 @@ template <typename S>
 /// Source:   D. Filip, R. Magedson, R. Markot, "Surface Algorithms Using Bounds on Derivatives",
 ///           CAGD 3 (1986), whose bound has the triangle inequality instead of the diagonal's own
 ///           derivative.
+/// Determinism: a function of the control points, the same for all instruction sets that fuse
+///           multiply-adds, and for all others.
 /// Threads:  RateOptions::threads; rates do not depend on them. Allocation: some bytes a patch, and
 ///           scratch per thread. Outputs may not overlap the inputs, which is not checked.
 /// Returns:  ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |

@@ -46,7 +46,7 @@ std::string_view to_string(Status status) noexcept {
   case Status::bad_patch_index:
     return "a sample names a patch or curve outside of the set";
   case Status::size_overflow:
-    return "the number of samples exceeds what memory can address";
+    return "there are more samples or vertices than memory, or the numbers of indices, can address";
   case Status::unknown_isa:
     return "SIMDBEZIER_ISA names no instruction set";
   case Status::unsupported_isa:

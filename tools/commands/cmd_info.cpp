@@ -83,7 +83,8 @@ std::string describe(const std::map<Shape, std::size_t>& shapes) {
 std::string as_text(const Summary& summary) {
   const std::string kinds = std::to_string(summary.edges.shared) + " shared, " +
                             std::to_string(summary.edges.boundary) + " boundary, " +
-                            std::to_string(summary.edges.collapsed) + " collapsed";
+                            std::to_string(summary.edges.collapsed) + " collapsed, " +
+                            std::to_string(summary.edges.non_manifold) + " non-manifold";
   std::string text;
   text += "patches            " + std::to_string(summary.patches) + "\n";
   text += describe(summary.shapes);
@@ -118,7 +119,8 @@ std::string as_json(const Summary& summary) {
   json["edges"] = {{"total", summary.patches * 4},
                    {"shared", summary.edges.shared},
                    {"boundary", summary.edges.boundary},
-                   {"collapsed", summary.edges.collapsed}};
+                   {"collapsed", summary.edges.collapsed},
+                   {"non_manifold", summary.edges.non_manifold}};
   json["instruction_sets"] = nlohmann::ordered_json::object();
   json["instruction_sets"]["available"] = nlohmann::ordered_json::array();
   for (const Isa isa : available_isas()) {

@@ -116,6 +116,7 @@ void check_combinations(const Words& words) {
   for (const char* const joined : {"--snap", "--crease", "--orient"}) {
     expect_without(words, joined, "--no-weld");
   }
+  expect_without(words, "--weld", "--no-weld");
   expect_without(words, "--crease", "--no-normals");
 }
 

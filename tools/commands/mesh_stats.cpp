@@ -33,6 +33,11 @@ std::string of_stages(const StageSeconds& seconds) {
   return text;
 }
 
+double samples_per_second(const MeshStats& stats) {
+  const double seconds = stats.seconds.evaluate;
+  return seconds > 0 ? static_cast<double>(stats.samples) / seconds : 0;
+}
+
 } // namespace
 
 std::string stats_as_text(const MeshStats& stats) {
@@ -46,12 +51,15 @@ std::string stats_as_text(const MeshStats& stats) {
               : "\n";
   text += "diagonal           " + rounded(stats.diagonal) + "\n";
   text += "edges of patches   " + std::to_string(stats.open_edges) + " open, " +
-          std::to_string(stats.non_manifold_edges) + " non-manifold\n";
-  text += "samples            " + std::to_string(stats.samples);
-  text += stats.seconds.evaluate > 0
-              ? "; " + rounded(static_cast<double>(stats.samples) / stats.seconds.evaluate) +
-                    " a second\n"
-              : "\n";
+          std::to_string(stats.non_manifold_edges) + " non-manifold";
+  if (stats.joined) {
+    text += ", " + std::to_string(stats.joined->turned_edges) + " between patches that disagree";
+    text += stats.joined->orientable ? "" : "; a surface of one side";
+    text += "\nrepeated patches   " + std::to_string(stats.joined->repeated_patches);
+  }
+  text += "\nsamples            " + std::to_string(stats.samples);
+  const double rate = samples_per_second(stats);
+  text += rate > 0 ? "; " + rounded(rate) + " a second\n" : "\n";
   return text + "seconds            " + of_stages(stats.seconds) + "\n";
 }
 
@@ -65,7 +73,13 @@ std::string stats_as_json(const MeshStats& stats) {
   json["diagonal"] = stats.diagonal;
   json["open_edges"] = stats.open_edges;
   json["non_manifold_edges"] = stats.non_manifold_edges;
+  if (stats.joined) {
+    json["turned_edges"] = stats.joined->turned_edges;
+    json["orientable"] = stats.joined->orientable;
+    json["repeated_patches"] = stats.joined->repeated_patches;
+  }
   json["samples"] = stats.samples;
+  json["samples_per_second"] = samples_per_second(stats);
   const StageSeconds& seconds = stats.seconds;
   json["seconds"] = {{"read", seconds.read},         {"pack", seconds.pack},
                      {"rates", seconds.rates},       {"topology", seconds.topology},

@@ -26,7 +26,9 @@ void add_resolution(Entries& entries) {
        {"--pixels", "N", "a number above 0", "The same in pixels of a picture that --camera takes",
         command},
        {"--camera", "EYE,TARGET", "six numbers separated by commas, for two different points",
-        "Where a picture is taken from, and the middle of what it shows", command},
+        "Where a picture is taken from, and the middle of what it shows; nothing closer than a "
+        "thousandth of their distance is drawn",
+        command},
        {"--view-angle", "DEG", "degrees above 0 and below 180",
         "The picture's angle from bottom to top (default 45)", command},
        {"--picture", "WxH", "WxH, each from 1 to 65536",
@@ -40,9 +42,11 @@ void add_mesh(Entries& entries) {
   const std::string command = " tessellate ";
   entries.insert(
       entries.end(),
-      {{"--no-weld", "", "",
+      {{"--weld", "", "", "One mesh without gaps, as is usual", command},
+       {"--no-weld", "", "",
         "Every patch as a grid of vertices of its own, instead of one mesh without gaps", command},
-       {"--snap", "D", "a distance above 0", "Joins open edges that are this near to each other",
+       {"--snap", "D", "a distance above 0",
+        "Joins pairs of open edges that are this near to each other; shorter ones become points",
         command},
        {"--crease", "DEG", "degrees from 0 to 180",
         "Patches whose normals differ by this much where they meet do not share normals there",

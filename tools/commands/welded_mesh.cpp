@@ -100,9 +100,9 @@ void WeldedMesh<T>::join() {
               name_);
   }
   check(status);
-  const TopologyCounts counts = topology_.counts();
-  stats_.open_edges = counts.open_edges;
-  stats_.non_manifold_edges = counts.non_manifold_edges;
+  stats_.joined = topology_.counts();
+  stats_.open_edges = stats_.joined->open_edges;
+  stats_.non_manifold_edges = stats_.joined->non_manifold_edges;
 }
 
 template <typename T>

@@ -15,8 +15,10 @@ EdgeCounts count_edges(const PatchFile& file) {
   for (const EdgeLink& edge : edges) {
     switch (edge.kind) {
     case EdgeKind::shared:
-    case EdgeKind::non_manifold:
       ++counts.shared;
+      break;
+    case EdgeKind::non_manifold:
+      ++counts.non_manifold;
       break;
     case EdgeKind::boundary:
       ++counts.boundary;

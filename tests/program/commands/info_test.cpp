@@ -26,12 +26,12 @@ std::string info_json(const std::string& in) {
 }
 
 struct Edges {
-  double shared, boundary, collapsed;
+  double shared, boundary, collapsed, non_manifold = 0;
   bool operator==(const Edges&) const = default;
 };
 void PrintTo(const Edges& edges, std::ostream* out) {
   *out << edges.shared << " shared, " << edges.boundary << " boundary, " << edges.collapsed
-       << " collapsed";
+       << " collapsed, " << edges.non_manifold << " non-manifold";
 }
 
 Edges edges_of(const std::vector<Net>& nets) {
@@ -39,7 +39,7 @@ Edges edges_of(const std::vector<Net>& nets) {
   const std::string json = info_json(folder.write("in.bez", bez_text(nets)));
   EXPECT_EQ(json_number(json, "total"), static_cast<double>(4 * nets.size()));
   return {json_number(json, "shared"), json_number(json, "boundary"),
-          json_number(json, "collapsed")};
+          json_number(json, "collapsed"), json_number(json, "non_manifold")};
 }
 
 TEST(Info, DescribesTheTeapot) {
@@ -67,7 +67,7 @@ TEST(Info, SaysTheSameInWords) {
   for (const char* const part :
        {"patches            32\n", "degrees            3 in u, 3 in v\n",
         "control point box  [-3, -2, 0] to [3.525, 2, 3.15]\n",
-        "104 shared, 16 boundary, 8 collapsed", isas.c_str(), "chosen  "}) {
+        "104 shared, 16 boundary, 8 collapsed, 0 non-manifold", isas.c_str(), "chosen  "}) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << "\n" << outcome.out;
   }
 }
@@ -124,7 +124,7 @@ TEST(Info, KnowsClosedAndCollapsedEdges) {
   }
   EXPECT_EQ(edges_of({collapsed}), (Edges{0, 3, 1}));
   EXPECT_EQ(edges_of({collapsed, collapsed}), (Edges{6, 0, 2}));
-  EXPECT_EQ(edges_of({collapsed, collapsed, collapsed}), (Edges{9, 0, 3}));
+  EXPECT_EQ(edges_of({collapsed, collapsed, collapsed}), (Edges{0, 0, 3, 9}));
 }
 
 } // namespace

@@ -136,6 +136,7 @@ const Refused kRefused[] = {
      "--tolerance: expected without --no-weld, found both"},
     {"CreaseOfSheets", 2, {"--no-weld", "--crease", "1"}, "--crease: expected without --no-weld"},
     {"OrientOfSheets", 2, {"--no-weld", "--orient"}, "--orient: expected without --no-weld"},
+    {"WeldedSheets", 2, {"--no-weld", "--weld"}, "--weld: expected without --no-weld"},
     {"SnapOfSheets", 2, {"--no-weld", "--snap", "1"}, "--snap: expected without --no-weld"},
     {"StatsUnknown", 2, {"--stats=xml"}, "--stats: expected text or json, found 'xml'"},
     {"QuantisedPly", 2, {"--quantise", "16"}, "--quantise: expected an output in glb, found ply"},

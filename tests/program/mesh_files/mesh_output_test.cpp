@@ -71,9 +71,10 @@ TEST(MeshStatistics, AreOneObjectWithTheseNames) {
   for (const auto& [name, value] : stats.items()) {
     names.push_back(name);
   }
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"patches", "vertices", "triangles", "deviation", "diagonal",
-                                      "open_edges", "non_manifold_edges", "samples", "seconds"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"patches", "vertices", "triangles", "deviation",
+                                             "diagonal", "open_edges", "non_manifold_edges",
+                                             "turned_edges", "orientable", "repeated_patches",
+                                             "samples", "samples_per_second", "seconds"}));
   names.clear();
   for (const auto& [name, value] : stats["seconds"].items()) {
     names.push_back(name);
@@ -90,7 +91,13 @@ TEST(MeshStatistics, AreOneObjectWithTheseNames) {
   EXPECT_LE(stats["deviation"].get<double>(), 1e-3 * stats["diagonal"].get<double>());
   EXPECT_EQ(stats["open_edges"], 16);
   EXPECT_EQ(stats["non_manifold_edges"], 0);
+  EXPECT_EQ(stats["turned_edges"], 0);
+  EXPECT_EQ(stats["orientable"], true);
+  EXPECT_EQ(stats["repeated_patches"], 0);
   EXPECT_EQ(stats["samples"], mesh.positions.size());
+  EXPECT_NEAR(stats["samples_per_second"].get<double>() *
+                  stats["seconds"]["evaluate"].get<double>(),
+              stats["samples"].get<double>(), 0.5);
 }
 
 TEST(MeshStatistics, StateWhatFilesState) {
@@ -150,6 +157,11 @@ TEST(MeshStatistics, CountEdges) {
       EXPECT_EQ(stats["open_edges"] > 0, model.loops > 0) << model.name;
     }
     EXPECT_EQ(stats["non_manifold_edges"] > 0, !model.manifold) << model.name;
+    const bool one_side = model.name.starts_with("ring turned by half");
+    EXPECT_EQ(stats["orientable"], !one_side) << model.name;
+    EXPECT_TRUE(!one_side || stats["turned_edges"] > 0) << model.name;
+    EXPECT_EQ(stats["repeated_patches"], model.name.starts_with("one patch twice") ? 1 : 0)
+        << model.name;
     const ReadMesh mesh = read_ply_mesh(read_file(folder.path("out.ply")));
     EXPECT_EQ(stats["triangles"], mesh.faces.size()) << model.name;
   }
@@ -164,7 +176,8 @@ TEST(MeshStatistics, AreReadableToo) {
     EXPECT_EQ(outcome.out, "");
     for (const char* const part :
          {"patches            32\n", "\nvertices ", "\ntriangles ", " at most, certified; ",
-          "edges of patches   16 open, 0 non-manifold\n", "\nseconds            read "}) {
+          "edges of patches   16 open, 0 non-manifold, 0 between patches that disagree\n",
+          "\nrepeated patches   0\n", "\nseconds            read "}) {
       EXPECT_NE(outcome.err.find(part), std::string::npos) << part << "\n" << outcome.err;
     }
   }
