@@ -28,7 +28,7 @@ struct CurvePoints {
   MaskOf<V> low;
   bool any_low;
   bool mixed; ///< some are in either cell
-  PairSelector<V> ends;
+  EndSelector<V> ends;
 
   explicit SIMDBEZIER_INLINE CurvePoints(V half_centred)
       : x(half_centred), local(in_cell(half_centred)), low(half_centred < broadcast<V>(T(0))),
@@ -95,7 +95,7 @@ private:
   const T* high_;
   const V& x_;
   const MaskOf<V>& in_low_;
-  const PairSelector<V>& ends_;
+  const EndSelector<V>& ends_;
 };
 
 /// Up to three components of a register of samples have their positions in here, with derivatives

@@ -39,10 +39,9 @@ SIMDBEZIER_INLINE bool all_of(MaskOf<V> mask) {
 /// stand side by side in memory: pair[0] goes to the lanes of `first`, pair[1] to those of
 /// `second`.
 template <typename V>
-class PairSelector {
+class TwoMasks {
 public:
-  SIMDBEZIER_INLINE PairSelector(MaskOf<V> first, MaskOf<V> second)
-      : first_(first), second_(second) {}
+  SIMDBEZIER_INLINE TwoMasks(MaskOf<V> first, MaskOf<V> second) : first_(first), second_(second) {}
   /// Whether replace() can change anything; true where finding out costs more than replacing.
   SIMDBEZIER_INLINE bool worthwhile() const { return any_of<V>(first_ | second_); }
   SIMDBEZIER_INLINE V replace(V inside, const ScalarOf<V>* pair) const {
@@ -53,6 +52,12 @@ public:
 private:
   MaskOf<V> first_;
   MaskOf<V> second_;
+};
+
+/// The same, by the fewest instructions where columns are replaced: four vectors by the same lanes.
+template <typename V>
+class PairSelector : public TwoMasks<V> {
+  using TwoMasks<V>::TwoMasks;
 };
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
@@ -99,7 +104,7 @@ private:
 };
 #elif defined(SIMDBEZIER_KERNELS_AVX2)
 // As on AVX-512: one load serves both edges and two registers. Of doubles it takes two
-// instructions, and loses by it.
+// instructions, and loses by it. Curves have one register and one value, and keep their masks.
 template <>
 class PairSelector<vec<float>> {
 public:
@@ -117,6 +122,15 @@ private:
   MaskOf<vec<float>> lanes_;
   __m256i index_; ///< which of the pair each lane takes
 };
+#endif
+
+/// What replaces the ends of curves.
+#if defined(SIMDBEZIER_KERNELS_AVX2)
+template <typename V>
+using EndSelector = TwoMasks<V>;
+#else
+template <typename V>
+using EndSelector = PairSelector<V>;
 #endif
 
 /// Returns the power of two at or below |x|; 0 for a denormal x, infinity where x is not finite.
