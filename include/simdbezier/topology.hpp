@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include <simdbezier/control_nets.hpp>
 #include <simdbezier/patch_edge.hpp>
@@ -103,5 +104,26 @@ template <typename S>
                                    const TopologyOptions& options = {}) noexcept {
   return find_topology(std::span<const ControlNets<S>>(&nets, 1), topology, options);
 }
+
+/// The patches of a model that repeat no earlier one.
+template <typename S>
+struct DistinctNets {
+  std::vector<ControlNets<S>> nets;   ///< in the memory of the views that they come from
+  std::vector<std::uint32_t> patches; ///< the number of each patch there
+};
+
+/// Leaves out the patches that Topology::is_repeated() names. What remains is a model of its own:
+/// find_topology() has to be called again, with views that number the patches anew.
+///
+/// nets:       those that `topology` is of. A view ends before each patch that is left out, and
+///             another one begins behind it.
+/// distinct:   replaced on ok, left as it was otherwise.
+/// Threads:    one. Allocation: 4 bytes a patch, and the views. Cost: some nanoseconds a patch.
+/// Returns:    ok | null_input (no list of views) | unequal_lengths (the topology is one of another
+///             number of patches) | out_of_memory.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API Status find_distinct_nets(std::span<const ControlNets<S>> nets,
+                                                       const Topology& topology,
+                                                       DistinctNets<S>& distinct) noexcept;
 
 } // namespace simdbezier

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <simdbezier/mesh.hpp>
@@ -12,34 +13,6 @@
 #include "src/nets/net_call.hpp"
 
 namespace simdbezier::detail {
-
-/// Views without the patches that a topology calls repeated.
-template <typename S>
-std::vector<ControlNets<S>> without_repeated(std::span<const ControlNets<S>> nets,
-                                             const Topology& topology,
-                                             std::vector<std::uint32_t>& kept) {
-  std::vector<ControlNets<S>> parts;
-  std::uint32_t number = 0;
-  for (const ControlNets<S>& view : nets) {
-    bool open = false;
-    for (std::size_t patch = 0; patch < view.count; ++patch, ++number) {
-      if (topology.is_repeated(number)) {
-        open = false;
-        continue;
-      }
-      if (!open) {
-        parts.push_back(view);
-        parts.back().points += static_cast<std::ptrdiff_t>(patch) * view.patch_stride;
-        parts.back().memory = {};
-        parts.back().count = 0;
-        open = true;
-      }
-      ++parts.back().count;
-      kept.push_back(number);
-    }
-  }
-  return parts;
-}
 
 /// One call of plan_mesh(): steps in their order, each of which may refuse.
 template <typename T, typename S>
@@ -89,11 +62,12 @@ private:
     how.threads = options_.threads;
     Status status = find_topology(given_, plan_.topology, how);
     plan_.counts = plan_.topology.counts();
+    if (status && plan_.counts.repeated_patches > 0 && options_.drop_repeated) {
+      status = find_distinct_nets(given_, plan_.topology, distinct_);
+      nets_ = distinct_.nets;
+      plan_.patches = std::move(distinct_.patches);
+    }
     if (status && options_.drop_repeated) {
-      if (plan_.counts.repeated_patches > 0) {
-        parts_ = without_repeated(given_, plan_.topology, plan_.patches);
-        nets_ = parts_;
-      }
       how.orient = options_.orient;
       status = find_topology(nets_, plan_.topology, how);
     }
@@ -207,7 +181,7 @@ private:
 
   std::span<const ControlNets<S>> given_;
   std::span<const ControlNets<S>> nets_; ///< without what is left out
-  std::vector<ControlNets<S>> parts_;
+  DistinctNets<S> distinct_;
   const MeshOptions& options_;
   MeshPlan<T>& plan_;
   std::vector<double> errors_;

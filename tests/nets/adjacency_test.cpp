@@ -238,7 +238,7 @@ TEST(Adjacency, Teapot) {
   Batch<double> batch({3, 3, 3, Weights::none}, file.count);
   batch.values.assign(file.points.begin(), file.points.end());
   expect_links<double>({batch});
-  const tools::EdgeCounts counts = tools::count_edges(file);
+  const tools::EdgeCounts counts(tools::joined_counts(file));
   EXPECT_EQ(counts.shared, 104U);
   EXPECT_EQ(counts.boundary, 16U);
   EXPECT_EQ(counts.collapsed, 8U);

@@ -34,7 +34,7 @@ struct Summary {
   std::size_t rational = 0;
   MeshBox box;
   std::map<Shape, std::size_t> shapes; ///< how many patches there are of each
-  EdgeCounts edges;
+  TopologyCounts joined;
   Isa chosen = Isa::automatic;
 };
 
@@ -48,7 +48,7 @@ Summary summarise(const PatchFile& file, Isa chosen) {
     summary.rational += run.rational() ? run.count : 0;
   }
   summary.box = box_of(file);
-  summary.edges = count_edges(file);
+  summary.joined = joined_counts(file);
   return summary;
 }
 
@@ -81,16 +81,21 @@ std::string describe(const std::map<Shape, std::size_t>& shapes) {
 }
 
 std::string as_text(const Summary& summary) {
-  const std::string kinds = std::to_string(summary.edges.shared) + " shared, " +
-                            std::to_string(summary.edges.boundary) + " boundary, " +
-                            std::to_string(summary.edges.collapsed) + " collapsed, " +
-                            std::to_string(summary.edges.non_manifold) + " non-manifold";
+  const EdgeCounts edges(summary.joined);
+  const std::string kinds = std::to_string(edges.shared) + " shared, " +
+                            std::to_string(edges.boundary) + " boundary, " +
+                            std::to_string(edges.collapsed) + " collapsed, " +
+                            std::to_string(edges.non_manifold) + " non-manifold";
   std::string text;
   text += "patches            " + std::to_string(summary.patches) + "\n";
   text += describe(summary.shapes);
   text += "control point box  " + describe(summary.box.low) + " to " + describe(summary.box.high) +
           "\n";
   text += "edges              " + kinds + " (four a patch, shared ones count on each side)\n";
+  text += "repeated patches   " + std::to_string(summary.joined.repeated_patches) + "\n";
+  text += "orientation        " + quantity(summary.joined.turned_edges, "edge", "edges") +
+          " between patches that disagree" +
+          (summary.joined.orientable ? "" : "; a surface of one side") + "\n";
   text += "instruction sets   " + available_isa_names(" ") + "\n";
   text += "chosen             " + std::string(to_string(summary.chosen)) + "\n";
   return text;
@@ -116,11 +121,15 @@ std::string as_json(const Summary& summary) {
                               {"patches", count}});
   }
   json["control_point_box"] = {{"min", summary.box.low}, {"max", summary.box.high}};
+  const EdgeCounts edges(summary.joined);
   json["edges"] = {{"total", summary.patches * 4},
-                   {"shared", summary.edges.shared},
-                   {"boundary", summary.edges.boundary},
-                   {"collapsed", summary.edges.collapsed},
-                   {"non_manifold", summary.edges.non_manifold}};
+                   {"shared", edges.shared},
+                   {"boundary", edges.boundary},
+                   {"collapsed", edges.collapsed},
+                   {"non_manifold", edges.non_manifold}};
+  json["turned_edges"] = summary.joined.turned_edges;
+  json["orientable"] = summary.joined.orientable;
+  json["repeated_patches"] = summary.joined.repeated_patches;
   json["instruction_sets"] = nlohmann::ordered_json::object();
   json["instruction_sets"]["available"] = nlohmann::ordered_json::array();
   for (const Isa isa : available_isas()) {

@@ -31,7 +31,7 @@ void GridMesh<T>::measure(const PatchFile& file, MeshStats& stats) const {
   MeshContents mesh = contents();
   stats.diagonal = diagonal_of(box_);
   // Every edge is open but those that are a point.
-  stats.open_edges = kPatchEdges * patches_ - count_edges(file).collapsed;
+  stats.open_edges = kPatchEdges * patches_ - joined_counts(file).collapsed_sides;
   double deviation = std::numeric_limits<double>::min();
   for (std::size_t first = 0; first < patches_; first += kBlockPatches) {
     const std::size_t count = std::min(kBlockPatches, patches_ - first);

@@ -24,6 +24,7 @@ struct MeshArguments {
   bool flip = false;
   bool quads = false;
   bool orient = false;
+  bool drop_repeated = false;
   double snap = 0;
   std::optional<double> crease; ///< in degrees
   StatsForm stats = StatsForm::none;

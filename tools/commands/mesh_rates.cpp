@@ -86,7 +86,7 @@ void choose_adaptive(const RatedPatches<T>& patches, const Arguments& arguments,
   const RateReport report = choose_rates<T>(patches.nets, patches.topology, how, rates);
   if (report.status == Status::bad_tolerance) {
     const std::size_t patch = report.patch;
-    const std::string name = "patch " + std::to_string(patch) + " of " + patches.name;
+    const std::string name = patches.describe(patch);
     if (mesh.angle && asks_too_small_an_angle(patches, how, rates, patch)) {
       bad_input("--angle: expected degrees that " + std::to_string(kMostSegments) +
                 " cells a direction can keep, found " + shortest(*mesh.angle) + " for " + name);

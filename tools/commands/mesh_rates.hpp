@@ -24,9 +24,14 @@ template <typename T>
 struct RatedPatches {
   std::span<const ControlNets<T>> nets;
   const Topology& topology;
-  std::span<const double> errors; ///< what rounding adds, for each patch
-  double diagonal;                ///< the diagonal of the box of all control points
-  const std::string& name;        ///< the name of their file, for messages
+  std::span<const double> errors;         ///< what rounding adds, for each patch
+  double diagonal;                        ///< the diagonal of the box of all control points
+  const std::string& name;                ///< the name of their file, for messages
+  std::span<const std::uint32_t> numbers; ///< those of patches in the file; empty: 0, 1, 2, …
+
+  [[nodiscard]] std::string describe(std::size_t patch) const {
+    return "patch " + std::to_string(numbers.empty() ? patch : numbers[patch]) + " of " + name;
+  }
 };
 
 /// The options that say how fine a mesh is, for messages about all of it: "--relative and --angle",

@@ -29,7 +29,8 @@ struct MeshStats {
   double diagonal = 0;         ///< the diagonal of the box of all control points
   std::size_t open_edges = 0;  ///< edges of patches that no other patch has
   std::size_t non_manifold_edges = 0;
-  /// Of one mesh without gaps: what its topology found.
+  /// Of one mesh without gaps: what its topology found; repeated patches also where they are left
+  /// out.
   std::optional<TopologyCounts> joined;
   std::uint64_t samples = 0; ///< how many were evaluated for vertices
   StageSeconds seconds;

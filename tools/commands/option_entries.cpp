@@ -53,6 +53,7 @@ void add_mesh(Entries& entries) {
         command},
        {"--orient", "", "", "Turns patches so that neighbours agree on the outside", command},
        {"--flip", "", "", "Turns all triangles and normals around", command},
+       {"--drop-repeated", "", "", "Leaves out patches that repeat an earlier one", command},
        {"--quads", "", "",
         "Quads where cells have four vertices (" + mesh_format_names(".", &MeshAbilities::quads) +
             ")",

@@ -88,8 +88,36 @@ void WeldedMesh<T>::take_points(PatchFile file) {
 
 template <typename T>
 void WeldedMesh<T>::join() {
+  const MeshArguments& mesh = arguments_.mesh;
+  find_edges(mesh.orient && !mesh.drop_repeated);
+  const std::size_t repeated = topology_.counts().repeated_patches;
+  if (mesh.drop_repeated) {
+    if (repeated > 0) {
+      leave_out_repeated();
+    }
+    find_edges(mesh.orient);
+  }
+  stats_.joined = topology_.counts();
+  stats_.joined->repeated_patches = repeated;
+  stats_.open_edges = stats_.joined->open_edges;
+  stats_.non_manifold_edges = stats_.joined->non_manifold_edges;
+}
+
+template <typename T>
+void WeldedMesh<T>::leave_out_repeated() {
+  DistinctNets<T> distinct;
+  check(find_distinct_nets(views(nets_), topology_, distinct));
+  nets_.nets = std::move(distinct.nets);
+  numbers_ = std::move(distinct.patches);
+  patches_ = stats_.patches = numbers_.size();
+  std::ranges::transform(numbers_, errors_.begin(), [&](std::uint32_t n) { return errors_[n]; });
+  errors_.resize(patches_);
+}
+
+template <typename T>
+void WeldedMesh<T>::find_edges(bool orient) {
   TopologyOptions how;
-  how.orient = arguments_.mesh.orient;
+  how.orient = orient;
   how.flip = arguments_.mesh.flip;
   how.snap = arguments_.mesh.snap;
   how.threads = arguments_.threads;
@@ -100,15 +128,12 @@ void WeldedMesh<T>::join() {
               name_);
   }
   check(status);
-  stats_.joined = topology_.counts();
-  stats_.open_edges = stats_.joined->open_edges;
-  stats_.non_manifold_edges = stats_.joined->non_manifold_edges;
 }
 
 template <typename T>
 void WeldedMesh<T>::choose_cells() {
-  rates_ =
-      choose_mesh_rates<T>({views(nets_), topology_, errors_, stats_.diagonal, name_}, arguments_);
+  rates_ = choose_mesh_rates<T>(
+      {views(nets_), topology_, errors_, stats_.diagonal, name_, numbers_}, arguments_);
 }
 
 template <typename T>

@@ -32,6 +32,8 @@ private:
 
   void take_points(PatchFile file);
   void join();
+  void find_edges(bool orient);
+  void leave_out_repeated();
   void choose_cells();
   void lay_out();
   void pack_all();
@@ -53,7 +55,8 @@ private:
   double deviation_ = 0;            // certified
   std::unique_ptr<PatchFile> file_; // whose memory nets_ may refer to
   PatchNets<T> nets_;
-  std::vector<double> errors_; // what rounding adds, for each patch
+  std::vector<double> errors_;         // what rounding adds, for each patch
+  std::vector<std::uint32_t> numbers_; // of patches in the file, where some are left out
   MeshRates rates_;
   Topology topology_;
   MeshLayout layout_;

@@ -1,34 +1,22 @@
 #include <tools/patches/edge_counts.hpp>
 
 #include <span>
-#include <vector>
 
 #include <tools/patches/library_status.hpp>
 
 namespace simdbezier::tools {
 
-EdgeCounts count_edges(const PatchFile& file) {
-  std::vector<EdgeLink> edges(file.count * kPatchEdges);
+TopologyCounts joined_counts(const PatchFile& file) {
   const PatchNets<double> in = file.nets<double>();
-  check(find_adjacency(std::span<const ControlNets<double>>(in.nets), edges.data()));
-  EdgeCounts counts;
-  for (const EdgeLink& edge : edges) {
-    switch (edge.kind) {
-    case EdgeKind::shared:
-      ++counts.shared;
-      break;
-    case EdgeKind::non_manifold:
-      ++counts.non_manifold;
-      break;
-    case EdgeKind::boundary:
-      ++counts.boundary;
-      break;
-    case EdgeKind::collapsed:
-      ++counts.collapsed;
-      break;
-    }
-  }
-  return counts;
+  Topology topology;
+  check(find_topology(std::span<const ControlNets<double>>(in.nets), topology));
+  return topology.counts();
 }
+
+EdgeCounts::EdgeCounts(const TopologyCounts& joined)
+    : shared(2 * (joined.edges - joined.open_edges - joined.non_manifold_edges)),
+      non_manifold(kPatchEdges * joined.patches - joined.collapsed_sides - joined.open_edges -
+                   shared),
+      boundary(joined.open_edges), collapsed(joined.collapsed_sides) {}
 
 } // namespace simdbezier::tools

@@ -1,4 +1,4 @@
-// Which patches meet along which edges.
+// How the patches of a file are connected.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +7,18 @@
 
 namespace simdbezier::tools {
 
+/// What find_topology() finds, of edges with equal control points.
+[[nodiscard]] TopologyCounts joined_counts(const PatchFile& file);
+
 /// Every patch counts its four edges, so shared edges are counted from each side.
 struct EdgeCounts {
-  std::size_t shared = 0;       ///< one other edge has as many control points, bit-equal in either
-                                ///< direction, and the same weights where there are any
-  std::size_t non_manifold = 0; ///< more than one other has them
-  std::size_t boundary = 0;     ///< no other edge has them
-  std::size_t collapsed = 0;    ///< its control points are one point
-};
+  std::size_t shared;       ///< one other edge has as many control points, equal in either
+                            ///< direction, and the same weights where there are any
+  std::size_t non_manifold; ///< more than one other has them
+  std::size_t boundary;     ///< no other edge has them
+  std::size_t collapsed;    ///< its control points are one point
 
-[[nodiscard]] EdgeCounts count_edges(const PatchFile& file);
+  explicit EdgeCounts(const TopologyCounts& joined);
+};
 
 } // namespace simdbezier::tools

@@ -86,7 +86,7 @@ tools::EdgeCounts edges_of(const std::vector<TestPatch>& patches) {
     }
     file.close_patch(patch.degree_u, patch.degree_v, patch.weights);
   }
-  return tools::count_edges(file);
+  return tools::EdgeCounts(tools::joined_counts(file));
 }
 
 void expect_edges(const std::vector<TestPatch>& patches, std::size_t shared, std::size_t boundary,
