@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 #include <simdbezier/control_nets.hpp>
@@ -13,18 +14,34 @@
 
 namespace simdbezier::detail {
 
-/// A control vector: of a polynomial patch, or of w (P - c) and w of a rational one.
+/// A control vector: of a polynomial patch, or of w (P - c) and w of a rational one. Operations
+/// name pairs of components, which g++ 12 does not find by itself.
 struct ControlVector {
-  double x[4];
+  alignas(16) double x[4];
 
   friend ControlVector operator+(const ControlVector& a, const ControlVector& b) {
-    return {a.x[0] + b.x[0], a.x[1] + b.x[1], a.x[2] + b.x[2], a.x[3] + b.x[3]};
+    return {a.pair(0) + b.pair(0), a.pair(2) + b.pair(2)};
   }
   friend ControlVector operator-(const ControlVector& a, const ControlVector& b) {
-    return {a.x[0] - b.x[0], a.x[1] - b.x[1], a.x[2] - b.x[2], a.x[3] - b.x[3]};
+    return {a.pair(0) - b.pair(0), a.pair(2) - b.pair(2)};
   }
   friend ControlVector operator*(double s, const ControlVector& a) {
-    return {s * a.x[0], s * a.x[1], s * a.x[2], s * a.x[3]};
+    return {s * a.pair(0), s * a.pair(2)};
+  }
+
+  ControlVector() = default;
+
+private:
+  typedef double Pair __attribute__((vector_size(16)));
+
+  ControlVector(Pair low, Pair high) {
+    std::memcpy(x, &low, sizeof low);
+    std::memcpy(x + 2, &high, sizeof high);
+  }
+  [[nodiscard]] Pair pair(std::size_t first) const {
+    Pair two;
+    std::memcpy(&two, x + first, sizeof two);
+    return two;
   }
 };
 
