@@ -9,11 +9,12 @@
 // Without normals one component is swept after the other (4 or 8 registers of polynomials, one to
 // three store streams), two registers of columns as one where there is room
 // (simd/register_pair.hpp); normals need all three components at once (24 registers, which AVX2
-// keeps partly in L1). Squares of usual sizes are known to the compiler: sweep_square() chooses as
+// keeps partly in L1). Derivatives of large patches take all tiles of a component before the next
+// one (grid/component_sweeps.hpp). Squares of usual sizes are known to the compiler: sweep_square() chooses as
 // sweep_tiles() does. Rows of one tile that lie across lines are put together to whole lines.
 #pragma once
 
-#include "kernels/grid/patch_sweeps.hpp"
+#include "kernels/grid/component_sweeps.hpp"
 #include "kernels/grid/record_rows.hpp"
 #include "kernels/grid/small_grid_jets.hpp"
 #include "kernels/grid/small_jets_across.hpp"
@@ -53,6 +54,12 @@ constexpr std::size_t written_planes(detail::OutputSet outputs) {
          : outputs == detail::kPositionNormal ? 6
          : outputs == detail::kAnyOutputs     ? 12
                                               : 9;
+}
+
+/// Returns what a kernel writes of one patch.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_PART std::size_t bytes_of(const GridTask<T>& task, const RowPiece<T>& piece) {
+  return piece.rows() * task.nu * written_planes(kOutputs) * sizeof(T);
 }
 
 /// Calls the function of a tile for patches [patch, end).
@@ -168,6 +175,21 @@ SIMDBEZIER_PART void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<
   }
 }
 
+/// Sweeps patches [patch, end) by components, if that pays, and returns whether it did. It does not
+/// on the way to memory, where lines of all planes at once get there faster.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_PART bool sweep_large_patches(const GridTask<T>& task, const RowPiece<T>& piece,
+                                         std::size_t patch, std::size_t end) {
+  if constexpr (kSweepsByComponents<kOutputs, vec<T>>) {
+    if (!task.plain_to_memory && task.nu >= 2 * kLanes<vec<T>> &&
+        bytes_of<kOutputs>(task, piece) > kCachedBytes) {
+      sweep_by_components<kOutputs>(task, piece, patch, end);
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Sweeps patches [patch, end) on the rows of a piece. Registers of 64 bytes have tiles for either
 /// kind of edges; shorter ones ask at run time, since twice the code would be too much for what it
 /// gains.
@@ -175,7 +197,9 @@ template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART void sweep_patches(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
                                    const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
   if constexpr (!kUsual<kOutputs>) {
-    sweep_registers<kOutputs>(task, piece, patch, end);
+    if (!sweep_large_patches<kOutputs>(task, piece, patch, end)) {
+      sweep_registers<kOutputs>(task, piece, patch, end);
+    }
   } else {
     constexpr bool kTells = kLineWide<vec<T>>;
     if constexpr (kPutsRecords<vec<T>>) {
@@ -195,6 +219,9 @@ SIMDBEZIER_PART void sweep_patches(const GridTask<T>& task, const ColumnSplit<ve
       if (task.watertight && sweep_square_of<kOutputs>(SquareSides(), task, piece, patch, end)) {
         return;
       }
+    }
+    if (sweep_large_patches<kOutputs>(task, piece, patch, end)) {
+      return;
     }
     sweep_tiles<kOutputs, kTells ? Known::watertight : Known::no_origins>(task, split, piece, patch,
                                                                           end);
@@ -238,8 +265,7 @@ SIMDBEZIER_KERNEL void grid_kernel(GridTask<T>& task) {
   RowPowers<T> powers;
   for (RowPieces<T> pieces(task); pieces.more();) {
     const RowPiece<T> piece = pieces.next(powers);
-    const std::size_t bytes = piece.rows() * task.nu * written_planes(kOutputs) * sizeof(T);
-    const std::size_t together = kCachedBytes / bytes + 1;
+    const std::size_t together = kCachedBytes / bytes_of<kOutputs>(task, piece) + 1;
     for (std::size_t patch = 0; patch < task.patch_count; patch += together) {
       const std::size_t left = task.patch_count - patch;
       const std::size_t end = patch + (left < together ? left : together);

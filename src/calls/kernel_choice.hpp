@@ -83,7 +83,8 @@ struct PatchKernels {
   const KernelTable<T>* table;
   KernelChoice choice;
   bool watertight;
-  bool by_lines; ///< as GridTask has it
+  bool by_lines;                ///< as GridTask has it
+  bool plain_to_memory = false; ///< likewise
   std::size_t first_component;
 
   template <typename Wishes>
@@ -96,7 +97,8 @@ struct PatchKernels {
   /// Takes into account how much is written, and which way. What leaves the caches by plain stores
   /// does so in whole lines, because these are not read first.
   void expect_output(std::size_t bytes, Destination destination) noexcept {
-    by_lines = by_lines || (destination == Destination::cache && exceeds_caches(bytes));
+    plain_to_memory = destination == Destination::cache && exceeds_caches(bytes);
+    by_lines = by_lines || plain_to_memory;
   }
 
   /// What kernels write to its final place by themselves, on grids of `nu` columns or more: all of

@@ -77,6 +77,7 @@ void PieceEvaluator<T>::fill(Prepared& prepared, const PatchStorage<T>& set,
       set.count * (set.shape.coefficients() + set.shape.edges()) * sizeof(T) > second_level_cache();
   task.streaming = to.streaming;
   task.by_lines = kernels_.by_lines;
+  task.plain_to_memory = kernels_.plain_to_memory;
   task.watertight = kernels_.watertight;
   task.record = to.record;
   task.drain = to.drain;
