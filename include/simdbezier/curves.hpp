@@ -209,7 +209,7 @@ template <typename T>
 /// on each curve alone. Work is divided between threads by samples. Outputs count as overlapping
 /// where their whole ranges do.
 /// Allocation: 8 bytes a curve and scratch per thread, a call.
-/// Returns, besides those of the call above, unequal_lengths | bad_offsets.
+/// Returns, besides the statuses of the call above, unequal_lengths | null_input | bad_offsets.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const CurveSet<T>& set, const CurveGrids& grids,
                                              const CurveOutputs<T>& out,

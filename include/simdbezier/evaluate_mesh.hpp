@@ -19,13 +19,13 @@ namespace simdbezier {
 /// share memory only as members of one vertex: equal strides, no common element.
 template <typename T>
 struct MeshOutputs {
-  Vectors<T> position;
+  Vectors<T> position = {};
   /// Merged over all patches that have the vertex; see evaluate_mesh().
-  Vectors<T> normal;
+  Vectors<T> normal = {};
   /// u as x and v as y, z null, on the lowest patch that has the vertex.
-  Vectors<T> parameters;
+  Vectors<T> parameters = {};
   /// The number of that patch.
-  Values<std::uint32_t> patch;
+  Values<std::uint32_t> patch = {};
 };
 
 /// Evaluates the vertices that the patches of a range own; lay_out_mesh() says which these are.

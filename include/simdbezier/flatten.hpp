@@ -26,8 +26,8 @@ struct FlattenOptions {
   /// How far evaluated points may be from the exact ones, one value a curve: position_errors() of
   /// the set that will be evaluated. Part of the tolerance. Empty: 0.
   std::span<const double> errors = {};
-  std::uint32_t most_points = kMostPolylinePoints;
-  int threads = 0; ///< as in Options
+  std::uint32_t most_points = kMostPolylinePoints; ///< larger numbers count as this one
+  int threads = 0;                                 ///< as in Options
 };
 
 /// Where choosing stopped.

@@ -85,9 +85,10 @@ template <typename T, typename S>
 ///             the points are formed and then divided by their weights.
 /// Allocation: (degree + 1) (components + 1 with weights) doubles a patch during the call, and the
 ///             curves.
-/// Returns:    ok | bad_degree (patches of several shapes) | non_finite_input (u0) |
-///             coefficient_overflow | size_overflow | unsupported_isa | out_of_memory. On an error
-///             `curves` is as it was.
+/// Returns:    ok | bad_degree (patches of several shapes) | non_finite_input (u0, or one so far
+///             away that points are infinite) | bad_weight (u0 is outside of [0,1], where weights
+///             may lose their sign) | coefficient_overflow | size_overflow | unsupported_isa |
+///             out_of_memory. On an error `curves` is as it was.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API PackReport iso_u(const PatchSet<T>& patches, double u0,
                                               CurveSet<T>& curves,

@@ -151,12 +151,32 @@ inline constexpr std::uint32_t kMostGridCells = std::uint32_t{1} << 20;
 /// Returns:   ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
 ///            size_overflow | non_finite_input | bad_weight | bad_rates (outside of 1 to
 ///            kMostGridCells, or spans that are not one value a patch) | bad_tolerance (an error
-///            below 0 or nan) | out_of_memory. Cost: 3 to 5 us a patch up to degree 5.
+///            below 0 or nan) | unknown_isa | unsupported_isa | out_of_memory. `deviation` is
+///            undefined on an error. Cost: 3 to 5 us a patch up to degree 5.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<S>> nets,
                                                       std::uint32_t nu, std::uint32_t nv,
                                                       std::span<const double> errors,
                                                       std::span<double> deviation,
                                                       const Options& options = {}) noexcept;
+
+// The same for a single view.
+template <typename S>
+[[nodiscard]] Status pixel_tolerances(const ControlNets<S>& nets, const Camera& camera,
+                                      double pixels, std::span<double> out) noexcept {
+  return pixel_tolerances(std::span<const ControlNets<S>>(&nets, 1), camera, pixels, out);
+}
+template <typename S>
+[[nodiscard]] RateReport choose_rates(const ControlNets<S>& nets, const Topology& topology,
+                                      const RateOptions& options,
+                                      const CertifiedRates& out) noexcept {
+  return choose_rates(std::span<const ControlNets<S>>(&nets, 1), topology, options, out);
+}
+template <typename S>
+[[nodiscard]] RateReport certify_rates(const ControlNets<S>& nets, const Topology& topology,
+                                       std::span<const double> errors, const CertifiedRates& rates,
+                                       const Options& options = {}) noexcept {
+  return certify_rates(std::span<const ControlNets<S>>(&nets, 1), topology, errors, rates, options);
+}
 
 } // namespace simdbezier

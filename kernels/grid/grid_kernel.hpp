@@ -10,8 +10,9 @@
 // three store streams), two registers of columns as one where there is room
 // (simd/register_pair.hpp); normals need all three components at once (24 registers, which AVX2
 // keeps partly in L1). Derivatives of large patches take all tiles of a component before the next
-// one (grid/component_sweeps.hpp). Squares of usual sizes are known to the compiler: sweep_square() chooses as
-// sweep_tiles() does. Rows of one tile that lie across lines are put together to whole lines.
+// one (grid/component_sweeps.hpp). Squares of usual sizes are known to the compiler: sweep_square()
+// chooses as sweep_tiles() does. Rows of one tile that lie across lines are put together to whole
+// lines.
 #pragma once
 
 #include "kernels/grid/component_sweeps.hpp"

@@ -8,7 +8,7 @@
 #include <simdbezier/outputs.hpp>
 
 #include "kernels/simd/vector.hpp"
-#include "src/storage/patch_storage.hpp"
+#include "src/storage/bicubic_layout.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

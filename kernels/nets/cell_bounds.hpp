@@ -8,6 +8,7 @@
 #include "kernels/nets/quarter_nets.hpp"
 #include "kernels/simd/lanes.hpp"
 #include "kernels/simd/repeat.hpp"
+#include "src/tables/rate_task.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -85,7 +86,7 @@ struct LaneCells {
 template <typename V>
 SIMDBEZIER_INLINE V cell_step(V n) {
   using T = ScalarOf<V>;
-  return divide(broadcast<V>(T(1)), n) + broadcast<V>(T(4 * 0x1p-24));
+  return divide(broadcast<V>(T(1)), n) + broadcast<V>(T(detail::kStepRounding));
 }
 
 /// The squares of steps, and what rounding may have taken from vectors that they are multiplied

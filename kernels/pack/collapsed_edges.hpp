@@ -16,7 +16,7 @@
 
 #include "kernels/pack/coinciding_points.hpp"
 #include "kernels/pack/double_double.hpp"
-#include "src/storage/patch_storage.hpp"
+#include "src/storage/bicubic_layout.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -10,7 +10,7 @@
 
 #include "kernels/pack/double_double.hpp"
 #include "kernels/simd/extrema.hpp"
-#include "src/storage/patch_storage.hpp"
+#include "src/storage/bicubic_layout.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -17,8 +17,8 @@
 
 #include "kernels/pack/double_double.hpp"
 #include "kernels/simd/extrema.hpp"
+#include "src/storage/bicubic_layout.hpp"
 #include "src/storage/even_odd_rule.hpp"
-#include "src/storage/patch_storage.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 

@@ -9,7 +9,7 @@
 
 #include "kernels/poly/even_odd.hpp"
 #include "kernels/simd/fours.hpp"
-#include "src/storage/patch_storage.hpp"
+#include "src/storage/bicubic_layout.hpp"
 #include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernels/simd/vector.hpp"
-#include "src/storage/patch_storage.hpp"
+#include "src/storage/bicubic_layout.hpp"
 #include "src/tables/kernel_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

@@ -67,7 +67,7 @@ struct CurvatureFrame {
 /// Finds the Gaussian, the mean, the smaller and the larger principal curvature; see Curvatures.
 template <typename V>
 SIMDBEZIER_PART void curvatures(const SampleJet<V>& jet, const CurvatureFrame<V>& at,
-                                V out[detail::kCurvatures]) {
+                                V out[kCurvatureKinds]) {
   const V l = dot(jet.duu, at.n) * at.inverse_u * at.inverse_u;
   const V m = dot(jet.duv, at.n) * at.inverse_u * at.inverse_v;
   const V k = dot(jet.dvv, at.n) * at.inverse_v * at.inverse_v;

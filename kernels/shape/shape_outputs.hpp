@@ -127,11 +127,11 @@ SIMDBEZIER_PART void store_curvature(ScalarOf<V>* const* plane, bool all_whole,
                                      const SampleRange<V>& range, const V* curvature) {
   if (all_whole) { // nothing has to be asked
     const std::size_t at = range.at;
-    repeat<detail::kCurvatures>(
+    repeat<kCurvatureKinds>(
         [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { store_vector(plane[k] + at, curvature[k]); });
     return;
   }
-  for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
+  for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
     if (plane[k] != nullptr) {
       range.store(plane[k], curvature[k]);
     }
@@ -160,7 +160,7 @@ SIMDBEZIER_PART void store_curvatures(const SampleTask<ScalarOf<V>>& task,
     all_whole = all_whole && each != nullptr;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    V curvature[detail::kCurvatures];
+    V curvature[kCurvatureKinds];
     curvatures(jet[i], frame[i], curvature);
     store_curvature(plane, all_whole, range[i], curvature);
   }
@@ -172,7 +172,7 @@ SIMDBEZIER_PART void store_curvatures(const SampleTask<ScalarOf<V>>& task,
 template <typename T>
 SIMDBEZIER_PART bool wants_curvatures(const SampleTask<T>& task) {
   bool wanted = false;
-  for (std::size_t k = 0; k < detail::kCurvatures; ++k) {
+  for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
     wanted = wanted || task.curvature[k] != nullptr;
   }
   return wanted;

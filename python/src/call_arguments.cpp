@@ -63,7 +63,12 @@ double number(const py::object& value, const char* argument) {
 }
 
 double number_or_infinity(const py::object& value, const char* argument) {
-  return value.is_none() ? std::numeric_limits<double>::infinity() : number(value, argument);
+  if (value.is_none()) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double found = number(value, argument);
+  require_finite(found, std::numeric_limits<double>::max(), argument);
+  return found;
 }
 
 void require_finite(double value, double most, const char* argument) {

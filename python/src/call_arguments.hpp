@@ -18,7 +18,7 @@ namespace simdbezier::python {
                                      const std::string& argument, const std::string& size_text);
 
 [[nodiscard]] double number(const py::object& value, const char* argument);
-/// A number, or infinity for None.
+/// A finite number, or infinity for None.
 [[nodiscard]] double number_or_infinity(const py::object& value, const char* argument);
 /// Throws where a number is not finite, or above `most` in magnitude.
 void require_finite(double value, double most, const char* argument);

@@ -97,12 +97,23 @@ void set_grid(const py::object& grid, MeshOptions& options) {
     const py::object value = pair ? py::object(grid[py::int_(k)]) : grid;
     const std::size_t count = integer(value, 2, "grid");
     if (count > kMostSegments + 1) {
-      throw_value_error("grid", "expected at most " + std::to_string(kMostSegments + 1));
+      throw_value_error("grid", "expected at most " + std::to_string(kMostSegments + 1) +
+                                    ", found " + std::to_string(count));
     }
     return static_cast<std::uint32_t>(count);
   };
   options.nu = samples(0);
   options.nv = samples(1);
+}
+
+/// Reads degrees; all normals are merged without them.
+double crease_angle(const py::object& crease) {
+  const double degrees = positive(number_or_infinity(crease, "crease"), true, "crease");
+  if (degrees > 180 && !crease.is_none()) {
+    throw_value_error("crease", "expected degrees from 0 to 180, found " +
+                                    py::str(crease).cast<std::string>());
+  }
+  return degrees * std::numbers::pi / 180;
 }
 
 std::string blamed(Status status, const MeshOptions& options) {
@@ -113,8 +124,6 @@ std::string blamed(Status status, const MeshOptions& options) {
     return relative && absolute ? "tolerance or relative" : relative ? "relative" : "tolerance";
   case Status::bad_grid:
     return "grid";
-  case Status::bad_rates:
-    return "tolerance";
   case Status::not_orientable:
     return "orient";
   case Status::bad_weight:
@@ -126,6 +135,15 @@ std::string blamed(Status status, const MeshOptions& options) {
 
 template <typename T, typename S>
 PyMesh tessellated(const PointViews<S, ControlNets>& nets, const MeshOptions& options) {
+  std::size_t patches = 0;
+  for (const ControlNets<S>& view : nets.views) {
+    patches += view.count;
+  }
+  if (!options.tolerances.empty() && options.tolerances.size() != patches) {
+    throw_value_error("tolerance", "expected a number, or one for each of " +
+                                       std::to_string(patches) + " patches, found " +
+                                       std::to_string(options.tolerances.size()));
+  }
   Mesh<T> mesh;
   {
     const py::gil_scoped_release release;
@@ -155,8 +173,7 @@ PyMesh tessellate_points(const py::object& points, const py::object& tolerance,
   options.relative_tolerance =
       positive(number_or_infinity(relative, "relative"), false, "relative");
   set_grid(grid, options);
-  options.crease_angle =
-      positive(number_or_infinity(crease, "crease"), true, "crease") * std::numbers::pi / 180;
+  options.crease_angle = crease_angle(crease);
   options.longest_edge =
       positive(number_or_infinity(longest_edge, "longest_edge"), false, "longest_edge");
   options.normals = flag(normals, "normals");
@@ -167,11 +184,11 @@ PyMesh tessellate_points(const py::object& points, const py::object& tolerance,
   options.point_size = positive(number(point_size, "point_size"), true, "point_size");
   options.drop_repeated = flag(drop_repeated, "drop_repeated");
   options.threads = thread_count(threads);
-  if (tolerance.is_none() && relative.is_none() && grid.is_none()) {
-    throw_type_error("tolerance", "how fine the mesh is has to be said by tolerance, relative or "
-                                  "grid");
-  }
   const bool measured = !tolerance.is_none() || !relative.is_none() || !longest_edge.is_none();
+  if (!measured && grid.is_none()) {
+    throw_type_error("tolerance", "how fine the mesh is has to be said by tolerance, relative, "
+                                  "longest_edge or grid");
+  }
   if (!grid.is_none() && measured) {
     throw_value_error("grid", "expected without tolerance, relative and longest_edge");
   }

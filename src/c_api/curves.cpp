@@ -153,7 +153,7 @@ simdbezier_status simdbezier_boundary_curves(const simdbezier_nets* nets, simdbe
   return answer(__func__, [&] {
     const Path path{"nets"};
     const simdbezier_nets given = read(nets, path);
-    const auto which = choice<PatchEdge>(edge, kPatchEdges, {"edge"});
+    const auto which = choice(edge, PatchEdge::u1, {"edge"});
     require_writable(curves, {"curves"});
     with_scalar(given.scalar, path / "scalar", [&]<typename S>() {
       const ControlNets<S> view = nets_of<S>(given, path);

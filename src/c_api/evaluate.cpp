@@ -148,7 +148,7 @@ TileFormat format_of(const simdbezier_tile_format* given) {
     }
     require(rest == 0, SIMDBEZIER_BAD_VALUE, path / "outputs");
   }
-  format.layout = choice<TileLayout>(known.layout, 3, path / "layout");
+  format.layout = choice(known.layout, TileLayout::interleaved, path / "layout");
   format.samples = known.samples;
   format.first_component = known.first_component;
   return format;

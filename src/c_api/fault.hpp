@@ -39,7 +39,7 @@ struct Fault {
   simdbezier_status status = SIMDBEZIER_OK;
   Path path;
   std::size_t patch = 0;
-  int point = 0;
+  int point = -1; ///< not known
   int component = 0;
 };
 

@@ -14,12 +14,14 @@ static_assert(static_cast<int>(SIMDBEZIER_NOT_ORIENTABLE) == Status::not_orienta
 static_assert(static_cast<int>(SIMDBEZIER_OUT_OF_MEMORY) == Status::out_of_memory);
 #define SIMDBEZIER_INSTRUCTION_SET(name, upper, fuses, runs_here)                                  \
   static_assert(SIMDBEZIER_ISA_##upper == static_cast<int>(Isa::name));                            \
-  static_assert(static_cast<int>(Isa::name) < kIsas);
+  static_assert(Isa::name <= kLastIsa);
 #include "instruction_sets.inc"
 #undef SIMDBEZIER_INSTRUCTION_SET
 static_assert(SIMDBEZIER_HOMOGENEOUS == static_cast<int>(Weights::homogeneous));
 static_assert(SIMDBEZIER_TO_MEMORY == static_cast<int>(Destination::memory));
 static_assert(SIMDBEZIER_CENTRED == static_cast<int>(Parameters::centred));
+
+bool is_isa(simdbezier_isa isa) noexcept { return isa >= 0 && isa <= static_cast<int>(kLastIsa); }
 
 struct LastFault {
   const char* function = "";
@@ -134,7 +136,7 @@ simdbezier_status simdbezier_last_fault(simdbezier_fault* fault) {
   simdbezier_fault known{};
   known.status = last.fault.status;
   known.patch = last.fault.patch;
-  known.point = last.fault.point;
+  known.point = last.fault.status == SIMDBEZIER_OK ? 0 : last.fault.point;
   known.component = last.fault.component;
   known.function = last.function;
   known.argument = last.argument;
@@ -167,7 +169,7 @@ const char* simdbezier_version(void) {
 }
 
 const char* simdbezier_isa_name(simdbezier_isa isa) {
-  return isa < 0 || isa >= kIsas ? "unknown" : to_string(static_cast<Isa>(isa)).data();
+  return is_isa(isa) ? to_string(static_cast<Isa>(isa)).data() : "unknown";
 }
 
 simdbezier_status simdbezier_isa_from_name(const char* name, simdbezier_isa* isa) {
@@ -189,7 +191,7 @@ size_t simdbezier_available_isas(simdbezier_isa* isas, size_t length) {
 }
 
 int simdbezier_fuses_multiply_add(simdbezier_isa isa) {
-  return isa >= 0 && isa < kIsas && fuses_multiply_add(static_cast<Isa>(isa)) ? 1 : 0;
+  return is_isa(isa) && fuses_multiply_add(static_cast<Isa>(isa)) ? 1 : 0;
 }
 
 simdbezier_status simdbezier_resolve_isa(simdbezier_isa requested, simdbezier_isa* chosen) {

@@ -89,7 +89,7 @@ simdbezier_status change_basis(const char* function, simdbezier_basis basis,
                                const simdbezier_options* options, Call call) noexcept {
   return operate(function, nets, options, kOut,
                  [&]<typename T>(const ControlNets<T>& in, const Options& how) {
-                   const auto from = choice<Basis>(basis, 5, {"basis"});
+                   const auto from = choice(basis, Basis::b_spline, {"basis"});
                    const MutableNets<T> to = output_of<T>(out, kOut);
                    const auto report = call(from, in, to, how);
                    const bool alike = to.degree_u == in.degree_u && to.degree_v == in.degree_v;

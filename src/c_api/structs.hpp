@@ -81,10 +81,10 @@ void write(S* result, S known) noexcept {
   }
 }
 
-/// The caller's number for one of `count` names.
+/// The caller's number for one of the names up to `last`.
 template <typename Enum>
-Enum choice(std::int32_t value, std::int32_t count, const Path& path) {
-  require(value >= 0 && value < count, SIMDBEZIER_BAD_VALUE, path);
+Enum choice(std::int32_t value, Enum last, const Path& path) {
+  require(value >= 0 && value <= static_cast<std::int32_t>(last), SIMDBEZIER_BAD_VALUE, path);
   return static_cast<Enum>(value);
 }
 

@@ -16,9 +16,9 @@ constexpr Path kSet{"set"};
 constexpr Path kLayout{"layout"};
 constexpr Path kOut{"out"};
 
-constexpr std::int32_t kFormats = 6;
+constexpr VertexFormat kLastFormat = VertexFormat::octahedral8;
 static_assert(SIMDBEZIER_FORMAT_OCTAHEDRAL8 == static_cast<int>(VertexFormat::octahedral8));
-static_assert(SIMDBEZIER_FORMAT_OCTAHEDRAL8 == kFormats - 1);
+static_assert(SIMDBEZIER_FORMAT_OCTAHEDRAL8 == static_cast<int>(kLastFormat));
 
 template <typename T>
 MeshOutputs<T> outputs_of(const simdbezier_mesh_outputs* given) {
@@ -87,8 +87,7 @@ FormattedOutputs outputs_of(const simdbezier_formatted_outputs* given) {
       continue;
     }
     require(one.first != nullptr, SIMDBEZIER_NULL_OUTPUT, kOut / name / "first");
-    out.*output = {one.first, one.stride,
-                   choice<VertexFormat>(one.format, kFormats, kOut / name / "format"),
+    out.*output = {one.first, one.stride, choice(one.format, kLastFormat, kOut / name / "format"),
                    one.capacity};
   }
   std::copy_n(known.box.low, 3, out.box.low.begin());
@@ -185,7 +184,7 @@ simdbezier_status simdbezier_split_creases(const simdbezier_patch_set* set,
 }
 
 size_t simdbezier_format_bytes(simdbezier_vertex_format format, size_t components) {
-  return format < 0 || format >= kFormats
+  return format < 0 || format > static_cast<int>(kLastFormat)
              ? 0
              : format_bytes(static_cast<VertexFormat>(format), components);
 }
@@ -195,7 +194,7 @@ simdbezier_status simdbezier_find_quantisation_box(const simdbezier_nets* nets, 
                                                    simdbezier_quantisation_box* box) {
   return answer(__func__, [&] {
     require(box != nullptr, SIMDBEZIER_NULL_OUTPUT, {"box"});
-    const auto as = choice<VertexFormat>(format, kFormats, {"format"});
+    const auto as = choice(format, kLastFormat, {"format"});
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
       QuantisationBox found;
       require_ok(quantisation_box(views, as, found), [&](Status status) -> Path {

@@ -20,12 +20,12 @@
 namespace simdbezier::c_api {
 
 inline constexpr Path kOptions{"options"};
-inline constexpr std::int32_t kIsas = 6;
+inline constexpr Isa kLastIsa = Isa::neon64;
 
-inline Isa isa_of(simdbezier_isa isa, const Path& path) { return choice<Isa>(isa, kIsas, path); }
+inline Isa isa_of(simdbezier_isa isa, const Path& path) { return choice(isa, kLastIsa, path); }
 
 inline Destination destination_of(simdbezier_destination destination) {
-  return choice<Destination>(destination, 3, kOptions / "destination");
+  return choice(destination, Destination::memory, kOptions / "destination");
 }
 
 /// Options, and the instruction set that ran, handed back to the caller.
@@ -71,11 +71,11 @@ inline PackOptions pack_options_of(const simdbezier_pack_options* given) {
 }
 
 inline Weights weights_of(simdbezier_weights weights, const Path& path) {
-  return choice<Weights>(weights, 3, path / "weights");
+  return choice(weights, Weights::homogeneous, path / "weights");
 }
 
 inline Parameters parameters_of(simdbezier_parameters parameters, const Path& path) {
-  return choice<Parameters>(parameters, 2, path / "parameters");
+  return choice(parameters, Parameters::centred, path / "parameters");
 }
 
 /// The address of the first value of nets or curves; memory that is null or too short is refused.

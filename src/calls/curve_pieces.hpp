@@ -11,6 +11,7 @@
 #include "src/exact/tangent_fallback.hpp"
 #include "src/output/delivery.hpp"
 #include "src/runtime/cache_sizes.hpp"
+#include "src/storage/curve_storage.hpp"
 #include "src/tables/curve_table.hpp"
 
 namespace simdbezier::detail {

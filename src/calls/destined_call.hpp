@@ -40,8 +40,7 @@ template <typename T>
   std::size_t values = 0;
   for (std::size_t g = 0; g < out.vector_count; ++g) {
     if (out.wants(g)) {
-      const Vectors<T>& v = *out.vectors[g];
-      values += v.z != nullptr ? 3U : v.y != nullptr ? 2U : 1U;
+      values += dimension_of(*out.vectors[g]);
     }
   }
   return samples * values * sizeof(T);

@@ -44,7 +44,7 @@ public:
       if (to.status != nullptr) {
         std::fill_n(to.status, count, SampleStatus::regular);
       }
-      for (std::size_t c = 0; c < kCurvatures; ++c) {
+      for (std::size_t c = 0; c < kCurvatureKinds; ++c) {
         to.curvature[c] = outputs_.out().curvature_at(c, first);
       }
       executed = evaluator.run({samples_.patch.data() + first, samples_.u.data() + first,

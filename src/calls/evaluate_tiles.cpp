@@ -60,7 +60,7 @@ public:
     const std::size_t values = vector_values(format_.outputs, dimension_);
     const std::size_t bytes =
         (format_.outputs.holds(Output::status) ? whole_lines(samples_) : 0) +
-        (format_.outputs.holds(Output::curvature) ? kCurvatures * taken(samples_) : 0);
+        (format_.outputs.holds(Output::curvature) ? kCurvatureKinds * taken(samples_) : 0);
     switch (format_.layout) {
     case TileLayout::planes:
       return bytes + values * taken(samples_);
@@ -99,7 +99,7 @@ public:
       take(memory, at, member * samples_);
     }
     if (format_.outputs.holds(Output::curvature)) {
-      for (std::size_t k = 0; k < kCurvatures; ++k) {
+      for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
         out.curvature[static_cast<Curvature>(k)] = take(memory, at, samples_);
       }
     }
@@ -211,7 +211,7 @@ public:
     const std::size_t dimension = request_.components.dimension;
     const bool curvature = format_.outputs.holds(Output::curvature);
     const std::size_t values =
-        vector_values(format_.outputs, dimension) + (curvature ? kCurvatures : 0);
+        vector_values(format_.outputs, dimension) + (curvature ? kCurvatureKinds : 0);
     if (values == 0) {
       return Status::null_output;
     }

@@ -76,6 +76,16 @@ private:
   static constexpr OutputSelection kSecondOrder = outputs_of(BicubicKernel::second_order);
 };
 
+/// Whether kernels are to ask for patches before their turn, because the second-level cache has no
+/// room for what they read of all. edges: whether they read these as well, which single samples
+/// seldom do.
+template <typename T>
+[[nodiscard]] bool pays_to_prefetch(const PatchStorage<T>& bucket, bool edges) noexcept {
+  const NetShape& shape = bucket.shape;
+  const std::size_t values = shape.coefficients() + (edges ? shape.edges() : 0);
+  return bucket.count > second_level_cache() / (values * sizeof(T));
+}
+
 /// The kernels of one call.
 template <typename T>
 struct PatchKernels {

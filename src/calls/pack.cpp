@@ -160,7 +160,7 @@ bool PatchSet<T>::has_local_origins() const noexcept {
 template <typename T, typename S>
 PackReport pack(std::span<const ControlNets<S>> nets, PatchSet<T>& set,
                 const PackOptions& options) noexcept try {
-  PackReport report = detail::check_nets(nets);
+  PackReport report = detail::check_packable(nets);
   if (!report) {
     return report;
   }

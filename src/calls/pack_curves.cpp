@@ -12,6 +12,7 @@
 #include "src/calls/pack_request.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/dispatch.hpp"
+#include "src/storage/curve_storage.hpp"
 #include "src/storage/net_faults.hpp"
 #include "src/tables/curve_table.hpp"
 

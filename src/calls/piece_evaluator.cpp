@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "src/exact/normal_fallback.hpp"
-#include "src/runtime/cache_sizes.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -68,13 +67,12 @@ void PieceEvaluator<T>::fill(Prepared& prepared, const PatchStorage<T>& set,
   for (std::size_t g = 0; g < kVectorOutputs; ++g) {
     task.out[g] = to.planes[g];
   }
-  std::copy_n(to.curvature, kCurvatures, task.curvature);
+  std::copy_n(to.curvature, kCurvatureKinds, task.curvature);
   task.first_component = kernels_.first_component;
   task.status = to.status;
   task.patch_step = (piece.last_row - piece.first_row) * plan.nu();
   task.resolve_normal = resolve_normal<T>;
-  task.prefetch =
-      set.count * (set.shape.coefficients() + set.shape.edges()) * sizeof(T) > second_level_cache();
+  task.prefetch = pays_to_prefetch(set, true);
   task.streaming = to.streaming;
   task.by_lines = kernels_.by_lines;
   task.plain_to_memory = kernels_.plain_to_memory;

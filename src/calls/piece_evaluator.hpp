@@ -32,20 +32,20 @@ public:
 
   /// The memory that a piece goes to: planes that begin with its first sample.
   struct Target {
-    const Planes<T>* planes = nullptr; ///< of every vector output
-    SampleStatus* status = nullptr;    ///< may be null
-    T* curvature[kCurvatures] = {};    ///< may be null
-    DrainQueue<T>* drain = nullptr;    ///< may be null
-    bool streaming = false;            ///< see OutputPlan::put_directly()
-    const Planes<T>* next = nullptr;   ///< with a drain: the planes of the piece after this one
-    std::size_t record = 1;            ///< see GridTask
+    const Planes<T>* planes = nullptr;  ///< of every vector output
+    SampleStatus* status = nullptr;     ///< may be null
+    T* curvature[kCurvatureKinds] = {}; ///< may be null
+    DrainQueue<T>* drain = nullptr;     ///< may be null
+    bool streaming = false;             ///< see OutputPlan::put_directly()
+    const Planes<T>* next = nullptr;    ///< with a drain: the planes of the piece after this one
+    std::size_t record = 1;             ///< see GridTask
 
     /// The piece whose first sample has the caller's index `sample`.
     Target(const OutputPlan<T>& outputs, Delivery<T>& delivery, std::size_t sample) noexcept
         : planes(delivery.begin(sample)), status(outputs.out().status_at(sample)),
           drain(delivery.queue()), streaming(outputs.streaming() && !outputs.staged()),
           next(delivery.next()), record(outputs.record()) {
-      for (std::size_t k = 0; k < kCurvatures; ++k) {
+      for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
         curvature[k] = outputs.out().curvature_at(k, sample);
       }
     }

@@ -8,7 +8,6 @@
 #include "src/calls/sample_pieces.hpp"
 #include "src/exact/normal_fallback.hpp"
 #include "src/runtime/batch.hpp"
-#include "src/runtime/cache_sizes.hpp"
 
 namespace simdbezier::detail {
 
@@ -28,8 +27,8 @@ struct SamplePiece {
 template <typename T>
 struct SampleTarget {
   const Planes<T>* planes;
-  SampleStatus* status = nullptr; ///< may be null; `regular` beforehand
-  T* curvature[kCurvatures] = {}; ///< may be null
+  SampleStatus* status = nullptr;     ///< may be null; `regular` beforehand
+  T* curvature[kCurvatureKinds] = {}; ///< may be null
 };
 
 template <typename T>
@@ -87,7 +86,7 @@ private:
     set_half_centring(piece.parameters, task);
     task.count = piece.count;
     task.patches_known = piece.known;
-    task.prefetch = patches.count > second_level_cache() / (kCoefficients * sizeof(T));
+    task.prefetch = pays_to_prefetch(patches, false);
     task.resolve_normal = resolve_normal<T>;
     task.watertight = kernels_.watertight;
     for (std::size_t g = 0; g < kVectorOutputs; ++g) {
@@ -96,7 +95,7 @@ private:
         task.out[g].component[c] = plane == nullptr ? nullptr : plane + at;
       }
     }
-    for (std::size_t c = 0; c < kCurvatures; ++c) {
+    for (std::size_t c = 0; c < kCurvatureKinds; ++c) {
       task.curvature[c] = to.curvature[c] == nullptr ? nullptr : to.curvature[c] + at;
     }
     task.first_component = kernels_.first_component;

@@ -90,7 +90,7 @@ void place_patches(std::span<const PackRun> runs, SetStorage<T>& storage) {
 } // namespace
 
 template <typename S>
-PackReport check_nets(std::span<const ControlNets<S>> nets) noexcept {
+PackReport check_packable(std::span<const ControlNets<S>> nets) noexcept {
   std::size_t patch = 0;
   if (!nets.empty() && nets.data() == nullptr) {
     return {Status::null_input, 0};
@@ -139,8 +139,8 @@ Status lay_out(std::span<const ControlNets<S>> nets, const PackOptions& options,
   return Status::ok;
 }
 
-template PackReport check_nets(std::span<const ControlNets<float>>) noexcept;
-template PackReport check_nets(std::span<const ControlNets<double>>) noexcept;
+template PackReport check_packable(std::span<const ControlNets<float>>) noexcept;
+template PackReport check_packable(std::span<const ControlNets<double>>) noexcept;
 template Status lay_out(std::span<const ControlNets<float>>, const PackOptions&, SetStorage<float>&,
                         std::vector<PackRun>&);
 template Status lay_out(std::span<const ControlNets<double>>, const PackOptions&,

@@ -135,7 +135,7 @@ Status check_input(const ControlNets<S>& nets) noexcept {
 
 template <typename S>
 Status check_views(std::span<const ControlNets<S>> nets) noexcept {
-  if (nets.data() == nullptr && !nets.empty()) {
+  if (is_missing(nets)) {
     return Status::null_input;
   }
   std::size_t patches = 0;

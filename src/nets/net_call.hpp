@@ -36,6 +36,12 @@ Status check_in_space(const ControlNets<S>& nets) noexcept {
   return status == Status::ok && nets.components != 3 ? Status::bad_components : status;
 }
 
+/// Whether there is no list of views, although it is said to have some.
+template <typename S>
+constexpr bool is_missing(std::span<const ControlNets<S>> nets) noexcept {
+  return nets.data() == nullptr && !nets.empty();
+}
+
 /// Whether all views can be read, and their patches be counted: as check_input(), and null_input
 /// where there is no list of views, or size_overflow.
 template <typename S>

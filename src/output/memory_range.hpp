@@ -9,7 +9,7 @@ namespace simdbezier::detail {
 
 struct MemoryRange {
   const void* begin = nullptr;
-  std::size_t bytes = 0; ///< 0 where begin is null: nothing meets it
+  std::size_t bytes = 0; ///< 0 where begin is null
 
   constexpr MemoryRange() noexcept = default;
   constexpr MemoryRange(const void* first, std::size_t size) noexcept
@@ -18,10 +18,11 @@ struct MemoryRange {
   constexpr MemoryRange(std::span<const T> values) noexcept // NOLINT: implicit on purpose
       : MemoryRange(values.data(), values.size_bytes()) {}
 
+  /// Whether both have a byte in common. Nothing meets a range of no bytes, wherever it begins.
   [[nodiscard]] bool meets(const MemoryRange& other) const noexcept {
     const auto a = reinterpret_cast<std::uintptr_t>(begin);
     const auto b = reinterpret_cast<std::uintptr_t>(other.begin);
-    return a < b + other.bytes && b < a + bytes;
+    return a < b + other.bytes && b < a + bytes && bytes > 0 && other.bytes > 0;
   }
 };
 

@@ -22,7 +22,7 @@ struct Column {
 
 template <typename T>
 struct Columns {
-  Column<T> column[kMostMembers + kCurvatures]; ///< the first `count` of them are written
+  Column<T> column[kMostMembers + kCurvatureKinds]; ///< the first `count` of them are written
   std::size_t count = 0;
 
   void add(T* first, std::ptrdiff_t stride, std::size_t samples) noexcept {
@@ -53,7 +53,7 @@ bool collide(const Column<T>& a, const Column<T>& b) noexcept {
   return bytes % kSize != 0 || bytes / kSize % a.stride == 0;
 }
 
-/// Whether the members of records lie side by side, nearer to each other than the next record is.
+/// Whether the members of a record lie side by side, and the next record begins among them.
 template <typename T>
 bool records_overlap(const Vectors<T>& group, std::size_t dimension) noexcept {
   const bool side_by_side =

@@ -15,8 +15,6 @@
 
 namespace simdbezier::detail {
 
-static_assert(kCurvatures == kCurvatureKinds);
-
 /// Calls f(0) … f(kCount - 1), without a loop, so that what is known of each number is known at
 /// compile time: small calls feel loops.
 template <std::size_t kCount, typename F>
@@ -25,19 +23,25 @@ constexpr void for_numbers(const F& f) noexcept {
   call(std::make_index_sequence<kCount>());
 }
 
+/// The components of a checked vector.
+template <typename T>
+[[nodiscard]] std::size_t dimension_of(const Vectors<T>& vectors) noexcept {
+  return vectors.z != nullptr ? 3 : vectors.y != nullptr ? 2 : 1;
+}
+
 /// References to the caller's Outputs or CurveOutputs, which must live as long.
 template <typename T>
 struct OutputList {
   const Vectors<T>* vectors[kVectorOutputs]; ///< numbered as Output or as CurveOutput
   std::size_t vector_count;
-  const Values<T>* curvature[kCurvatures]; ///< in the order of the tasks
+  const Values<T>* curvature[kCurvatureKinds]; ///< in the order of the tasks
   std::size_t curvature_count;
   const Values<SampleStatus>* status; ///< may be null
 
   explicit OutputList(const Outputs<T>& out) noexcept
-      : vector_count(kVectorOutputs), curvature_count(kCurvatures), status(&out.status) {
+      : vector_count(kVectorOutputs), curvature_count(kCurvatureKinds), status(&out.status) {
     for_numbers<kVectorOutputs>([&](std::size_t k) { vectors[k] = &out[static_cast<Output>(k)]; });
-    for_numbers<kCurvatures>(
+    for_numbers<kCurvatureKinds>(
         [&](std::size_t k) { curvature[k] = &out.curvature[static_cast<Curvature>(k)]; });
     note_wishes();
   }
@@ -57,7 +61,7 @@ struct OutputList {
     }
     note_wishes();
   }
-  /// Vectors alone, without those that are null.
+  /// One vector, or two where `second` is not null.
   OutputList(const Vectors<T>* first, const Vectors<T>* second) noexcept
       : vectors{first, second}, vector_count(second == nullptr ? 1 : 2), curvature{},
         curvature_count(0), status(nullptr) {

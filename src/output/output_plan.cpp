@@ -17,11 +17,6 @@ struct StagedColumn {
   std::size_t plane;
 };
 
-template <typename T>
-std::size_t dimension_of(const Vectors<T>& group) noexcept {
-  return group.z != nullptr ? 3 : group.y != nullptr ? 2 : 1;
-}
-
 } // namespace
 
 template <typename T>

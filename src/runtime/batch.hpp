@@ -9,14 +9,14 @@
 #include <simdbezier/options.hpp>
 #include <simdbezier/status.hpp>
 
-#include "src/storage/patch_storage.hpp"
+#include "src/storage/aligned_memory.hpp"
 
 namespace simdbezier::detail {
 
 /// Bytes rounded up to whole cache lines.
 constexpr std::size_t whole_lines(std::size_t bytes) noexcept { return (bytes + 63) / 64 * 64; }
 
-/// The duration of work of which nothing is known but that all threads are wanted.
+/// The duration of work that may take any time: it is given to as many threads as there may be.
 inline constexpr std::size_t kLongDuration = ~std::size_t(0);
 
 /// About how long one thread works on `pieces`, in nanoseconds. This is an estimate for

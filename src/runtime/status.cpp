@@ -18,7 +18,7 @@ std::string_view to_string(Status status) noexcept {
   case Status::unequal_lengths:
     return "arrays that belong together have different lengths";
   case Status::bad_degree:
-    return "a degree is below 1 or above 15";
+    return "a degree is below 1 or above 15, or an order below 0 or above 15";
   case Status::bad_components:
     return "the components are not 1 to 16, differ, or an output needs exactly three";
   case Status::bad_weight:

@@ -8,7 +8,7 @@ namespace simdbezier::detail {
 /// of a parallel region.
 int default_threads() noexcept;
 
-/// More than these gain nothing, and the system may refuse them.
+/// The most threads that a call is given: more gain nothing, and the system may refuse them.
 int most_threads() noexcept;
 
 /// A borrowed callable `void(int worker, int workers) noexcept`.

@@ -10,8 +10,8 @@ namespace simdbezier::detail {
 int default_threads() noexcept { return omp_in_parallel() != 0 ? 1 : omp_get_max_threads(); }
 
 int most_threads() noexcept {
-  // The runtime ends the process when the system refuses it a thread. Asked once: the answer takes
-  // a system call.
+  // The runtime ends the process when the system refuses it a thread. Its numbers take a system
+  // call, so that it is asked once.
   static const int most = std::max({16, 2 * omp_get_num_procs(), omp_get_max_threads()});
   return most;
 }

@@ -32,10 +32,10 @@ constexpr std::size_t whole_blocks(std::size_t values) { return (values + 15) / 
 ///   origins         [patch][cell][channel][8], see kOriginBlock
 ///   given points    [patch][j][i][channel], see given_points.hpp
 /// Cells: lower v first, then lower u. Channels: the components, then the weight. For bicubic
-/// patches in space these are exactly the constants of patch_storage.hpp.
+/// patches in space these are exactly the constants of bicubic_layout.hpp.
 struct NetShape {
   int degree_u = 3;
-  int degree_v = 3; ///< 0 for curves, which have corners only in their edge blocks
+  int degree_v = 3;
   int components = 3;
   bool rational = false;
 

@@ -3,7 +3,7 @@
 
 #include <simdbezier/curves.hpp>
 
-#include "src/storage/curve_storage.hpp"
+#include "src/storage/curve_shape.hpp"
 #include "src/tables/kernel_table.hpp"
 
 namespace simdbezier {

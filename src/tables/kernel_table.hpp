@@ -31,9 +31,6 @@ struct Planes {
   [[nodiscard]] bool wanted() const noexcept { return component[0] != nullptr; }
 };
 
-/// The curvatures, in the order of Curvatures.
-inline constexpr std::size_t kCurvatures = 4;
-
 /// A sample whose |du x dv|^2 did not pass the quick test.
 template <typename T>
 struct NormalQuery {
@@ -72,9 +69,9 @@ struct DrainQueue;
 template <typename T>
 struct SampleTask : PatchArrays<T> {
   Planes<T> out[kVectorOutputs];
-  T* curvature[kCurvatures];   ///< null where not wanted; read by the kernels of any shape only
-  std::size_t first_component; ///< the component that goes to component[0]; likewise
-  SampleStatus* status;        ///< may be null; `regular` beforehand, changed where a sample is not
+  T* curvature[kCurvatureKinds]; ///< null where not wanted; read by the kernels of any shape only
+  std::size_t first_component;   ///< the component that goes to component[0]; likewise
+  SampleStatus* status; ///< may be null; `regular` beforehand, changed where a sample is not
   ResolveNormal<T> resolve_normal;
   bool watertight; ///< edges come from their own control points
   bool prefetch;   ///< the set does not fit the second-level cache

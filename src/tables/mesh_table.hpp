@@ -11,7 +11,7 @@ struct EdgeJob {
   /// One of the sides that the edge consists of.
   struct Member {
     std::size_t patch;
-    std::size_t side; ///< as in src/storage/patch_storage.hpp: v = 0, v = 1, u = 0, u = 1
+    std::size_t side; ///< as in src/storage/bicubic_layout.hpp: v = 0, v = 1, u = 0, u = 1
     T direction;      ///< 1, or -1 where the side runs against the edge
     T sign;           ///< of its normals
   };

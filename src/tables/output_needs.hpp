@@ -19,7 +19,7 @@ constexpr OutputSelection outputs_where(const Is& is) noexcept {
   }
   return all;
 }
-/// Returns the outputs that are made of derivatives up to an order.
+/// Returns the outputs whose highest derivatives are of that order, and not those of lower ones.
 consteval OutputSelection outputs_of_order(int order) noexcept {
   return outputs_where([order](Output output) { return derivative_order(output) == order; });
 }

@@ -5,6 +5,10 @@
 
 namespace simdbezier::detail {
 
+/// A step from one uniform parameter to the next may be longer than the exact one by so much, since
+/// parameters are rounded, which matters in single precision.
+inline constexpr double kStepRounding = 4 * 0x1p-24;
+
 /// Rates of a patch that the kernel leaves to PatchBound: its numbers are too large or too small,
 /// no tolerance is left, or the kernel has found no cells that keep it.
 inline constexpr std::uint32_t kUndecided = 0xffffffff;

@@ -206,6 +206,29 @@ TEST(CMeshesOfBadInput, AreMadeWhereNothingIsWrong) {
   MeshWorld world;
   EXPECT_C_OK(world.certify(world.numbers, 2));
   EXPECT_C_OK(world.certify_grids(kMostGridCells, 1));
+  auto fault = sized<simdbezier_fault>();
+  ASSERT_EQ(simdbezier_last_fault(&fault), SIMDBEZIER_OK);
+  EXPECT_EQ(fault.point, 0);
+}
+
+// These calls find the patch, but not the control point.
+TEST(CMeshesOfBadInput, AreFoundByPatch) {
+  const Refusal<MeshWorld> calls[] = {
+      {SIMDBEZIER_NON_FINITE_INPUT, "", [](MeshWorld& w) { return w.certify_grids(2, 2); }},
+      {SIMDBEZIER_NON_FINITE_INPUT, "", [](MeshWorld& w) { return w.certify(w.numbers, 2); }},
+      {SIMDBEZIER_NON_FINITE_INPUT, "", [](MeshWorld& w) { return w.plan(); }},
+      {SIMDBEZIER_NON_FINITE_INPUT, "", [](MeshWorld& w) { return w.tessellate(); }}};
+  for (const Refusal<MeshWorld>& refused : calls) {
+    MeshWorld world;
+    world.values[50] = kNan;
+    EXPECT_EQ(refused.call(world), refused.status);
+    auto fault = sized<simdbezier_fault>();
+    ASSERT_EQ(simdbezier_last_fault(&fault), SIMDBEZIER_OK);
+    EXPECT_EQ(fault.patch, 1U) << fault.function;
+    EXPECT_EQ(fault.point, -1) << fault.function;
+    EXPECT_EQ(std::string(simdbezier_last_message()).find("(patch"), std::string::npos)
+        << simdbezier_last_message();
+  }
 }
 
 } // namespace

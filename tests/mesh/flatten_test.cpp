@@ -165,6 +165,9 @@ TEST(FlattenSizes, bad_input_is_a_status) {
   EXPECT_EQ(choose_polylines(curve.curves(), {0.1}, std::span(points).first(1), {}).status,
             Status::unequal_lengths);
   EXPECT_EQ(status({0.1, std::span(errors).first(1)}), Status::unequal_lengths);
+  FlattenOptions endless{1e-13}; // so many points would take minutes
+  endless.most_points = 0xffffffff;
+  EXPECT_EQ(choose_polylines(curve.curves(), endless, points, {}).status, Status::bad_tolerance);
   ControlCurves<double> none = curve.curves();
   none.points = nullptr;
   EXPECT_EQ(choose_polylines(none, {0.1}, points, {}).status, Status::null_input);

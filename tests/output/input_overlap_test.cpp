@@ -51,6 +51,15 @@ TEST(OverlapWithInputs, Samples) {
   expect_status(kRefused, status_on_u, run_samples);
 }
 
+TEST(OverlapWithInputs, EmptyOnesMeetNothing) {
+  constexpr std::uint32_t kSides[kPatches] = {kSide, kSide, kSide};
+  Arena arena;
+  Outputs<float> out;
+  out.duv = V::planes(arena.at(0), arena.at(N), arena.at(2 * N));
+  const auto* const inside = reinterpret_cast<const std::size_t*>(arena.at(10));
+  EXPECT_EQ(evaluate(patches(), PatchGrids{kSides, kSides, {inside, 0}}, out), Status::ok);
+}
+
 TEST(OverlapWithInputs, SizesAndOffsetsOfPatchGrids) {
   constexpr std::uint32_t kSides[kPatches] = {kSide, kSide, kSide};
   constexpr std::size_t kOffsets[kPatches] = {0, kSide * kSide, 2 * kSide * kSide};

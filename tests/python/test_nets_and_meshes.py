@@ -112,6 +112,7 @@ def test_options_of_a_mesh():
     assert simdbezier.tessellate(points, relative=1e-3).deviation <= 1e-3 * math.sqrt(3)
     flipped = simdbezier.tessellate(points, grid=5, flip=True)
     np.testing.assert_array_equal(flipped.normals, -few.normals)
+    assert simdbezier.tessellate(points, longest_edge=0.5).triangles.size > 0
     several = simdbezier.tessellate(points, tolerance=[1e-2, 1e-2, 1e-2, 1e-4])
     assert several.deviations[3] <= 1e-4 < several.deviations[0]
     assert repr(few).startswith('<simdbezier.Mesh: 81 vertices, 128 triangles, within ')

@@ -35,7 +35,7 @@ constexpr CommandText kCommandTexts[] = {
      "simdbezier info model.rib --json\n"}};
 
 constexpr std::string_view kExitCodes =
-    "Exit codes: 0 done, 1 bad input or failed write, 2 bad usage.\n";
+    "Exit codes: 0 done, 1 bad input, bad number or failed write, 2 other bad usage.\n";
 constexpr std::string_view kEnvironment =
     " in the environment overrides the\n"
     "choice of instruction set, SIMDBEZIER_DESTINATION=memory|cache whether large\n"

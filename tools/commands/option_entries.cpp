@@ -95,7 +95,7 @@ Entries make_entries() {
        "2v-1, which results call centred_u and centred_v",
        " evaluate "},
       {"--outputs", "LIST", output_names() + " separated by commas",
-       "Columns (default position); they come in the order of this list, curvature as four "
+       "Columns (default position); they come in the order named here, curvature as four "
        "(gaussian, mean, smaller and larger principal)",
        " evaluate "},
       {"--precision", "TYPE", "f32 or f64",

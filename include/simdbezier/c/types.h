@@ -56,7 +56,7 @@ SIMDBEZIER_API const char* simdbezier_status_text(simdbezier_status status);
 typedef struct simdbezier_fault {
   size_t struct_size;
   simdbezier_status status;
-  int32_t point;        // control point at fault, j*(degree_u+1)+i; -1: none, an option is
+  int32_t point;        // control point at fault, j*(degree_u+1)+i; -1: none, or not known
   int32_t component;    // its component; the number of components for a weight
   size_t patch;         // the patch or curve at fault, where control points are
   const char* function; // "simdbezier_pack"

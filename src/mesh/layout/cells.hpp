@@ -214,7 +214,10 @@ public:
   }
 
 private:
-  enum SideNumber : std::size_t { kV0, kV1, kU0, kU1 };
+  static constexpr auto kV0 = static_cast<std::size_t>(PatchEdge::v0);
+  static constexpr auto kV1 = static_cast<std::size_t>(PatchEdge::v1);
+  static constexpr auto kU0 = static_cast<std::size_t>(PatchEdge::u0);
+  static constexpr auto kU1 = static_cast<std::size_t>(PatchEdge::u1);
 
   /// The vertex of point (i, j).
   [[nodiscard]] std::uint32_t vertex(std::uint32_t i, std::uint32_t j) const {

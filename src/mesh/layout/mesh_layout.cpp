@@ -51,17 +51,11 @@ void count_entangled(const TopologyData& topology, MeshData& mesh) {
 std::size_t boundary_samples(const TopologyData& topology, const MeshData& mesh,
                              std::size_t patch) {
   std::size_t samples = 0;
-  for (std::size_t k = kPatchCorners * patch; k < kPatchCorners * (patch + 1); ++k) {
-    if (topology.corners[k] == k) {
-      topology.for_joined(k, [&](auto) { ++samples; });
-    }
-  }
-  for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
-    if (topology.owns_edge(side)) {
-      const std::uint32_t edge = topology.sides[side].edge();
-      samples += topology.sides_of(edge).size() * (mesh.segments[edge] - 1);
-    }
-  }
+  topology.for_owned(
+      patch, [&](std::uint32_t lowest) { topology.for_joined(lowest, [&](auto) { ++samples; }); },
+      [&](std::uint32_t edge) {
+        samples += topology.sides_of(edge).size() * (mesh.segments[edge] - 1);
+      });
   return samples;
 }
 

@@ -24,8 +24,8 @@ public:
   Index* write(IndexStream<Index>& stream, Index* to) const {
     to = stream.make_room(border_row<false>(to));
     const std::uint32_t last = nu_ - 1;
-    SideCells<SideNumber::u0, Index, kTurned> u0(u0_, inner(1, 1), last);
-    SideCells<SideNumber::u1, Index, kTurned> u1(u1_, inner(last, 1), last);
+    SideCells<PatchEdge::u0, Index, kTurned> u0(u0_, inner(1, 1), last);
+    SideCells<PatchEdge::u1, Index, kTurned> u1(u1_, inner(last, 1), last);
     std::uint32_t base = inner(0, 1);
     for_inner_rows(patterns_, [&](std::uint32_t j, const Index* pattern, std::uint32_t falling) {
       Writer out(to);
@@ -49,7 +49,7 @@ private:
     const std::uint64_t row = zones_.falling_row(j);
     Writer out(to);
     corner_cell<false, kHigh>((row & 1) != 0, out);
-    SideCells<kHigh ? SideNumber::v1 : SideNumber::v0, Index, kTurned> cells(
+    SideCells<kHigh ? PatchEdge::v1 : PatchEdge::v0, Index, kTurned> cells(
         kHigh ? v1_ : v0_, inner(1, kHigh ? j : 1), 1);
     for (std::uint32_t i = 1; i < last; ++i) {
       cells.put(i, (row >> i & 1) != 0, out);

@@ -6,10 +6,8 @@
 
 namespace simdbezier::detail {
 
-enum class SideNumber { v0, v1, u0, u1 };
-
 /// Cells of side kSide but those in the patch's corners.
-template <SideNumber kSide, typename Index, bool kTurned>
+template <PatchEdge kSide, typename Index, bool kTurned>
 class SideCells {
 public:
   /// From inner vertex `inner` on, with `step` to the next one.
@@ -21,8 +19,8 @@ public:
   void put(std::uint32_t k, bool falling, FanWriter<Index, kTurned>& out) {
     const std::uint32_t n = counts_[k];
     const Rung<Index> next = rung_.after(n, descending_, inner_step_);
-    constexpr bool kHigh = kSide == SideNumber::v1 || kSide == SideNumber::u1;
-    constexpr bool kRunsInU = kSide == SideNumber::v0 || kSide == SideNumber::v1;
+    constexpr bool kHigh = kSide == PatchEdge::v1 || kSide == PatchEdge::u1;
+    constexpr bool kRunsInU = kSide == PatchEdge::v0 || kSide == PatchEdge::v1;
     // The fan is in the half that has its right angle at the side; halves come in the order of
     // CellCutter.
     falling ? put_between<kRunsInU, !kHigh, !kHigh>(next, n, out)

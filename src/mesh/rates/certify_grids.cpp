@@ -55,6 +55,9 @@ template <typename S>
 RateReport certify_grids(std::span<const ControlNets<S>> nets, std::uint32_t nu, std::uint32_t nv,
                          std::span<const double> errors, std::span<double> deviation,
                          const Options& options) noexcept {
+  if (detail::is_missing(nets)) {
+    return {Status::null_input};
+  }
   const std::size_t patches = detail::patches_of(nets);
   const auto is_rate = [](std::uint32_t n) { return n >= 1 && n <= kMostGridCells; };
   if (!is_rate(nu) || !is_rate(nv) || deviation.size() != patches ||

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "src/tables/rate_task.hpp"
+
 namespace simdbezier::detail {
 
 /// The larger of two bounds; infinity where one of them is no number, because comparisons with nan
@@ -32,7 +34,11 @@ inline double triangle_bound(double a, double b, double c) {
 }
 
 /// Parameters of samples are rounded: one of n steps may be longer than 1/n by this factor.
-inline double step_slack(double n) { return 1 + 4 * 0x1p-24 * n; }
+inline double step_slack(double n) { return 1 + kStepRounding * n; }
+
+/// What vertices that are off by `error` leave of a tolerance: less one rounding, so that bound and
+/// error together stay below what was wanted.
+inline double tolerance_less(double wanted, double error) { return wanted * (1 - 0x1p-51) - error; }
 
 /// Bounds on second derivatives over a part of a patch, by parameters of the whole patch.
 struct SecondBounds {

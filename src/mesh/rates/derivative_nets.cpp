@@ -68,6 +68,21 @@ void raise_once(VectorNet& net, bool in_u) {
   ++(in_u ? net.columns : net.rows);
 }
 
+/// The control point in space that begins at `values`, and its weight; false where one of them is
+/// not finite, or the weight not positive.
+template <typename S>
+bool read_point(const ControlNets<S>& nets, const S* values, ControlVector& to) {
+  const std::ptrdiff_t step = nets.component_stride;
+  to.x[3] = nets.weights == Weights::none ? 1 : static_cast<double>(values[3 * step]);
+  const double divisor = nets.weights == Weights::homogeneous ? to.x[3] : 1;
+  bool finite = to.x[3] > 0 && std::isfinite(to.x[3]);
+  for (std::ptrdiff_t c = 0; c < 3; ++c) {
+    to.x[c] = static_cast<double>(values[c * step]) / divisor;
+    finite = finite && std::isfinite(to.x[c]);
+  }
+  return finite;
+}
+
 } // namespace
 
 void HullBox::include(const VectorNet& net) {
@@ -100,21 +115,6 @@ Hull HullBox::hull() const {
   hull.radius = std::sqrt(square) * kRounding;
   hull.smallest_weight = smallest_weight_ / kRounding;
   return hull;
-}
-
-/// The control point in space that begins at `values`, and its weight; false where one of them is
-/// not finite, or the weight not positive.
-template <typename S>
-bool read_point(const ControlNets<S>& nets, const S* values, ControlVector& to) {
-  const std::ptrdiff_t step = nets.component_stride;
-  to.x[3] = nets.weights == Weights::none ? 1 : static_cast<double>(values[3 * step]);
-  const double divisor = nets.weights == Weights::homogeneous ? to.x[3] : 1;
-  bool finite = to.x[3] > 0 && std::isfinite(to.x[3]);
-  for (std::ptrdiff_t c = 0; c < 3; ++c) {
-    to.x[c] = static_cast<double>(values[c * step]) / divisor;
-    finite = finite && std::isfinite(to.x[c]);
-  }
-  return finite;
 }
 
 template <typename S>

@@ -159,11 +159,11 @@ Status choose_points(const ControlCurves<S>& curves, const FlattenOptions& optio
   }
   const double wanted = options.tolerances.empty() ? options.tolerance : options.tolerances[curve];
   const double error = options.errors.empty() ? 0 : options.errors[curve];
-  // Less one rounding, so that bound and error together stay below what was wanted.
-  const double t = wanted * (1 - 0x1p-51) - error;
+  const double t = tolerance_less(wanted, error);
   const double second = bound.second();
   const bool possible = t > 0 && error >= 0;
-  const std::uint32_t count = possible ? points_for(second, t, options.most_points) : 0;
+  const std::uint32_t most = std::min(options.most_points, kMostPolylinePoints);
+  const std::uint32_t count = possible ? points_for(second, t, most) : 0;
   if (count == 0) {
     return Status::bad_tolerance;
   }

@@ -74,6 +74,9 @@ Status pixel_tolerances(std::span<const ControlNets<S>> nets, const Camera& came
   if (!camera_view.is_sound() || !detail::is_positive(pixels)) {
     return Status::bad_tolerance;
   }
+  if (detail::is_missing(nets)) {
+    return Status::null_input;
+  }
   for (const ControlNets<S>& view : nets) {
     if (const Status status = detail::check_in_space(view); !status) {
       return status;

@@ -145,9 +145,8 @@ private:
   [[nodiscard]] double wanted(std::size_t patch) const {
     return options_.tolerances.empty() ? options_.tolerance : options_.tolerances[patch];
   }
-  /// Less one rounding, so that bound and error together stay below what was wanted.
   [[nodiscard]] double tolerance(std::size_t patch) const {
-    return wanted(patch) * (1 - 0x1p-51) - error(patch);
+    return tolerance_less(wanted(patch), error(patch));
   }
 
   void put(std::size_t patch, const CellCounts& cells) {

@@ -15,6 +15,9 @@ namespace {
 template <typename S>
 RateReport check(std::span<const ControlNets<S>> nets, const Topology& topology,
                  std::span<const double> errors, const CertifiedRates& out) noexcept {
+  if (is_missing(nets)) {
+    return {Status::null_input};
+  }
   std::size_t patches = 0;
   for (const ControlNets<S>& view : nets) {
     if (const Status status = check_in_space(view); !status) {

@@ -11,7 +11,7 @@ namespace simdbezier {
 template <typename S>
 Status find_distinct_nets(std::span<const ControlNets<S>> nets, const Topology& topology,
                           DistinctNets<S>& distinct) noexcept try {
-  if (nets.data() == nullptr && !nets.empty()) {
+  if (detail::is_missing(nets)) {
     return Status::null_input;
   }
   if (detail::patches_of(nets) != topology.counts().patches) {

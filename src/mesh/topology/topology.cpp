@@ -92,6 +92,9 @@ Status check(std::span<const ControlNets<S>> nets, const TopologyOptions& option
   if (!(options.point_size >= 0) || !(options.snap >= 0)) {
     return Status::bad_tolerance;
   }
+  if (is_missing(nets)) {
+    return Status::null_input;
+  }
   std::size_t patches = 0;
   for (const ControlNets<S>& view : nets) {
     if (view.components != 3) {
@@ -136,8 +139,7 @@ TopologyCounts Topology::counts() const noexcept {
 }
 
 bool Topology::is_turned(std::size_t patch) const noexcept {
-  return data_ != nullptr && patch < data_->patches() &&
-         (data_->flags[patch] & detail::kTurned) != 0;
+  return data_ != nullptr && patch < data_->patches() && data_->is_turned(patch);
 }
 
 bool Topology::is_repeated(std::size_t patch) const noexcept {

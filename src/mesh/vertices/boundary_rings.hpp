@@ -38,11 +38,11 @@ public:
     if (block == nullptr) {
       return false;
     }
-    const Place from = runs_in_u(side) ? row(patch, side % 2) : column(patch, side % 2);
+    const std::size_t from = runs_in_u(side) ? row(patch, side % 2) : column(patch, side % 2);
     const std::size_t step = runs_in_u(side) ? 1 : 2;
     const std::size_t points = mesh_.rate(side) - 1;
     for (std::size_t p = 0; p < planes_; ++p) {
-      const T* const values = block->values + p * plane_values_ + from.first + (step == 1 ? 1 : 0);
+      const T* const values = block->values + p * plane_values_ + from + (step == 1 ? 1 : 0);
       copy(values, step, points, reversed, plane(position, normal, p) + at);
     }
     return true;
@@ -56,7 +56,7 @@ public:
       return false;
     }
     const std::size_t from =
-        row(patch, corner % kPatchCorners / 2).first + (corner % 2 != 0 ? mesh_.nu[patch] : 0);
+        row(patch, corner % kPatchCorners / 2) + (corner % 2 != 0 ? mesh_.nu[patch] : 0);
     for (std::size_t p = 0; p < planes_; ++p) {
       plane(position, normal, p)[at] = block->values[p * plane_values_ + from];
     }
@@ -74,9 +74,6 @@ private:
     bool usable = false;
     T* values = nullptr;
   };
-  struct Place {
-    std::size_t first; ///< of a plane
-  };
 
   static std::uint32_t most_rate(const MeshData& mesh) noexcept {
     return std::min(kMost, mesh.most_rate());
@@ -85,11 +82,12 @@ private:
   static std::size_t plane_values(std::size_t rate) noexcept {
     return kBlockPatches * 2 * (rate + 1 + rate - 1);
   }
-  [[nodiscard]] Place row(std::size_t patch, std::size_t end) const noexcept {
-    return {(patch % kBlockPatches * 2 + end) * (mesh_.nu[patch] + 1)};
+  /// Where a row begins in a plane, or a column, whose points are two values apart.
+  [[nodiscard]] std::size_t row(std::size_t patch, std::size_t end) const noexcept {
+    return (patch % kBlockPatches * 2 + end) * (mesh_.nu[patch] + 1);
   }
-  [[nodiscard]] Place column(std::size_t patch, std::size_t end) const noexcept {
-    return {columns_at(patch) + patch % kBlockPatches * 2 * (mesh_.nv[patch] - 1) + end};
+  [[nodiscard]] std::size_t column(std::size_t patch, std::size_t end) const noexcept {
+    return columns_at(patch) + patch % kBlockPatches * 2 * (mesh_.nv[patch] - 1) + end;
   }
   [[nodiscard]] std::size_t columns_at(std::size_t patch) const noexcept {
     return kBlockPatches * 2 * (mesh_.nu[patch] + 1);

@@ -176,6 +176,9 @@ Status quantisation_box(std::span<const ControlNets<S>> nets, VertexFormat forma
   if (format != VertexFormat::unorm16 && format != VertexFormat::snorm16) {
     return Status::bad_tolerance;
   }
+  if (detail::is_missing(nets)) {
+    return Status::null_input;
+  }
   const detail::DefaultFpEnvironment environment;
   detail::PointBox points;
   bool finite = true;

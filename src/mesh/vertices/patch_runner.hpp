@@ -11,7 +11,6 @@
 #include "src/calls/kernel_choice.hpp"
 #include "src/exact/normal_fallback.hpp"
 #include "src/mesh/topology/topology_data.hpp"
-#include "src/runtime/cache_sizes.hpp"
 
 namespace simdbezier::detail {
 
@@ -136,23 +135,15 @@ public:
 private:
   void aim(SampleTask<T>& task, const PatchPlace& place, const PieceTarget<T>& to) noexcept {
     const PatchStorage<T>& bucket = kernels_.set->buckets[place.bucket];
-    const NetShape& shape = bucket.shape;
     if (bucket_ != &bucket) {
       bucket_ = &bucket;
-      const std::size_t bytes = (shape.coefficients() + shape.edges()) * sizeof(T);
-      prefetch_ = bucket.count > second_level_cache() / bytes;
+      prefetch_ = pays_to_prefetch(bucket, true);
     }
+    static_cast<PatchArrays<T>&>(task) = bucket.arrays(place.index);
     task.first_component = kernels_.first_component;
     task.resolve_normal = resolve_normal<T>;
     task.watertight = kernels_.watertight;
-    task.shape = &shape;
     task.prefetch = prefetch_;
-    task.coefficients = bucket.coefficients + place.index * shape.coefficients();
-    task.edges = bucket.edges + place.index * shape.edges();
-    task.given = bucket.given.from(place.index * shape.control_values());
-    task.origins =
-        bucket.origins == nullptr ? nullptr : bucket.origins + place.index * shape.origins();
-    task.normal_floor = bucket.normal_floor + place.index * shape.floors();
     task.out[output_index(Output::position)] = to.position;
     task.out[output_index(Output::normal)] = to.normal;
   }

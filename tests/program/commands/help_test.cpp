@@ -40,13 +40,14 @@ TEST(Help, HasExamplesRangesDefaultsAndExitCodes) {
         "at most 4097 a direction in one mesh without gaps", "a device or pipe needs --to"}},
       {"evaluate",
        {"position, du, dv, duu, duv, dvv, normal, curvature", "(default position)",
-        "they come in the order of this list", "patch,x,y with x = 2u-1",
+        "they come in the order named here", "patch,x,y with x = 2u-1",
         "Samples of every patch (default 16): N or", "may be a device or pipe"}},
       {"info", {"--json", "bez, bpt, bv, itd, obj or rib"}}};
   for (const auto& [command, parts] : cases) {
     std::string help = help_of(command);
     EXPECT_NE(help.find("Examples:\n  simdbezier " + command), std::string::npos) << help;
-    EXPECT_NE(help.find("Exit codes: 0 done, 1 bad input or failed write, 2 bad usage"),
+    EXPECT_NE(help.find("Exit codes: 0 done, 1 bad input, bad number or failed write, 2 other bad "
+                        "usage.\n"),
               std::string::npos);
     for (std::size_t at = help.find("\n                        "); at != std::string::npos;
          at = help.find("\n                        ")) {
