@@ -46,9 +46,7 @@ struct MeshStages {
     options.tolerance = tolerance;
     options.threads = how.threads;
     options.isa = how.isa;
-    const auto nets_of = views();
-    return simdbezier::choose_rates(std::span<const simdbezier::ControlNets<T>>(&nets_of, 1),
-                                    topology, options, {nu, nv, diagonals, deviations})
+    return simdbezier::choose_rates(views(), topology, options, {nu, nv, diagonals, deviations})
         .status;
   }
   Status lay_out(const Options& how) {

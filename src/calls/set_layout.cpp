@@ -92,7 +92,7 @@ void place_patches(std::span<const PackRun> runs, SetStorage<T>& storage) {
 template <typename S>
 PackReport check_packable(std::span<const ControlNets<S>> nets) noexcept {
   std::size_t patch = 0;
-  if (!nets.empty() && nets.data() == nullptr) {
+  if (is_missing(nets)) {
     return {Status::null_input, 0};
   }
   for (const ControlNets<S>& entry : nets) {

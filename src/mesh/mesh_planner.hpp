@@ -62,12 +62,13 @@ private:
     how.threads = options_.threads;
     Status status = find_topology(given_, plan_.topology, how);
     plan_.counts = plan_.topology.counts();
-    if (status && plan_.counts.repeated_patches > 0 && options_.drop_repeated) {
+    const bool drops = options_.drop_repeated && plan_.counts.repeated_patches > 0;
+    if (status && drops) {
       status = find_distinct_nets(given_, plan_.topology, distinct_);
       nets_ = distinct_.nets;
       plan_.patches = std::move(distinct_.patches);
     }
-    if (status && options_.drop_repeated) {
+    if (status && (drops || how.orient != options_.orient)) {
       how.orient = options_.orient;
       status = find_topology(nets_, plan_.topology, how);
     }

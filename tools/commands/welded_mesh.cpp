@@ -91,10 +91,11 @@ void WeldedMesh<T>::join() {
   const MeshArguments& mesh = arguments_.mesh;
   find_edges(mesh.orient && !mesh.drop_repeated);
   const std::size_t repeated = topology_.counts().repeated_patches;
-  if (mesh.drop_repeated) {
-    if (repeated > 0) {
-      leave_out_repeated();
-    }
+  const bool drops = mesh.drop_repeated && repeated > 0;
+  if (drops) {
+    leave_out_repeated();
+  }
+  if (drops || (mesh.drop_repeated && mesh.orient)) {
     find_edges(mesh.orient);
   }
   stats_.joined = topology_.counts();
