@@ -1,22 +1,17 @@
 // Compiled once per instruction set: kernels for operations on control nets.
 #include "kernels/nets/casteljau.hpp"
+#include "kernels/nets/group_bounds.hpp"
 #include "kernels/nets/net_boxes.hpp"
 #include "kernels/nets/net_flatness.hpp"
 #include "kernels/nets/net_maps.hpp"
 #include "kernels/nets/net_rates.hpp"
-#include "kernels/nets/vector_sizes.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 template <typename T>
 constexpr detail::NetTable<T> make_net_table() {
-  return {split_kernel<T>,
-          segment_kernel<T>,
-          map_kernel<T>,
-          box_kernel<T>,
-          flatness_kernel<T>,
-          rate_kernel<T>,
-          {largest_kernel, diagonal_kernel}};
+  return {split_kernel<T>,    segment_kernel<T>, map_kernel<T>, box_kernel<T>,
+          flatness_kernel<T>, rate_kernel<T>,    kBoundKernels};
 }
 
 extern const detail::NetTable<float> net_table_f32;

@@ -1,59 +1,18 @@
 // How far the triangles of cells may be from bicubic patches: lanes are patches. The bound is that
-// of src/mesh/rates/patch_bound.hpp; docs/tessellation.md has the proof.
+// of group_bounds.hpp; docs/tessellation.md has the proof.
 #pragma once
 
 #include <cstddef>
 #include <limits>
 
 #include "kernels/nets/quarter_nets.hpp"
+#include "kernels/nets/triangle_terms.hpp"
+#include "kernels/nets/whole_numbers.hpp"
 #include "kernels/simd/lanes.hpp"
 #include "kernels/simd/repeat.hpp"
 #include "src/tables/rate_task.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
-
-/// The largest whole number that is not above x, for 0 <= x below 2^22.
-template <typename V>
-SIMDBEZIER_INLINE V whole_part(V x) {
-  using T = ScalarOf<V>;
-  const V magic = broadcast<V>(static_cast<T>(T(1) / std::numeric_limits<T>::epsilon()));
-  const V nearest = (x + magic) - magic;
-  return select_where<V>(nearest > x, nearest - broadcast<V>(T(1)), nearest);
-}
-/// The smallest whole number that is not below x.
-template <typename V>
-SIMDBEZIER_INLINE V whole_above(V x) {
-  const V below = whole_part<V>(x);
-  return select_where<V>(below < x, below + broadcast<V>(ScalarOf<V>(1)), below);
-}
-
-/// Three edge terms of a triangle in order, and how far the largest one is above the sum of the
-/// others. Where one of them is far smaller than the rest, differences of their products would have
-/// few correct digits; differences of neighbours keep theirs.
-template <typename V>
-struct SortedTerms {
-  V least;
-  V middle;
-  V largest;
-  V excess;
-
-  SIMDBEZIER_INLINE SortedTerms(V a, V c, V d) {
-    const V low = smaller_of<V>(a, c);
-    const V high = larger_of<V>(a, c);
-    least = smaller_of<V>(low, d);
-    middle = larger_of<V>(low, smaller_of<V>(high, d));
-    largest = larger_of<V>(high, d);
-    excess = (largest - middle) - least;
-  }
-  [[nodiscard]] SIMDBEZIER_INLINE MaskOf<V> obtuse() const {
-    return excess >= broadcast<V>(ScalarOf<V>(0));
-  }
-  /// Returns twice the products of two terms, less the squares.
-  [[nodiscard]] SIMDBEZIER_INLINE V divisor() const {
-    const V product = (least + least) * (middle + middle);
-    return product - excess * excess;
-  }
-};
 
 /// Returns the largest value of sum l_i l_j q_ij / 2 over a triangle, for three squared edge terms.
 template <typename V>

@@ -6,8 +6,8 @@
 // memory that the base code provides.
 #pragma once
 
+#include "src/tables/bound_task.hpp"
 #include "src/tables/kernel_table.hpp"
-#include "src/tables/vector_sizes.hpp"
 
 namespace simdbezier::detail {
 
@@ -121,7 +121,7 @@ struct FlatnessTask {
 };
 
 /// The rates of bicubic polynomial patches are in src/tables/rate_task.hpp, and what those of
-/// others need in src/tables/vector_sizes.hpp.
+/// others need in src/tables/bound_task.hpp.
 template <typename T>
 struct RateTask;
 
@@ -138,7 +138,7 @@ struct NetTable {
   NetKernel<BoxTask<T>> boxes;
   NetKernel<FlatnessTask<T>> flatness;
   NetKernel<RateTask<T>> rates;
-  SizeKernels sizes; ///< in double, whatever T is
+  BoundKernels bounds; ///< in double, whatever T is
 };
 
 } // namespace simdbezier::detail

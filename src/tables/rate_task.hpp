@@ -9,7 +9,7 @@ namespace simdbezier::detail {
 /// parameters are rounded, which matters in single precision.
 inline constexpr double kStepRounding = 4 * 0x1p-24;
 
-/// Rates of a patch that the kernel leaves to PatchBound: its numbers are too large or too small,
+/// Rates of a patch that the kernel leaves to GroupBound: its numbers are too large or too small,
 /// no tolerance is left, or the kernel has found no cells that keep it.
 inline constexpr std::uint32_t kUndecided = 0xffffffff;
 

@@ -1,5 +1,6 @@
-// Bounds of patches that are not bicubic polynomials: kernels measure their control vectors, and
-// every instruction set has to give the same bounds, bit for bit.
+// Bounds of patches that are not bicubic polynomials: kernels bound some patches at once, each in a
+// lane. Every instruction set has to give the same bounds, bit for bit, and no patch may depend on
+// those in the other lanes.
 #include <array>
 #include <cmath>
 #include <random>
@@ -13,7 +14,8 @@
 namespace simdbezier::tests::rate_kernels_test {
 namespace {
 
-enum class Side { usual, point }; ///< what side v = 0 is
+/// What side v = 0 is: `mixed` is a point in every other patch.
+enum class Side { usual, point, mixed };
 
 struct Kind {
   int degree_u;
@@ -22,7 +24,8 @@ struct Kind {
   Side side = Side::usual;
 };
 
-/// Registers of vectors are full, nearly so, or alone; the last kinds have forced diagonals.
+/// The last kinds have forced diagonals, without which bicubic polynomials are not bounded by these
+/// kernels.
 constexpr Kind kKinds[] = {
     {1, 1, Weights::none},
     {2, 2, Weights::none},
@@ -36,11 +39,12 @@ constexpr Kind kKinds[] = {
     {5, 4, Weights::homogeneous},
     {15, 2, Weights::cartesian},
     {3, 3, Weights::none, Side::point},
-    {3, 3, Weights::cartesian, Side::point},
-    {4, 2, Weights::none, Side::point},
+    {3, 3, Weights::cartesian, Side::mixed},
+    {4, 2, Weights::none, Side::mixed},
 };
 
-constexpr std::size_t kPatches = 6;
+/// A group of the widest registers and a part of one, and full and partial ones of others.
+constexpr std::size_t kPatches = 11;
 
 template <typename S>
 class Model {
@@ -51,7 +55,8 @@ public:
     for (std::size_t patch = 0; patch < kPatches; ++patch) {
       for (int j = 0; j <= kind.degree_v; ++j) {
         for (int i = 0; i <= kind.degree_u; ++i) {
-          const bool tip = j == 0 && kind.side == Side::point;
+          const bool tip =
+              j == 0 && (kind.side == Side::point || (kind.side == Side::mixed && patch % 2 == 0));
           const double u = tip ? 0 : 1.0 * i / kind.degree_u;
           const double v = 1.0 * j / kind.degree_v;
           const double w = 1 + (tip ? 0 : 5 * noise(random));
@@ -72,6 +77,12 @@ public:
     return ControlNets<S>::packed(std::span<const S>(values_), kind_.degree_u, kind_.degree_v, 3,
                                   kind_.weights);
   }
+  [[nodiscard]] ControlNets<S> net(std::size_t patch) const {
+    ControlNets<S> one = nets();
+    one.points += static_cast<std::ptrdiff_t>(patch) * one.patch_stride;
+    one.count = 1;
+    return one;
+  }
   [[nodiscard]] std::vector<S>& values() { return values_; }
 
 private:
@@ -80,10 +91,13 @@ private:
 };
 
 struct Rated {
-  std::vector<std::uint32_t> nu = std::vector<std::uint32_t>(kPatches, 3);
-  std::vector<std::uint32_t> nv = std::vector<std::uint32_t>(kPatches, 4);
-  std::vector<std::uint16_t> diagonals = std::vector<std::uint16_t>(kPatches);
-  std::vector<double> deviation = std::vector<double>(kPatches);
+  std::vector<std::uint32_t> nu;
+  std::vector<std::uint32_t> nv;
+  std::vector<std::uint16_t> diagonals;
+  std::vector<double> deviation;
+
+  explicit Rated(std::size_t patches = kPatches)
+      : nu(patches, 3), nv(patches, 4), diagonals(patches), deviation(patches) {}
 
   [[nodiscard]] CertifiedRates out() { return {nu, nv, diagonals, deviation}; }
   friend bool operator==(const Rated&, const Rated&) = default;
@@ -131,6 +145,82 @@ void expect_equal_bounds() {
 TEST(RateKernels, bounds_are_equal_on_all_instruction_sets) {
   expect_equal_bounds<float>();
   expect_equal_bounds<double>();
+}
+
+/// What patches of a set are asked for: tolerances of all sizes side by side, so that lanes end
+/// their searches at different times.
+struct Wishes {
+  const char* name;
+  double longest_edge = kUnlimited;
+  double normal_angle = kUnlimited;
+};
+constexpr Wishes kWishes[] = {{"tolerances"}, {"edges", 0.07}, {"angles", kUnlimited, 0.1}};
+
+double tolerance_of(std::size_t patch) {
+  constexpr double kTolerances[] = {0.1, 1e-4, 0.003, 10, 0.02};
+  return kTolerances[patch % std::size(kTolerances)];
+}
+
+template <typename S>
+void expect_no_dependence(const Model<S>& model, const Wishes& wishes, Isa isa) {
+  std::vector<double> tolerances;
+  for (std::size_t patch = 0; patch < kPatches; ++patch) {
+    tolerances.push_back(tolerance_of(patch));
+  }
+  RateOptions options;
+  options.longest_edge = wishes.longest_edge;
+  options.normal_angle = wishes.normal_angle;
+  options.isa = isa;
+  const auto choose = [&](const ControlNets<S>& nets, std::span<const double> wanted) {
+    Topology topology;
+    EXPECT_EQ(find_topology(nets, topology), Status::ok);
+    Rated rated(nets.count);
+    options.tolerances = wanted;
+    EXPECT_EQ(choose_rates(nets, topology, options, rated.out()).status, Status::ok);
+    return rated;
+  };
+  const Rated all = choose(model.nets(), tolerances);
+  for (std::size_t patch = 0; patch < kPatches; ++patch) {
+    const Rated alone = choose(model.net(patch), std::span(tolerances).subspan(patch, 1));
+    EXPECT_EQ(all.nu[patch], alone.nu[0]) << patch;
+    EXPECT_EQ(all.nv[patch], alone.nv[0]) << patch;
+    EXPECT_EQ(all.diagonals[patch], alone.diagonals[0]) << patch;
+    EXPECT_EQ(all.deviation[patch], alone.deviation[0]) << patch;
+    EXPECT_LE(all.deviation[patch], tolerances[patch]) << patch;
+  }
+}
+
+TEST(RateKernels, patches_do_not_depend_on_their_group) {
+  for (const Kind& kind : kKinds) {
+    for (const Wishes& wishes : kWishes) {
+      for (const Isa isa : available_isas()) {
+        SCOPED_TRACE(name_of(kind) + ", " + wishes.name + ", " + std::string(to_string(isa)));
+        expect_no_dependence(Model<float>(kind), wishes, isa);
+        expect_no_dependence(Model<double>(kind), wishes, isa);
+      }
+    }
+  }
+}
+
+TEST(RateKernels, a_patch_at_fault_is_named) {
+  // Its quotients are out of range, although its values are not.
+  Model<double> model({2, 2, Weights::homogeneous});
+  constexpr std::size_t kBad = 5;
+  const std::size_t values = model.values().size() / kPatches;
+  model.values()[kBad * values] = 1e300;
+  model.values()[kBad * values + 3] = 1e-300;
+  for (const Isa isa : available_isas()) {
+    SCOPED_TRACE(std::string(to_string(isa)));
+    Topology topology;
+    ASSERT_EQ(find_topology(model.nets(), topology), Status::ok);
+    RateOptions options;
+    options.tolerance = 0.01;
+    options.isa = isa;
+    Rated rated;
+    const RateReport report = choose_rates(model.nets(), topology, options, rated.out());
+    EXPECT_EQ(report.status, Status::non_finite_input);
+    EXPECT_EQ(report.patch, kBad);
+  }
 }
 
 TEST(RateKernels, powers_of_two_scale_bounds) {

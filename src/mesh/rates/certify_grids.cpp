@@ -4,7 +4,7 @@
 #include <atomic>
 #include <new>
 
-#include "src/mesh/rates/patch_bound.hpp"
+#include "src/mesh/rates/group_bound.hpp"
 #include "src/nets/net_call.hpp"
 #include "src/runtime/batch.hpp"
 
@@ -26,12 +26,19 @@ RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::spa
   std::atomic<std::size_t> unreadable = nets.count; // the first patch that is
   auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
     try {
-      PatchBound bound(isa);
-      for (std::size_t patch = begin; patch < end; ++patch) {
-        if (bound.read(nets, patch, 0)) {
-          deviation[patch] += bound.rising_bound(cells);
-        } else { // a quotient of values without faults is out of range
-          lower(unreadable, patch);
+      GroupBound group(isa);
+      for (std::size_t first = begin; first < end; first += group.lanes()) {
+        const std::size_t last = std::min(end, first + group.lanes());
+        group.begin();
+        for (std::size_t patch = first; patch < last; ++patch) {
+          if (!group.read(nets, patch, 0)) { // a quotient of values without faults is out of range
+            lower(unreadable, patch);
+          }
+        }
+        group.form();
+        const auto bounds = group.rising_bounds(cells);
+        for (std::size_t patch = first; patch < last; ++patch) {
+          deviation[patch] += bounds[patch - first];
         }
       }
     } catch (const std::bad_alloc&) {

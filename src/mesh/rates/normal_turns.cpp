@@ -1,4 +1,4 @@
-// See patch_bound.hpp: how far the normals of a control net turn.
+// See group_bound.hpp: how far the normals of a control net turn.
 //
 // In every cell of the net, the cross products of its sides are the normals that the surface would
 // have if each cell were a bilinear patch. The angles between each normal and the next one are
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "src/mesh/net_points.hpp"
-#include "src/mesh/rates/patch_bound.hpp"
+#include "src/mesh/rates/group_bound.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -31,17 +31,18 @@ private:
 
 } // namespace
 
-std::array<double, 2> PatchBound::normal_turns() const {
+std::array<double, 2> GroupBound::normal_turns(std::size_t lane) const {
+  const VectorPatch& patch = patches_[lane];
   const auto difference = [&](std::size_t i, std::size_t j, std::size_t to_i, std::size_t to_j) {
-    const ControlVector& a = patch_.net(i, j);
-    const ControlVector& b = patch_.net(to_i, to_j);
+    const ControlVector& a = patch.net(i, j);
+    const ControlVector& b = patch.net(to_i, to_j);
     Point3 d;
     for (std::size_t c = 0; c < 3; ++c) {
-      d.x[c] = patch_.rational ? b.x[c] / b.x[3] - a.x[c] / a.x[3] : b.x[c] - a.x[c];
+      d.x[c] = patch.rational ? b.x[c] / b.x[3] - a.x[c] / a.x[3] : b.x[c] - a.x[c];
     }
     return d;
   };
-  const std::size_t sizes[2] = {patch_.net.columns, patch_.net.rows};
+  const std::size_t sizes[2] = {patch.net.columns, patch.net.rows};
   std::array<double, 2> turns{};
   for (std::size_t along = 0; along < 2; ++along) {
     // (s, t): s along, t across; that normals of columns point the other way changes no angle.

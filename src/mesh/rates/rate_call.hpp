@@ -1,4 +1,4 @@
-// One call for rates: which patches go to a kernel, and which to PatchBound.
+// One call for rates: which patches go to a kernel, and which to GroupBound.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 #include <simdbezier/rates.hpp>
 
-#include "src/mesh/rates/patch_bound.hpp"
+#include "src/mesh/rates/patch_groups.hpp"
 #include "src/mesh/topology/topology_data.hpp"
 #include "src/nets/net_call.hpp"
 #include "src/tables/rate_task.hpp"
@@ -27,7 +27,7 @@ inline CellCounts at_least(const CellCounts& cells, const std::array<double, 2>&
   return {segments(cells.nu, measured[0]), segments(cells.nv, measured[1])};
 }
 
-/// One call: bicubic polynomial patches go to a kernel, and all that it leaves goes to PatchBound.
+/// One call: bicubic polynomial patches go to a kernel, and all that it leaves goes to GroupBound.
 template <typename S>
 class RateCall {
 public:
@@ -66,20 +66,27 @@ public:
     const auto is_open = [&](std::size_t patch, bool kernel) {
       return !kernel || measures || has_corner(patch) || out_.nu[patch] == kUndecided;
     };
-    const RateReport report =
-        for_patches(is_open, [&](std::size_t patch, const PatchBound& bound) -> Status {
-          const double t = tolerance(patch);
-          if (!(t > 0)) {
-            return Status::bad_tolerance;
-          }
-          CellCounts cells = bound.choose(t, most_);
-          if (measures) {
-            cells = at_least(cells, bound.lengths(), options_.longest_edge);
-            cells = at_least(cells, bound.normal_turns(), options_.normal_angle);
-          }
-          put(patch, cells);
-          return raise_until(patch, bound, t);
+    const RateReport report = for_groups(is_open, [&](const PatchGroup& open) {
+      Lanes<double> t;
+      t.fill(1);
+      open.for_lanes([&](std::size_t lane, std::size_t patch) {
+        const double left = tolerance(patch);
+        left > 0 ? static_cast<void>(t[lane] = left) : open.fail(lane, Status::bad_tolerance);
+      });
+      Lanes<CertifiedCells> chosen = open.bound().choose(t, most_);
+      if (measures) {
+        Lanes<CellCounts> cells;
+        cells.fill({1, 1});
+        open.for_lanes([&](std::size_t lane, std::size_t) {
+          cells[lane] =
+              at_least(chosen[lane].cells, open.bound().lengths(lane), options_.longest_edge);
+          cells[lane] =
+              at_least(cells[lane], open.bound().normal_turns(lane), options_.normal_angle);
         });
+        chosen = open.bound().raise(cells, t, most_);
+      }
+      put_chosen(open, chosen);
+    });
     return report && measures ? certify() : report;
   }
 
@@ -93,11 +100,13 @@ public:
     const auto exceeds = [&](std::size_t patch, bool) {
       return !(deviations_[patch] <= wanted(patch));
     };
-    const RateReport report =
-        for_patches(exceeds, [&](std::size_t patch, const PatchBound& bound) -> Status {
-          any = true;
-          return raise_until(patch, bound, tolerance(patch));
-        });
+    const RateReport report = for_groups(exceeds, [&](const PatchGroup& open) {
+      any = true;
+      Lanes<double> t;
+      t.fill(1);
+      open.for_lanes([&](std::size_t lane, std::size_t patch) { t[lane] = tolerance(patch); });
+      put_chosen(open, open.bound().raise(rates(open), t, most_));
+    });
     changed = any;
     return report;
   }
@@ -115,7 +124,7 @@ public:
   }
 
   /// Forms the certificate of the rates that are there: the kernel's, and where that one is coarser
-  /// than the tolerance by which PatchBound may have chosen them, PatchBound's.
+  /// than the tolerance by which GroupBound may have chosen them, GroupBound's.
   RateReport certify() {
     const RateReport ran = run_kernels(false);
     if (!ran) {
@@ -125,14 +134,16 @@ public:
       return !kernel || has_corner(patch) || deviations_[patch] < 0 ||
              !(deviations_[patch] <= wanted(patch));
     };
-    return for_patches(is_open, [&](std::size_t patch, const PatchBound& bound) -> Status {
-      const CellCounts cells{out_.nu[patch], out_.nv[patch]};
-      certify_patch(patch, bound, cells);
-      return Status::ok;
+    return for_groups(is_open, [&](const PatchGroup& open) {
+      const Lanes<CertifiedCells> certified = open.bound().certify(rates(open));
+      open.for_lanes([&](std::size_t lane, std::size_t patch) { put(patch, certified[lane]); });
     });
   }
 
 private:
+  template <typename Value>
+  using Lanes = GroupBound::Lanes<Value>;
+
   static bool suits_kernel(const ControlNets<S>& nets) {
     return nets.degree_u == 3 && nets.degree_v == 3 && nets.weights == Weights::none;
   }
@@ -149,18 +160,28 @@ private:
     return tolerance_less(wanted(patch), error(patch));
   }
 
-  void put(std::size_t patch, const CellCounts& cells) {
-    out_.nu[patch] = cells.nu;
-    out_.nv[patch] = cells.nv;
+  [[nodiscard]] Lanes<CellCounts> rates(const PatchGroup& open) const {
+    Lanes<CellCounts> cells;
+    cells.fill({1, 1});
+    open.for_lanes([&](std::size_t lane, std::size_t patch) {
+      cells[lane] = {out_.nu[patch], out_.nv[patch]};
+    });
+    return cells;
   }
-  void certify_patch(std::size_t patch, const PatchBound& bound, const CellCounts& cells) {
-    deviations_[patch] = bound.bound(cells, &out_.diagonals[patch]) + error(patch);
+  void put(std::size_t patch, const CertifiedCells& certified) {
+    out_.nu[patch] = certified.cells.nu;
+    out_.nv[patch] = certified.cells.nv;
+    out_.diagonals[patch] = certified.diagonals;
+    deviations_[patch] = certified.bound + error(patch);
   }
-  Status raise_until(std::size_t patch, const PatchBound& bound, double t) {
-    const CellCounts cells = bound.raise({out_.nu[patch], out_.nv[patch]}, t, most_);
-    put(patch, cells);
-    certify_patch(patch, bound, cells);
-    return cells.nu <= most_ && cells.nv <= most_ ? Status::ok : Status::bad_tolerance;
+  void put_chosen(const PatchGroup& open, const Lanes<CertifiedCells>& chosen) {
+    open.for_lanes([&](std::size_t lane, std::size_t patch) {
+      const CellCounts& cells = chosen[lane].cells;
+      put(patch, chosen[lane]);
+      if (cells.nu > most_ || cells.nv > most_) {
+        open.fail(lane, Status::bad_tolerance);
+      }
+    });
   }
 
   RateReport find_faults() const {
@@ -204,10 +225,10 @@ private:
     return {};
   }
 
-  /// Calls visit(patch, bound) for all patches with is_open(patch, whether a kernel has seen it),
-  /// in parallel; the report names the lowest one at fault.
+  /// Calls visit(group) for all patches with is_open(patch, whether a kernel has seen it), in
+  /// parallel; the report names the lowest one at fault.
   template <typename IsOpen, typename Visit>
-  RateReport for_patches(const IsOpen& is_open, const Visit& visit) {
+  RateReport for_groups(const IsOpen& is_open, const Visit& visit) {
     std::size_t first = 0;
     for (const ControlNets<S>& nets : nets_) {
       std::vector<std::uint32_t> open;
@@ -216,24 +237,11 @@ private:
           open.push_back(static_cast<std::uint32_t>(patch));
         }
       }
-      std::vector<Status> found(open.size(), Status::ok);
-      auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
-        try {
-          PatchBound bound(isa_);
-          for (std::size_t k = begin; k < end; ++k) {
-            const std::size_t patch = first + open[k];
-            found[k] = bound.read(nets, open[k], flags_[patch]) ? visit(patch, bound)
-                                                                : Status::non_finite_input;
-          }
-        } catch (const std::bad_alloc&) {
-          found[begin] = Status::out_of_memory;
-        }
-      };
-      divide_work(open.size(), 5000, options_.threads, body);
-      for (std::size_t k = 0; k < open.size(); ++k) {
-        if (found[k] != Status::ok) {
-          return {found[k], first + open[k]};
-        }
+      const RateReport report =
+          visit_groups(nets, open, std::span(flags_).subspan(first), isa_, options_.threads,
+                       [&](const PatchGroup& group) { visit(group.shifted(first)); });
+      if (!report) {
+        return {report.status, first + report.patch};
       }
       first += nets.count;
     }

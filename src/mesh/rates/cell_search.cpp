@@ -1,0 +1,289 @@
+// See group_bound.hpp: the fewest cells whose bound is at most a tolerance.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+
+#include "src/mesh/rates/group_bound.hpp"
+
+namespace simdbezier::detail {
+namespace {
+
+bool is_fewer(const CellCounts& a, const CellCounts& b) {
+  return a.product() < b.product() || (a.product() == b.product() && a.nu < b.nu);
+}
+
+/// What one patch has tried and will try: candidates in the order of their cells, so that the first
+/// that holds is the best one, and cells that are raised until they hold. These are tried only
+/// where none of fewer cells holds: they may not where a corner's diagonal is forced, which Filip's
+/// bound does not know of.
+class CellTrials {
+public:
+  CellTrials() = default;
+  /// The cells to be raised, and no candidates.
+  CellTrials(const CellCounts& to_raise, std::uint32_t most) : most_(most), best_(to_raise) {
+    move_on();
+  }
+  /// With candidates near a pair of rates.
+  CellTrials(const CellCounts& to_raise, const CellCounts& centre, std::uint32_t most)
+      : most_(most), best_(to_raise), count_(std::size(candidates_)) {
+    const auto near_centre = [&](std::uint32_t n, std::int64_t step) {
+      return static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::int64_t{n} + step, 1, most));
+    };
+    std::uint64_t keys[16]; // the order of is_fewer()
+    for (std::int64_t k = 0; k < 16; ++k) {
+      const std::uint64_t nu = near_centre(centre.nu, k / 4 - 1);
+      const std::uint64_t nv = near_centre(centre.nv, k % 4 - 1);
+      keys[k] = nu * nv << 32 | nu << 16 | nv;
+    }
+    std::sort(std::begin(keys), std::end(keys));
+    for (std::size_t k = 0; k < 16; ++k) {
+      candidates_[k] = {static_cast<std::uint32_t>(keys[k] >> 16 & 0xffff),
+                        static_cast<std::uint32_t>(keys[k] & 0xffff)};
+    }
+    move_on();
+  }
+
+  [[nodiscard]] bool done() const { return done_; }
+  /// The cells to be looked at, or the result.
+  [[nodiscard]] const CellCounts& cells() const { return result_.cells; }
+  [[nodiscard]] const CertifiedCells& result() const { return result_; }
+
+  /// The cells do not hold.
+  void reject() {
+    if (!raising_) {
+      ++next_;
+      move_on();
+    } else if (result_.cells.nu == most_ && result_.cells.nv == most_) {
+      take_raised(uncertified({most_ + 1, most_ + 1}));
+    } else {
+      result_.cells = {std::min(most_, result_.cells.nu + 1),
+                       std::min(most_, result_.cells.nv + 1)};
+    }
+  }
+  void accept(double bound, std::uint16_t diagonals) {
+    const CertifiedCells certified{result_.cells, bound, diagonals};
+    if (raising_) {
+      take_raised(certified);
+    } else {
+      finish(certified);
+    }
+  }
+
+private:
+  void take_raised(const CertifiedCells& certified) {
+    raised_ = certified;
+    best_ = certified.cells;
+    raising_ = false;
+    has_raised_ = true;
+    move_on();
+  }
+  void finish(const CertifiedCells& certified) {
+    result_ = certified;
+    done_ = true;
+  }
+  /// Goes on to the next candidate, to raising, or to the end.
+  void move_on() {
+    const bool is_candidate = next_ < count_ && is_fewer(candidates_[next_], best_);
+    if (is_candidate && (!has_raised_ || best_.nu <= most_)) {
+      result_ = uncertified(candidates_[next_]);
+    } else if (has_raised_) {
+      finish(raised_);
+    } else if (best_.nu > most_ || best_.nv > most_) {
+      take_raised(uncertified(best_));
+    } else {
+      raising_ = true;
+      result_ = uncertified(best_);
+    }
+  }
+
+  std::uint32_t most_ = 0;
+  CellCounts best_{}; ///< to be raised, or raised
+  CellCounts candidates_[16];
+  std::size_t count_ = 0;
+  std::size_t next_ = 0;
+  bool raising_ = false;
+  bool has_raised_ = false;
+  bool done_ = false;
+  CertifiedCells raised_{};
+  CertifiedCells result_{};
+};
+
+} // namespace
+
+/// The trials of all lanes side by side. Most cells that do not hold are found by a few vectors,
+/// those that lead where an even pair of rates was looked at. Lanes whose cells pass wait for the
+/// others, so that all vectors are looked at for all lanes at once.
+class GroupBound::Search {
+public:
+  /// has_leading: whether leading vectors have been found.
+  Search(const GroupBound& group, const Lanes<double>& t, bool has_leading)
+      : group_(group), t_(t), first_phase_(has_leading ? 0 : kLastPhase) {}
+
+  [[nodiscard]] Lanes<CertifiedCells> run(Lanes<CellTrials>& trials) const {
+    Lanes<std::size_t> phases;
+    phases.fill(first_phase_);
+    for (;;) {
+      std::size_t phase = kLastPhase + 1;
+      for (std::size_t lane = 0; lane < group_.count_; ++lane) {
+        phase = trials[lane].done() ? phase : std::min(phase, phases[lane]);
+      }
+      if (phase > kLastPhase) {
+        break;
+      }
+      LaneSet lanes = 0;
+      for (std::size_t lane = 0; lane < group_.count_; ++lane) {
+        lanes |= !trials[lane].done() && phases[lane] == phase ? 1U << lane : 0;
+      }
+      look_in(phase, lanes, phases, trials);
+    }
+    Lanes<CertifiedCells> results;
+    for (std::size_t lane = 0; lane < group_.count_; ++lane) {
+      results[lane] = trials[lane].result();
+    }
+    return results;
+  }
+
+private:
+  static constexpr std::size_t kLastPhase = 2;
+  /// Zones across the middle take far longer than those of quarters where there are weights.
+  [[nodiscard]] unsigned zones_in(std::size_t phase) const {
+    return !group_.group_.rational || phase == kLastPhase ? kAllZones
+           : phase == 0                                   ? kQuarterZones
+                                                          : kAllZones & ~kQuarterZones;
+  }
+  [[nodiscard]] std::size_t after(std::size_t phase) const {
+    return group_.group_.rational ? phase + 1 : kLastPhase;
+  }
+  /// What a bound by leading vectors may be above the one by all of them, because of roundings.
+  static constexpr double kLeadingRounding = 1 - 1e-9;
+
+  void look_in(std::size_t phase, LaneSet lanes, Lanes<std::size_t>& phases,
+               Lanes<CellTrials>& trials) const {
+    const bool last = phase == kLastPhase;
+    Lanes<CellCounts> cells;
+    cells.fill({2, 2}); // zones that no lane has are left out
+    for (std::size_t lane = 0; lane < group_.count_; ++lane) {
+      cells[lane] = (lanes >> lane & 1) != 0 ? trials[lane].cells() : cells[lane];
+    }
+    const LaneSegments segments = group_.segments_of(cells);
+    const BoundKernels& kernels = group_.kernels_;
+    CellBounds bounds;
+    (last ? kernels.bound : kernels.leading)(group_.group_, segments, zones_in(phase), bounds);
+    if (last) {
+      group_.include_corners(lanes, segments, bounds);
+    }
+    for (std::size_t lane = 0; lane < group_.count_; ++lane) {
+      if ((lanes >> lane & 1) == 0) {
+        continue;
+      }
+      const double bound = group_.in_space(lane, bounds.bound[lane]);
+      if (!((last ? bound : bound * kLeadingRounding) <= t_[lane])) {
+        trials[lane].reject();
+        phases[lane] = first_phase_;
+      } else if (last) {
+        trials[lane].accept(bound, static_cast<std::uint16_t>(bounds.falling[lane]));
+        phases[lane] = first_phase_;
+      } else {
+        phases[lane] = after(phase);
+      }
+    }
+  }
+
+  const GroupBound& group_;
+  const Lanes<double>& t_;
+  std::size_t first_phase_;
+};
+
+CellCounts GroupBound::filip(std::size_t lane, double tolerance, std::uint32_t most) const {
+  // Derivatives are far below the largest limit: one cell keeps it, and no quotient overflows.
+  constexpr double kLargestLimit = 1e30;
+  const double t = tolerance * patches_[lane].scale.inverse();
+  const double limit =
+      std::min(kLargestLimit, 8 * t * whole_.hull.smallest_weight[lane] /
+                                  (kRounding * step_slack(most) * step_slack(most)));
+  const double a = whole_.largest.uu[lane] + group_.doubt.uu[lane];
+  const double b = whole_.largest.uv[lane] + group_.doubt.uv[lane];
+  const double c = whole_.largest.vv[lane] + group_.doubt.vv[lane];
+  CellCounts best{most + 1, most + 1};
+  const auto up = [&](double n) {
+    return n <= most ? std::max(1U, static_cast<std::uint32_t>(std::ceil(n))) : most + 1;
+  };
+  // The least other rate, with one rate given, for which a/nu^2 + 2 b/(nu nv) + c/nv^2 <= limit.
+  const auto other = [&](double first, double second, std::uint32_t n) {
+    const double left = limit - first / (static_cast<double>(n) * n);
+    const double mixed = b / n;
+    return left > 0 ? up((mixed + std::sqrt(mixed * mixed + second * left)) / left * (1 + 1e-12))
+                    : most + 1;
+  };
+  const auto least = [&](double first, double second) {
+    const double n =
+        std::sqrt(2 * (first + (second > 0 ? b * std::sqrt(first / second) : 0)) / limit);
+    return n < most ? std::max(1U, static_cast<std::uint32_t>(n)) : most;
+  };
+  const auto take = [&](const CellCounts& cells) {
+    const bool fits = cells.nu <= most && cells.nv <= most;
+    best = fits && cells.product() < best.product() ? cells : best;
+  };
+  for (std::uint32_t step = 0; step < 2; ++step) {
+    const std::uint32_t nu = std::min(most, least(a, c) + step);
+    take({nu, other(a, c, nu)});
+    const std::uint32_t nv = std::min(most, least(c, a) + step);
+    take({other(c, a, nv), nv});
+  }
+  if (best.nu > most) { // the best pairs are longer than may be
+    take({most, other(a, c, most)});
+    take({other(c, a, most), most});
+  }
+  return best;
+}
+
+GroupBound::Lanes<CertifiedCells> GroupBound::raise(const Lanes<CellCounts>& cells,
+                                                    const Lanes<double>& t,
+                                                    std::uint32_t most) const {
+  Lanes<CellTrials> trials;
+  for (std::size_t lane = 0; lane < count_; ++lane) {
+    trials[lane] = CellTrials(cells[lane], most);
+  }
+  return Search(*this, t, false).run(trials);
+}
+
+GroupBound::Lanes<CertifiedCells> GroupBound::choose(const Lanes<double>& t,
+                                                     std::uint32_t most) const {
+  // Rates near those that the bound of an even pair, in proportion to the tolerance, asks for.
+  Lanes<CellCounts> best;
+  Lanes<CellCounts> even;
+  best.fill({1, 1});
+  even.fill({1, 1});
+  const auto even_below = [](std::uint32_t n) { return std::max(2U, n & ~1U); };
+  LaneSet beyond = 0;
+  for (std::size_t lane = 0; lane < count_; ++lane) {
+    best[lane] = filip(lane, t[lane], most);
+    if (best[lane].nu > most) { // beyond Filip's bound ours may still hold
+      beyond |= 1U << lane;
+      best[lane] = {most, most};
+    }
+    even[lane] = {even_below(best[lane].nu), even_below(best[lane].nv)};
+  }
+  Lanes<CertifiedCells> at_most{};
+  if (beyond != 0) {
+    at_most = certify(best);
+  }
+  const LaneSegments pairs = segments_of(even);
+  CellBounds bounds;
+  kernels_.lead(group_, pairs, bounds); // even rates have no other zones
+  include_corners(all_lanes(), pairs, bounds);
+  Lanes<CellTrials> trials;
+  for (std::size_t lane = 0; lane < count_; ++lane) {
+    if ((beyond >> lane & 1) != 0 && !(at_most[lane].bound <= t[lane])) {
+      trials[lane] = CellTrials({most + 1, most + 1}, most);
+      continue;
+    }
+    const double scale = std::min(1.0, std::sqrt(in_space(lane, bounds.bound[lane]) / t[lane]));
+    const auto scaled = [&](std::uint32_t n) { return static_cast<std::uint32_t>(n * scale); };
+    trials[lane] = CellTrials(best[lane], {scaled(even[lane].nu), scaled(even[lane].nv)}, most);
+  }
+  return Search(*this, t, true).run(trials);
+}
+
+} // namespace simdbezier::detail
