@@ -37,6 +37,12 @@ std::vector<Triangle> triangles_of(const MeshLayout& layout) {
   return triangles;
 }
 
+struct Rates {
+  std::uint32_t most;
+  bool strips = false; ///< whether half of the patches have one row or column of cells
+};
+constexpr Rates kRates[] = {{1}, {3}, {9}, {40}, {12, true}, {63, true}};
+
 std::vector<Case> cases() {
   std::vector<Case> result;
   std::mt19937 random(7);
@@ -49,18 +55,22 @@ std::vector<Case> cases() {
     EXPECT_EQ(find_topology(ControlNets<double>::packed(values.data(), model.patches.size(), 3, 3),
                             topology, options),
               Status::ok);
-    for (const unsigned most : {1U, 3U, 9U, 40U}) {
+    for (const auto& [most, strips] : kRates) {
       std::vector<std::uint32_t> nu;
       std::vector<std::uint32_t> nv;
       std::vector<std::uint16_t> diagonals;
       for (std::size_t p = 0; p < model.patches.size(); ++p) {
         nu.push_back(1 + static_cast<std::uint32_t>(random() % most));
         nv.push_back(1 + static_cast<std::uint32_t>(random() % most));
+        if (strips && p % 2 == 0) {
+          (random() % 2 == 0 ? nu : nv).back() = 1;
+        }
         diagonals.push_back(static_cast<std::uint16_t>(random() % 512));
       }
       std::size_t raised = 0;
       EXPECT_EQ(separate_vertices(topology, nu, nv, raised), Status::ok);
-      Case one{model.name + ", rates to " + std::to_string(most), {}, {}};
+      Case one{
+          model.name + ", rates to " + std::to_string(most) + (strips ? ", strips" : ""), {}, {}};
       EXPECT_EQ(lay_out_mesh(topology, {nu, nv, diagonals}, one.layout), Status::ok);
       one.triangles = triangles_of(one.layout);
       result.push_back(one);

@@ -32,8 +32,8 @@ private:
 /// bound on its distance from the surface than the whole half (docs/tessellation.md).
 ///
 /// x, y: counter-clockwise around the corner.
-template <typename Sink>
-void cut_half(const Leg& x, const Leg& y, Sink& sink) {
+template <typename AnyLeg, typename Sink>
+void cut_half(const AnyLeg& x, const AnyLeg& y, Sink& sink) {
   const auto put = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (a != b && b != c && a != c) {
       sink.triangle(a, b, c);

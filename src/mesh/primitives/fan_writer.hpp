@@ -6,37 +6,11 @@
 
 #include "src/mesh/layout/cells.hpp"
 #include "src/mesh/primitives/cell_patterns.hpp"
+#include "src/mesh/primitives/linear_leg.hpp"
 #include "src/mesh/primitives/rung.hpp"
 #include "src/mesh/primitives/union_counts.hpp"
 
 namespace simdbezier::detail {
-
-/// A leg of a cell in a corner of the patch, from the corner on.
-struct CornerLeg {
-  std::uint32_t corner;
-  std::uint32_t zero; ///< the number that the corner would have as a point of the row
-  std::uint32_t step;
-  std::uint32_t segments;
-
-  /// The leg's other end.
-  [[nodiscard]] std::uint32_t far() const { return zero + segments * step; }
-};
-
-/// Its vertices one by one.
-class CornerChain {
-public:
-  explicit CornerChain(const CornerLeg& leg) : segments_(leg.segments) {
-    at_[0] = leg.corner;
-    for (std::uint32_t k = 1; k <= segments_; ++k) {
-      at_[k] = leg.zero + k * leg.step;
-    }
-  }
-  [[nodiscard]] Leg leg() const { return Leg({at_, segments_}, false); }
-
-private:
-  std::uint32_t segments_;
-  std::uint32_t at_[2 * UnionCounts::kMost + 1];
-};
 
 /// Writes triangles with room behind them.
 template <typename Index, bool kTurned>
@@ -66,6 +40,15 @@ public:
       Rung<Index>::template put_other<kEndsAtSide>(start, far, to_);
       to_ += 3;
     }
+  }
+  /// n segments of a side around the inner vertex of a rung, which the fan begins at.
+  template <bool kSideFirst>
+  void fan(const Rung<Index>& start, bool descending, std::uint32_t n) {
+    start.template put_fan<kSideFirst, kTurned>(descending, to_);
+    if (n > Rung<Index>::kTogether) [[unlikely]] {
+      put_long_fan<kSideFirst>(start.side(), descending ? ~0U : 1, n, start.inner(), *this);
+    }
+    to_ += std::size_t{3} * n;
   }
   /// The fan of a leg in a corner around the inner vertex, towards the corner.
   template <bool kSideFirst>
@@ -97,14 +80,6 @@ public:
   }
 
 private:
-  template <bool kSideFirst>
-  void fan(const Rung<Index>& start, bool descending, std::uint32_t n) {
-    start.template put_fan<kSideFirst, kTurned>(descending, to_);
-    if (n > Rung<Index>::kTogether) [[unlikely]] {
-      put_long_fan<kSideFirst>(start.side(), descending ? ~0U : 1, n, start.inner(), *this);
-    }
-    to_ += std::size_t{3} * n;
-  }
   /// The triangles behind those in registers. It takes the writer by value, since an object whose
   /// address is known elsewhere stays in memory.
   template <bool kSideFirst>
@@ -120,8 +95,7 @@ private:
   /// It takes itself by value, since an object whose address is known elsewhere stays in memory.
   __attribute__((noinline)) static FanWriter long_corner_half(const CornerLeg& x,
                                                               const CornerLeg& y, FanWriter out) {
-    const CornerChain chains[2] = {CornerChain(x), CornerChain(y)};
-    cut_half(chains[0].leg(), chains[1].leg(), out);
+    cut_half(LinearLeg(x), LinearLeg(y), out);
     return out;
   }
   void put(std::size_t k, std::uint32_t a, std::uint32_t b, std::uint32_t c) const {

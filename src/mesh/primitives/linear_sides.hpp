@@ -1,4 +1,4 @@
-// The sides of usual patches: rates from 2 to 63, and vertices whose numbers follow each other.
+// The sides of usual patches: rates up to 63, and vertices whose numbers follow each other.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,11 @@ struct LinearSide {
   std::uint32_t end[2] = {0, 0};        ///< the corners
   const std::uint8_t* counts = nullptr; ///< segments from each of the patch's points to the next
 
+  /// The vertex of a point that is no corner.
   [[nodiscard]] std::uint32_t at(std::uint32_t place) const noexcept { return zero + place * step; }
+  [[nodiscard]] std::uint32_t vertex(std::uint32_t place) const noexcept {
+    return place == 0 ? end[0] : place == segments ? end[1] : at(place);
+  }
 };
 
 /// The sides of one patch after the other.
@@ -27,7 +31,7 @@ public:
 
   /// False where the patch is not a usual one.
   bool move_to(std::size_t patch) {
-    const auto usual = [](std::uint32_t rate) { return rate >= 2 && rate <= UnionCounts::kMost; };
+    const auto usual = [](std::uint32_t rate) { return rate <= UnionCounts::kMost; };
     const std::uint32_t nu = mesh_.nu[patch];
     const std::uint32_t nv = mesh_.nv[patch];
     return usual(nu) && usual(nv) && read<0>(patch, nu) && read<1>(patch, nu) &&
@@ -36,13 +40,14 @@ public:
   [[nodiscard]] const LinearSide& operator[](std::size_t side) const { return sides_[side]; }
 
 private:
-  /// Whether two sides that meet are one edge: cells between them have vertices twice.
+  /// Whether two sides with cells between them are one edge: these cells have vertices twice.
   [[nodiscard]] bool is_folded(std::size_t patch) const {
     const Side* const side = &topology_.sides[kPatchEdges * patch];
     const auto same = [&](std::size_t a, std::size_t b) {
       return side[a].edge() == side[b].edge();
     };
-    return same(0, 2) || same(0, 3) || same(1, 2) || same(1, 3);
+    return same(0, 2) || same(0, 3) || same(1, 2) || same(1, 3) ||
+           (mesh_.nv[patch] == 1 && same(0, 1)) || (mesh_.nu[patch] == 1 && same(2, 3));
   }
   /// Reads side k. It is compiled for each, so that the compiler knows where things are.
   template <std::size_t k>

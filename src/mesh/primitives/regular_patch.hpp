@@ -1,5 +1,6 @@
-// The triangles of usual patches: rates from 2 to 63, and sides whose vertices follow each other.
-// The order is that of CellCutter, which cuts all other patches, and the cells in their corners.
+// The triangles of usual patches (see linear_sides.hpp) with two rows and columns of cells at
+// least. The order is that of CellCutter, which cuts all other patches, and the cells in their
+// corners.
 //
 // Cells need no look-ups and few branches: inner cells are written in registers, and so are those
 // at a side, up to four triangles of a fan before it is known how many there are. What follows

@@ -1,4 +1,4 @@
-// What a usual patch consists of: rates from 2 to 63, and sides whose vertices follow each other.
+// What a usual patch of two rows and columns of cells at least consists of.
 #pragma once
 
 #include "src/mesh/primitives/linear_sides.hpp"
