@@ -41,7 +41,7 @@ struct Rates {
   std::uint32_t most;
   bool strips = false; ///< whether half of the patches have one row or column of cells
 };
-constexpr Rates kRates[] = {{1}, {3}, {9}, {40}, {12, true}, {63, true}};
+constexpr Rates kRates[] = {{1}, {3}, {9}, {40}, {12, true}, {63, true}, {300, true}};
 
 std::vector<Case> cases() {
   std::vector<Case> result;

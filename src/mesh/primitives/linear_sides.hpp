@@ -1,4 +1,6 @@
-// The sides of usual patches: rates up to 63, and vertices whose numbers follow each other.
+// The sides of usual patches, whose vertices have numbers that follow each other. Rates are up to
+// 63, or any where there is a single row or column of cells, whose sides have up to 63 segments
+// each.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +16,11 @@ struct LinearSide {
   std::uint32_t zero = 0; ///< the number that point 0 would have if it were not a corner
   std::uint32_t step = 0; ///< 1 or -1
   std::uint32_t segments = 0;
-  std::uint32_t end[2] = {0, 0};        ///< the corners
-  const std::uint8_t* counts = nullptr; ///< segments from each of the patch's points to the next
+  std::uint32_t end[2] = {0, 0}; ///< the corners
+  /// Segments from each of the patch's points to the next: a table, or, for a single row or column
+  /// of cells, a walk.
+  const std::uint8_t* counts = nullptr;
+  UnionWalk walk;
 
   /// The vertex of a point that is no corner.
   [[nodiscard]] std::uint32_t at(std::uint32_t place) const noexcept { return zero + place * step; }
@@ -31,26 +36,38 @@ public:
 
   /// False where the patch is not a usual one.
   bool move_to(std::size_t patch) {
-    const auto usual = [](std::uint32_t rate) { return rate <= UnionCounts::kMost; };
     const std::uint32_t nu = mesh_.nu[patch];
     const std::uint32_t nv = mesh_.nv[patch];
-    return usual(nu) && usual(nv) && read<0>(patch, nu) && read<1>(patch, nu) &&
-           read<2>(patch, nv) && read<3>(patch, nv) && !is_folded(patch);
+    if (nu == 1 || nv == 1) {
+      return read_all<false>(patch, nu, nv) && !is_one_edge(patch, nu == 1 ? 2 : 0);
+    }
+    return nu <= UnionCounts::kMost && nv <= UnionCounts::kMost && read_all<true>(patch, nu, nv);
   }
   [[nodiscard]] const LinearSide& operator[](std::size_t side) const { return sides_[side]; }
 
 private:
-  /// Whether two sides with cells between them are one edge: these cells have vertices twice.
+  /// Whether two sides that meet are one edge: cells between them have vertices twice.
   [[nodiscard]] bool is_folded(std::size_t patch) const {
     const Side* const side = &topology_.sides[kPatchEdges * patch];
     const auto same = [&](std::size_t a, std::size_t b) {
       return side[a].edge() == side[b].edge();
     };
-    return same(0, 2) || same(0, 3) || same(1, 2) || same(1, 3) ||
-           (mesh_.nv[patch] == 1 && same(0, 1)) || (mesh_.nu[patch] == 1 && same(2, 3));
+    return same(0, 2) || same(0, 3) || same(1, 2) || same(1, 3);
+  }
+  /// Whether that holds for a side and the opposite one, with a single cell between them.
+  [[nodiscard]] bool is_one_edge(std::size_t patch, std::size_t side) const {
+    const Side* const first = &topology_.sides[kPatchEdges * patch + side];
+    return first[0].edge() == first[1].edge();
+  }
+
+  template <bool kTables>
+  __attribute__((always_inline)) bool read_all(std::size_t patch, std::uint32_t nu,
+                                               std::uint32_t nv) {
+    return read<0, kTables>(patch, nu) && read<1, kTables>(patch, nu) &&
+           read<2, kTables>(patch, nv) && read<3, kTables>(patch, nv) && !is_folded(patch);
   }
   /// Reads side k. It is compiled for each, so that the compiler knows where things are.
-  template <std::size_t k>
+  template <std::size_t k, bool kTables>
   __attribute__((always_inline)) bool read(std::size_t patch, std::uint32_t rate) {
     const std::size_t number = kPatchEdges * patch + k;
     const Side side = topology_.sides[number];
@@ -60,7 +77,7 @@ private:
     const std::uint32_t edge = side.edge();
     const auto all = topology_.sides_of(edge);
     const std::uint32_t other = all.size() == 1 ? rate : mesh_.rate(all[all[0] == number ? 1 : 0]);
-    if (all.size() > 2 || other > UnionCounts::kMost) {
+    if (all.size() > 2 || other > (kTables ? 1 : rate) * UnionCounts::kMost) {
       return false;
     }
     LinearSide& to = sides_[k];
@@ -70,7 +87,11 @@ private:
     to.zero = mesh_.edge_first[edge] + (to.segments & backwards) - 1;
     to.end[0] = mesh_.corners[kPatchCorners * patch + kSideCorners[k][0]];
     to.end[1] = mesh_.corners[kPatchCorners * patch + kSideCorners[k][1]];
-    to.counts = counts_.of(rate, other);
+    if constexpr (kTables) {
+      to.counts = counts_.of(rate, other);
+    } else {
+      to.walk = UnionWalk(rate, other);
+    }
     return true;
   }
 

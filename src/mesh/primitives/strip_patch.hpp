@@ -28,10 +28,12 @@ private:
     const LinearSide& near = sides_[kInU ? 0 : 2];
     const LinearSide& far = sides_[kInU ? 1 : 3];
     const std::uint32_t last = (kInU ? nu_ : nv_) - 1;
+    UnionWalk near_walk = near.walk;
+    UnionWalk far_walk = far.walk;
     std::uint32_t near_place = 0;
     std::uint32_t far_place = 0;
     for (std::uint32_t i = 0; i <= last; ++i) {
-      const CellLegs cell{{near, near_place, near.counts[i]}, {far, far_place, far.counts[i]}};
+      const CellLegs cell{{near, near_place, near_walk.next()}, {far, far_place, far_walk.next()}};
       const bool falling = kInU ? zones_.falling(i, 0) : zones_.falling(0, i);
       Writer out(to);
       i == 0 || i == last ? border_cell<kInU>(cell, i == 0, i == last, falling, out)

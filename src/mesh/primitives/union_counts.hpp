@@ -8,6 +8,31 @@
 
 namespace simdbezier::detail {
 
+/// From each of a side's points to the next one: how many segments there are between them on an
+/// edge that has another rate as well.
+class UnionWalk {
+public:
+  UnionWalk() = default;
+  UnionWalk(std::uint32_t rate, std::uint32_t other)
+      : rate_(rate), whole_(other / rate), part_(other % rate) {}
+
+  /// A segment ends at each of the other side's points after a point, up to the next one, and one
+  /// there unless it is such a point: `rest_` / rate is how far it lies behind one, in segments of
+  /// the other side.
+  std::uint32_t next() {
+    rest_ += part_;
+    const std::uint32_t carry = rest_ >= rate_ ? 1 : 0;
+    rest_ -= carry * rate_;
+    return whole_ + carry + (rest_ != 0 ? 1 : 0);
+  }
+
+private:
+  std::uint32_t rate_ = 1;
+  std::uint32_t whole_ = 0;
+  std::uint32_t part_ = 0;
+  std::uint32_t rest_ = 0;
+};
+
 /// One thread's tables for small rates.
 class UnionCounts {
 public:
@@ -29,18 +54,10 @@ private:
     fill(rate, other, pairs.get() + other * rate);
     return pairs.get() + other * rate;
   }
-  /// A segment ends at each of the other side's points after point i, up to point i + 1, and one
-  /// at point i + 1 unless it is such a point: `rest` / rate is how far it lies behind one, in
-  /// segments of the other side.
   static void fill(std::uint32_t rate, std::uint32_t other, std::uint8_t* counts) {
-    const std::uint32_t whole = other / rate;
-    const std::uint32_t part = other % rate;
-    std::uint32_t rest = 0;
+    UnionWalk walk(rate, other);
     for (std::uint32_t i = 0; i < rate; ++i) {
-      rest += part;
-      const std::uint32_t carry = rest >= rate ? 1 : 0;
-      rest -= carry * rate;
-      counts[i] = static_cast<std::uint8_t>(whole + carry + (rest != 0 ? 1 : 0));
+      counts[i] = static_cast<std::uint8_t>(walk.next());
     }
   }
 
