@@ -89,6 +89,33 @@ sweep_positions(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
   }
 }
 
+/// Sweeps a single column, whose parameter all lanes have: lanes are rows, so that sides of patches
+/// in meshes, for which nothing else is asked, take a register for as many points.
+template <typename P, typename T>
+SIMDBEZIER_KERNEL void sweep_single(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
+                                    const typename ShapeColumns<P, vec<T>>::Edges& edges,
+                                    SampleRange<vec<T>> range) {
+  using V = vec<T>;
+  const ColumnPolynomials<P, V> polynomials = columns.polynomials();
+  const V floor = range.floor;
+  for (std::size_t r = 0; r < task.run_count; ++r) {
+    const RowRun<T> run = task.runs[r];
+    const std::size_t edge = own_edge(task, run);
+    range.floor = run.kind == RowKind::outside ? no_floor<V>() : floor;
+    for (std::size_t j = 0; j < run.rows; j += kLanes<V>, range.at += range.active) {
+      SampleJet<V> jet;
+      range.y = load_vector<V>(run.y + j);
+      range.active = std::min(run.rows - j, kLanes<V>);
+      polynomials.template evaluate<1>(columns.slots(), columns.order_v(), &range.y,
+                                       columns.origins(), &jet);
+      if (edge < kEdges) {
+        edges.replace_row(edge, jet);
+      }
+      store_sample<P>(task, range, jet);
+    }
+  }
+}
+
 /// Whether all rows that are on no edge are pairs Y and -Y whose registers share no lines. Rows
 /// that are both at zero are no pair: signs of zeros could differ.
 template <typename T>
@@ -153,6 +180,10 @@ SIMDBEZIER_PART void sweep_pairs(const GridTask<T>& task, const ShapeColumns<P, 
   }
 }
 
+/// Whether single columns have a loop of their own: where meshes with normals ask for them.
+template <typename P>
+inline constexpr bool kSweepsSingle = !P::kSingle && P::kDepth == 1;
+
 /// Sweeps the columns from `first` on of one patch, and components from `component` on. pairs is
 /// what pairs_pay() returns.
 template <typename P, typename T>
@@ -161,7 +192,8 @@ SIMDBEZIER_PART void sweep_columns(const GridTask<T>& task, const NetShape& shap
                                    bool pairs) {
   using V = vec<T>;
   const CellRow<T> cells(task, shape, patch, 0);
-  const V x = load_vector<V>(task.x + first);
+  const bool single = kSweepsSingle<P> && task.nu == 1;
+  const V x = single ? broadcast<V>(task.x[0]) : load_vector<V>(task.x + first);
   const CellColumns<V> at(x, 1, task.watertight);
   const std::size_t first_component = P::kSingle ? task.first_component + component : 0;
   const typename ShapeColumns<P, V>::Edges edges(shape, at, x, task.watertight, first_component,
@@ -171,6 +203,12 @@ SIMDBEZIER_PART void sweep_columns(const GridTask<T>& task, const NetShape& shap
   ShapeColumns<P, V> columns(shape, at, first_component);
   ColumnOrigins<V> origins;
   columns.build(cells, edges, origins);
+  if constexpr (kSweepsSingle<P>) {
+    if (single) {
+      range.floor = floor_inside(x, patch_floor<P, V>(task, patch));
+      return sweep_single<P>(task, columns, edges, range);
+    }
+  }
   if constexpr (kInPairs<P>) {
     if (pairs) {
       return sweep_pairs<P>(task, columns, edges, range);
