@@ -23,7 +23,7 @@ SIMDBEZIER_PART std::size_t own_edge(const GridTask<T>& task, const RowRun<T>& r
 
 /// Sweeps all rows of a register of columns. kFull says that all lanes are columns.
 ///
-/// The loop over runs stands in this file three times. With edge rows inside of the loop over a
+/// The loop over runs stands in this file four times. With edge rows inside of the loop over a
 /// run, or single and paired rows in one loop, polynomials leave the registers, which costs 10 to
 /// 30 % of the speed (docs/experiments.md).
 template <typename P, bool kFull, typename T>
