@@ -26,8 +26,7 @@ struct LaneNet {
   [[nodiscard]] LaneNet shaped_at(Vector* where) const { return {columns, rows, stride, where}; }
 };
 
-/// The lines of a net in one direction: vector i of line k stands at i * step + k * across. Loops
-/// pass from line to line first, which do the same.
+/// The lines of a net in one direction: vector i of line k stands at i * step + k * across.
 struct NetLines {
   std::size_t points;
   std::size_t step;
