@@ -14,17 +14,6 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Returns the largest value of sum l_i l_j q_ij / 2 over a triangle, for three squared edge terms.
-template <typename V>
-SIMDBEZIER_INLINE V triangle_bound(V a, V c, V d) {
-  using T = ScalarOf<V>;
-  const SortedTerms<V> terms(a, c, d);
-  const V divisor = terms.divisor();
-  const V inside = divide(terms.least * terms.middle * terms.largest,
-                          larger_of<V>(divisor + divisor, broadcast<V>(kSmallest<T>)));
-  return select_where<V>(terms.obtuse(), terms.largest * broadcast<V>(T(0.125)), inside);
-}
-
 /// The terms that every zone of cells is bounded by.
 template <typename V>
 struct ZoneTerms {

@@ -153,15 +153,4 @@ private:
   V place_ = broadcast<V>(0);
 };
 
-/// The largest value of (l0 l1 a + l0 l2 b + l1 l2 c) / 2 over a triangle, a, b, c >= 0: s/8 with s
-/// the largest of them where that one is at least half of the sum, else half of the square of a
-/// circumradius.
-template <typename V>
-SIMDBEZIER_INLINE V largest_in_triangle(V a, V b, V c) {
-  const SortedTerms<V> terms(a, b, c);
-  const V divisor = terms.divisor();
-  const V inside = divide(terms.least * terms.middle * terms.largest, divisor + divisor);
-  return select_where<V>(terms.obtuse(), terms.largest * broadcast<V>(0.125), inside);
-}
-
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

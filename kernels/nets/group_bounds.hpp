@@ -94,9 +94,10 @@ public:
     const V v = high_v ? one - hv : hv;
     V largest[kSeconds];
     for (std::size_t d = 0; d < kSeconds; ++d) {
-      Net part = nets_.second(d).shaped_at(nets_.scratch(d));
+      const Net whole = nets_.second(d);
+      Net part = whole.shaped_at(nets_.scratch(d));
       for (std::size_t k = 0; k < nets_.vectors(); ++k) {
-        part.at[k] = nets_.second(d).at[k];
+        part.at[k] = whole.at[k];
       }
       cut_net(part, true, one - u, u, high_u);
       cut_net(part, false, one - v, v, high_v);
@@ -158,10 +159,10 @@ private:
   [[nodiscard]] SIMDBEZIER_INLINE V bound_of(V largest_uu, V largest_vv, V diagonal,
                                              const DiagonalSteps<V>& steps,
                                              const LaneHull<V>& hull) const {
-    const V found = largest_in_triangle<V>(
-        steps.uu * (largest_uu + steps.doubt_uu), steps.vv * (largest_vv + steps.doubt_vv),
-        diagonal + steps.uu * steps.doubt_uu + steps.uv * steps.doubt_uv +
-            steps.vv * steps.doubt_vv);
+    const V found = triangle_bound<V>(steps.uu * (largest_uu + steps.doubt_uu),
+                                      steps.vv * (largest_vv + steps.doubt_vv),
+                                      diagonal + steps.uu * steps.doubt_uu +
+                                          steps.uv * steps.doubt_uv + steps.vv * steps.doubt_vv);
     return larger_bound<V>(broadcast<V>(0),
                            Nets::kRational ? divide(found, hull.smallest_weight) : found);
   }

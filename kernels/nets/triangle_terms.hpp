@@ -1,6 +1,8 @@
 // What bounds on triangles are formed of: lanes are patches.
 #pragma once
 
+#include <limits>
+
 #include "kernels/simd/extrema.hpp"
 #include "kernels/simd/lanes.hpp"
 
@@ -33,5 +35,19 @@ struct SortedTerms {
     return product - excess * excess;
   }
 };
+
+/// The largest value of (l0 l1 a + l0 l2 b + l1 l2 c) / 2 over a triangle, a, b, c >= 0: an eighth
+/// of the largest of them where that one is at least the sum of the others, else half of the square
+/// of a circumradius.
+template <typename V>
+SIMDBEZIER_INLINE V triangle_bound(V a, V b, V c) {
+  using T = ScalarOf<V>;
+  const SortedTerms<V> terms(a, b, c);
+  const V divisor = terms.divisor();
+  const V smallest = broadcast<V>(std::numeric_limits<T>::denorm_min()); // no division by 0
+  const V inside =
+      divide(terms.least * terms.middle * terms.largest, larger_of<V>(divisor + divisor, smallest));
+  return select_where<V>(terms.obtuse(), terms.largest * broadcast<V>(T(0.125)), inside);
+}
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -39,7 +39,9 @@ public:
     const std::uint32_t nu = mesh_.nu[patch];
     const std::uint32_t nv = mesh_.nv[patch];
     if (nu == 1 || nv == 1) {
-      return read_all<false>(patch, nu, nv) && !is_one_edge(patch, nu == 1 ? 2 : 0);
+      const bool is_closed =
+          (nu == 1 && is_one_edge(patch, 2)) || (nv == 1 && is_one_edge(patch, 0));
+      return read_all<false>(patch, nu, nv) && !is_closed;
     }
     return nu <= UnionCounts::kMost && nv <= UnionCounts::kMost && read_all<true>(patch, nu, nv);
   }

@@ -9,9 +9,24 @@
 namespace simdbezier::detail {
 namespace {
 
-bool is_fewer(const CellCounts& a, const CellCounts& b) {
-  return a.product() < b.product() || (a.product() == b.product() && a.nu < b.nu);
-}
+/// Cells as one number, in the order in which they are looked at: fewer ones first, and of as many
+/// those with fewer in u. Rates are below 2^16.
+class CellOrder {
+public:
+  CellOrder() = default;
+  explicit CellOrder(const CellCounts& cells)
+      : value_((std::uint64_t{cells.nu} * cells.nv) << 32 | std::uint64_t{cells.nu} << 16 |
+               cells.nv) {}
+
+  [[nodiscard]] CellCounts cells() const {
+    return {static_cast<std::uint32_t>(value_ >> 16 & 0xffff),
+            static_cast<std::uint32_t>(value_ & 0xffff)};
+  }
+  friend bool operator<(const CellOrder& a, const CellOrder& b) { return a.value_ < b.value_; }
+
+private:
+  std::uint64_t value_ = 0;
+};
 
 /// What one patch has tried and will try: candidates in the order of their cells, so that the first
 /// that holds is the best one, and cells that are raised until they hold. These are tried only
@@ -30,17 +45,11 @@ public:
     const auto near_centre = [&](std::uint32_t n, std::int64_t step) {
       return static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::int64_t{n} + step, 1, most));
     };
-    std::uint64_t keys[16]; // the order of is_fewer()
     for (std::int64_t k = 0; k < 16; ++k) {
-      const std::uint64_t nu = near_centre(centre.nu, k / 4 - 1);
-      const std::uint64_t nv = near_centre(centre.nv, k % 4 - 1);
-      keys[k] = nu * nv << 32 | nu << 16 | nv;
+      candidates_[k] =
+          CellOrder({near_centre(centre.nu, k / 4 - 1), near_centre(centre.nv, k % 4 - 1)});
     }
-    std::sort(std::begin(keys), std::end(keys));
-    for (std::size_t k = 0; k < 16; ++k) {
-      candidates_[k] = {static_cast<std::uint32_t>(keys[k] >> 16 & 0xffff),
-                        static_cast<std::uint32_t>(keys[k] & 0xffff)};
-    }
+    std::sort(std::begin(candidates_), std::end(candidates_));
     move_on();
   }
 
@@ -84,9 +93,9 @@ private:
   }
   /// Goes on to the next candidate, to raising, or to the end.
   void move_on() {
-    const bool is_candidate = next_ < count_ && is_fewer(candidates_[next_], best_);
+    const bool is_candidate = next_ < count_ && candidates_[next_] < CellOrder(best_);
     if (is_candidate && (!has_raised_ || best_.nu <= most_)) {
-      result_ = uncertified(candidates_[next_]);
+      result_ = uncertified(candidates_[next_].cells());
     } else if (has_raised_) {
       finish(raised_);
     } else if (best_.nu > most_ || best_.nv > most_) {
@@ -99,7 +108,7 @@ private:
 
   std::uint32_t most_ = 0;
   CellCounts best_{}; ///< to be raised, or raised
-  CellCounts candidates_[16];
+  CellOrder candidates_[16];
   std::size_t count_ = 0;
   std::size_t next_ = 0;
   bool raising_ = false;

@@ -1,12 +1,11 @@
 // See rates.hpp.
 #include <simdbezier/rates.hpp>
 
-#include <atomic>
 #include <new>
 
-#include "src/mesh/rates/group_bound.hpp"
+#include "src/mesh/rates/patch_groups.hpp"
 #include "src/nets/net_call.hpp"
-#include "src/runtime/batch.hpp"
+#include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -15,44 +14,17 @@ namespace {
 /// Certifies all patches of one view.
 template <typename S>
 RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::span<double> deviation,
-                   Isa isa, int threads) noexcept {
+                   Isa isa, int threads) {
   if (const Status status = check_in_space(nets); !status) {
     return {status};
   }
   if (const NetReport checked = find_fault(nets, threads); !checked) {
     return {checked.status, checked.patch};
   }
-  std::atomic<bool> failed = false;
-  std::atomic<std::size_t> unreadable = nets.count; // the first patch that is
-  auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
-    try {
-      GroupBound group(isa);
-      for (std::size_t first = begin; first < end; first += group.lanes()) {
-        const std::size_t last = std::min(end, first + group.lanes());
-        group.begin();
-        for (std::size_t patch = first; patch < last; ++patch) {
-          if (!group.read(nets, patch, 0)) { // a quotient of values without faults is out of range
-            lower(unreadable, patch);
-          }
-        }
-        group.form();
-        const auto bounds = group.rising_bounds(cells);
-        for (std::size_t patch = first; patch < last; ++patch) {
-          deviation[patch] += bounds[patch - first];
-        }
-      }
-    } catch (const std::bad_alloc&) {
-      failed = true;
-    }
-  };
-  divide_work(nets.count, 5000, threads, body);
-  if (failed) {
-    return {Status::out_of_memory};
-  }
-  if (const std::size_t patch = unreadable; patch < nets.count) {
-    return {Status::non_finite_input, patch};
-  }
-  return {};
+  return visit_groups(nets, PatchList(nets.count), {}, isa, threads, [&](const PatchGroup& group) {
+    const auto bounds = group.bound().rising_bounds(cells);
+    group.for_lanes([&](std::size_t lane, std::size_t patch) { deviation[patch] += bounds[lane]; });
+  });
 }
 
 } // namespace
@@ -61,7 +33,8 @@ RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::spa
 template <typename S>
 RateReport certify_grids(std::span<const ControlNets<S>> nets, std::uint32_t nu, std::uint32_t nv,
                          std::span<const double> errors, std::span<double> deviation,
-                         const Options& options) noexcept {
+                         const Options& options) noexcept try {
+  const detail::DefaultFpEnvironment environment;
   if (detail::is_missing(nets)) {
     return {Status::null_input};
   }
@@ -92,6 +65,8 @@ RateReport certify_grids(std::span<const ControlNets<S>> nets, std::uint32_t nu,
     first += view.count;
   }
   return {};
+} catch (const std::bad_alloc&) {
+  return {Status::out_of_memory};
 }
 
 template SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<float>>, std::uint32_t,

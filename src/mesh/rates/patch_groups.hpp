@@ -13,13 +13,30 @@
 
 namespace simdbezier::detail {
 
+/// Patches of one view: all, or those with given numbers.
+class PatchList {
+public:
+  explicit PatchList(std::size_t count) : count_(count) {}
+  explicit PatchList(std::span<const std::uint32_t> numbers)
+      : numbers_(numbers.data()), count_(numbers.size()) {}
+
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] std::size_t operator[](std::size_t k) const {
+    return numbers_ == nullptr ? k : numbers_[k];
+  }
+
+private:
+  const std::uint32_t* numbers_ = nullptr;
+  std::size_t count_;
+};
+
 /// Some patches in the lanes of a group whose bounds are known.
 class PatchGroup {
 public:
-  /// patches: in lanes 0, 1, …; found: one status a lane.
-  PatchGroup(const GroupBound& bound, std::span<const std::uint32_t> patches,
+  /// patches: those from `begin` on are in lanes 0, 1, …; found: one status a lane.
+  PatchGroup(const GroupBound& bound, const PatchList& patches, std::size_t begin,
              std::span<Status> found)
-      : bound_(bound), patches_(patches), found_(found) {}
+      : bound_(bound), patches_(patches), begin_(begin), found_(found) {}
 
   [[nodiscard]] const GroupBound& bound() const { return bound_; }
   /// The same group where the view's patches have numbers from `first` on.
@@ -31,9 +48,9 @@ public:
   /// Calls visit(lane, patch) for those without a fault.
   template <typename Visit>
   void for_lanes(const Visit& visit) const {
-    for (std::size_t lane = 0; lane < patches_.size(); ++lane) {
+    for (std::size_t lane = 0; lane < found_.size(); ++lane) {
       if (found_[lane] == Status::ok) {
-        visit(lane, first_ + patches_[lane]);
+        visit(lane, first_ + patches_[begin_ + lane]);
       }
     }
   }
@@ -41,15 +58,17 @@ public:
 
 private:
   const GroupBound& bound_;
-  std::span<const std::uint32_t> patches_;
+  const PatchList& patches_;
+  std::size_t begin_;
   std::span<Status> found_;
   std::size_t first_ = 0;
 };
 
 /// Calls visit(group) for patches of a view, some at a time, in parallel; the report names the
-/// first of them at fault. flags: of all patches of the view, see TopologyData.
+/// first of them at fault. flags: of all patches of the view, see TopologyData; none where no edge
+/// is collapsed as far as the caller is concerned.
 template <typename S, typename Visit>
-RateReport visit_groups(const ControlNets<S>& nets, std::span<const std::uint32_t> patches,
+RateReport visit_groups(const ControlNets<S>& nets, const PatchList& patches,
                         std::span<const std::uint8_t> flags, Isa isa, int threads,
                         const Visit& visit) {
   constexpr std::size_t kNanoseconds = 2000; // a patch
@@ -61,13 +80,14 @@ RateReport visit_groups(const ControlNets<S>& nets, std::span<const std::uint32_
         const std::size_t count = std::min(end - k, bound.lanes());
         bound.begin();
         for (std::size_t lane = 0; lane < count; ++lane) {
-          const std::uint32_t patch = patches[k + lane];
+          const std::size_t patch = patches[k + lane];
           // A quotient of values without faults may be out of range.
-          found[k + lane] =
-              bound.read(nets, patch, flags[patch]) ? Status::ok : Status::non_finite_input;
+          found[k + lane] = bound.read(nets, patch, flags.empty() ? std::uint8_t{0} : flags[patch])
+                                ? Status::ok
+                                : Status::non_finite_input;
         }
         bound.form();
-        visit(PatchGroup(bound, patches.subspan(k, count), std::span(found).subspan(k, count)));
+        visit(PatchGroup(bound, patches, k, std::span(found).subspan(k, count)));
       }
     } catch (const std::bad_alloc&) {
       found[begin] = Status::out_of_memory;

@@ -237,9 +237,9 @@ private:
           open.push_back(static_cast<std::uint32_t>(patch));
         }
       }
-      const RateReport report =
-          visit_groups(nets, open, std::span(flags_).subspan(first), isa_, options_.threads,
-                       [&](const PatchGroup& group) { visit(group.shifted(first)); });
+      const RateReport report = visit_groups(
+          nets, PatchList(open), std::span(flags_).subspan(first), isa_, options_.threads,
+          [&](const PatchGroup& group) { visit(group.shifted(first)); });
       if (!report) {
         return {report.status, first + report.patch};
       }
