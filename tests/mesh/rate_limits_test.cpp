@@ -25,7 +25,9 @@ struct Graph {
   [[nodiscard]] std::vector<S> values(int degree) const {
     std::vector<S> values;
     const auto linear = [&](int k) { return 1.0 * k / degree; };
-    const auto square = [&](int k) { return 1.0 * k * (k - 1) / (degree * (degree - 1)); };
+    const auto square = [&](int k) {
+      return degree == 1 ? 0 : 1.0 * k * (k - 1) / (degree * (degree - 1));
+    };
     for (int j = 0; j <= degree; ++j) {
       for (int i = 0; i <= degree; ++i) {
         const double z = uu * square(i) + uv * linear(i) * linear(j) + vv * square(j);
@@ -257,6 +259,23 @@ TEST(GridCertificates, are_refused_where_there_are_none) {
       EXPECT_GE(deviation[1], each.error);
       EXPECT_GT(deviation[1], 0);
     }
+  }
+}
+
+// All pairs of rates with one product are as good for a saddle, whatever the degrees it is given
+// in.
+TEST(SaddleRates, are_those_of_cells_that_are_no_slivers) {
+  for (const int degree : {1, 2, 3, 4, 7}) {
+    SCOPED_TRACE(degree);
+    RateOptions options;
+    options.tolerance = 1e-3; // 1/4 of the mixed derivative over as many cells
+    Rated<double> rated;
+    rated.choose(Graph{0, 1, 0}.values<double>(degree), degree, options);
+    ASSERT_TRUE(rated.report);
+    const auto [fewer, more] = std::minmax(rated.nu[0], rated.nv[0]);
+    EXPECT_LE(more, 2 * fewer);
+    EXPECT_GE(fewer * more, 250U);
+    EXPECT_LE(fewer * more, 256U);
   }
 }
 

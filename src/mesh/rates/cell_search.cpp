@@ -225,7 +225,13 @@ CellCounts GroupBound::filip(std::size_t lane, double tolerance, std::uint32_t m
     return left > 0 ? up((mixed + std::sqrt(mixed * mixed + second * left)) / left * (1 + 1e-12))
                     : most + 1;
   };
-  const auto least = [&](double first, double second) {
+  // Where only the mixed derivative counts, all pairs of one product are as good: cells of one
+  // shape in both directions, instead of slivers, are what a hair of both other derivatives asks
+  // for.
+  const double hair = b * 1e-6;
+  const auto least = [&](double along, double across) {
+    const double first = std::max(along, hair);
+    const double second = std::max(across, hair);
     const double n =
         std::sqrt(2 * (first + (second > 0 ? b * std::sqrt(first / second) : 0)) / limit);
     return n < most ? std::max(1U, static_cast<std::uint32_t>(n)) : most;
