@@ -1,5 +1,6 @@
 #include <tools/formats/counted_patches.hpp>
 
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -26,13 +27,19 @@ int CountedPatches::degree(const std::string& where) {
 
 void CountedPatches::patch(int degree_u, int degree_v) {
   const std::size_t all = static_cast<std::size_t>((degree_u + 1) * (degree_v + 1)) * 3;
-  for (coordinates_ = 0; coordinates_ < all; ++coordinates_) {
-    lexer_.next();
-    expect_more();
-    file_.points.push_back(lexer_.number());
-    if (coordinates_ % 3 == 0) {
-      file_.add_line(lexer_.line());
+  for (coordinates_ = 0; coordinates_ < all;) {
+    std::array<double, 3> point;
+    std::size_t line = 0;
+    const std::size_t quick = lexer_.numbers(point, line);
+    coordinates_ += quick;
+    for (std::size_t c = quick; c < point.size(); ++c, ++coordinates_) {
+      lexer_.next();
+      expect_more();
+      point[c] = lexer_.number();
+      line = c == 0 ? lexer_.line() : line;
     }
+    file_.points.insert(file_.points.end(), point.begin(), point.end());
+    file_.add_line(line);
   }
   file_.close_patch(degree_u, degree_v, Weights::none);
   coordinates_ = 0;

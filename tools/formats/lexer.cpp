@@ -91,6 +91,34 @@ bool Lexer::is_in_memory() {
   return true;
 }
 
+std::size_t Lexer::numbers(std::span<double> values, std::size_t& line) {
+  const std::string_view memory = input_.in_memory();
+  const char* const last = memory.data() + memory.size();
+  const char* next = memory.data(); // behind the numbers that have been read
+  std::size_t count = 0;
+  for (; count < values.size(); ++count) {
+    const char* begin = next;
+    std::size_t line_ends = 0;
+    for (; begin != last && is_space(*begin); ++begin) {
+      line_ends += *begin == '\n' ? 1 : 0;
+    }
+    const auto [end, error] = std::from_chars(begin, last, values[count]);
+    if (error != std::errc() || end == last || !ends_word(*end) || !std::isfinite(values[count])) {
+      break;
+    }
+    input_.skip_lines(static_cast<std::size_t>(end - next), line_ends);
+    line = count == 0 ? input_.line() : line;
+    text_ = {begin, end};
+    next = end;
+  }
+  if (count > 0) {
+    kind_ = TokenKind::word;
+    value_ = values[count - 1];
+    line_ = input_.line();
+  }
+  return count;
+}
+
 std::size_t Lexer::word_length(std::string_view rest) {
   if (is_of_number(rest[0])) {
     double value = 0;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -32,6 +33,12 @@ public:
   /// Reads the next token, which all other functions are about. Numbers may have any length.
   /// Another word of absurd length, as in binary files, is cut off and marked.
   Lexer& next();
+  /// Reads the next tokens as long as they are finite numbers and in memory as a whole, at most as
+  /// many as there are values, and returns how many these are. The last one is the current token;
+  /// `line` becomes that of the first one. There may be more numbers: next() reads what these may
+  /// not be. This is what most of a file goes through, without a token for each number. No line
+  /// ends may be tokens.
+  std::size_t numbers(std::span<double> values, std::size_t& line);
   /// Returns the text of a word or string; it is valid until the next one is read.
   [[nodiscard]] std::string_view text() const noexcept { return text_; }
   /// Returns the line where the token begins; at the end, the last line there is.

@@ -62,6 +62,11 @@ public:
     line_break_pending_ = false;
     next_ += count;
   }
+  /// The same with so many line ends among them, none of which is the last character.
+  void skip_lines(std::size_t count, std::size_t line_ends) noexcept {
+    line_ += line_ends;
+    skip_in_line(count);
+  }
 
 private:
   int take() noexcept {

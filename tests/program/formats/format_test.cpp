@@ -1,7 +1,11 @@
 // What the readers make of good files of every format: degrees, order of points, weights, lines.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include "tests/program/formats/format_files.hpp"
 #include "tests/program/formats/sample_nets.hpp"
@@ -100,6 +104,29 @@ TEST(Formats, KeepTheLineOfEveryPoint) {
     const std::string path = sample_path(item.format);
     const tools::PatchFile file = tools::read_patches(path, tools::PatchFormat::by_name);
     EXPECT_EQ(file.place(item.patch, item.point), path + item.line);
+  }
+}
+
+// Coordinates on lines of their own, some of which no quick way takes (a plus sign), around the end
+// of a block: a point has the line of its first coordinate, and no number is cut in two.
+TEST(Formats, NumbersMayStandAnywhere) {
+  for (std::size_t size = 65536 - 200; size < 65536; ++size) { // blocks have 65536 bytes
+    std::string text = "1" + std::string(size - 1, ' ');
+    std::vector<double> values;
+    std::vector<std::uint32_t> lines;
+    std::uint32_t line = 1;
+    for (int k = 0; k < 48; ++k) {
+      const std::uint32_t breaks = k % 5 == 2 ? 2 : k % 3 == 0 ? 0 : 1;
+      text += std::string(breaks, '\n') + (k % 7 == 3 ? " +" : " ") + std::to_string(k) + ".25";
+      line += breaks;
+      values.push_back(k + 0.25);
+      if (k % 3 == 0) {
+        lines.push_back(line);
+      }
+    }
+    const tools::PatchFile file = read_text("bez", text);
+    EXPECT_TRUE(std::equal(values.begin(), values.end(), file.points.begin(), file.points.end()));
+    EXPECT_TRUE(std::equal(lines.begin(), lines.end(), file.lines.begin(), file.lines.end()));
   }
 }
 
