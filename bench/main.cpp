@@ -36,6 +36,12 @@ std::string RowName::text() const {
          "/threads:" + std::to_string(threads);
 }
 
+std::string shape_parts(BatchShape shape) {
+  const std::string degree = std::to_string(shape.degree_u) + "x" + std::to_string(shape.degree_v);
+  return (degree == "3x3" ? std::string() : "/degree:" + degree) +
+         (shape.rational ? "/weights:rational" : "");
+}
+
 } // namespace simdbezier_bench
 
 int main(int argc, char** argv) {

@@ -19,6 +19,7 @@ using simdbezier::Status;
 /// What the stages of a mesh produce, one after the other.
 template <typename T>
 struct MeshStages {
+  BatchShape shape;
   std::vector<T> nets;
   simdbezier::PatchSet<T> set;
   simdbezier::Topology topology;
@@ -32,7 +33,8 @@ struct MeshStages {
   std::size_t normals_at = 0;
 
   [[nodiscard]] simdbezier::ControlNets<T> views() const {
-    return simdbezier::ControlNets<T>::packed(std::span<const T>(nets));
+    return simdbezier::ControlNets<T>::packed(std::span<const T>(nets), shape.degree_u,
+                                              shape.degree_v, 3, weights_of(shape));
   }
   [[nodiscard]] std::size_t patches() const { return nu.size(); }
 
@@ -97,34 +99,49 @@ inline constexpr std::size_t kRows = 128;
 inline constexpr std::size_t kPeerRows = 16;
 inline constexpr std::size_t kPeerPatches = kPeerRows * kColumns;
 
-/// A sheet whose waves grow from one side to the other.
+/// A sheet whose waves grow from one side to the other. Patches of all shapes are as large.
 template <typename T>
-std::vector<T> sheet_nets() {
-  const std::vector<double> noise = random_units((3 * kColumns + 1) * (3 * kRows + 1), 5);
+std::vector<T> sheet_nets(BatchShape shape) {
+  const auto du = static_cast<std::size_t>(shape.degree_u);
+  const auto dv = static_cast<std::size_t>(shape.degree_v);
+  const std::size_t points = du * kColumns + 1; // of a row of the sheet
+  const std::vector<double> noise = random_units(points * (dv * kRows + 1), 5);
   std::vector<T> nets;
   for (std::size_t patch = 0; patch < kColumns * kRows; ++patch) {
-    for (std::size_t k = 0; k < 16; ++k) {
-      const std::size_t column = 3 * (patch % kColumns) + k % 4;
-      const std::size_t row = 3 * (patch / kColumns) + k / 4;
-      const double height = 1.5 * static_cast<double>(column) / kColumns;
-      const double at = noise[row * (3 * kColumns + 1) + column];
-      nets.push_back(static_cast<T>(static_cast<double>(column) + 0.3 * at));
-      nets.push_back(static_cast<T>(row));
-      nets.push_back(static_cast<T>(height * at));
+    for (std::size_t k = 0; k < (du + 1) * (dv + 1); ++k) {
+      const std::size_t column = du * (patch % kColumns) + k % (du + 1);
+      const std::size_t row = dv * (patch / kColumns) + k / (du + 1);
+      const double at = noise[row * points + column];
+      const double x = 3 * static_cast<double>(column) / shape.degree_u;
+      nets.push_back(static_cast<T>(x + 0.3 * at));
+      nets.push_back(static_cast<T>(3 * static_cast<double>(row) / shape.degree_v));
+      nets.push_back(static_cast<T>(1.5 * x / kColumns * at));
+      if (shape.rational) {
+        nets.push_back(static_cast<T>(1 + 0.3 * at));
+      }
     }
   }
   return nets;
 }
 
+/// Which mesh of a sheet.
+struct MeshKind {
+  bool adaptive;
+  BatchShape shape = {};
+};
+
 /// Returns the stages of a mesh that is packed and laid out; null where something failed.
 template <typename T>
-std::shared_ptr<MeshStages<T>> make_stages(bool adaptive) {
+std::shared_ptr<MeshStages<T>> make_stages(const MeshKind& kind) {
   auto stages = std::make_shared<MeshStages<T>>();
   MeshStages<T>& s = *stages;
-  s.nets = sheet_nets<T>();
+  s.shape = kind.shape;
+  s.nets = sheet_nets<T>(kind.shape);
   Options how;
   how.threads = 1;
-  if (!simdbezier::pack(s.views(), s.set) || !s.join(how)) {
+  simdbezier::PackOptions near;
+  near.local_origin = s.shape.rational; // the sheet is wide: far normals are looked at closely
+  if (!simdbezier::pack(s.views(), s.set, near) || !s.join(how)) {
     return nullptr;
   }
   const std::size_t patches = s.set.size();
@@ -132,7 +149,7 @@ std::shared_ptr<MeshStages<T>> make_stages(bool adaptive) {
   s.nv.assign(patches, 15);
   s.diagonals.assign(patches, 0);
   s.deviations.assign(patches, 0);
-  for (double low = 1e-4, high = 1; adaptive && high / low > 1.01;) {
+  for (double low = 1e-4, high = 1; kind.adaptive && high / low > 1.01;) {
     s.tolerance = std::sqrt(low * high);
     if (!s.choose(how)) {
       return nullptr;
@@ -156,14 +173,18 @@ std::shared_ptr<MeshStages<T>> make_stages(bool adaptive) {
 /// Returns the stages of the kind that was asked for last: one at a time is kept, since they take
 /// much memory.
 template <typename T>
-const std::shared_ptr<MeshStages<T>>& shared_stages(bool adaptive) {
-  static std::shared_ptr<MeshStages<T>> stages[2];
-  auto& wanted = stages[adaptive ? 1 : 0];
-  if (wanted == nullptr) {
-    stages[adaptive ? 0 : 1] = nullptr;
-    wanted = make_stages<T>(adaptive);
+std::shared_ptr<MeshStages<T>> shared_stages(const MeshKind& kind) {
+  static std::shared_ptr<MeshStages<T>> stages;
+  static MeshKind kept{};
+  const bool has_shape = kept.shape.degree_u == kind.shape.degree_u &&
+                         kept.shape.degree_v == kind.shape.degree_v &&
+                         kept.shape.rational == kind.shape.rational;
+  if (stages == nullptr || kept.adaptive != kind.adaptive || !has_shape) {
+    stages = nullptr; // before the next ones take memory
+    stages = make_stages<T>(kind);
+    kept = kind;
   }
-  return wanted;
+  return stages;
 }
 
 } // namespace simdbezier_bench

@@ -43,6 +43,9 @@ struct RowName {
   [[nodiscard]] std::string text() const;
 };
 
+/// The parts of a name that say what patches a row has: nothing for bicubic ones.
+std::string shape_parts(BatchShape shape);
+
 /// The number of cores that this process may use, which is 1 under `taskset -c 1`.
 int max_threads();
 

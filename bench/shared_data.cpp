@@ -81,10 +81,9 @@ const ShapedPatches<T>& shaped_patches(std::size_t count, BatchShape shape) {
   ShapedPatches<T>& patches = kept[{shape.degree_u, shape.degree_v, shape.rational}];
   if (patches.set.size() < count) {
     patches.nets = random_nets<T>(count, shape);
-    using simdbezier::Weights;
-    (void)simdbezier::pack(simdbezier::ControlNets<T>::packed(
-                               patches.nets.data(), count, shape.degree_u, shape.degree_v, 3,
-                               shape.rational ? Weights::cartesian : Weights::none),
+    (void)simdbezier::pack(simdbezier::ControlNets<T>::packed(patches.nets.data(), count,
+                                                              shape.degree_u, shape.degree_v, 3,
+                                                              weights_of(shape)),
                            patches.set);
   }
   return patches;

@@ -48,6 +48,11 @@ const T* shared_power_basis(std::size_t count);
 template <typename T>
 const simdbezier::PatchSet<T>& shared_patch_set(std::size_t count);
 
+/// What the library calls the weights of a shape's points.
+constexpr simdbezier::Weights weights_of(BatchShape shape) {
+  return shape.rational ? simdbezier::Weights::cartesian : simdbezier::Weights::none;
+}
+
 /// The first `count` or more patches of any shape, which are kept for each shape. They are meant
 /// for rows of few patches.
 template <typename T>

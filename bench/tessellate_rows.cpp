@@ -1,5 +1,7 @@
-// tessellate/position_normal/<type>/<isa>/<nu>x<nv>/memory/threads:<t>/part:<part>: meshes of a
-// sheet of patches that share edges, with merged normals and 32-bit triangles.
+// tessellate/position_normal/<type>/<isa>/<nu>x<nv>/memory/threads:<t>/part:<part>
+// [/degree:MxN][/weights:rational]: meshes of a sheet of patches that share edges, with merged
+// normals and 32-bit triangles. Adaptive ones on the widest instruction set also of other patches
+// than bicubic ones.
 //
 //   16x16   uniform: every patch has 15 x 15 cells. mesh: vertices and triangles.
 //   8x8     adaptive, 7 x 7 cells in the mean. mesh: rates, layout, vertices, triangles; all: the
@@ -27,6 +29,8 @@ namespace {
 
 using simdbezier::Isa;
 
+constexpr BatchShape kShapes[] = {{1, 1}, {2, 2}, {5, 4}, {8, 8}, {2, 2, true}, {3, 3, true}};
+
 /// One part of the work: which stages run, in their order.
 template <typename T>
 struct Part {
@@ -39,8 +43,8 @@ struct Part {
 template <typename T>
 class MeshRow {
 public:
-  MeshRow(const Part<T>& part, bool adaptive, Isa isa, int threads)
-      : part_(part), stages_(shared_stages<T>(adaptive)) {
+  MeshRow(const Part<T>& part, const MeshKind& kind, Isa isa, int threads)
+      : part_(part), stages_(shared_stages<T>(kind)) {
     options_.isa = isa;
     options_.destination = simdbezier::Destination::memory;
     options_.threads = threads;
@@ -122,12 +126,9 @@ std::vector<Part<T>> parts_of(bool adaptive) {
 }
 
 template <typename T>
-void add_meshes(Isa isa) {
-  for (const bool adaptive : {false, true}) {
-    for (const Part<T>& part : parts_of<T>(adaptive)) {
-      for (int threads = 1; threads <= max_threads(); ++threads) {
-        const std::size_t n = adaptive ? 8 : 16;
-        RowName name{"tessellate",
+void add_mesh(const MeshKind& kind, Isa isa, int threads) {
+  const std::size_t n = kind.adaptive ? 8 : 16;
+  const RowName name{"tessellate",
                      OutputGroups::position_normal,
                      sizeof(T) == 4,
                      std::string(simdbezier::to_string(isa)),
@@ -135,10 +136,25 @@ void add_meshes(Isa isa) {
                      n,
                      MemoryLevel::memory,
                      threads};
-        register_row(name.text() + "/part:" + part.name, benchmark::kMillisecond, threads,
-                     [=] { return MeshRow<T>(part, adaptive, isa, threads); });
+  for (const Part<T>& part : parts_of<T>(kind.adaptive)) {
+    register_row(name.text() + "/part:" + part.name + shape_parts(kind.shape),
+                 benchmark::kMillisecond, threads,
+                 [=] { return MeshRow<T>(part, kind, isa, threads); });
+  }
+}
+
+template <typename T>
+void add_meshes() {
+  const auto isas = simdbezier::available_isas();
+  for (const Isa isa : isas) {
+    for (const bool adaptive : {false, true}) {
+      for (int threads = 1; threads <= max_threads(); ++threads) {
+        add_mesh<T>({adaptive}, isa, threads);
       }
     }
+  }
+  for (const BatchShape shape : kShapes) {
+    add_mesh<T>({true, shape}, isas.back(), 1);
   }
 }
 
@@ -147,7 +163,7 @@ void add_meshes(Isa isa) {
 class PlainRow {
 public:
   PlainRow()
-      : stages_(shared_stages<float>(true)),
+      : stages_(shared_stages<float>({.adaptive = true})),
         plain_(stages_ == nullptr ? std::span<const PlainTessellator::Point>()
                                   : std::span(reinterpret_cast<const PlainTessellator::Point*>(
                                                   stages_->nets.data()),
@@ -175,10 +191,8 @@ private:
 } // namespace
 
 void register_tessellate_rows() {
-  for (const Isa isa : simdbezier::available_isas()) {
-    add_meshes<float>(isa);
-    add_meshes<double>(isa);
-  }
+  add_meshes<float>();
+  add_meshes<double>();
   register_row("tessellate/position_normal/f32/plain/8x8/memory/threads:1/part:mesh",
                benchmark::kMillisecond, 1, [] { return PlainRow(); });
 }

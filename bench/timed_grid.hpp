@@ -54,11 +54,7 @@ std::string grid_row_name(const GridRow& row) {
   text += row.watertight ? "" : "/watertight:off";
   text += row.aligned ? "" : "/align:" + std::to_string(sizeof(T));
   text += row.plain ? "/stores:plain" : "";
-  if (row.shape.degree_u != 3 || row.shape.degree_v != 3) {
-    text +=
-        "/degree:" + std::to_string(row.shape.degree_u) + "x" + std::to_string(row.shape.degree_v);
-  }
-  return row.shape.rational ? text + "/weights:rational" : text;
+  return text + shape_parts(row.shape);
 }
 
 /// Returns how many patches fit the cache's share, or leave every cache.

@@ -25,7 +25,6 @@ namespace {
 
 using simdbezier::Isa;
 using simdbezier::Status;
-using simdbezier::Weights;
 
 constexpr std::size_t kCount = 256;
 /// Bicubic patches, which are about as large as 1, have 203 cells in the mean then: some 14 x 14.
@@ -33,8 +32,6 @@ constexpr double kTolerance = 2e-3;
 constexpr BatchShape kShapes[] = {{3, 3}, {2, 2}, {5, 4}, {8, 8}, {2, 2, true}, {3, 3, true}};
 /// Curves are the two rows of patches of degree 1 in v.
 constexpr BatchShape kCurves[] = {{3, 1}, {8, 1}, {3, 1, true}};
-
-Weights weights_of(BatchShape shape) { return shape.rational ? Weights::cartesian : Weights::none; }
 
 using Point = std::array<double, 3>;
 

@@ -14,7 +14,7 @@ using MakeMesher = std::unique_ptr<PeerMesher> (*)(std::span<const double>);
 
 class MeshPeerRow {
 public:
-  explicit MeshPeerRow(MakeMesher make) : stages_(shared_stages<double>(true)) {
+  explicit MeshPeerRow(MakeMesher make) : stages_(shared_stages<double>({.adaptive = true})) {
     if (stages_ != nullptr) {
       mesher_ = make(std::span<const double>(stages_->nets).first(48 * kPeerPatches));
     }
