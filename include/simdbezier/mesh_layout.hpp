@@ -68,9 +68,10 @@ private:
 /// since more cells would not help these. Between opposite sides that are points there are at least
 /// two cells, and three where a third side is a point, too.
 ///
-/// nu, nv:   one value a patch.
+/// nu, nv:   one value a patch, 1 to kMostSegments.
 /// raised:   the number of patches that changed.
-/// Returns:  ok | bad_rates | out_of_memory.
+/// Threads:  the caller's alone. Determinism: a function of the topology and the rates.
+/// Returns:  ok | bad_rates (not one value a patch, or outside of that range) | out_of_memory.
 [[nodiscard]] SIMDBEZIER_API Status separate_vertices(const Topology& topology,
                                                       std::span<std::uint32_t> nu,
                                                       std::span<std::uint32_t> nv,

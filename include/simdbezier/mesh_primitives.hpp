@@ -10,8 +10,9 @@
 //                unknown_isa and unsupported_isa (of triangles, as resolve_isa()).
 //   Options      Options::threads is honoured, by write_triangles() also isa, executed and
 //                destination; the other members have no meaning.
-//   Allocation   scratch per thread, and 16 bytes a patch where sizes are not known from the
+//   Allocation   scratch per thread, and 8 to 24 bytes a patch where sizes are not known from the
 //                layout.
+//   Determinism  a function of the layout. Spans may not overlap each other, which is not checked.
 //   Cost         O(cells). A size takes about as long as what it is for, since cells are cut in the
 //                same way to be counted.
 #pragma once
@@ -100,8 +101,8 @@ struct ClusterOutputs {
   std::span<std::uint8_t> corners;   ///< numbers of the cluster's vertices
 };
 
-/// Writes the mesh in clusters of at most kMostClusterTriangles triangles of one patch, in blocks
-/// of about 8 x 8 cells.
+/// Writes the mesh in clusters of at most kMostClusterTriangles triangles and kMostClusterVertices
+/// vertices of one patch, in blocks of about 8 x 8 cells.
 [[nodiscard]] SIMDBEZIER_API Status write_clusters(const MeshLayout& layout,
                                                    const ClusterOutputs& out,
                                                    const Options& options = {}) noexcept;

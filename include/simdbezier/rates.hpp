@@ -35,9 +35,9 @@ struct RateOptions {
   /// No row or column of cells turns its normal by more than about this angle, in radians, from one
   /// point to the next: the total turn of the control net's normals over the number of segments.
   double normal_angle = kUnlimited;
-  std::uint32_t most_segments = kMostSegments;
-  int threads = 0;          ///< as in Options
-  Isa isa = Isa::automatic; ///< see resolve_isa()
+  std::uint32_t most_segments = kMostSegments; ///< 1 or more; larger numbers count as this one
+  int threads = 0;                             ///< as in Options
+  Isa isa = Isa::automatic;                    ///< see resolve_isa()
 };
 
 /// A pinhole camera: a point that is one unit away along the direction and x units off that axis
@@ -85,7 +85,8 @@ template <typename T>
 /// out:      one value a patch, in the order of all views.
 /// Returns:  ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
 ///           size_overflow | bad_tolerance (pixels, or a member of the camera, that is not above
-///           zero and finite) | output_too_small.
+///           zero and finite) | output_too_small. On an error nothing has been written.
+/// Threads:  the caller's alone. Allocation: none. Cost: one pass over the control points.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status pixel_tolerances(std::span<const ControlNets<S>> nets,
                                                      const Camera& camera, double pixels,
@@ -135,6 +136,7 @@ template <typename S>
 /// options:  threads and isa count, the other members have no meaning.
 /// Returns:  as choose_rates(); bad_rates also for rates outside of that range. Outputs are
 ///           undefined on an error.
+/// Determinism, allocation, overlaps: as for choose_rates(), which takes longer.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<S>> nets,
                                                       const Topology& topology,
@@ -142,6 +144,7 @@ template <typename S>
                                                       const CertifiedRates& rates,
                                                       const Options& options = {}) noexcept;
 
+/// The largest number of cells in one direction for certify_grids().
 inline constexpr std::uint32_t kMostGridCells = std::uint32_t{1} << 20;
 /// The certificate of meshes whose patches stay apart: each is a grid of nu x nv cells, as
 /// evaluate() numbers its samples, whose diagonals all run from (0,0) to (1,1).

@@ -148,12 +148,6 @@ SIMDBEZIER_INLINE ZoneTerms<V> zone_terms(const QuarterNets<V>& nets, const Cell
   return terms;
 }
 
-template <typename V>
-SIMDBEZIER_INLINE MaskOf<V> is_odd(V n) {
-  const V half = broadcast<V>(ScalarOf<V>(0.5));
-  return whole_part<V>(half * n) != half * n;
-}
-
 /// This is for the roundings of a bound itself, a few dozen.
 template <typename T>
 inline constexpr T kBoundSlack = T(1) + 64 * std::numeric_limits<T>::epsilon();

@@ -42,12 +42,11 @@ struct SegmentWindow {
   }
 };
 
-/// Candidates for the fewest cells that hold: neighbours of those that a bound's proportion to the
-/// tolerance gives, in about the order of their number.
+/// Candidates for the fewest cells that hold, in about the order of their number.
 template <typename V>
 class CellCandidates {
 public:
-  /// centre: cells that a bound's proportion to the tolerance gives.
+  /// centre: cells that a bound's proportion to the tolerance gives; candidates are neighbours.
   SIMDBEZIER_INLINE CellCandidates(const CellScreen<V>& screen, const LaneCells<V>& centre,
                                    V most) {
     using T = ScalarOf<V>;

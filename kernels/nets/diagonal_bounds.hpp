@@ -97,12 +97,10 @@ public:
     const V nu = load_lanes(cells.nu);
     const V nv = load_lanes(cells.nv);
     const V one = broadcast<V>(1);
-    const V rest_u = nu - broadcast<V>(2) * whole_part<V>(nu * broadcast<V>(0.5));
-    const V rest_v = nv - broadcast<V>(2) * whole_part<V>(nv * broadcast<V>(0.5));
     has_[0] = nu > one;
-    has_[1] = rest_u == one;
+    has_[1] = is_odd<V>(nu);
     has_[2] = nv > one;
-    has_[3] = rest_v == one;
+    has_[3] = is_odd<V>(nv);
   }
 
   /// Whether cells of any lane have the zone.

@@ -9,14 +9,14 @@
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 /// Cells by Filip's bound for whole patches: of nu with its best nv, and nv with its best nu, the
-/// pair of fewer cells; above `most` in a direction that needs more. Roundings, and steps above
+/// pair of fewer cells; above `most` in a direction that needs more. Roundings, and rates above
 /// about 2000, may take more than is left for them here, so a lane's result has to be looked at.
 template <typename V>
 SIMDBEZIER_INLINE LaneCells<V> filip_cells(const RateGroup<V>& group, V t, V most) {
   using T = ScalarOf<V>;
   const V one = broadcast<V>(T(1));
   const V tiny = broadcast<V>(std::numeric_limits<T>::min());
-  const V limit = broadcast<V>(T(8) * (T(1) - T(1e-3))) * t; // steps may be longer: see CellSteps
+  const V limit = broadcast<V>(T(8) * (T(1) - T(1e-3))) * t; // steps may be longer: see cell_step()
   const V a = group.largest.uu + group.doubt.uu;
   const V b = group.largest.uv + group.doubt.uv;
   const V c = group.largest.vv + group.doubt.vv;

@@ -88,7 +88,7 @@ SIMDBEZIER_INLINE void raise_halves(const V* from, std::size_t step, Put put) {
   }
 }
 
-/// Second differences of a patch: the control vectors of its second derivatives, times 6, 9 and 6.
+/// The control vectors of a patch's second derivatives: second differences times 6, 9 and 6.
 template <typename V>
 struct SecondDifferences {
   SpaceVector<V> uu[4 * 2]; ///< [j][i]

@@ -38,7 +38,7 @@ struct SortedTerms {
 
 /// The largest value of (l0 l1 a + l0 l2 b + l1 l2 c) / 2 over a triangle, a, b, c >= 0: an eighth
 /// of the largest of them where that one is at least the sum of the others, else half of the square
-/// of a circumradius.
+/// of the circumradius of the triangle whose sides have the squares a, b and c.
 template <typename V>
 SIMDBEZIER_INLINE V triangle_bound(V a, V b, V c) {
   using T = ScalarOf<V>;

@@ -21,5 +21,11 @@ SIMDBEZIER_INLINE V whole_above(V x) {
   const V below = whole_part<V>(x);
   return select_where<V>(below < x, below + broadcast<V>(ScalarOf<V>(1)), below);
 }
+/// For whole numbers.
+template <typename V>
+SIMDBEZIER_INLINE MaskOf<V> is_odd(V n) {
+  const V half = broadcast<V>(ScalarOf<V>(0.5));
+  return whole_part<V>(half * n) != half * n;
+}
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

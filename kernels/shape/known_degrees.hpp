@@ -89,8 +89,8 @@ sweep_positions(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
   }
 }
 
-/// Sweeps a single column, whose parameter all lanes have: lanes are rows, so that sides of patches
-/// in meshes, for which nothing else is asked, take a register for as many points.
+/// Sweeps a single column, such as a side of a patch in a mesh. Lanes are rows, and all of them
+/// have the column's parameter, so that a register holds as many points.
 template <typename P, typename T>
 SIMDBEZIER_KERNEL void sweep_single(const GridTask<T>& task, const ShapeColumns<P, vec<T>>& columns,
                                     const typename ShapeColumns<P, vec<T>>::Edges& edges,

@@ -43,7 +43,9 @@ struct BoundGroup {
   double* memory;
   SecondValues doubt; ///< what rounding may have taken from vectors
 };
-inline constexpr std::size_t kBoundNets = 19;
+/// The patch, its second derivatives, three nets of scratch, and second derivatives of quarters.
+inline constexpr std::size_t kBoundNets = 1 + 3 + 3 + 3 * 4;
+/// A hull and two sizes for each zone; for each quarter and diagonal, three vectors of four.
 inline constexpr std::size_t kBoundValues = kZoneCount * 7 + 4 * 2 * 3 * 4;
 
 /// A box that holds a part of the surface, and the smallest of its weights. Distances from points

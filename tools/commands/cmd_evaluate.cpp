@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <tools/patches/library_status.hpp>
+#include <tools/patches/pack_patches.hpp>
 #include <tools/process/progress.hpp>
 
 namespace simdbezier::tools {

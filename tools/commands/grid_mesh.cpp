@@ -7,6 +7,7 @@
 
 #include <tools/patches/edge_counts.hpp>
 #include <tools/patches/library_status.hpp>
+#include <tools/patches/pack_patches.hpp>
 #include <tools/patches/patch_box.hpp>
 #include <tools/patches/patch_rounding.hpp>
 

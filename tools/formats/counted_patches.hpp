@@ -34,7 +34,7 @@ private:
   std::string each_;
   std::size_t count_ = 0;
   std::size_t count_line_ = 0;
-  std::size_t coordinates_ = 0; // how many the patch that is due has
+  std::size_t coordinates_ = 0; // of the patch that is due, those that have been read
   PatchFile file_;
 };
 

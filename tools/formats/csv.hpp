@@ -22,9 +22,9 @@ struct CsvSample {
   double v = 0;
 };
 
-/// Reads a file with the header patch,u,v or patch,x,y, or patch,centred_u,centred_v as results
-/// have it instead of the latter, line by line.
-/// Throws Failure with file and line on anything else.
+/// Reads a file line by line. Its header is patch,u,v or patch,x,y, or patch,centred_u,centred_v,
+/// which is what results have in place of patch,x,y. Throws Failure with file and line on anything
+/// else.
 class SampleReader {
 public:
   /// Patch numbers must be below `patches`.

@@ -91,6 +91,12 @@ bool Lexer::is_in_memory() {
   return true;
 }
 
+inline const char* Lexer::number_end(const char* begin, const char* last, double& value) const {
+  const auto [end, error] = std::from_chars(begin, last, value);
+  const bool is_word = error == std::errc() && end != last && ends_word(*end);
+  return is_word && std::isfinite(value) ? end : nullptr;
+}
+
 std::size_t Lexer::numbers(std::span<double> values, std::size_t& line) {
   const std::string_view memory = input_.in_memory();
   const char* const last = memory.data() + memory.size();
@@ -102,8 +108,8 @@ std::size_t Lexer::numbers(std::span<double> values, std::size_t& line) {
     for (; begin != last && is_space(*begin); ++begin) {
       line_ends += *begin == '\n' ? 1 : 0;
     }
-    const auto [end, error] = std::from_chars(begin, last, values[count]);
-    if (error != std::errc() || end == last || !ends_word(*end) || !std::isfinite(values[count])) {
+    const char* const end = number_end(begin, last, values[count]);
+    if (end == nullptr) {
       break;
     }
     input_.skip_lines(static_cast<std::size_t>(end - next), line_ends);
@@ -122,9 +128,7 @@ std::size_t Lexer::numbers(std::span<double> values, std::size_t& line) {
 std::size_t Lexer::word_length(std::string_view rest) {
   if (is_of_number(rest[0])) {
     double value = 0;
-    const char* const last = rest.data() + rest.size();
-    const auto [end, error] = std::from_chars(rest.data(), last, value);
-    if (error == std::errc() && end != last && ends_word(*end) && std::isfinite(value)) {
+    if (const char* const end = number_end(rest.data(), rest.data() + rest.size(), value)) {
       value_ = value;
       return static_cast<std::size_t>(end - rest.data());
     }

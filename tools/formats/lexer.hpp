@@ -35,9 +35,10 @@ public:
   Lexer& next();
   /// Reads the next tokens as long as they are finite numbers and in memory as a whole, at most as
   /// many as there are values, and returns how many these are. The last one is the current token;
-  /// `line` becomes that of the first one. There may be more numbers: next() reads what these may
-  /// not be. This is what most of a file goes through, without a token for each number. No line
-  /// ends may be tokens.
+  /// `line` becomes that of the first one. It may stop before a number, such as one with a plus
+  /// sign or at the end of what is in memory: next() reads that one. This is what most of a file
+  /// goes through, without a token for each number. It is not for formats in which line ends are
+  /// tokens.
   std::size_t numbers(std::span<double> values, std::size_t& line);
   /// Returns the text of a word or string; it is valid until the next one is read.
   [[nodiscard]] std::string_view text() const noexcept { return text_; }
@@ -81,6 +82,9 @@ private:
   /// Whether the next token is in memory as a whole. It has been read then, and otherwise nothing
   /// of it.
   bool is_in_memory();
+  /// Returns the end of the word that is a finite number and begins at `begin`, and its value; null
+  /// where there is no such word, or where it may go on behind `last`.
+  const char* number_end(const char* begin, const char* last, double& value) const;
   /// Returns the length of the word that `rest` begins with; finds its value where it is a number.
   std::size_t word_length(std::string_view rest);
   [[nodiscard]] bool ends_word(char c) const noexcept {

@@ -29,11 +29,12 @@ constexpr Format kFormats[] = {SIMDBEZIER_EACH_PATCH_FORMAT(SIMDBEZIER_PATCH_FOR
 // Later releases will read these; until then the answer names the format as not supported yet.
 constexpr std::string_view kLaterFormats[] = {"iges", "igs", "step", "stp", "pov"};
 
-const Format* find_format(const std::string& name) {
+// subject: what names the format, for the message.
+const Format* find_format(const std::string& subject, const std::string& name) {
   const auto* const found = std::ranges::find(kFormats, name, &Format::name);
   if (found == std::end(kFormats) &&
       std::ranges::find(kLaterFormats, name) != std::end(kLaterFormats)) {
-    bad_usage("reading ." + name + " files is not supported yet");
+    bad_usage(subject + ": reading ." + name + " files is not supported yet");
   }
   return found == std::end(kFormats) ? nullptr : found;
 }
@@ -43,7 +44,7 @@ PatchFormat format_of(const std::string& name) {
   if (extension == "gz") { // model.bez.gz is a .bez file
     extension = extension_of(name.substr(0, name.size() - extension.size() - 1));
   }
-  if (const Format* const format = find_format(extension)) {
+  if (const Format* const format = find_format(name, extension)) {
     return format->format;
   }
   bad_usage(name + ": expected a name that ends in " + patch_format_names(".") + ", or --format");
@@ -263,7 +264,7 @@ std::string patch_format_names(const std::string& prefix) {
 }
 
 PatchFormat parse_patch_format(const std::string& option, const std::string& name) {
-  const Format* const format = find_format(name);
+  const Format* const format = find_format(option, name);
   if (format == nullptr) {
     bad_usage(option + ": expected " + patch_format_names("") + ", found " + in_quotes(name));
   }

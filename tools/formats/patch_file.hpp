@@ -160,18 +160,4 @@ SIMDBEZIER_EACH_PATCH_FORMAT(SIMDBEZIER_DECLARE_PATCH_READER)
 /// Throws Failure: exit code 2 where the name or format is not one of ours, otherwise 1.
 [[nodiscard]] PatchFile read_patches(const std::string& in, PatchFormat format);
 
-/// Packs all patches, or some, for evaluation in T. For float the control points are rounded to
-/// float first. Throws Failure naming the place of a control point that T cannot hold.
-template <typename T>
-[[nodiscard]] PatchSet<T> pack_patches(const PatchFile& file, std::size_t first = 0,
-                                       std::size_t patches = PatchFile::kAll);
-/// The same for any of them, in ascending order.
-template <typename T>
-[[nodiscard]] PatchSet<T> pack_patches(const PatchFile& file,
-                                       std::span<const std::uint32_t> patches);
-
-/// The number of patches that are packed at a time where a file has many, because packed patches
-/// take several times the memory of the file.
-inline constexpr std::size_t kBlockPatches = std::size_t{1} << 12;
-
 } // namespace simdbezier::tools

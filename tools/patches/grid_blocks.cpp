@@ -4,6 +4,7 @@
 #include <string>
 
 #include <tools/patches/library_status.hpp>
+#include <tools/patches/pack_patches.hpp>
 #include <tools/process/counts.hpp>
 #include <tools/process/failure.hpp>
 

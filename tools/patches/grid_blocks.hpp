@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <simdbezier/simdbezier.hpp>
-#include <tools/formats/patch_file.hpp>
+#include <tools/patches/pack_patches.hpp>
 
 namespace simdbezier::tools {
 

@@ -1,7 +1,6 @@
 // Packs the control points of a file. Where that fails, the message names the place in the file.
-#include <span>
+#include <tools/patches/pack_patches.hpp>
 
-#include <tools/formats/patch_file.hpp>
 #include <tools/process/failure.hpp>
 #include <tools/process/output_file.hpp>
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <tools/patches/pack_patches.hpp>
+
 namespace simdbezier::tools {
 
 namespace {

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include <tools/patches/library_status.hpp>
+#include <tools/patches/pack_patches.hpp>
 
 namespace simdbezier::tools {
 

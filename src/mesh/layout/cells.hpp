@@ -11,9 +11,14 @@ namespace simdbezier::detail {
 /// A leg of a triangle from its right-angled corner on: along a chain, or against it.
 class Leg {
 public:
-  Leg(const Chain& chain, bool against)
-      : first_(against ? chain.first + chain.segments : chain.first), step_(against ? -1 : 1),
-        segments_(chain.segments) {}
+  explicit Leg(const Chain& chain) : first_(chain.first), step_(1), segments_(chain.segments) {}
+
+  [[nodiscard]] Leg reversed() const {
+    Leg leg = *this;
+    leg.first_ += step_ * static_cast<std::ptrdiff_t>(segments_);
+    leg.step_ = -step_;
+    return leg;
+  }
 
   /// A leg of one segment at least: where the side is a point, both ends are it.
   [[nodiscard]] std::uint32_t segments() const { return segments_ == 0 ? 1 : segments_; }
@@ -61,22 +66,23 @@ struct CellCorners {
 };
 
 /// The four sides of a cell, in the direction of u and v.
+template <typename AnyLeg>
 struct CellSides {
-  Chain bottom;
-  Chain top;
-  Chain west;
-  Chain east;
+  AnyLeg bottom;
+  AnyLeg top;
+  AnyLeg west;
+  AnyLeg east;
 };
 
 /// A cell whose sides may have further vertices, or none.
-template <typename Sink>
-void cut_cell(const CellSides& cell, bool falling, Sink& sink) {
+template <typename AnyLeg, typename Sink>
+void cut_cell(const CellSides<AnyLeg>& cell, bool falling, Sink& sink) {
   if (falling) { // right angles at (0,0) and (1,1)
-    cut_half(Leg(cell.bottom, false), Leg(cell.west, false), sink);
-    cut_half(Leg(cell.top, true), Leg(cell.east, true), sink);
+    cut_half(cell.bottom, cell.west, sink);
+    cut_half(cell.top.reversed(), cell.east.reversed(), sink);
   } else { // at (1,0) and (0,1)
-    cut_half(Leg(cell.east, false), Leg(cell.bottom, true), sink);
-    cut_half(Leg(cell.west, true), Leg(cell.top, false), sink);
+    cut_half(cell.east, cell.bottom.reversed(), sink);
+    cut_half(cell.west.reversed(), cell.top, sink);
   }
 }
 
@@ -281,7 +287,7 @@ private:
     const Chain top = j + 1 == nv_ ? boundary_.between(kV1, i) : Chain{c.at + 2, 1};
     const Chain west = i == 0 ? boundary_.between(kU0, j) : Chain{left, 1};
     const Chain east = i + 1 == nu_ ? boundary_.between(kU1, j) : Chain{right, 1};
-    cut_cell({bottom, top, west, east}, zones_.falling(i, j), sink);
+    cut_cell<Leg>({Leg(bottom), Leg(top), Leg(west), Leg(east)}, zones_.falling(i, j), sink);
   }
 
   const PatchBoundary& boundary_;

@@ -1,6 +1,5 @@
 // The sides of usual patches, whose vertices have numbers that follow each other. Rates are up to
-// 63, or any where there is a single row or column of cells, whose sides have up to 63 segments
-// each.
+// 63. A single row or column of cells may have any rate, and up to 64 segments on a cell's side.
 #pragma once
 
 #include <cstddef>

@@ -59,7 +59,7 @@ public:
   /// The most triangles of a fan in registers.
   static constexpr std::uint32_t kTogether = 4;
   /// The most segments of a cell that after() knows.
-  static constexpr std::uint32_t kMostSegments = 63;
+  static constexpr std::uint32_t kMostInTable = 63;
 
   Rung(std::uint32_t side, std::uint32_t inner)
       : lanes_(fill(static_cast<Index>(side), static_cast<Index>(inner))) {}
@@ -122,10 +122,10 @@ private:
 
   /// What after() adds.
   struct Steps {
-    alignas(16) Index lanes[2][kMostSegments + 1][kLanes];
+    alignas(16) Index lanes[2][kMostInTable + 1][kLanes];
 
     constexpr Steps() : lanes{} {
-      for (std::uint32_t n = 0; n <= kMostSegments; ++n) {
+      for (std::uint32_t n = 0; n <= kMostInTable; ++n) {
         for (std::size_t k = 0; k < kLanes; ++k) {
           lanes[0][n][k] = static_cast<Index>(is_inner(k) ? 0 : n);
           lanes[1][n][k] = static_cast<Index>(is_inner(k) ? 0 : 0 - n);

@@ -2,6 +2,7 @@
 // as those of ruled surfaces. The order is that of CellCutter.
 #pragma once
 
+#include "src/mesh/layout/cells.hpp"
 #include "src/mesh/primitives/fan_writer.hpp"
 #include "src/mesh/primitives/index_stream.hpp"
 #include "src/mesh/primitives/linear_leg.hpp"
@@ -92,17 +93,9 @@ private:
     const LinearLeg high =
         last ? LinearLeg(end, 0, end.segments)
              : LinearLeg(near.vertex(near.segments()), far.vertex(far.segments()));
-    const LinearLeg& bottom = kInU ? near : low;
-    const LinearLeg& top = kInU ? far : high;
-    const LinearLeg& west = kInU ? low : near;
-    const LinearLeg& east = kInU ? high : far;
-    if (falling) {
-      cut_half(bottom, west, out);
-      cut_half(top.reversed(), east.reversed(), out);
-    } else {
-      cut_half(east, bottom.reversed(), out);
-      cut_half(west.reversed(), top, out);
-    }
+    const CellSides<LinearLeg> sides = kInU ? CellSides<LinearLeg>{near, far, low, high}
+                                            : CellSides<LinearLeg>{low, high, near, far};
+    cut_cell(sides, falling, out);
   }
 
   const LinearSides& sides_;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -16,9 +15,9 @@ public:
   UnionWalk(std::uint32_t rate, std::uint32_t other)
       : rate_(rate), whole_(other / rate), part_(other % rate) {}
 
-  /// A segment ends at each of the other side's points after a point, up to the next one, and one
-  /// there unless it is such a point: `rest_` / rate is how far it lies behind one, in segments of
-  /// the other side.
+  /// Segments end at the other side's points behind this point, up to the next one, and at the
+  /// next one itself where it is none of those. `rest_` / rate: how far the next one then lies
+  /// behind a point of the other side, in segments of that side.
   std::uint32_t next() {
     rest_ += part_;
     const std::uint32_t carry = rest_ >= rate_ ? 1 : 0;

@@ -11,10 +11,10 @@ namespace {
 
 /// Cells as one number, in the order in which they are looked at: fewer ones first, and of as many
 /// those with fewer in u. Rates are below 2^16.
-class CellOrder {
+class CellRank {
 public:
-  CellOrder() = default;
-  explicit CellOrder(const CellCounts& cells)
+  CellRank() = default;
+  explicit CellRank(const CellCounts& cells)
       : value_((std::uint64_t{cells.nu} * cells.nv) << 32 | std::uint64_t{cells.nu} << 16 |
                cells.nv) {}
 
@@ -22,16 +22,16 @@ public:
     return {static_cast<std::uint32_t>(value_ >> 16 & 0xffff),
             static_cast<std::uint32_t>(value_ & 0xffff)};
   }
-  friend bool operator<(const CellOrder& a, const CellOrder& b) { return a.value_ < b.value_; }
+  friend bool operator<(const CellRank& a, const CellRank& b) { return a.value_ < b.value_; }
 
 private:
   std::uint64_t value_ = 0;
 };
 
 /// What one patch has tried and will try: candidates in the order of their cells, so that the first
-/// that holds is the best one, and cells that are raised until they hold. These are tried only
-/// where none of fewer cells holds: they may not where a corner's diagonal is forced, which Filip's
-/// bound does not know of.
+/// that holds is the best one, and given cells, which are tried where no candidate of fewer cells
+/// holds, and raised until they do. Filip's bound gives cells that hold, except where a corner's
+/// diagonal is forced, of which it knows nothing.
 class CellTrials {
 public:
   CellTrials() = default;
@@ -47,7 +47,7 @@ public:
     };
     for (std::int64_t k = 0; k < 16; ++k) {
       candidates_[k] =
-          CellOrder({near_centre(centre.nu, k / 4 - 1), near_centre(centre.nv, k % 4 - 1)});
+          CellRank({near_centre(centre.nu, k / 4 - 1), near_centre(centre.nv, k % 4 - 1)});
     }
     std::sort(std::begin(candidates_), std::end(candidates_));
     move_on();
@@ -93,7 +93,7 @@ private:
   }
   /// Goes on to the next candidate, to raising, or to the end.
   void move_on() {
-    const bool is_candidate = next_ < count_ && candidates_[next_] < CellOrder(best_);
+    const bool is_candidate = next_ < count_ && candidates_[next_] < CellRank(best_);
     if (is_candidate && (!has_raised_ || best_.nu <= most_)) {
       result_ = uncertified(candidates_[next_].cells());
     } else if (has_raised_) {
@@ -108,7 +108,7 @@ private:
 
   std::uint32_t most_ = 0;
   CellCounts best_{}; ///< to be raised, or raised
-  CellOrder candidates_[16];
+  CellRank candidates_[16];
   std::size_t count_ = 0;
   std::size_t next_ = 0;
   bool raising_ = false;
@@ -120,9 +120,9 @@ private:
 
 } // namespace
 
-/// The trials of all lanes side by side. Most cells that do not hold are found by a few vectors,
-/// those that lead where an even pair of rates was looked at. Lanes whose cells pass wait for the
-/// others, so that all vectors are looked at for all lanes at once.
+/// The trials of all lanes side by side. A few vectors refuse most cells that do not hold: the
+/// leading ones, which set the bound of an even pair of rates. Lanes whose cells pass these wait
+/// for the others, so that all vectors are looked at for all lanes at once.
 class GroupBound::Search {
 public:
   /// has_leading: whether leading vectors have been found.
@@ -225,9 +225,8 @@ CellCounts GroupBound::filip(std::size_t lane, double tolerance, std::uint32_t m
     return left > 0 ? up((mixed + std::sqrt(mixed * mixed + second * left)) / left * (1 + 1e-12))
                     : most + 1;
   };
-  // Where only the mixed derivative counts, all pairs of one product are as good: cells of one
-  // shape in both directions, instead of slivers, are what a hair of both other derivatives asks
-  // for.
+  // Where only the mixed derivative counts, all pairs of one product are as good. A hair of the
+  // other two asks for cells of one shape in both directions then, not for slivers.
   const double hair = b * 1e-6;
   const auto least = [&](double along, double across) {
     const double first = std::max(along, hair);
@@ -246,7 +245,7 @@ CellCounts GroupBound::filip(std::size_t lane, double tolerance, std::uint32_t m
     const std::uint32_t nv = std::min(most, least(c, a) + step);
     take({other(c, a, nv), nv});
   }
-  if (best.nu > most) { // the best pairs are longer than may be
+  if (best.nu > most) { // the best pairs have more segments than there may be
     take({most, other(a, c, most)});
     take({other(c, a, most), most});
   }
@@ -280,10 +279,7 @@ GroupBound::Lanes<CertifiedCells> GroupBound::choose(const Lanes<double>& t,
     }
     even[lane] = {even_below(best[lane].nu), even_below(best[lane].nv)};
   }
-  Lanes<CertifiedCells> at_most{};
-  if (beyond != 0) {
-    at_most = certify(best);
-  }
+  const Lanes<CertifiedCells> at_most = beyond != 0 ? certify(best) : Lanes<CertifiedCells>{};
   const LaneSegments pairs = segments_of(even);
   CellBounds bounds;
   kernels_.lead(group_, pairs, bounds); // even rates have no other zones

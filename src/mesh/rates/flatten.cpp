@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "src/calls/curve_input.hpp"
-#include "src/mesh/rates/chord_bound.hpp"
+#include "src/mesh/rates/bound_parts.hpp"
 #include "src/mesh/rates/power_of_two.hpp"
 #include "src/runtime/attempt.hpp"
 #include "src/runtime/batch.hpp"

@@ -7,9 +7,8 @@
 #include <vector>
 
 #include <simdbezier/isa.hpp>
-#include <simdbezier/mesh_layout.hpp>
 
-#include "src/mesh/rates/chord_bound.hpp"
+#include "src/mesh/rates/bound_parts.hpp"
 #include "src/mesh/rates/vector_patch.hpp"
 #include "src/tables/bound_task.hpp"
 

@@ -1,8 +1,9 @@
 // See group_bound.hpp: how far the normals of a control net turn.
 //
-// In every cell of the net, the cross products of its sides are the normals that the surface would
-// have if each cell were a bilinear patch. The angles between each normal and the next one are
-// added up along rows, and along columns.
+// The cross products of a cell's sides are the normals that the surface would have at the cell's
+// corners if each cell of the net were a bilinear patch. The angles between each normal and the
+// next one are added up along rows, and along columns.
+#include <algorithm>
 #include <cmath>
 
 #include "src/mesh/net_points.hpp"

@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <new>
 #include <vector>
 
 #include <simdbezier/rates.hpp>
@@ -70,8 +69,11 @@ public:
       Lanes<double> t;
       t.fill(1);
       open.for_lanes([&](std::size_t lane, std::size_t patch) {
-        const double left = tolerance(patch);
-        left > 0 ? static_cast<void>(t[lane] = left) : open.fail(lane, Status::bad_tolerance);
+        if (const double left = tolerance(patch); left > 0) {
+          t[lane] = left;
+        } else {
+          open.fail(lane, Status::bad_tolerance);
+        }
       });
       Lanes<CertifiedCells> chosen = open.bound().choose(t, most_);
       if (measures) {

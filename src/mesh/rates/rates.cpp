@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <new>
 
-#include "src/mesh/net_points.hpp"
 #include "src/mesh/rates/rate_call.hpp"
 #include "src/runtime/fp_environment.hpp"
 

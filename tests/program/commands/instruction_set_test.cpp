@@ -7,6 +7,7 @@
 
 #include <simdbezier/simdbezier.hpp>
 #include <tools/formats/teapot.hpp>
+#include <tools/patches/pack_patches.hpp>
 
 #include "tests/program/commands/mesh_parsers.hpp"
 #include "tests/program/process/program.hpp"

@@ -103,7 +103,7 @@ std::vector<BadUsage> bad_usages() {
       {"EmptyFormat", {"info", "-", "--format", ""}, "--format"},
       {"LaterFormat",
        {"info", "-", "--format", "step"},
-       "reading .step files is not supported yet"},
+       "--format: reading .step files is not supported yet"},
       {"NoOutput", tessellate({}),
        "-o: expected a name that ends in .obj, .ply, .stl or .glb, or - with --to, found nothing"},
       {"NoOutputOfCsv",
@@ -171,8 +171,9 @@ TEST(Usage, InputsOfUnknownOrLaterFormats) {
   expect_failure(run({"info", folder.write("in.xyz", "1\n")}), 2,
                  ".itd, .obj or .rib, or --format");
   for (const std::string later : {"iges", "igs", "step", "stp", "pov"}) {
-    expect_failure(run({"info", folder.write("in." + later, "1\n")}), 2,
-                   "." + later + " files is not supported yet");
+    const std::string name = folder.write("in." + later, "1\n");
+    expect_failure(run({"info", name}), 2,
+                   name + ": reading ." + later + " files is not supported yet");
   }
 }
 

@@ -111,6 +111,7 @@ TEST(Formats, KeepTheLineOfEveryPoint) {
 // of a block: a point has the line of its first coordinate, and no number is cut in two.
 TEST(Formats, NumbersMayStandAnywhere) {
   for (std::size_t size = 65536 - 200; size < 65536; ++size) { // blocks have 65536 bytes
+    SCOPED_TRACE(size);
     std::string text = "1" + std::string(size - 1, ' ');
     std::vector<double> values;
     std::vector<std::uint32_t> lines;

@@ -12,6 +12,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <tools/patches/pack_patches.hpp>
 #include <tools/process/failure.hpp>
 
 #include "tests/reliability/fuzz/checks/promised_patches.hpp"

@@ -1,5 +1,4 @@
-// The bound on the distance between a patch and the triangles of its cells; proofs are in
-// docs/tessellation.md.
+// What bounds on cells and on polylines have in common; docs/tessellation.md has the proofs.
 #pragma once
 
 #include <cstdint>
