@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <iterator>
 
+#include "src/mesh/rates/filip_terms.hpp"
 #include "src/mesh/rates/group_bound.hpp"
 
 namespace simdbezier::detail {
@@ -186,8 +187,9 @@ private:
       if ((lanes >> lane & 1) == 0) {
         continue;
       }
-      const double bound = group_.in_space(lane, bounds.bound[lane]);
-      if (!((last ? bound : bound * kLeadingRounding) <= t_[lane])) {
+      const double found = bounds.bound[lane] * (last ? 1 : kLeadingRounding);
+      const double bound = group_.smaller_in_space(lane, trials[lane].cells(), found);
+      if (!(bound <= t_[lane])) {
         trials[lane].reject();
         phases[lane] = first_phase_;
       } else if (last) {
@@ -207,49 +209,21 @@ private:
 CellCounts GroupBound::filip(std::size_t lane, double tolerance, std::uint32_t most) const {
   // Derivatives are far below the largest limit: one cell keeps it, and no quotient overflows.
   constexpr double kLargestLimit = 1e30;
+  const double slack = 8 / (kRounding * step_slack(most) * step_slack(most));
   const double t = tolerance * patches_[lane].scale.inverse();
-  const double limit =
-      std::min(kLargestLimit, 8 * t * whole_.hull.smallest_weight[lane] /
-                                  (kRounding * step_slack(most) * step_slack(most)));
-  const double a = whole_.largest.uu[lane] + group_.doubt.uu[lane];
-  const double b = whole_.largest.uv[lane] + group_.doubt.uv[lane];
-  const double c = whole_.largest.vv[lane] + group_.doubt.vv[lane];
-  CellCounts best{most + 1, most + 1};
-  const auto up = [&](double n) {
-    return n <= most ? std::max(1U, static_cast<std::uint32_t>(std::ceil(n))) : most + 1;
-  };
-  // The least other rate, with one rate given, for which a/nu^2 + 2 b/(nu nv) + c/nv^2 <= limit.
-  const auto other = [&](double first, double second, std::uint32_t n) {
-    const double left = limit - first / (static_cast<double>(n) * n);
-    const double mixed = b / n;
-    return left > 0 ? up((mixed + std::sqrt(mixed * mixed + second * left)) / left * (1 + 1e-12))
-                    : most + 1;
-  };
-  // Where only the mixed derivative counts, all pairs of one product are as good. A hair of the
-  // other two asks for cells of one shape in both directions then, not for slivers.
-  const double hair = b * 1e-6;
-  const auto least = [&](double along, double across) {
-    const double first = std::max(along, hair);
-    const double second = std::max(across, hair);
-    const double n =
-        std::sqrt(2 * (first + (second > 0 ? b * std::sqrt(first / second) : 0)) / limit);
-    return n < most ? std::max(1U, static_cast<std::uint32_t>(n)) : most;
-  };
-  const auto take = [&](const CellCounts& cells) {
-    const bool fits = cells.nu <= most && cells.nv <= most;
-    best = fits && cells.product() < best.product() ? cells : best;
-  };
-  for (std::uint32_t step = 0; step < 2; ++step) {
-    const std::uint32_t nu = std::min(most, least(a, c) + step);
-    take({nu, other(a, c, nu)});
-    const std::uint32_t nv = std::min(most, least(c, a) + step);
-    take({other(c, a, nv), nv});
+  const FilipTerms general{whole_.largest.uu[lane] + group_.doubt.uu[lane],
+                           whole_.largest.uv[lane] + group_.doubt.uv[lane],
+                           whole_.largest.vv[lane] + group_.doubt.vv[lane],
+                           std::min(kLargestLimit, slack * t * whole_.hull.smallest_weight[lane])};
+  const CellCounts best = general.fewest(most);
+  const SeparableBound& other = separable_[lane];
+  if (!(other.off < t)) {
+    return best;
   }
-  if (best.nu > most) { // the best pairs have more segments than there may be
-    take({most, other(a, c, most)});
-    take({other(c, a, most), most});
-  }
-  return best;
+  const FilipTerms separable{other.uu, other.uv, other.vv,
+                             std::min(kLargestLimit, slack * (t - other.off))};
+  const CellCounts cells = separable.fewest(most);
+  return cells.product() < best.product() ? cells : best;
 }
 
 GroupBound::Lanes<CertifiedCells> GroupBound::raise(const Lanes<CellCounts>& cells,
@@ -290,7 +264,8 @@ GroupBound::Lanes<CertifiedCells> GroupBound::choose(const Lanes<double>& t,
       trials[lane] = CellTrials({most + 1, most + 1}, most);
       continue;
     }
-    const double scale = std::min(1.0, std::sqrt(in_space(lane, bounds.bound[lane]) / t[lane]));
+    const double scale =
+        std::min(1.0, std::sqrt(smaller_in_space(lane, even[lane], bounds.bound[lane]) / t[lane]));
     const auto scaled = [&](std::uint32_t n) { return static_cast<std::uint32_t>(n * scale); };
     trials[lane] = CellTrials(best[lane], {scaled(even[lane].nu), scaled(even[lane].nv)}, most);
   }

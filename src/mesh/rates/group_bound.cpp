@@ -56,6 +56,9 @@ void GroupBound::form() {
     group_.doubt.uv[lane] = m * n * unit;
     group_.doubt.vv[lane] = n * (n - 1) * unit;
   }
+  for (std::size_t lane = 0; lane < count_; ++lane) {
+    separable_[lane] = bound_separable(patches_[lane]);
+  }
   kernels_.form(group_, whole_);
 }
 
@@ -95,7 +98,7 @@ GroupBound::Lanes<CertifiedCells> GroupBound::certify(const Lanes<CellCounts>& c
   include_corners(all_lanes(), segments, bounds);
   Lanes<CertifiedCells> certified;
   for (std::size_t lane = 0; lane < count_; ++lane) {
-    certified[lane] = {cells[lane], in_space(lane, bounds.bound[lane]),
+    certified[lane] = {cells[lane], smaller_in_space(lane, cells[lane], bounds.bound[lane]),
                        static_cast<std::uint16_t>(bounds.falling[lane])};
   }
   return certified;
@@ -108,7 +111,7 @@ GroupBound::Lanes<double> GroupBound::rising_bounds(const CellCounts& cells) con
   kernels_.bound(group_, segments_of(all), kAllZones, bounds);
   Lanes<double> rising{};
   for (std::size_t lane = 0; lane < count_; ++lane) {
-    rising[lane] = in_space(lane, bounds.rising[lane]);
+    rising[lane] = smaller_in_space(lane, cells, bounds.rising[lane]);
   }
   return rising;
 }

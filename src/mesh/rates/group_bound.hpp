@@ -9,6 +9,7 @@
 #include <simdbezier/isa.hpp>
 
 #include "src/mesh/rates/bound_parts.hpp"
+#include "src/mesh/rates/separable_bound.hpp"
 #include "src/mesh/rates/vector_patch.hpp"
 #include "src/tables/bound_task.hpp"
 
@@ -81,6 +82,13 @@ private:
   [[nodiscard]] double in_space(std::size_t lane, double bound) const {
     return patches_[lane].in_space(bound * kRounding);
   }
+  /// The smaller one of a bound of the kernels' and that of a patch with separable weights, which
+  /// holds for all diagonals.
+  [[nodiscard]] double smaller_in_space(std::size_t lane, const CellCounts& cells,
+                                        double bound) const {
+    const double other = separable_[lane].at(cells);
+    return in_space(lane, other < bound ? other : bound);
+  }
   /// choose() by Filip's bound alone, which is coarser and has a formula for the counts.
   [[nodiscard]] CellCounts filip(std::size_t lane, double tolerance, std::uint32_t most) const;
 
@@ -88,6 +96,7 @@ private:
   BoundGroup group_{};
   WholePatches whole_{};
   Lanes<VectorPatch> patches_;
+  Lanes<SeparableBound> separable_{};
   Lanes<std::uint8_t> flags_{};
   std::size_t count_ = 0;
   std::vector<LaneValues> memory_; ///< kept from one group to the next
