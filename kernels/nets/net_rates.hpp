@@ -20,7 +20,10 @@ SIMDBEZIER_INLINE LaneCells<V> filip_cells(const RateGroup<V>& group, V t, V mos
   const V a = group.largest.uu + group.doubt.uu;
   const V b = group.largest.uv + group.doubt.uv;
   const V c = group.largest.vv + group.doubt.vv;
-  const auto least = [&](V first, V second) SIMDBEZIER_INLINE_LAMBDA {
+  const V share = broadcast<V>(T(detail::kMixedShare)) * b;
+  const auto least = [&](V along, V across) SIMDBEZIER_INLINE_LAMBDA {
+    const V first = larger_of<V>(along, share);
+    const V second = larger_of<V>(across, share);
     const V mixed = b * square_root(divide(first, larger_of<V>(second, tiny)));
     const V n = square_root(divide((first + mixed) + (first + mixed), limit));
     return larger_of<V>(whole_above<V>(smaller_of<V>(n, most)), one);

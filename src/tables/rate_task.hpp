@@ -9,6 +9,11 @@ namespace simdbezier::detail {
 /// parameters are rounded, which matters in single precision.
 inline constexpr double kStepRounding = 4 * 0x1p-24;
 
+/// Where hardly more than the mixed derivative counts, all pairs of rates of one product are nearly
+/// as good. The others count as at least this share of it, so that cells are of one shape in both
+/// directions then, and no slivers.
+inline constexpr double kMixedShare = 1.0 / 64;
+
 /// Rates of a patch that the kernel leaves to GroupBound: its numbers are too large or too small,
 /// no tolerance is left, or the kernel has found no cells that keep it.
 inline constexpr std::uint32_t kUndecided = 0xffffffff;

@@ -18,12 +18,10 @@ CellCounts FilipTerms::fewest(std::uint32_t most) const {
     return left > 0 ? up((mixed + std::sqrt(mixed * mixed + second * left)) / left * (1 + 1e-12))
                     : most + 1;
   };
-  // Where only the mixed derivative counts, all pairs of one product are as good. A hair of the
-  // other two asks for cells of one shape in both directions then, not for slivers.
-  const double hair = b * 1e-6;
+  const double share = b * kMixedShare;
   const auto least = [&](double along, double across) {
-    const double first = std::max(along, hair);
-    const double second = std::max(across, hair);
+    const double first = std::max(along, share);
+    const double second = std::max(across, share);
     const double n =
         std::sqrt(2 * (first + (second > 0 ? b * std::sqrt(first / second) : 0)) / limit);
     return n < most ? std::max(1U, static_cast<std::uint32_t>(n)) : most;
