@@ -30,12 +30,15 @@ struct TestPatch {
   [[nodiscard]] ControlNets<double> nets() const {
     return ControlNets<double>::packed(values.data(), 1, degree_u, degree_v, 3, weights);
   }
-  [[nodiscard]] Point at(double u, double v) const;
+  /// In the precision of the parameters.
+  template <typename Real>
+  [[nodiscard]] std::array<Real, 3> at(Real u, Real v) const;
 };
 
 /// Bernstein polynomials by their recurrence.
-inline std::vector<double> bernstein(int degree, double t) {
-  std::vector<double> b(static_cast<std::size_t>(degree) + 1);
+template <typename Real>
+std::vector<Real> bernstein(int degree, Real t) {
+  std::vector<Real> b(static_cast<std::size_t>(degree) + 1);
   b[0] = 1;
   for (std::size_t n = 1; n < b.size(); ++n) {
     for (std::size_t i = n + 1; i-- > 0;) {
@@ -45,22 +48,25 @@ inline std::vector<double> bernstein(int degree, double t) {
   return b;
 }
 
-inline Point TestPatch::at(double u, double v) const {
-  const std::vector<double> bu = bernstein(degree_u, u);
-  const std::vector<double> bv = bernstein(degree_v, v);
-  Point sum{};
-  double weight = 0;
+template <typename Real>
+std::array<Real, 3> TestPatch::at(Real u, Real v) const {
+  const std::vector<Real> bu = bernstein(degree_u, u);
+  const std::vector<Real> bv = bernstein(degree_v, v);
+  std::array<Real, 3> sum{};
+  Real weight = 0;
   for (std::size_t j = 0; j < bv.size(); ++j) {
     for (std::size_t i = 0; i < bu.size(); ++i) {
       const double* const p = &values[channels() * (j * bu.size() + i)];
-      const double b = bu[i] * bv[j];
-      const double w = weights == Weights::none ? 1 : p[3];
-      const double factor = weights == Weights::homogeneous ? b : b * w;
-      sum = sum + factor * Point{p[0], p[1], p[2]};
+      const Real b = bu[i] * bv[j];
+      const Real w = weights == Weights::none ? 1 : p[3];
+      const Real factor = weights == Weights::homogeneous ? b : b * w;
+      for (std::size_t c = 0; c < 3; ++c) {
+        sum[c] += factor * p[c];
+      }
       weight += b * w;
     }
   }
-  return (1 / weight) * sum;
+  return {sum[0] / weight, sum[1] / weight, sum[2] / weight};
 }
 
 struct Choice {
@@ -80,7 +86,8 @@ inline Topology topology_of(const TestPatch& patch) {
 
 /// Vertices of a mesh of one patch whose sides are all different, in the documented order.
 inline std::vector<Point> vertices_of(const TestPatch& patch, std::uint32_t nu, std::uint32_t nv) {
-  std::vector<Point> points = {patch.at(0, 0), patch.at(1, 0), patch.at(0, 1), patch.at(1, 1)};
+  std::vector<Point> points = {patch.at(0.0, 0.0), patch.at(1.0, 0.0), patch.at(0.0, 1.0),
+                               patch.at(1.0, 1.0)};
   const auto add = [&](std::uint32_t i, std::uint32_t j) {
     points.push_back(patch.at(static_cast<double>(i) / nu, static_cast<double>(j) / nv));
   };

@@ -111,34 +111,6 @@ TestPatch cylinder(Weights form) {
 
 using LongPoint = std::array<long double, 3>;
 
-LongPoint long_at(const TestPatch& patch, long double u, long double v) {
-  const auto basis = [](int degree, long double t) {
-    std::vector<long double> b(static_cast<std::size_t>(degree) + 1);
-    b[0] = 1;
-    for (std::size_t n = 1; n < b.size(); ++n) {
-      for (std::size_t i = n + 1; i-- > 0;) {
-        b[i] = (i < n ? (1 - t) * b[i] : 0) + (i > 0 ? t * b[i - 1] : 0);
-      }
-    }
-    return b;
-  };
-  const std::vector<long double> bu = basis(patch.degree_u, u);
-  const std::vector<long double> bv = basis(patch.degree_v, v);
-  LongPoint sum{};
-  long double weight = 0;
-  for (std::size_t j = 0; j < bv.size(); ++j) {
-    for (std::size_t i = 0; i < bu.size(); ++i) {
-      const double* const p = &patch.values[4 * (j * bu.size() + i)];
-      const long double b = bu[i] * bv[j];
-      for (std::size_t c = 0; c < 3; ++c) {
-        sum[c] += (patch.weights == Weights::homogeneous ? b : b * p[3]) * p[c];
-      }
-      weight += b * p[3];
-    }
-  }
-  return {sum[0] / weight, sum[1] / weight, sum[2] / weight};
-}
-
 /// The largest lengths of second derivatives in uu, uv and vv, by differences of points that are
 /// 2^-12 apart, which errs by about 1e-5 of them.
 std::array<double, 3> found_derivatives(const TestPatch& patch) {
@@ -148,9 +120,7 @@ std::array<double, 3> found_derivatives(const TestPatch& patch) {
     for (int i = 0; i <= 16; ++i) {
       const long double u = 2 * kStep + (1 - 4 * kStep) * i / 16;
       const long double v = 2 * kStep + (1 - 4 * kStep) * j / 16;
-      const auto at = [&](int du, int dv) {
-        return long_at(patch, u + kStep * du, v + kStep * dv);
-      };
+      const auto at = [&](int du, int dv) { return patch.at(u + kStep * du, v + kStep * dv); };
       const LongPoint points[] = {at(-1, 0), at(1, 0),  at(0, -1), at(0, 1), at(-1, -1),
                                   at(1, -1), at(-1, 1), at(1, 1),  at(0, 0)};
       long double squares[3] = {};

@@ -65,8 +65,8 @@ private:
 };
 
 /// Calls visit(group) for patches of a view, some at a time, in parallel; the report names the
-/// first of them at fault. flags: of all patches of the view, see TopologyData; none where no edge
-/// is collapsed as far as the caller is concerned.
+/// first of them at fault. flags: of all patches of the view, see TopologyData; none where no
+/// diagonal is forced.
 template <typename S, typename Visit>
 RateReport visit_groups(const ControlNets<S>& nets, const PatchList& patches,
                         std::span<const std::uint8_t> flags, Isa isa, int threads,

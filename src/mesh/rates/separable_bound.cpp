@@ -125,38 +125,48 @@ struct Direction {
   }
 };
 
+using Vector = std::array<double, 3>;
+
+/// No vector is longer than so many times its largest component.
+constexpr double kRootOfThree = 1.7320509;
+
 /// Points of a patch, without weights, and what they may be off by.
 struct Points {
-  std::size_t columns;
-  std::vector<std::array<double, 3>> at;
+  std::array<Vector, kOrders * kOrders> at; ///< as in VectorNet
   double largest = 0;
   double error = 0;
 };
 
-double length(const std::array<double, 3>& v) {
-  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+double length(const Vector& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+/// The sum of factor[i] times the vector at from[i * step].
+Vector combination(const std::array<double, kOrders>& factor, std::size_t order, const Vector* from,
+                   std::size_t step) {
+  Vector sum{};
+  for (std::size_t i = 0; i < order; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum[c] += factor[i] * from[i * step][c];
+    }
+  }
+  return sum;
 }
 
 /// What rounding may have taken from a vector whose factors have that size.
 double doubt(double size, const Points& points) {
-  constexpr double kRootOfThree = 1.7320509;
   return kRootOfThree * size * (kCoefficientError * points.largest + points.error);
 }
 
-/// The largest derivative along u (or v, where steps are those of columns).
-double largest_along(const DerivativeRows& rows, std::size_t order, std::size_t step,
-                     std::size_t others, std::size_t other_step, const Points& points) {
+/// The largest second derivative along one direction, in which points are `step` apart, over all
+/// points of the other one.
+double largest_along(const Direction& direction, std::size_t step, const Direction& other,
+                     std::size_t other_step, const Points& points) {
+  const DerivativeRows& rows = direction.second;
   double most = 0;
   for (std::size_t k = 0; k < rows.rows; ++k) {
-    for (std::size_t j = 0; j < others; ++j) {
-      std::array<double, 3> sum{};
-      for (std::size_t i = 0; i < order; ++i) {
-        const auto& p = points.at[i * step + j * other_step];
-        for (std::size_t c = 0; c < 3; ++c) {
-          sum[c] += rows.factor[k][i] * p[c];
-        }
-      }
-      most = larger_bound(most, length(sum) + doubt(rows.size[k], points));
+    for (std::size_t j = 0; j < other.order; ++j) {
+      const Vector found =
+          combination(rows.factor[k], direction.order, points.at.data() + j * other_step, step);
+      most = larger_bound(most, length(found) + doubt(rows.size[k], points));
     }
   }
   return most;
@@ -164,25 +174,14 @@ double largest_along(const DerivativeRows& rows, std::size_t order, std::size_t 
 
 double largest_mixed(const Direction& u, const Direction& v, const Points& points) {
   double most = 0;
-  std::array<std::array<double, 3>, kOrders> along_u;
+  std::array<Vector, kOrders> along_u;
   for (std::size_t k = 0; k < u.first.rows; ++k) {
     for (std::size_t j = 0; j < v.order; ++j) {
-      along_u[j] = {};
-      for (std::size_t i = 0; i < u.order; ++i) {
-        const auto& p = points.at[j * points.columns + i];
-        for (std::size_t c = 0; c < 3; ++c) {
-          along_u[j][c] += u.first.factor[k][i] * p[c];
-        }
-      }
+      along_u[j] = combination(u.first.factor[k], u.order, points.at.data() + j * u.order, 1);
     }
     for (std::size_t l = 0; l < v.first.rows; ++l) {
-      std::array<double, 3> sum{};
-      for (std::size_t j = 0; j < v.order; ++j) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          sum[c] += v.first.factor[l][j] * along_u[j][c];
-        }
-      }
-      most = larger_bound(most, length(sum) + doubt(u.first.size[k] * v.first.size[l], points));
+      const Vector found = combination(v.first.factor[l], v.order, along_u.data(), 1);
+      most = larger_bound(most, length(found) + doubt(u.first.size[k] * v.first.size[l], points));
     }
   }
   return most;
@@ -224,12 +223,10 @@ SeparableBound bound_separable(const VectorPatch& patch) {
   }
   departure += 0x1p-50;
   Points points;
-  points.columns = net.columns;
-  points.at.reserve(net.at.size());
-  for (const ControlVector& w : net.at) {
-    points.at.push_back({w.x[0] / w.x[3], w.x[1] / w.x[3], w.x[2] / w.x[3]});
-    for (const double x : points.at.back()) {
-      points.largest = std::max(points.largest, std::fabs(x));
+  for (std::size_t k = 0; k < net.at.size(); ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      points.at[k][c] = net.at[k].x[c] / net.at[k].x[3];
+      points.largest = std::max(points.largest, std::fabs(points.at[k][c]));
     }
   }
   points.error = kPointError * patch.largest;
@@ -237,11 +234,9 @@ SeparableBound bound_separable(const VectorPatch& patch) {
   v.find_derivatives();
   // A weight that is off by a share d moves a point of the surface by d / (1 - d) of the diameter
   // at most, and so it does the corners of triangles. Points lie in a cube around their middle.
-  const double diameter = 2 * 1.7320509 * points.largest;
-  return {largest_along(u.second, u.order, 1, v.order, u.order, points),
-          largest_mixed(u, v, points),
-          largest_along(v.second, v.order, u.order, u.order, 1, points),
-          2 * departure / (1 - departure) * diameter};
+  const double diameter = 2 * kRootOfThree * points.largest;
+  return {largest_along(u, 1, v, u.order, points), largest_mixed(u, v, points),
+          largest_along(v, u.order, u, 1, points), 2 * departure / (1 - departure) * diameter};
 }
 
 } // namespace simdbezier::detail
