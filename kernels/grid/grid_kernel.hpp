@@ -20,6 +20,8 @@
 #include "kernels/grid/small_grid_jets.hpp"
 #include "kernels/grid/small_jets_across.hpp"
 #include "kernels/grid/square_sweeps.hpp"
+#include "kernels/grid/streamed_planes.hpp"
+#include "kernels/grid/streamed_rows.hpp"
 #include "kernels/simd/register_pair.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -40,11 +42,10 @@ struct ColumnSplit {
   }
 };
 
-/// Whether two registers are streamed together, because they are one line, or two that lie side by
-/// side. Memory takes each second line at half of its rate.
+/// Whether two registers of a line are streamed together. Memory takes each second line at half of
+/// its rate.
 template <detail::OutputSet kOutputs, typename T>
-constexpr bool kStreamsPairs =
-    kLineWide<RegisterPair<vec<T>>> ? kOutputs == detail::kPosition : kSweepsTwice<kOutputs, T>;
+constexpr bool kStreamsPairs = kLineWide<vec<T>>&& kSweepsTwice<kOutputs, T>;
 
 /// So many bytes of samples stay in the first-level cache while one tile follows the other.
 constexpr std::size_t kCachedBytes = 12288;
@@ -208,6 +209,11 @@ SIMDBEZIER_PART void sweep_patches(const GridTask<T>& task, const ColumnSplit<ve
         return sweep_record_tiles<kOutputs>(task, piece, patch, end);
       }
     }
+    if constexpr (kStreamsRows<kOutputs, T>) {
+      if (task.streaming) {
+        return stream_rows<kOutputs>(task, piece, patch, end);
+      }
+    }
     if (task.origins != nullptr || task.streaming) {
       return sweep_registers<kOutputs>(task, piece, patch, end);
     }
@@ -256,6 +262,22 @@ SIMDBEZIER_PART bool sweep_small_grid(const GridTask<T>& task) {
   return false;
 }
 
+/// Sweeps a task whose rows are streamed but are no whole registers, and returns whether it is one.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_PART bool sweep_straight_to_memory(const GridTask<T>& task, const RowPiece<T>& piece) {
+#if defined(SIMDBEZIER_KERNELS_AVX2)
+  if constexpr (kStreamsRows<kOutputs, T>) {
+    if (task.streaming && task.nu % kLanes<vec<T>> != 0) {
+      stream_planes<kOutputs>(task, piece, 0, task.patch_count);
+      return true;
+    }
+  }
+#endif
+  static_cast<void>(task);
+  static_cast<void>(piece);
+  return false;
+}
+
 template <typename T, detail::OutputSet kOutputs>
 SIMDBEZIER_KERNEL void grid_kernel(GridTask<T>& task) {
   task.executed = Isa::SIMDBEZIER_ISA;
@@ -266,6 +288,9 @@ SIMDBEZIER_KERNEL void grid_kernel(GridTask<T>& task) {
   RowPowers<T> powers;
   for (RowPieces<T> pieces(task); pieces.more();) {
     const RowPiece<T> piece = pieces.next(powers);
+    if (sweep_straight_to_memory<kOutputs>(task, piece)) {
+      continue;
+    }
     const std::size_t together = kCachedBytes / bytes_of<kOutputs>(task, piece) + 1;
     for (std::size_t patch = 0; patch < task.patch_count; patch += together) {
       const std::size_t left = task.patch_count - patch;

@@ -109,7 +109,7 @@ private:
 };
 
 /// The call on grids of each patch's or curve's own. Work: made of what is given, what is resolved,
-/// the counted grids and a destination.
+/// the counted grids and a way to write.
 template <CallName kName, typename T, template <typename> typename Set, typename Where,
           typename Work>
 class CountedGridsCall : public OutputCall<T, Set, Where> {
@@ -123,8 +123,8 @@ public:
     const Status counted = counted_.count();
     return counted ? this->check_given(counted_.extent(), counted_.inputs()) : counted;
   }
-  [[nodiscard]] Work plan(Destination destination) const noexcept {
-    return {this->in_, this->request_, counted_, destination};
+  [[nodiscard]] Work plan(Way way) const noexcept {
+    return {this->in_, this->request_, counted_, way};
   }
   [[nodiscard]] std::size_t written() const noexcept {
     return written_bytes(this->in_.out, counted_.total());

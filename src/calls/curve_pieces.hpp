@@ -18,9 +18,8 @@ namespace simdbezier::detail {
 
 /// How the vectors of a call are delivered; curvatures are always written directly.
 template <typename T>
-[[nodiscard]] OutputPlan<T> plan_outputs(const OutputList<T>& out,
-                                         Destination destination) noexcept {
-  return {out, out.wants_vectors() ? destination : Destination::cache};
+[[nodiscard]] OutputPlan<T> plan_outputs(const OutputList<T>& out, Way way) noexcept {
+  return {out, out.wants_vectors() ? way : Way::cache};
 }
 
 /// Fills in what tasks of all kinds have in common, for curves from `first` on and samples from

@@ -1,20 +1,21 @@
 // Calls that can write through the caches or past them. Besides what every call has (call.hpp):
 //
-//   auto plan(Destination)          the work, with the destination decided: cache or memory
+//   auto plan(Way)                  the work, for each way of getting the outputs to memory
 //   std::size_t written() const     how many bytes it writes
 //   CallKind kind() const           what calls have in common that the same stores suit
 //
 // and the work's
-//   std::size_t grain()             units of a patch or sample; these are the same both ways
+//   std::size_t grain()             units of a patch or sample; these are the same each way
 //
-// Which way is faster depends on the machine, on what the kernels can put where it belongs by
+// Which way is the fastest depends on the machine, on what the kernels can put where it belongs by
 // themselves, on the width of rows and on the number of threads; no rule foretells it. The first
-// large call of each kind therefore evaluates its first samples in both ways, and the faster one is
-// kept. Both give the same bits, so that it does not matter who decides what.
+// large call of each kind therefore evaluates its first samples in all ways that its caller allows,
+// and the fastest one is kept. All give the same bits, so that it does not matter who decides what.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <simdbezier/options.hpp>
 #include <simdbezier/status.hpp>
@@ -29,7 +30,7 @@ namespace simdbezier::detail {
 
 template <typename Call>
 concept HasDestination = requires(const Call& call) {
-  call.plan(Destination::cache);
+  call.plan(Way::cache);
   call.written();
   call.kind();
 };
@@ -67,48 +68,65 @@ template <typename T>
   return kind;
 }
 
-/// What automatic means for `bytes` bytes where nothing has been measured.
-[[nodiscard]] Destination unmeasured_destination(std::size_t bytes) noexcept;
+/// Where `bytes` bytes go that a caller wants to go to `wanted`: automatic where only a measurement
+/// can tell.
+[[nodiscard]] Destination resolve_destination(Destination wanted, std::size_t bytes) noexcept;
 
-/// Whether a measurement, and nothing else, is to decide about so many bytes.
-[[nodiscard]] bool is_measured(std::size_t bytes) noexcept;
+/// Whether calls of so many bytes measure.
+[[nodiscard]] bool is_measured(Destination resolved, std::size_t bytes) noexcept;
 
-/// Runs the same work in both ways, of a call that has claimed its kind, and notes which is faster.
-/// Returns ok | out_of_memory, before anything is written.
-[[nodiscard]] Status run_and_decide(const AnyWork& plain, const AnyWork& streaming,
-                                    const CallKind& kind, std::size_t bytes,
-                                    const Options& options) noexcept;
+/// A call's work in one way.
+struct WayOfCall {
+  Way way;
+  AnyWork work;
+};
+
+/// Runs the same work in several ways, of a call that has claimed its kind, and notes which is the
+/// fastest. The first one that streams is what is taken where nothing can be measured. Returns ok |
+/// out_of_memory, before anything is written.
+[[nodiscard]] Status run_and_decide(std::span<const WayOfCall> ways, const CallKind& kind,
+                                    std::size_t bytes, const Options& options) noexcept;
 
 /// Adds the number of threads, on which bandwidth depends, and whether most of the output has left
 /// the caches when the call returns: plain stores cost more then.
 [[nodiscard]] CallKind measured_kind(CallKind kind, std::size_t bytes,
                                      const Options& options) noexcept;
 
+/// Runs a checked call, and measures on the way.
+template <typename Call>
+Status measure_ways(const Call& call, Destination destination, const CallKind& kind,
+                    std::size_t bytes, const Options& options) noexcept {
+  const auto cache = call.plan(Way::cache);
+  const auto memory = call.plan(Way::memory);
+  const auto by_l1 = call.plan(Way::memory_by_l1);
+  const WayOfCall ways[] = {{Way::cache, AnyWork(cache, cache.grain())},
+                            {Way::memory, AnyWork(memory, memory.grain())},
+                            {Way::memory_by_l1, AnyWork(by_l1, by_l1.grain())}};
+  const std::size_t streaming = destination == Destination::memory ? 1 : 0;
+  return run_and_decide(std::span(ways).subspan(streaming), kind, bytes, options);
+}
+
 /// Runs a checked call.
 template <typename Call>
 Status run_to_destination(const Call& call, const Options& options) noexcept {
-  Destination destination = options.destination;
   const std::size_t bytes = call.written();
-  if (destination == Destination::automatic) {
-    destination = unmeasured_destination(bytes);
-    if (is_measured(bytes)) {
-      const CallKind kind = measured_kind(call.kind(), bytes, options);
-      const DestinationNotes::Answer answer = destination_notes().ask(kind);
-      if (answer.claimed) {
-        const auto plain = call.plan(Destination::cache);
-        const auto streaming = call.plan(Destination::memory);
-        return run_and_decide(AnyWork(plain, plain.grain()), AnyWork(streaming, streaming.grain()),
-                              kind, bytes, options);
-      }
-      destination = answer.choice == Destination::automatic ? destination : answer.choice;
+  const Destination destination = resolve_destination(options.destination, bytes);
+  Way way = destination == Destination::cache ? Way::cache : Way::memory;
+  if (is_measured(destination, bytes)) {
+    CallKind kind = measured_kind(call.kind(), bytes, options);
+    kind.add(static_cast<std::uint64_t>(destination));
+    const DestinationNotes::Answer answer = destination_notes().ask(kind);
+    if (answer.claimed) {
+      return measure_ways(call, destination, kind, bytes, options);
     }
+    way = answer.choice == Way::undecided ? way : answer.choice;
   }
   if constexpr (HasWidths<Call>) {
-    if (destination == Destination::cache && !exceeds_caches(bytes)) {
+    if (way == Way::cache && !exceeds_caches(bytes)) {
       return run_in_cache(call, options);
     }
   }
-  const auto work = call.plan(destination);
+  const auto work = call.plan(way);
   return run_work(AnyWork(work), options);
 }
 

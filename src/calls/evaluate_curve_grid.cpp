@@ -36,10 +36,10 @@ template <typename T>
 class CurveGridWork {
 public:
   CurveGridWork(const CurveStorage<T>& curves, const Request<T>& request, const GridPlan<T>& plan,
-                const OutputList<T>& out, Destination destination) noexcept
+                const OutputList<T>& out, Way way) noexcept
       : first_curve_(request.first), curves_(request.count), plan_(plan),
-        outputs_(plan_outputs(out, destination)), kernels_{curves, *request.table,
-                                                           request.components.first, 0} {
+        outputs_(plan_outputs(out, way)), kernels_{curves, *request.table, request.components.first,
+                                                   0} {
     const std::size_t n = plan.nu();
     const bool one_pass = out.holds(CurveOutput::position) && !out.holds(CurveOutput::d1) &&
                           !out.holds(CurveOutput::d2) && !out.wants_curvature();
@@ -106,8 +106,8 @@ public:
     const Status usable = this->check_given(samples, inputs);
     return usable ? plan_.build(one_row(in_.where)) : usable;
   }
-  [[nodiscard]] CurveGridWork<T> plan(Destination destination) const noexcept {
-    return {*in_.set.storage(), request_, plan_, in_.out, destination};
+  [[nodiscard]] CurveGridWork<T> plan(Way way) const noexcept {
+    return {*in_.set.storage(), request_, plan_, in_.out, way};
   }
   [[nodiscard]] std::size_t written() const noexcept {
     return written_bytes(in_.out, plan_.nu() * request_.count);

@@ -15,10 +15,10 @@ template <typename T>
 class CurveGridsWork {
 public:
   CurveGridsWork(const Given<T, CurveSet<T>, CurveGrids>& in, const Request<T>& request,
-                 const CountedGrids& grids, Destination destination) noexcept
+                 const CountedGrids& grids, Way way) noexcept
       : first_curve_(request.first), grids_(grids),
-        outputs_(plan_outputs(in.out, destination)), kernels_{*in.set.storage(), *request.table,
-                                                              request.components.first, 0} {
+        outputs_(plan_outputs(in.out, way)), kernels_{*in.set.storage(), *request.table,
+                                                      request.components.first, 0} {
     kernels_.chunk_samples = staged_samples(outputs_);
   }
 

@@ -15,10 +15,10 @@ template <typename T>
 class GridWork {
 public:
   GridWork(const SetStorage<T>& set, const Request<T>& request, const GridPlan<T>& plan,
-           const OutputList<T>& out, const Options& options, Destination destination) noexcept
+           const OutputList<T>& out, const Options& options, Way way) noexcept
       : kernels_(set, request, out, options), first_patch_(request.first), patches_(request.count),
-        plan_(plan), outputs_(out, destination) {
-    kernels_.expect_output(written_bytes(out, plan.nu() * plan.nv() * request.count), destination);
+        plan_(plan), outputs_(out, way) {
+    kernels_.expect_output(written_bytes(out, plan.nu() * plan.nv() * request.count), way);
     outputs_.put_directly(kernels_.direct_rows(plan.nu(), true));
     divide(Delivery<T>::chunk_samples(outputs_));
     chunk_samples_ = (strips_ > 1 ? strip_rows_ : together_ * plan.nv()) * plan.nu();
@@ -112,8 +112,8 @@ public:
     const Status usable = this->check_given(samples, inputs);
     return usable ? plan_.build(in_.where) : usable;
   }
-  [[nodiscard]] GridWork<T> plan(Destination destination) const noexcept {
-    return {*in_.set.storage(), request_, plan_, in_.out, in_.options, destination};
+  [[nodiscard]] GridWork<T> plan(Way way) const noexcept {
+    return {*in_.set.storage(), request_, plan_, in_.out, in_.options, way};
   }
   [[nodiscard]] bool may_narrow() const noexcept {
     return narrower_choice(in_.options.isa) != Isa::automatic &&
@@ -125,7 +125,7 @@ public:
   [[nodiscard]] GridWork<T> plan_narrower() const noexcept {
     Request<T> request = request_;
     request.table = &kernel_table<T>(narrower_choice(in_.options.isa));
-    return {*in_.set.storage(), request, plan_, in_.out, in_.options, Destination::cache};
+    return {*in_.set.storage(), request, plan_, in_.out, in_.options, Way::cache};
   }
   [[nodiscard]] std::size_t written() const noexcept {
     return written_bytes(in_.out, plan_.nu() * plan_.nv() * request_.count);

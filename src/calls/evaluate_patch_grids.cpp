@@ -19,10 +19,10 @@ template <typename T>
 class PatchGridsWork {
 public:
   PatchGridsWork(const Given<T, PatchSet<T>, PatchGrids>& in, const Request<T>& request,
-                 const CountedGrids& grids, Destination destination) noexcept
+                 const CountedGrids& grids, Way way) noexcept
       : kernels_(*in.set.storage(), request, in.out, in.options), first_patch_(request.first),
-        grids_(grids), outputs_(in.out, destination) {
-    kernels_.expect_output(written_bytes(in.out, grids.total()), destination);
+        grids_(grids), outputs_(in.out, way) {
+    kernels_.expect_output(written_bytes(in.out, grids.total()), way);
     outputs_.put_directly(kernels_.direct_rows(grids.least_nu(), false));
     piece_samples_ = Delivery<T>::chunk_samples(outputs_);
     chunk_samples_ = std::max(piece_samples_, grids.most_nu());

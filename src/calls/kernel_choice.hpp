@@ -106,8 +106,8 @@ struct PatchKernels {
 
   /// Takes into account how much is written, and which way. What leaves the caches by plain stores
   /// does so in whole lines, because these are not read first.
-  void expect_output(std::size_t bytes, Destination destination) noexcept {
-    plain_to_memory = destination == Destination::cache && exceeds_caches(bytes);
+  void expect_output(std::size_t bytes, Way way) noexcept {
+    plain_to_memory = way == Way::cache && exceeds_caches(bytes);
     by_lines = by_lines || plain_to_memory;
   }
 
@@ -118,15 +118,19 @@ struct PatchKernels {
     const bool bicubic =
         !choice.any_shape && set->places == nullptr && set->buckets[0].shape.is_bicubic();
     const bool one_pass = !choice.second && choice.outputs != kAnyOutputs;
-    const bool records = table->puts_records && watertight && set->buckets[0].origins == nullptr;
-    // Kernels stream whole lines: registers, or positions two registers at a time, but those not
-    // where rows are an even number of lines. Memory takes each second line at half of its rate.
+    const bool plain = set->buckets[0].origins == nullptr;
+    const bool records = table->puts_records && watertight && plain;
+    // Kernels stream whole lines, of one register or, where that pays, of two.
     const std::size_t bytes = table->lanes * sizeof(T);
-    const bool pairs = 2 * bytes == 64 && choice.outputs == kPosition && !table->compact &&
-                       nu * sizeof(T) / 64 % 2 == 1;
+    const bool pairs =
+        2 * bytes == 64 && plain && choice.outputs != kPositionNormal && !table->compact;
+    // Short rows are staged faster than turned, and whole registers lie across no lines in staging.
+    const bool turned = pairs && nu % table->lanes != 0 && nu >= 3 * table->lanes &&
+                        nu <= kMostStreamedRegisters * table->lanes;
     return {.row = bicubic && one_pass ? nu : 0,
             .lanes = table->lanes,
             .streamed = streamed && (bytes == 64 || pairs),
+            .streamed_anywhere = streamed && turned,
             .records = records,
             .streamed_records = streamed && records && bytes == 64};
   }

@@ -50,11 +50,6 @@ struct SamplePieces {
       : length(staged ? 512 : 2048), count(samples / length + (samples % length != 0 ? 1 : 0)) {}
 };
 
-/// Results in the order of samples seldom fill whole lines, so stores bypass caches on demand only.
-constexpr Destination sample_destination(Destination wanted) noexcept {
-  return wanted == Destination::memory ? Destination::memory : Destination::cache;
-}
-
 /// Half-centred parameters are (t - shift) * scale.
 template <typename Task>
 void set_half_centring(Parameters parameters, Task& task) noexcept {

@@ -6,7 +6,7 @@
 //
 //   bool may_narrow()       whether there are two, nobody has named one of them, and the call is
 //                           large enough
-//   auto plan_narrower()    the work of plan(Destination::cache) on the narrower one
+//   auto plan_narrower()    the work of plan(Way::cache) on the narrower one
 //   CallKind width_kind()   what calls have in common that the same kernels suit
 #pragma once
 
@@ -18,6 +18,7 @@
 
 #include "src/calls/any_work.hpp"
 #include "src/runtime/call_notes.hpp"
+#include "src/runtime/destination.hpp"
 
 namespace simdbezier::detail {
 
@@ -48,7 +49,7 @@ Status run_in_cache(const Call& call, const Options& options) noexcept {
     const CallKind kind = call.width_kind();
     const CallNotes<Width>::Answer answer = width_notes().ask(kind);
     if (answer.claimed) {
-      const auto widest = call.plan(Destination::cache);
+      const auto widest = call.plan(Way::cache);
       const auto narrower = call.plan_narrower();
       return run_and_choose(AnyWork(widest, widest.grain()), AnyWork(narrower, narrower.grain()),
                             kind, options);
@@ -58,7 +59,7 @@ Status run_in_cache(const Call& call, const Options& options) noexcept {
       return run_work(AnyWork(work), options);
     }
   }
-  const auto work = call.plan(Destination::cache);
+  const auto work = call.plan(Way::cache);
   return run_work(AnyWork(work), options);
 }
 

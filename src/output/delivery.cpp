@@ -4,16 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "src/runtime/cache_sizes.hpp"
-
 namespace simdbezier::detail {
 namespace {
-
-/// What a kernel writes and a drain reads at once stays in a first-level cache.
-constexpr std::size_t kStagingBytes = std::size_t{20} << 10;
-/// Two such chunks, and half as much again, stay in the first-level cache: streaming stores take
-/// the buffers that its misses need, and the stores and loads of staging would wait for them.
-std::size_t streaming_bytes() noexcept { return first_level_cache() / 4; }
 
 /// Pieces that kernels write directly; bounds only how much one thread takes of a huge grid.
 constexpr std::size_t kDirectSamples = 65536;
@@ -33,8 +25,7 @@ std::size_t Delivery<T>::chunk_samples(const OutputPlan<T>& plan) noexcept {
   if (!plan.staged()) {
     return kDirectSamples;
   }
-  const std::size_t bytes = plan.streaming() ? streaming_bytes() : kStagingBytes;
-  return bytes / sizeof(T) / plan.staged_planes();
+  return plan.chunk_bytes() / sizeof(T) / plan.staged_planes();
 }
 
 template <typename T>

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <functional>
 
+#include "src/runtime/cache_sizes.hpp"
+
 namespace simdbezier::detail {
 namespace {
 
@@ -31,8 +33,7 @@ std::size_t StreamShape<T>::records_to_line(std::size_t record) const noexcept {
 }
 
 template <typename T>
-OutputPlan<T>::OutputPlan(const OutputList<T>& out, Destination destination) noexcept
-    : out_(out), streaming_(destination == Destination::memory) {
+OutputPlan<T>::OutputPlan(const OutputList<T>& out, Way way) noexcept : out_(out), way_(way) {
   for (std::size_t g = 0; g < out.vector_count; ++g) {
     if (out.wants(g)) {
       dimension_ = dimension_of(*out.vectors[g]);
@@ -42,13 +43,25 @@ OutputPlan<T>::OutputPlan(const OutputList<T>& out, Destination destination) noe
   stage();
 }
 
+template <typename T>
+std::size_t OutputPlan<T>::chunk_bytes() const noexcept {
+  switch (way_) {
+  case Way::memory: // two chunks, and what is on its way to memory, are half of the cache
+    return second_level_cache() / 5;
+  case Way::memory_by_l1: // likewise
+    return first_level_cache() / 4;
+  default: // what a kernel writes and a drain reads at once stays in a first-level cache
+    return std::size_t{20} << 10;
+  }
+}
+
 /// What is not written directly: everything where stores are to bypass the caches, records
 /// otherwise.
 template <typename T>
 void OutputPlan<T>::stage() noexcept {
   std::size_t staged = 0;
   for (std::size_t g = 0; g < kVectorOutputs; ++g) {
-    const bool stages = out_.wants(g) && (streaming_ || out_.vectors[g]->stride != 1);
+    const bool stages = out_.wants(g) && (streaming() || out_.vectors[g]->stride != 1);
     staged_index_[g] = stages ? staged++ : kVectorOutputs;
   }
   staged_planes_ = dimension_ * staged;
@@ -66,14 +79,17 @@ void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
   const std::size_t line = 64 / sizeof(T);
   const bool known = record == 1 || record == 3 || record == staged_planes_;
   const bool all = staged_planes_ == vector_values_;
+  const bool anywhere = record == 1 && rows.streamed_anywhere;
+  const bool whole_lines = rows.row % line == 0;
   const bool streams =
-      (record == 1 ? rows.streamed : rows.streamed_records) && rows.row % line == 0;
+      anywhere || (whole_lines && (record == 1 ? rows.streamed : rows.streamed_records));
   const bool stores = rows.records && all;
-  bool possible = rows.row >= rows.lanes && known && (streaming_ ? streams : stores);
+  bool possible = rows.row >= rows.lanes && known && (streaming() ? streams : stores);
   for (std::size_t k = 0; possible && k < streams_; ++k) {
     const StreamShape<T>& shape = stream_[k];
-    possible = shape.members == record && shape.stride == static_cast<std::ptrdiff_t>(record) &&
-               (!streaming_ || reinterpret_cast<std::uintptr_t>(shape.first) % 64 == 0);
+    possible =
+        shape.members == record && shape.stride == static_cast<std::ptrdiff_t>(record) &&
+        (!streaming() || anywhere || reinterpret_cast<std::uintptr_t>(shape.first) % 64 == 0);
     for (std::size_t m = 1; m < record; ++m) {
       possible = possible && shape.plane[m] == shape.plane[0] + m;
     }
@@ -127,7 +143,7 @@ void OutputPlan<T>::add_streams() noexcept {
   }
   for (std::size_t k = 0; k < streams_; ++k) {
     StreamShape<T>& shape = stream_[k];
-    shape.streaming = streaming_ && shape.stride == static_cast<std::ptrdiff_t>(shape.members) &&
+    shape.streaming = streaming() && shape.stride == static_cast<std::ptrdiff_t>(shape.members) &&
                       shape.records_to_line(0) < kDrainStep<T>;
   }
 }

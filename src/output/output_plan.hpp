@@ -3,9 +3,8 @@
 
 #include <cstddef>
 
-#include <simdbezier/options.hpp>
-
 #include "src/output/output_list.hpp"
+#include "src/runtime/destination.hpp"
 #include "src/tables/drain_queue.hpp"
 
 namespace simdbezier::detail {
@@ -29,21 +28,24 @@ struct StreamShape {
 struct DirectRows {
   std::size_t row = 0; ///< 0: nothing
   std::size_t lanes = 1;
-  bool streamed = false;         ///< planes past the caches: whole lines
-  bool records = false;          ///< triples of each group, or one vertex of all
-  bool streamed_records = false; ///< likewise, past the caches
+  bool streamed = false;          ///< planes past the caches: whole lines
+  bool streamed_anywhere = false; ///< likewise, wherever they begin
+  bool records = false;           ///< triples of each group, or one vertex of all
+  bool streamed_records = false;  ///< likewise, past the caches
 };
 
 /// How the outputs of one call are delivered.
 template <typename T>
 class OutputPlan {
 public:
-  /// out: checked, and alive as long as the plan. destination: not automatic.
-  OutputPlan(const OutputList<T>& out, Destination destination) noexcept;
+  /// out: checked, and alive as long as the plan. way: decided.
+  OutputPlan(const OutputList<T>& out, Way way) noexcept;
 
   [[nodiscard]] const OutputList<T>& out() const noexcept { return out_; }
   [[nodiscard]] bool staged() const noexcept { return staged_planes_ > 0; }
-  [[nodiscard]] bool streaming() const noexcept { return streaming_; }
+  [[nodiscard]] bool streaming() const noexcept { return way_ != Way::cache; }
+  /// Bytes of staging memory that one chunk should fill.
+  [[nodiscard]] std::size_t chunk_bytes() const noexcept;
   /// Gives up staging where kernels can do without it.
   void put_directly(const DirectRows& rows) noexcept;
   /// Values from one sample to the next where kernels write directly: 1 for planes, 3 for triples
@@ -71,7 +73,7 @@ private:
 
   const OutputList<T>& out_;
   std::size_t dimension_ = 3;
-  bool streaming_;
+  Way way_;
   std::size_t vector_values_ = 0; ///< of one sample
   std::size_t staged_planes_ = 0;
   std::size_t record_ = 1;

@@ -21,10 +21,10 @@ private:
   std::uint64_t hash_ = 0x243f6a8885a308d3U;
 };
 
-/// What is known of each kind of call. Choice is an enumeration of three values, the first of
-/// which, 0, means that nothing is decided. Decisions stay for as long as the object lives; where
-/// there are too many kinds for it, those that come last are never decided. Any number of threads
-/// may ask.
+/// What is known of each kind of call. Choice is an enumeration of at most seven values,
+/// the first of which, 0, means that nothing is decided. Decisions stay for as long as the object
+/// lives; where there are too many kinds for it, those that come last are never decided. Any number
+/// of threads may ask.
 template <typename Choice>
 class CallNotes {
 public:
@@ -67,9 +67,9 @@ public:
 
 private:
   static constexpr std::size_t kProbes = 8;
-  /// A slot is a kind, whose last two bits are a state: a choice, or kClaimed. 0 is an empty one.
-  static constexpr std::uint64_t kStates = 3;
-  static constexpr std::uint64_t kClaimed = 3;
+  /// A slot is a kind, whose last three bits are a state: a choice, or kClaimed. 0 is an empty one.
+  static constexpr std::uint64_t kStates = 7;
+  static constexpr std::uint64_t kClaimed = 7;
 
   /// The k-th of the kProbes slots in which a kind may be.
   [[nodiscard]] std::atomic<std::uint64_t>& slot(const CallKind& kind, std::size_t k) noexcept {

@@ -1,6 +1,7 @@
-// What calls with Destination::automatic have found out: whether to write through the caches or
-// past them.
+// The ways in which large calls write to memory, and what they have found out about them.
 #pragma once
+
+#include <cstdint>
 
 #include <simdbezier/options.hpp>
 
@@ -12,8 +13,24 @@ namespace simdbezier::detail {
 /// read at the first use in the process.
 Destination environment_destination() noexcept;
 
-using DestinationNotes = CallNotes<Destination>;
-static_assert(Destination::automatic == Destination{} && static_cast<int>(Destination::memory) < 3);
+/// How outputs get to the caller's memory. What is streamed and cannot be written directly fills
+/// staging memory first. A large part of the second-level cache holds many patches, whose kernels
+/// run as if they wrote to a cache. But where streaming stores and misses of the first-level cache
+/// have buffers in common, both are faster if staging stays in that cache.
+enum class Way : std::uint8_t {
+  undecided,
+  cache,       ///< by plain stores
+  memory,      ///< by streaming stores, from staging in the second-level cache
+  memory_by_l1 ///< likewise, in the first-level one
+};
+
+/// The way of calls that do not measure. automatic is cache there: results in the order of samples
+/// seldom fill whole lines, so that they bypass caches on demand only.
+constexpr Way way_to(Destination destination) noexcept {
+  return destination == Destination::memory ? Way::memory : Way::cache;
+}
+
+using DestinationNotes = CallNotes<Way>;
 
 /// The notes of the process.
 DestinationNotes& destination_notes() noexcept;

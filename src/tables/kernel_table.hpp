@@ -92,7 +92,7 @@ struct GridTask : SampleTask<T> {
   const RowRun<T>* runs; ///< the rows, first to last
   std::size_t run_count;
 
-  bool streaming;       ///< rows are whole cache lines, to be stored past the caches
+  bool streaming;       ///< rows are to be stored past the caches: see DirectRows
   bool by_lines;        ///< rows are stored in whole lines: see src/runtime/line_costs.hpp
   bool plain_to_memory; ///< outputs leave the caches, by plain stores
   std::size_t record;   ///< values from one sample to the next: see OutputPlan::record()
@@ -114,6 +114,9 @@ struct ScatteredTask : SampleTask<T> {
 
 /// X and Y arrays are padded so that the widest kernel may read past the last column or row.
 inline constexpr std::size_t kMaxLanes = 16;
+
+/// Rows that go past the caches wherever they begin have at most so many registers.
+inline constexpr std::size_t kMostStreamedRegisters = 16;
 
 /// Patches, curves or nets in whole groups of the widest kernel: work that is cut at groups has one
 /// incomplete register at the most, the last one.

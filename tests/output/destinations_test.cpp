@@ -29,7 +29,11 @@ struct Size {
   for (const std::size_t n : {32U, 33U, 64U, 65U}) {
     all.push_back({n, n});
   }
-  all.push_back({100, 7});
+  // Rows of three lines, of no whole registers, of many; and more rows than are swept in one go.
+  for (const Size size : {Size{100, 7}, Size{48, 5}, Size{31, 6}, Size{127, 3}, Size{129, 3},
+                          Size{25, 140}, Size{32, 140}}) {
+    all.push_back(size);
+  }
   return all;
 }
 
@@ -182,7 +186,8 @@ protected:
     const PatchSet<T> set = packed<T>(mixed_nets(100));
     Canvas<T> canvas(0);
     std::size_t number = 0;
-    for (const Size size : {Size{3, 3}, Size{5, 4}, Size{9, 9}, Size{16, 16}, Size{17, 5}}) {
+    for (const Size size : {Size{3, 3}, Size{5, 4}, Size{9, 9}, Size{16, 16}, Size{17, 5},
+                            Size{26, 2}, Size{32, 3}}) {
       const Grid<T> samples = Grid<T>::uniform(size.nu, size.nv);
       const Planes<T> reference = reference_of(set, samples);
       const std::size_t count = reference.count();

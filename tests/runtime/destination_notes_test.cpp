@@ -1,4 +1,4 @@
-// What calls with Destination::automatic find out: each kind of call is decided once, by one
+// What large calls find out: each kind of call is decided once, by one
 // thread, and never mixed up with another.
 #include "src/runtime/destination.hpp"
 
@@ -14,8 +14,8 @@ namespace simdbezier::detail::destination_notes_test {
 namespace {
 
 CallKind kind(std::uint64_t k) { return CallKind().add(k).add(17); }
-Destination decision(std::uint64_t k) {
-  return k % 3 == 0 ? Destination::memory : Destination::cache;
+Way decision(std::uint64_t k) {
+  return k % 3 == 0 ? Way::memory : k % 3 == 1 ? Way::cache : Way::memory_by_l1;
 }
 
 TEST(DestinationNotes, one_of_many_threads_decides) {
@@ -35,10 +35,10 @@ TEST(DestinationNotes, one_of_many_threads_decides) {
           const DestinationNotes::Answer answer = round.ask(kind(k));
           if (answer.claimed) {
             ++claims;
-            wrong += answer.choice != Destination::automatic;
+            wrong += answer.choice != Way::undecided;
             round.decide(kind(k), decision(k));
           } else {
-            wrong += answer.choice != Destination::automatic && answer.choice != decision(k);
+            wrong += answer.choice != Way::undecided && answer.choice != decision(k);
           }
         }
       }
@@ -62,7 +62,7 @@ TEST(DestinationNotes, nobody_else_measures_meanwhile) {
   for (int k = 0; k < 3; ++k) {
     const DestinationNotes::Answer answer = notes.ask(kind(1));
     EXPECT_FALSE(answer.claimed);
-    EXPECT_EQ(answer.choice, Destination::automatic);
+    EXPECT_EQ(answer.choice, Way::undecided);
   }
 }
 
@@ -70,11 +70,11 @@ TEST(DestinationNotes, a_claim_can_be_given_back) {
   DestinationNotes notes;
   for (int k = 0; k < 3; ++k) {
     EXPECT_TRUE(notes.ask(kind(1)).claimed);
-    notes.decide(kind(1), Destination::automatic);
+    notes.decide(kind(1), Way::undecided);
   }
   EXPECT_TRUE(notes.ask(kind(1)).claimed);
-  notes.decide(kind(1), Destination::memory);
-  EXPECT_EQ(notes.ask(kind(1)).choice, Destination::memory);
+  notes.decide(kind(1), Way::memory);
+  EXPECT_EQ(notes.ask(kind(1)).choice, Way::memory);
 }
 
 TEST(DestinationNotes, too_many_kinds_are_left_undecided) {
@@ -92,7 +92,7 @@ TEST(DestinationNotes, too_many_kinds_are_left_undecided) {
   EXPECT_GT(count, DestinationNotes::kSlots / 2);
   EXPECT_LE(count, DestinationNotes::kSlots);
   for (std::uint64_t k = 0; k < kKinds; ++k) {
-    EXPECT_EQ(notes.ask(kind(k)).choice, decided[k] ? decision(k) : Destination::automatic) << k;
+    EXPECT_EQ(notes.ask(kind(k)).choice, decided[k] ? decision(k) : Way::undecided) << k;
   }
 }
 

@@ -1,7 +1,7 @@
-// What large calls with Destination::automatic do: `./environment_destination WORD` sets
-// SIMDBEZIER_DESTINATION to WORD, makes three calls and prints how each of them stored its units:
-// "cache", "memory", or "both" for the one that measures. Once per process, because the library
-// reads the variable at its first use. The calls write nothing, so that they cost nothing.
+// What large calls do: `./environment_destination WORD` sets SIMDBEZIER_DESTINATION to WORD, makes
+// some calls and prints how each of them stored its units: "cache", "memory" or "memory-by-l1",
+// joined by + in the ones that measure. Once per process, because the library reads the variable at
+// its first use. The calls write nothing, so that they cost nothing.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -17,24 +17,31 @@ using namespace simdbezier;
 using namespace simdbezier::detail;
 
 constexpr std::size_t kPatches = 100000;
-constexpr std::size_t kStrips[] = {1, 3}; ///< of plain and of streamed patches
+constexpr std::size_t kWays = 3;
+constexpr const char* kNames[kWays] = {"cache", "memory", "memory-by-l1"};
+constexpr std::size_t kStrips[kWays] = {1, 3, 2}; ///< a patch's units
 
-/// How often each patch went through the caches (0) and past them (1), and which way last.
+/// How often each patch went each way, and which one last.
 struct Log {
-  std::vector<int> times[2] = {std::vector<int>(kPatches), std::vector<int>(kPatches)};
-  std::vector<int> last = std::vector<int>(kPatches, -1);
+  std::vector<std::size_t> times[kWays] = {std::vector<std::size_t>(kPatches),
+                                           std::vector<std::size_t>(kPatches),
+                                           std::vector<std::size_t>(kPatches)};
+  std::vector<std::size_t> last = std::vector<std::size_t>(kPatches, kWays);
 
-  [[nodiscard]] const char* ways() const {
-    bool used[2] = {};
+  [[nodiscard]] std::string ways() const {
+    bool used[kWays] = {};
     for (std::size_t k = 0; k < kPatches; ++k) {
-      const int way = last[k];
-      const auto strips = static_cast<int>(kStrips[way == 1 ? 1 : 0]);
-      if (way < 0 || times[way][k] % strips != 0) {
+      const std::size_t way = last[k];
+      if (way == kWays || times[way][k] % kStrips[way] != 0) {
         return "missing";
       }
       used[way] = true;
     }
-    return used[0] && used[1] ? "both" : used[0] ? "cache" : "memory";
+    std::string names;
+    for (std::size_t way = 0; way < kWays; ++way) {
+      names += used[way] ? (names.empty() ? "" : "+") + std::string(kNames[way]) : "";
+    }
+    return names;
   }
 };
 
@@ -49,7 +56,7 @@ struct FakeWork {
   Isa run(int, std::size_t begin, std::size_t end, unsigned char* scratch) const {
     for (std::size_t unit = begin; unit < end; ++unit) {
       ++log->times[way][unit / grain()];
-      log->last[unit / grain()] = static_cast<int>(way);
+      log->last[unit / grain()] = way;
     }
     if (scratch != nullptr) {
       scratch[63] = 1;
@@ -62,8 +69,8 @@ struct FakeCall {
   Log* log;
   std::size_t bytes;
 
-  [[nodiscard]] FakeWork plan(Destination destination) const {
-    return {destination == Destination::memory ? 1U : 0U, log};
+  [[nodiscard]] FakeWork plan(Way way) const {
+    return {way == Way::cache ? 0U : way == Way::memory ? 1U : 2U, log};
   }
   [[nodiscard]] std::size_t written() const { return bytes; }
   [[nodiscard]] CallKind kind() const { return CallKind().add(1); }
@@ -87,11 +94,14 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::size_t large = 4 * last_level_cache() + 1024 * second_level_cache();
-  const std::string first = run(large, Destination::automatic);
-  const std::string second = run(large, Destination::automatic);
-  std::printf("%s %s small %s asked %s %s\n", first.c_str(),
-              second == "cache" || second == "memory" ? second.c_str() : "undecided",
-              run(1000, Destination::automatic).c_str(), run(large, Destination::cache).c_str(),
-              run(large, Destination::memory).c_str());
+  const auto twice = [large](Destination destination) {
+    const std::string first = run(large, destination);
+    return first + " " + run(large, destination);
+  };
+  const std::string automatic = twice(Destination::automatic);
+  const std::string memory = twice(Destination::memory);
+  std::printf("%s small %s %s asked %s, %s\n", automatic.c_str(),
+              run(1000, Destination::automatic).c_str(), run(1000, Destination::memory).c_str(),
+              run(large, Destination::cache).c_str(), memory.c_str());
   return 0;
 }

@@ -60,7 +60,7 @@ struct FakeCall {
   std::size_t nanoseconds;
   Log* log;
 
-  [[nodiscard]] FakeWork plan(Destination) const { return {kWide, wide, nanoseconds, log}; }
+  [[nodiscard]] FakeWork plan(Way) const { return {kWide, wide, nanoseconds, log}; }
   [[nodiscard]] FakeWork plan_narrower() const { return {kNarrow, narrow, nanoseconds, log}; }
   [[nodiscard]] bool may_narrow() const { return choice; }
   [[nodiscard]] CallKind width_kind() const { return CallKind().add(name); }

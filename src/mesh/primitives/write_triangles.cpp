@@ -17,8 +17,7 @@ namespace {
 
 /// Whether numbers go past the caches.
 bool streams_to(Destination destination, std::size_t bytes) noexcept {
-  return (destination == Destination::automatic ? unmeasured_destination(bytes) : destination) ==
-         Destination::memory;
+  return resolve_destination(destination, bytes) != Destination::cache;
 }
 
 /// Threads share triangles, not patches, whose rates may differ much.

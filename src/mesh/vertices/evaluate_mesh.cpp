@@ -46,8 +46,8 @@ template <typename T>
 class MeshWork {
 public:
   MeshWork(const PatchKernels<T>& kernels, const OutputList<T>& out, const VertexTask<T>& task,
-           const ParameterOutputs<T>& parameters, Destination destination) noexcept
-      : outputs_(out, destination), task_(task), parameters_(parameters), kernels_(kernels),
+           const ParameterOutputs<T>& parameters, Way way) noexcept
+      : outputs_(out, way), task_(task), parameters_(parameters), kernels_(kernels),
         sizes_(task, 0) {
     task_.kernels = &kernels_;
     const auto& nu = task.mesh->nu;
@@ -205,7 +205,7 @@ public:
     return kind_of_outputs(CallName::mesh, out_, *request_.table, false)
         .add(static_cast<std::uint64_t>(in_.values));
   }
-  [[nodiscard]] MeshWork<T> plan(Destination destination) const noexcept {
+  [[nodiscard]] MeshWork<T> plan(Way way) const noexcept {
     VertexTask<T> task{};
     task.mesh = in_.layout.data();
     task.dimension = out_.holds(Output::position) ? request_.components.dimension : 0;
@@ -214,7 +214,7 @@ public:
     task.first_vertex = first_vertex();
     task.last_vertex = last_vertex();
     return MeshWork<T>({*in_.set.storage(), request_, out_, in_.options}, out_, task,
-                       in_.attributes.outputs(), destination);
+                       in_.attributes.outputs(), way);
   }
 
 private:

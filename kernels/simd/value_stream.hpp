@@ -1,0 +1,119 @@
+// Values that follow one another in memory and go past the caches, wherever they begin: registers
+// are turned to where lines are, since streaming stores have to be aligned.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/simd/interleave.hpp"
+#include "kernels/simd/lanes.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+#if defined(SIMDBEZIER_KERNELS_AVX2)
+/// For each number n of 32-bit lanes: where the lanes of a register come from that is turned by n,
+/// and a mask of the first n.
+struct Turns {
+  alignas(32) std::int32_t from[8][8];
+  alignas(32) std::int32_t first[8][8];
+  constexpr Turns() : from{}, first{} {
+    for (int n = 0; n < 8; ++n) {
+      for (int k = 0; k < 8; ++k) {
+        from[n][k] = (k + 8 - n) % 8;
+        first[n][k] = k < n ? -1 : 0;
+      }
+    }
+  }
+};
+inline constexpr Turns kTurns;
+
+/// Rows are put one behind the other, as they are to lie from begin()'s address on. Once finish()
+/// has been called all of them are written, each value once, and nothing besides. It has values
+/// only between these two.
+template <typename V>
+class ValueStream {
+  using T = ScalarOf<V>;
+  static constexpr std::size_t kL = kLanes<V>;
+
+public:
+  SIMDBEZIER_INLINE void begin(T* to) {
+    filled_ = reinterpret_cast<std::uintptr_t>(to) / sizeof(T) % kL;
+    foreign_ = filled_;
+    to_ = to - filled_;
+    kept_ = broadcast<V>(T(0));
+  }
+  /// Puts `count` values, a register and more. value(k) is the k-th register of them; of the last
+  /// one, as many lanes count as there are values.
+  template <typename Value>
+  SIMDBEZIER_INLINE void put(std::size_t count, const Value& value) {
+    const std::size_t lanes = filled_ * (sizeof(T) / sizeof(float));
+    const __m256i turn = _mm256_load_si256(reinterpret_cast<const __m256i*>(kTurns.from[lanes]));
+    const __m256 first = _mm256_load_ps(reinterpret_cast<const float*>(kTurns.first[lanes]));
+    // Finds what is stored next; `turned` is what stays for the register after it.
+    const auto joined = [&](V values, V& turned) SIMDBEZIER_INLINE_LAMBDA {
+      turned =
+          __builtin_bit_cast(V, _mm256_permutevar8x32_ps(__builtin_bit_cast(__m256, values), turn));
+      return __builtin_bit_cast(V, _mm256_blendv_ps(__builtin_bit_cast(__m256, turned),
+                                                    __builtin_bit_cast(__m256, kept_), first));
+    };
+    const std::size_t whole = count / kL;
+    const std::size_t rest = count % kL;
+    T* to = to_;
+    V turned;
+    std::size_t k = 0;
+    if (foreign_ > 0) [[unlikely]] {
+      store_own(to, joined(value(0), turned));
+      kept_ = turned;
+      foreign_ = 0;
+      to += kL;
+      ++k;
+    }
+    for (V between; k + 2 <= whole; k += 2, to += 2 * kL) { // two, so that nothing is moved
+      stream(to, joined(value(k), between));
+      kept_ = between;
+      stream(to + kL, joined(value(k + 1), turned));
+      kept_ = turned;
+    }
+    if (k < whole) {
+      stream(to, joined(value(k), turned));
+      kept_ = turned;
+      to += kL;
+    }
+    if (rest > 0) {
+      kept_ = joined(value(whole), turned);
+      filled_ += rest;
+      if (filled_ >= kL) {
+        stream(to, kept_);
+        kept_ = turned;
+        filled_ -= kL;
+        to += kL;
+      }
+    }
+    to_ = to;
+  }
+  SIMDBEZIER_INLINE void finish() const {
+    if (filled_ > 0) {
+      store_first(to_, kept_, filled_);
+    }
+  }
+
+private:
+  static SIMDBEZIER_INLINE void stream(T* to, V values) {
+    store_any<true>(to, __builtin_bit_cast(LinePart<T>, values));
+  }
+  /// Stores all lanes but those that are somebody else's.
+  SIMDBEZIER_INLINE void store_own(T* to, V values) const {
+    alignas(64) T lanes[kL];
+    store_vector(lanes, values);
+    for (std::size_t k = foreign_; k < kL; ++k) {
+      to[k] = lanes[k];
+    }
+  }
+
+  T* to_;               ///< the next register
+  std::size_t filled_;  ///< first lanes of it that are put already, or somebody else's
+  std::size_t foreign_; ///< those of them that are somebody else's
+  V kept_;              ///< has the filled lanes
+};
+#endif
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
