@@ -17,13 +17,13 @@ namespace simdbezier {
 /// (instruction set, shape, size of the grid, outputs and their layout, threads, more than four
 /// times the last-level cache or less) fills the caches by plain stores, with half of its output at
 /// most, then evaluates some megabytes in each way, which takes a few milliseconds at most, and the
-/// process keeps the answer. There are three: plain stores, and streaming ones that come from much
-/// or from little staging memory (a fifth of the second-level cache, a quarter of the first-level
-/// one). One thread decides. Calls that come meanwhile stream from much, and so do calls of which
-/// measuring would be more than a quarter. The answer never changes a bit. memory measures the last
-/// two, in the same way.
-/// SIMDBEZIER_DESTINATION=cache or =memory in the environment, read once per process, decides for
-/// all large calls instead; any other word counts as none.
+/// process keeps the answer. There are three: plain stores, and streaming ones that come, where
+/// kernels cannot write lines directly, from much or from little staging memory (a fifth of the
+/// second-level cache, a quarter of the first-level one; meshes have one size). One thread decides.
+/// Calls that come meanwhile stream from much, and so do calls of which measuring would be more
+/// than a quarter. memory measures the last two. The answer never changes a bit.
+/// SIMDBEZIER_DESTINATION=cache or =memory in the environment, read once per process, stands for
+/// automatic in all large calls; any other word counts as none.
 enum class Destination : std::uint8_t {
   automatic, ///< decided by the output's size, and beyond the caches by measurement
   cache,     ///< plain stores

@@ -12,7 +12,8 @@
 // keeps partly in L1). Derivatives of large patches take all tiles of a component before the next
 // one (grid/component_sweeps.hpp). Squares of usual sizes are known to the compiler: sweep_square()
 // chooses as sweep_tiles() does. Rows of one tile that lie across lines are put together to whole
-// lines.
+// lines. Positions and derivatives that AVX2 streams go row by row: whole lines by
+// grid/streamed_rows.hpp, others by grid/streamed_planes.hpp.
 #pragma once
 
 #include "kernels/grid/component_sweeps.hpp"
@@ -178,7 +179,7 @@ SIMDBEZIER_PART void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<
 }
 
 /// Sweeps patches [patch, end) by components, if that pays, and returns whether it did. It does not
-/// on the way to memory, where lines of all planes at once get there faster.
+/// by plain stores to memory, where lines of all planes at once get there faster.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool sweep_large_patches(const GridTask<T>& task, const RowPiece<T>& piece,
                                          std::size_t patch, std::size_t end) {
@@ -262,9 +263,10 @@ SIMDBEZIER_PART bool sweep_small_grid(const GridTask<T>& task) {
   return false;
 }
 
-/// Sweeps a task whose rows are streamed but are no whole registers, and returns whether it is one.
+/// Sweeps a piece whose rows are streamed but are no whole registers, and returns whether it is
+/// one.
 template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_PART bool sweep_straight_to_memory(const GridTask<T>& task, const RowPiece<T>& piece) {
+SIMDBEZIER_PART bool sweep_turned_rows(const GridTask<T>& task, const RowPiece<T>& piece) {
 #if defined(SIMDBEZIER_KERNELS_AVX2)
   if constexpr (kStreamsRows<kOutputs, T>) {
     if (task.streaming && task.nu % kLanes<vec<T>> != 0) {
@@ -288,7 +290,7 @@ SIMDBEZIER_KERNEL void grid_kernel(GridTask<T>& task) {
   RowPowers<T> powers;
   for (RowPieces<T> pieces(task); pieces.more();) {
     const RowPiece<T> piece = pieces.next(powers);
-    if (sweep_straight_to_memory<kOutputs>(task, piece)) {
+    if (sweep_turned_rows<kOutputs>(task, piece)) {
       continue;
     }
     const std::size_t together = kCachedBytes / bytes_of<kOutputs>(task, piece) + 1;

@@ -109,10 +109,10 @@ private:
     }
   }
 
-  T* to_;               ///< the next register
-  std::size_t filled_;  ///< first lanes of it that are put already, or somebody else's
-  std::size_t foreign_; ///< those of them that are somebody else's
-  V kept_;              ///< has the filled lanes
+  T* to_ = nullptr;         ///< the next register
+  std::size_t filled_ = 0;  ///< first lanes of it that are put already, or somebody else's
+  std::size_t foreign_ = 0; ///< those of them that are somebody else's
+  V kept_;                  ///< has the filled lanes
 };
 #endif
 

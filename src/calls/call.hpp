@@ -135,6 +135,7 @@ template <typename T, typename Where>
       .add(shape.order_u())
       .add(shape.order_v())
       .add(shape.channels())
+      .add(set.buckets[0].origins != nullptr ? 1 : 0)
       .add(in.options.watertight ? 1 : 0);
 }
 

@@ -55,13 +55,14 @@ struct CurvePiece {
   std::size_t last;
 };
 
-/// Samples of a piece where outputs are staged: curves are short, and a piece of fewer than two of
-/// the kernels' blocks (kernels/curve/curve_blocks.hpp) costs more than it gains by staying in the
-/// first-level cache.
+/// Samples of a piece of a call on `samples` where outputs are staged: curves are short, and a
+/// piece of fewer than two of the kernels' blocks (kernels/curve/curve_blocks.hpp) costs more than
+/// it gains by staying in the first-level cache.
 template <typename T>
-[[nodiscard]] std::size_t staged_samples(const OutputPlan<T>& outputs) noexcept {
+[[nodiscard]] std::size_t staged_samples(const OutputPlan<T>& outputs,
+                                         std::size_t samples) noexcept {
   constexpr std::size_t kLeast = 512;
-  return std::max(Delivery<T>::chunk_samples(outputs), kLeast);
+  return std::max(std::min(Delivery<T>::chunk_samples(outputs), samples), kLeast);
 }
 
 /// The kernels of one call on grids, and what all of its threads share.

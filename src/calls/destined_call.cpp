@@ -44,8 +44,8 @@ public:
     // Pages are there afterwards, and lines are in no cache, as those are that come later.
     const std::size_t measured = blocks() * block;
     run(ways_.back(), 0, measured);
-    // Caches are full of lines that have to be written back: otherwise plain stores would seem to
-    // cost nothing but the reading of lines.
+    // Plain stores would seem to cost nothing but the reading of lines, if caches were not full of
+    // ones that have to be written back.
     run(ways_.front(), measured, measured + dirty);
     std::int64_t best[kMostWays];
     std::fill_n(best, kMostWays, std::numeric_limits<std::int64_t>::max());
@@ -99,19 +99,25 @@ CallKind measured_kind(CallKind kind, std::size_t bytes, const Options& options)
 
 Status run_and_decide(std::span<const WayOfCall> ways, const CallKind& kind, std::size_t bytes,
                       const Options& options) noexcept {
+  if (ways.size() == 1) {
+    destination_notes().decide(kind, ways.front().way);
+    return run_work(ways.front().work, options);
+  }
   const AnyWork& first = ways.front().work;
   const std::size_t items = first.units / first.grain;
   const int threads = thread_count(options.threads, items, first.duration);
   AllWays all(ways, threads);
-  // A thread's block is half of its second-level cache at least, and four times as much where that
-  // is no more of the call than may be measured: the last chunk of a block has nothing to overlap.
+  // A thread's block is as large as its second-level cache, and up to four times as large where
+  // that is no more of the call than may be measured: the last chunk of a block has nothing to
+  // overlap, and a chunk is up to a third of that cache.
   const std::size_t share =
       bytes / (all.blocks() * kMostOfCall * static_cast<std::size_t>(threads));
-  const std::size_t least = second_level_cache() / 2;
+  const std::size_t least = second_level_cache();
   const std::size_t blocks = bytes / std::clamp(share, least, 4 * least) + 1;
   // Rows that are whole lines together begin on a line in every thread's share of it.
   const std::size_t step = items / blocks < 16 ? 1 : 16;
-  const std::size_t block = items / blocks / step * step * static_cast<std::size_t>(threads);
+  const std::size_t block =
+      (items / blocks + step - 1) / step * step * static_cast<std::size_t>(threads);
   const std::size_t measured = all.blocks() * block;
   const bool ready = all.allocate();
   if (!ready || block == 0 || measured > items / kMostOfCall) {
@@ -120,8 +126,9 @@ Status run_and_decide(std::span<const WayOfCall> ways, const CallKind& kind, std
   }
   const std::size_t caches =
       std::max(last_level_cache(), 2 * second_level_cache() * static_cast<std::size_t>(threads));
+  const bool plain = ways.front().way == Way::cache;
   const std::size_t dirty =
-      std::min((items - measured) / 2, items / (bytes / caches + 1)) / step * step;
+      plain ? std::min((items - measured) / 2, items / (bytes / caches + 1)) / step * step : 0;
   const WayOfCall& fastest = all.measure(block, dirty);
   destination_notes().decide(kind, fastest.way);
   all.run(fastest, measured + dirty, items);

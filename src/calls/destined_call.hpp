@@ -5,7 +5,8 @@
 //   CallKind kind() const           what calls have in common that the same stores suit
 //
 // and the work's
-//   std::size_t grain()             units of a patch or sample; these are the same each way
+//   std::size_t grain()             units of a patch or sample, of which there are equally many
+//   each way
 //
 // Which way is the fastest depends on the machine, on what the kernels can put where it belongs by
 // themselves, on the width of rows and on the number of threads; no rule foretells it. The first
@@ -61,8 +62,10 @@ template <typename T>
     if (out.wants(g)) {
       const Vectors<T>& v = *out.vectors[g];
       kind.add(g).add(static_cast<std::uint64_t>(v.stride)).add(v.y == v.x + 1 ? 1 : 0);
-      const std::uintptr_t within = reinterpret_cast<std::uintptr_t>(v.x) % 64;
-      kind.add(lines ? within != 0 : within);
+      for (const T* const first : {v.x, v.y, v.z}) {
+        const std::uintptr_t within = reinterpret_cast<std::uintptr_t>(first) % 64;
+        kind.add(lines ? within != 0 : within);
+      }
     }
   }
   return kind;
@@ -81,9 +84,9 @@ struct WayOfCall {
   AnyWork work;
 };
 
-/// Runs the same work in several ways, of a call that has claimed its kind, and notes which is the
-/// fastest. The first one that streams is what is taken where nothing can be measured. Returns ok |
-/// out_of_memory, before anything is written.
+/// Runs the same work in some ways, one at least, of a call that has claimed its kind, and notes
+/// which is the fastest. Way::memory is among them, and is what is taken where nothing can be
+/// measured. Returns ok | out_of_memory, before anything is written.
 [[nodiscard]] Status run_and_decide(std::span<const WayOfCall> ways, const CallKind& kind,
                                     std::size_t bytes, const Options& options) noexcept;
 
@@ -92,7 +95,8 @@ struct WayOfCall {
 [[nodiscard]] CallKind measured_kind(CallKind kind, std::size_t bytes,
                                      const Options& options) noexcept;
 
-/// Runs a checked call, and measures on the way.
+/// Runs a checked call that has claimed its kind, and measures on the way, as far as there is a
+/// choice: where nothing is staged, or in chunks of a size of its own, streaming is one way.
 template <typename Call>
 Status measure_ways(const Call& call, Destination destination, const CallKind& kind,
                     std::size_t bytes, const Options& options) noexcept {
@@ -102,8 +106,10 @@ Status measure_ways(const Call& call, Destination destination, const CallKind& k
   const WayOfCall ways[] = {{Way::cache, AnyWork(cache, cache.grain())},
                             {Way::memory, AnyWork(memory, memory.grain())},
                             {Way::memory_by_l1, AnyWork(by_l1, by_l1.grain())}};
-  const std::size_t streaming = destination == Destination::memory ? 1 : 0;
-  return run_and_decide(std::span(ways).subspan(streaming), kind, bytes, options);
+  const std::size_t first = destination == Destination::memory ? 1 : 0;
+  const bool alike = memory.scratch_bytes() == by_l1.scratch_bytes();
+  return run_and_decide(std::span(ways).subspan(first, (alike ? 2 : 3) - first), kind, bytes,
+                        options);
 }
 
 /// Runs a checked call.

@@ -50,7 +50,7 @@ public:
     if (kernels_.rows) {
       outputs_.write_directly();
     }
-    kernels_.chunk_samples = kernels_.rows ? n * curves_ : staged_samples(outputs_);
+    kernels_.chunk_samples = kernels_.rows ? n * curves_ : staged_samples(outputs_, n * curves_);
     strips_ = n > kernels_.chunk_samples ? (n - 1) / kernels_.chunk_samples + 1 : 1;
   }
 

@@ -19,7 +19,7 @@ public:
       : first_curve_(request.first), grids_(grids),
         outputs_(plan_outputs(in.out, way)), kernels_{*in.set.storage(), *request.table,
                                                       request.components.first, 0} {
-    kernels_.chunk_samples = staged_samples(outputs_);
+    kernels_.chunk_samples = staged_samples(outputs_, grids.total());
   }
 
   [[nodiscard]] std::size_t units() const noexcept { return grids_.total(); }

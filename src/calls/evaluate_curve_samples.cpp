@@ -19,7 +19,7 @@ public:
                    const CurveSamples<T>& samples, const OutputList<T>& out,
                    const Options& options) noexcept
       : curves_(curves), table_(*request.table), first_component_(request.components.first),
-        samples_(samples), outputs_(plan_outputs(out, way_to(options.destination))),
+        samples_(samples), outputs_(plan_outputs(out, way_of_samples(options.destination))),
         pieces_(samples.curve.size(), outputs_.staged()) {}
 
   [[nodiscard]] std::size_t units() const noexcept { return pieces_.count; }

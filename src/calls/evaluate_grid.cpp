@@ -20,7 +20,7 @@ public:
         plan_(plan), outputs_(out, way) {
     kernels_.expect_output(written_bytes(out, plan.nu() * plan.nv() * request.count), way);
     outputs_.put_directly(kernels_.direct_rows(plan.nu(), true));
-    divide(Delivery<T>::chunk_samples(outputs_));
+    divide(std::min(Delivery<T>::chunk_samples(outputs_), plan.nu() * plan.nv() * request.count));
     chunk_samples_ = (strips_ > 1 ? strip_rows_ : together_ * plan.nv()) * plan.nu();
     delivery_bytes_ = whole_lines(
         Delivery<T>::scratch_bytes(outputs_.staged_planes(), outputs_.streaming(), chunk_samples_));

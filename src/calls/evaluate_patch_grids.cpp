@@ -24,7 +24,7 @@ public:
         grids_(grids), outputs_(in.out, way) {
     kernels_.expect_output(written_bytes(in.out, grids.total()), way);
     outputs_.put_directly(kernels_.direct_rows(grids.least_nu(), false));
-    piece_samples_ = Delivery<T>::chunk_samples(outputs_);
+    piece_samples_ = std::min(Delivery<T>::chunk_samples(outputs_), grids.total());
     chunk_samples_ = std::max(piece_samples_, grids.most_nu());
     delivery_bytes_ = whole_lines(
         Delivery<T>::scratch_bytes(outputs_.staged_planes(), outputs_.streaming(), chunk_samples_));

@@ -18,7 +18,7 @@ public:
   SamplesWork(const SetStorage<T>& set, const Request<T>& request, const Samples<T>& samples,
               const OutputList<T>& out, const Options& options) noexcept
       : kernels_(set, request, out, options), samples_(samples),
-        outputs_(out, way_to(options.destination)),
+        outputs_(out, way_of_samples(options.destination)),
         pieces_(samples.patch.size(), outputs_.staged()) {}
 
   [[nodiscard]] std::size_t units() const noexcept { return pieces_.count; }

@@ -46,9 +46,9 @@ OutputPlan<T>::OutputPlan(const OutputList<T>& out, Way way) noexcept : out_(out
 template <typename T>
 std::size_t OutputPlan<T>::chunk_bytes() const noexcept {
   switch (way_) {
-  case Way::memory: // two chunks, and what is on its way to memory, are half of the cache
+  case Way::memory: // two chunks, and half as much again, leave two fifths for all else
     return second_level_cache() / 5;
-  case Way::memory_by_l1: // likewise
+  case Way::memory_by_l1: // two chunks, and half as much again, stay in the cache
     return first_level_cache() / 4;
   default: // what a kernel writes and a drain reads at once stays in a first-level cache
     return std::size_t{20} << 10;

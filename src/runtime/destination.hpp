@@ -24,9 +24,9 @@ enum class Way : std::uint8_t {
   memory_by_l1 ///< likewise, in the first-level one
 };
 
-/// The way of calls that do not measure. automatic is cache there: results in the order of samples
+/// The way of calls on single samples, which measure nothing: results in the order of samples
 /// seldom fill whole lines, so that they bypass caches on demand only.
-constexpr Way way_to(Destination destination) noexcept {
+constexpr Way way_of_samples(Destination destination) noexcept {
   return destination == Destination::memory ? Way::memory : Way::cache;
 }
 

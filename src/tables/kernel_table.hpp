@@ -92,7 +92,7 @@ struct GridTask : SampleTask<T> {
   const RowRun<T>* runs; ///< the rows, first to last
   std::size_t run_count;
 
-  bool streaming;       ///< rows are to be stored past the caches: see DirectRows
+  bool streaming;       ///< rows are to be stored past the caches: see src/output/output_plan.hpp
   bool by_lines;        ///< rows are stored in whole lines: see src/runtime/line_costs.hpp
   bool plain_to_memory; ///< outputs leave the caches, by plain stores
   std::size_t record;   ///< values from one sample to the next: see OutputPlan::record()

@@ -144,6 +144,7 @@ protected:
     std::vector<Size> all = sizes();
     all.push_back({3000, 2}); // rows longer than what is staged at a time
     all.push_back({2, 700});
+    all.push_back({200, 150}); // patches that are staged in strips
     for (const Size size : all) {
       const Grid<T> samples = Grid<T>::uniform(size.nu, size.nv);
       const Planes<T> reference = reference_of(set, samples);
