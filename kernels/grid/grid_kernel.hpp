@@ -270,7 +270,7 @@ SIMDBEZIER_PART bool sweep_turned_rows(const GridTask<T>& task, const RowPiece<T
 #if defined(SIMDBEZIER_KERNELS_AVX2)
   if constexpr (kStreamsRows<kOutputs, T>) {
     if (task.streaming && task.nu % kLanes<vec<T>> != 0) {
-      stream_planes<kOutputs>(task, piece, 0, task.patch_count);
+      stream_planes<kOutputs>(task, piece);
       return true;
     }
   }

@@ -13,6 +13,17 @@ struct Jet {
   V dv;
 };
 
+/// Evaluates the edge v = const number `edge`, or both where they share a register; q: the tile's
+/// columns.
+template <typename V, typename SomeTile>
+SIMDBEZIER_PART Jet<V> edge_jet(const Component<ScalarOf<V>>& c, const SomeTile& tile,
+                                const V (&q)[kOrder], std::size_t edge) {
+  Jet<V> jet;
+  jet.dv = row_slope(q, RowPoint<V>(tile.edge_y(edge)));
+  jet.p = tile.edge_rows(c, edge, jet.du);
+  return jet;
+}
+
 /// A register of columns as cubics in Y: one component's positions and u derivatives. kAsks says
 /// that origins are asked for at run time; there are none otherwise.
 template <typename V, bool kAsks = true>
@@ -57,17 +68,13 @@ struct JetColumns {
       mirrored.p = origin.add_to(mirrored.p);
     }
   }
-  /// Evaluates the edge v = const number `edge`, or both where they share a register.
   template <typename SomeTile>
   SIMDBEZIER_PART Jet<V> edge(Component<ScalarOf<V>> c, const SomeTile& tile,
                               std::size_t edge) const {
     if constexpr (!kAsks) {
       c.origins = nullptr;
     }
-    Jet<V> jet;
-    jet.dv = row_slope(q, RowPoint<V>(tile.edge_y(edge)));
-    jet.p = tile.edge_rows(c, edge, jet.du);
-    return jet;
+    return edge_jet(c, tile, q, edge);
   }
 };
 

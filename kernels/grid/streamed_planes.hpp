@@ -45,23 +45,19 @@ private:
   template <typename Tile>
   static SIMDBEZIER_PART Jet<V> edge(const Component<T>& c, const Tile& tile, const V (&q)[kOrder],
                                      std::size_t edge) {
-    Jet<V> jet{};
     if constexpr (kPlanes == 1) {
-      jet.p = tile.edge_rows(c, edge);
+      return {tile.edge_rows(c, edge), {}, {}};
     } else {
-      jet.dv = row_slope(q, RowPoint<V>(tile.edge_y(edge)));
-      jet.p = tile.edge_rows(c, edge, jet.du);
+      return edge_jet(c, tile, q, edge);
     }
-    return jet;
   }
 };
 
-/// Streams patches [first_patch, last_patch), whose rows have a register and more, and at most
+/// Streams all patches of a task, whose rows have a register and more, and at most
 /// kMostStreamedRegisters. Where a piece is whole patches, each plane's stream goes on from one
 /// patch to the next one.
 template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_KERNEL void stream_planes(const GridTask<T>& shared_task, const RowPiece<T>& piece,
-                                     std::size_t first_patch, std::size_t last_patch) {
+SIMDBEZIER_KERNEL void stream_planes(const GridTask<T>& shared_task, const RowPiece<T>& piece) {
   using V = vec<T>;
   constexpr std::size_t kPlanes = kOutputs == detail::kPosition ? 1 : 3;
   // A copy, because stores through vector types might change anything that others can see.
@@ -71,7 +67,7 @@ SIMDBEZIER_KERNEL void stream_planes(const GridTask<T>& shared_task, const RowPi
   const bool goes_on = piece.rows() * nu == task.patch_step;
   ValueStream<V> streams[3 * kPlanes];
   StreamedComponent<T, kPlanes> component;
-  for (std::size_t patch = first_patch; patch < last_patch; ++patch) {
+  for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
     if (task.prefetch) {
       prefetch_patch(task, patch);
     }
@@ -83,7 +79,7 @@ SIMDBEZIER_KERNEL void stream_planes(const GridTask<T>& shared_task, const RowPi
       const auto put_plane = [&](Output output, ValueStream<V>& kept, V Jet<V>::*member,
                                  const auto& row) SIMDBEZIER_INLINE_LAMBDA {
         ValueStream<V> stream = kept;
-        if (!goes_on || patch == first_patch) {
+        if (!goes_on || patch == 0) {
           stream.begin(task.out[output_index(output)].component[c] + at);
         }
         if (piece.lead) {
@@ -98,7 +94,7 @@ SIMDBEZIER_KERNEL void stream_planes(const GridTask<T>& shared_task, const RowPi
           stream.put(nu, [&](std::size_t k)
                              SIMDBEZIER_INLINE_LAMBDA { return component.trail[k].*member; });
         }
-        if (!goes_on || patch + 1 == last_patch) {
+        if (!goes_on || patch + 1 == task.patch_count) {
           stream.finish();
         }
         kept = stream;

@@ -26,7 +26,6 @@ template <typename T, std::size_t kLines>
 struct LineTiles {
   using Vector = RegisterPair<vec<T>>;
   using Tile = ColumnTile<1, true, false, Vector, true>;
-  static constexpr std::size_t kCount = kLines;
   Tile tile[kLines];
 
   SIMDBEZIER_PART LineTiles(const T* x, std::size_t first, bool watertight)
@@ -47,38 +46,39 @@ private:
       : tile{{x, first + k * kLanes<Vector>, kLanes<Vector>, watertight}...} {}
 };
 
-/// Streams the rows between the edges of one plane: row(k, at) gives the k-th tile's row at a
-/// point, pair(k, at) the parts of it and of its mirror image.
-template <typename Tiles, typename T, typename Edge, typename Pair, typename Row>
-SIMDBEZIER_INLINE void stream_plane(const RowPiece<T>& piece, const Tiles& tiles, std::size_t nu,
-                                    T* to, const Edge& edge, const Pair& pair, const Row& row) {
-  using V = typename Tiles::Vector;
+/// Streams the rows of one plane: edge(kind, place) stores those on edges, parts(k, at) gives the
+/// parts of the k-th tile's row at a point, whose sum it is.
+template <typename T, std::size_t kLines, typename Edge, typename RowParts>
+SIMDBEZIER_INLINE void stream_plane(const RowPiece<T>& piece, const LineTiles<T, kLines>& tiles,
+                                    std::size_t nu, T* to, const Edge& edge,
+                                    const RowParts& parts) {
+  using V = typename LineTiles<T, kLines>::Vector;
   for_rows<RowOrder{1, RowPairs::always, 1}>(
       piece, 0, nu, edge,
       [&](const T* y, RowPlace place, RowPlace mirrored) SIMDBEZIER_INLINE_LAMBDA {
         const auto at = piece.template point<1, V>(y);
         tiles.for_each(
             [&](const auto& tile, std::size_t k, std::size_t x) SIMDBEZIER_INLINE_LAMBDA {
-              const Parts<V> parts = pair(k, at);
-              tile.store(to + place.at + x, nu, parts.sum(), 1, nullptr);
-              tile.store_mirrored(to + mirrored.at + x, nu, parts.difference(), nullptr);
+              const Parts<V> row = parts(k, at);
+              tile.store(to + place.at + x, nu, row.sum(), 1, nullptr);
+              tile.store_mirrored(to + mirrored.at + x, nu, row.difference(), nullptr);
             });
       },
       [&](const T* y, RowPlace place, std::size_t) SIMDBEZIER_INLINE_LAMBDA {
         const auto at = piece.template point<1, V>(y);
         tiles.for_each([&](const auto& tile, std::size_t k, std::size_t x)
                            SIMDBEZIER_INLINE_LAMBDA {
-                             tile.store(to + place.at + x, nu, row(k, at), 1, nullptr);
+                             tile.store(to + place.at + x, nu, parts(k, at).sum(), 1, nullptr);
                            });
       });
 }
 
 /// Streams one component's positions.
-template <typename Tiles, typename T>
+template <typename T, std::size_t kLines>
 SIMDBEZIER_INLINE void stream_position(const RowPiece<T>& piece, const Component<T>& c,
-                                       const Tiles& tiles, std::size_t nu, T* to) {
-  using V = typename Tiles::Vector;
-  V q[Tiles::kCount][kOrder];
+                                       const LineTiles<T, kLines>& tiles, std::size_t nu, T* to) {
+  using V = typename LineTiles<T, kLines>::Vector;
+  V q[kLines][kOrder];
   tiles.for_each([&](const auto& tile, std::size_t k, std::size_t)
                      SIMDBEZIER_INLINE_LAMBDA { tile_polynomial(c, tile, q[k]); });
   stream_plane(
@@ -89,19 +89,17 @@ SIMDBEZIER_INLINE void stream_position(const RowPiece<T>& piece, const Component
         });
       },
       [&](std::size_t k, const RowPoint<V>& at)
-          SIMDBEZIER_INLINE_LAMBDA { return value_parts(q[k], at); },
-      [&](std::size_t k, const RowPoint<V>& at)
-          SIMDBEZIER_INLINE_LAMBDA { return row_value(q[k], at); });
+          SIMDBEZIER_INLINE_LAMBDA { return value_parts(q[k], at); });
 }
 
 /// Streams one component's positions and first derivatives, plane by plane. Sums that both
 /// positions and dv need are formed twice, which is cheaper than three planes at once.
-template <typename Tiles, typename T>
+template <typename T, std::size_t kLines>
 SIMDBEZIER_INLINE void stream_derivatives(const RowPiece<T>& piece, const Component<T>& c,
-                                          const Tiles& tiles, std::size_t nu,
+                                          const LineTiles<T, kLines>& tiles, std::size_t nu,
                                           const JetPlanes<T>& to) {
-  using V = typename Tiles::Vector;
-  JetColumns<V, false> columns[Tiles::kCount];
+  using V = typename LineTiles<T, kLines>::Vector;
+  JetColumns<V, false> columns[kLines];
   tiles.for_each([&](const auto& tile, std::size_t k, std::size_t)
                      SIMDBEZIER_INLINE_LAMBDA { columns[k].build(c, tile); });
   stream_plane(
@@ -116,22 +114,14 @@ SIMDBEZIER_INLINE void stream_derivatives(const RowPiece<T>& piece, const Compon
                            });
       },
       [&](std::size_t k, const RowPoint<V>& at)
-          SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].q, at); },
-      [&](std::size_t k, const RowPoint<V>& at)
-          SIMDBEZIER_INLINE_LAMBDA { return row_value(columns[k].q, at); });
-  const auto stored = [](RowKind, RowPlace) SIMDBEZIER_INLINE_LAMBDA {};
-  stream_plane(
-      piece, tiles, nu, to.du, stored,
-      [&](std::size_t k, const RowPoint<V>& at)
-          SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].dq, at); },
-      [&](std::size_t k, const RowPoint<V>& at)
-          SIMDBEZIER_INLINE_LAMBDA { return row_value(columns[k].dq, at); });
-  stream_plane(
-      piece, tiles, nu, to.dv, stored,
-      [&](std::size_t k, const RowPoint<V>& at)
-          SIMDBEZIER_INLINE_LAMBDA { return slope_parts(columns[k].q, at); },
-      [&](std::size_t k, const RowPoint<V>& at)
-          SIMDBEZIER_INLINE_LAMBDA { return row_slope(columns[k].q, at); });
+          SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].q, at); });
+  const auto stored = [](RowKind, RowPlace) SIMDBEZIER_INLINE_LAMBDA {}; // edges, with positions
+  stream_plane(piece, tiles, nu, to.du, stored,
+               [&](std::size_t k, const RowPoint<V>& at)
+                   SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].dq, at); });
+  stream_plane(piece, tiles, nu, to.dv, stored,
+               [&](std::size_t k, const RowPoint<V>& at)
+                   SIMDBEZIER_INLINE_LAMBDA { return slope_parts(columns[k].q, at); });
 }
 
 /// Streams lines [first, first + kLines) of the rows of patches [patch, last_patch).
