@@ -11,9 +11,12 @@
 namespace simdbezier::detail {
 namespace {
 
-/// Measurements of each way, and the part of a call that all of them may take.
+/// Measured blocks of each way, and the part of a call that all of them may take.
 constexpr std::size_t kMeasurements = 3;
 constexpr std::size_t kMostOfCall = 4;
+
+/// Half blocks of each way: one ahead of what is measured.
+constexpr std::size_t kHalvesOfWay = 1 + 2 * kMeasurements;
 
 /// A later way has to be faster by more than a clock's errors.
 constexpr double kMargin = 1.02;
@@ -30,33 +33,35 @@ public:
     }
     return scratch_.allocate(bytes, threads_);
   }
-  /// Blocks that are measured.
-  [[nodiscard]] std::size_t blocks() const noexcept { return kMeasurements * ways_.size(); }
+  /// Half blocks that measure() runs, without dirty lines.
+  [[nodiscard]] std::size_t half_blocks() const noexcept { return kHalvesOfWay * ways_.size(); }
   /// Evaluates patches or samples [begin, end).
   void run(const WayOfCall& way, std::size_t begin, std::size_t end) noexcept {
     const std::size_t grain = way.work.grain;
     const Isa ran = run_units(begin * grain, end * grain, threads_, scratch_, way.work);
     executed_ = ran == Isa::automatic ? executed_ : ran; // a part may have nothing for a kernel
   }
-  /// Evaluates the first blocks() * block patches or samples, and `dirty` behind them; returns the
-  /// fastest way.
-  [[nodiscard]] const WayOfCall& measure(std::size_t block, std::size_t dirty) noexcept {
+  /// Evaluates the first half_blocks() * half patches or samples, and `dirty` behind them; returns
+  /// the fastest way.
+  [[nodiscard]] const WayOfCall& measure(std::size_t half, std::size_t dirty) noexcept {
     // Pages are there afterwards, and lines are in no cache, as those are that come later.
-    const std::size_t measured = blocks() * block;
+    const std::size_t measured = half_blocks() * half;
     run(ways_.back(), 0, measured);
-    // Plain stores would seem to cost nothing but the reading of lines, if caches were not full of
-    // ones that have to be written back.
-    run(ways_.front(), measured, measured + dirty);
-    std::int64_t best[kMostWays];
-    std::fill_n(best, kMostWays, std::numeric_limits<std::int64_t>::max());
-    for (std::size_t k = 0; k < blocks(); ++k) {
-      const std::int64_t start = clock_now();
-      run(ways_[k % ways_.size()], k * block, (k + 1) * block);
-      best[k % ways_.size()] = std::min(best[k % ways_.size()], clock_now() - start);
+    // All blocks of a way together, and plain stores last: caches that they have filled are written
+    // back while others stream, which would make plain stores seem up to 1.4 times as fast as they
+    // are in the long run, and streaming slower.
+    std::int64_t time[kMostWays];
+    for (std::size_t k = ways_.size(); k-- > 0;) {
+      if (k == 0) {
+        // Plain stores would seem to cost nothing but the reading of lines, if caches were not full
+        // of ones that have to be written back.
+        run(ways_.front(), measured, measured + dirty);
+      }
+      time[k] = measure_way(ways_[k], k * kHalvesOfWay * half, half);
     }
     std::size_t fastest = 0;
     for (std::size_t k = 1; k < ways_.size(); ++k) {
-      if (static_cast<double>(best[fastest]) >= kMargin * static_cast<double>(best[k])) {
+      if (static_cast<double>(time[fastest]) >= kMargin * static_cast<double>(time[k])) {
         fastest = k;
       }
     }
@@ -66,6 +71,23 @@ public:
 
 private:
   static constexpr std::size_t kMostWays = 3;
+
+  /// Returns the median of the times that some blocks take, the first of which begins half a block
+  /// behind `begin`. Plain stores scatter so much that the least time would flatter them.
+  [[nodiscard]] std::int64_t measure_way(const WayOfCall& way, std::size_t begin,
+                                         std::size_t half) noexcept {
+    run(way, begin, begin + half);
+    std::int64_t times[kMeasurements];
+    for (std::size_t k = 0; k < kMeasurements; ++k) {
+      const std::size_t at = begin + (1 + 2 * k) * half;
+      const std::int64_t start = clock_now();
+      run(way, at, at + 2 * half);
+      times[k] = clock_now() - start;
+    }
+    std::nth_element(times, times + kMeasurements / 2, times + kMeasurements);
+    return times[kMeasurements / 2];
+  }
+
   std::span<const WayOfCall> ways_;
   int threads_;
   ThreadScratch scratch_;
@@ -111,25 +133,25 @@ Status run_and_decide(std::span<const WayOfCall> ways, const CallKind& kind, std
   // that is no more of the call than may be measured: the last chunk of a block has nothing to
   // overlap, and a chunk is up to a third of that cache.
   const std::size_t share =
-      bytes / (all.blocks() * kMostOfCall * static_cast<std::size_t>(threads));
-  const std::size_t least = second_level_cache();
-  const std::size_t blocks = bytes / std::clamp(share, least, 4 * least) + 1;
+      bytes / (all.half_blocks() * kMostOfCall * static_cast<std::size_t>(threads));
+  const std::size_t least = second_level_cache() / 2;
+  const std::size_t halves = bytes / std::clamp(share, least, 4 * least) + 1;
   // Rows that are whole lines together begin on a line in every thread's share of it.
-  const std::size_t step = items / blocks < 16 ? 1 : 16;
-  const std::size_t block =
-      (items / blocks + step - 1) / step * step * static_cast<std::size_t>(threads);
-  const std::size_t measured = all.blocks() * block;
+  const std::size_t step = items / halves < 16 ? 1 : 16;
+  const std::size_t half =
+      (items / halves + step - 1) / step * step * static_cast<std::size_t>(threads);
+  const std::size_t measured = all.half_blocks() * half;
   const bool ready = all.allocate();
-  if (!ready || block == 0 || measured > items / kMostOfCall) {
+  if (!ready || half == 0 || measured > items / kMostOfCall) {
     destination_notes().decide(kind, Way::undecided);
     return ready ? run_work(unmeasured(ways).work, options) : Status::out_of_memory;
   }
   const std::size_t caches =
-      std::max(last_level_cache(), 2 * second_level_cache() * static_cast<std::size_t>(threads));
+      2 * std::max(last_level_cache(), second_level_cache() * static_cast<std::size_t>(threads));
   const bool plain = ways.front().way == Way::cache;
   const std::size_t dirty =
       plain ? std::min((items - measured) / 2, items / (bytes / caches + 1)) / step * step : 0;
-  const WayOfCall& fastest = all.measure(block, dirty);
+  const WayOfCall& fastest = all.measure(half, dirty);
   destination_notes().decide(kind, fastest.way);
   all.run(fastest, measured + dirty, items);
   report(all.executed(), options);

@@ -32,7 +32,7 @@ protected:
       std::function<void(const PatchSet<float>&, const Outputs<float>&, const CallOptions&)>;
   void check(const Call& call) {
     const std::size_t bytes =
-        std::max(detail::last_level_cache() / 2, 40 * detail::second_level_cache());
+        std::max(detail::last_level_cache() / 2, 48 * detail::second_level_cache());
     if (bytes > kMostBytes) {
       GTEST_SKIP() << "caches of " << bytes << " bytes";
     }
