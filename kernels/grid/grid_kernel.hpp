@@ -6,6 +6,8 @@
 //   without whole registers, or where overlapping does not pay:
 //   up to L/2          a tile of 2 rows a register
 //   more               a masked register
+// Registers of a line do not overlap; if the last whole one has no partner, more than L/4 columns
+// behind it are the masked second half of a pair (positions and derivatives).
 // Without normals one component is swept after the other (4 or 8 registers of polynomials, one to
 // three store streams), two registers of columns as one where there is room
 // (simd/register_pair.hpp); normals need all three components at once (24 registers, which AVX2
@@ -166,6 +168,11 @@ SIMDBEZIER_PART void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<
     }
     if (split.column && first + 2 * kL == split.full) {
       return tiles.template sweep<ColumnTile<1, true, true, W>>(first, 2 * kL);
+    }
+    if constexpr (kLineWide<V>) { // the last registers of shorter ones overlap
+      if (split.rest > kL / 4 && first + kL == split.full) {
+        return tiles.template sweep<ColumnTile<1, false, false, W>>(first, kL + split.rest);
+      }
     }
   }
   for (; first < plain; first += kL) {

@@ -21,12 +21,14 @@ inline constexpr bool kPutsRecords = !kIsScalar<V> && kNonuples;
 /// So many rows have normals that wait for their length.
 constexpr std::size_t kWaitingRows = 20;
 
-/// Whether rows that are mirror images of each other are computed together, and how many rows there
-/// have to be between the edges for that. Positions alone are, since six or nine values of two rows
-/// have too few registers. Longer registers stay with single rows until pairs have been measured
-/// there.
-template <detail::OutputSet kOutputs, typename V>
-inline constexpr bool kPairsRecords = kOutputs == detail::kPosition && !kLineWide<V>;
+/// Whether positions of rows that are mirror images of each other are computed together. In
+/// registers of a line they gain by it where rows are whole ones that stay in the caches. Six or
+/// nine values of two rows would have too few registers.
+template <typename V>
+SIMDBEZIER_PART bool pairs_records(const GridTask<ScalarOf<V>>& task) {
+  return !kLineWide<V> || (task.nu % kLanes<V> == 0 && !task.streaming);
+}
+/// So many rows between the edges are worth it.
 constexpr std::size_t kLeastPaired = 6;
 
 /// The rows of a register of columns of one patch, and behind them `column` unless it is null.
@@ -260,8 +262,12 @@ SIMDBEZIER_KERNEL void sweep_records(const GridTask<T>& shared_task,
     const auto start = rows.start(task, extra ? &column : nullptr);
     if constexpr (RecordGroups<kOutputs>::kNormals) {
       rows.put_normals(start);
-    } else if constexpr (kPairsRecords<kOutputs, V>) {
-      rows.put_pairs(RecordPlaces<kOutputs, T>(task, at), extra ? &column : nullptr);
+    } else if constexpr (kOutputs == detail::kPosition) {
+      if (pairs_records<V>(task)) {
+        rows.put_pairs(RecordPlaces<kOutputs, T>(task, at), extra ? &column : nullptr);
+      } else {
+        rows.put(start);
+      }
     } else {
       rows.put(start);
     }
