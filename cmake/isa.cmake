@@ -103,6 +103,18 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   endforeach()
 endif()
 
+# For what runs once per call: g++ clears structures of some hundred bytes by one instruction for all
+# of them, which takes 25 cycles to begin. With stores instead, a call on a few samples takes 0.9 of
+# its time.
+set(simdbezier_call_flags "")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  set(flag -mmemset-strategy=unrolled_loop:1024:noalign,libcall:-1:noalign)
+  check_cxx_compiler_flag(${flag} SIMDBEZIER_HAS_MEMSET_STRATEGY)
+  if(SIMDBEZIER_HAS_MEMSET_STRATEGY)
+    set(simdbezier_call_flags ${flag})
+  endif()
+endif()
+
 # The flags of one instruction set, as a list.
 function(simdbezier_isa_flags name result)
   foreach(row IN LISTS SIMDBEZIER_ISA_TABLE)

@@ -54,7 +54,7 @@ struct NoSharedRows {
 template <typename T, std::size_t kSide, bool kLiesAcross>
 struct SquarePiece {
   static constexpr bool kKnown = true;
-  static constexpr bool kStraight = kSide <= 17; ///< code, for more is slower than a loop
+  static constexpr bool kStraight = kSide <= 17 || !kLiesAcross; ///< code, without loops
   static constexpr bool kAcross = kLiesAcross;
   static constexpr std::size_t first = 0;
   static constexpr bool lead = true;

@@ -65,9 +65,19 @@ constexpr bool kIsStagedStream = (kSide <= kLanes<vec<T>> + 1) &&
                                  ((kSide * 2 == kLanes<vec<T>>) ||
                                   (kOutputs == detail::kPositionDerivatives));
 
-/// Whether such squares are worth straight code: not where roots set the pace.
+/// Whether such squares are short, so that straight code pays on any machine: not where roots set
+/// the pace.
 template <detail::OutputSet kOutputs, std::size_t kSide>
-constexpr bool kIsStraight = kSide <= 17 && (kOutputs != detail::kPositionNormal || kSide != 16);
+constexpr bool kIsShort = kSide <= 17 && (kOutputs != detail::kPositionNormal || kSide != 16);
+
+/// Whether longer ones have straight code as well, for machines with cheap stores across lines: on
+/// others it takes up to 1.7 times as long as a loop. Rows have four registers at most, and a
+/// column behind them in positions only.
+template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
+constexpr bool kIsLong = (kSide > 17) && (kSide <= 4 * kLanes<vec<T>> + 1) &&
+                         (kOutputs == detail::kPosition ||
+                          (kOutputs == detail::kPositionDerivatives &&
+                           kSide % kLanes<vec<T>> == 0));
 
 /// Whether rows of such squares have a column or a part of a register behind whole ones, which
 /// straight code has for machines with cheap stores across lines. Normals are the same everywhere.
@@ -140,13 +150,16 @@ SIMDBEZIER_PART bool sweep_square_of(std::index_sequence<kSides...>, const GridT
             return true;
           }
         }
-        if constexpr (kIsStraight<kOutputs, kSide>) {
-          if (kSharesLines<kOutputs, kSide, T> && task.by_lines) {
+        constexpr bool kForCheapSplits =
+            (kIsLong<kOutputs, kSide, T>) || (kSharesLines<kOutputs, kSide, T>);
+        constexpr bool kIsStraight = (kIsShort<kOutputs, kSide>) || (kIsLong<kOutputs, kSide, T>);
+        if constexpr (kIsStraight) {
+          if (kForCheapSplits && task.by_lines) {
             return false;
           }
           sweep_square<kOutputs>(task, SquarePiece<T, kSide, false>(y), patch, end);
         }
-        return kIsStraight<kOutputs, kSide>;
+        return kIsStraight;
       };
   return (sweep(std::integral_constant<std::size_t, kSides>{}) || ...);
 }
