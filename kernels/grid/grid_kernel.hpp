@@ -14,8 +14,8 @@
 // keeps partly in L1). Derivatives of large patches take all tiles of a component before the next
 // one (grid/component_sweeps.hpp). Squares of usual sizes are known to the compiler: sweep_square()
 // chooses as sweep_tiles() does. Rows of one tile that lie across lines are put together to whole
-// lines. Positions and derivatives that AVX2 streams go row by row: whole lines by
-// grid/streamed_rows.hpp, others by grid/streamed_planes.hpp.
+// lines. Positions and derivatives that are streamed go row by row: on AVX2 whole lines by
+// grid/streamed_rows.hpp, and rows that are no whole registers by grid/streamed_planes.hpp.
 #pragma once
 
 #include "kernels/grid/component_sweeps.hpp"
@@ -274,8 +274,8 @@ SIMDBEZIER_PART bool sweep_small_grid(const GridTask<T>& task) {
 /// one.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool sweep_turned_rows(const GridTask<T>& task, const RowPiece<T>& piece) {
-#if defined(SIMDBEZIER_KERNELS_AVX2)
-  if constexpr (kStreamsRows<kOutputs, T>) {
+#if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
+  if constexpr (kOutputs == detail::kPosition || kOutputs == detail::kPositionDerivatives) {
     if (task.streaming && task.nu % kLanes<vec<T>> != 0) {
       stream_planes<kOutputs>(task, piece);
       return true;

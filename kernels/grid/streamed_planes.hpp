@@ -11,7 +11,7 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-#if defined(SIMDBEZIER_KERNELS_AVX2)
+#if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
 /// One component of one patch: its columns, register by register, and its rows on edges. Lanes
 /// behind the last column repeat it.
 template <typename T, std::size_t kPlanes>

@@ -6,6 +6,7 @@
 
 #include "kernels/simd/interleave.hpp"
 #include "kernels/simd/lanes.hpp"
+#include "kernels/simd/line_stream.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -26,6 +27,63 @@ struct Turns {
 };
 inline constexpr Turns kTurns;
 
+/// Turns registers by a number of lanes, and joins them with the ones before.
+template <typename V>
+class Turn {
+public:
+  explicit SIMDBEZIER_INLINE Turn(std::size_t n) {
+    const std::size_t lanes = n * (sizeof(ScalarOf<V>) / sizeof(float));
+    from_ = _mm256_load_si256(reinterpret_cast<const __m256i*>(kTurns.from[lanes]));
+    first_ = _mm256_load_ps(reinterpret_cast<const float*>(kTurns.first[lanes]));
+  }
+  SIMDBEZIER_INLINE V of(V values) const {
+    const __m256 lanes = __builtin_bit_cast(__m256, values);
+    return __builtin_bit_cast(V, _mm256_permutevar8x32_ps(lanes, from_));
+  }
+  /// The first lanes of `kept`, and the others of `turned`.
+  SIMDBEZIER_INLINE V join(V kept, V turned) const {
+    return __builtin_bit_cast(V, _mm256_blendv_ps(__builtin_bit_cast(__m256, turned),
+                                                  __builtin_bit_cast(__m256, kept), first_));
+  }
+
+private:
+  __m256i from_;
+  __m256 first_;
+};
+#elif defined(SIMDBEZIER_KERNELS_AVX512)
+/// Turns registers by a number of lanes, and joins them with the ones before.
+template <typename V>
+class Turn {
+  static constexpr bool kFloats = sizeof(ScalarOf<V>) == sizeof(float);
+
+public:
+  explicit SIMDBEZIER_INLINE Turn(std::size_t n)
+      : from_(_mm512_loadu_si512(kFloats ? static_cast<const void*>(kLaneNumbers.by_4 + 16 - n)
+                                         : kLaneNumbers.by_8 + 8 - n)),
+        first_((1U << n) - 1U) {}
+  SIMDBEZIER_INLINE V of(V values) const { // lane numbers count modulo a register
+    if constexpr (kFloats) {
+      return V(_mm512_permutexvar_ps(from_, values));
+    } else {
+      return V(_mm512_permutexvar_pd(from_, values));
+    }
+  }
+  /// The first lanes of `kept`, and the others of `turned`.
+  SIMDBEZIER_INLINE V join(V kept, V turned) const {
+    if constexpr (kFloats) {
+      return V(_mm512_mask_blend_ps(static_cast<__mmask16>(first_), turned, kept));
+    } else {
+      return V(_mm512_mask_blend_pd(static_cast<__mmask8>(first_), turned, kept));
+    }
+  }
+
+private:
+  __m512i from_;
+  unsigned first_;
+};
+#endif
+
+#if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
 /// Rows are put one behind the other, as they are to lie from begin()'s address on. Once finish()
 /// has been called all of them are written, each value once, and nothing besides. It has values
 /// only between these two.
@@ -45,15 +103,11 @@ public:
   /// one, as many lanes count as there are values.
   template <typename Value>
   SIMDBEZIER_INLINE void put(std::size_t count, const Value& value) {
-    const std::size_t lanes = filled_ * (sizeof(T) / sizeof(float));
-    const __m256i turn = _mm256_load_si256(reinterpret_cast<const __m256i*>(kTurns.from[lanes]));
-    const __m256 first = _mm256_load_ps(reinterpret_cast<const float*>(kTurns.first[lanes]));
+    const Turn<V> turn(filled_);
     // Finds what is stored next; `turned` is what stays for the register after it.
     const auto joined = [&](V values, V& turned) SIMDBEZIER_INLINE_LAMBDA {
-      turned =
-          __builtin_bit_cast(V, _mm256_permutevar8x32_ps(__builtin_bit_cast(__m256, values), turn));
-      return __builtin_bit_cast(V, _mm256_blendv_ps(__builtin_bit_cast(__m256, turned),
-                                                    __builtin_bit_cast(__m256, kept_), first));
+      turned = turn.of(values);
+      return turn.join(kept_, turned);
     };
     const std::size_t whole = count / kL;
     const std::size_t rest = count % kL;

@@ -122,10 +122,14 @@ struct PatchKernels {
     const bool records = table->puts_records && watertight && plain;
     // Kernels stream whole lines, of one register or, where that pays, of two.
     const std::size_t bytes = table->lanes * sizeof(T);
-    const bool pairs =
-        2 * bytes == 64 && plain && choice.outputs != kPositionNormal && !table->compact;
+    const bool knows = plain && choice.outputs != kPositionNormal && !table->compact;
+    const bool pairs = knows && 2 * bytes == 64;
+    const bool lines = knows && bytes == 64;
     // Short rows are staged faster than turned, and whole registers lie across no lines in staging.
-    const bool turned = pairs && nu % table->lanes != 0 && nu >= 3 * table->lanes &&
+    const std::size_t least = pairs                         ? 3 * table->lanes
+                              : choice.outputs == kPosition ? 2 * table->lanes + table->lanes / 2
+                                                            : 2 * table->lanes - 1;
+    const bool turned = (pairs || lines) && nu % table->lanes != 0 && nu >= least &&
                         nu <= kMostStreamedRegisters * table->lanes;
     return {.row = bicubic && one_pass ? nu : 0,
             .lanes = table->lanes,
