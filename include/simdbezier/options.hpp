@@ -15,16 +15,16 @@ namespace simdbezier {
 /// automatic is cache for outputs of up to half of the last-level cache, and for scattered samples.
 /// Beyond that the call takes what is faster on this machine: the first large call of its kind
 /// (instruction set, shape, size of the grid, outputs and their layout, threads, more than four
-/// times the last-level cache or less) evaluates its first megabytes in each way, and the process
-/// keeps the answer. Plain stores come last, after up to half of the output has filled the caches
-/// by them. Only the first megabytes are written twice, which takes a few milliseconds at most.
-/// There are three ways: plain stores, and streaming ones that come, where kernels cannot write
-/// lines directly, from much or from little staging memory (a fifth of the second-level cache, a
-/// quarter of the first-level one; meshes have one size). One thread decides. Calls that come
-/// meanwhile stream from much, and so do calls of which measuring would be more than a quarter.
-/// memory measures the last two. The answer never changes a bit. SIMDBEZIER_DESTINATION=cache or
-/// =memory in the environment, read once per process, stands for automatic in all large calls; any
-/// other word counts as none.
+/// times the last-level cache or less) evaluates its first megabytes, then a part of them again in
+/// each way, and the process keeps the answer. Plain stores come last, after up to half of the
+/// output has filled the caches by them. At most a quarter of the output is written twice. There
+/// are three ways: plain stores, and streaming ones that come, where kernels cannot write lines
+/// directly, from much or from little staging memory (a fifth of the second-level cache, a quarter
+/// of the first-level one; meshes have one size). One thread decides. Calls that come meanwhile
+/// stream from much, and so do calls of which measuring would be more than a quarter. memory
+/// measures the last two. The answer never changes a bit. SIMDBEZIER_DESTINATION=cache or =memory
+/// in the environment, read once per process, stands for automatic in all large calls; any other
+/// word counts as none.
 enum class Destination : std::uint8_t {
   automatic, ///< decided by the output's size, and beyond the caches by measurement
   cache,     ///< plain stores

@@ -14,8 +14,9 @@
 // keeps partly in L1). Derivatives of large patches take all tiles of a component before the next
 // one (grid/component_sweeps.hpp). Squares of usual sizes are known to the compiler: sweep_square()
 // chooses as sweep_tiles() does. Rows of one tile that lie across lines are put together to whole
-// lines. Positions and derivatives that are streamed go row by row: on AVX2 whole lines by
-// grid/streamed_rows.hpp, and rows that are no whole registers by grid/streamed_planes.hpp.
+// lines. Of streamed positions and derivatives, rows that are no whole registers go by
+// grid/streamed_planes.hpp; whole lines go by grid/streamed_rows.hpp on AVX2, and tile by tile on
+// AVX-512.
 #pragma once
 
 #include "kernels/grid/component_sweeps.hpp"

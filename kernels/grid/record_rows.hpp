@@ -21,14 +21,14 @@ inline constexpr bool kPutsRecords = !kIsScalar<V> && kNonuples;
 /// So many rows have normals that wait for their length.
 constexpr std::size_t kWaitingRows = 20;
 
-/// Whether positions of rows that are mirror images of each other are computed together. In
-/// registers of a line they gain by it where rows are whole ones that stay in the caches. Six or
-/// nine values of two rows would have too few registers.
+/// Whether positions of rows that are mirror images of each other are computed together. With
+/// registers as long as a line this pays where rows are whole registers and results stay in the
+/// caches. With six or nine values a sample, two rows do not fit into the registers.
 template <typename V>
 SIMDBEZIER_PART bool pairs_records(const GridTask<ScalarOf<V>>& task) {
   return !kLineWide<V> || (task.nu % kLanes<V> == 0 && !task.streaming);
 }
-/// So many rows between the edges are worth it.
+/// Rows are paired if at least so many lie between the edges.
 constexpr std::size_t kLeastPaired = 6;
 
 /// The rows of a register of columns of one patch, and behind them `column` unless it is null.

@@ -71,7 +71,7 @@ template <detail::OutputSet kOutputs, std::size_t kSide>
 constexpr bool kIsShort = kSide <= 17 && (kOutputs != detail::kPositionNormal || kSide != 16);
 
 /// Whether longer ones have straight code as well, for machines with cheap stores across lines: on
-/// others it takes up to 1.7 times as long as a loop. Rows have four registers at most, and a
+/// others it takes up to 1.6 times as long as a loop. Rows have four registers at most, and a
 /// column behind them in positions only.
 template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
 constexpr bool kIsLong = (kSide > 17) && (kSide <= 4 * kLanes<vec<T>> + 1) &&
@@ -164,7 +164,7 @@ SIMDBEZIER_PART bool sweep_square_of(std::index_sequence<kSides...>, const GridT
   return (sweep(std::integral_constant<std::size_t, kSides>{}) || ...);
 }
 
-/// Squares that gain by code of their own: short ones, of sides 2^k and 2^k + 1.
+/// Squares that gain by code of their own: of sides 2^k and 2^k + 1.
 using SquareSides = std::index_sequence<8, 9, 16, 17, 32, 33>;
 
 /// Whether there is such code at all: for registers of 32 bytes and more, and edges as usual.

@@ -23,7 +23,8 @@ SIMDBEZIER_INLINE void prefetch_line(const void* address) {
   asm volatile("" : "+r"(address));
   __builtin_prefetch(address);
 }
-/// Does so with an address that the instruction adds up by itself.
+/// The same, but the address stays base, index and constant in the instruction instead of taking a
+/// register.
 SIMDBEZIER_INLINE void prefetch_operand(const void* address) {
 #if defined(SIMDBEZIER_KERNELS_AVX512) || defined(SIMDBEZIER_KERNELS_AVX2)
   asm volatile("prefetcht0 %0" : : "m"(*static_cast<const char*>(address)));

@@ -18,6 +18,13 @@ constexpr std::size_t kMostOfCall = 4;
 /// Half blocks of each way: one ahead of what is measured.
 constexpr std::size_t kHalvesOfWay = 1 + 2 * kMeasurements;
 
+/// Returns at most `items`, and a multiple of 16 if there are as many: so many rows are whole
+/// lines.
+constexpr std::size_t aligned_items(std::size_t items) noexcept {
+  constexpr std::size_t kLine = 16;
+  return items < kLine ? items : items / kLine * kLine;
+}
+
 /// A later way has to be faster by more than a clock's errors.
 constexpr double kMargin = 1.02;
 
@@ -33,19 +40,17 @@ public:
     }
     return scratch_.allocate(bytes, threads_);
   }
-  /// Half blocks that measure() runs, without dirty lines.
-  [[nodiscard]] std::size_t half_blocks() const noexcept { return kHalvesOfWay * ways_.size(); }
   /// Evaluates patches or samples [begin, end).
   void run(const WayOfCall& way, std::size_t begin, std::size_t end) noexcept {
     const std::size_t grain = way.work.grain;
     const Isa ran = run_units(begin * grain, end * grain, threads_, scratch_, way.work);
     executed_ = ran == Isa::automatic ? executed_ : ran; // a part may have nothing for a kernel
   }
-  /// Evaluates the first half_blocks() * half patches or samples, and `dirty` behind them; returns
-  /// the fastest way.
+  /// Evaluates the first half blocks, of `half` patches or samples each, and `dirty` behind them;
+  /// returns the fastest way.
   [[nodiscard]] const WayOfCall& measure(std::size_t half, std::size_t dirty) noexcept {
     // Pages are there afterwards, and lines are in no cache, as those are that come later.
-    const std::size_t measured = half_blocks() * half;
+    const std::size_t measured = half_blocks(ways_.size()) * half;
     run(ways_.back(), 0, measured);
     // All blocks of a way together, and plain stores last: caches that they have filled are written
     // back while others stream, which would make plain stores seem up to 1.4 times as fast as they
@@ -73,7 +78,7 @@ private:
   static constexpr std::size_t kMostWays = 3;
 
   /// Returns the median of the times that some blocks take, the first of which begins half a block
-  /// behind `begin`. Plain stores scatter so much that the least time would flatter them.
+  /// behind `begin`. Times of plain stores scatter so much that the least one would flatter them.
   [[nodiscard]] std::int64_t measure_way(const WayOfCall& way, std::size_t begin,
                                          std::size_t half) noexcept {
     run(way, begin, begin + half);
@@ -119,6 +124,19 @@ CallKind measured_kind(CallKind kind, std::size_t bytes, const Options& options)
   return kind.add(static_cast<std::uint64_t>(threads)).add(bytes / 4 > last_level_cache() ? 1 : 0);
 }
 
+std::size_t half_blocks(std::size_t ways) noexcept { return kHalvesOfWay * ways; }
+
+std::size_t half_block(std::size_t items, std::size_t bytes, std::size_t ways,
+                       int threads) noexcept {
+  // A thread's block is as large as its second-level cache, and up to four times as large where
+  // that is no more of the call than may be measured: the last chunk of a block has nothing to
+  // overlap, and a chunk is up to a third of that cache.
+  const auto many = static_cast<std::size_t>(threads);
+  const std::size_t share = bytes / (half_blocks(ways) * kMostOfCall * many);
+  const std::size_t least = std::max<std::size_t>(second_level_cache() / 2, 1);
+  return share < least ? 0 : aligned_items(items / (bytes / std::min(share, 4 * least) + 1)) * many;
+}
+
 Status run_and_decide(std::span<const WayOfCall> ways, const CallKind& kind, std::size_t bytes,
                       const Options& options) noexcept {
   if (ways.size() == 1) {
@@ -129,20 +147,10 @@ Status run_and_decide(std::span<const WayOfCall> ways, const CallKind& kind, std
   const std::size_t items = first.units / first.grain;
   const int threads = thread_count(options.threads, items, first.duration);
   AllWays all(ways, threads);
-  // A thread's block is as large as its second-level cache, and up to four times as large where
-  // that is no more of the call than may be measured: the last chunk of a block has nothing to
-  // overlap, and a chunk is up to a third of that cache.
-  const std::size_t share =
-      bytes / (all.half_blocks() * kMostOfCall * static_cast<std::size_t>(threads));
-  const std::size_t least = second_level_cache() / 2;
-  const std::size_t halves = bytes / std::clamp(share, least, 4 * least) + 1;
-  // Rows that are whole lines together begin on a line in every thread's share of it.
-  const std::size_t step = items / halves < 16 ? 1 : 16;
-  const std::size_t half =
-      (items / halves + step - 1) / step * step * static_cast<std::size_t>(threads);
-  const std::size_t measured = all.half_blocks() * half;
+  const std::size_t half = half_block(items, bytes, ways.size(), threads);
+  const std::size_t measured = half_blocks(ways.size()) * half;
   const bool ready = all.allocate();
-  if (!ready || half == 0 || measured > items / kMostOfCall) {
+  if (!ready || half == 0) {
     destination_notes().decide(kind, Way::undecided);
     return ready ? run_work(unmeasured(ways).work, options) : Status::out_of_memory;
   }
@@ -150,7 +158,7 @@ Status run_and_decide(std::span<const WayOfCall> ways, const CallKind& kind, std
       2 * std::max(last_level_cache(), second_level_cache() * static_cast<std::size_t>(threads));
   const bool plain = ways.front().way == Way::cache;
   const std::size_t dirty =
-      plain ? std::min((items - measured) / 2, items / (bytes / caches + 1)) / step * step : 0;
+      plain ? aligned_items(std::min((items - measured) / 2, items / (bytes / caches + 1))) : 0;
   const WayOfCall& fastest = all.measure(half, dirty);
   destination_notes().decide(kind, fastest.way);
   all.run(fastest, measured + dirty, items);

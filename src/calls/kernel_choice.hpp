@@ -122,10 +122,11 @@ struct PatchKernels {
     const bool records = table->puts_records && watertight && plain;
     // Kernels stream whole lines, of one register or, where that pays, of two.
     const std::size_t bytes = table->lanes * sizeof(T);
-    const bool knows = plain && choice.outputs != kPositionNormal && !table->compact;
-    const bool pairs = knows && 2 * bytes == 64;
-    const bool lines = knows && bytes == 64;
-    // Short rows are staged faster than turned, and whole registers lie across no lines in staging.
+    const bool may_turn = plain && choice.outputs != kPositionNormal && !table->compact;
+    const bool pairs = may_turn && 2 * bytes == 64;
+    const bool lines = may_turn && bytes == 64;
+    // Short rows are staged faster than turned (docs/experiments.md, To memory), and whole
+    // registers lie across no lines in staging.
     const std::size_t least = pairs                         ? 3 * table->lanes
                               : choice.outputs == kPosition ? 2 * table->lanes + table->lanes / 2
                                                             : 2 * table->lanes - 1;

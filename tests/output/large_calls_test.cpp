@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "src/calls/destined_call.hpp"
 #include "src/runtime/cache_sizes.hpp"
 #include "tests/support/call_options.hpp"
 #include "tests/support/evaluation.hpp"
@@ -37,6 +38,7 @@ protected:
       GTEST_SKIP() << "caches of " << bytes << " bytes";
     }
     const std::size_t repeats = bytes / (kChunk * sizeof(float)) + 1;
+    ASSERT_GT(detail::half_block(repeats * kRepeated, repeats * kChunk * sizeof(float), 3, 1), 0U);
     const std::vector<Net> some = mixed_nets(kRepeated);
     std::vector<Net> nets;
     for (std::size_t k = 0; k < repeats * kRepeated; ++k) {
@@ -106,6 +108,25 @@ TEST_P(LargeCalls, OnTwoRows) {
 }
 
 INSTANTIATE_FOR_EVERY_ISA(LargeCalls);
+
+// Measuring takes a quarter of a call at most, and every call that is large enough for that does.
+TEST(MeasuredBlocks, AreAQuarterAtMost) {
+  const std::size_t cache = detail::second_level_cache();
+  for (const int threads : {1, 2, 3, 16}) {
+    for (const std::size_t ways : {2U, 3U}) {
+      const std::size_t blocks = detail::half_blocks(ways);
+      const std::size_t enough = 4 * blocks * static_cast<std::size_t>(threads) * (cache / 2);
+      for (const std::size_t item : {std::size_t{36}, std::size_t{972}, cache / 40, cache / 9}) {
+        for (std::size_t bytes = enough / 8; bytes < 16 * enough; bytes += bytes / 7) {
+          const std::size_t items = bytes / item;
+          const std::size_t half = detail::half_block(items, items * item, ways, threads);
+          EXPECT_LE(4 * blocks * half, items) << item << " bytes, " << items << " items";
+          EXPECT_EQ(half > 0, items * item >= enough) << item << " bytes, " << items << " items";
+        }
+      }
+    }
+  }
+}
 
 } // namespace
 } // namespace simdbezier::tests::large_calls_test
