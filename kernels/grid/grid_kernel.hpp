@@ -170,8 +170,10 @@ SIMDBEZIER_PART void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<
     if (split.column && first + 2 * kL == split.full) {
       return tiles.template sweep<ColumnTile<1, true, true, W>>(first, 2 * kL);
     }
-    if constexpr (kLineWide<V>) { // the last registers of shorter ones overlap
-      if (split.rest > kL / 4 && first + kL == split.full) {
+    // The last registers of shorter ones overlap. In staging, derivatives are faster one by one.
+    if constexpr (kLineWide<V>) {
+      const bool pays = kOutputs == detail::kPosition || task.drain == nullptr;
+      if (pays && split.rest > kL / 4 && first + kL == split.full) {
         return tiles.template sweep<ColumnTile<1, false, false, W>>(first, kL + split.rest);
       }
     }
