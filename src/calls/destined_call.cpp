@@ -4,26 +4,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "src/calls/measured_blocks.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/cache_sizes.hpp"
 #include "src/runtime/clock.hpp"
 
 namespace simdbezier::detail {
 namespace {
-
-/// Measured blocks of each way, and the part of a call that all of them may take.
-constexpr std::size_t kMeasurements = 3;
-constexpr std::size_t kMostOfCall = 4;
-
-/// Half blocks of each way: one ahead of what is measured.
-constexpr std::size_t kHalvesOfWay = 1 + 2 * kMeasurements;
-
-/// Returns at most `items`, and a multiple of 16 if there are as many: so many rows are whole
-/// lines.
-constexpr std::size_t aligned_items(std::size_t items) noexcept {
-  constexpr std::size_t kLine = 16;
-  return items < kLine ? items : items / kLine * kLine;
-}
 
 /// A later way has to be faster by more than a clock's errors.
 constexpr double kMargin = 1.02;
@@ -122,19 +109,6 @@ CallKind measured_kind(CallKind kind, std::size_t bytes, const Options& options)
   constexpr std::size_t kMany = std::numeric_limits<std::size_t>::max();
   const int threads = thread_count(options.threads, kMany, kLongDuration);
   return kind.add(static_cast<std::uint64_t>(threads)).add(bytes / 4 > last_level_cache() ? 1 : 0);
-}
-
-std::size_t half_blocks(std::size_t ways) noexcept { return kHalvesOfWay * ways; }
-
-std::size_t half_block(std::size_t items, std::size_t bytes, std::size_t ways,
-                       int threads) noexcept {
-  // A thread's block is as large as its second-level cache, and up to four times as large where
-  // that is no more of the call than may be measured: the last chunk of a block has nothing to
-  // overlap, and a chunk is up to a third of that cache.
-  const auto many = static_cast<std::size_t>(threads);
-  const std::size_t share = bytes / (half_blocks(ways) * kMostOfCall * many);
-  const std::size_t least = std::max<std::size_t>(second_level_cache() / 2, 1);
-  return share < least ? 0 : aligned_items(items / (bytes / std::min(share, 4 * least) + 1)) * many;
 }
 
 Status run_and_decide(std::span<const WayOfCall> ways, const CallKind& kind, std::size_t bytes,

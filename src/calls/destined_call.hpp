@@ -84,13 +84,6 @@ struct WayOfCall {
   AnyWork work;
 };
 
-/// Returns how many patches or samples half of a measured block has, of all threads: of a call with
-/// so many items and bytes, for so many ways. 0 where measuring would be more than a quarter of it.
-[[nodiscard]] std::size_t half_block(std::size_t items, std::size_t bytes, std::size_t ways,
-                                     int threads) noexcept;
-/// Half blocks that so many ways measure, those included that run ahead of measurements.
-[[nodiscard]] std::size_t half_blocks(std::size_t ways) noexcept;
-
 /// Runs the same work in some ways, one at least, of a call that has claimed its kind, and notes
 /// which is the fastest. Way::memory is among them, and is what is taken where nothing can be
 /// measured. Returns ok | out_of_memory, before anything is written.
