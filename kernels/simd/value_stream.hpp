@@ -54,32 +54,18 @@ private:
 /// Turns registers by a number of lanes, and joins them with the ones before.
 template <typename V>
 class Turn {
-  static constexpr bool kFloats = sizeof(ScalarOf<V>) == sizeof(float);
+  using Lanes = typename MaskOf<V>::register_type;
 
 public:
   explicit SIMDBEZIER_INLINE Turn(std::size_t n)
-      : from_(_mm512_loadu_si512(kFloats ? static_cast<const void*>(kLaneNumbers.by_4 + 16 - n)
-                                         : kLaneNumbers.by_8 + 8 - n)),
-        first_((1U << n) - 1U) {}
-  SIMDBEZIER_INLINE V of(V values) const { // lane numbers count modulo a register
-    if constexpr (kFloats) {
-      return V(_mm512_permutexvar_ps(from_, values));
-    } else {
-      return V(_mm512_permutexvar_pd(from_, values));
-    }
-  }
+      : window_(kLanes<V> - n, ScalarOf<V>()), first_(static_cast<Lanes>((1U << n) - 1U)) {}
+  SIMDBEZIER_INLINE V of(V values) const { return window_.of(values, values); }
   /// The first lanes of `kept`, and the others of `turned`.
-  SIMDBEZIER_INLINE V join(V kept, V turned) const {
-    if constexpr (kFloats) {
-      return V(_mm512_mask_blend_ps(static_cast<__mmask16>(first_), turned, kept));
-    } else {
-      return V(_mm512_mask_blend_pd(static_cast<__mmask8>(first_), turned, kept));
-    }
-  }
+  SIMDBEZIER_INLINE V join(V kept, V turned) const { return select_where<V>(first_, kept, turned); }
 
 private:
-  __m512i from_;
-  unsigned first_;
+  LaneWindow window_;
+  MaskOf<V> first_;
 };
 #endif
 
