@@ -14,9 +14,9 @@
 // keeps partly in L1). Derivatives of large patches take all tiles of a component before the next
 // one (grid/component_sweeps.hpp). Squares of usual sizes are known to the compiler: sweep_square()
 // chooses as sweep_tiles() does. Rows of one tile that lie across lines are put together to whole
-// lines. Of streamed positions and derivatives, rows that are no whole registers go by
-// grid/streamed_planes.hpp; whole lines go by grid/streamed_rows.hpp on AVX2, and tile by tile on
-// AVX-512.
+// lines. Streamed rows that are no whole registers, or lie across lines, go by
+// grid/streamed_planes.hpp, with normals by grid/streamed_normals.hpp; whole lines go by
+// grid/streamed_rows.hpp on AVX2, and tile by tile on AVX-512.
 #pragma once
 
 #include "kernels/grid/component_sweeps.hpp"
@@ -24,6 +24,7 @@
 #include "kernels/grid/small_grid_jets.hpp"
 #include "kernels/grid/small_jets_across.hpp"
 #include "kernels/grid/square_sweeps.hpp"
+#include "kernels/grid/streamed_normals.hpp"
 #include "kernels/grid/streamed_planes.hpp"
 #include "kernels/grid/streamed_rows.hpp"
 #include "kernels/simd/register_pair.hpp"
@@ -273,14 +274,22 @@ SIMDBEZIER_PART bool sweep_small_grid(const GridTask<T>& task) {
   return false;
 }
 
-/// Sweeps a piece whose rows are streamed but are no whole registers, and returns whether it is
-/// one.
+/// Sweeps a piece whose rows are streamed but are no whole registers, or lie across lines, and
+/// returns whether it is one.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool sweep_turned_rows(const GridTask<T>& task, const RowPiece<T>& piece) {
 #if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
-  if constexpr (kOutputs == detail::kPosition || kOutputs == detail::kPositionDerivatives) {
-    if (task.streaming && task.nu % kLanes<vec<T>> != 0) {
+  const bool turned = task.nu % kLanes<vec<T>> != 0 || !planes_begin_lines(task);
+  if (task.streaming && task.record == 1 && turned) {
+    if constexpr (kOutputs == detail::kPosition || kOutputs == detail::kPositionDerivatives) {
       stream_planes<kOutputs>(task, piece);
+      return true;
+    } else if constexpr (kStreamsNormals<kOutputs, T>) {
+      GridTask<T> plain = task;
+      plain.streaming = false;
+      stream_normals(task, piece, [&](std::size_t patch) {
+        sweep_registers<kOutputs>(plain, piece, patch, patch + 1);
+      });
       return true;
     }
   }

@@ -7,6 +7,7 @@
 #include "kernels/simd/interleave.hpp"
 #include "kernels/simd/lanes.hpp"
 #include "kernels/simd/line_stream.hpp"
+#include "kernels/simd/repeat.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -70,6 +71,16 @@ private:
 #endif
 
 #if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
+/// Stores the lanes from number `first` on, which begin a stream: the others are somebody else's.
+template <typename V>
+SIMDBEZIER_INLINE void store_from(std::size_t first, ScalarOf<V>* to, V values) {
+  alignas(64) ScalarOf<V> lanes[kLanes<V>];
+  store_vector(lanes, values);
+  for (std::size_t k = first; k < kLanes<V>; ++k) {
+    to[k] = lanes[k];
+  }
+}
+
 /// Rows are put one behind the other, as they are to lie from begin()'s address on. Once finish()
 /// has been called all of them are written, each value once, and nothing besides. It has values
 /// only between these two.
@@ -101,7 +112,7 @@ public:
     V turned;
     std::size_t k = 0;
     if (foreign_ > 0) [[unlikely]] {
-      store_own(to, joined(value(0), turned));
+      store_from(foreign_, to, joined(value(0), turned));
       kept_ = turned;
       foreign_ = 0;
       to += kL;
@@ -140,19 +151,90 @@ private:
   static SIMDBEZIER_INLINE void stream(T* to, V values) {
     store_any<true>(to, __builtin_bit_cast(LinePart<T>, values));
   }
-  /// Stores all lanes but those that are somebody else's.
-  SIMDBEZIER_INLINE void store_own(T* to, V values) const {
-    alignas(64) T lanes[kL];
-    store_vector(lanes, values);
-    for (std::size_t k = foreign_; k < kL; ++k) {
-      to[k] = lanes[k];
-    }
-  }
-
   T* to_ = nullptr;         ///< the next register
   std::size_t filled_ = 0;  ///< first lanes of it that are put already, or somebody else's
   std::size_t foreign_ = 0; ///< those of them that are somebody else's
   V kept_;                  ///< has the filled lanes
+};
+#endif
+
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+/// The same for several planes at once, which begin at the same place within a line, so that their
+/// registers are turned alike.
+template <typename V, std::size_t kPlanes>
+class PlaneStreams {
+  using T = ScalarOf<V>;
+  static constexpr std::size_t kL = kLanes<V>;
+
+public:
+  SIMDBEZIER_INLINE void begin(T* const (&to)[kPlanes]) {
+    filled_ = reinterpret_cast<std::uintptr_t>(to[0]) / sizeof(T) % kL;
+    foreign_ = filled_;
+    for (std::size_t c = 0; c < kPlanes; ++c) {
+      to_[c] = to[c] - filled_;
+      kept_[c] = broadcast<V>(T(0));
+    }
+  }
+  /// Puts `count` values into each plane, a register and more. find(k, values) finds the k-th
+  /// register of all planes.
+  template <typename Find>
+  SIMDBEZIER_INLINE void put(std::size_t count, const Find& find) {
+    const Turn<V> turn(filled_);
+    const std::size_t whole = count / kL;
+    V values[kPlanes];
+    for (std::size_t k = 0; k < whole; ++k) {
+      find(k, values);
+      repeat<kPlanes>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
+        const V turned = turn.of(values[c]);
+        store(c, turn.join(kept_[c], turned));
+        kept_[c] = turned;
+      });
+      end_line();
+    }
+    if (count % kL == 0) {
+      return;
+    }
+    find(whole, values);
+    filled_ += count % kL;
+    const bool full = filled_ >= kL;
+    repeat<kPlanes>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
+      const V turned = turn.of(values[c]);
+      kept_[c] = turn.join(kept_[c], turned);
+      if (full) {
+        store(c, kept_[c]);
+        kept_[c] = turned;
+      }
+    });
+    if (full) {
+      end_line();
+      filled_ -= kL;
+    }
+  }
+  SIMDBEZIER_INLINE void finish() const {
+    for (std::size_t c = 0; filled_ > 0 && c < kPlanes; ++c) {
+      store_first(to_[c], kept_[c], filled_);
+    }
+  }
+
+private:
+  SIMDBEZIER_INLINE void store(std::size_t c, V values) const {
+    if (foreign_ > 0) [[unlikely]] {
+      store_from(foreign_, to_[c], values);
+    } else {
+      store_any<true>(to_[c], __builtin_bit_cast(LinePart<T>, values));
+    }
+  }
+  SIMDBEZIER_INLINE void end_line() {
+    foreign_ = 0;
+    for (T*& to : to_) {
+      to += kL;
+    }
+  }
+
+  T* to_[kPlanes];      ///< as in ValueStream
+  std::size_t filled_;  ///< likewise
+  std::size_t foreign_; ///< likewise
+  V kept_[kPlanes];     ///< likewise
 };
 #endif
 

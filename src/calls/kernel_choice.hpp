@@ -122,20 +122,23 @@ struct PatchKernels {
     const bool records = table->puts_records && watertight && plain;
     // Kernels stream whole lines, of one register or, where that pays, of two.
     const std::size_t bytes = table->lanes * sizeof(T);
-    const bool may_turn = plain && choice.outputs != kPositionNormal && !table->compact;
-    const bool pairs = may_turn && 2 * bytes == 64;
+    const bool normals = choice.outputs == kPositionNormal;
+    const bool whole = nu % table->lanes == 0; // registers, which lie across no lines in staging
+    const bool may_turn = plain && !table->compact;
+    const bool pairs = may_turn && 2 * bytes == 64 && !normals;
     const bool lines = may_turn && bytes == 64;
-    // Short rows are staged faster than turned (docs/experiments.md, To memory), and whole
-    // registers lie across no lines in staging.
-    const std::size_t least = pairs                         ? 3 * table->lanes
+    // Short rows are staged faster than turned (docs/experiments.md, To memory).
+    const std::size_t least = normals                       ? (whole ? 16 : 25)
+                              : pairs                       ? 3 * table->lanes
                               : choice.outputs == kPosition ? 2 * table->lanes + table->lanes / 2
                                                             : 2 * table->lanes - 1;
-    const bool turned = (pairs || lines) && nu % table->lanes != 0 && nu >= least &&
-                        nu <= kMostStreamedRegisters * table->lanes;
+    const bool turned =
+        ((pairs && !whole) || lines) && nu >= least && nu <= kMostStreamedRegisters * table->lanes;
     return {.row = bicubic && one_pass ? nu : 0,
             .lanes = table->lanes,
             .streamed = streamed && (bytes == 64 || pairs),
             .streamed_anywhere = streamed && turned,
+            .streamed_alike = normals,
             .records = records,
             .streamed_records = streamed && records && bytes == 64};
   }

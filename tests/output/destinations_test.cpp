@@ -2,6 +2,7 @@
 // touched that is no output, however the stores are combined to whole cache lines.
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -181,6 +182,41 @@ protected:
     EXPECT_TRUE(status == expected);
   }
 
+  /// Statuses beside normals that are streamed from registers: those of degenerate patches, of
+  /// samples outside and of parameters that are no numbers.
+  template <typename T>
+  void normals_with_status() {
+    const PatchSet<T> set = packed<T>(mixed_nets(kMostPatches));
+    constexpr PlaneCase kLayout{"planes_position_normal", kP | kN, 1, 0};
+    Canvas<T> canvas(0);
+    Turns turns;
+    for (const Size size : {Size{16, 4}, Size{25, 3}, Size{31, 6}, Size{32, 5}, Size{65, 9}}) {
+      std::vector<T> x;
+      for (std::size_t k = 0; k < size.nu; ++k) {
+        x.push_back(static_cast<T>(2 * k) / static_cast<T>(size.nu - 1) - T(1));
+      }
+      for (const T odd : {x[5], T(1.25), std::numeric_limits<T>::quiet_NaN()}) {
+        x[5] = odd;
+        const Grid<T> samples{size.nu, size.nv, x.data(), x.data(), Parameters::centred};
+        const Planes<T> reference = reference_of(set, samples);
+        for (std::size_t shift = 0; shift < 16; shift += 3) {
+          turns.next();
+          const std::size_t count = turns.patches * size.nu * size.nv;
+          canvas.reset(plane_elements(kLayout, count));
+          Outputs<T> out = plane_outputs(kLayout, count, shift, canvas.at(0));
+          std::vector<SampleStatus> status(count + 128, static_cast<SampleStatus>(77));
+          out.status = status.data() + 64;
+          check(set, samples, reference, canvas, out,
+                {.threads = turns.threads,
+                 .destination = Destination::memory,
+                 .patch_count = turns.patches},
+                kLayout.name);
+          expect_status(status, 64, reference, count);
+        }
+      }
+    }
+  }
+
   /// More patches than any queue of finished rows or blocks is long.
   template <typename T>
   void many_patches() {
@@ -257,6 +293,8 @@ TEST_P(DestinationTest, VerticesAtEveryAlignmentF32) { vertices_at_every_alignme
 TEST_P(DestinationTest, VerticesAtEveryAlignmentF64) { vertices_at_every_alignment<double>(); }
 TEST_P(DestinationTest, MixturesF32) { mixtures<float>(); }
 TEST_P(DestinationTest, MixturesF64) { mixtures<double>(); }
+TEST_P(DestinationTest, NormalsWithStatusF32) { normals_with_status<float>(); }
+TEST_P(DestinationTest, NormalsWithStatusF64) { normals_with_status<double>(); }
 TEST_P(DestinationTest, ManyPatchesF32) { many_patches<float>(); }
 TEST_P(DestinationTest, ManyPatchesF64) { many_patches<double>(); }
 TEST_P(DestinationTest, GivenParametersF32) { given_parameters<float>(); }
