@@ -30,9 +30,10 @@ struct Size {
   for (const std::size_t n : {32U, 33U, 64U, 65U}) {
     all.push_back({n, n});
   }
-  // Rows of three lines, of no whole registers, of many; and more rows than are swept in one go.
+  // Rows of three lines, of no whole registers, of many, of eight and sixteen lines; and more rows
+  // than are swept in one go.
   for (const Size size : {Size{100, 7}, Size{48, 5}, Size{31, 6}, Size{127, 3}, Size{129, 3},
-                          Size{25, 140}, Size{32, 140}}) {
+                          Size{128, 4}, Size{256, 2}, Size{25, 140}, Size{32, 140}}) {
     all.push_back(size);
   }
   return all;
@@ -136,6 +137,25 @@ protected:
     }
   }
 
+  /// Long rows on cache lines, of sets whose positions have origins added to them.
+  template <typename T>
+  void local_origins() {
+    const PatchSet<T> set = packed<T>(mixed_nets(4), {.local_origin = true});
+    Canvas<T> canvas(0);
+    for (const Size size : {Size{16, 5}, Size{33, 4}, Size{64, 3}, Size{128, 4}, Size{256, 2}}) {
+      const Grid<T> samples = Grid<T>::uniform(size.nu, size.nv);
+      const Planes<T> reference = reference_of(set, samples);
+      for (const PlaneCase& layout : kPlaneCases) {
+        for (const std::size_t shift : {0U, 4U}) {
+          canvas.reset(plane_elements(layout, reference.count()));
+          check(set, samples, reference, canvas,
+                plane_outputs(layout, reference.count(), shift, canvas.at(0)),
+                {.threads = 1, .destination = Destination::memory, .patch_count = 4}, layout.name);
+        }
+      }
+    }
+  }
+
   /// Some groups in planes, some in vertices, two kinds of vertices, all at once.
   template <typename T>
   void mixtures() {
@@ -190,7 +210,8 @@ protected:
     constexpr PlaneCase kLayout{"planes_position_normal", kP | kN, 1, 0};
     Canvas<T> canvas(0);
     Turns turns;
-    for (const Size size : {Size{16, 4}, Size{25, 3}, Size{31, 6}, Size{32, 5}, Size{65, 9}}) {
+    for (const Size size :
+         {Size{16, 4}, Size{25, 3}, Size{31, 6}, Size{32, 5}, Size{64, 4}, Size{65, 9}}) {
       std::vector<T> x;
       for (std::size_t k = 0; k < size.nu; ++k) {
         x.push_back(static_cast<T>(2 * k) / static_cast<T>(size.nu - 1) - T(1));
@@ -291,6 +312,8 @@ TEST_P(DestinationTest, PlanesAtEveryAlignmentF32) { planes_at_every_alignment<f
 TEST_P(DestinationTest, PlanesAtEveryAlignmentF64) { planes_at_every_alignment<double>(); }
 TEST_P(DestinationTest, VerticesAtEveryAlignmentF32) { vertices_at_every_alignment<float>(); }
 TEST_P(DestinationTest, VerticesAtEveryAlignmentF64) { vertices_at_every_alignment<double>(); }
+TEST_P(DestinationTest, LocalOriginsF32) { local_origins<float>(); }
+TEST_P(DestinationTest, LocalOriginsF64) { local_origins<double>(); }
 TEST_P(DestinationTest, MixturesF32) { mixtures<float>(); }
 TEST_P(DestinationTest, MixturesF64) { mixtures<double>(); }
 TEST_P(DestinationTest, NormalsWithStatusF32) { normals_with_status<float>(); }
