@@ -8,6 +8,7 @@
 
 #include "src/calls/call.hpp"
 #include "src/calls/destined_call.hpp"
+#include "src/calls/row_strips.hpp"
 #include "src/output/output_plan.hpp"
 #include "src/runtime/cache_sizes.hpp"
 #include "src/runtime/line_costs.hpp"
@@ -145,14 +146,14 @@ struct PatchKernels {
 
   void run(GridTask<T>& task) const noexcept {
     if (choice.any_shape || !task.shape->is_bicubic()) {
-      table->shapes->grid(task);
+      run(table->shapes->grid, kAnyOutputs, task);
       return;
     }
     if (choice.first) {
-      table->grid[choice.outputs](task);
+      run(table->grid[choice.outputs], choice.outputs, task);
     }
     if (choice.second) {
-      table->grid[kSecondDerivatives](task);
+      run(table->grid[kSecondDerivatives], kSecondDerivatives, task);
     }
   }
 
@@ -167,6 +168,16 @@ struct PatchKernels {
       table->shapes->scattered(task);
     } else {
       table->scattered(task);
+    }
+  }
+
+private:
+  void run(void (*kernel)(GridTask<T>&), OutputSet outputs, GridTask<T>& task) const noexcept {
+    const std::size_t most = strip_rows(task, outputs, table->lanes * sizeof(T) == 64);
+    if (most <= kMostStripRows) [[unlikely]] {
+      in_strips(task, most, kernel);
+    } else {
+      kernel(task);
     }
   }
 };

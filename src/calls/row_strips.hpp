@@ -1,0 +1,80 @@
+// Grids whose rows lie a multiple of 512 bytes apart, in strips of a few rows.
+//
+// Kernels sweep one register of columns after the other, each through all rows. Lines at such
+// distances share an eighth of the sets of a first-level cache, or fewer: with more rows than there
+// is room for, lines leave it before the next register comes to them, which takes up to ten times
+// as long (docs/experiments.md, Grids in cache).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+
+#include "src/tables/kernel_table.hpp"
+
+namespace simdbezier::detail {
+
+inline constexpr std::size_t kMostStripRows = 32;
+
+/// How many rows kernels sweep in one go that compute `outputs`. line_wide: registers are lines.
+template <typename T>
+[[nodiscard]] std::size_t strip_rows(const GridTask<T>& task, OutputSet outputs,
+                                     bool line_wide) noexcept {
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  const std::size_t row = task.nu * sizeof(T);
+  const std::size_t distance = row & (~row + 1); // the largest power of two in it
+  // What is staged, or goes to memory in whole lines, has other limits.
+  const bool leaves = task.drain != nullptr || (line_wide && task.plain_to_memory);
+  if (distance < 512 || task.streaming || task.record > 1 || leaves) {
+    return kAll;
+  }
+  // Lines that are stored whole are not waited for, until they share still fewer sets; and
+  // curvatures take so long that nothing is.
+  const bool whole = outputs == kPosition || (line_wide && outputs != kPositionNormal);
+  const bool slow = std::any_of(std::begin(task.curvature), std::end(task.curvature),
+                                [](const T* plane) { return plane != nullptr; });
+  if (slow || (whole && distance < 1024)) {
+    return kAll;
+  }
+  // Each strip finds the polynomials of its columns anew, which weighs more in patches of any
+  // shape.
+  const bool heavy = outputs == kAnyOutputs && task.out[output_index(Output::normal)].wanted();
+  const std::size_t bytes = outputs == kPosition ? 32768 : heavy ? 16384 : 8192;
+  return std::clamp<std::size_t>(bytes / distance, 4, kMostStripRows);
+}
+
+/// Calls run(strip) for each strip of a task without curvatures: at most `most` rows of all its
+/// patches, no more than kMostStripRows.
+template <typename T, typename Run>
+void in_strips(GridTask<T>& task, std::size_t most, const Run& run) noexcept {
+  GridTask<T> strip = task;
+  RowRun<T> runs[kMostStripRows];
+  strip.runs = runs;
+  std::size_t taken = 0; // rows of task.runs[r]
+  for (std::size_t r = 0; r < task.run_count;) {
+    strip.run_count = 0;
+    std::size_t rows = 0;
+    while (r < task.run_count && rows < most) {
+      const RowRun<T>& from = task.runs[r];
+      const std::size_t count = std::min<std::size_t>(from.rows - taken, most - rows);
+      runs[strip.run_count++] = {from.y + taken, static_cast<std::uint32_t>(count), from.kind};
+      rows += count;
+      taken += count;
+      if (taken == from.rows) {
+        taken = 0;
+        ++r;
+      }
+    }
+    run(strip);
+    const auto go_on = [&](auto*& first) { first += first == nullptr ? 0 : rows * task.nu; };
+    for (Planes<T>& planes : strip.out) {
+      std::for_each(std::begin(planes.component), std::end(planes.component), go_on);
+    }
+    go_on(strip.status);
+  }
+  task.executed = strip.executed;
+}
+
+} // namespace simdbezier::detail
