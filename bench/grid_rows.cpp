@@ -13,8 +13,9 @@ namespace {
 
 using simdbezier::Isa;
 
+// Rows of 128 columns lie powers of two apart, which caches and memory like least.
 constexpr Size kSizes[] = {{4, 4},   {5, 5},   {8, 8},   {9, 9},   {16, 16}, {17, 17}, {24, 24},
-                           {32, 32}, {33, 33}, {64, 64}, {65, 65}, {16, 9},  {7, 33}};
+                           {32, 32}, {33, 33}, {64, 64}, {65, 65}, {16, 9},  {7, 33},  {128, 128}};
 constexpr OutputGroups kOutputs[] = {OutputGroups::position, OutputGroups::position_normal,
                                      OutputGroups::position_derivatives,
                                      OutputGroups::second_derivatives};

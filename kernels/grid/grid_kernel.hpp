@@ -251,9 +251,17 @@ SIMDBEZIER_PART void sweep_patches(const GridTask<T>& task, const ColumnSplit<ve
 /// returns whether it did: positions, and with them normals or derivatives.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool sweep_small_grid(const GridTask<T>& task) {
+#if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
+  if constexpr (kUsual<kOutputs>) {
+    if (!is_small_grid(task)) {
+      return false;
+    }
+    if (pays_across<kOutputs>(task)) {
+      sweep_small_grid_across<kOutputs>(task);
+      return true;
+    }
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-  if constexpr (kFourGroups<vec<T>> && kUsual<kOutputs>) {
-    if (is_small_grid(task)) {
+    if constexpr (kFourGroups<vec<T>>) {
       if constexpr (kOutputs == detail::kPosition) {
         small_grid_positions(task);
       } else {
@@ -261,13 +269,7 @@ SIMDBEZIER_PART bool sweep_small_grid(const GridTask<T>& task) {
       }
       return true;
     }
-  }
-#elif defined(SIMDBEZIER_KERNELS_AVX2)
-  if constexpr (kUsual<kOutputs>) {
-    if (pays_across<kOutputs>(task) && is_small_grid(task)) {
-      sweep_small_grid_across<kOutputs>(task);
-      return true;
-    }
+#endif
   }
 #endif
   static_cast<void>(task);

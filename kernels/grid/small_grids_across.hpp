@@ -1,4 +1,5 @@
-// Small grids (grid/small_grids.hpp) where registers have no four groups: lanes are patches.
+// Small grids (grid/small_grids.hpp) whose lanes are patches: where registers have no four groups,
+// and some sizes that are faster so where they have.
 //
 // Coefficients of a register of patches are turned on their way from memory, and samples on their
 // way back; in between no lane is idle, whatever the size of the grid. The last patches that do not
@@ -7,12 +8,13 @@
 #pragma once
 
 #include "kernels/drain/drain_kernel.hpp"
+#include "kernels/grid/patch_sweeps.hpp"
 #include "kernels/grid/small_grids.hpp"
 #include "kernels/simd/structures_across.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-#if defined(SIMDBEZIER_KERNELS_AVX2)
+#if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
 
 /// A small grid has at most so many samples.
 constexpr std::size_t kMostSmallSamples = kMostSmall * kMostSmall;
@@ -131,9 +133,15 @@ struct ComponentAcross {
 private:
   template <std::size_t kValues>
   static SIMDBEZIER_PART void load(const T* from, std::size_t step, V (&values)[kValues]) {
-    repeat<kValues / kQuad<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-      load_across(from + k * kQuad<V>, step, values + k * kQuad<V>);
-    });
+    if constexpr (kTurnsLines<V> && kValues % kLanes<V> == 0) {
+      repeat<kValues / kLanes<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+        load_lines_across(from + k * kLanes<V>, step, values + k * kLanes<V>);
+      });
+    } else {
+      repeat<kValues / kQuad<V>>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+        load_across(from + k * kQuad<V>, step, values + k * kQuad<V>);
+      });
+    }
   }
 };
 
@@ -170,6 +178,15 @@ SIMDBEZIER_PART void put_across(const V* sample, std::size_t samples, ScalarOf<V
                                 std::size_t step) {
   constexpr std::size_t kTogether = kQuad<V>;
   std::size_t k = 0;
+  if constexpr (kTurnsLines<V>) {
+    constexpr std::size_t kL = kLanes<V>;
+    for (; k + kL <= samples; k += kL) {
+      store_lines_across(sample + k, to + k, step);
+    }
+    if (samples >= kL && samples - k > kTogether) { // some of them once more
+      return store_lines_across(sample + samples - kL, to + samples - kL, step);
+    }
+  }
   for (; k + kTogether <= samples; k += kTogether) {
     store_across(sample + k, to + k, step);
   }
@@ -210,11 +227,12 @@ SIMDBEZIER_KERNEL void sweep_positions_across(const GridTask<T>& shared_task) {
   const GridTask<T> task = shared_task;
   const SmallGridAcross<V, kInner> grid(task);
   for_patches_across(task, [&](std::size_t patch, std::size_t fresh) SIMDBEZIER_INLINE_LAMBDA {
-    for (std::size_t c = 0; c < 3; ++c) {
+    constexpr bool kApart = kTurnsLines<V> && kInner == 2; // more code is no faster
+    for_components<kApart>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
       V sample[kMostSmallSamples];
       positions_across(ComponentAcross<V>(task, patch, c), grid, sample);
       put_across(task, Output::position, c, patch, sample, grid.samples());
-    }
+    });
     drain_some(task.drain, fresh * 3 * grid.samples());
   });
 }

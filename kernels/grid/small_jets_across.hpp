@@ -7,7 +7,7 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-#if defined(SIMDBEZIER_KERNELS_AVX2)
+#if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
 
 /// Positions and first derivatives of one component, row after row.
 template <typename V>
@@ -126,13 +126,37 @@ SIMDBEZIER_KERNEL void sweep_normals_across(const GridTask<T>& shared_task) {
   });
 }
 
-/// Whether there is a register of patches, results go to planes, and rows are no whole registers,
-/// whose tangents tiles find as fast.
+/// Whether the compiler knows squares of `side` samples that are faster so than in groups of lanes,
+/// where registers are lines.
+template <detail::OutputSet kOutputs, typename T>
+constexpr bool is_known_across(std::size_t side) {
+  constexpr bool kPositions = kOutputs == detail::kPosition;
+  constexpr bool kNormals = kOutputs == detail::kPositionNormal;
+  constexpr bool kDouble = sizeof(T) == 8;
+  return (side == 4 && (kPositions || kNormals || !kDouble)) ||
+         (side == 5 && (kDouble ? kPositions : kNormals));
+}
+
+/// Whether rows of a small grid are as many as its columns, and pairs.
+template <typename T>
+SIMDBEZIER_PART bool is_mirrored_square(const GridTask<T>& task) {
+  return task.nu == task.runs[1].rows + std::size_t{2} &&
+         are_mirrored(task.runs[1].y, task.runs[1].rows);
+}
+
+/// Whether lanes of a small grid are better patches: there is a register of them, and results go to
+/// planes. Rows that are whole registers have tiles which find tangents as fast.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
   constexpr std::size_t kL = kLanes<vec<T>>;
-  return task.patch_count >= kL && task.record <= 1 && !task.streaming &&
-         (kOutputs == detail::kPosition || task.nu != kL);
+  if (task.patch_count < kL || task.record > 1 || task.streaming) {
+    return false;
+  }
+  if constexpr (kLineWide<vec<T>>) {
+    return is_known_across<kOutputs, T>(task.nu) && is_mirrored_square(task);
+  } else {
+    return kOutputs == detail::kPosition || task.nu != kL;
+  }
 }
 
 template <detail::OutputSet kOutputs, std::size_t kInner, typename T>
@@ -146,19 +170,24 @@ SIMDBEZIER_PART void sweep_across(const GridTask<T>& task) {
   }
 }
 
-/// Sweeps a small grid of at least a register of patches.
+/// Sweeps a small grid for which pays_across() holds.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART void sweep_small_grid_across(const GridTask<T>& task) {
-  if (task.nu == task.runs[1].rows + std::size_t{2} &&
-      are_mirrored(task.runs[1].y, task.runs[1].rows)) {
-    if (task.nu == 4) {
-      return sweep_across<kOutputs, 2>(task);
+  const auto sweep_known = [&]<std::size_t kSide>() SIMDBEZIER_INLINE_LAMBDA {
+    if constexpr (!kLineWide<vec<T>> || is_known_across<kOutputs, T>(kSide)) {
+      if (task.nu == kSide && is_mirrored_square(task)) {
+        sweep_across<kOutputs, kSide - 2>(task);
+        return true;
+      }
     }
-    if (task.nu == 5) {
-      return sweep_across<kOutputs, 3>(task);
-    }
+    return false;
+  };
+  if (sweep_known.template operator()<4>() || sweep_known.template operator()<5>()) {
+    return;
   }
-  sweep_across<kOutputs, 0>(task);
+  if constexpr (!kLineWide<vec<T>>) {
+    sweep_across<kOutputs, 0>(task);
+  }
 }
 
 #endif

@@ -6,6 +6,7 @@
 #include "kernels/simd/fours.hpp"
 #include "kernels/simd/interleave.hpp"
 #include "kernels/simd/quads.hpp"
+#include "kernels/simd/repeat.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -126,5 +127,74 @@ SIMDBEZIER_INLINE void store_across(const V* values, ScalarOf<V>* to, std::size_
           SIMDBEZIER_INLINE_LAMBDA { part_quads<V>(m[r], to + r * stride, kQuad<V> * stride); },
       kAll);
 }
+
+// Where a register is a line, a line of each structure takes half of the shuffles that its pieces
+// would take, and a fourth of the loads or stores.
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+/// Whether whole lines of structures can be turned.
+template <typename V>
+inline constexpr bool kTurnsLines = kLineWide<V>;
+
+/// Transposes the matrix of 128-bit pieces of four registers.
+template <typename B>
+SIMDBEZIER_INLINE void transpose_pieces(B (&m)[4]) {
+  __m512 a[4];
+  for_each_index([&](std::size_t k)
+                     SIMDBEZIER_INLINE_LAMBDA { a[k] = __builtin_bit_cast(__m512, m[k]); },
+                 std::make_index_sequence<4>{});
+  const __m512 low01 = _mm512_maskz_shuffle_f32x4(0xffff, a[0], a[1], 0x44);
+  const __m512 high01 = _mm512_maskz_shuffle_f32x4(0xffff, a[0], a[1], 0xee);
+  const __m512 low23 = _mm512_maskz_shuffle_f32x4(0xffff, a[2], a[3], 0x44);
+  const __m512 high23 = _mm512_maskz_shuffle_f32x4(0xffff, a[2], a[3], 0xee);
+  m[0] = __builtin_bit_cast(B, _mm512_maskz_shuffle_f32x4(0xffff, low01, low23, 0x88));
+  m[1] = __builtin_bit_cast(B, _mm512_maskz_shuffle_f32x4(0xffff, low01, low23, 0xdd));
+  m[2] = __builtin_bit_cast(B, _mm512_maskz_shuffle_f32x4(0xffff, high01, high23, 0x88));
+  m[3] = __builtin_bit_cast(B, _mm512_maskz_shuffle_f32x4(0xffff, high01, high23, 0xdd));
+}
+
+/// Loads values[k], lane p = from[p * stride + k], for all k of a line.
+template <typename V>
+SIMDBEZIER_INLINE void load_lines_across(const ScalarOf<V>* from, std::size_t stride, V* values) {
+  constexpr std::size_t kQ = kQuad<V>;
+  Bits<V> m[4][kQ];
+  repeat<kQ>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+    Bits<V> line[4];
+    repeat<4>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+      line[k] = __builtin_bit_cast(Bits<V>, load_vector<V>(from + (r + k * kQ) * stride));
+    });
+    transpose_pieces(line);
+    repeat<4>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { m[k][r] = line[k]; });
+  });
+  repeat<4>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+    transpose_quads<ScalarOf<V>>(m[k]);
+    repeat<kQ>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+      values[k * kQ + r] = __builtin_bit_cast(V, m[k][r]);
+    });
+  });
+}
+
+/// Stores to[p * stride + k] = lane p of values[k], for all k of a line.
+template <typename V>
+SIMDBEZIER_INLINE void store_lines_across(const V* values, ScalarOf<V>* to, std::size_t stride) {
+  constexpr std::size_t kQ = kQuad<V>;
+  Bits<V> m[4][kQ];
+  repeat<4>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+    repeat<kQ>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+      m[k][r] = __builtin_bit_cast(Bits<V>, values[k * kQ + r]);
+    });
+    transpose_quads<ScalarOf<V>>(m[k]);
+  });
+  repeat<kQ>([&](std::size_t r) SIMDBEZIER_INLINE_LAMBDA {
+    Bits<V> line[4] = {m[0][r], m[1][r], m[2][r], m[3][r]};
+    transpose_pieces(line);
+    repeat<4>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+      store_vector(to + (r + k * kQ) * stride, __builtin_bit_cast(V, line[k]));
+    });
+  });
+}
+#else
+template <typename V>
+inline constexpr bool kTurnsLines = false;
+#endif
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

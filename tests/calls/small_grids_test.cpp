@@ -59,7 +59,7 @@ enum class Layout { planes, triples, vertices };
 
 constexpr GroupSet kChoices[] = {kP, kP | kN, kP | kDu | kDv, kP | kDu | kDv | kN, kN, kDu};
 // More than a register has lanes, and no multiple of that.
-constexpr std::size_t kPatches = 11;
+constexpr std::size_t kPatches = 21;
 
 template <typename T>
 class SmallGrids : public IsaTest {
