@@ -14,9 +14,9 @@
 // keeps partly in L1). Derivatives of large patches take all tiles of a component before the next
 // one (grid/component_sweeps.hpp). Squares of usual sizes are known to the compiler: sweep_square()
 // chooses as sweep_tiles() does. Rows of one tile that lie across lines are put together to whole
-// lines. Streamed rows that are no whole registers, or lie across lines, or are long, go by
-// grid/streamed_planes.hpp, with normals by grid/streamed_normals.hpp; other whole lines go by
-// grid/streamed_rows.hpp on AVX2, and tile by tile on AVX-512.
+// lines. Streamed rows that are no whole registers, or lie across lines, or are a multiple of 4 or
+// 8 lines, go in order by grid/streamed_planes.hpp, with normals by grid/streamed_normals.hpp;
+// others go by grid/streamed_rows.hpp on AVX2, and tile by tile on AVX-512.
 #pragma once
 
 #include "kernels/grid/component_sweeps.hpp"
@@ -277,13 +277,13 @@ SIMDBEZIER_PART bool sweep_small_grid(const GridTask<T>& task) {
 }
 
 /// Whether streamed rows go register by register, each plane as one stream: where they are no whole
-/// registers, or lie across lines; and where one tile after the other would stream a fourth of each
-/// row's lines or less, at distances that are a multiple of four times theirs, which memory takes
-/// at 0.6 and 0.3 of its rate.
+/// registers, or lie across lines; or where the lines of a tile are a fourth of a row or less, and
+/// rows a multiple of four times as long, since memory takes every fourth line at 0.6 and every
+/// eighth at 0.3 of its rate. Origins come with whole lines only.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool streams_in_order(const GridTask<T>& task) {
   using V = vec<T>;
-  constexpr std::size_t kTogether = kLineWide<V> && !kStreamsPairs<kOutputs, T> ? 1 : 2; // lines
+  constexpr std::size_t kTileLines = kLineWide<V> && !kStreamsPairs<kOutputs, T> ? 1 : 2;
   if (task.record > 1) {
     return false;
   }
@@ -291,7 +291,7 @@ SIMDBEZIER_PART bool streams_in_order(const GridTask<T>& task) {
     return true;
   }
   return task.origins == nullptr && task.nu <= detail::kMostStreamedRegisters * kLanes<V> &&
-         task.nu * sizeof(T) % (4 * kTogether * 64) == 0;
+         task.nu * sizeof(T) % (4 * kTileLines * 64) == 0;
 }
 
 /// Sweeps a piece of a streamed task, if its rows are streamed in order, and returns whether they
@@ -304,11 +304,7 @@ SIMDBEZIER_PART bool stream_in_order(const GridTask<T>& task, const RowPiece<T>&
       stream_planes<kOutputs>(task, piece);
       return true;
     } else if constexpr (kStreamsNormals<kOutputs, T>) {
-      GridTask<T> plain = task;
-      plain.streaming = false;
-      stream_normals(task, piece, [&](std::size_t patch) {
-        sweep_registers<kOutputs>(plain, piece, patch, patch + 1);
-      });
+      stream_normals(task, piece);
       return true;
     }
   }

@@ -1,6 +1,8 @@
 // Positions and first derivatives of one component, for a register of columns.
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/grid/column_tile.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -24,13 +26,15 @@ SIMDBEZIER_PART Jet<V> edge_jet(const Component<ScalarOf<V>>& c, const SomeTile&
   return jet;
 }
 
+struct NoOrigin {};
+
 /// A register of columns as cubics in Y: one component's positions and u derivatives. kAsks says
 /// that origins are asked for at run time; there are none otherwise.
 template <typename V, bool kAsks = true>
 struct JetColumns {
   V q[kOrder];
   V dq[kOrder];
-  LocalOrigin<V> origin;
+  std::conditional_t<kAsks, LocalOrigin<V>, NoOrigin> origin;
 
   template <typename SomeTile>
   SIMDBEZIER_PART void build(const Component<ScalarOf<V>>& c, const SomeTile& tile) {

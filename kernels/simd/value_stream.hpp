@@ -151,6 +151,7 @@ private:
   static SIMDBEZIER_INLINE void stream(T* to, V values) {
     store_any<true>(to, __builtin_bit_cast(LinePart<T>, values));
   }
+
   T* to_ = nullptr;         ///< the next register
   std::size_t filled_ = 0;  ///< first lanes of it that are put already, or somebody else's
   std::size_t foreign_ = 0; ///< those of them that are somebody else's
@@ -159,8 +160,8 @@ private:
 #endif
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-/// The same for several planes at once, which begin at the same place within a line, so that their
-/// registers are turned alike.
+/// Several planes at once, each as ValueStream has it. They begin at the same place within a line,
+/// so that their registers are turned alike.
 template <typename V, std::size_t kPlanes>
 class PlaneStreams {
   using T = ScalarOf<V>;
@@ -231,10 +232,11 @@ private:
     }
   }
 
-  T* to_[kPlanes];      ///< as in ValueStream
-  std::size_t filled_;  ///< likewise
-  std::size_t foreign_; ///< likewise
-  V kept_[kPlanes];     ///< likewise
+  // As in ValueStream.
+  T* to_[kPlanes];
+  std::size_t filled_;
+  std::size_t foreign_;
+  V kept_[kPlanes];
 };
 #endif
 

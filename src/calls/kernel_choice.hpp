@@ -128,7 +128,8 @@ struct PatchKernels {
     const bool may_turn = plain && !table->compact;
     const bool pairs = may_turn && 2 * bytes == 64 && !normals;
     const bool lines = may_turn && bytes == 64;
-    // Short rows are staged faster than turned (docs/experiments.md, To memory).
+    // Short rows are staged faster than turned, in columns for normals, in registers for others
+    // (docs/experiments.md, To memory).
     const std::size_t least = normals                       ? (whole ? 16 : 25)
                               : pairs                       ? 3 * table->lanes
                               : choice.outputs == kPosition ? 2 * table->lanes + table->lanes / 2
@@ -139,7 +140,7 @@ struct PatchKernels {
             .lanes = table->lanes,
             .streamed = streamed && (bytes == 64 || pairs),
             .streamed_anywhere = streamed && turned,
-            .streamed_alike = normals,
+            .same_place = normals,
             .records = records,
             .streamed_records = streamed && records && bytes == 64};
   }
@@ -174,7 +175,7 @@ struct PatchKernels {
 private:
   void run(void (*kernel)(GridTask<T>&), OutputSet outputs, GridTask<T>& task) const noexcept {
     const std::size_t most = strip_rows(task, outputs, table->lanes * sizeof(T) == 64);
-    if (most <= kMostStripRows) [[unlikely]] {
+    if (most <= kMostStripRows && has_more_rows(task, most)) [[unlikely]] {
       in_strips(task, most, kernel);
     } else {
       kernel(task);

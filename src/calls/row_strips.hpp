@@ -3,7 +3,7 @@
 // Kernels sweep one register of columns after the other, each through all rows. Lines at such
 // distances share an eighth of the sets of a first-level cache, or fewer: with more rows than there
 // is room for, lines leave it before the next register comes to them, which takes up to ten times
-// as long (docs/experiments.md, Grids in cache).
+// as long. Numbers here are measured (docs/experiments.md, Grids in cache).
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,8 @@ namespace simdbezier::detail {
 
 inline constexpr std::size_t kMostStripRows = 32;
 
-/// How many rows kernels sweep in one go that compute `outputs`. line_wide: registers are lines.
+/// How many rows kernels sweep in one go that compute `outputs`: kAnyOutputs stands for patches of
+/// any shape as well. line_wide: registers are lines.
 template <typename T>
 [[nodiscard]] std::size_t strip_rows(const GridTask<T>& task, OutputSet outputs,
                                      bool line_wide) noexcept {
@@ -30,19 +31,27 @@ template <typename T>
   if (distance < 512 || task.streaming || task.record > 1 || leaves) {
     return kAll;
   }
-  // Lines that are stored whole are not waited for, until they share still fewer sets; and
-  // curvatures take so long that nothing is.
-  const bool whole = outputs == kPosition || (line_wide && outputs != kPositionNormal);
+  // One plane, and lines that are stored whole, have enough room until they share still fewer sets;
+  // and curvatures take so long that no cache matters.
+  const bool roomy = outputs == kPosition || (line_wide && outputs != kPositionNormal);
   const bool slow = std::any_of(std::begin(task.curvature), std::end(task.curvature),
                                 [](const T* plane) { return plane != nullptr; });
-  if (slow || (whole && distance < 1024)) {
+  if (slow || (roomy && distance < 1024)) {
     return kAll;
   }
-  // Each strip finds the polynomials of its columns anew, which weighs more in patches of any
-  // shape.
+  // Each strip finds the polynomials of its columns anew, which weighs more with all outputs.
   const bool heavy = outputs == kAnyOutputs && task.out[output_index(Output::normal)].wanted();
   const std::size_t bytes = outputs == kPosition ? 32768 : heavy ? 16384 : 8192;
   return std::clamp<std::size_t>(bytes / distance, 4, kMostStripRows);
+}
+
+template <typename T>
+[[nodiscard]] bool has_more_rows(const GridTask<T>& task, std::size_t most) noexcept {
+  std::size_t rows = 0;
+  for (std::size_t r = 0; r < task.run_count && rows <= most; ++r) {
+    rows += task.runs[r].rows;
+  }
+  return rows > most;
 }
 
 /// Calls run(strip) for each strip of a task without curvatures: at most `most` rows of all its

@@ -85,12 +85,14 @@ void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
       anywhere || (whole_lines && (record == 1 ? rows.streamed : rows.streamed_records));
   const bool stores = rows.records && all;
   bool possible = rows.row >= rows.lanes && known && (streaming() ? streams : stores);
-  const auto within = [](const T* first) { return reinterpret_cast<std::uintptr_t>(first) % 64; };
+  const auto place_in_line = [](const T* first) {
+    return reinterpret_cast<std::uintptr_t>(first) % 64;
+  };
   for (std::size_t k = 0; possible && k < streams_; ++k) {
     const StreamShape<T>& shape = stream_[k];
     const bool placed =
-        anywhere ? !rows.streamed_alike || within(shape.first) == within(stream_[0].first)
-                 : within(shape.first) == 0;
+        anywhere ? !rows.same_place || place_in_line(shape.first) == place_in_line(stream_[0].first)
+                 : place_in_line(shape.first) == 0;
     possible = shape.members == record && shape.stride == static_cast<std::ptrdiff_t>(record) &&
                (!streaming() || placed);
     for (std::size_t m = 1; m < record; ++m) {

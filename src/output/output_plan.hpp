@@ -29,8 +29,8 @@ struct DirectRows {
   std::size_t row = 0; ///< 0: nothing
   std::size_t lanes = 1;
   bool streamed = false;          ///< planes past the caches: whole lines
-  bool streamed_anywhere = false; ///< planes past the caches, wherever they begin…
-  bool streamed_alike = false;    ///< … if all begin at the same place within a line
+  bool streamed_anywhere = false; ///< planes past the caches, wherever they begin
+  bool same_place = false;        ///< streamed_anywhere: if all begin at one place within a line
   bool records = false;           ///< triples of each group, or one vertex of all
   bool streamed_records = false;  ///< likewise, past the caches
 };
