@@ -130,12 +130,14 @@ struct PatchKernels {
     const bool lines = may_turn && bytes == 64;
     // Short rows are staged faster than turned, in columns for normals, in registers for others
     // (docs/experiments.md, To memory).
-    const std::size_t least = normals                       ? (whole ? 16 : 25)
+    const std::size_t least = normals                       ? (whole ? 16 : 28)
                               : pairs                       ? 3 * table->lanes
                               : choice.outputs == kPosition ? 2 * table->lanes + table->lanes / 2
                                                             : 2 * table->lanes - 1;
-    const bool turned =
-        ((pairs && !whole) || lines) && nu >= least && nu <= kMostStreamedRegisters * table->lanes;
+    const std::size_t idle = whole ? 0 : table->lanes - nu % table->lanes; // of the last register
+    const bool filled = !normals || 10 * idle <= 3 * (nu + idle);
+    const bool turned = ((pairs && !whole) || lines) && nu >= least && filled &&
+                        nu <= kMostStreamedRegisters * table->lanes;
     return {.row = bicubic && one_pass ? nu : 0,
             .lanes = table->lanes,
             .streamed = streamed && (bytes == 64 || pairs),
