@@ -145,7 +145,8 @@ SIMDBEZIER_PART bool is_mirrored_square(const GridTask<T>& task) {
 }
 
 /// Whether lanes of a small grid are better patches: there is a register of them, and results go to
-/// planes. Rows that are whole registers have tiles which find tangents as fast.
+/// planes. Rows that are whole registers have tiles which find tangents as fast. Where registers
+/// are lines, samples that leave the caches are stored faster patch by patch.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
   constexpr std::size_t kL = kLanes<vec<T>>;
@@ -153,7 +154,8 @@ SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
     return false;
   }
   if constexpr (kLineWide<vec<T>>) {
-    return is_known_across<kOutputs, T>(task.nu) && is_mirrored_square(task);
+    const bool stays = task.drain == nullptr && !task.plain_to_memory;
+    return stays && is_known_across<kOutputs, T>(task.nu) && is_mirrored_square(task);
   } else {
     return kOutputs == detail::kPosition || task.nu != kL;
   }
