@@ -177,14 +177,15 @@ template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART void sweep_small_grid_across(const GridTask<T>& task) {
   const auto sweep_known = [&]<std::size_t kSide>() SIMDBEZIER_INLINE_LAMBDA {
     if constexpr (!kLineWide<vec<T>> || is_known_across<kOutputs, T>(kSide)) {
-      if (task.nu == kSide && is_mirrored_square(task)) {
+      if (task.nu == kSide) {
         sweep_across<kOutputs, kSide - 2>(task);
         return true;
       }
     }
     return false;
   };
-  if (sweep_known.template operator()<4>() || sweep_known.template operator()<5>()) {
+  const bool known = kLineWide<vec<T>> || is_mirrored_square(task);
+  if (known && (sweep_known.template operator()<4>() || sweep_known.template operator()<5>())) {
     return;
   }
   if constexpr (!kLineWide<vec<T>>) {

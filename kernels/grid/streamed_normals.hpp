@@ -134,7 +134,7 @@ SIMDBEZIER_RARE void resolve_streamed(const GridTask<T>& task, const RowPiece<T>
       const StreamedRow<T> row(piece, j);
       const bool outside = !row.is_edge() && piece.middle.kind == RowKind::outside;
       const V y =
-          broadcast<V>(row.is_edge() ? (row.edge == detail::kEdgeV0 ? T(-0.5) : T(0.5)) : *row.y);
+          row.is_edge() ? ColumnTile<1, true, false, V>::edge_y(row.edge) : broadcast<V>(*row.y);
       const NormalSamples<V> s = row.is_edge()
                                      ? columns.edge(plain, patch, k, row.edge)
                                      : columns.interior(piece.template point<1, V>(row.y));

@@ -139,9 +139,8 @@ inline constexpr bool kTurnsLines = kLineWide<V>;
 template <typename B>
 SIMDBEZIER_INLINE void transpose_pieces(B (&m)[4]) {
   __m512 a[4];
-  for_each_index([&](std::size_t k)
-                     SIMDBEZIER_INLINE_LAMBDA { a[k] = __builtin_bit_cast(__m512, m[k]); },
-                 std::make_index_sequence<4>{});
+  repeat<4>([&](std::size_t k)
+                SIMDBEZIER_INLINE_LAMBDA { a[k] = __builtin_bit_cast(__m512, m[k]); });
   const __m512 low01 = _mm512_maskz_shuffle_f32x4(0xffff, a[0], a[1], 0x44);
   const __m512 high01 = _mm512_maskz_shuffle_f32x4(0xffff, a[0], a[1], 0xee);
   const __m512 low23 = _mm512_maskz_shuffle_f32x4(0xffff, a[2], a[3], 0x44);

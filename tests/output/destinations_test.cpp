@@ -211,7 +211,7 @@ protected:
     Canvas<T> canvas(0);
     Turns turns;
     for (const Size size :
-         {Size{16, 4}, Size{25, 3}, Size{31, 6}, Size{32, 5}, Size{64, 4}, Size{65, 9}}) {
+         {Size{16, 4}, Size{28, 3}, Size{31, 6}, Size{32, 5}, Size{64, 4}, Size{65, 9}}) {
       std::vector<T> x;
       for (std::size_t k = 0; k < size.nu; ++k) {
         x.push_back(static_cast<T>(2 * k) / static_cast<T>(size.nu - 1) - T(1));
@@ -245,7 +245,7 @@ protected:
     Canvas<T> canvas(0);
     std::size_t number = 0;
     for (const Size size : {Size{3, 3}, Size{5, 4}, Size{9, 9}, Size{16, 16}, Size{17, 5},
-                            Size{26, 2}, Size{32, 3}}) {
+                            Size{26, 2}, Size{31, 2}, Size{32, 3}}) {
       const Grid<T> samples = Grid<T>::uniform(size.nu, size.nv);
       const Planes<T> reference = reference_of(set, samples);
       const std::size_t count = reference.count();
