@@ -21,6 +21,7 @@
 
 #include "kernels/grid/component_sweeps.hpp"
 #include "kernels/grid/record_rows.hpp"
+#include "kernels/grid/row_bands.hpp"
 #include "kernels/grid/small_grid_jets.hpp"
 #include "kernels/grid/small_jets_across.hpp"
 #include "kernels/grid/square_sweeps.hpp"
@@ -204,9 +205,39 @@ SIMDBEZIER_PART bool sweep_large_patches(const GridTask<T>& task, const RowPiece
   return false;
 }
 
-/// Sweeps patches [patch, end) on the rows of a piece. Registers of 64 bytes have tiles for either
+/// Calls sweep<kKnown>() for a task without origins. Registers of 64 bytes have tiles for either
 /// kind of edges; shorter ones ask at run time, since twice the code would be too much for what it
 /// gains.
+template <typename T, typename Sweep>
+SIMDBEZIER_INLINE void with_known_edges(const GridTask<T>& task, const Sweep& sweep) {
+  if constexpr (!kLineWide<vec<T>>) {
+    sweep.template operator()<Known::no_origins>();
+  } else if (task.watertight) {
+    sweep.template operator()<Known::watertight>();
+  } else {
+    sweep.template operator()<Known::open>();
+  }
+}
+
+/// Sweeps patches [patch, end) in bands, and the columns behind these, if that pays, and returns
+/// whether it did.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_PART bool sweep_in_bands(const GridTask<T>& task, const RowPiece<T>& piece,
+                                    std::size_t patch, std::size_t end) {
+  if constexpr (kSweepsBands<kOutputs, T>) {
+    const std::size_t swept = sweep_bands<kOutputs>(task, piece, patch, end);
+    if (swept > 0 && swept < task.nu) {
+      with_known_edges(task, [&]<Known kKnown>() SIMDBEZIER_INLINE_LAMBDA {
+        const TileSweeper<kOutputs, kKnown, T> tiles{task, piece, patch, end};
+        sweep_rest<kOutputs, T>(tiles, swept, task.nu - swept);
+      });
+    }
+    return swept > 0;
+  }
+  return false;
+}
+
+/// Sweeps patches [patch, end) on the rows of a piece.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART void sweep_patches(const GridTask<T>& task, const ColumnSplit<vec<T>>& split,
                                    const RowPiece<T>& piece, std::size_t patch, std::size_t end) {
@@ -215,7 +246,6 @@ SIMDBEZIER_PART void sweep_patches(const GridTask<T>& task, const ColumnSplit<ve
       sweep_registers<kOutputs>(task, piece, patch, end);
     }
   } else {
-    constexpr bool kTells = kLineWide<vec<T>>;
     if constexpr (kPutsRecords<vec<T>>) {
       if (task.record > 1) {
         return sweep_record_tiles<kOutputs>(task, piece, patch, end);
@@ -229,21 +259,18 @@ SIMDBEZIER_PART void sweep_patches(const GridTask<T>& task, const ColumnSplit<ve
     if (task.origins != nullptr || task.streaming) {
       return sweep_registers<kOutputs>(task, piece, patch, end);
     }
-    if constexpr (kTells) {
-      if (!task.watertight) {
-        return sweep_tiles<kOutputs, Known::open>(task, split, piece, patch, end);
-      }
-    }
     if constexpr (kKnowsSquares<kOutputs, T>) {
       if (task.watertight && sweep_square_of<kOutputs>(SquareSides(), task, piece, patch, end)) {
         return;
       }
     }
-    if (sweep_large_patches<kOutputs>(task, piece, patch, end)) {
+    if (sweep_in_bands<kOutputs>(task, piece, patch, end) ||
+        sweep_large_patches<kOutputs>(task, piece, patch, end)) {
       return;
     }
-    sweep_tiles<kOutputs, kTells ? Known::watertight : Known::no_origins>(task, split, piece, patch,
-                                                                          end);
+    with_known_edges(task, [&]<Known kKnown>() SIMDBEZIER_INLINE_LAMBDA {
+      sweep_tiles<kOutputs, kKnown>(task, split, piece, patch, end);
+    });
   }
 }
 

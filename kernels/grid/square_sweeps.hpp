@@ -72,12 +72,13 @@ constexpr bool kIsShort = kSide <= 17 && (kOutputs != detail::kPositionNormal ||
 
 /// Whether longer ones have straight code as well, for machines with cheap stores across lines: on
 /// others it takes up to 1.6 times as long as a loop. Rows have four registers at most, and a
-/// column behind them in positions only.
+/// column behind them in positions only. With derivatives, bands of AVX2's floats are faster.
 template <detail::OutputSet kOutputs, std::size_t kSide, typename T>
 constexpr bool kIsLong = (kSide > 17) && (kSide <= 4 * kLanes<vec<T>> + 1) &&
                          (kOutputs == detail::kPosition ||
                           (kOutputs == detail::kPositionDerivatives &&
-                           kSide % kLanes<vec<T>> == 0));
+                           (kSide % kLanes<vec<T>> == 0) &&
+                           (kLanes<vec<T>> != 8 || kLineWide<vec<T>>)));
 
 /// Whether rows of such squares have a column or a part of a register behind whole ones, which
 /// straight code has for machines with cheap stores across lines. Normals are the same everywhere.

@@ -176,8 +176,8 @@ struct PatchKernels {
 
 private:
   void run(void (*kernel)(GridTask<T>&), OutputSet outputs, GridTask<T>& task) const noexcept {
-    const std::size_t most = strip_rows(task, outputs, table->lanes * sizeof(T) == 64);
-    if (most <= kMostStripRows && has_more_rows(task, most)) [[unlikely]] {
+    const std::size_t most = strip_rows(task, outputs, table->lanes * sizeof(T));
+    if (most <= kMostStripRows && fills_strips(task, most)) [[unlikely]] {
       in_strips(task, most, kernel);
     } else {
       kernel(task);

@@ -18,17 +18,29 @@ namespace simdbezier::detail {
 
 inline constexpr std::size_t kMostStripRows = 32;
 
-/// How many rows kernels sweep in one go that compute `outputs`: kAnyOutputs stands for patches of
-/// any shape as well. line_wide: registers are lines.
+/// Whether a task of kAnyOutputs, which stands for patches of any shape as well, wants positions
+/// alone.
+template <typename T>
+[[nodiscard]] bool wants_positions_only(const GridTask<T>& task) noexcept {
+  const auto wanted = std::count_if(std::begin(task.out), std::end(task.out),
+                                    [](const Planes<T>& planes) { return planes.wanted(); });
+  return wanted == 1 && task.out[output_index(Output::position)].wanted();
+}
+
+/// How many rows kernels sweep in one go that compute `outputs`, with registers of so many bytes.
 template <typename T>
 [[nodiscard]] std::size_t strip_rows(const GridTask<T>& task, OutputSet outputs,
-                                     bool line_wide) noexcept {
+                                     std::size_t register_bytes) noexcept {
   constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
   const std::size_t row = task.nu * sizeof(T);
   const std::size_t distance = row & (~row + 1); // the largest power of two in it
-  // What is staged, or goes to memory in whole lines, has other limits.
+  const bool line_wide = register_bytes == 64;
+  // What is staged, or goes to memory in whole lines, has other limits. What kernels sweep in bands
+  // (kernels/grid/row_bands.hpp) comes to each line once, and has room until each row is a page.
+  const bool in_bands = register_bytes >= 32 && task.origins == nullptr && distance < 4096 &&
+                        (outputs == kPosition || outputs == kPositionDerivatives);
   const bool leaves = task.drain != nullptr || (line_wide && task.plain_to_memory);
-  if (distance < 512 || task.streaming || task.record > 1 || leaves) {
+  if (distance < 512 || task.streaming || task.record > 1 || leaves || in_bands) {
     return kAll;
   }
   // One plane, and lines that are stored whole, have enough room until they share still fewer sets;
@@ -39,23 +51,27 @@ template <typename T>
   if (slow || (roomy && distance < 1024)) {
     return kAll;
   }
-  // Each strip finds the polynomials of its columns anew, which weighs more with all outputs.
-  const bool heavy = outputs == kAnyOutputs && task.out[output_index(Output::normal)].wanted();
+  // Each strip finds the polynomials of its columns anew, which weighs more with all outputs, and
+  // more beside few.
+  const bool heavy = outputs == kAnyOutputs && (task.out[output_index(Output::normal)].wanted() ||
+                                                wants_positions_only(task));
   const std::size_t bytes = outputs == kPosition ? 32768 : heavy ? 16384 : 8192;
   return std::clamp<std::size_t>(bytes / distance, 4, kMostStripRows);
 }
 
+/// Whether a task has rows for two strips and more: a short second one would cost more than it
+/// saves.
 template <typename T>
-[[nodiscard]] bool has_more_rows(const GridTask<T>& task, std::size_t most) noexcept {
+[[nodiscard]] bool fills_strips(const GridTask<T>& task, std::size_t most) noexcept {
   std::size_t rows = 0;
-  for (std::size_t r = 0; r < task.run_count && rows <= most; ++r) {
+  for (std::size_t r = 0; r < task.run_count && rows < 2 * most; ++r) {
     rows += task.runs[r].rows;
   }
-  return rows > most;
+  return rows >= 2 * most;
 }
 
-/// Calls run(strip) for each strip of a task without curvatures: at most `most` rows of all its
-/// patches, no more than kMostStripRows.
+/// Calls run(strip) for each strip of a task without curvatures: the same rows of each of its
+/// patches, at most `most`, which is no more than kMostStripRows.
 template <typename T, typename Run>
 void in_strips(GridTask<T>& task, std::size_t most, const Run& run) noexcept {
   GridTask<T> strip = task;

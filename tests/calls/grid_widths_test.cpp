@@ -92,6 +92,20 @@ protected:
       }
     }
   }
+  /// Wider rows than a band of registers has room for (kernels/grid/row_bands.hpp), with a rest of
+  /// each kind.
+  void wide() {
+    for (const std::size_t nu :
+         {72U,  80U,  81U,  83U,  90U,  96U,  97U,  98U,  104U, 105U, 112U, 113U,
+          127U, 128U, 129U, 136U, 140U, 145U, 193U, 196U, 288U, 289U, 300U}) {
+      for (const std::size_t nv : {2U, 4U, 7U}) {
+        compare(spaced<T>(nu, Spacing::uniform), spaced<T>(nv, Spacing::uniform), true,
+                {false, nu % 3 != 0});
+      }
+      compare(spaced<T>(nu, Spacing::crowded), spaced<T>(9, Spacing::crowded), false,
+              {false, nu % 2 != 0});
+    }
+  }
   /// Square grids, the size of some of which the kernels know.
   void squares() {
     for (std::size_t side = 2; side <= 66; ++side) {
@@ -175,6 +189,8 @@ TEST_P(EveryWidthF32, given) { widths(Spacing::given); }
 TEST_P(EveryWidthF64, given) { widths(Spacing::given); }
 TEST_P(EveryWidthF32, crowded) { widths(Spacing::crowded); }
 TEST_P(EveryWidthF64, crowded) { widths(Spacing::crowded); }
+TEST_P(EveryWidthF32, wide) { wide(); }
+TEST_P(EveryWidthF64, wide) { wide(); }
 TEST_P(EveryWidthF32, squares) { squares(); }
 TEST_P(EveryWidthF64, squares) { squares(); }
 TEST_P(EveryWidthF32, squares_among_rows) { squares_among_rows(); }
