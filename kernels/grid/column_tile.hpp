@@ -60,13 +60,16 @@ struct ColumnTile {
   /// Whether rows and their mirror images are computed together: where both are whole registers of
   /// their own. Others share cache lines with the rows beside them and, where stores across lines
   /// are slow, are faster one behind the other, except with normals, whose arithmetic outweighs
-  /// that. Rows of more than a line gain nothing by it anywhere.
+  /// that. Rows of more than a line gain nothing by it anywhere, and two rows a register only where
+  /// it is a line.
   static constexpr bool kOwnLines = kRows == 1 && kWhole && !kExtra;
-  static constexpr bool kOneLine = kRows == 1 && sizeof(T) * kLanes<V> <= 64;
+  static constexpr bool kTwoRows = kRows == 2 && !kWhole && kLineWide<V> && kLanes<V> > 2;
+  static constexpr bool kOneLine = (kRows == 1 && sizeof(T) * kLanes<V> <= 64) || kTwoRows;
   static constexpr RowPairs kPairs = kOwnLines  ? RowPairs::always
                                      : kOneLine ? RowPairs::where_splits_are_cheap
                                                 : RowPairs::never;
-  static constexpr bool kNormalPairs = kRows == 1 || (kRows == 2 && kWhole && kLanes<V> > 2);
+  static constexpr bool kNormalPairs =
+      kRows == 1 || (kRows == 2 && kWhole && kLanes<V> > 2) || kTwoRows;
   static constexpr bool kShared = kRows > 1; ///< edges v = const share a register
   static constexpr bool kSingle = kRows == kLanes<V> && kHasFours<V>; ///< all lanes one column
 
