@@ -1,5 +1,4 @@
-// Small grids (grid/small_grids.hpp) whose lanes are patches: where registers have no four groups,
-// and some sizes that are faster so where they have.
+// Small grids (grid/small_grids.hpp) whose lanes are patches: on AVX2, and some squares on AVX-512.
 //
 // Coefficients of a register of patches are turned on their way from memory, and samples on their
 // way back; in between no lane is idle, whatever the size of the grid. The last patches that do not
@@ -207,13 +206,12 @@ SIMDBEZIER_PART void put_across(const GridTask<ScalarOf<V>>& task, Output output
 template <typename T, typename Sweep>
 SIMDBEZIER_INLINE void for_patches_across(const GridTask<T>& task, const Sweep& sweep) {
   constexpr std::size_t kL = kLanes<vec<T>>;
-  constexpr std::size_t kPrefetched = 4; // so far ahead is prefetch_patch()
   for (std::size_t done = 0; done < task.patch_count;) {
     const std::size_t left = task.patch_count - done;
     const std::size_t fresh = left < kL ? left : kL;
     if (task.prefetch) {
       for (std::size_t p = 0; p < fresh; ++p) {
-        prefetch_patch(task, done + p + kL - kPrefetched);
+        prefetch_patch(task, done + p + kL - kPatchesAhead);
       }
     }
     sweep(done + fresh - kL, fresh);

@@ -79,13 +79,23 @@ template <std::size_t kInner, typename V>
 SIMDBEZIER_RARE void resolve_normals_across(const GridTask<ScalarOf<V>>& task,
                                             const SmallGridAcross<V, kInner>& grid,
                                             std::size_t patch, const V* squared, V floor) {
+  using T = ScalarOf<V>;
+  alignas(64) T floors[kLanes<V>];
+  store_vector(floors, floor);
   for (std::size_t k = 0; k < grid.samples(); ++k) {
+    if (all_of<V>(squared[k] > floor)) {
+      continue;
+    }
+    alignas(64) T squares[kLanes<V>];
+    store_vector(squares, squared[k]);
     const std::size_t row = k / grid.nu;
     const V x = broadcast<V>(grid.x[k % grid.nu]);
     const V y = row == 0 ? grid.end[0].y : row + 1 < grid.nv ? grid.row[row - 1].y : grid.end[1].y;
     for (std::size_t p = 0; p < kLanes<V>; ++p) {
-      const UncertainNormals uncertain{p, 1, 1, 1, (patch + p) * task.patch_step + k, 0, 1};
-      resolve_normals(task, patch + p, uncertain, x, y, squared[k], floor);
+      if (!(squares[p] > floors[p])) {
+        const UncertainNormals uncertain{p, 1, 1, 1, (patch + p) * task.patch_step + k, 0, 1};
+        resolve_normals(task, patch + p, uncertain, x, y, squared[k], floor);
+      }
     }
   }
 }
@@ -126,8 +136,8 @@ SIMDBEZIER_KERNEL void sweep_normals_across(const GridTask<T>& shared_task) {
   });
 }
 
-/// Whether the compiler knows squares of `side` samples that are faster so than in groups of lanes,
-/// where registers are lines.
+/// Whether the compiler knows squares of `side` samples that are faster so than in groups of lanes
+/// or, of doubles, in tiles, where registers are lines.
 template <detail::OutputSet kOutputs, typename T>
 constexpr bool is_known_across(std::size_t side) {
   constexpr bool kPositions = kOutputs == detail::kPosition;
@@ -146,7 +156,8 @@ SIMDBEZIER_PART bool is_mirrored_square(const GridTask<T>& task) {
 
 /// Whether lanes of a small grid are better patches: there is a register of them, and results go to
 /// planes. Rows that are whole registers have tiles which find tangents as fast. Where registers
-/// are lines, samples that leave the caches are stored faster patch by patch.
+/// are lines, there are such grids of mirrored squares only, samples that leave the caches are
+/// stored faster patch by patch, and what is gained is less than a mostly idle last register costs.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
   constexpr std::size_t kL = kLanes<vec<T>>;
@@ -155,7 +166,9 @@ SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
   }
   if constexpr (kLineWide<vec<T>>) {
     const bool stays = task.drain == nullptr && !task.plain_to_memory;
-    return stays && is_known_across<kOutputs, T>(task.nu) && is_mirrored_square(task);
+    const std::size_t idle = (kL - task.patch_count % kL) % kL; // lanes of the last register
+    const bool filled = 8 * idle <= task.patch_count;
+    return stays && filled && is_known_across<kOutputs, T>(task.nu) && is_mirrored_square(task);
   } else {
     return kOutputs == detail::kPosition || task.nu != kL;
   }

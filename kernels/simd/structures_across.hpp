@@ -1,6 +1,7 @@
 // Structures across lanes: values of consecutive structures in memory, lane p being structure p.
 //
-// Memory is read and written in pieces of 128 bits, which are turned by shuffles inside of them.
+// Memory is read and written in pieces of 128 bits, or in whole lines where a register is one;
+// shuffles turn them.
 #pragma once
 
 #include "kernels/simd/fours.hpp"
