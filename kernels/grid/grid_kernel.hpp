@@ -20,6 +20,7 @@
 #pragma once
 
 #include "kernels/grid/component_sweeps.hpp"
+#include "kernels/grid/normal_bands.hpp"
 #include "kernels/grid/record_rows.hpp"
 #include "kernels/grid/row_bands.hpp"
 #include "kernels/grid/small_grid_jets.hpp"
@@ -233,6 +234,11 @@ SIMDBEZIER_PART bool sweep_in_bands(const GridTask<T>& task, const RowPiece<T>& 
       });
     }
     return swept > 0;
+  } else if constexpr (kSweepsNormalBands<kOutputs, T>) {
+    if (pays_in_normal_bands(task, piece)) {
+      sweep_normal_bands(task, piece, patch, end);
+      return true;
+    }
   }
   return false;
 }
