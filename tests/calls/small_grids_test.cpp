@@ -58,18 +58,17 @@ std::vector<T> parameters(Row row, std::size_t n) {
 enum class Layout { planes, triples, vertices };
 
 constexpr GroupSet kChoices[] = {kP, kP | kN, kP | kDu | kDv, kP | kDu | kDv | kN, kN, kDu};
-// More than a register has lanes, and no multiple of that.
-constexpr std::size_t kPatches = 21;
+// More than a register has lanes, and no multiple of that; and so many that nearly all lanes are
+// used, without which AVX-512 has other kernels.
+constexpr std::size_t kFew = 21;
+constexpr std::size_t kMany = 62;
 
 template <typename T>
 class SmallGrids : public IsaTest {
 protected:
   void sizes(const PackOptions& pack_options, bool watertight) {
-    const std::vector<Net> nets = mixed_nets(kPatches);
-    const PatchSet<T> set = packed<T>(nets, pack_options);
-    Options options;
-    options.watertight = watertight;
-    options.threads = 1;
+    const PatchSet<T> set = packed<T>(mixed_nets(kFew), pack_options);
+    const Options options = call(watertight);
     for (std::size_t nu = 2; nu <= 7; ++nu) {
       for (std::size_t nv = 2; nv <= 7; ++nv) {
         for (int row = 0; row < static_cast<int>(Row::count); ++row) {
@@ -82,12 +81,30 @@ protected:
     }
   }
 
+  /// The squares that have kernels of their own for many patches.
+  void squares_of_many_patches(const PackOptions& pack_options, bool watertight) {
+    const PatchSet<T> set = packed<T>(mixed_nets(kMany), pack_options);
+    for (const std::size_t side : {4U, 5U}) {
+      for (int row = 0; row < static_cast<int>(Row::count); ++row) {
+        compare(set, call(watertight), side, side, static_cast<Row>(row), Row::uniform);
+        compare(set, call(watertight), side, side, Row::uniform, static_cast<Row>(row));
+      }
+    }
+  }
+
 private:
+  static Options call(bool watertight) {
+    Options options;
+    options.watertight = watertight;
+    options.threads = 1;
+    return options;
+  }
+
   void compare(const PatchSet<T>& set, const Options& options, std::size_t nu, std::size_t nv,
                Row across, Row along) {
     const std::vector<T> x = parameters<T>(across, nu);
     const std::vector<T> y = parameters<T>(along, nv);
-    const std::size_t count = kPatches * nu * nv;
+    const std::size_t count = set.size() * nu * nv;
     SampleArrays<T> samples;
     for (std::size_t k = 0; k < count; ++k) {
       samples.add(k / (nu * nv), x[k % nu], y[k / nu % nv]);
@@ -155,6 +172,8 @@ TEST_P(SmallGridsF32, watertight) { sizes({}, true); }
 TEST_P(SmallGridsF64, watertight) { sizes({}, true); }
 TEST_P(SmallGridsF32, watertight_around_origins) { sizes(local_origin(), true); }
 TEST_P(SmallGridsF64, watertight_around_origins) { sizes(local_origin(), true); }
+TEST_P(SmallGridsF32, many_patches) { squares_of_many_patches({}, true); }
+TEST_P(SmallGridsF64, many_patches) { squares_of_many_patches({}, true); }
 TEST_P(SmallGridsF32, open) { sizes({}, false); }
 TEST_P(SmallGridsF64, open) { sizes({}, false); }
 
