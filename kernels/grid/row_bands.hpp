@@ -188,8 +188,8 @@ SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece
   }
 }
 
-/// So many registers side by side are a band. One more would take more code, of which each number
-/// has its own, than it gains.
+/// So many registers side by side are a band. Each number has code of its own, and more would take
+/// more of it than they gain.
 template <typename V>
 constexpr std::size_t kMostInBand = kLineWide<V> ? 6 : 8;
 
@@ -250,7 +250,7 @@ SIMDBEZIER_PART std::size_t sweep_bands(const GridTask<T>& task, const RowPiece<
       sweep_band<kOutputs, kCount, Last>(task, piece, {first, last, active}, patch, end);
     };
     with_one_of<2, 3, 4, 5, 6>(count, sweep_count);
-    if constexpr (kMostInBand < V >> 6) {
+    if constexpr (!kLineWide<V>) {
       with_one_of<7, 8>(count, sweep_count);
     }
     first += count * kL;

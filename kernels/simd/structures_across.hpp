@@ -129,8 +129,8 @@ SIMDBEZIER_INLINE void store_across(const V* values, ScalarOf<V>* to, std::size_
       kAll);
 }
 
-// Where a register is a line, a line of each structure takes half of the shuffles that its pieces
-// would take, and a fourth of the loads or stores.
+// Where a register is a line, a line of each structure takes three quarters of the shuffles and
+// inserts that its pieces would take, and a fourth of the loads or stores.
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 /// Whether whole lines of structures can be turned.
 template <typename V>
