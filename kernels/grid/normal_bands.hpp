@@ -6,9 +6,8 @@
 // what a tile keeps in registers is an operand in memory here.
 #pragma once
 
-#include <cstdint>
-
 #include "kernels/grid/patch_sweeps.hpp"
+#include "kernels/grid/shared_sets.hpp"
 #include "kernels/simd/register_pair.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -85,36 +84,19 @@ private:
   Tile tile_[kTiles];
 };
 
-/// Whether the lines that a tile writes stay in the first-level cache, of 64 sets and 8 lines each,
-/// until the next tile comes to the same sets: rows lie so far apart that they use few sets, and so
-/// do planes that begin at the same place within such a distance.
-template <typename T>
-SIMDBEZIER_PART bool lines_stay(const GridTask<T>& task, std::size_t rows) {
-  constexpr std::size_t kSetBytes = 64 * 64;
-  const std::size_t row = task.nu * sizeof(T);
-  const std::size_t distance = row & (~row + 1); // the largest power of two in it
-  const auto place = [&](std::size_t plane) SIMDBEZIER_INLINE_LAMBDA {
-    const Output output = plane < 3 ? Output::position : Output::normal;
-    const T* const first = task.out[output_index(output)].component[plane % 3];
-    return reinterpret_cast<std::uintptr_t>(first) % distance / 64;
-  };
-  std::size_t most = 0;
-  for (std::size_t a = 0; a < 6; ++a) {
-    std::size_t together = 0;
-    for (std::size_t b = 0; b < 6; ++b) {
-      together += place(a) == place(b) ? 1 : 0;
-    }
-    most = together > most ? together : most;
-  }
-  return most * rows * distance <= 8 * kSetBytes;
-}
-
 /// Whether such a piece is faster in bands. In staging, samples are passed on in smaller portions
 /// tile by tile.
 template <typename T>
 SIMDBEZIER_PART bool pays_in_normal_bands(const GridTask<T>& task, const RowPiece<T>& piece) {
   const bool whole = task.nu % (NormalBand<T>::kTiles * kLanes<vec<T>>) == 0;
-  return task.drain == nullptr && whole && !lines_stay(task, piece.rows());
+  if (task.drain != nullptr || !whole) {
+    return false;
+  }
+  const auto& position = task.out[output_index(Output::position)].component;
+  const auto& normal = task.out[output_index(Output::normal)].component;
+  const T* const planes[] = {position[0], position[1], position[2],
+                             normal[0],   normal[1],   normal[2]};
+  return !lines_stay(task, planes, piece.rows());
 }
 
 /// Sweeps patches [patch, end) without origins, whose rows are a number of bands.

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "kernels/grid/patch_sweeps.hpp"
+#include "kernels/grid/shared_sets.hpp"
 #include "kernels/simd/register_pair.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -36,11 +37,11 @@ class RowBand {
   using Tile = ColumnTile<1, true, false, V>;
   static constexpr std::size_t kL = kLanes<V>;
   static constexpr bool kJets = kOutputs == detail::kPositionDerivatives;
-  /// Registers of a line have more to do for stores than for products where derivatives are stored
-  /// as well, and rows in order are stored faster than rows from both ends.
+  /// Where derivatives are stored as well, registers of a line have more to do for stores than for
+  /// products, and rows in order are stored faster than rows from both ends.
   static constexpr RowPairs kPairs = kJets && kLineWide<V> ? RowPairs::never : Last::kPairs;
-  /// Whether the last tile may begin within the one before it. All other places are constants: if
-  /// they were read from memory for each row, that would take a third of the time.
+  /// Whether the last tile may begin within the one before it. All other places are constants:
+  /// reading them from memory for each row made it a third slower.
   static constexpr bool kOverlaps = !kLineWide<V> && !Last::kBuffered;
 
 public:
@@ -188,15 +189,34 @@ SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece
   }
 }
 
-/// So many registers side by side are a band. Each number has code of its own, and more would take
-/// more of it than they gain.
+/// The most registers of a band. Each number has code of its own, and more would gain less than
+/// theirs costs.
 template <typename V>
 constexpr std::size_t kMostInBand = kLineWide<V> ? 6 : 8;
 
-/// Whether bands are faster than tiles for the rows of a task, which are so many registers. In
+/// Whether rows of the task lie a multiple of 512 bytes apart, and leave the cache while one tile
+/// follows the other. Below 4096 bytes there are no strips of such rows (src/calls/row_strips.hpp).
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_PART bool rows_leave(const GridTask<T>& task, std::size_t rows) {
+  if (task.nu * sizeof(T) % 512 != 0) {
+    return false;
+  }
+  const auto& position = task.out[output_index(Output::position)].component;
+  if constexpr (kOutputs == detail::kPosition) {
+    const T* const planes[] = {position[0], position[1], position[2]};
+    return !lines_stay(task, planes, rows);
+  } else {
+    const T* const planes[] = {position[0], task.out[output_index(Output::du)].component[0],
+                               task.out[output_index(Output::dv)].component[0]};
+    return !lines_stay(task, planes, rows);
+  }
+}
+
+/// Whether bands are faster than tiles for a piece whose rows are so many registers each. In
 /// staging, samples are passed on in smaller portions tile by tile.
 template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_PART bool pays_in_bands(const GridTask<T>& task, std::size_t registers) {
+SIMDBEZIER_PART bool pays_in_bands(const GridTask<T>& task, const RowPiece<T>& piece,
+                                   std::size_t registers) {
   using V = vec<T>;
   constexpr std::size_t kL = kLanes<V>;
   constexpr std::size_t kMost = kMostInBand<V>;
@@ -206,14 +226,14 @@ SIMDBEZIER_PART bool pays_in_bands(const GridTask<T>& task, std::size_t register
   if (task.drain != nullptr) {
     return false;
   }
-  // Lines of such rows share few sets of a first-level cache: no tile can come back to them, and
-  // there are no strips of rows either (src/calls/row_strips.hpp).
-  if (nu * sizeof(T) % 512 == 0) {
+  if (rows_leave<kOutputs>(task, piece.rows())) {
     return true;
   }
-  // Positions that are whole lines are as fast in pairs of registers.
+  // Positions that are whole lines are as fast in pairs of registers. Few rows are not worth the
+  // preparations, least of all where rows are not in pairs.
   const bool whole_lines = nu * sizeof(T) % 64 == 0;
-  if (kPositions && whole_lines) {
+  const std::size_t least_rows = kPositions ? 5 : !kLineWide<V> ? 18 : registers <= kMost ? 16 : 30;
+  if ((kPositions && whole_lines) || piece.rows() < least_rows) {
     return false;
   }
   if constexpr (kLineWide<V>) {
@@ -237,10 +257,11 @@ SIMDBEZIER_PART std::size_t sweep_bands(const GridTask<T>& task, const RowPiece<
   const std::size_t nu = task.nu;
   const std::size_t rest = nu % kL;
   // The last columns take a register of their own, masked or, if it is shorter than a line, within
-  // the one before it; a single one goes along with the last whole register.
+  // the one before it, or are left to another tile if they are a fourth of a line or less; a single
+  // one goes along with the last whole register.
   const bool partial = rest > (kLineWide<V> ? kL / 4 : 1);
   std::size_t registers = nu / kL + (partial ? 1 : 0);
-  if (!pays_in_bands<kOutputs>(task, registers)) {
+  if (!pays_in_bands<kOutputs>(task, piece, registers)) {
     return 0;
   }
   std::size_t first = 0;
