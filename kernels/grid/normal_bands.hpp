@@ -1,5 +1,5 @@
-// Positions and normals of rows whose length is a multiple of 512 bytes, or of 256 if they are
-// many: eight registers of a row side by side, and then the next row.
+// Positions and normals of rows whose length is a multiple of 512 bytes, or on AVX2 of 256: eight
+// registers of a row side by side, and then the next row, if a tile's lines would leave the cache.
 //
 // Lines of such rows share few sets of a first-level cache. Tile by tile, rows would have to go in
 // strips (src/calls/row_strips.hpp), too short for pairs of mirrored rows. Other rows gain nothing:
@@ -12,9 +12,9 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
+/// Whether there are bands with normals.
 template <detail::OutputSet kOutputs, typename T>
-constexpr bool kSweepsNormalBands = kOutputs == detail::kPositionNormal &&
-                                    (kLineWide<vec<T>> || kLineWide<RegisterPair<vec<T>>>);
+constexpr bool kSweepsNormalBands = (kOutputs == detail::kPositionNormal) && kMakesLines<vec<T>>;
 
 /// The tiles of a band, of one patch.
 template <typename T>

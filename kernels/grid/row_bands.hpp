@@ -18,7 +18,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <detail::OutputSet kOutputs, typename T>
 constexpr bool kSweepsBands = (kOutputs == detail::kPosition ||
                                kOutputs == detail::kPositionDerivatives) &&
-                              (kLineWide<vec<T>> || kLineWide<RegisterPair<vec<T>>>);
+                              kMakesLines<vec<T>>;
 
 /// The columns of a band.
 struct BandColumns {

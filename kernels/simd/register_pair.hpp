@@ -43,6 +43,10 @@ struct Traits<RegisterPair<V>> {
   static constexpr std::size_t kLanes = 2 * Traits<V>::kLanes;
 };
 
+/// Whether a register or two are a line.
+template <typename V>
+constexpr bool kMakesLines = kLineWide<V> || kLineWide<RegisterPair<V>>;
+
 /// Stores the first n lanes, more than those of one register.
 template <typename V>
 SIMDBEZIER_INLINE void masked_store(ScalarOf<V>* to, RegisterPair<V> value, std::size_t n) {
