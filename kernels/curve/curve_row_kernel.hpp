@@ -1,8 +1,10 @@
 // Positions of curves straight to the caller's layout: planes or x y z triples, through the caches
-// or past them, at any place in memory. Cubics whose rows are a part of a line leave as whole lines
-// from registers, the others by way of rings in the first-level cache where they are streamed.
+// or past them, at any place in memory. Where they are streamed, cubics leave from registers, as
+// lines of whole curves (lines_of_curves.hpp) or joined (joined_rows.hpp), and others by way of
+// rings in the first-level cache.
 #pragma once
 
+#include "kernels/curve/joined_rows.hpp"
 #include "kernels/curve/lanes_are_curves.hpp"
 #include "kernels/curve/lanes_are_samples.hpp"
 #include "kernels/curve/lines_of_curves.hpp"
@@ -28,24 +30,50 @@ inline constexpr std::size_t kRowMemory = 2 * (3 * detail::kMostRow + 3) * kLine
 /// Rings that rows go through on their way past the caches, and how much of them is passed on at a
 /// time.
 template <bool kTriples, typename T>
-struct RowRings {
-  static constexpr std::size_t kStreams = CurveRows<kTriples, T>::kStreams;
-  LineRing<T> ring[kStreams];
-  std::size_t lines_per_step = 0;
+class RowRings {
+  using Rows = CurveRows<kTriples, T>;
 
-  SIMDBEZIER_PART void pass_on() {
-    std::size_t lines = lines_per_step;
-    for (std::size_t k = 0; k < kStreams && lines > 0; ++k) {
-      lines = ring[k].pass_on(lines);
+public:
+  /// memory has room for two batches of `batch` values of each stream, and a step passes on `lines`
+  /// of what goes to `to`.
+  SIMDBEZIER_PART void start(T* memory, std::size_t batch, std::size_t lines, const Rows& to) {
+    lines_per_step_ = lines;
+    for (std::size_t k = 0; k < Rows::kStreams; ++k) {
+      ring_[k].start(memory, batch, to.first[k]);
+      memory += LineRing<T>::room(batch);
     }
   }
-  [[nodiscard]] SIMDBEZIER_PART CurveRows<kTriples, T> batch() const {
-    CurveRows<kTriples, T> rows;
-    for (std::size_t k = 0; k < kStreams; ++k) {
-      rows.first[k] = ring[k].batch();
+
+  /// Returns where the next batch is to be written.
+  [[nodiscard]] SIMDBEZIER_PART Rows batch() const {
+    Rows rows;
+    for (std::size_t k = 0; k < Rows::kStreams; ++k) {
+      rows.first[k] = ring_[k].batch();
     }
     return rows;
   }
+  SIMDBEZIER_PART void pass_on() {
+    std::size_t lines = lines_per_step_;
+    for (std::size_t k = 0; k < Rows::kStreams && lines > 0; ++k) {
+      lines = ring_[k].pass_on(lines);
+    }
+  }
+  /// The batch is written, so many values of each stream.
+  SIMDBEZIER_PART void turn(std::size_t values) {
+    for (LineRing<T>& r : ring_) {
+      r.pass_all();
+      r.turn(values);
+    }
+  }
+  SIMDBEZIER_PART void finish() {
+    for (LineRing<T>& r : ring_) {
+      r.finish();
+    }
+  }
+
+private:
+  LineRing<T> ring_[Rows::kStreams];
+  std::size_t lines_per_step_ = 0;
 };
 
 /// A register is filled with samples of a curve, or with a sample of each of many curves. Any other
@@ -53,34 +81,61 @@ struct RowRings {
 inline constexpr std::size_t kAlong = 0;
 inline constexpr std::size_t kAcross = ~std::size_t(0);
 
-/// Writes curves [begin, end) to rows, `batch` at a time. rings are passed on meanwhile, and null
-/// where there are none. It is a function of its own, because it is large and there are several
-/// ways to it.
+/// Fills rows of curves [begin, end), `batch` at a time, by way of rings in `memory`, or in place
+/// where that is null. There is one copy of the code for both.
+template <std::size_t kKnownOrder, bool kAcrossCurves, bool kTriples, typename T>
+SIMDBEZIER_PART void fill_by_rings(const CurveTask<T>& task, const CurveShape& shape,
+                                   std::size_t begin, std::size_t end, std::size_t batch,
+                                   const CurveRows<kTriples, T>& rows, T* memory) {
+  const std::size_t row = rows.row(task.n);
+  // Rings are made here and stay here: copied as a whole, they would be read in pieces other than
+  // those that were written, and wait for all streaming stores before.
+  RowRings<kTriples, T> rings;
+  const bool by_rings = memory != nullptr;
+  if (by_rings) {
+    constexpr std::size_t kStep = kLanes<vec<T>> * (kAcrossCurves ? kAcrossStep : 1);
+    rings.start(memory, batch * row, (3 * kStep * sizeof(T) + 63) / 64, rows);
+  }
+  const auto pass_on = [&]() SIMDBEZIER_INLINE_LAMBDA {
+    if (by_rings) {
+      rings.pass_on();
+    }
+  };
+  for (std::size_t first = begin; first < end; first += batch) {
+    const std::size_t last = std::min(first + batch, end);
+    const CurveRows<kTriples, T> to = by_rings ? rings.batch() : rows.at((first - begin) * row);
+    if constexpr (kAcrossCurves) {
+      fill_across<kKnownOrder>(task, shape, first, last, to, pass_on);
+    } else {
+      fill_along<kKnownOrder>(task, shape, first, last, to, false, pass_on);
+    }
+    if (by_rings) {
+      rings.turn((last - first) * row);
+    }
+  }
+  if (by_rings) {
+    rings.finish();
+  }
+}
+
+/// Writes curves [begin, end) to rows, `batch` at a time: by way of rings where there is memory for
+/// them, else in place. It is a function of its own, because it is large and there are several ways
+/// to it.
 template <std::size_t kKnownOrder, std::size_t kWay, bool kTriples, typename T>
 SIMDBEZIER_KERNEL void
 fill_rows(const CurveTask<T>& shared_task, std::size_t begin, std::size_t end, std::size_t batch,
-          const CurveRows<kTriples, T>& shared_rows, bool streaming, RowRings<kTriples, T>* rings) {
+          const CurveRows<kTriples, T>& shared_rows, bool streaming, T* memory) {
   // Copies, because stores through vector types might change anything that others can see.
   const CurveTask<T> task = shared_task;
   CurveShape shape = *shared_task.shape;
   assume_order<kKnownOrder>(shape);
   const CurveRows<kTriples, T> rows = shared_rows;
-  RowRings<kTriples, T> ring_state;
-  if (rings != nullptr) {
-    ring_state = *rings;
-  }
-  const bool streams = rings != nullptr;
-  const auto pass_on = [&]() SIMDBEZIER_INLINE_LAMBDA {
-    if (streams) {
-      ring_state.pass_on();
-    }
-  };
   if constexpr (kWay != kAlong && kWay != kAcross) {
     fill_lines<kWay>(task, shape, begin, end, rows, streaming);
   } else if constexpr (kWay == kAcross) {
-    fill_across<kKnownOrder>(task, shape, begin, end, rows, pass_on);
-  } else if (streams) {
-    fill_along<kKnownOrder>(task, shape, begin, end, rows, false, pass_on);
+    fill_by_rings<kKnownOrder, true>(task, shape, begin, end, batch, rows, memory);
+  } else if (memory != nullptr) {
+    fill_by_rings<kKnownOrder, false>(task, shape, begin, end, batch, rows, memory);
   } else { // without a test after every register: 5 % of streaming stores
     for (std::size_t first = begin; first < end; first += batch) {
       fill_along<kKnownOrder>(task, shape, first, std::min(first + batch, end),
@@ -88,24 +143,19 @@ fill_rows(const CurveTask<T>& shared_task, std::size_t begin, std::size_t end, s
                               []() SIMDBEZIER_INLINE_LAMBDA {});
     }
   }
-  if (rings != nullptr) {
-    *rings = ring_state;
-  }
 }
 
 /// This is fill_rows() for a degree and a way.
 template <bool kTriples, typename T>
 struct RowFiller {
   void (*fill)(const CurveTask<T>& task, std::size_t begin, std::size_t end, std::size_t batch,
-               const CurveRows<kTriples, T>& rows, bool streaming, RowRings<kTriples, T>* rings);
-  std::size_t step;    ///< samples of each component between two calls of step()
+               const CurveRows<kTriples, T>& rows, bool streaming, T* memory);
   bool across = false; ///< whole registers of curves
   bool lines = false;  ///< by lines
 };
 template <std::size_t kKnownOrder, std::size_t kWay, bool kTriples, typename T>
 constexpr RowFiller<kTriples, T> row_filler() {
-  return {fill_rows<kKnownOrder, kWay, kTriples, T>,
-          kLanes<vec<T>> * (kWay == kAcross ? kAcrossStep : 1), kWay == kAcross,
+  return {fill_rows<kKnownOrder, kWay, kTriples, T>, kWay == kAcross,
           kWay != kAlong && kWay != kAcross};
 }
 
@@ -139,50 +189,44 @@ SIMDBEZIER_PART void write_rows(const CurveTask<T>& task, const CurveRows<kTripl
 template <bool kTriples, typename T>
 SIMDBEZIER_PART void stream_rows(const CurveTask<T>& task, const CurveRows<kTriples, T>& out,
                                  const RowFiller<kTriples, T>& way, T* memory) {
-  const std::size_t row = out.row(task.n);
   const std::size_t groups = kRowBatch<T> / (3 * task.n * kLineCurves<T>);
   const std::size_t batch = std::max<std::size_t>(groups, 1) * kLineCurves<T>;
-  RowRings<kTriples, T> rings;
-  // This is what a step computes, in lines.
-  rings.lines_per_step = (3 * way.step * sizeof(T) + 63) / 64;
-  for (std::size_t k = 0; k < out.kStreams; ++k) {
-    rings.ring[k].start(memory, batch * row, out.first[k]);
-    memory += LineRing<T>::room(batch * row);
-  }
-  for (std::size_t begin = 0; begin < task.curve_count; begin += batch) {
-    const std::size_t end = std::min(begin + batch, task.curve_count);
-    way.fill(task, begin, end, batch, rings.batch(), false, &rings);
-    for (LineRing<T>& r : rings.ring) {
-      r.pass_all();
-      r.turn((end - begin) * row);
-    }
-  }
-  for (LineRing<T>& r : rings.ring) {
-    r.finish();
-  }
+  way.fill(task, 0, task.curve_count, batch, out, false, memory);
 }
 
-/// Chooses how rows are filled: short ones of cubics by lines where that pays, with stores that
-/// stay in the caches for triples alone; other rows of fewer samples than a register with curves in
-/// its lanes. aligned says that all streams begin on a line.
+/// Returns of how many curves registers are filled by lines, 0 where that does not pay. Stores that
+/// stay in the caches want it for triples of several curves alone, and streaming ones need no help
+/// where each register is a line already.
 template <bool kTriples, typename T>
-SIMDBEZIER_PART RowFiller<kTriples, T> choose_filler(const CurveTask<T>& task, bool aligned) {
+SIMDBEZIER_PART std::size_t curves_by_lines(const CurveTask<T>& task, bool begin_lines) {
+  if (task.shape->degree != 3 || task.shape->origins) {
+    return 0;
+  }
+  const std::size_t curves = curves_in_register<T>(task.n);
+  const bool are_lines = kLineWide<vec<T>> && task.n == kLanes<vec<T>> && begin_lines;
+  return (task.streaming ? !are_lines : kTriples && curves > 1) ? curves : 0;
+}
+
+/// Chooses how rows are filled: short ones of cubics by lines where that pays, other rows of fewer
+/// samples than a register with curves in its lanes.
+template <bool kTriples, typename T>
+SIMDBEZIER_PART RowFiller<kTriples, T> choose_filler(const CurveTask<T>& task, bool begin_lines) {
   constexpr std::size_t kAll = kLanes<vec<T>>;
   const bool cubic = task.shape->degree == 3;
   if constexpr (kAll * sizeof(T) >= 32) {
-    constexpr std::size_t kLeast = kTriples ? 2 : kLeastCurves<T>;
-    const bool pays = task.streaming ? aligned : kTriples;
-    const std::size_t curves =
-        cubic && !task.shape->origins && pays ? curves_in_register<T>(task.n) : 0;
-    if constexpr ((kMostCurves<T>) > kLeast) {
-      if (curves == 2 * kLeast) {
-        return row_filler<4, 2 * kLeast, kTriples, T>();
+    const std::size_t curves = curves_by_lines<kTriples>(task, begin_lines);
+    if constexpr (kMostCurves<T> >= 4) {
+      if (curves == 4) {
+        return row_filler<4, 4, kTriples, T>();
       }
     }
-    if constexpr (kMostCurves<T> >= kLeast) {
-      if (curves == kLeast) {
-        return row_filler<4, kLeast, kTriples, T>();
+    if constexpr (kMostCurves<T> >= 2) {
+      if (curves == 2) {
+        return row_filler<4, 2, kTriples, T>();
       }
+    }
+    if (curves == 1) {
+      return row_filler<4, 1, kTriples, T>();
     }
   }
   if constexpr (kAll > detail::kLeastRow) {
@@ -196,15 +240,18 @@ SIMDBEZIER_PART RowFiller<kTriples, T> choose_filler(const CurveTask<T>& task, b
 template <bool kTriples, typename T>
 SIMDBEZIER_KERNEL void evaluate_rows(const CurveTask<T>& task) {
   CurveRows<kTriples, T> out;
-  bool aligned = true;
   for (std::size_t k = 0; k < out.kStreams; ++k) {
     out.first[k] =
         kTriples ? task.triples : task.out[output_index(CurveOutput::position)].component[k];
-    aligned = aligned && reinterpret_cast<std::uintptr_t>(out.first[k]) % 64 == 0;
   }
-  const RowFiller<kTriples, T> way = choose_filler<kTriples>(task, aligned);
-  const bool whole_lines = way.lines || (kTriples && aligned && !way.across && kLineWide<vec<T>> &&
-                                         task.n % kLanes<vec<T>> == 0);
+  const RowFiller<kTriples, T> way = choose_filler<kTriples>(task, out.begin_lines());
+  if constexpr (kLanes<vec<T>> * sizeof(T) >= 32) {
+    if (task.may_join && !way.lines) {
+      return stream_joined(task, out);
+    }
+  }
+  const bool whole_lines = way.lines || (kTriples && out.begin_lines() && !way.across &&
+                                         kLineWide<vec<T>> && task.n % kLanes<vec<T>> == 0);
   static_assert(kRowBatch<T> <= 3 * detail::kMostRow * kLineCurves<T>);
   alignas(64) T memory[kRowMemory<T>];
   if (task.streaming && !whole_lines) {

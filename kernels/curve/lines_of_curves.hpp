@@ -8,6 +8,7 @@
 
 #include "kernels/curve/curve_rows.hpp"
 #include "kernels/simd/structures_across.hpp"
+#include "kernels/simd/value_stream.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -15,19 +16,16 @@ template <typename T>
 inline constexpr std::size_t kLineSamples = 64 / sizeof(T);
 
 /// Returns how many curves a register holds of rows of n samples: 1 where a row is a register or
-/// more, 0 where rows are not written by lines. Rows of one register that is a line need no such
-/// help.
+/// more, 0 where rows are not written by lines.
 template <typename T>
 SIMDBEZIER_PART std::size_t curves_in_register(std::size_t n) {
   constexpr std::size_t kAll = kLanes<vec<T>>;
-  if (n < 4 || kLineSamples<T> % n != 0 || (kLineWide<vec<T>> && n == kAll)) {
+  if (n < 4 || kLineSamples<T> % n != 0) {
     return 0;
   }
   return n < kAll ? kAll / n : 1;
 }
-/// These are the fewest and the most curves of a register.
-template <typename T>
-inline constexpr std::size_t kLeastCurves = kLineWide<vec<T>> ? 2 : 1;
+/// This is the most that it returns.
 template <typename T>
 inline constexpr std::size_t kMostCurves = kLanes<vec<T>> / 4;
 
@@ -36,9 +34,12 @@ template <std::size_t kCurves, bool kTriples, typename T>
 class CurveLines {
   using V = vec<T>;
   static constexpr std::size_t kParts = kLineSamples<T> / kLanes<V>;
-  static constexpr std::size_t kOrderOfCubics = 4;
 
 public:
+  static constexpr std::size_t kStreams = CurveRows<kTriples, T>::kStreams;
+  static constexpr std::size_t kRegisters = 3 / kStreams * kParts; ///< of each stream
+  using Lines = LinePart<T>[kStreams][kRegisters];
+
   CurveLines(const T* x, std::size_t n, std::size_t stride) : n_(n), stride_(stride) {
     for (std::size_t part = 0; part < kParts; ++part) {
       alignas(64) T own[kLanes<V>];
@@ -53,34 +54,43 @@ public:
   /// Returns the number of curves of one line.
   [[nodiscard]] SIMDBEZIER_PART std::size_t curves() const { return kLineSamples<T> / n_; }
 
-  /// Writes the curves whose first component has its values at `from` and a stride behind each
-  /// other.
-  SIMDBEZIER_PART void put(const T* from, const CurveRows<kTriples, T>& rows,
-                           bool streaming) const {
-    LinePart<T> value[kParts][3];
+  /// Evaluates a line of each plane, or three of triples: those of the curves whose first component
+  /// has its values at `from` and a stride behind each other.
+  SIMDBEZIER_PART void evaluate(const T* from, Lines& lines) const {
     repeat<kParts>([&](std::size_t part) SIMDBEZIER_INLINE_LAMBDA {
       const T* const curve = from + place_[part];
+      LinePart<T> value[3];
       repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
-        value[part][c] =
-            __builtin_bit_cast(LinePart<T>, position(curve + c * (kOrderOfCubics + 2), x_[part]));
+        value[c] = __builtin_bit_cast(LinePart<T>, position(curve + c * kCubicValues, x_[part]));
+      });
+      if constexpr (kTriples) {
+        LinePart<T> records[3];
+        form_records<T>(value, records);
+        repeat<3>([&](std::size_t k)
+                      SIMDBEZIER_INLINE_LAMBDA { lines[0][3 * part + k] = records[k]; });
+      } else {
+        repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA { lines[c][part] = value[c]; });
+      }
+    });
+  }
+  /// Writes them to rows, from their value `at` on.
+  SIMDBEZIER_PART void put(const T* from, const CurveRows<kTriples, T>& rows, std::size_t at,
+                           bool streaming) const {
+    Lines lines;
+    evaluate(from, lines);
+    repeat<kStreams>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA {
+      repeat<kRegisters>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+        store(rows.first[s] + at + k * kLanes<V>, lines[s][k], streaming);
       });
     });
-    if constexpr (kTriples) {
-      LinePart<T> line[kParts][3];
-      repeat<kParts>([&](std::size_t part)
-                         SIMDBEZIER_INLINE_LAMBDA { form_records<T>(value[part], line[part]); });
-      repeat<kParts>([&](std::size_t part) SIMDBEZIER_INLINE_LAMBDA {
-        repeat<3>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-          store(rows.first[0] + (3 * part + k) * kLanes<V>, line[part][k], streaming);
-        });
-      });
-    } else {
-      repeat<3>([&](std::size_t c) SIMDBEZIER_INLINE_LAMBDA {
-        repeat<kParts>([&](std::size_t part) SIMDBEZIER_INLINE_LAMBDA {
-          store(rows.first[c] + part * kLanes<V>, value[part][c], streaming);
-        });
-      });
-    }
+  }
+  /// Streams them, wherever rows begin.
+  SIMDBEZIER_PART void put(const T* from, ValueStream<V> (&streams)[kStreams]) const {
+    Lines lines;
+    evaluate(from, lines);
+    repeat<kStreams>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA {
+      streams[s].template put_registers<kRegisters>(lines[s]);
+    });
   }
 
 private:
@@ -102,9 +112,7 @@ private:
                                    [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return power[k]; })
                          .value;
     const V ends = join_fours<kCurves, V>(values + 2, stride_);
-    return select_where<V>(
-        x == broadcast<V>(T(-0.5)), broadcast_in_four<2>(ends),
-        select_where<V>(x == broadcast<V>(T(0.5)), broadcast_in_four<3>(ends), inside));
+    return select_ends(x, broadcast_in_four<2>(ends), broadcast_in_four<3>(ends), inside);
   }
 
   std::size_t n_;
@@ -113,43 +121,66 @@ private:
   std::size_t place_[kParts]; ///< of each part's first curve
 };
 
-/// Writes curves [begin, end) to rows. Where they are streamed, rows begin on a line.
+/// Writes the curves that are too few for a line, `count` of them, by way of the stack, because
+/// nothing is read behind the last one, nor written.
+template <std::size_t kCurves, bool kTriples, typename T>
+SIMDBEZIER_PART void fill_last_line(const CurveLines<kCurves, kTriples, T>& lines, const T* from,
+                                    std::size_t stride, std::size_t count,
+                                    const CurveRows<kTriples, T>& rows, std::size_t row) {
+  constexpr std::size_t kValues = (kTriples ? 3 : 1) * kLineSamples<T>; // of each stream
+  constexpr std::size_t kMostStride = kMostComponents * kCubicValues;
+  T values[kLineSamples<T> / 4 * kMostStride];
+  for (std::size_t k = 0; k < lines.curves(); ++k) {
+    __builtin_memcpy(values + k * stride, from + std::min(k, count - 1) * stride,
+                     3 * kCubicValues * sizeof(T));
+  }
+  alignas(64) T line[CurveRows<kTriples, T>::kStreams * kValues];
+  CurveRows<kTriples, T> to;
+  for (std::size_t k = 0; k < rows.kStreams; ++k) {
+    to.first[k] = line + k * kValues;
+  }
+  lines.put(values, to, 0, false);
+  for (std::size_t k = 0; k < rows.kStreams; ++k) {
+    __builtin_memcpy(rows.first[k], to.first[k], count * row * sizeof(T));
+  }
+}
+
+/// Writes curves [begin, end) to rows.
+///
+/// One place serves all streams, so that it and they stay in registers: pointers that were kept in
+/// memory and read back as a pair waited for all streaming stores before them.
 template <std::size_t kCurves, bool kTriples, typename T>
 SIMDBEZIER_PART void fill_lines(const CurveTask<T>& task, const CurveShape& shape,
-                                std::size_t begin, std::size_t end, CurveRows<kTriples, T> rows,
-                                bool streaming) {
+                                std::size_t begin, std::size_t end,
+                                const CurveRows<kTriples, T>& rows, bool streaming) {
+  using Lines = CurveLines<kCurves, kTriples, T>;
   constexpr std::size_t kValues = (kTriples ? 3 : 1) * kLineSamples<T>; // of each stream
-  constexpr std::size_t kCubic = 3 * 6;
-  constexpr std::size_t kMostStride = kMostComponents * 6;
   const std::size_t stride = shape.values();
-  const CurveLines<kCurves, kTriples, T> lines(task.x, task.n, stride);
+  const Lines lines(task.x, task.n, stride);
   const std::size_t together = lines.curves();
   const T* from = task.values + begin * stride + task.first_component * shape.channel_values();
-  T values[kLineSamples<T> / 4 * kMostStride];
-  alignas(64) T line[CurveRows<kTriples, T>::kStreams * kValues];
-  for (; begin < end; begin += together, from += together * stride, rows = rows.at(kValues)) {
-    const std::size_t left = end - begin;
-    CurveRows<kTriples, T> to = rows;
-    if (left < together) [[unlikely]] { // nothing is read behind the last curve, nor written
-      for (std::size_t k = 0; k < together; ++k) {
-        __builtin_memcpy(values + k * stride, from + std::min(k, left - 1) * stride,
-                         kCubic * sizeof(T));
+  const std::size_t whole = (end - begin) / together;
+  std::size_t at = 0;
+  const auto for_lines = [&](const auto& put) SIMDBEZIER_INLINE_LAMBDA {
+    for (std::size_t k = 0; k < whole; ++k, from += together * stride, at += kValues) {
+      if (task.prefetch) {
+        prefetch_values(from + kValuesAhead<T>, together * stride);
       }
-      from = values;
-      for (std::size_t k = 0; k < rows.kStreams; ++k) {
-        to.first[k] = line + k * kValues;
-      }
+      put();
     }
-    if (task.prefetch) {
-      prefetch_values(from + kValuesAhead<T>, together * stride);
-    }
-    lines.put(from, to, streaming && left >= together);
-    if (left < together) [[unlikely]] {
-      for (std::size_t k = 0; k < rows.kStreams; ++k) {
-        __builtin_memcpy(rows.first[k], to.first[k], left * rows.row(task.n) * sizeof(T));
-      }
-      return;
-    }
+  };
+  if (streaming && whole > 0 && !rows.begin_lines()) {
+    ValueStream<vec<T>> streams[Lines::kStreams];
+    repeat<Lines::kStreams>([&](std::size_t s)
+                                SIMDBEZIER_INLINE_LAMBDA { streams[s].begin(rows.first[s]); });
+    for_lines([&]() SIMDBEZIER_INLINE_LAMBDA { lines.put(from, streams); });
+    repeat<Lines::kStreams>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA { streams[s].finish(); });
+  } else {
+    for_lines([&]() SIMDBEZIER_INLINE_LAMBDA { lines.put(from, rows, at, streaming); });
+  }
+  const std::size_t rest = end - begin - whole * together;
+  if (rest > 0) [[unlikely]] {
+    fill_last_line(lines, from, stride, rest, rows.at(at), rows.row(task.n));
   }
 }
 

@@ -11,6 +11,10 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
+/// Registers of 32 bytes and more have it; see below.
+template <typename V>
+class ValueStream;
+
 #if defined(SIMDBEZIER_KERNELS_AVX2)
 /// For each number n of 32-bit lanes: where the lanes of a register come from that is turned by n,
 /// and a mask of the first n.
@@ -140,6 +144,23 @@ public:
       }
     }
     to_ = to;
+  }
+  /// Puts kCount whole registers.
+  template <std::size_t kCount>
+  SIMDBEZIER_INLINE void put_registers(const LinePart<T>* values) {
+    const Turn<V> turn(filled_);
+    repeat<kCount>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+      const V turned = turn.of(__builtin_bit_cast(V, values[k]));
+      const V line = turn.join(kept_, turned);
+      kept_ = turned;
+      if (foreign_ > 0) [[unlikely]] {
+        store_from(foreign_, to_, line);
+        foreign_ = 0;
+      } else {
+        stream(to_, line);
+      }
+      to_ += kL;
+    });
   }
   SIMDBEZIER_INLINE void finish() const {
     if (filled_ > 0) {

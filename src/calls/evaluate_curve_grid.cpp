@@ -13,22 +13,40 @@ namespace {
 constexpr std::size_t kLongRow = 32;
 
 /// Whether kernels are to write rows straight to where they belong, which they can only do with
-/// positions of three components. Planes that need no staging and hold whole registers are faster
-/// one by one.
+/// positions of three components.
 template <typename T>
-bool goes_in_rows(const CurveShape& shape, const OutputPlan<T>& outputs,
-                  const KernelTable<T>& table, std::size_t n) noexcept {
-  const OutputList<T>& out = outputs.out();
+bool can_go_in_rows(const CurveShape& shape, const OutputList<T>& out,
+                    const KernelTable<T>& table) noexcept {
   const Vectors<T>& position = out[CurveOutput::position];
   const bool alone = !out.holds(CurveOutput::d1) && !out.holds(CurveOutput::d2) &&
                      !out.holds(CurveOutput::tangent) && !out.wants_curvature() &&
                      position.z != nullptr;
-  if (n < kLeastRow || n > kMostRow || !alone || shape.rational || shape.cells() != 1 ||
-      table.compact) {
-    return false;
-  }
-  const bool planes = position.stride == 1 && (outputs.staged() ? n < kLongRow : n < table.lanes);
-  return planes || are_triples(position);
+  return alone && !shape.rational && shape.cells() == 1 && !table.compact &&
+         (position.stride == 1 || are_triples(position));
+}
+
+/// Whether kernels may stream rows of n samples from registers that hold the end of one curve and
+/// the beginning of the next. That pays with registers of 32 bytes and more, since in smaller ones
+/// most of what it costs serves few samples; but not for triples if nearly each of 32 bytes would
+/// hold two curves.
+template <typename T>
+bool may_join(const CurveShape& shape, const OutputPlan<T>& outputs, const KernelTable<T>& table,
+              std::size_t n) noexcept {
+  const std::size_t register_bytes = table.lanes * sizeof(T);
+  const bool narrow_triples =
+      register_bytes == 32 && are_triples(outputs.out()[CurveOutput::position]);
+  return outputs.streaming() && shape.degree == 3 && !shape.origins && register_bytes >= 32 &&
+         n >= table.lanes + (narrow_triples ? 2 : 0) && n <= kMostJoined;
+}
+
+/// Whether it pays to write rows of n samples. Planes that need no staging and hold whole registers
+/// are faster one by one.
+template <typename T>
+bool pays_in_rows(const OutputPlan<T>& outputs, const KernelTable<T>& table,
+                  std::size_t n) noexcept {
+  return n >= kLeastRow && n <= kMostRow &&
+         (are_triples(outputs.out()[CurveOutput::position]) ||
+          (outputs.staged() ? n < kLongRow : n < table.lanes));
 }
 
 /// Units are curve-major (curve, strip) pairs.
@@ -46,7 +64,10 @@ public:
     outputs_.put_directly({.row = one_pass ? n : 0,
                            .lanes = kernels_.table.lanes,
                            .streamed = kernels_.table.lanes * sizeof(T) == 64});
-    kernels_.rows = goes_in_rows(curves.shape, outputs_, kernels_.table, n);
+    if (can_go_in_rows(curves.shape, out, kernels_.table)) {
+      kernels_.may_join = may_join(curves.shape, outputs_, kernels_.table, n);
+      kernels_.rows = kernels_.may_join || pays_in_rows(outputs_, kernels_.table, n);
+    }
     if (kernels_.rows) {
       outputs_.write_directly();
     }

@@ -15,16 +15,25 @@ struct RowCase {
   std::size_t curves;
 };
 
+/// Triples, or planes of which the second and the third are so many values out of step.
+struct Rows {
+  bool triples;
+  std::size_t y;
+  std::size_t z;
+};
+const Rows kRows[] = {{true, 0, 0}, {false, 0, 0}, {false, 1, 0}, {false, 0, 5}, {false, 1, 5}};
+
 /// Fewer than a register, whole registers, and so many that rings go round.
 const RowCase kRowCases[] = {{3, false, 1},  {3, false, 16},  {3, false, 1201}, {3, true, 523},
                              {1, false, 37}, {2, false, 300}, {4, false, 35},   {5, true, 267}};
 
 class CurveRows : public CurveTest {
 protected:
-  /// Triples and planes `shift` values behind the start of a line.
+  /// Rows `shift` values behind the start of a line.
   template <typename T>
-  void rows(const CurveSet<T>& set, std::size_t n, std::size_t shift, bool triples,
+  void rows(const CurveSet<T>& set, const CurveGrid<T>& grid, std::size_t shift, const Rows& kind,
             const CallOptions& options, const CurveResults<T>& expected) {
+    const std::size_t n = grid.n;
     const std::size_t samples = (set.size() - options.first_patch) * n;
     const std::size_t step = (samples + 63) / 16 * 16;
     std::vector<T> memory(3 * step + 48, T(-1));
@@ -32,16 +41,18 @@ protected:
     const std::size_t begin = (64 - misaligned) % 64 / sizeof(T) + shift;
     T* const first = memory.data() + begin;
     CurveOutputs<T> out;
-    // Planes are out of step with each other.
-    out.position = triples ? Vectors<T>::xyz(first)
-                           : Vectors<T>::planes(first, first + step + 1, first + 2 * step + 5);
-    evaluate(set, CurveGrid<T>::uniform(n), out, options);
+    const bool triples = kind.triples;
+    out.position =
+        triples ? Vectors<T>::xyz(first)
+                : Vectors<T>::planes(first, first + step + kind.y, first + 2 * step + kind.z);
+    evaluate(set, grid, out, options);
     const T* const plane[] = {out.position.x, out.position.y, out.position.z};
     const std::size_t stride = triples ? 3 : 1;
     for (std::size_t k = 0; k < samples; ++k) {
       for (std::size_t c = 0; c < 3; ++c) {
         T& value = memory[static_cast<std::size_t>(plane[c] - memory.data()) + stride * k];
-        ASSERT_TRUE(same_bits(value, expected.at(0, c, k + options.first_patch * n)))
+        const T wanted = expected.at(0, c, k + options.first_patch * n);
+        ASSERT_TRUE(std::isnan(wanted) ? std::isnan(value) : same_bits(value, wanted))
             << "n " << n << " shift " << shift << " triples " << triples << " sample " << k;
         value = T(-1);
       }
@@ -56,19 +67,47 @@ protected:
     PackOptions packing;
     packing.local_origin = row.origins;
     const CurveSet<T> set = packed<T>(random_curves<T>(row.curves, row.degree, 3, 0, 12), packing);
-    for (const std::size_t n : {2, 4, 5, 7, 8, 9, 15, 16, 17, 31, 64, 65}) {
-      // With derivatives and tangents, other kernels run.
-      CurveResults<T> expected(row.curves * n, 3);
-      evaluate(set, CurveGrid<T>::uniform(n), expected.outputs());
-      for (const Destination destination : {Destination::cache, Destination::memory}) {
-        for (const std::size_t shift : {0, 1, 6}) {
-          CallOptions options;
-          options.destination = destination;
-          options.threads = shift == 1 ? 3 : 1;
-          options.first_patch = shift == 6 ? row.curves / 3 : 0;
-          rows(set, n, shift, true, options, expected);
-          rows(set, n, shift, false, options, expected);
+    for (const std::size_t n : {2, 4, 5, 7, 8, 9, 15, 16, 17, 31, 33, 64, 65, 1024, 1025}) {
+      if (n * row.curves <= 100000) {
+        all_places(set, CurveGrid<T>::uniform(n));
+      }
+    }
+  }
+
+  template <typename T>
+  void all_places(const CurveSet<T>& set, const CurveGrid<T>& grid) {
+    // With derivatives and tangents, other kernels run.
+    CurveResults<T> expected(set.size() * grid.n, 3);
+    evaluate(set, grid, expected.outputs());
+    for (const Destination destination : {Destination::cache, Destination::memory}) {
+      for (const std::size_t shift : {0, 1, 6}) {
+        CallOptions options;
+        options.destination = destination;
+        options.threads = shift == 1 ? 3 : 1;
+        options.first_patch = shift == 6 ? set.size() / 3 : 0;
+        for (const Rows& kind : kRows) {
+          rows(set, grid, shift, kind, options, expected);
         }
+      }
+    }
+  }
+
+  /// Ends in the middle, several times, or none; and parameters that are no numbers.
+  template <typename T>
+  void all_parameters() {
+    const CurveSet<T> set = packed<T>(random_curves<T>(37, 3, 3, 0, 6));
+    for (const std::size_t n : {6, 9, 17, 40}) {
+      for (const std::size_t end : {std::size_t(0), n / 2, n - 1, n}) {
+        std::vector<T> t(n);
+        for (std::size_t i = 0; i < n; ++i) {
+          t[i] = i == end ? T(1) : T(i + 1) / T(n + 2);
+        }
+        if (end > 0 && end < n) {
+          t[end - 1] = 0;
+          t[(end + 3) % n] = static_cast<T>(NAN);
+          t[(end + 1) % n] = 1; // behind the last one: the next curve's first
+        }
+        all_places(set, CurveGrid<T>::at(t));
       }
     }
   }
@@ -82,24 +121,8 @@ TEST_P(CurveRows, GoAnywhereInMemory) {
 }
 
 TEST_P(CurveRows, TakeParametersInAnyOrder) {
-  constexpr std::size_t kFew = 37;
-  constexpr std::size_t kSamples = 6;
-  const float t[kSamples] = {1, 0.25F, 0, NAN, 0.5F, 1};
-  const CurveSet<float> set = packed<float>(random_curves<float>(kFew, 3, 3, 0, 6));
-  CurveResults<float> expected(kFew * kSamples, 3);
-  evaluate(set, CurveGrid<float>{kSamples, t}, expected.outputs());
-  for (const Destination destination : {Destination::cache, Destination::memory}) {
-    std::vector<float> points(3 * kFew * kSamples);
-    CurveOutputs<float> out;
-    out.position = Vectors<float>::xyz(points.data());
-    CallOptions options;
-    options.destination = destination;
-    evaluate(set, CurveGrid<float>{kSamples, t}, out, options);
-    for (std::size_t k = 0; k < kFew * kSamples; ++k) {
-      const float value = points[3 * k + 1];
-      ASSERT_TRUE(k % kSamples == 3 ? std::isnan(value) : same_bits(value, expected.at(0, 1, k)));
-    }
-  }
+  all_parameters<float>();
+  all_parameters<double>();
 }
 
 INSTANTIATE_FOR_EVERY_ISA(CurveRows);
