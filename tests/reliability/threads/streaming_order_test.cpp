@@ -26,6 +26,9 @@ Kind kind_of(const unsigned char* code) {
   const auto streams = [](unsigned char opcode) {
     return opcode == 0x2b || opcode == 0xe7 ? Kind::streaming_store : Kind::other;
   };
+  while (*code == 0x2e) { // without meaning: assemblers make instructions longer by it
+    ++code;
+  }
   if (*code == 0xc5) { // VEX, two bytes: the map is 0F
     return streams(code[2]);
   }
