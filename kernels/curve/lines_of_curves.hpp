@@ -89,7 +89,9 @@ public:
     Lines lines;
     evaluate(from, lines);
     repeat<kStreams>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA {
-      streams[s].template put_registers<kRegisters>(lines[s]);
+      streams[s].put(kRegisters * kLanes<V>, [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+        return __builtin_bit_cast(V, lines[s][k]);
+      });
     });
   }
 

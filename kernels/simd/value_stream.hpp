@@ -145,23 +145,6 @@ public:
     }
     to_ = to;
   }
-  /// Puts kCount whole registers.
-  template <std::size_t kCount>
-  SIMDBEZIER_INLINE void put_registers(const LinePart<T>* values) {
-    const Turn<V> turn(filled_);
-    repeat<kCount>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-      const V turned = turn.of(__builtin_bit_cast(V, values[k]));
-      const V line = turn.join(kept_, turned);
-      kept_ = turned;
-      if (foreign_ > 0) [[unlikely]] {
-        store_from(foreign_, to_, line);
-        foreign_ = 0;
-      } else {
-        stream(to_, line);
-      }
-      to_ += kL;
-    });
-  }
   SIMDBEZIER_INLINE void finish() const {
     if (filled_ > 0) {
       store_first(to_, kept_, filled_);

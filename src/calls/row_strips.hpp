@@ -1,10 +1,10 @@
 // Grids whose rows lie a multiple of 512 bytes apart, in strips of a few rows.
 //
-// Kernels sweep one register of columns after the other, each through all rows, unless they do so
-// in bands (kernels/grid/row_bands.hpp, normal_bands.hpp). Lines at such
-// distances share an eighth of the sets of a first-level cache, or fewer: with more rows than there
-// is room for, lines leave it before the next register comes to them, which takes up to ten times
-// as long. Numbers here are measured (docs/experiments.md, Grids in cache).
+// Kernels sweep one register of columns after the other, each through all rows, unless they sweep
+// whole rows in bands (kernels/grid/row_bands.hpp, normal_bands.hpp). Lines at such distances share
+// an eighth of the sets of a first-level cache, or fewer: with more rows than there is room for,
+// lines leave it before the next register comes to them, which takes up to ten times as long.
+// Numbers here are measured (docs/experiments.md, Grids in cache).
 #pragma once
 
 #include <algorithm>

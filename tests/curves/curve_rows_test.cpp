@@ -105,7 +105,7 @@ protected:
         if (end > 0 && end < n) {
           t[end - 1] = 0;
           t[(end + 3) % n] = static_cast<T>(NAN);
-          t[(end + 1) % n] = 1; // behind the last one: the next curve's first
+          t[(end + 1) % n] = 1; // where `end` is the last sample, the next curve begins with it
         }
         all_places(set, CurveGrid<T>::at(t));
       }
