@@ -6,7 +6,7 @@
 namespace simdbezier::detail {
 
 Status run_work(const AnyWork& work, const Options& options) noexcept {
-  return run_blocks(work.units, work.duration, options, work.scratch_bytes, work);
+  return run_blocks_here(work.units, work.duration, options, work.scratch_bytes, work);
 }
 
 } // namespace simdbezier::detail

@@ -33,7 +33,8 @@ struct AnyWork {
   }
 };
 
-/// Returns ok | out_of_memory, before anything is written.
+/// Runs it in the floating-point environment of make_call(). Returns ok | out_of_memory, before
+/// anything is written.
 [[nodiscard]] Status run_work(const AnyWork& work, const Options& options) noexcept;
 
 } // namespace simdbezier::detail

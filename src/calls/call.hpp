@@ -14,7 +14,8 @@
 //   Isa run(worker, begin, end, scratch)
 //
 // The first two may refuse the call, before anything has been written. After them only an
-// allocation can fail, before the first thread starts.
+// allocation can fail, before the first thread starts. All are called in the library's
+// floating-point environment.
 #pragma once
 
 #include <algorithm>
@@ -37,6 +38,7 @@ namespace simdbezier::detail {
 
 template <typename Call>
 Status make_call(Call&& call, const Options& options) noexcept {
+  const DefaultFpEnvironment environment;
   if (const Status status = call.resolve(); !status) {
     return status;
   }

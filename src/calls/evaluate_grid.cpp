@@ -43,9 +43,9 @@ public:
     for (std::size_t unit = begin; unit < end;) {
       const GridPiece piece = piece_at(unit, end);
       const std::size_t after = unit + piece.patches;
-      const GridPiece next = after < end ? piece_at(after, end) : piece;
+      const GridPiece next = piece_at(after, end);
       const std::size_t sample = (patch_of(unit) * plan_.nv() + piece.first_row) * plan_.nu();
-      evaluator.run(plan_, piece, {outputs_, delivery, sample}, &next);
+      evaluator.run(plan_, piece, {outputs_, delivery, sample}, after < end ? &next : nullptr);
       delivery.end(piece.patches * (piece.last_row - piece.first_row) * plan_.nu());
       unit = after;
     }

@@ -6,8 +6,6 @@
 #include <limits>
 #include <new>
 
-#include "src/runtime/fp_environment.hpp"
-
 namespace simdbezier::detail {
 namespace {
 
@@ -71,11 +69,13 @@ Status GridPlan<T>::build(const Grid<T>& grid, T* memory) noexcept {
     x = memory;
     y = x + nu_ + kMaxLanes;
   }
-  const DefaultFpEnvironment environment;
   fill_parameters(grid.u, nu_, grid.parameters, x);
-  fill_parameters(grid.v, nv_, grid.parameters, y);
+  const bool square = grid.u == nullptr && grid.v == nullptr && nu_ == nv_;
+  if (!square) {
+    fill_parameters(grid.v, nv_, grid.parameters, y);
+  }
   x_ = x;
-  y_ = y;
+  y_ = square ? x : y;
   return Status::ok;
 }
 

@@ -37,8 +37,9 @@ public:
 
   /// ok | bad_grid | size_overflow
   [[nodiscard]] static Status check(const Grid<T>& grid) noexcept;
-  /// Checks the grid and fills the plan. Returns ok | bad_grid | size_overflow | out_of_memory (not
-  /// if `memory` has room for the grid's memory_values()).
+  /// Checks the grid and fills the plan, in the library's floating-point environment. Returns ok |
+  /// bad_grid | size_overflow | out_of_memory (not if `memory` has room for the grid's
+  /// memory_values()).
   [[nodiscard]] Status build(const Grid<T>& grid, T* memory = nullptr) noexcept;
   [[nodiscard]] static std::size_t memory_values(std::size_t nu, std::size_t nv) noexcept;
 

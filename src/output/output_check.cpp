@@ -78,7 +78,8 @@ Status check_vectors(const Vectors<T>& group, std::size_t samples, std::size_t d
   const std::size_t stride = group.stride > 0
                                  ? static_cast<std::size_t>(group.stride)
                                  : std::size_t(0) - static_cast<std::size_t>(group.stride);
-  if (samples > kMost / stride) {
+  std::size_t values = 0;
+  if (__builtin_mul_overflow(samples, stride, &values) || values > kMost) {
     return Status::size_overflow;
   }
   return samples > group.capacity ? Status::output_too_small : Status::ok;

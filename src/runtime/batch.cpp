@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "src/runtime/fp_environment.hpp"
 #include "src/runtime/threads.hpp"
 
 namespace simdbezier::detail {
@@ -30,8 +29,12 @@ void run_share(std::size_t units, int worker, int workers, BlockBody body) {
 } // namespace
 
 void for_blocks(std::size_t units, int threads, BlockBody body) noexcept {
+  const DefaultFpEnvironment environment;
+  for_blocks_here(units, threads, body);
+}
+
+void for_blocks_here(std::size_t units, int threads, BlockBody body) noexcept {
   if (threads <= 1) {
-    const DefaultFpEnvironment environment;
     body(0, 0, units);
     return;
   }

@@ -9,6 +9,7 @@
 #include <simdbezier/options.hpp>
 #include <simdbezier/status.hpp>
 
+#include "src/runtime/fp_environment.hpp"
 #include "src/storage/aligned_memory.hpp"
 
 namespace simdbezier::detail {
@@ -55,6 +56,8 @@ private:
 /// Calls body once per worker 0..threads-1 with its share of 0..units-1, in the library's
 /// floating-point environment. One thread is the caller's own, without an OpenMP region.
 void for_blocks(std::size_t units, int threads, BlockBody body) noexcept;
+/// Likewise, of a caller that is in that environment: to look at it takes as long as a small patch.
+void for_blocks_here(std::size_t units, int threads, BlockBody body) noexcept;
 
 /// Calls body likewise, on as many threads as thread_count() says of units that take so many
 /// nanoseconds each.
@@ -139,8 +142,9 @@ private:
   std::size_t bytes_ = 0;
 };
 
-/// Runs units [begin, end) of an evaluate call: `Isa work(worker, begin, end, unsigned char*
-/// scratch)` on every thread's share of them. Returns the instruction set that ran.
+/// Runs units [begin, end) of an evaluate call, which is in the library's floating-point
+/// environment: `Isa work(worker, begin, end, unsigned char* scratch)` on every thread's share of
+/// them. Returns the instruction set that ran.
 template <typename Work>
 Isa run_units(std::size_t begin, std::size_t end, int threads, const ThreadScratch& scratch,
               const Work& work) noexcept {
@@ -152,7 +156,7 @@ Isa run_units(std::size_t begin, std::size_t end, int threads, const ThreadScrat
       executed.store(ran, std::memory_order_relaxed);
     }
   };
-  for_blocks(end - begin, threads, BlockBody(body));
+  for_blocks_here(end - begin, threads, BlockBody(body));
   return executed;
 }
 
@@ -163,11 +167,11 @@ inline void report(Isa executed, const Options& options) noexcept {
   }
 }
 
-/// Runs all units of an evaluate call, each thread with `scratch_bytes` of its own, and reports the
-/// instruction set that ran. Returns ok | out_of_memory, before anything is written.
+/// Runs all units of an evaluate call likewise, each thread with `scratch_bytes` of its own, and
+/// reports the instruction set that ran. Returns ok | out_of_memory, before anything is written.
 template <typename Work>
-Status run_blocks(std::size_t units, std::size_t duration, const Options& options,
-                  std::size_t scratch_bytes, const Work& work) noexcept {
+Status run_blocks_here(std::size_t units, std::size_t duration, const Options& options,
+                       std::size_t scratch_bytes, const Work& work) noexcept {
   const int threads = thread_count(options.threads, units, duration);
   ThreadScratch scratch;
   if (!scratch.allocate(scratch_bytes, threads)) {
@@ -175,6 +179,14 @@ Status run_blocks(std::size_t units, std::size_t duration, const Options& option
   }
   report(run_units(0, units, threads, scratch, work), options);
   return Status::ok;
+}
+
+/// Likewise, of a call that may be in any floating-point environment.
+template <typename Work>
+Status run_blocks(std::size_t units, std::size_t duration, const Options& options,
+                  std::size_t scratch_bytes, const Work& work) noexcept {
+  const DefaultFpEnvironment environment;
+  return run_blocks_here(units, duration, options, scratch_bytes, work);
 }
 
 } // namespace simdbezier::detail

@@ -1,7 +1,9 @@
 // The caller's rounding mode and flush-to-zero neither change the bits nor get lost.
+#include <array>
 #include <bit>
 #include <cfenv>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -123,6 +125,92 @@ TEST(EnvironmentOfSmallFunctions, IsTheLibrarys) {
       EXPECT_EQ(std::bit_cast<std::uint64_t>(found[k]), std::bit_cast<std::uint64_t>(expected[k]))
           << test.name << ", " << k;
     }
+  }
+}
+
+/// One call of each kind, on a set of delicate nets, or on curves: their first rows.
+class OneOfEachCall {
+  using Points = std::vector<std::array<float, 3>>;
+
+public:
+  OneOfEachCall() {
+    const std::vector<Net> nets = delicate_nets<float>();
+    set_ = packed<float>(nets);
+    const std::vector<float> points = packed_points<float>(nets);
+    auto rows = ControlCurves<float>::packed(points.data(), nets.size(), 3);
+    rows.curve_stride = 48;
+    EXPECT_EQ(pack(rows, curves_).status, Status::ok);
+  }
+
+  /// Calls f(name, values) for each.
+  template <typename F>
+  void run(const F& f) const {
+    f("square", surface(Grid<float>::uniform(17, 17)));
+    f("more than a plan holds", surface(Grid<float>::uniform(150, 150)));
+    const float u[] = {0.0F, 0.1F, 0.7F, 1.0F};
+    f("given parameters", surface(Grid<float>::at(u, u)));
+    const std::vector<std::uint32_t> counts(set_.size(), 7);
+    f("a grid each", surface(PatchGrids{counts, counts}));
+    f("derivatives", derivatives());
+    f("tiles", tiles());
+    f("curves", curves(CurveGrid<float>::uniform(17), 17 * curves_.size()));
+    f("a row each", curves(CurveGrids{counts}, 7 * curves_.size()));
+  }
+
+private:
+  template <typename Where>
+  [[nodiscard]] Points surface(const Where& where) const {
+    return evaluate(set_, where, {Output::position}, {.threads = 1}).position;
+  }
+  template <typename Where>
+  [[nodiscard]] Points curves(const Where& where, std::size_t count) const {
+    Points points(count);
+    CurveOutputs<float> out;
+    out.position = Vectors<float>::xyz(points);
+    EXPECT_EQ(evaluate(curves_, where, out, {.threads = 1}), Status::ok);
+    return points;
+  }
+  [[nodiscard]] Points derivatives() const {
+    Points points(set_.size() * 81);
+    const PartialDerivative<float> third[] = {{2, 1, Vectors<float>::xyz(points)}};
+    const Status status =
+        evaluate_derivatives(set_, Grid<float>::uniform(9, 9), third, {.threads = 1});
+    EXPECT_EQ(status, Status::ok);
+    return points;
+  }
+  [[nodiscard]] Points tiles() const {
+    Points points;
+    const TileFormat format{.outputs = {Output::position}};
+    const auto keep = [&](const Tile<float>& tile) {
+      const Vectors<float>& p = tile.out.position;
+      for (std::size_t k = 0; k < tile.samples; ++k) {
+        points.push_back({p.x[k], p.y[k], p.z[k]});
+      }
+    };
+    EXPECT_EQ(evaluate_tiles(set_, Grid<float>::uniform(17, 17), format, keep, {.threads = 1}),
+              Status::ok);
+    return points;
+  }
+
+  PatchSet<float> set_;
+  CurveSet<float> curves_;
+};
+
+TEST(EnvironmentOfEveryCall, IsTheLibrarys) {
+  const OneOfEachCall calls;
+  std::vector<std::vector<std::array<float, 3>>> expected;
+  calls.run([&](const char*, const auto& values) { expected.push_back(values); });
+  for (const EnvironmentCase& test : kEnvironments) {
+    std::size_t k = 0;
+    const ScopedEnvironment environment(test.rounding, test.flush);
+    calls.run([&](const char* name, const auto& values) {
+      EXPECT_TRUE(environment.untouched()) << test.name << ", " << name;
+      const bool same =
+          values.size() == expected[k].size() &&
+          std::memcmp(values.data(), expected[k].data(), values.size() * sizeof(values[0])) == 0;
+      EXPECT_TRUE(same && !values.empty()) << test.name << ", " << name;
+      ++k;
+    });
   }
 }
 

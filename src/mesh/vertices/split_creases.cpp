@@ -74,10 +74,10 @@ Status split_vertices(const PatchSet<T>& set, const MeshData& whole, double angl
   const PatchKernels<T> kernels(*set.storage(), request, normals, options);
   const CreaseWork<T> work(whole, kernels, angle, groups, sample_of_corner.data());
   const Status ran =
-      run_blocks(work.units(), work.duration(), options, work.scratch_bytes(),
-                 [&](int worker, std::size_t begin, std::size_t end, unsigned char* scratch) {
-                   return work.run(worker, begin, end, scratch);
-                 });
+      run_blocks_here(work.units(), work.duration(), options, work.scratch_bytes(),
+                      [&](int worker, std::size_t begin, std::size_t end, unsigned char* scratch) {
+                        return work.run(worker, begin, end, scratch);
+                      });
   if (!ran) {
     return ran;
   }
