@@ -14,8 +14,8 @@
 //   Isa run(worker, begin, end, scratch)
 //
 // The first two may refuse the call, before anything has been written. After them only an
-// allocation can fail, before the first thread starts. All are called in the library's
-// floating-point environment.
+// allocation can fail, before the first thread starts. make_call() calls all of them in the
+// library's floating-point environment.
 #pragma once
 
 #include <algorithm>
@@ -31,6 +31,7 @@
 #include "src/output/output_list.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/dispatch.hpp"
+#include "src/runtime/fp_environment.hpp"
 #include "src/storage/curve_storage.hpp"
 #include "src/storage/patch_storage.hpp"
 

@@ -84,7 +84,7 @@ template <typename T>
 [[nodiscard]] bool pays_to_prefetch(const PatchStorage<T>& bucket, bool edges) noexcept {
   const NetShape& shape = bucket.shape;
   const std::size_t values = shape.coefficients() + (edges ? shape.edges() : 0);
-  return bucket.count * values * sizeof(T) > second_level_cache(); // memory that there is
+  return bucket.count * values * sizeof(T) > second_level_cache(); // allocated: no overflow
 }
 
 /// The kernels of one call.

@@ -38,6 +38,7 @@ void for_blocks_here(std::size_t units, int threads, BlockBody body) noexcept {
     body(0, 0, units);
     return;
   }
+  const CallersFpEnvironment environment; // of the threads that are started
   auto run = [&](int worker, int workers) { run_share(units, worker, workers, body); };
   run_on_threads(threads, {&run, [](void* context, int worker, int workers) {
                              (*static_cast<decltype(run)*>(context))(worker, workers);

@@ -56,11 +56,12 @@ private:
 /// Calls body once per worker 0..threads-1 with its share of 0..units-1, in the library's
 /// floating-point environment. One thread is the caller's own, without an OpenMP region.
 void for_blocks(std::size_t units, int threads, BlockBody body) noexcept;
-/// Likewise, of a caller that is in that environment: to look at it takes as long as a small patch.
+/// This is for_blocks() for a caller that is in that environment: to look at it takes as long as a
+/// small patch.
 void for_blocks_here(std::size_t units, int threads, BlockBody body) noexcept;
 
-/// Calls body likewise, on as many threads as thread_count() says of units that take so many
-/// nanoseconds each.
+/// Calls body as for_blocks() does, on as many threads as thread_count() says of units that take so
+/// many nanoseconds each.
 template <typename F>
 void divide_work(std::size_t units, std::size_t nanoseconds, int threads, F& body) noexcept {
   for_blocks(units, thread_count(threads, units, duration_of(units, nanoseconds)), BlockBody(body));

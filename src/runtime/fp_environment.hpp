@@ -12,43 +12,75 @@ namespace simdbezier::detail {
 
 #if defined(__x86_64__)
 // MXCSR directly: fesetenv would also reload the x87 state, which costs as much as a small patch.
-// It is written only where that changes something, since a write takes as long as twenty additions.
-class DefaultFpEnvironment {
+class FpState {
 public:
-  DefaultFpEnvironment() noexcept : saved_(_mm_getcsr()) {
-    if ((saved_ & kControl) != kDefault) {
-      _mm_setcsr(kDefault);
+  FpState() noexcept : control_(_mm_getcsr()) {}
+  [[nodiscard]] bool is_default() const noexcept { return (control_ & kControl) == kDefault; }
+  static void set_default() noexcept { _mm_setcsr(kDefault); }
+  /// Sets it unless it is there, since a write takes as long as twenty additions.
+  void restore() const noexcept {
+    if (_mm_getcsr() != control_) {
+      _mm_setcsr(control_);
     }
   }
-  /// The caller's flags of exceptions are restored as well.
-  ~DefaultFpEnvironment() {
-    if (_mm_getcsr() != saved_) {
-      _mm_setcsr(saved_);
-    }
-  }
-  DefaultFpEnvironment(const DefaultFpEnvironment&) = delete;
-  DefaultFpEnvironment& operator=(const DefaultFpEnvironment&) = delete;
 
 private:
   static constexpr unsigned kDefault = 0x1f80; // nearest, FTZ and DAZ off, exceptions masked
   static constexpr unsigned kControl = 0xffc0; // all but the flags
-  unsigned saved_;
+  unsigned control_;
 };
 #else
+class FpState {
+public:
+  FpState() noexcept { std::fegetenv(&state_); }
+  [[nodiscard]] static bool is_default() noexcept { return false; } // nobody knows
+  static void set_default() noexcept { std::fesetenv(FE_DFL_ENV); }
+  void restore() const noexcept { std::fesetenv(&state_); }
+
+private:
+  std::fenv_t state_;
+};
+#endif
+
+/// The library's environment for a scope. The caller's flags of exceptions are restored as well.
 class DefaultFpEnvironment {
 public:
   DefaultFpEnvironment() noexcept {
-    std::fegetenv(&saved_);
-    std::fesetenv(FE_DFL_ENV);
+    if (!callers_.is_default()) {
+      enter();
+    }
   }
-  ~DefaultFpEnvironment() { std::fesetenv(&saved_); }
+  ~DefaultFpEnvironment() {
+    callers_.restore();
+    if (!callers_.is_default()) {
+      leave();
+    }
+  }
   DefaultFpEnvironment(const DefaultFpEnvironment&) = delete;
   DefaultFpEnvironment& operator=(const DefaultFpEnvironment&) = delete;
 
 private:
-  std::fenv_t saved_;
+  friend class CallersFpEnvironment;
+
+  void enter() noexcept;
+  void leave() const noexcept;
+
+  FpState callers_;
+  const DefaultFpEnvironment* outer_ = nullptr; ///< of this thread, if it changed something
 };
-#endif
+
+/// The caller's environment again, for a scope within the library's. Threads that are started have
+/// the one of the thread that starts them, and OpenMP's runtime gives them to the caller later on.
+class CallersFpEnvironment {
+public:
+  CallersFpEnvironment() noexcept;
+  ~CallersFpEnvironment();
+  CallersFpEnvironment(const CallersFpEnvironment&) = delete;
+  CallersFpEnvironment& operator=(const CallersFpEnvironment&) = delete;
+
+private:
+  const DefaultFpEnvironment* changed_;
+};
 
 /// Runs work() in the library's environment. The compiler does not know that arithmetic depends on
 /// it, and may move what is inlined to either side of its change: this is no place to inline.

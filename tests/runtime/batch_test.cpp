@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <set>
 #include <thread>
 #include <vector>
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "src/runtime/threads.hpp"
+#include "tests/support/environment.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -57,6 +59,43 @@ TEST(SIMDBEZIER_BACK_END, calls_within_a_call_have_one_thread) {
   };
   for_blocks(2, threads, BlockBody(body));
   EXPECT_EQ(thread_count(0, 1000000, kLong), default_threads());
+}
+
+/// Each works in the library's environment, and has the caller's again when the caller uses it.
+TEST(SIMDBEZIER_BACK_END, threads_are_started_in_the_callers_environment) {
+  constexpr int kThreads = 4;
+  std::uint64_t ours = 0;
+  const auto is_ours = [&](int, std::size_t, std::size_t, unsigned char*) {
+    EXPECT_EQ(tests::control_register(), ours);
+    return Isa::automatic;
+  };
+  const auto run_case = [&](const tests::EnvironmentCase& test, bool here) {
+    const tests::ScopedEnvironment environment(test.rounding, test.flush);
+    const std::uint64_t callers = tests::control_register();
+    if (here) {
+      const DefaultFpEnvironment library;
+      ours = tests::control_register();
+      EXPECT_NE(ours, callers) << test.name;
+      run_units(0, kThreads, kThreads, ThreadScratch(), is_ours);
+    } else {
+      auto body = [&](int worker, std::size_t begin, std::size_t end) {
+        is_ours(worker, begin, end, nullptr);
+      };
+      for_blocks(kThreads, kThreads, BlockBody(body));
+    }
+    EXPECT_EQ(tests::control_register(), callers) << test.name;
+    auto body = [&](int worker, int) {
+      EXPECT_EQ(tests::control_register(), callers) << test.name << ", thread " << worker;
+    };
+    run_on_threads(kThreads, {&body, [](void* context, int worker, int workers) {
+                                (*static_cast<decltype(body)*>(context))(worker, workers);
+                              }});
+  };
+  for (const tests::EnvironmentCase& test : tests::kEnvironments) {
+    for (const bool here : {true, false}) {
+      std::thread(run_case, test, here).join(); // whose runtime has no threads yet
+    }
+  }
 }
 
 /// The first share may have nothing for a kernel.
