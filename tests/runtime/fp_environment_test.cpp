@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -128,12 +129,12 @@ TEST(EnvironmentOfSmallFunctions, IsTheLibrarys) {
   }
 }
 
-/// One call of each kind, on a set of delicate nets, or on curves: their first rows.
-class OneOfEachCall {
+/// Calls of most kinds, on a set of delicate nets, or on curves: their first rows.
+class ManyCalls {
   using Points = std::vector<std::array<float, 3>>;
 
 public:
-  OneOfEachCall() {
+  explicit ManyCalls(int threads) : options_{.threads = threads} {
     const std::vector<Net> nets = delicate_nets<float>();
     set_ = packed<float>(nets);
     const std::vector<float> points = packed_points<float>(nets);
@@ -155,62 +156,72 @@ public:
     f("tiles", tiles());
     f("curves", curves(CurveGrid<float>::uniform(17), 17 * curves_.size()));
     f("a row each", curves(CurveGrids{counts}, 7 * curves_.size()));
+    std::vector<std::uint32_t> order(set_.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const std::vector<float> t(order.size(), 0.3F);
+    f("samples", surface(Samples<float>{order, t, t}));
+    f("samples of curves", curves(CurveSamples<float>{order, t}, order.size()));
   }
 
 private:
   template <typename Where>
   [[nodiscard]] Points surface(const Where& where) const {
-    return evaluate(set_, where, {Output::position}, {.threads = 1}).position;
+    return evaluate(set_, where, {Output::position}, options_).position;
   }
   template <typename Where>
   [[nodiscard]] Points curves(const Where& where, std::size_t count) const {
     Points points(count);
     CurveOutputs<float> out;
     out.position = Vectors<float>::xyz(points);
-    EXPECT_EQ(evaluate(curves_, where, out, {.threads = 1}), Status::ok);
+    EXPECT_EQ(evaluate(curves_, where, out, options_), Status::ok);
     return points;
   }
   [[nodiscard]] Points derivatives() const {
     Points points(set_.size() * 81);
     const PartialDerivative<float> third[] = {{2, 1, Vectors<float>::xyz(points)}};
-    const Status status =
-        evaluate_derivatives(set_, Grid<float>::uniform(9, 9), third, {.threads = 1});
-    EXPECT_EQ(status, Status::ok);
+    EXPECT_EQ(evaluate_derivatives(set_, Grid<float>::uniform(9, 9), third, options_), Status::ok);
     return points;
   }
   [[nodiscard]] Points tiles() const {
-    Points points;
+    constexpr std::size_t kSide = 17;
+    Points points(set_.size() * kSide * kSide);
     const TileFormat format{.outputs = {Output::position}};
     const auto keep = [&](const Tile<float>& tile) {
       const Vectors<float>& p = tile.out.position;
+      const std::size_t first = (tile.first_patch * kSide + tile.first_row) * kSide;
       for (std::size_t k = 0; k < tile.samples; ++k) {
-        points.push_back({p.x[k], p.y[k], p.z[k]});
+        points[first + k] = {p.x[k], p.y[k], p.z[k]};
       }
     };
-    EXPECT_EQ(evaluate_tiles(set_, Grid<float>::uniform(17, 17), format, keep, {.threads = 1}),
+    EXPECT_EQ(evaluate_tiles(set_, Grid<float>::uniform(kSide, kSide), format, keep, options_),
               Status::ok);
     return points;
   }
 
+  Options options_;
   PatchSet<float> set_;
   CurveSet<float> curves_;
 };
 
-TEST(EnvironmentOfEveryCall, IsTheLibrarys) {
-  const OneOfEachCall calls;
+TEST(EnvironmentOfManyCalls, IsTheLibrarys) {
   std::vector<std::vector<std::array<float, 3>>> expected;
-  calls.run([&](const char*, const auto& values) { expected.push_back(values); });
-  for (const EnvironmentCase& test : kEnvironments) {
-    std::size_t k = 0;
-    const ScopedEnvironment environment(test.rounding, test.flush);
-    calls.run([&](const char* name, const auto& values) {
-      EXPECT_TRUE(environment.untouched()) << test.name << ", " << name;
-      const bool same =
-          values.size() == expected[k].size() &&
-          std::memcmp(values.data(), expected[k].data(), values.size() * sizeof(values[0])) == 0;
-      EXPECT_TRUE(same && !values.empty()) << test.name << ", " << name;
-      ++k;
-    });
+  ManyCalls(1).run([&](const char*, const auto& values) { expected.push_back(values); });
+  for (const int threads : {1, 3}) {
+    const ManyCalls calls(threads);
+    for (const EnvironmentCase& test : kEnvironments) {
+      std::size_t k = 0;
+      const ScopedEnvironment environment(test.rounding, test.flush);
+      std::feclearexcept(FE_ALL_EXCEPT);
+      calls.run([&](const char* name, const auto& values) {
+        EXPECT_TRUE(environment.untouched()) << test.name << ", " << name;
+        EXPECT_EQ(std::fetestexcept(FE_ALL_EXCEPT), 0) << test.name << ", " << name;
+        const bool same =
+            values.size() == expected[k].size() &&
+            std::memcmp(values.data(), expected[k].data(), values.size() * sizeof(values[0])) == 0;
+        EXPECT_TRUE(same && !values.empty()) << test.name << ", " << name;
+        ++k;
+      });
+    }
   }
 }
 
