@@ -4,28 +4,28 @@
 namespace simdbezier::detail {
 namespace {
 
-/// The innermost environment of this thread that changed something.
-thread_local const DefaultFpEnvironment* innermost = nullptr;
+thread_local ChangedFpState innermost{};
 
 } // namespace
 
-void DefaultFpEnvironment::enter() noexcept {
-  FpState::set_default();
-  outer_ = innermost;
-  innermost = this;
+ChangedFpState DefaultFpEnvironment::enter(FpState callers) noexcept {
+  const ChangedFpState outer = innermost;
+  innermost = {true, callers};
+  set_default_fp_state();
+  return outer;
 }
 
-void DefaultFpEnvironment::leave() const noexcept { innermost = outer_; }
+void DefaultFpEnvironment::leave(ChangedFpState outer) noexcept { innermost = outer; }
 
-CallersFpEnvironment::CallersFpEnvironment() noexcept : changed_(innermost) {
-  if (changed_ != nullptr) {
-    changed_->callers_.restore();
+CallersFpEnvironment::CallersFpEnvironment() noexcept : changed_(innermost.any) {
+  if (changed_) {
+    set_fp_state(innermost.before);
   }
 }
 
 CallersFpEnvironment::~CallersFpEnvironment() {
-  if (changed_ != nullptr) {
-    FpState::set_default();
+  if (changed_) {
+    set_default_fp_state();
   }
 }
 

@@ -12,61 +12,64 @@ namespace simdbezier::detail {
 
 #if defined(__x86_64__)
 // MXCSR directly: fesetenv would also reload the x87 state, which costs as much as a small patch.
-class FpState {
-public:
-  FpState() noexcept : control_(_mm_getcsr()) {}
-  [[nodiscard]] bool is_default() const noexcept { return (control_ & kControl) == kDefault; }
-  static void set_default() noexcept { _mm_setcsr(kDefault); }
-  /// Sets it unless it is there, since a write takes as long as twenty additions.
-  void restore() const noexcept {
-    if (_mm_getcsr() != control_) {
-      _mm_setcsr(control_);
-    }
+using FpState = unsigned;
+inline constexpr FpState kDefaultFpState = 0x1f80; // nearest, FTZ and DAZ off, exceptions masked
+
+inline FpState fp_state() noexcept { return _mm_getcsr(); }
+inline void set_fp_state(FpState state) noexcept { _mm_setcsr(state); }
+inline void set_default_fp_state() noexcept { _mm_setcsr(kDefaultFpState); }
+/// Sets it unless it is there, since a write takes as long as twenty additions.
+inline void restore_fp_state(FpState state) noexcept {
+  if (_mm_getcsr() != state) {
+    _mm_setcsr(state);
   }
-
-private:
-  static constexpr unsigned kDefault = 0x1f80; // nearest, FTZ and DAZ off, exceptions masked
-  static constexpr unsigned kControl = 0xffc0; // all but the flags
-  unsigned control_;
-};
+}
+/// Whether all but the flags of exceptions are the library's.
+inline bool is_default(FpState state) noexcept { return (state & 0xffc0) == kDefaultFpState; }
 #else
-class FpState {
-public:
-  FpState() noexcept { std::fegetenv(&state_); }
-  [[nodiscard]] static bool is_default() noexcept { return false; } // nobody knows
-  static void set_default() noexcept { std::fesetenv(FE_DFL_ENV); }
-  void restore() const noexcept { std::fesetenv(&state_); }
+using FpState = std::fenv_t;
 
-private:
-  std::fenv_t state_;
-};
+inline FpState fp_state() noexcept {
+  FpState state;
+  std::fegetenv(&state);
+  return state;
+}
+inline void set_fp_state(const FpState& state) noexcept { std::fesetenv(&state); }
+inline void set_default_fp_state() noexcept { std::fesetenv(FE_DFL_ENV); }
+inline void restore_fp_state(const FpState& state) noexcept { std::fesetenv(&state); }
+inline bool is_default(const FpState&) noexcept { return false; } // nobody knows
 #endif
+
+/// What the innermost environment of a thread found that changed something.
+struct ChangedFpState {
+  bool any;
+  FpState before;
+};
 
 /// The library's environment for a scope. The caller's flags of exceptions are restored as well.
 class DefaultFpEnvironment {
 public:
-  DefaultFpEnvironment() noexcept {
-    if (!callers_.is_default()) {
-      enter();
+  DefaultFpEnvironment() noexcept : callers_(fp_state()) {
+    if (!is_default(callers_)) [[unlikely]] {
+      outer_ = enter(callers_);
     }
   }
   ~DefaultFpEnvironment() {
-    callers_.restore();
-    if (!callers_.is_default()) {
-      leave();
+    restore_fp_state(callers_);
+    if (!is_default(callers_)) [[unlikely]] {
+      leave(outer_);
     }
   }
   DefaultFpEnvironment(const DefaultFpEnvironment&) = delete;
   DefaultFpEnvironment& operator=(const DefaultFpEnvironment&) = delete;
 
 private:
-  friend class CallersFpEnvironment;
-
-  void enter() noexcept;
-  void leave() const noexcept;
+  // Nobody is told this object's address, so that the state stays in a register.
+  static ChangedFpState enter(FpState callers) noexcept;
+  static void leave(ChangedFpState outer) noexcept;
 
   FpState callers_;
-  const DefaultFpEnvironment* outer_ = nullptr; ///< of this thread, if it changed something
+  ChangedFpState outer_{}; ///< where this one changed something
 };
 
 /// The caller's environment again, for a scope within the library's. Threads that are started have
@@ -79,7 +82,7 @@ public:
   CallersFpEnvironment& operator=(const CallersFpEnvironment&) = delete;
 
 private:
-  const DefaultFpEnvironment* changed_;
+  bool changed_;
 };
 
 /// Runs work() in the library's environment. The compiler does not know that arithmetic depends on
