@@ -1,5 +1,6 @@
 // The grid call: work cut into (patch, strip of rows).
 #include <algorithm>
+#include <span>
 
 #include <simdbezier/evaluate.hpp>
 
@@ -19,7 +20,9 @@ public:
       : kernels_(set, request, out, options), first_patch_(request.first), patches_(request.count),
         plan_(plan), outputs_(out, way) {
     kernels_.expect_output(written_bytes(out, plan.nu() * plan.nv() * request.count), way);
-    outputs_.put_directly(kernels_.direct_rows(plan.nu(), true));
+    if (outputs_.staged()) {
+      outputs_.put_directly(kernels_.direct_rows(plan.nu(), true));
+    }
     divide(std::min(Delivery<T>::chunk_samples(outputs_), plan.nu() * plan.nv() * request.count));
     chunk_samples_ = (strips_ > 1 ? strip_rows_ : together_ * plan.nv()) * plan.nu();
     delivery_bytes_ = whole_lines(
@@ -109,7 +112,8 @@ public:
     }
     const MemoryRange inputs[] = {{in_.where.u, in_.where.nu * sizeof(T)},
                                   {in_.where.v, in_.where.nv * sizeof(T)}};
-    const Status usable = this->check_given(samples, inputs);
+    const bool uniform = in_.where.u == nullptr && in_.where.v == nullptr;
+    const Status usable = this->check_given(samples, std::span(inputs, uniform ? 0 : 2));
     return usable ? plan_.build(in_.where) : usable;
   }
   [[nodiscard]] GridWork<T> plan(Way way) const noexcept {
