@@ -5,20 +5,16 @@
 // twice as long as side by side; and every row of a tile would be one more stream for the
 // prefetchers on the way to the second-level cache. Polynomials for which there are no registers
 // left are operands in memory.
+//
+// Floats with derivatives whose rows lie across lines take their three planes one after the other:
+// stores cost less where the next one goes to the same line or the one behind it, and each plane
+// has fewer polynomials.
 #pragma once
 
-#include "kernels/grid/patch_sweeps.hpp"
-#include "kernels/grid/shared_sets.hpp"
+#include "kernels/grid/band_plan.hpp"
 #include "kernels/simd/register_pair.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
-
-/// Whether there are bands. Normals take so much arithmetic that stores do not matter; of shorter
-/// registers too many would have to lie side by side.
-template <detail::OutputSet kOutputs, typename T>
-constexpr bool kSweepsBands = (kOutputs == detail::kPosition ||
-                               kOutputs == detail::kPositionDerivatives) &&
-                              kMakesLines<vec<T>>;
 
 /// The columns of a band.
 struct BandColumns {
@@ -29,17 +25,23 @@ struct BandColumns {
   [[nodiscard]] SIMDBEZIER_PART std::size_t end() const { return last + active; }
 };
 
+/// The order of a component's planes.
+enum class PlaneOrder { together, one_by_one };
+
 /// kCount tiles of a register each, the last one of type Last.
-template <detail::OutputSet kOutputs, std::size_t kCount, typename Last>
+template <detail::OutputSet kOutputs, PlaneOrder kOrder, std::size_t kCount, typename Last>
 class RowBand {
   using V = typename Last::Vector;
   using T = ScalarOf<V>;
   using Tile = ColumnTile<1, true, false, V>;
   static constexpr std::size_t kL = kLanes<V>;
   static constexpr bool kJets = kOutputs == detail::kPositionDerivatives;
-  /// Where derivatives are stored as well, registers of a line have more to do for stores than for
-  /// products, and rows in order are stored faster than rows from both ends.
-  static constexpr RowPairs kPairs = kJets && kLineWide<V> ? RowPairs::never : Last::kPairs;
+  static constexpr bool kOneByOne = kOrder == PlaneOrder::one_by_one;
+  static_assert(kJets || !kOneByOne);
+  /// Where the planes of derivatives go together, registers of a line have more to do for stores
+  /// than for products, and rows in order are stored faster than rows from both ends.
+  static constexpr RowPairs kPairs =
+      kJets && kLineWide<V> && !kOneByOne ? RowPairs::never : Last::kPairs;
   /// Whether the last tile may begin within the one before it. All other places are constants:
   /// reading them from memory for each row made it a third slower.
   static constexpr bool kOverlaps = !kLineWide<V> && !Last::kBuffered;
@@ -63,14 +65,26 @@ public:
                              tile.store(to.dv + at, nu, jet.dv, 1, extra.plane(2) + row);
                            }
                          };
+    const auto put_edge = [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
+      for_tiles([&](std::size_t k, std::size_t column, const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
+        put(tile, edge(columns[k], c, tile, edge_of(kind)), place.at + column, place.row);
+      });
+    };
+    if constexpr (kOneByOne) {
+      const auto stored = [](RowKind /*kind*/, RowPlace /*place*/) SIMDBEZIER_INLINE_LAMBDA {};
+      sweep_plane(piece, nu, to.position, extra.plane(0), put_edge,
+                  [&](std::size_t k, const RowPoint<V>& at)
+                      SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].q, at); });
+      sweep_plane(piece, nu, to.du, extra.plane(1), stored,
+                  [&](std::size_t k, const RowPoint<V>& at)
+                      SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].dq, at); });
+      sweep_plane(piece, nu, to.dv, extra.plane(2), stored,
+                  [&](std::size_t k, const RowPoint<V>& at)
+                      SIMDBEZIER_INLINE_LAMBDA { return slope_parts(columns[k].q, at); });
+      return;
+    }
     for_rows<RowOrder{1, kPairs, 1}>(
-        piece, 0, nu,
-        [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
-          for_tiles(
-              [&](std::size_t k, std::size_t column, const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
-                put(tile, edge(columns[k], c, tile, edge_of(kind)), place.at + column, place.row);
-              });
-        },
+        piece, 0, nu, put_edge,
         [&](const T* y, RowPlace place, RowPlace mirror) SIMDBEZIER_INLINE_LAMBDA {
           const auto at = piece.template point<1, V>(y);
           for_tiles([&](std::size_t k, std::size_t column, const auto& tile)
@@ -92,6 +106,37 @@ public:
   }
 
 private:
+  /// Sweeps one plane; parts_of(k, at) returns the parts of the k-th tile's row. Each row is stored
+  /// as a whole, and then its mirror image.
+  template <typename Edge, typename PartsOf>
+  SIMDBEZIER_INLINE void sweep_plane(const RowPiece<T>& piece, std::size_t nu, T* plane,
+                                     const T* extra, const Edge& edge,
+                                     const PartsOf& parts_of) const {
+    for_rows<RowOrder{1, kPairs, 1}>(
+        piece, 0, nu, edge,
+        [&](const T* y, RowPlace place, RowPlace mirror) SIMDBEZIER_INLINE_LAMBDA {
+          const auto at = piece.template point<1, V>(y);
+          V mirrored[kCount];
+          for_tiles(
+              [&](std::size_t k, std::size_t column, const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
+                const Parts<V> parts = parts_of(k, at);
+                mirrored[k] = parts.difference();
+                tile.store(plane + place.at + column, nu, parts.sum(), 1, extra + place.row);
+              });
+          for_tiles(
+              [&](std::size_t k, std::size_t column, const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
+                tile.store(plane + mirror.at + column, nu, mirrored[k], 1, extra + mirror.row);
+              });
+        },
+        [&](const T* y, RowPlace place, std::size_t /*rows*/) SIMDBEZIER_INLINE_LAMBDA {
+          const auto at = piece.template point<1, V>(y);
+          for_tiles([&](std::size_t k, std::size_t column,
+                        const auto& tile) SIMDBEZIER_INLINE_LAMBDA {
+            tile.store(plane + place.at + column, nu, parts_of(k, at).sum(), 1, extra + place.row);
+          });
+        });
+  }
+
   // JetColumns without what positions do not need.
   template <typename SomeTile>
   static SIMDBEZIER_PART void build(JetColumns<V, false>& columns, const Component<T>& c,
@@ -149,7 +194,8 @@ private:
 };
 
 /// Sweeps a band of patches [patch, end), and the column behind it.
-template <detail::OutputSet kOutputs, std::size_t kCount, typename Last, typename T>
+template <detail::OutputSet kOutputs, PlaneOrder kOrder, std::size_t kCount, typename Last,
+          typename T>
 SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece<T>& shared_piece,
                                   BandColumns at, std::size_t patch, std::size_t end) {
   constexpr bool kJets = kOutputs == detail::kPositionDerivatives;
@@ -157,7 +203,7 @@ SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece
   GridTask<T> task = shared_task;
   assume<Known::no_origins>(task);
   const RowPiece<T> piece = shared_piece;
-  const RowBand<kOutputs, kCount, Last> band(task.x, at, task.watertight);
+  const RowBand<kOutputs, kOrder, kCount, Last> band(task.x, at, task.watertight);
   const SingleColumnTile<typename Last::Vector> column(task.x, Last::kBuffered ? at.end() : 0, 1,
                                                        task.watertight);
   ColumnBuffer<T, 3> buffer;
@@ -189,108 +235,54 @@ SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece
   }
 }
 
-/// The most registers of a band. Each number has code of its own, and more would gain less than
-/// theirs costs.
-template <typename V>
-constexpr std::size_t kMostInBand = kLineWide<V> ? 6 : 8;
-
-/// Whether rows of the task lie a multiple of 512 bytes apart, and leave the cache while one tile
-/// follows the other. Below 4096 bytes there are no strips of such rows (src/calls/row_strips.hpp).
-template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_PART bool rows_leave(const GridTask<T>& task, std::size_t rows) {
-  if (task.nu * sizeof(T) % 512 != 0) {
-    return false;
-  }
-  const auto& position = task.out[output_index(Output::position)].component;
-  if constexpr (kOutputs == detail::kPosition) {
-    const T* const planes[] = {position[0], position[1], position[2]};
-    return !lines_stay(task, planes, rows);
-  } else {
-    const T* const planes[] = {position[0], task.out[output_index(Output::du)].component[0],
-                               task.out[output_index(Output::dv)].component[0]};
-    return !lines_stay(task, planes, rows);
-  }
-}
-
-/// Whether bands are faster than tiles for a piece whose rows are so many registers each. In
-/// staging, samples are passed on in smaller portions tile by tile.
-template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_PART bool pays_in_bands(const GridTask<T>& task, const RowPiece<T>& piece,
-                                   std::size_t registers) {
-  using V = vec<T>;
-  constexpr std::size_t kL = kLanes<V>;
-  constexpr std::size_t kMost = kMostInBand<V>;
-  constexpr bool kPositions = kOutputs == detail::kPosition;
-  constexpr bool kFloat = sizeof(T) == sizeof(float);
-  const std::size_t nu = task.nu;
-  if (task.drain != nullptr) {
-    return false;
-  }
-  if (rows_leave<kOutputs>(task, piece.rows())) {
-    return true;
-  }
-  // Positions that are whole lines are as fast in pairs of registers. Few rows are not worth the
-  // preparations, least of all where rows are not in pairs.
-  const bool whole_lines = nu * sizeof(T) % 64 == 0;
-  const std::size_t least_rows = kPositions ? 5 : !kLineWide<V> ? 18 : registers <= kMost ? 16 : 30;
-  if ((kPositions && whole_lines) || piece.rows() < least_rows) {
-    return false;
-  }
-  if constexpr (kLineWide<V>) {
-    const std::size_t least = kPositions && kFloat && nu % kL > kL / 4 ? 2 : 3;
-    return registers >= least && registers <= (kPositions ? 1 : 3) * kMost;
-  } else {
-    // By plain stores to memory, rows of a few lines go slowly in any order but that of tiles.
-    const std::size_t least = kPositions && task.plain_to_memory ? 5 : 2;
-    const std::size_t most = !kPositions && kFloat && whole_lines ? 2 * kMost : kMost;
-    return nu > 2 * kL + 1 && registers >= least && registers <= most;
-  }
-}
-
 /// Sweeps columns of patches [patch, end) in bands, if that pays, and returns how many: what is
 /// left is a fourth of a register at most.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART std::size_t sweep_bands(const GridTask<T>& task, const RowPiece<T>& piece,
                                         std::size_t patch, std::size_t end) {
   using V = vec<T>;
+  using Plan = BandPlan<kOutputs, V>;
   constexpr std::size_t kL = kLanes<V>;
   const std::size_t nu = task.nu;
-  const std::size_t rest = nu % kL;
-  // The last columns take a register of their own, masked or, if it is shorter than a line, within
-  // the one before it, or are left to another tile if they are a fourth of a line or less; a single
-  // one goes along with the last whole register.
-  const bool partial = rest > (kLineWide<V> ? kL / 4 : 1);
-  std::size_t registers = nu / kL + (partial ? 1 : 0);
-  if (!pays_in_bands<kOutputs>(task, piece, registers)) {
+  Plan plan(task);
+  if (!pays_in_bands<kOutputs>(task, piece, plan)) {
     return 0;
   }
   std::size_t first = 0;
   const auto sweep = [&]<typename Last>(std::size_t count, std::size_t last,
                                         std::size_t active) SIMDBEZIER_INLINE_LAMBDA {
+    const BandColumns at{first, last, active};
     const auto sweep_count = [&]<std::size_t kCount>() SIMDBEZIER_INLINE_LAMBDA {
-      sweep_band<kOutputs, kCount, Last>(task, piece, {first, last, active}, patch, end);
+      if constexpr (Plan::kMayGoOneByOne && kCount <= kMostOneByOne) {
+        if (plan.one_by_one) {
+          return sweep_band<kOutputs, PlaneOrder::one_by_one, kCount, Last>(task, piece, at, patch,
+                                                                            end);
+        }
+      }
+      sweep_band<kOutputs, PlaneOrder::together, kCount, Last>(task, piece, at, patch, end);
     };
     with_one_of<2, 3, 4, 5, 6>(count, sweep_count);
     if constexpr (!kLineWide<V>) {
       with_one_of<7, 8>(count, sweep_count);
     }
     first += count * kL;
-    registers -= count;
+    plan.registers -= count;
   };
-  while (registers > kMostInBand<V>) {
-    const std::size_t count = even_share(registers, kMostInBand<V>);
+  while (plan.registers > kMostInBand<V>) {
+    const std::size_t count = even_share(plan.registers, kMostInBand<V>);
     sweep.template operator()<ColumnTile<1, true, false, V>>(count, first + (count - 1) * kL, kL);
   }
-  if (rest == 1) {
-    sweep.template operator()<ColumnTile<1, true, true, V>>(registers, nu - 1 - kL, kL);
+  if (plan.rest == 1) {
+    sweep.template operator()<ColumnTile<1, true, true, V>>(plan.registers, nu - 1 - kL, kL);
     return nu;
   }
-  if (kLineWide<V> && partial) {
-    sweep.template operator()<ColumnTile<1, false, false, V>>(registers, nu - rest, rest);
+  if (kLineWide<V> && plan.partial) {
+    sweep.template operator()<ColumnTile<1, false, false, V>>(plan.registers, nu - plan.rest,
+                                                              plan.rest);
     return nu;
   }
-  const std::size_t swept = partial ? nu : nu - rest;
-  sweep.template operator()<ColumnTile<1, true, false, V>>(registers, swept - kL, kL);
+  const std::size_t swept = plan.partial ? nu : nu - plan.rest;
+  sweep.template operator()<ColumnTile<1, true, false, V>>(plan.registers, swept - kL, kL);
   return swept;
 }
 

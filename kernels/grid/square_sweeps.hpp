@@ -23,7 +23,11 @@ SIMDBEZIER_PART void sweep_square(const GridTask<T>& task,
   using V = vec<T>;
   constexpr std::size_t kL = kLanes<V>;
   constexpr std::size_t kRest = kSide % kL;
-  if constexpr (kSweepsTwice<kOutputs, T> && kSide >= 2 * kL && kSide % (2 * kL) <= 1) {
+  // Planes that go one by one have half the polynomials at a time.
+  constexpr bool kOneByOne =
+      kOutputs == detail::kPositionDerivatives && sizeof(T) == sizeof(float) && kSide == 2 * kL + 1;
+  if constexpr ((kSweepsTwice<kOutputs, T> || kOneByOne) && kSide >= 2 * kL &&
+                kSide % (2 * kL) <= 1) {
     using W = RegisterPair<V>;
     constexpr std::size_t kLast = kSide - kRest - 2 * kL;
     for (std::size_t first = 0; first < kLast; first += 2 * kL) {

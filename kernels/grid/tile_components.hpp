@@ -142,6 +142,31 @@ struct JetRows {
   }
 };
 
+/// Whether the planes of derivatives go one by one, as in grid/row_bands.hpp: floats whose rows lie
+/// across lines, in straight code of one tile, of a line or longer. Squares have no origins.
+template <typename Piece, typename SomeTile>
+constexpr bool kGoesPlaneByPlane = false;
+template <std::size_t kSide, typename SomeTile>
+constexpr bool kGoesPlaneByPlane<SquarePiece<float, kSide, false>, SomeTile> =
+    SomeTile::kTileRows == 1 && kSide % kLanes<vec<float>> != 0 &&
+    kSide <= SomeTile::kColumns + (SomeTile::kBuffered ? 1 : 0) &&
+    SomeTile::kColumns * sizeof(float) >= 64;
+
+/// Sweeps one plane; parts_of(y) returns the parts of the rows at y.
+template <RowOrder kRowOrder, typename Piece, typename Rows, typename Edge, typename PartsOf>
+SIMDBEZIER_INLINE void sweep_plane(const Piece& piece, std::size_t nu, Rows& plane,
+                                   const Edge& edge, const PartsOf& parts_of) {
+  for_rows<kRowOrder>(
+      piece, 0, nu, edge,
+      [&](const auto* y, RowPlace place, RowPlace mirror) SIMDBEZIER_INLINE_LAMBDA {
+        const auto parts = parts_of(y);
+        plane.rows(parts.sum(), place, kRowOrder.rows);
+        plane.mirrored(parts.difference(), mirror);
+      },
+      [&](const auto* y, RowPlace place, std::size_t rows)
+          SIMDBEZIER_INLINE_LAMBDA { plane.rows(parts_of(y).sum(), place, rows); });
+}
+
 /// Sweeps one component's positions and first derivatives; extra is the column behind the tile, as
 /// in sweep_position().
 template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams,
@@ -173,6 +198,25 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
   }
   constexpr RowOrder kRowOrder{kRows, Piece::kAcross ? RowPairs::never : ThisTile::kPairs,
                                Piece::kKnown && Piece::kStraight ? 2 : 1};
+  if constexpr (kGoesPlaneByPlane<Piece, ThisTile>) {
+    const auto put_edge = [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
+      to_planes.edge(columns.edge(c, tile, edge_of(kind)), kind, place);
+    };
+    const auto stored = [](RowKind /*kind*/, RowPlace /*place*/) SIMDBEZIER_INLINE_LAMBDA {};
+    sweep_plane<kRowOrder>(piece, nu, to_planes.position, put_edge,
+                           [&](const T* y) SIMDBEZIER_INLINE_LAMBDA {
+                             return value_parts(columns.q, piece.template point<kRows, V>(y));
+                           });
+    sweep_plane<kRowOrder>(piece, nu, to_planes.du, stored,
+                           [&](const T* y) SIMDBEZIER_INLINE_LAMBDA {
+                             return value_parts(columns.dq, piece.template point<kRows, V>(y));
+                           });
+    sweep_plane<kRowOrder>(piece, nu, to_planes.dv, stored,
+                           [&](const T* y) SIMDBEZIER_INLINE_LAMBDA {
+                             return slope_parts(columns.q, piece.template point<kRows, V>(y));
+                           });
+    return;
+  }
   for_rows<kRowOrder>(
       piece, 0, nu,
       [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {

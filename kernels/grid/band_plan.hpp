@@ -1,0 +1,112 @@
+// Which rows go in bands (grid/row_bands.hpp), and how.
+#pragma once
+
+#include "kernels/grid/patch_sweeps.hpp"
+#include "kernels/grid/shared_sets.hpp"
+
+namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
+
+/// Whether there are bands. Normals take so much arithmetic that stores do not matter; of shorter
+/// registers too many would have to lie side by side.
+template <detail::OutputSet kOutputs, typename T>
+constexpr bool kSweepsBands = (kOutputs == detail::kPosition ||
+                               kOutputs == detail::kPositionDerivatives) &&
+                              kMakesLines<vec<T>>;
+
+/// The most registers of a band. Each number has code of its own, and more would gain less than
+/// theirs costs.
+template <typename V>
+constexpr std::size_t kMostInBand = kLineWide<V> ? 6 : 8;
+constexpr std::size_t kMostOneByOne = 6; ///< where planes go one by one
+
+/// Whether rows of the task lie a multiple of 512 bytes apart, and leave the cache while one tile
+/// follows the other. Below 4096 bytes there are no strips of such rows (src/calls/row_strips.hpp).
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_PART bool rows_leave(const GridTask<T>& task, std::size_t rows) {
+  if (task.nu * sizeof(T) % 512 != 0) {
+    return false;
+  }
+  const auto& position = task.out[output_index(Output::position)].component;
+  if constexpr (kOutputs == detail::kPosition) {
+    const T* const planes[] = {position[0], position[1], position[2]};
+    return !lines_stay(task, planes, rows);
+  } else {
+    const T* const planes[] = {position[0], task.out[output_index(Output::du)].component[0],
+                               task.out[output_index(Output::dv)].component[0]};
+    return !lines_stay(task, planes, rows);
+  }
+}
+
+/// The registers of a row, and how bands sweep them.
+template <detail::OutputSet kOutputs, typename V>
+struct BandPlan {
+  static constexpr std::size_t kL = kLanes<V>;
+  static constexpr bool kMayGoOneByOne =
+      kOutputs == detail::kPositionDerivatives && sizeof(ScalarOf<V>) == sizeof(float);
+
+  std::size_t rest; ///< columns behind whole registers
+  /// Whether planes go one by one: in cache, where stores across lines are cheap, so that rows come
+  /// in pairs. Rows of whole registers are stored as fast together; so are, by shorter registers,
+  /// rows of whole quarters of a line from five registers on, and all from seven on, whose
+  /// polynomials are operands in memory either way.
+  bool one_by_one;
+  /// Whether the rest takes a register of its own, masked or, if it is shorter than a line, within
+  /// the one before it. A single column goes along with the last whole register; a fourth of a line
+  /// or less is left to another tile where planes go together.
+  bool partial;
+  std::size_t registers;
+
+  explicit SIMDBEZIER_PART BandPlan(const GridTask<ScalarOf<V>>& task)
+      : rest(task.nu % kL),
+        one_by_one(kMayGoOneByOne && rest != 0 && !task.by_lines && !task.plain_to_memory),
+        partial(rest > (kLineWide<V> && !one_by_one ? kL / 4 : 1)),
+        registers(task.nu / kL + (partial ? 1 : 0)) {
+    if (!kLineWide<V>) {
+      one_by_one = one_by_one && registers <= kMostOneByOne &&
+                   (task.nu % (kL / 2) != 0 || registers <= kMostOneByOne - 2);
+    }
+  }
+};
+
+/// Whether bands are faster than tiles. In staging, samples are passed on in smaller portions tile
+/// by tile.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_PART bool pays_in_bands(const GridTask<T>& task, const RowPiece<T>& piece,
+                                   const BandPlan<kOutputs, vec<T>>& plan) {
+  using V = vec<T>;
+  const std::size_t registers = plan.registers;
+  constexpr std::size_t kL = kLanes<V>;
+  constexpr std::size_t kMost = kMostInBand<V>;
+  constexpr bool kPositions = kOutputs == detail::kPosition;
+  constexpr bool kFloat = sizeof(T) == sizeof(float);
+  const std::size_t nu = task.nu;
+  if (task.drain != nullptr) {
+    return false;
+  }
+  if (rows_leave<kOutputs>(task, piece.rows())) {
+    return true;
+  }
+  // Positions that are whole lines are as fast in pairs of registers. Few rows are not worth the
+  // preparations, least of all where rows are not in pairs.
+  const bool whole_lines = nu * sizeof(T) % 64 == 0;
+  const std::size_t least_rows = kPositions           ? 5
+                                 : !kLineWide<V>      ? (plan.one_by_one ? 14 : 18)
+                                 : registers <= kMost ? 16
+                                                      : 30;
+  if ((kPositions && whole_lines) || piece.rows() < least_rows) {
+    return false;
+  }
+  if constexpr (kLineWide<V>) {
+    const bool joins = kPositions && kFloat && nu % kL > kL / 4;
+    const std::size_t least = joins || plan.one_by_one ? 2 : 3;
+    return registers >= least && registers <= (kPositions ? 1 : 3) * kMost;
+  } else {
+    // By plain stores to memory, rows of a few lines go slowly in any order but that of tiles.
+    const std::size_t least = kPositions && task.plain_to_memory ? 5 : 2;
+    const std::size_t most = !kPositions && kFloat && whole_lines ? 2 * kMost : kMost;
+    const std::size_t narrow = plan.one_by_one ? 2 * kL : 2 * kL + 1;
+    return nu > narrow && registers >= least && registers <= most;
+  }
+}
+
+} // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE
