@@ -3,11 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <new>
 
 namespace simdbezier::detail {
 namespace {
+
+/// Lanes behind the last column or row repeat it, so that they need nothing that it does not need.
+template <typename T>
+void repeat_last(std::size_t count, T* out) {
+  std::fill_n(out + count, kMaxLanes, out[count - 1]);
+}
 
 template <typename T>
 void fill_parameters(const T* given, std::size_t count, Parameters parameters, T* out) {
@@ -15,8 +22,18 @@ void fill_parameters(const T* given, std::size_t count, Parameters parameters, T
     out[i] =
         given == nullptr ? uniform_parameter<T>(i, count - 1) : half_centred(given[i], parameters);
   }
-  // Lanes behind the last column or row repeat it, so that they need nothing that it does not need.
-  std::fill_n(out + count, kMaxLanes, out[count - 1]);
+  repeat_last(count, out);
+}
+
+/// This is fill_parameters() for few uniform ones: numbers of 32 bits become floating point in
+/// vectors.
+template <typename T>
+void fill_few_parameters(std::size_t count, T* out) {
+  const auto intervals = static_cast<std::int32_t>(count) - 1;
+  for (std::int32_t i = 0; i <= intervals; ++i) {
+    out[i] = static_cast<T>(2 * i - intervals) / static_cast<T>(intervals) * T(0.5);
+  }
+  repeat_last(count, out);
 }
 
 template <typename T>
@@ -69,13 +86,22 @@ Status GridPlan<T>::build(const Grid<T>& grid, T* memory) noexcept {
     x = memory;
     y = x + nu_ + kMaxLanes;
   }
-  fill_parameters(grid.u, nu_, grid.parameters, x);
+  const bool few = fits_inline(nu_, nv_);
+  const auto fill = [&](const T* given, std::size_t count, T* out) {
+    if (few && given == nullptr) {
+      fill_few_parameters(count, out);
+    } else {
+      fill_parameters(given, count, grid.parameters, out);
+    }
+  };
+  fill(grid.u, nu_, x);
   const bool square = grid.u == nullptr && grid.v == nullptr && nu_ == nv_;
   if (!square) {
-    fill_parameters(grid.v, nv_, grid.parameters, y);
+    fill(grid.v, nv_, y);
   }
   x_ = x;
   y_ = square ? x : y;
+  between_edges_ = few && grid.v == nullptr;
   return Status::ok;
 }
 
@@ -88,7 +114,16 @@ template <typename T>
 std::size_t GridPlan<T>::fill_runs(std::size_t first, std::size_t last,
                                    RowRun<T>* runs) const noexcept {
   std::size_t count = 0;
-  for (std::size_t j = first; j < last; ++j) {
+  std::size_t j = first;
+  if (between_edges_ && j == 0) {
+    runs[count++] = {y_, 1, RowKind::edge_v0};
+    ++j;
+  }
+  if (const std::size_t inner = std::min(last, nv_ - 1); between_edges_ && j < inner) {
+    runs[count++] = {y_ + j, static_cast<std::uint32_t>(inner - j), RowKind::interior};
+    j = inner;
+  }
+  for (; j < last; ++j) {
     const RowKind kind = kind_of(y_[j]);
     if (count > 0 && runs[count - 1].kind == kind) {
       ++runs[count - 1].rows;

@@ -24,6 +24,11 @@ struct MemoryRange {
     const auto b = reinterpret_cast<std::uintptr_t>(other.begin);
     return a < b + other.bytes && b < a + bytes && bytes > 0 && other.bytes > 0;
   }
+  /// Whether it ends where the other one begins, or before.
+  [[nodiscard]] bool precedes(const MemoryRange& other) const noexcept {
+    return reinterpret_cast<std::uintptr_t>(begin) + bytes <=
+           reinterpret_cast<std::uintptr_t>(other.begin);
+  }
 };
 
 } // namespace simdbezier::detail

@@ -101,9 +101,13 @@ Status check_overlaps(const Columns<T>& columns, const MemoryRange& status,
                        [&](const MemoryRange& input) { return range.meets(input); });
   };
   bool bad = meets_input(status);
+  bool ascend = true; // one behind the other, as most often, so that no two of them meet
   for (std::size_t i = 0; i < columns.count; ++i) {
     const MemoryRange range = columns.column[i].range();
     bad = bad || range.meets(status) || meets_input(range);
+    ascend = ascend && (i == 0 || columns.column[i - 1].range().precedes(range));
+  }
+  for (std::size_t i = 0; i < columns.count && !ascend; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       bad = bad || collide(columns.column[i], columns.column[j]);
     }
