@@ -25,13 +25,13 @@ void fill_parameters(const T* given, std::size_t count, Parameters parameters, T
   repeat_last(count, out);
 }
 
-/// This is fill_parameters() for few uniform ones: numbers of 32 bits become floating point in
-/// vectors.
+/// This is fill_parameters() for few uniform ones: compilers turn integers of 32 bits into floating
+/// point in vectors.
 template <typename T>
 void fill_few_parameters(std::size_t count, T* out) {
   const auto intervals = static_cast<std::int32_t>(count) - 1;
   for (std::int32_t i = 0; i <= intervals; ++i) {
-    out[i] = static_cast<T>(2 * i - intervals) / static_cast<T>(intervals) * T(0.5);
+    out[i] = uniform_parameter<T, std::int32_t>(i, intervals);
   }
   repeat_last(count, out);
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <type_traits>
 
 #include <simdbezier/curves.hpp>
 #include <simdbezier/samples.hpp>
@@ -14,11 +15,11 @@
 namespace simdbezier::detail {
 
 /// The half-centred parameter, which is half of x_i = (2i - N) / N for N intervals, by one
-/// correctly rounded division, so that x_i = -x_{N-i} exactly.
-template <typename T>
-T uniform_parameter(std::size_t i, std::size_t intervals) noexcept {
-  const T numerator =
-      static_cast<T>(static_cast<std::int64_t>(2 * i) - static_cast<std::int64_t>(intervals));
+/// correctly rounded division, so that x_i = -x_{N-i} exactly. Integer has room for 2N.
+template <typename T, typename Integer = std::int64_t>
+T uniform_parameter(std::type_identity_t<Integer> i,
+                    std::type_identity_t<Integer> intervals) noexcept {
+  const T numerator = static_cast<T>(2 * i - intervals);
   return numerator / static_cast<T>(intervals) * T(0.5);
 }
 
