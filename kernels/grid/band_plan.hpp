@@ -17,7 +17,8 @@ constexpr bool kSweepsBands = (kOutputs == detail::kPosition ||
 /// theirs costs.
 template <typename V>
 constexpr std::size_t kMostInBand = kLineWide<V> ? 6 : 8;
-constexpr std::size_t kMostOneByOne = 6; ///< where planes go one by one
+/// The same where planes go one by one; for registers of a line it is kMostInBand.
+constexpr std::size_t kMostPlaneByPlane = 6;
 
 /// Whether rows of the task lie a multiple of 512 bytes apart, and leave the cache while one tile
 /// follows the other. Below 4096 bytes there are no strips of such rows (src/calls/row_strips.hpp).
@@ -41,29 +42,27 @@ SIMDBEZIER_PART bool rows_leave(const GridTask<T>& task, std::size_t rows) {
 template <detail::OutputSet kOutputs, typename V>
 struct BandPlan {
   static constexpr std::size_t kL = kLanes<V>;
-  static constexpr bool kMayGoOneByOne =
+  static constexpr bool kMayGoPlaneByPlane =
       kOutputs == detail::kPositionDerivatives && sizeof(ScalarOf<V>) == sizeof(float);
 
   std::size_t rest; ///< columns behind whole registers
-  /// Whether planes go one by one: in cache, where stores across lines are cheap, so that rows come
-  /// in pairs. Rows of whole registers are stored as fast together; so are, by shorter registers,
-  /// rows of whole quarters of a line from five registers on, and all from seven on, whose
-  /// polynomials are operands in memory either way.
-  bool one_by_one;
-  /// Whether the rest takes a register of its own, masked or, if it is shorter than a line, within
-  /// the one before it. A single column goes along with the last whole register; a fourth of a line
-  /// or less is left to another tile where planes go together.
+  /// Whether planes go one by one. That pays where stores across lines are cheap and rows are no
+  /// whole registers. On AVX2 it does not from seven registers on, nor from five on if rows are
+  /// whole quarters of a line: their polynomials are operands in memory either way.
+  bool plane_by_plane;
+  /// Whether the rest takes a register of its own: masked in registers of a line, else beginning
+  /// within the one before it. If it does not, a single column goes along with the last whole
+  /// register, and other columns are left to another tile.
   bool partial;
   std::size_t registers;
 
   explicit SIMDBEZIER_PART BandPlan(const GridTask<ScalarOf<V>>& task)
-      : rest(task.nu % kL),
-        one_by_one(kMayGoOneByOne && rest != 0 && !task.by_lines && !task.plain_to_memory),
-        partial(rest > (kLineWide<V> && !one_by_one ? kL / 4 : 1)),
+      : rest(task.nu % kL), plane_by_plane(kMayGoPlaneByPlane && rest != 0 && !task.by_lines),
+        partial(rest > (kLineWide<V> && !plane_by_plane ? kL / 4 : 1)),
         registers(task.nu / kL + (partial ? 1 : 0)) {
     if (!kLineWide<V>) {
-      one_by_one = one_by_one && registers <= kMostOneByOne &&
-                   (task.nu % (kL / 2) != 0 || registers <= kMostOneByOne - 2);
+      plane_by_plane = plane_by_plane && registers <= kMostPlaneByPlane &&
+                       (task.nu % (kL / 2) != 0 || registers <= kMostPlaneByPlane - 2);
     }
   }
 };
@@ -90,7 +89,7 @@ SIMDBEZIER_PART bool pays_in_bands(const GridTask<T>& task, const RowPiece<T>& p
   // preparations, least of all where rows are not in pairs.
   const bool whole_lines = nu * sizeof(T) % 64 == 0;
   const std::size_t least_rows = kPositions           ? 5
-                                 : !kLineWide<V>      ? (plan.one_by_one ? 14 : 18)
+                                 : !kLineWide<V>      ? (plan.plane_by_plane ? 14 : 18)
                                  : registers <= kMost ? 16
                                                       : 30;
   if ((kPositions && whole_lines) || piece.rows() < least_rows) {
@@ -98,13 +97,14 @@ SIMDBEZIER_PART bool pays_in_bands(const GridTask<T>& task, const RowPiece<T>& p
   }
   if constexpr (kLineWide<V>) {
     const bool joins = kPositions && kFloat && nu % kL > kL / 4;
-    const std::size_t least = joins || plan.one_by_one ? 2 : 3;
+    const std::size_t least = joins || plan.plane_by_plane ? 2 : 3;
     return registers >= least && registers <= (kPositions ? 1 : 3) * kMost;
   } else {
     // By plain stores to memory, rows of a few lines go slowly in any order but that of tiles.
     const std::size_t least = kPositions && task.plain_to_memory ? 5 : 2;
     const std::size_t most = !kPositions && kFloat && whole_lines ? 2 * kMost : kMost;
-    const std::size_t narrow = plan.one_by_one ? 2 * kL : 2 * kL + 1;
+    // Rows of two registers and a column pay only plane by plane.
+    const std::size_t narrow = plan.plane_by_plane ? 2 * kL : 2 * kL + 1;
     return nu > narrow && registers >= least && registers <= most;
   }
 }

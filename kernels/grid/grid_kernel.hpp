@@ -12,13 +12,14 @@
 // three store streams), two registers of columns as one where there is room
 // (simd/register_pair.hpp); normals need all three components at once (24 registers, which AVX2
 // keeps partly in L1). In cache, most rows of two registers and more are swept with their registers
-// side by side (grid/row_bands.hpp); of those that are not, derivatives of large patches take all
-// tiles of a component before the next one (grid/component_sweeps.hpp). Squares of usual sizes are
-// known to the compiler: sweep_square() chooses as sweep_tiles() does. Rows of one tile that lie
-// across lines are put together to whole lines. Streamed rows that are no whole registers, or lie
-// across lines, or are a multiple of 4 or 8 lines, go in order by grid/streamed_planes.hpp, with
-// normals by grid/streamed_normals.hpp; others go by grid/streamed_rows.hpp on AVX2, and tile by
-// tile on AVX-512.
+// side by side (grid/row_bands.hpp), float derivatives plane by plane where rows are no whole
+// registers; of rows that are not, derivatives of large patches take all tiles of a component
+// before the next one (grid/component_sweeps.hpp). Squares of usual sizes are known to the
+// compiler: sweep_square() chooses as sweep_tiles() does. Rows of one tile that lie across lines
+// are put together to whole lines. Streamed rows that are no whole registers, or lie across lines,
+// or are a multiple of 4 or 8 lines, go in order by grid/streamed_planes.hpp, with normals by
+// grid/streamed_normals.hpp; others go by grid/streamed_rows.hpp on AVX2, and tile by tile on
+// AVX-512.
 #pragma once
 
 #include "kernels/grid/component_sweeps.hpp"

@@ -6,9 +6,9 @@
 // prefetchers on the way to the second-level cache. Polynomials for which there are no registers
 // left are operands in memory.
 //
-// Floats with derivatives whose rows lie across lines take their three planes one after the other:
-// stores cost less where the next one goes to the same line or the one behind it, and each plane
-// has fewer polynomials.
+// Where stores across lines are cheap, floats with derivatives whose rows are no whole registers
+// take their three planes one after the other (BandPlan says which): a store costs less where the
+// next one goes to the same line or the one behind it, and each plane has fewer polynomials.
 #pragma once
 
 #include "kernels/grid/band_plan.hpp"
@@ -26,7 +26,7 @@ struct BandColumns {
 };
 
 /// The order of a component's planes.
-enum class PlaneOrder { together, one_by_one };
+enum class PlaneOrder { together, plane_by_plane };
 
 /// kCount tiles of a register each, the last one of type Last.
 template <detail::OutputSet kOutputs, PlaneOrder kOrder, std::size_t kCount, typename Last>
@@ -36,12 +36,12 @@ class RowBand {
   using Tile = ColumnTile<1, true, false, V>;
   static constexpr std::size_t kL = kLanes<V>;
   static constexpr bool kJets = kOutputs == detail::kPositionDerivatives;
-  static constexpr bool kOneByOne = kOrder == PlaneOrder::one_by_one;
-  static_assert(kJets || !kOneByOne);
+  static constexpr bool kPlaneByPlane = kOrder == PlaneOrder::plane_by_plane;
+  static_assert(kJets || !kPlaneByPlane);
   /// Where the planes of derivatives go together, registers of a line have more to do for stores
   /// than for products, and rows in order are stored faster than rows from both ends.
   static constexpr RowPairs kPairs =
-      kJets && kLineWide<V> && !kOneByOne ? RowPairs::never : Last::kPairs;
+      kJets && kLineWide<V> && !kPlaneByPlane ? RowPairs::never : Last::kPairs;
   /// Whether the last tile may begin within the one before it. All other places are constants:
   /// reading them from memory for each row made it a third slower.
   static constexpr bool kOverlaps = !kLineWide<V> && !Last::kBuffered;
@@ -70,17 +70,17 @@ public:
         put(tile, edge(columns[k], c, tile, edge_of(kind)), place.at + column, place.row);
       });
     };
-    if constexpr (kOneByOne) {
+    if constexpr (kPlaneByPlane) {
       const auto stored = [](RowKind /*kind*/, RowPlace /*place*/) SIMDBEZIER_INLINE_LAMBDA {};
-      sweep_plane(piece, nu, to.position, extra.plane(0), put_edge,
-                  [&](std::size_t k, const RowPoint<V>& at)
-                      SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].q, at); });
-      sweep_plane(piece, nu, to.du, extra.plane(1), stored,
-                  [&](std::size_t k, const RowPoint<V>& at)
-                      SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].dq, at); });
-      sweep_plane(piece, nu, to.dv, extra.plane(2), stored,
-                  [&](std::size_t k, const RowPoint<V>& at)
-                      SIMDBEZIER_INLINE_LAMBDA { return slope_parts(columns[k].q, at); });
+      sweep_plane_rows(piece, nu, to.position, extra.plane(0), put_edge,
+                       [&](std::size_t k, const RowPoint<V>& at)
+                           SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].q, at); });
+      sweep_plane_rows(piece, nu, to.du, extra.plane(1), stored,
+                       [&](std::size_t k, const RowPoint<V>& at)
+                           SIMDBEZIER_INLINE_LAMBDA { return value_parts(columns[k].dq, at); });
+      sweep_plane_rows(piece, nu, to.dv, extra.plane(2), stored,
+                       [&](std::size_t k, const RowPoint<V>& at)
+                           SIMDBEZIER_INLINE_LAMBDA { return slope_parts(columns[k].q, at); });
       return;
     }
     for_rows<RowOrder{1, kPairs, 1}>(
@@ -109,9 +109,9 @@ private:
   /// Sweeps one plane; parts_of(k, at) returns the parts of the k-th tile's row. Each row is stored
   /// as a whole, and then its mirror image.
   template <typename Edge, typename PartsOf>
-  SIMDBEZIER_INLINE void sweep_plane(const RowPiece<T>& piece, std::size_t nu, T* plane,
-                                     const T* extra, const Edge& edge,
-                                     const PartsOf& parts_of) const {
+  SIMDBEZIER_INLINE void sweep_plane_rows(const RowPiece<T>& piece, std::size_t nu, T* plane,
+                                          const T* extra, const Edge& edge,
+                                          const PartsOf& parts_of) const {
     for_rows<RowOrder{1, kPairs, 1}>(
         piece, 0, nu, edge,
         [&](const T* y, RowPlace place, RowPlace mirror) SIMDBEZIER_INLINE_LAMBDA {
@@ -236,7 +236,7 @@ SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece
 }
 
 /// Sweeps columns of patches [patch, end) in bands, if that pays, and returns how many: what is
-/// left is a fourth of a register at most.
+/// left is a fourth of a register at most, and nothing where planes go one by one.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART std::size_t sweep_bands(const GridTask<T>& task, const RowPiece<T>& piece,
                                         std::size_t patch, std::size_t end) {
@@ -253,10 +253,10 @@ SIMDBEZIER_PART std::size_t sweep_bands(const GridTask<T>& task, const RowPiece<
                                         std::size_t active) SIMDBEZIER_INLINE_LAMBDA {
     const BandColumns at{first, last, active};
     const auto sweep_count = [&]<std::size_t kCount>() SIMDBEZIER_INLINE_LAMBDA {
-      if constexpr (Plan::kMayGoOneByOne && kCount <= kMostOneByOne) {
-        if (plan.one_by_one) {
-          return sweep_band<kOutputs, PlaneOrder::one_by_one, kCount, Last>(task, piece, at, patch,
-                                                                            end);
+      if constexpr (Plan::kMayGoPlaneByPlane && kCount <= kMostPlaneByPlane) {
+        if (plan.plane_by_plane) {
+          return sweep_band<kOutputs, PlaneOrder::plane_by_plane, kCount, Last>(task, piece, at,
+                                                                                patch, end);
         }
       }
       sweep_band<kOutputs, PlaneOrder::together, kCount, Last>(task, piece, at, patch, end);

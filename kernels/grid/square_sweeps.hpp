@@ -23,10 +23,12 @@ SIMDBEZIER_PART void sweep_square(const GridTask<T>& task,
   using V = vec<T>;
   constexpr std::size_t kL = kLanes<V>;
   constexpr std::size_t kRest = kSide % kL;
-  // Planes that go one by one have half the polynomials at a time.
-  constexpr bool kOneByOne =
-      kOutputs == detail::kPositionDerivatives && sizeof(T) == sizeof(float) && kSide == 2 * kL + 1;
-  if constexpr ((kSweepsTwice<kOutputs, T> || kOneByOne) && kSide >= 2 * kL &&
+  // Planes that go one by one have half the polynomials at a time, so that there is room for two of
+  // AVX2's registers: squares of 17.
+  constexpr bool kByPlanes =
+      kOutputs == detail::kPositionDerivatives &&
+      kGoesPlaneByPlane<SquarePiece<T, kSide, kAcross>, ColumnTile<1, true, true, RegisterPair<V>>>;
+  if constexpr ((kSweepsTwice<kOutputs, T> || kByPlanes) && kSide >= 2 * kL &&
                 kSide % (2 * kL) <= 1) {
     using W = RegisterPair<V>;
     constexpr std::size_t kLast = kSide - kRest - 2 * kL;

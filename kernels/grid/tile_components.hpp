@@ -142,8 +142,9 @@ struct JetRows {
   }
 };
 
-/// Whether the planes of derivatives go one by one, as in grid/row_bands.hpp: floats whose rows lie
-/// across lines, in straight code of one tile, of a line or longer. Squares have no origins.
+/// Whether a tile sweeps the planes of derivatives one after the other, as grid/row_bands.hpp does:
+/// squares of floats whose rows are no whole registers, which one tile of at least a line covers.
+/// There are no origins.
 template <typename Piece, typename SomeTile>
 constexpr bool kGoesPlaneByPlane = false;
 template <std::size_t kSide, typename SomeTile>

@@ -25,8 +25,8 @@ void fill_parameters(const T* given, std::size_t count, Parameters parameters, T
   repeat_last(count, out);
 }
 
-/// This is fill_parameters() for few uniform ones: compilers turn integers of 32 bits into floating
-/// point in vectors.
+/// Fills the uniform parameters of a grid that fits inline: compilers make vectors of 32-bit
+/// numbers, not of 64-bit ones.
 template <typename T>
 void fill_few_parameters(std::size_t count, T* out) {
   const auto intervals = static_cast<std::int32_t>(count) - 1;
@@ -75,7 +75,8 @@ Status GridPlan<T>::build(const Grid<T>& grid, T* memory) noexcept {
   nv_ = grid.nv;
   T* x = inline_x_;
   T* y = inline_y_;
-  if (!fits_inline(nu_, nv_)) {
+  const bool few = fits_inline(nu_, nv_);
+  if (!few) {
     if (memory == nullptr) {
       heap_.reset(new (std::nothrow) T[memory_values(nu_, nv_)]);
       memory = heap_.get();
@@ -86,7 +87,6 @@ Status GridPlan<T>::build(const Grid<T>& grid, T* memory) noexcept {
     x = memory;
     y = x + nu_ + kMaxLanes;
   }
-  const bool few = fits_inline(nu_, nv_);
   const auto fill = [&](const T* given, std::size_t count, T* out) {
     if (few && given == nullptr) {
       fill_few_parameters(count, out);
@@ -101,7 +101,7 @@ Status GridPlan<T>::build(const Grid<T>& grid, T* memory) noexcept {
   }
   x_ = x;
   y_ = square ? x : y;
-  between_edges_ = few && grid.v == nullptr;
+  between_edges_ = few && grid.v == nullptr; // parameters of many rows may be rounded to edges
   return Status::ok;
 }
 

@@ -24,10 +24,12 @@ struct MemoryRange {
     const auto b = reinterpret_cast<std::uintptr_t>(other.begin);
     return a < b + other.bytes && b < a + bytes && bytes > 0 && other.bytes > 0;
   }
-  /// Whether it ends where the other one begins, or before.
+  /// Whether it ends where the other one begins, or before; false where it would lead past the end
+  /// of the address space.
   [[nodiscard]] bool precedes(const MemoryRange& other) const noexcept {
-    return reinterpret_cast<std::uintptr_t>(begin) + bytes <=
-           reinterpret_cast<std::uintptr_t>(other.begin);
+    const auto a = reinterpret_cast<std::uintptr_t>(begin);
+    const auto b = reinterpret_cast<std::uintptr_t>(other.begin);
+    return a <= b && b - a >= bytes;
   }
 };
 

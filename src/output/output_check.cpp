@@ -101,7 +101,9 @@ Status check_overlaps(const Columns<T>& columns, const MemoryRange& status,
                        [&](const MemoryRange& input) { return range.meets(input); });
   };
   bool bad = meets_input(status);
-  bool ascend = true; // one behind the other, as most often, so that no two of them meet
+  // Most outputs lie one behind the other in memory. Then no two columns meet, and pairs need no
+  // look.
+  bool ascend = true;
   for (std::size_t i = 0; i < columns.count; ++i) {
     const MemoryRange range = columns.column[i].range();
     bad = bad || range.meets(status) || meets_input(range);

@@ -1,6 +1,7 @@
 // Outputs that share memory are refused before anything is written; those that only look as if they
 // did are not.
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <ostream>
 #include <string>
@@ -29,6 +30,11 @@ std::vector<OverlapCase> overlap_cases() {
        [](Arena& a, auto& out) {
          out.position = V::planes(a.at(0), a.at(N), a.at(2 * N));
          out.duv = V::planes(a.at(3 * N), a.at(4 * N), a.at(N));
+       }},
+      {"SamePlaneAroundOnePastTheEndOfMemory", kRefused,
+       [](Arena& a, auto& out) {
+         auto* const last = reinterpret_cast<decltype(a.at(0))>(~std::uintptr_t{0} - 15);
+         out.position = V::planes(a.at(0), last, a.at(0));
        }},
       {"PlanesOneTooClose", kRefused,
        [](Arena& a, auto& out) { out.du = V::planes(a.at(0), a.at(N - 1), a.at(2 * N)); }},
