@@ -29,9 +29,8 @@ void fill_parameters(const T* given, std::size_t count, Parameters parameters, T
 /// numbers, not of 64-bit ones.
 template <typename T>
 void fill_few_parameters(std::size_t count, T* out) {
-  const auto intervals = static_cast<std::int32_t>(count) - 1;
-  for (std::int32_t i = 0; i <= intervals; ++i) {
-    out[i] = uniform_parameter<T, std::int32_t>(i, intervals);
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i) {
+    out[i] = uniform_parameter<T, std::int32_t>(i, count - 1);
   }
   repeat_last(count, out);
 }

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <type_traits>
 
 #include <simdbezier/curves.hpp>
 #include <simdbezier/samples.hpp>
@@ -15,12 +14,11 @@
 namespace simdbezier::detail {
 
 /// The half-centred parameter, which is half of x_i = (2i - N) / N for N intervals, by one
-/// correctly rounded division, so that x_i = -x_{N-i} exactly. Integer has room for 2N.
+/// correctly rounded division, so that x_i = -x_{N-i} exactly. Integer has a sign and room for 2N.
 template <typename T, typename Integer = std::int64_t>
-T uniform_parameter(std::type_identity_t<Integer> i,
-                    std::type_identity_t<Integer> intervals) noexcept {
-  const T numerator = static_cast<T>(2 * i - intervals);
-  return numerator / static_cast<T>(intervals) * T(0.5);
+T uniform_parameter(std::size_t i, std::size_t intervals) noexcept {
+  const T numerator = static_cast<T>(2 * static_cast<Integer>(i) - static_cast<Integer>(intervals));
+  return numerator / static_cast<T>(static_cast<Integer>(intervals)) * T(0.5);
 }
 
 /// Half-centred parameters of a grid, in the form in which kernels read them. Small grids need no
