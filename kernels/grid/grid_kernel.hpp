@@ -57,7 +57,8 @@ struct ColumnSplit {
 template <detail::OutputSet kOutputs, typename T>
 constexpr bool kStreamsPairs = kLineWide<vec<T>>&& kSweepsTwice<kOutputs, T>;
 
-/// So many bytes of samples stay in the first-level cache while one tile follows the other.
+/// So many bytes of rarer outputs stay in the first-level cache while one tile follows the other;
+/// for others, GridTask has the number.
 constexpr std::size_t kCachedBytes = 12288;
 
 /// Returns the number of planes that a kernel writes.
@@ -363,7 +364,8 @@ SIMDBEZIER_KERNEL void grid_kernel(GridTask<T>& task) {
     if (stream_in_order<kOutputs>(task, piece)) {
       continue;
     }
-    const std::size_t together = kCachedBytes / bytes_of<kOutputs>(task, piece) + 1;
+    const std::size_t cached = kUsual<kOutputs> ? task.cached_bytes : kCachedBytes;
+    const std::size_t together = cached / bytes_of<kOutputs>(task, piece) + 1;
     for (std::size_t patch = 0; patch < task.patch_count; patch += together) {
       const std::size_t left = task.patch_count - patch;
       const std::size_t end = patch + (left < together ? left : together);

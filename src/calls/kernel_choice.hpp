@@ -3,6 +3,7 @@
 // kernels/scattered/scattered_kernel.hpp.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -87,6 +88,14 @@ template <typename T>
   return bucket.count * values * sizeof(T) > second_level_cache(); // allocated: no overflow
 }
 
+/// Returns how many bytes of samples stay in the first-level cache, beside what kernels read, while
+/// one tile follows the other.
+[[nodiscard]] inline std::size_t cached_sample_bytes() noexcept {
+  constexpr std::size_t kBeside = std::size_t{18} << 10;
+  const std::size_t cache = first_level_cache();
+  return cache - std::min(kBeside, cache / 8 * 5);
+}
+
 /// The kernels of one call.
 template <typename T>
 struct PatchKernels {
@@ -94,8 +103,9 @@ struct PatchKernels {
   const KernelTable<T>* table;
   KernelChoice choice;
   bool watertight;
-  bool by_lines;                ///< as GridTask has it
-  bool plain_to_memory = false; ///< likewise
+  bool by_lines;                                    ///< as GridTask has it
+  bool plain_to_memory = false;                     ///< likewise
+  std::size_t cached_bytes = cached_sample_bytes(); ///< likewise
   std::size_t first_component;
 
   template <typename Wishes>

@@ -95,7 +95,8 @@ struct GridTask : SampleTask<T> {
   bool streaming;       ///< rows are to be stored past the caches: see src/output/output_plan.hpp
   bool by_lines;        ///< rows are stored in whole lines: see src/runtime/line_costs.hpp
   bool plain_to_memory; ///< outputs leave the caches, by plain stores
-  std::size_t record;   ///< values from one sample to the next: see OutputPlan::record()
+  std::size_t cached_bytes; ///< of samples stay in the first-level cache while tile follows tile
+  std::size_t record;       ///< values from one sample to the next: see OutputPlan::record()
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see drain_some()
 };
 
