@@ -59,8 +59,7 @@ private:
   std::size_t nu_ = 0;
   std::size_t nv_ = 0;
   std::uint32_t generation_ = 0;
-  bool between_edges_ =
-      false; ///< it is known that the first row and the last are on edges, no other
+  bool between_edges_ = false; ///< known: the first row and the last are on edges, no other is
   const T* x_ = nullptr;
   const T* y_ = nullptr;
   std::unique_ptr<T[]> heap_;
