@@ -103,9 +103,8 @@ struct PatchKernels {
   const KernelTable<T>* table;
   KernelChoice choice;
   bool watertight;
-  bool by_lines;                                    ///< as GridTask has it
-  bool plain_to_memory = false;                     ///< likewise
-  std::size_t cached_bytes = cached_sample_bytes(); ///< likewise
+  bool by_lines;                ///< as GridTask has it
+  bool plain_to_memory = false; ///< likewise
   std::size_t first_component;
 
   template <typename Wishes>

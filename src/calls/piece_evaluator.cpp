@@ -76,7 +76,7 @@ void PieceEvaluator<T>::fill(Prepared& prepared, const PatchStorage<T>& set,
   task.streaming = to.streaming;
   task.by_lines = kernels_.by_lines;
   task.plain_to_memory = kernels_.plain_to_memory;
-  task.cached_bytes = kernels_.cached_bytes;
+  task.cached_bytes = cached_sample_bytes();
   task.watertight = kernels_.watertight;
   task.record = to.record;
   task.drain = to.drain;
