@@ -29,6 +29,7 @@
 #include "kernels/grid/small_grid_jets.hpp"
 #include "kernels/grid/small_jets_across.hpp"
 #include "kernels/grid/square_sweeps.hpp"
+#include "kernels/grid/streamed_lines.hpp"
 #include "kernels/grid/streamed_normals.hpp"
 #include "kernels/grid/streamed_planes.hpp"
 #include "kernels/grid/streamed_rows.hpp"
@@ -338,6 +339,11 @@ SIMDBEZIER_PART bool stream_in_order(const GridTask<T>& task, const RowPiece<T>&
 #if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
   if (task.streaming && streams_in_order<kOutputs>(task)) {
     if constexpr (kOutputs == detail::kPosition || kOutputs == detail::kPositionDerivatives) {
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+      if (task.nu % kLanes<vec<T>> != 0 && stream_tiles<kOutputs>(task, piece)) {
+        return true;
+      }
+#endif
       stream_planes<kOutputs>(task, piece);
       return true;
     } else if constexpr (kStreamsNormals<kOutputs, T>) {

@@ -8,10 +8,18 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
+/// One output of a column behind a square's tile. Both edges share a register, as in every tile of
+/// a column.
+template <typename V, std::size_t kSide>
+struct ColumnLanes {
+  V edges;
+  V middle[(kSide - 3) / kLanes<V> + 1];
+};
+
 /// Puts rows into one plane. Where Piece::kAcross holds, rows come in order, without mirror images,
 /// and are as wide as the tile and the column behind it. Extra is how the column behind the tile is
-/// read, where there is one.
-template <typename Piece, typename Tile, typename Extra,
+/// read, where there is one. To says where rows go: to values, or on with a stream of lines.
+template <typename Piece, typename Tile, typename Extra, typename To,
           bool kStream = (Piece::kAcross) && (Tile::kTileRows == 1)>
 class PlaneRows {
   using V = typename Tile::Vector;
@@ -55,31 +63,48 @@ template <typename Piece, typename Tile>
 constexpr bool kSweepsLines = kStreamsLines && (Piece::kAcross) && (Tile::kTileRows == 2);
 
 #if defined(SIMDBEZIER_KERNELS_AVX512)
-template <typename Piece, typename Tile, typename Extra>
-class PlaneRows<Piece, Tile, Extra, true> {
+/// A stream of lines that begins where values are to lie, and ends with its rows.
+template <typename To>
+struct PlaneStream;
+template <typename T>
+struct PlaneStream<T*> {
+  using Type = LineStream<vec<T>>;
+  static SIMDBEZIER_PART Type begin(T* to) { return Type(to); }
+  static SIMDBEZIER_PART void end(const Type& stream, T* /*to*/) { stream.finish(); }
+};
+/// One that has begun, and goes on behind its rows.
+template <typename V, bool kPastCaches>
+struct PlaneStream<LineStream<V, kPastCaches>*> {
+  using Type = LineStream<V, kPastCaches>;
+  static SIMDBEZIER_PART Type begin(const Type* kept) { return *kept; }
+  static SIMDBEZIER_PART void end(const Type& stream, Type* kept) { *kept = stream; }
+};
+
+template <typename Piece, typename Tile, typename Extra, typename To>
+class PlaneRows<Piece, Tile, Extra, To, true> {
   using V = typename Tile::Vector;
   using T = ScalarOf<V>;
   using Register = vec<T>;
+  using Stream = PlaneStream<To>;
 
 public:
-  SIMDBEZIER_PART PlaneRows(const Tile& tile, T* to, std::size_t /*nu*/, Extra extra)
-      : columns_(Piece::columns(tile.active)), stream_(to), extra_(extra) {}
+  SIMDBEZIER_PART PlaneRows(const Tile& tile, To to, std::size_t /*nu*/, Extra extra)
+      : columns_(Piece::columns(tile.active)), to_(to), stream_(Stream::begin(to)), extra_(extra) {}
 
-  SIMDBEZIER_PART void edge(V value, RowKind kind, RowPlace /*place*/) {
+  SIMDBEZIER_PART void edge(V value, RowKind kind, RowPlace place) {
     put(value);
     if constexpr (Tile::kBuffered) {
-      stream_.put_lane(extra_->edges, kind == RowKind::edge_v1 ? kLanes<Register> / 2 : 0);
+      put_behind(extra_, kind, place.row);
     }
   }
   SIMDBEZIER_PART void rows(V value, RowPlace place, std::size_t /*count*/) {
     put(value);
     if constexpr (Tile::kBuffered) {
-      const std::size_t at = place.row - 1;
-      stream_.put_lane(extra_->middle[at / kLanes<Register>], at % kLanes<Register>);
+      put_behind(extra_, RowKind::interior, place.row);
     }
   }
   SIMDBEZIER_PART void mirrored(V /*value*/, RowPlace /*place*/) {}
-  SIMDBEZIER_PART void finish() { stream_.finish(); }
+  SIMDBEZIER_PART void finish() { Stream::end(stream_, to_); }
 
 private:
   SIMDBEZIER_PART void put(V value) {
@@ -89,9 +114,24 @@ private:
       stream_.put_first(value, columns_);
     }
   }
+  /// Puts the value behind a row, from memory or from registers.
+  SIMDBEZIER_PART void put_behind(const T* column, RowKind /*kind*/, std::size_t row) {
+    stream_.put_value(column + row);
+  }
+  template <std::size_t kSide>
+  SIMDBEZIER_PART void put_behind(const ColumnLanes<Register, kSide>* column, RowKind kind,
+                                  std::size_t row) {
+    constexpr std::size_t kL = kLanes<Register>;
+    if (is_edge(kind)) {
+      stream_.put_lane(column->edges, kind == RowKind::edge_v1 ? kL / 2 : 0);
+    } else {
+      stream_.put_lane(column->middle[(row - 1) / kL], (row - 1) % kL);
+    }
+  }
 
   std::size_t columns_;
-  LineStream<Register> stream_;
+  To to_;
+  typename Stream::Type stream_;
   Extra extra_;
 };
 #endif

@@ -5,14 +5,6 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// One output of a column behind a square's tile. Both edges share a register, as in every tile of
-/// a column.
-template <typename V, std::size_t kSide>
-struct ColumnLanes {
-  V edges;
-  V middle[(kSide - 3) / kLanes<V> + 1];
-};
-
 /// All outputs of such a column, as ColumnBuffer has them in memory. Where stores and loads are
 /// many, some have the low bits of their addresses in common, and processors let such loads wait.
 template <typename V, std::size_t kSide, std::size_t kPlanes>

@@ -56,10 +56,10 @@ SIMDBEZIER_PART void tile_polynomial(const Component<ScalarOf<V>>& c, const Some
 /// Sweeps one component's positions. extra is the column behind the tile, ColumnPlanes or
 /// SquareColumn.
 template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams,
-          typename Extra>
+          typename To, typename Extra>
 SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<ScalarOf<V>>& c,
                                       const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
-                                      std::size_t nu, ScalarOf<V>* to, const Extra& extra) {
+                                      std::size_t nu, To to, const Extra& extra) {
   using ThisTile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
   V q[kOrder];
@@ -71,7 +71,7 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
       shared = tile.edge_rows(c, 0);
     }
   }
-  PlaneRows<Piece, ThisTile, typename Extra::Plane> plane(tile, to, nu, extra.plane(0));
+  PlaneRows<Piece, ThisTile, typename Extra::Plane, To> plane(tile, to, nu, extra.plane(0));
   if constexpr (kSweepsLines<Piece, ThisTile>) {
     plane.borders(shared, row_value(q, piece.shared.rows[0]));
     for_inner_rows(piece, nu, [&](const T* y, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
@@ -99,18 +99,18 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
   plane.finish();
 }
 
-/// Where the samples of one component go.
-template <typename T>
+/// Where the samples of one component go: to values, or on with streams of lines.
+template <typename T, typename To = T*>
 struct JetPlanes {
-  T* position;
-  T* du;
-  T* dv;
+  To position;
+  To du;
+  To dv;
 };
 
 /// The rows of one component on their way to its three planes.
-template <typename Piece, typename SomeTile, typename Plane, typename V>
+template <typename Piece, typename SomeTile, typename Plane, typename To, typename V>
 struct JetRows {
-  using Rows = PlaneRows<Piece, SomeTile, Plane>;
+  using Rows = PlaneRows<Piece, SomeTile, Plane, To>;
   Rows position;
   Rows du;
   Rows dv;
@@ -171,10 +171,10 @@ SIMDBEZIER_INLINE void sweep_plane(const Piece& piece, std::size_t nu, Rows& pla
 /// Sweeps one component's positions and first derivatives; extra is the column behind the tile, as
 /// in sweep_position().
 template <typename Piece, std::size_t kRows, bool kWhole, bool kExtra, typename V, bool kStreams,
-          typename Extra>
+          typename To, typename Extra>
 SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<ScalarOf<V>>& c,
                                          const ColumnTile<kRows, kWhole, kExtra, V, kStreams>& tile,
-                                         std::size_t nu, const JetPlanes<ScalarOf<V>>& to,
+                                         std::size_t nu, const JetPlanes<ScalarOf<V>, To>& to,
                                          const Extra& extra) {
   using ThisTile = ColumnTile<kRows, kWhole, kExtra, V, kStreams>;
   using T = ScalarOf<V>;
@@ -186,7 +186,7 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
       shared = columns.edge(c, tile, 0);
     }
   }
-  JetRows<Piece, ThisTile, typename Extra::Plane, V> to_planes{
+  JetRows<Piece, ThisTile, typename Extra::Plane, To, V> to_planes{
       {tile, to.position, nu, extra.plane(0)},
       {tile, to.du, nu, extra.plane(1)},
       {tile, to.dv, nu, extra.plane(2)}};

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "kernels/simd/interleave.hpp"
 #include "kernels/simd/lanes.hpp"
 #include "kernels/simd/register_pair.hpp"
 
@@ -68,6 +69,16 @@ SIMDBEZIER_INLINE vec<double> append_lane(vec<double> values, vec<double> from, 
   const __m512i lanes = _mm512_load_si512(kAppendedLanes.by_8[lane]);
   return vec<double>(_mm512_permutex2var_pd(values, lanes, from));
 }
+/// Lanes from the second on, and behind them a value.
+SIMDBEZIER_INLINE vec<float> append_value(vec<float> values, const float* value) {
+  const __m512i next = _mm512_castps_si512(broadcast<vec<float>>(*value));
+  return vec<float>(_mm512_castsi512_ps(_mm512_alignr_epi32(next, _mm512_castps_si512(values), 1)));
+}
+SIMDBEZIER_INLINE vec<double> append_value(vec<double> values, const double* value) {
+  const __m512i next = _mm512_castpd_si512(broadcast<vec<double>>(*value));
+  return vec<double>(
+      _mm512_castsi512_pd(_mm512_alignr_epi64(next, _mm512_castpd_si512(values), 1)));
+}
 SIMDBEZIER_INLINE void store_line(float* line, unsigned lanes, vec<float> value) {
   _mm512_mask_storeu_ps(line, static_cast<__mmask16>(lanes), value);
 }
@@ -76,13 +87,25 @@ SIMDBEZIER_INLINE void store_line(double* line, unsigned lanes, vec<double> valu
 }
 
 /// Values that are put one behind the other, as they are to lie from `to` on. Once finish() has
-/// been called all of them are written, each once, and nothing besides.
-template <typename V>
+/// been called all of them are written, each once, and nothing besides. kPastCaches: whole lines go
+/// past the caches.
+template <typename V, bool kPastCaches = false>
 class LineStream {
   using T = ScalarOf<V>;
   static constexpr unsigned kAll = (1U << (kLanes<V>)) - 1U;
 
 public:
+  LineStream() = default; ///< has no values yet
+  /// Members are copied one by one. As a whole they would be read in larger pieces than they were
+  /// written in, which waits for all streaming stores before.
+  SIMDBEZIER_INLINE LineStream(const LineStream& other) { *this = other; }
+  SIMDBEZIER_INLINE LineStream& operator=(const LineStream& other) {
+    filled_ = other.filled_;
+    line_ = other.line_;
+    own_ = other.own_;
+    last_ = other.last_;
+    return *this;
+  }
   explicit SIMDBEZIER_INLINE LineStream(T* to)
       : filled_(reinterpret_cast<std::uintptr_t>(to) % 64 / sizeof(T)), line_(to - filled_),
         own_(kAll << filled_), last_(broadcast<V>(T(0))) {}
@@ -102,6 +125,14 @@ public:
     last_ = LaneWindow(count, T()).of(last_, values);
     advance(count, line);
   }
+  SIMDBEZIER_INLINE void put_first(RegisterPair<V> values, std::size_t count) {
+    put(values.low);
+    put_first(values.high, count - kLanes<V>);
+  }
+  SIMDBEZIER_INLINE void put_value(const T* value) {
+    last_ = append_value(last_, value);
+    advance(1, last_);
+  }
   SIMDBEZIER_INLINE void put_lane(V from, std::size_t lane) {
     last_ = append_lane(last_, from, lane);
     advance(1, last_);
@@ -116,7 +147,11 @@ public:
 
 private:
   SIMDBEZIER_INLINE void store(unsigned lanes, V line) {
-    store_line(line_, lanes, line);
+    if (kPastCaches && lanes == kAll) [[likely]] {
+      store_any<true>(line_, __builtin_bit_cast(LinePart<T>, line));
+    } else {
+      store_line(line_, lanes, line);
+    }
     line_ += kLanes<V>;
   }
   SIMDBEZIER_INLINE void advance(std::size_t count, V line) {

@@ -23,7 +23,7 @@ public:
       : kernels_(*in.set.storage(), request, in.out, in.options), first_patch_(request.first),
         grids_(grids), outputs_(in.out, way) {
     kernels_.expect_output(written_bytes(in.out, grids.total()), way);
-    outputs_.put_directly(kernels_.direct_rows(grids.least_nu(), false));
+    outputs_.put_directly(kernels_.direct_rows(grids.least_nu()));
     piece_samples_ = std::min(Delivery<T>::chunk_samples(outputs_), grids.total());
     chunk_samples_ = std::max(piece_samples_, grids.most_nu());
     delivery_bytes_ = whole_lines(

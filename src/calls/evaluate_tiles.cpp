@@ -162,7 +162,7 @@ public:
         TileMemory<T>(format_, request_.components.dimension, shape_.samples).place(scratch);
     const OutputList<T> out(places);
     OutputPlan<T> outputs(out, Way::cache);
-    outputs.put_directly(kernels_.direct_rows(plan_.nu(), false));
+    outputs.put_directly(kernels_.direct_rows(plan_.nu()));
     Delivery<T> delivery(outputs, *kernels_.table, shape_.samples, scratch + tile_bytes_);
     PieceEvaluator<T> evaluator(kernels_, shape_.rows, scratch + tile_bytes_ + staging_bytes_);
     for (std::size_t unit = begin; unit < end;) {

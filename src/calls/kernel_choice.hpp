@@ -122,38 +122,25 @@ struct PatchKernels {
   }
 
   /// What kernels write to its final place by themselves, on grids of `nu` columns or more: all of
-  /// it where one kernel knows all outputs, and all patches are bicubic. streamed: past the caches
-  /// as well.
-  [[nodiscard]] DirectRows direct_rows(std::size_t nu, bool streamed) const noexcept {
+  /// it where one kernel knows all outputs, and all patches are bicubic.
+  [[nodiscard]] DirectRows direct_rows(std::size_t nu) const noexcept {
     const bool bicubic =
         !choice.any_shape && set->places == nullptr && set->buckets[0].shape.is_bicubic();
     const bool one_pass = !choice.second && choice.outputs != kAnyOutputs;
-    const bool plain = set->buckets[0].origins == nullptr;
-    const bool records = table->puts_records && watertight && plain;
-    // Kernels stream whole lines, of one register or, where that pays, of two.
-    const std::size_t bytes = table->lanes * sizeof(T);
-    const bool normals = choice.outputs == kPositionNormal;
-    const bool whole = nu % table->lanes == 0; // registers, which lie across no lines in staging
-    const bool may_turn = plain && !table->compact;
-    const bool pairs = may_turn && 2 * bytes == 64 && !normals;
-    const bool lines = may_turn && bytes == 64;
-    // Short rows are staged faster than turned, in columns for normals, in registers for others
-    // (docs/experiments.md, To memory).
-    const std::size_t least = normals                       ? (whole ? 16 : 28)
-                              : pairs                       ? 3 * table->lanes
-                              : choice.outputs == kPosition ? 2 * table->lanes + table->lanes / 2
-                                                            : 2 * table->lanes - 1;
-    const std::size_t idle = whole ? 0 : table->lanes - nu % table->lanes; // of the last register
-    const bool filled = !normals || 10 * idle <= 3 * (nu + idle);
-    const bool turned = ((pairs && !whole) || lines) && nu >= least && filled &&
-                        nu <= kMostStreamedRegisters * table->lanes;
     return {.row = bicubic && one_pass ? nu : 0,
             .lanes = table->lanes,
-            .streamed = streamed && (bytes == 64 || pairs),
-            .streamed_anywhere = streamed && turned,
-            .same_place = normals,
-            .records = records,
-            .streamed_records = streamed && records && bytes == 64};
+            .records = table->puts_records && watertight && has_no_origins()};
+  }
+  /// Likewise on grids of nu x nv samples each, past the caches as well.
+  [[nodiscard]] DirectRows direct_rows(std::size_t nu, std::size_t nv) const noexcept {
+    DirectRows rows = direct_rows(nu);
+    // Kernels stream whole lines, of one register or, where that pays, of two.
+    const bool lines = table->lanes * sizeof(T) == 64;
+    rows.streamed = lines || streams_pairs();
+    rows.streamed_anywhere = turns_rows(nu, nv);
+    rows.same_place = choice.outputs == kPositionNormal;
+    rows.streamed_records = rows.records && lines;
+    return rows;
   }
 
   void run(GridTask<T>& task) const noexcept {
@@ -184,6 +171,42 @@ struct PatchKernels {
   }
 
 private:
+  [[nodiscard]] bool has_no_origins() const noexcept { return set->buckets[0].origins == nullptr; }
+
+  /// Whether kernels can turn registers to where lines are, of one register or two.
+  [[nodiscard]] bool makes_lines(std::size_t registers) const noexcept {
+    return has_no_origins() && !table->compact && registers * table->lanes * sizeof(T) == 64;
+  }
+  [[nodiscard]] bool streams_pairs() const noexcept {
+    return makes_lines(2) && choice.outputs != kPositionNormal;
+  }
+
+  /// Whether grids of nu x nv samples are streamed row by row, wherever rows begin. Others are
+  /// faster by way of staging (docs/experiments.md, To memory): nearly all of a patch's time goes
+  /// to preparing it, or the last registers of rows are too empty.
+  [[nodiscard]] bool turns_rows(std::size_t nu, std::size_t nv) const noexcept {
+    const std::size_t lanes = table->lanes;
+    const std::size_t idle = (lanes - nu % lanes) % lanes; // of the last register
+    if (nu > kMostStreamedRegisters * lanes) {
+      return false;
+    }
+    if (choice.outputs == kPositionNormal) {
+      const bool filled = 10 * idle <= 3 * (nu + idle);
+      return makes_lines(1) && filled && nu >= (idle == 0 ? 16 : 28);
+    }
+    if (streams_pairs()) {
+      return idle != 0 && nu >= 3 * lanes;
+    }
+    const bool position = choice.outputs == kPosition;
+    const std::size_t least = position ? 2 * lanes + lanes / 2 : 2 * lanes - 1;
+    // Up to two registers and a column are one tile. Squares of half a register and a column have
+    // code of their own, which short rows of positions gain by.
+    const std::size_t tile = position && lanes == 16 ? 13 : lanes / 2 + 1;
+    const bool square = nu == lanes / 2 + 1 && nu == nv;
+    const bool one_tile = idle != 0 && (nu >= tile || square) && nu <= 2 * lanes + 1;
+    return makes_lines(1) && (one_tile || nu >= least);
+  }
+
   void run(void (*kernel)(GridTask<T>&), OutputSet outputs, GridTask<T>& task) const noexcept {
     const std::size_t most = strip_rows(task, outputs, table->lanes * sizeof(T));
     if (most <= kMostStripRows && fills_strips(task, most)) [[unlikely]] {

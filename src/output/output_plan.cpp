@@ -81,10 +81,12 @@ void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
   const bool all = staged_planes_ == vector_values_;
   const bool anywhere = record == 1 && rows.streamed_anywhere;
   const bool whole_lines = rows.row % line == 0;
+  const bool registers = rows.row >= rows.lanes;
   const bool streams =
-      anywhere || (whole_lines && (record == 1 ? rows.streamed : rows.streamed_records));
-  const bool stores = rows.records && all;
-  bool possible = rows.row >= rows.lanes && known && (streaming() ? streams : stores);
+      anywhere ? rows.row > 0
+               : registers && whole_lines && (record == 1 ? rows.streamed : rows.streamed_records);
+  const bool stores = registers && rows.records && all;
+  bool possible = known && (streaming() ? streams : stores);
   const auto place_in_line = [](const T* first) {
     return reinterpret_cast<std::uintptr_t>(first) % 64;
   };

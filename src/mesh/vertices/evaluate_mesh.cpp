@@ -51,7 +51,7 @@ public:
         sizes_(task, 0) {
     task_.kernels = &kernels_;
     const auto& nu = task.mesh->nu;
-    outputs_.put_directly(kernels_.direct_rows(*std::min_element(nu.begin(), nu.end()) - 1, false));
+    outputs_.put_directly(kernels_.direct_rows(*std::min_element(nu.begin(), nu.end()) - 1));
     sizes_ = VertexSizes<T>(task_, std::min(chunk(), kMostChunk));
     delivery_bytes_ = whole_lines(
         Delivery<T>::scratch_bytes(outputs_.staged_planes(), outputs_.streaming(), sizes_.chunk));
