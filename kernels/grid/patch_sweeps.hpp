@@ -31,6 +31,17 @@ SIMDBEZIER_PART bool is_watertight(const GridTask<T>& task) {
   return kKnown == Known::watertight || (kKnown != Known::open && task.watertight);
 }
 
+/// Makes a task of the single column behind a tile, whose positions and normals go to a buffer.
+template <typename Piece, typename T>
+SIMDBEZIER_PART void put_into_buffer(GridTask<T>& column_task, const Piece& piece,
+                                     ColumnBuffer<T, 6>& buffer) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    column_task.out[output_index(Output::position)].component[c] = buffer.first(c, piece);
+    column_task.out[output_index(Output::normal)].component[c] = buffer.first(3 + c, piece);
+  }
+  column_task.nu = 1;
+}
+
 /// Sweeps positions and normals of a tile and the column behind it.
 template <bool kAny, Known kKnown, typename Piece, typename SomeTile, typename T>
 SIMDBEZIER_PART void sweep_normal_patches(const GridTask<T>& shared_task, const Piece& piece,
@@ -46,11 +57,7 @@ SIMDBEZIER_PART void sweep_normal_patches(const GridTask<T>& shared_task, const 
                                    task.watertight);
   ColumnBuffer<T, 6> buffer;
   const ColumnPlanes<T> extra = buffer.planes(piece);
-  for (std::size_t c = 0; c < 3; ++c) {
-    column_task.out[output_index(Output::position)].component[c] = buffer.first(c, piece);
-    column_task.out[output_index(Output::normal)].component[c] = buffer.first(3 + c, piece);
-  }
-  column_task.nu = 1;
+  put_into_buffer(column_task, piece, buffer);
   const std::size_t samples = piece.rows() * (tile.active + (SomeTile::kBuffered ? 1 : 0));
   const bool prefetch = task.prefetch && tile.first == 0;
   for (; patch < last_patch; ++patch) {

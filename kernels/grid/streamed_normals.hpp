@@ -6,7 +6,7 @@
 #pragma once
 
 #include "kernels/grid/patch_sweeps.hpp"
-#include "kernels/simd/value_stream.hpp"
+#include "kernels/simd/plane_streams.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -59,21 +59,6 @@ private:
   }
 };
 
-/// A row of a piece that is streamed.
-template <typename T>
-struct StreamedRow {
-  std::size_t edge; ///< v = const that it is on, or kEdges
-  const T* y;       ///< of a row that is on none, of RowPowers
-
-  SIMDBEZIER_PART StreamedRow(const RowPiece<T>& piece, std::size_t row)
-      : edge(piece.lead && row == 0                   ? edge_of(piece.lead_kind)
-             : piece.trail && row + 1 == piece.rows() ? edge_of(piece.trail_kind)
-                                                      : kEdges),
-        y(edge < kEdges ? nullptr : piece.middle.y + (row - (piece.lead ? 1 : 0))) {}
-
-  [[nodiscard]] SIMDBEZIER_PART bool is_edge() const { return edge < kEdges; }
-};
-
 /// The registers of a patch with normals that take a second look: bit k of a row is its k-th
 /// register.
 struct UncertainRegisters {
@@ -81,39 +66,86 @@ struct UncertainRegisters {
   std::uint16_t row[kMostMiddleRows + 2];
 };
 
-/// Streams one patch, and returns whether all of its normals are certain.
+/// Columns of a streamed grid: whole registers, lanes of one more, and a single one.
 template <typename T>
+struct StreamedColumns {
+  std::size_t whole;
+  std::size_t rest;
+  bool single;
+
+  /// One register and a single column.
+  constexpr StreamedColumns() : whole(1), rest(0), single(true) {}
+  explicit SIMDBEZIER_PART StreamedColumns(std::size_t nu)
+      : whole(nu / kLanes<vec<T>>), rest(nu % kLanes<vec<T>>), single(rest == 1) {
+    rest = single ? 0 : rest;
+  }
+  [[nodiscard]] SIMDBEZIER_PART std::size_t registers() const { return whole + (rest > 0 ? 1 : 0); }
+};
+
+/// Streams one patch, and returns whether all of its normals are certain. behind: the single column
+/// behind its registers. kOneRegister: there is no more before it, which the compiler knows.
+template <bool kOneRegister, typename T>
 SIMDBEZIER_KERNEL bool stream_normals(const GridTask<T>& task, const RowPiece<T>& piece,
-                                      std::size_t patch, PlaneStreams<vec<T>, 6>& streams,
+                                      std::size_t patch, const ColumnPlanes<T>& behind,
+                                      PlaneStreams<vec<T>, 6>& streams,
                                       UncertainRegisters& uncertain) {
   using V = vec<T>;
-  NormalColumns<T> columns[detail::kMostStreamedRegisters];
-  for (std::size_t k = 0; k * kLanes<V> < task.nu; ++k) {
+  const StreamedColumns<T> split =
+      kOneRegister ? StreamedColumns<T>() : StreamedColumns<T>(task.nu);
+  NormalColumns<T> columns[kOneRegister ? 1 : detail::kMostStreamedRegisters];
+  for (std::size_t k = 0; k < split.registers(); ++k) {
     columns[k].build(task, patch, k);
   }
-  const bool outside = piece.middle.kind == RowKind::outside;
   PlaneStreams<V, 6> stream = streams; // in registers
-  bool certain = true;
-  for (std::size_t j = 0; j < piece.rows(); ++j) {
-    const StreamedRow<T> row(piece, j);
-    const RowPoint<V> y =
-        row.is_edge() ? RowPoint<V>(broadcast<V>(T(0))) : piece.template point<1, V>(row.y);
+  unsigned any_doubts = 0;
+  // samples(k): the k-th register of a row.
+  const auto put_row = [&](std::size_t row, bool doubtful,
+                           const auto& samples) SIMDBEZIER_INLINE_LAMBDA {
     unsigned doubts = 0;
-    stream.put(task.nu, [&](std::size_t k, V(&values)[6]) SIMDBEZIER_INLINE_LAMBDA {
-      const NormalSamples<V> s =
-          row.is_edge() ? columns[k].edge(task, patch, k, row.edge) : columns[k].interior(y);
+    const auto find = [&](std::size_t k, V(&values)[6]) SIMDBEZIER_INLINE_LAMBDA {
+      const NormalSamples<V> s = samples(k);
       const bool passed = all_of<V>(s.squared > columns[k].floor);
-      doubts |= (passed && (!outside || row.is_edge()) ? 0U : 1U) << k;
+      doubts |= (passed && !doubtful ? 0U : 1U) << k;
       for (std::size_t c = 0; c < 3; ++c) {
         values[c] = s.jet[c].p;
         values[3 + c] = s.normal[c];
       }
+    };
+    V values[6];
+    for (std::size_t k = 0; k < split.whole; ++k) {
+      find(k, values);
+      stream.put(values);
+    }
+    if (split.rest > 0) {
+      find(split.whole, values);
+      stream.put_first(values, split.rest);
+    }
+    if (split.single) {
+      stream.put_values(behind.first + row, ColumnPlanes<T>::kPlane);
+    }
+    uncertain.row[row] = static_cast<std::uint16_t>(doubts);
+    any_doubts |= doubts;
+  };
+  const auto put_edge = [&](std::size_t row, RowKind kind) SIMDBEZIER_INLINE_LAMBDA {
+    put_row(row, false, [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+      return columns[k].edge(task, patch, k, edge_of(kind));
     });
-    uncertain.row[j] = static_cast<std::uint16_t>(doubts);
-    certain = certain && doubts == 0;
+  };
+  std::size_t row = 0;
+  if (piece.lead) {
+    put_edge(row++, piece.lead_kind);
+  }
+  const bool outside = piece.middle.kind == RowKind::outside;
+  for (std::size_t j = 0; j < piece.middle.rows; ++j) {
+    const RowPoint<V> y = piece.template point<1, V>(piece.middle.y + j);
+    put_row(row++, outside,
+            [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA { return columns[k].interior(y); });
+  }
+  if (piece.trail) {
+    put_edge(row, piece.trail_kind);
   }
   streams = stream;
-  return certain;
+  return any_doubts == 0;
 }
 
 /// Looks again at the normals of a patch that has been streamed.
@@ -124,20 +156,27 @@ SIMDBEZIER_RARE void resolve_streamed(const GridTask<T>& task, const RowPiece<T>
   constexpr std::size_t kL = kLanes<V>;
   GridTask<T> plain = task;
   assume<Known::no_origins>(plain);
-  for (std::size_t k = 0; k * kL < task.nu; ++k) {
+  for (std::size_t k = 0; k < StreamedColumns<T>(task.nu).registers(); ++k) {
     NormalColumns<T> columns;
     columns.build(plain, patch, k);
     for (std::size_t j = 0; j < piece.rows(); ++j) {
       if ((uncertain.row[j] >> k & 1U) == 0) {
         continue;
       }
-      const StreamedRow<T> row(piece, j);
-      const bool outside = !row.is_edge() && piece.middle.kind == RowKind::outside;
-      const V y =
-          row.is_edge() ? ColumnTile<1, true, false, V>::edge_y(row.edge) : broadcast<V>(*row.y);
-      const NormalSamples<V> s = row.is_edge()
-                                     ? columns.edge(plain, patch, k, row.edge)
-                                     : columns.interior(piece.template point<1, V>(row.y));
+      const bool leads = piece.lead && j == 0;
+      const bool is_edge = leads || (piece.trail && j + 1 == piece.rows());
+      const bool outside = !is_edge && piece.middle.kind == RowKind::outside;
+      V y;
+      NormalSamples<V> s;
+      if (is_edge) {
+        const std::size_t edge = edge_of(leads ? piece.lead_kind : piece.trail_kind);
+        y = ColumnTile<1, true, false, V>::edge_y(edge);
+        s = columns.edge(plain, patch, k, edge);
+      } else {
+        const T* const at = piece.middle.y + (j - (piece.lead ? 1 : 0));
+        y = broadcast<V>(*at);
+        s = columns.interior(piece.template point<1, V>(at));
+      }
       const std::size_t at = patch * task.patch_step + (piece.first + j) * task.nu + k * kL;
       const std::size_t active = task.nu - k * kL < kL ? task.nu - k * kL : kL;
       resolve_normals(task, patch, UncertainNormals{0, kL, active, 1, at, task.nu, 1},
@@ -157,6 +196,15 @@ SIMDBEZIER_KERNEL void stream_normals(const GridTask<T>& shared_task, const RowP
   GridTask<T> task = shared_task;
   assume<Known::no_origins>(task);
   const bool goes_on = piece.rows() * task.nu == task.patch_step;
+  GridTask<T> column_task = task;
+  ColumnBuffer<T, 6> buffer;
+  put_into_buffer(column_task, piece, buffer);
+  const ColumnPlanes<T> behind = buffer.planes(piece);
+  const StreamedColumns<T> split(task.nu);
+  const SingleColumnTile<vec<T>> column(task.x, task.nu - 1, 1, task.watertight);
+  const auto stream_patch =
+      split.single && split.whole == 1 ? stream_normals<true, T> : stream_normals<false, T>;
+  T* first[6];
   PlaneStreams<vec<T>, 6> streams;
   UncertainRegisters uncertain;
   bool begun = false;
@@ -164,16 +212,22 @@ SIMDBEZIER_KERNEL void stream_normals(const GridTask<T>& shared_task, const RowP
     if (task.prefetch) {
       prefetch_patch(task, patch);
     }
+    const std::size_t at = patch * task.patch_step + piece.first * task.nu;
     if (!begun) {
-      const std::size_t at = patch * task.patch_step + piece.first * task.nu;
-      T* first[6];
       for (std::size_t c = 0; c < 3; ++c) {
         first[c] = task.out[output_index(Output::position)].component[c] + at;
         first[3 + c] = task.out[output_index(Output::normal)].component[c] + at;
       }
       streams.begin(first);
     }
-    const bool certain = stream_normals(task, piece, patch, streams, uncertain);
+    if (split.single) {
+      if (task.status != nullptr) {
+        column_task.status = task.status + at + task.nu - 1;
+      }
+      sweep_normals<false, false>(column_task, column_task, piece, column, patch, 0, task.nu,
+                                  behind);
+    }
+    const bool certain = stream_patch(task, piece, patch, behind, streams, uncertain);
     begun = goes_on && certain && patch + 1 < task.patch_count;
     if (!begun) {
       streams.finish();

@@ -191,8 +191,10 @@ private:
       return false;
     }
     if (choice.outputs == kPositionNormal) {
-      const bool filled = 10 * idle <= 3 * (nu + idle);
-      return makes_lines(1) && filled && nu >= (idle == 0 ? 16 : 28);
+      const bool single = nu > lanes && nu % lanes == 1; // has a register of its own, with others
+      const bool filled =
+          idle == 0 ? nu >= 16 : 2 * nu >= 3 * lanes && 10 * idle <= 3 * (nu + idle);
+      return makes_lines(1) && (single || filled);
     }
     if (streams_pairs()) {
       return idle != 0 && nu >= 3 * lanes;
