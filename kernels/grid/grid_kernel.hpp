@@ -339,11 +339,9 @@ SIMDBEZIER_PART bool stream_in_order(const GridTask<T>& task, const RowPiece<T>&
 #if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
   if (task.streaming && streams_in_order<kOutputs>(task)) {
     if constexpr (kOutputs == detail::kPosition || kOutputs == detail::kPositionDerivatives) {
-#if defined(SIMDBEZIER_KERNELS_AVX512)
       if (task.nu % kLanes<vec<T>> != 0 && stream_tiles<kOutputs>(task, piece)) {
         return true;
       }
-#endif
       stream_planes<kOutputs>(task, piece);
       return true;
     } else if constexpr (kStreamsNormals<kOutputs, T>) {

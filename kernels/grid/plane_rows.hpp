@@ -62,7 +62,7 @@ private:
 template <typename Piece, typename Tile>
 constexpr bool kSweepsLines = kStreamsLines && (Piece::kAcross) && (Tile::kTileRows == 2);
 
-#if defined(SIMDBEZIER_KERNELS_AVX512)
+#if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
 /// A stream of lines that begins where values are to lie, and ends with its rows.
 template <typename To>
 struct PlaneStream;

@@ -8,10 +8,11 @@
 #include "kernels/grid/patch_sweeps.hpp"
 #include "kernels/grid/square_pieces.hpp"
 #include "kernels/simd/register_pair.hpp"
+#include "kernels/simd/value_stream.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-#if defined(SIMDBEZIER_KERNELS_AVX512)
+#if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
 /// Streams all patches of a task, whose rows are as wide as the tile and the column behind it.
 /// across: the piece once more, as one whose rows lie across lines.
 template <detail::OutputSet kOutputs, typename SomeTile, typename Across, typename T>
@@ -67,23 +68,30 @@ SIMDBEZIER_KERNEL void stream_tile(const GridTask<T>& shared_task, const RowPiec
   }
 }
 
-/// Streams the patches of a task if one tile is as wide as their rows, and returns whether it is.
-/// Squares of half a register and a column have few rows, and are faster as straight code.
+/// Streams the patches of a task if one tile is as wide as their rows, which are no whole
+/// registers, and returns whether it is. Parts of a register are tiles where it is a line. Squares
+/// of half a line and a column have few rows, and are faster as straight code.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool stream_tiles(const GridTask<T>& task, const RowPiece<T>& piece) {
   using V = vec<T>;
   using W = RegisterPair<V>;
-  using Square = SquarePiece<T, kLanes<V> / 2 + 1, true>;
   constexpr std::size_t kL = kLanes<V>;
   const std::size_t nu = task.nu;
   const AcrossPiece<T> across(piece);
-  if (nu < kL) {
-    if (sizeof(T) == 4 && task.watertight && Square::is(piece, nu)) {
-      stream_tile<kOutputs, ColumnTile<1, false, false, V>>(task, piece, Square(piece.middle.y));
-    } else {
-      stream_tile<kOutputs, ColumnTile<1, false, false, V>>(task, piece, across);
+  if constexpr (kLineWide<V>) {
+    if constexpr (kL == 16) {
+      using Square = SquarePiece<T, kL / 2 + 1, true>;
+      if (task.watertight && Square::is(piece, nu)) {
+        stream_tile<kOutputs, ColumnTile<1, false, false, V>>(task, piece, Square(piece.middle.y));
+        return true;
+      }
     }
-  } else if (nu == kL + 1) {
+    if (nu < kL) {
+      stream_tile<kOutputs, ColumnTile<1, false, false, V>>(task, piece, across);
+      return true;
+    }
+  }
+  if (nu == kL + 1) {
     stream_tile<kOutputs, ColumnTile<1, true, true, V>>(task, piece, across);
   } else if (nu < 2 * kL) {
     stream_tile<kOutputs, ColumnTile<1, false, false, W>>(task, piece, across);

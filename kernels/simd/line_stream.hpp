@@ -170,6 +170,10 @@ private:
 };
 #else
 inline constexpr bool kStreamsLines = false;
+
+/// On AVX2, simd/value_stream.hpp has those that go past the caches.
+template <typename V, bool kPastCaches = false>
+class LineStream;
 #endif
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

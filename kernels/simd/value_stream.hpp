@@ -151,7 +151,7 @@ public:
     }
   }
 
-private:
+protected:
   static SIMDBEZIER_INLINE void stream(T* to, V values) {
     store_any<true>(to, __builtin_bit_cast(LinePart<T>, values));
   }
@@ -160,6 +160,79 @@ private:
   std::size_t filled_ = 0;  ///< first lanes of it that are put already, or somebody else's
   std::size_t foreign_ = 0; ///< those of them that are somebody else's
   V kept_;                  ///< has the filled lanes
+};
+#endif
+
+#if defined(SIMDBEZIER_KERNELS_AVX2)
+/// What simd/line_stream.hpp has for registers that are lines themselves.
+template <typename V, bool kPastCaches>
+class LineStream : public ValueStream<V> {
+  static_assert(kPastCaches);
+  using T = ScalarOf<V>;
+  using ValueStream<V>::to_;
+  using ValueStream<V>::filled_;
+  using ValueStream<V>::foreign_;
+  using ValueStream<V>::kept_;
+
+public:
+  LineStream() = default; ///< has no values yet
+  explicit SIMDBEZIER_INLINE LineStream(T* to) { this->begin(to); }
+  /// Members are copied one by one, or they might be read in larger pieces than they were written
+  /// in, which waits for all streaming stores before.
+  SIMDBEZIER_INLINE LineStream(const LineStream& other) : ValueStream<V>() { *this = other; }
+  SIMDBEZIER_INLINE LineStream& operator=(const LineStream& other) {
+    to_ = other.to_;
+    filled_ = other.filled_;
+    foreign_ = other.foreign_;
+    kept_ = other.kept_;
+    return *this;
+  }
+  ~LineStream() = default;
+
+  SIMDBEZIER_INLINE void put(V values) {
+    const Turn<V> turn(filled_);
+    const V turned = turn.of(values);
+    end_register(turn.join(kept_, turned), turned);
+  }
+  SIMDBEZIER_INLINE void put(RegisterPair<V> values) {
+    put(values.low);
+    put(values.high);
+  }
+  /// The first `count` lanes, all of them at most.
+  SIMDBEZIER_INLINE void put_first(V values, std::size_t count) {
+    const Turn<V> turn(filled_);
+    const V turned = turn.of(values);
+    kept_ = turn.join(kept_, turned);
+    filled_ += count;
+    if (filled_ >= kLanes<V>) {
+      filled_ -= kLanes<V>;
+      end_register(kept_, turned);
+    }
+  }
+  SIMDBEZIER_INLINE void put_first(RegisterPair<V> values, std::size_t count) {
+    put(values.low);
+    put_first(values.high, count - kLanes<V>);
+  }
+  SIMDBEZIER_INLINE void put_value(const T* value) {
+    kept_ = Turn<V>(filled_).join(kept_, broadcast<V>(*value));
+    if (++filled_ == kLanes<V>) {
+      filled_ = 0;
+      end_register(kept_, kept_);
+    }
+  }
+
+private:
+  /// Stores a register, behind which come lanes of `next`.
+  SIMDBEZIER_INLINE void end_register(V values, V next) {
+    if (foreign_ > 0) [[unlikely]] {
+      store_from(foreign_, to_, values);
+      foreign_ = 0;
+    } else {
+      this->stream(to_, values);
+    }
+    kept_ = next;
+    to_ += kLanes<V>;
+  }
 };
 #endif
 

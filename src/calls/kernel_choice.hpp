@@ -196,17 +196,16 @@ private:
           idle == 0 ? nu >= 16 : 2 * nu >= 3 * lanes && 10 * idle <= 3 * (nu + idle);
       return makes_lines(1) && (single || filled);
     }
-    if (streams_pairs()) {
-      return idle != 0 && nu >= 3 * lanes;
-    }
-    const bool position = choice.outputs == kPosition;
-    const std::size_t least = position ? 2 * lanes + lanes / 2 : 2 * lanes - 1;
     // Up to two registers and a column are one tile. Squares of half a register and a column have
-    // code of their own, which short rows of positions gain by.
-    const std::size_t tile = position && lanes == 16 ? 13 : lanes / 2 + 1;
-    const bool square = nu == lanes / 2 + 1 && nu == nv;
-    const bool one_tile = idle != 0 && (nu >= tile || square) && nu <= 2 * lanes + 1;
-    return makes_lines(1) && (one_tile || nu >= least);
+    // code of their own there.
+    const bool position = choice.outputs == kPosition;
+    const bool square = nu == nv && nu * sizeof(T) == 36 && makes_lines(1);
+    const std::size_t shortest = lanes < 16 ? 40 / sizeof(T) : position ? 13 : 9;
+    if (idle != 0 && (nu >= shortest || square) && nu <= 2 * lanes + 1) {
+      return makes_lines(1) || makes_lines(2);
+    }
+    const std::size_t least = position ? 2 * lanes + lanes / 2 : 2 * lanes - 1;
+    return (makes_lines(1) && nu >= least) || (makes_lines(2) && idle != 0 && nu >= 3 * lanes);
   }
 
   void run(void (*kernel)(GridTask<T>&), OutputSet outputs, GridTask<T>& task) const noexcept {
