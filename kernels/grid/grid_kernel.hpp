@@ -17,9 +17,9 @@
 // before the next one (grid/component_sweeps.hpp). Squares of usual sizes are known to the
 // compiler: sweep_square() chooses as sweep_tiles() does. Rows of one tile that lie across lines
 // are put together to whole lines. Streamed rows that are no whole registers, or lie across lines,
-// or are a multiple of 4 or 8 lines, go in order by grid/streamed_planes.hpp, with normals by
-// grid/streamed_normals.hpp; others go by grid/streamed_rows.hpp on AVX2, and tile by tile on
-// AVX-512.
+// or are a multiple of 4 or 8 lines, go in order: of one tile by grid/streamed_lines.hpp, others by
+// grid/streamed_planes.hpp, with normals by grid/streamed_normals.hpp. Others go by
+// grid/streamed_rows.hpp on AVX2, and tile by tile on AVX-512.
 #pragma once
 
 #include "kernels/grid/component_sweeps.hpp"
@@ -314,8 +314,8 @@ SIMDBEZIER_PART bool sweep_small_grid(const GridTask<T>& task) {
   return false;
 }
 
-/// Whether streamed rows go register by register, each plane as one stream: where they are no whole
-/// registers, or lie across lines; or where the lines of a tile are a fourth of a row or less, and
+/// Whether streamed rows go in order, each plane as one stream: where they are no whole registers,
+/// or lie across lines; or where the lines of a tile are a fourth of a row or less, and
 /// rows a multiple of four times as long, since memory takes every fourth line at 0.6 and every
 /// eighth at 0.3 of its rate. Origins come with whole lines only.
 template <detail::OutputSet kOutputs, typename T>

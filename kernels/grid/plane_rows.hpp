@@ -65,16 +65,16 @@ constexpr bool kSweepsLines = kStreamsLines && (Piece::kAcross) && (Tile::kTileR
 #if defined(SIMDBEZIER_KERNELS_AVX2) || defined(SIMDBEZIER_KERNELS_AVX512)
 /// A stream of lines that begins where values are to lie, and ends with its rows.
 template <typename To>
-struct PlaneStream;
+struct RowStream;
 template <typename T>
-struct PlaneStream<T*> {
+struct RowStream<T*> {
   using Type = LineStream<vec<T>>;
   static SIMDBEZIER_PART Type begin(T* to) { return Type(to); }
   static SIMDBEZIER_PART void end(const Type& stream, T* /*to*/) { stream.finish(); }
 };
 /// One that has begun, and goes on behind its rows.
 template <typename V, bool kPastCaches>
-struct PlaneStream<LineStream<V, kPastCaches>*> {
+struct RowStream<LineStream<V, kPastCaches>*> {
   using Type = LineStream<V, kPastCaches>;
   static SIMDBEZIER_PART Type begin(const Type* kept) { return *kept; }
   static SIMDBEZIER_PART void end(const Type& stream, Type* kept) { *kept = stream; }
@@ -85,7 +85,7 @@ class PlaneRows<Piece, Tile, Extra, To, true> {
   using V = typename Tile::Vector;
   using T = ScalarOf<V>;
   using Register = vec<T>;
-  using Stream = PlaneStream<To>;
+  using Stream = RowStream<To>;
 
 public:
   SIMDBEZIER_PART PlaneRows(const Tile& tile, To to, std::size_t /*nu*/, Extra extra)

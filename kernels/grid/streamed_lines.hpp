@@ -1,8 +1,6 @@
 // Rows of one tile that go straight to memory: each plane is a stream of whole lines
 // (simd/line_stream.hpp), which goes on from patch to patch.
-//
-// In staging such rows lie across lines, and a store across two lines waits until all streaming
-// stores before it have left, so that staging and arithmetic take their time one after the other.
+// They overlap with the arithmetic, as grid/streamed_planes.hpp says.
 #pragma once
 
 #include "kernels/grid/patch_sweeps.hpp"
@@ -90,15 +88,18 @@ SIMDBEZIER_PART bool stream_tiles(const GridTask<T>& task, const RowPiece<T>& pi
       stream_tile<kOutputs, ColumnTile<1, false, false, V>>(task, piece, across);
       return true;
     }
+    if (nu == 2 * kL + 1) {
+      stream_tile<kOutputs, ColumnTile<1, true, true, W>>(task, piece, across);
+      return true;
+    }
+  }
+  if (nu > 2 * kL) {
+    return false;
   }
   if (nu == kL + 1) {
     stream_tile<kOutputs, ColumnTile<1, true, true, V>>(task, piece, across);
-  } else if (nu < 2 * kL) {
-    stream_tile<kOutputs, ColumnTile<1, false, false, W>>(task, piece, across);
-  } else if (nu == 2 * kL + 1) {
-    stream_tile<kOutputs, ColumnTile<1, true, true, W>>(task, piece, across);
   } else {
-    return false;
+    stream_tile<kOutputs, ColumnTile<1, false, false, W>>(task, piece, across);
   }
   return true;
 }

@@ -73,8 +73,6 @@ struct StreamedColumns {
   std::size_t rest;
   bool single;
 
-  /// One register and a single column.
-  constexpr StreamedColumns() : whole(1), rest(0), single(true) {}
   explicit SIMDBEZIER_PART StreamedColumns(std::size_t nu)
       : whole(nu / kLanes<vec<T>>), rest(nu % kLanes<vec<T>>), single(rest == 1) {
     rest = single ? 0 : rest;
@@ -85,13 +83,12 @@ struct StreamedColumns {
 /// Streams one patch, and returns whether all of its normals are certain. behind: the single column
 /// behind its registers. kOneRegister: there is no more before it, which the compiler knows.
 template <bool kOneRegister, typename T>
-SIMDBEZIER_KERNEL bool stream_normals(const GridTask<T>& task, const RowPiece<T>& piece,
-                                      std::size_t patch, const ColumnPlanes<T>& behind,
-                                      PlaneStreams<vec<T>, 6>& streams,
-                                      UncertainRegisters& uncertain) {
+SIMDBEZIER_KERNEL bool stream_patch(const GridTask<T>& task, const RowPiece<T>& piece,
+                                    std::size_t patch, const ColumnPlanes<T>& behind,
+                                    PlaneStreams<vec<T>, 6>& streams,
+                                    UncertainRegisters& uncertain) {
   using V = vec<T>;
-  const StreamedColumns<T> split =
-      kOneRegister ? StreamedColumns<T>() : StreamedColumns<T>(task.nu);
+  const StreamedColumns<T> split(kOneRegister ? kLanes<V> + 1 : task.nu); // known, if so
   NormalColumns<T> columns[kOneRegister ? 1 : detail::kMostStreamedRegisters];
   for (std::size_t k = 0; k < split.registers(); ++k) {
     columns[k].build(task, patch, k);
@@ -202,8 +199,8 @@ SIMDBEZIER_KERNEL void stream_normals(const GridTask<T>& shared_task, const RowP
   const ColumnPlanes<T> behind = buffer.planes(piece);
   const StreamedColumns<T> split(task.nu);
   const SingleColumnTile<vec<T>> column(task.x, task.nu - 1, 1, task.watertight);
-  const auto stream_patch =
-      split.single && split.whole == 1 ? stream_normals<true, T> : stream_normals<false, T>;
+  const auto stream =
+      split.single && split.whole == 1 ? stream_patch<true, T> : stream_patch<false, T>;
   T* first[6];
   PlaneStreams<vec<T>, 6> streams;
   UncertainRegisters uncertain;
@@ -227,7 +224,7 @@ SIMDBEZIER_KERNEL void stream_normals(const GridTask<T>& shared_task, const RowP
       sweep_normals<false, false>(column_task, column_task, piece, column, patch, 0, task.nu,
                                   behind);
     }
-    const bool certain = stream_patch(task, piece, patch, behind, streams, uncertain);
+    const bool certain = stream(task, piece, patch, behind, streams, uncertain);
     begun = goes_on && certain && patch + 1 < task.patch_count;
     if (!begun) {
       streams.finish();

@@ -125,6 +125,7 @@ public:
     last_ = LaneWindow(count, T()).of(last_, values);
     advance(count, line);
   }
+  /// More than those of one register.
   SIMDBEZIER_INLINE void put_first(RegisterPair<V> values, std::size_t count) {
     put(values.low);
     put_first(values.high, count - kLanes<V>);

@@ -1,6 +1,7 @@
 // Several planes that are written at once, in whole lines that go past the caches.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "kernels/simd/line_stream.hpp"
@@ -33,11 +34,11 @@ public:
   }
   ~PlaneStreams() = default;
 
-  /// first: where the planes begin; they live as long as the streams.
+  /// first: where the planes begin; these pointers stay until finish() has been called.
   SIMDBEZIER_INLINE void begin(T* const (&first)[kPlanes]) {
     first_ = first;
     filled_ = reinterpret_cast<std::uintptr_t>(first[0]) % 64 / sizeof(T);
-    at_ = std::size_t{0} - filled_;
+    at_ = -static_cast<std::ptrdiff_t>(filled_);
     own_ = kAll << filled_;
     for (V& last : last_) {
       last = broadcast<V>(T(0));
@@ -100,12 +101,12 @@ private:
   }
   SIMDBEZIER_INLINE void end_line() {
     own_ = kAll;
-    at_ += kL;
+    at_ += std::ptrdiff_t{kL};
   }
 
   // As in LineStream; the next line of plane c begins at first_[c] + at_.
   T* const* first_ = nullptr;
-  std::size_t at_ = 0;
+  std::ptrdiff_t at_ = 0;
   std::size_t filled_ = 0;
   unsigned own_ = 0;
   V last_[kPlanes];

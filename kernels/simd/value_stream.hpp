@@ -209,6 +209,7 @@ public:
       end_register(kept_, turned);
     }
   }
+  /// More than those of one register.
   SIMDBEZIER_INLINE void put_first(RegisterPair<V> values, std::size_t count) {
     put(values.low);
     put_first(values.high, count - kLanes<V>);

@@ -191,17 +191,18 @@ private:
       return false;
     }
     if (choice.outputs == kPositionNormal) {
-      const bool single = nu > lanes && nu % lanes == 1; // has a register of its own, with others
+      const bool single = nu > lanes && nu % lanes == 1; // a column, of which lanes are rows
       const bool filled =
           idle == 0 ? nu >= 16 : 2 * nu >= 3 * lanes && 10 * idle <= 3 * (nu + idle);
       return makes_lines(1) && (single || filled);
     }
-    // Up to two registers and a column are one tile. Squares of half a register and a column have
-    // code of their own there.
+    // Two registers are one tile, and of a line each the column behind them. Squares of half such a
+    // register and a column have code of their own there.
     const bool position = choice.outputs == kPosition;
     const bool square = nu == nv && nu * sizeof(T) == 36 && makes_lines(1);
     const std::size_t shortest = lanes < 16 ? 40 / sizeof(T) : position ? 13 : 9;
-    if (idle != 0 && (nu >= shortest || square) && nu <= 2 * lanes + 1) {
+    const std::size_t widest = makes_lines(1) ? 2 * lanes + 1 : 2 * lanes - 1;
+    if (idle != 0 && (nu >= shortest || square) && nu <= widest) {
       return makes_lines(1) || makes_lines(2);
     }
     const std::size_t least = position ? 2 * lanes + lanes / 2 : 2 * lanes - 1;

@@ -81,11 +81,11 @@ void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
   const bool all = staged_planes_ == vector_values_;
   const bool anywhere = record == 1 && rows.streamed_anywhere;
   const bool whole_lines = rows.row % line == 0;
-  const bool registers = rows.row >= rows.lanes;
+  const bool fills = rows.row >= rows.lanes; // a register
   const bool streams =
       anywhere ? rows.row > 0
-               : registers && whole_lines && (record == 1 ? rows.streamed : rows.streamed_records);
-  const bool stores = registers && rows.records && all;
+               : fills && whole_lines && (record == 1 ? rows.streamed : rows.streamed_records);
+  const bool stores = fills && rows.records && all;
   bool possible = known && (streaming() ? streams : stores);
   const auto place_in_line = [](const T* first) {
     return reinterpret_cast<std::uintptr_t>(first) % 64;

@@ -24,7 +24,7 @@ struct StreamShape {
 };
 
 /// What the kernels of a call can write to its final place themselves, besides planes with plain
-/// stores: all outputs at once, in rows of `row` samples or more.
+/// stores: all outputs at once, in rows of `row` samples or more (streamed_anywhere: exactly).
 struct DirectRows {
   std::size_t row = 0; ///< 0: nothing
   std::size_t lanes = 1;

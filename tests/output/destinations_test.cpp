@@ -202,38 +202,50 @@ protected:
     EXPECT_TRUE(status == expected);
   }
 
+  /// Statuses beside planes that begin at one place within a line.
+  template <typename T>
+  void streams_normals(const PatchSet<T>& set, const Grid<T>& samples, Turns& turns,
+                       Canvas<T>& canvas) {
+    constexpr PlaneCase kLayout{"planes_position_normal", kP | kN, 1, 0};
+    const Planes<T> reference = reference_of(set, samples);
+    for (std::size_t shift = 0; shift < 16; shift += 3) {
+      turns.next();
+      const std::size_t count = turns.patches * samples.nu * samples.nv;
+      canvas.reset(plane_elements(kLayout, count));
+      Outputs<T> out = plane_outputs(kLayout, count, shift, canvas.at(0));
+      std::vector<SampleStatus> status(count + 128, static_cast<SampleStatus>(77));
+      out.status = status.data() + 64;
+      check(set, samples, reference, canvas, out,
+            {.threads = turns.threads,
+             .destination = Destination::memory,
+             .patch_count = turns.patches},
+            kLayout.name);
+      expect_status(status, 64, reference, count);
+    }
+  }
+
   /// Statuses beside normals that are streamed from registers: those of degenerate patches, of
   /// samples outside and of parameters that are no numbers.
   template <typename T>
   void normals_with_status() {
     const PatchSet<T> set = packed<T>(mixed_nets(kMostPatches));
-    constexpr PlaneCase kLayout{"planes_position_normal", kP | kN, 1, 0};
     Canvas<T> canvas(0);
     Turns turns;
     for (const Size size :
-         {Size{16, 4}, Size{28, 3}, Size{31, 6}, Size{32, 5}, Size{64, 4}, Size{65, 9}}) {
+         {Size{9, 9}, Size{12, 4}, Size{16, 4}, Size{17, 17}, Size{17, 5}, Size{24, 3}, Size{31, 6},
+          Size{32, 5}, Size{33, 4}, Size{64, 4}, Size{65, 9}}) {
       std::vector<T> x;
       for (std::size_t k = 0; k < size.nu; ++k) {
         x.push_back(static_cast<T>(2 * k) / static_cast<T>(size.nu - 1) - T(1));
       }
-      for (const T odd : {x[5], T(1.25), std::numeric_limits<T>::quiet_NaN()}) {
-        x[5] = odd;
-        const Grid<T> samples{size.nu, size.nv, x.data(), x.data(), Parameters::centred};
-        const Planes<T> reference = reference_of(set, samples);
-        for (std::size_t shift = 0; shift < 16; shift += 3) {
-          turns.next();
-          const std::size_t count = turns.patches * size.nu * size.nv;
-          canvas.reset(plane_elements(kLayout, count));
-          Outputs<T> out = plane_outputs(kLayout, count, shift, canvas.at(0));
-          std::vector<SampleStatus> status(count + 128, static_cast<SampleStatus>(77));
-          out.status = status.data() + 64;
-          check(set, samples, reference, canvas, out,
-                {.threads = turns.threads,
-                 .destination = Destination::memory,
-                 .patch_count = turns.patches},
-                kLayout.name);
-          expect_status(status, 64, reference, count);
+      for (const std::size_t column : {std::size_t{5}, size.nu - 1}) {
+        const T usual = x[column];
+        for (const T odd : {usual, T(1.25), std::numeric_limits<T>::quiet_NaN()}) {
+          x[column] = odd;
+          streams_normals<T>(set, {size.nu, size.nv, x.data(), x.data(), Parameters::centred},
+                             turns, canvas);
         }
+        x[column] = usual;
       }
     }
   }
@@ -244,8 +256,8 @@ protected:
     const PatchSet<T> set = packed<T>(mixed_nets(100));
     Canvas<T> canvas(0);
     std::size_t number = 0;
-    for (const Size size : {Size{3, 3}, Size{5, 4}, Size{9, 9}, Size{16, 16}, Size{17, 5},
-                            Size{26, 2}, Size{31, 2}, Size{32, 3}}) {
+    for (const Size size : {Size{3, 3}, Size{5, 4}, Size{9, 9}, Size{13, 3}, Size{16, 16},
+                            Size{17, 17}, Size{26, 2}, Size{31, 2}, Size{32, 3}, Size{33, 9}}) {
       const Grid<T> samples = Grid<T>::uniform(size.nu, size.nv);
       const Planes<T> reference = reference_of(set, samples);
       const std::size_t count = reference.count();
