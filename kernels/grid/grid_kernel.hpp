@@ -315,9 +315,9 @@ SIMDBEZIER_PART bool sweep_small_grid(const GridTask<T>& task) {
 }
 
 /// Whether streamed rows go in order, each plane as one stream: where they are no whole registers,
-/// or lie across lines; or where the lines of a tile are a fourth of a row or less, and
-/// rows a multiple of four times as long, since memory takes every fourth line at 0.6 and every
-/// eighth at 0.3 of its rate. Origins come with whole lines only.
+/// or lie across lines; or where the lines of a tile are a fourth of a row or less, and rows a
+/// multiple of four times as long, since memory takes every fourth line at 0.6 and every eighth at
+/// 0.3 of its rate. Origins come with whole lines only.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool streams_in_order(const GridTask<T>& task) {
   using V = vec<T>;

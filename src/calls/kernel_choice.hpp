@@ -187,26 +187,27 @@ private:
   [[nodiscard]] bool turns_rows(std::size_t nu, std::size_t nv) const noexcept {
     const std::size_t lanes = table->lanes;
     const std::size_t idle = (lanes - nu % lanes) % lanes; // of the last register
-    if (nu > kMostStreamedRegisters * lanes) {
+    const bool line = makes_lines(1);                      // each register; otherwise two of them
+    if ((!line && !makes_lines(2)) || nu > kMostStreamedRegisters * lanes) {
       return false;
     }
     if (choice.outputs == kPositionNormal) {
       const bool single = nu > lanes && nu % lanes == 1; // a column, of which lanes are rows
       const bool filled =
           idle == 0 ? nu >= 16 : 2 * nu >= 3 * lanes && 10 * idle <= 3 * (nu + idle);
-      return makes_lines(1) && (single || filled);
+      return line && (single || filled);
     }
     // Two registers are one tile, and of a line each the column behind them. Squares of half such a
     // register and a column have code of their own there.
     const bool position = choice.outputs == kPosition;
-    const bool square = nu == nv && nu * sizeof(T) == 36 && makes_lines(1);
+    const bool square = nu == nv && nu * sizeof(T) == 36 && line;
     const std::size_t shortest = lanes < 16 ? 40 / sizeof(T) : position ? 13 : 9;
-    const std::size_t widest = makes_lines(1) ? 2 * lanes + 1 : 2 * lanes - 1;
+    const std::size_t widest = line ? 2 * lanes + 1 : 2 * lanes - 1;
     if (idle != 0 && (nu >= shortest || square) && nu <= widest) {
-      return makes_lines(1) || makes_lines(2);
+      return true;
     }
     const std::size_t least = position ? 2 * lanes + lanes / 2 : 2 * lanes - 1;
-    return (makes_lines(1) && nu >= least) || (makes_lines(2) && idle != 0 && nu >= 3 * lanes);
+    return line ? nu >= least : idle != 0 && nu >= 3 * lanes;
   }
 
   void run(void (*kernel)(GridTask<T>&), OutputSet outputs, GridTask<T>& task) const noexcept {

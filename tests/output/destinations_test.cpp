@@ -232,8 +232,8 @@ protected:
     Canvas<T> canvas(0);
     Turns turns;
     for (const Size size :
-         {Size{9, 9}, Size{12, 4}, Size{16, 4}, Size{17, 17}, Size{17, 5}, Size{24, 3}, Size{31, 6},
-          Size{32, 5}, Size{33, 4}, Size{64, 4}, Size{65, 9}}) {
+         {Size{9, 9}, Size{12, 4}, Size{16, 4}, Size{17, 17}, Size{17, 5}, Size{24, 3}, Size{28, 3},
+          Size{31, 6}, Size{32, 5}, Size{33, 4}, Size{64, 4}, Size{65, 9}}) {
       std::vector<T> x;
       for (std::size_t k = 0; k < size.nu; ++k) {
         x.push_back(static_cast<T>(2 * k) / static_cast<T>(size.nu - 1) - T(1));
@@ -256,8 +256,9 @@ protected:
     const PatchSet<T> set = packed<T>(mixed_nets(100));
     Canvas<T> canvas(0);
     std::size_t number = 0;
-    for (const Size size : {Size{3, 3}, Size{5, 4}, Size{9, 9}, Size{13, 3}, Size{16, 16},
-                            Size{17, 17}, Size{26, 2}, Size{31, 2}, Size{32, 3}, Size{33, 9}}) {
+    for (const Size size :
+         {Size{3, 3}, Size{5, 4}, Size{9, 9}, Size{13, 3}, Size{16, 16}, Size{17, 5}, Size{17, 17},
+          Size{26, 2}, Size{31, 2}, Size{32, 3}, Size{33, 9}}) {
       const Grid<T> samples = Grid<T>::uniform(size.nu, size.nv);
       const Planes<T> reference = reference_of(set, samples);
       const std::size_t count = reference.count();
