@@ -155,23 +155,25 @@ SIMDBEZIER_PART bool is_mirrored_square(const GridTask<T>& task) {
 }
 
 /// Whether lanes of a small grid are better patches: there is a register of them, and results go to
-/// planes. Rows that are whole registers have tiles which find tangents as fast. Where registers
-/// are lines, there are such grids of mirrored squares only, samples that leave the caches are
-/// stored faster patch by patch, and idle lanes of the last register cost what is gained: an eighth
-/// of the patches at most where that is little, half of them elsewhere.
+/// planes that stay in the caches. Samples that leave them by plain stores are stored faster patch
+/// by patch: by lanes, parts of many lines are written in turns, and these are read first. Rows
+/// that are whole registers have tiles which find tangents as fast. Where registers are lines,
+/// there are such grids of mirrored squares only, staged ones are stored faster patch by patch as
+/// well, and idle lanes of the last register cost what is gained: an eighth of the patches at most
+/// where that is little, half of them elsewhere.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
   constexpr std::size_t kL = kLanes<vec<T>>;
-  if (task.patch_count < kL || task.record > 1 || task.streaming) {
+  if (task.patch_count < kL || task.record > 1 || task.streaming || task.plain_to_memory) {
     return false;
   }
   if constexpr (kLineWide<vec<T>>) {
-    const bool stays = task.drain == nullptr && !task.plain_to_memory;
     const std::size_t idle = (kL - task.patch_count % kL) % kL; // lanes of the last register
     constexpr bool kGainsLittle =
         sizeof(T) == 4 ? kOutputs == detail::kPosition : kOutputs == detail::kPositionNormal;
     const bool filled = (kGainsLittle ? 8 : 2) * idle <= task.patch_count;
-    return stays && filled && is_known_across<kOutputs, T>(task.nu) && is_mirrored_square(task);
+    return task.drain == nullptr && filled && is_known_across<kOutputs, T>(task.nu) &&
+           is_mirrored_square(task);
   } else {
     return kOutputs == detail::kPosition || task.nu != kL;
   }

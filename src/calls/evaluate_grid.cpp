@@ -21,7 +21,7 @@ public:
         plan_(plan), outputs_(out, way) {
     kernels_.expect_output(written_bytes(out, plan.nu() * plan.nv() * request.count), way);
     if (outputs_.staged()) {
-      outputs_.put_directly(kernels_.direct_rows(plan.nu(), plan.nv()));
+      outputs_.put_directly(kernels_.direct_rows(plan));
     }
     divide(std::min(Delivery<T>::chunk_samples(outputs_), plan.nu() * plan.nv() * request.count));
     chunk_samples_ = (strips_ > 1 ? strip_rows_ : together_ * plan.nv()) * plan.nu();

@@ -9,6 +9,7 @@
 
 #include "src/calls/call.hpp"
 #include "src/calls/destined_call.hpp"
+#include "src/calls/grid_plan.hpp"
 #include "src/calls/row_strips.hpp"
 #include "src/output/output_plan.hpp"
 #include "src/runtime/cache_sizes.hpp"
@@ -131,13 +132,13 @@ struct PatchKernels {
             .lanes = table->lanes,
             .records = table->puts_records && watertight && has_no_origins()};
   }
-  /// Likewise on grids of nu x nv samples each, past the caches as well.
-  [[nodiscard]] DirectRows direct_rows(std::size_t nu, std::size_t nv) const noexcept {
-    DirectRows rows = direct_rows(nu);
+  /// Likewise on one grid for all patches, past the caches as well.
+  [[nodiscard]] DirectRows direct_rows(const GridPlan<T>& plan) const noexcept {
+    DirectRows rows = direct_rows(plan.nu());
     // Kernels stream whole lines, of one register or, where that pays, of two.
     const bool lines = table->lanes * sizeof(T) == 64;
     rows.streamed = lines || streams_pairs();
-    rows.streamed_anywhere = turns_rows(nu, nv);
+    rows.streamed_anywhere = turns_rows(plan);
     rows.same_place = choice.outputs == kPositionNormal;
     rows.streamed_records = rows.records && lines;
     return rows;
@@ -181,10 +182,11 @@ private:
     return makes_lines(2) && choice.outputs != kPositionNormal;
   }
 
-  /// Whether grids of nu x nv samples are streamed row by row, wherever rows begin. Others are
-  /// faster by way of staging (docs/experiments.md, To memory): nearly all of a patch's time goes
-  /// to preparing it, or the last registers of rows are too empty.
-  [[nodiscard]] bool turns_rows(std::size_t nu, std::size_t nv) const noexcept {
+  /// Whether grids are streamed row by row, wherever rows begin. Others are faster by way of staging
+  /// (docs/experiments.md, To memory): nearly all of a patch's time goes to preparing it, or the
+  /// last registers of rows are too empty.
+  [[nodiscard]] bool turns_rows(const GridPlan<T>& plan) const noexcept {
+    const std::size_t nu = plan.nu();
     const std::size_t lanes = table->lanes;
     const std::size_t idle = (lanes - nu % lanes) % lanes; // of the last register
     const bool line = makes_lines(1);                      // each register; otherwise two of them
@@ -197,10 +199,10 @@ private:
           idle == 0 ? nu >= 16 : 2 * nu >= 3 * lanes && 10 * idle <= 3 * (nu + idle);
       return line && (single || filled);
     }
-    // Two registers are one tile, and of a line each the column behind them. Squares of half such a
-    // register and a column have code of their own there.
+    // Two registers are one tile, and of a line each the column behind them. Squares of more than
+    // half a line have code of their own there.
     const bool position = choice.outputs == kPosition;
-    const bool square = nu == nv && nu * sizeof(T) == 36 && line;
+    const bool square = plan.is_uniform_square() && watertight && nu * sizeof(T) > 32 && line;
     const std::size_t shortest = lanes < 16 ? 40 / sizeof(T) : position ? 13 : 9;
     const std::size_t widest = line ? 2 * lanes + 1 : 2 * lanes - 1;
     if (idle != 0 && (nu >= shortest || square) && nu <= widest) {
