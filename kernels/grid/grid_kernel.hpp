@@ -29,6 +29,7 @@
 #include "kernels/grid/small_grid_jets.hpp"
 #include "kernels/grid/small_jets_across.hpp"
 #include "kernels/grid/square_sweeps.hpp"
+#include "kernels/grid/squares_of_four.hpp"
 #include "kernels/grid/streamed_lines.hpp"
 #include "kernels/grid/streamed_normals.hpp"
 #include "kernels/grid/streamed_planes.hpp"
@@ -294,6 +295,14 @@ SIMDBEZIER_PART bool sweep_small_grid(const GridTask<T>& task) {
     if (!is_small_grid(task)) {
       return false;
     }
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+    if constexpr (kFourGroups<vec<T>>) {
+      if (is_square_of_four(task)) {
+        sweep_squares_of_four<kOutputs>(task);
+        return true;
+      }
+    }
+#endif
     if (pays_across<kOutputs>(task)) {
       sweep_small_grid_across<kOutputs>(task);
       return true;

@@ -137,14 +137,17 @@ SIMDBEZIER_KERNEL void sweep_normals_across(const GridTask<T>& shared_task) {
 }
 
 /// Whether the compiler knows squares of `side` samples that are faster so than in groups of lanes
-/// or, of doubles, in tiles, where registers are lines.
+/// or, of doubles, in tiles, where registers are lines. Floats of 4 x 4 have kernels of their own
+/// (grid/squares_of_four.hpp).
 template <detail::OutputSet kOutputs, typename T>
 constexpr bool is_known_across(std::size_t side) {
   constexpr bool kPositions = kOutputs == detail::kPosition;
   constexpr bool kNormals = kOutputs == detail::kPositionNormal;
-  constexpr bool kDouble = sizeof(T) == 8;
-  return (side == 4 && (kPositions || kNormals || !kDouble)) ||
-         (side == 5 && (kDouble ? kPositions : kNormals));
+  if constexpr (sizeof(T) == 4) {
+    return side == 5 && kNormals;
+  } else {
+    return (side == 4 && (kPositions || kNormals)) || (side == 5 && kPositions);
+  }
 }
 
 /// Whether rows of a small grid are as many as its columns, and pairs.
@@ -169,8 +172,7 @@ SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
   }
   if constexpr (kLineWide<vec<T>>) {
     const std::size_t idle = (kL - task.patch_count % kL) % kL; // lanes of the last register
-    constexpr bool kGainsLittle =
-        sizeof(T) == 4 ? kOutputs == detail::kPosition : kOutputs == detail::kPositionNormal;
+    constexpr bool kGainsLittle = sizeof(T) == 8 && kOutputs == detail::kPositionNormal;
     const bool filled = (kGainsLittle ? 8 : 2) * idle <= task.patch_count;
     return task.drain == nullptr && filled && is_known_across<kOutputs, T>(task.nu) &&
            is_mirrored_square(task);

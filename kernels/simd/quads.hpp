@@ -44,6 +44,21 @@ SIMDBEZIER_INLINE __m512d two_halves(const T* low, const T* high) {
 }
 #endif
 
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+/// Loads three lanes of chunk[j], the q-th from the j-th 128 bits behind first + q * step. The last
+/// lane is not used.
+SIMDBEZIER_INLINE void load_three_quads(const float* first, std::size_t step, vec<float> chunk[4]) {
+  const auto two = [&](std::size_t at) __attribute__((always_inline)) {
+    return _mm512_castpd_ps(two_halves(first + at, first + step + at));
+  };
+  const __m512 third = _mm512_loadu_ps(first + 2 * step);
+  chunk[0] = _mm512_maskz_shuffle_f32x4(0xffff, two(0), third, 0x08);
+  chunk[1] = _mm512_maskz_shuffle_f32x4(0xffff, two(0), third, 0x1d);
+  chunk[2] = _mm512_maskz_shuffle_f32x4(0xffff, two(8), third, 0x28);
+  chunk[3] = _mm512_maskz_shuffle_f32x4(0xffff, two(8), third, 0x3d);
+}
+#endif
+
 /// Has a value computed here. Compilers would move the arithmetic behind it into the branches that
 /// use the value, but not the loads before it, and spill all that those have brought.
 template <typename V>
@@ -139,6 +154,23 @@ SIMDBEZIER_INLINE V lane_broadcast(V v) {
   return broadcast_in_groups<kQuad<V>, k>(v);
 #endif
 }
+
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+/// Returns value k of each lane of `low` in the first half of that lane, and of `high` in the
+/// other.
+template <std::size_t k>
+SIMDBEZIER_INLINE vec<float> broadcast_halves(vec<float> low, vec<float> high) {
+  return vec<float>(_mm512_maskz_shuffle_ps(0xffff, low, high, k * 0x55));
+}
+/// Returns the first halves of the lanes of two registers, their values in turn.
+SIMDBEZIER_INLINE vec<float> zip_low_halves(vec<float> even, vec<float> odd) {
+  return vec<float>(_mm512_maskz_unpacklo_ps(0xffff, even, odd));
+}
+/// Likewise their second halves.
+SIMDBEZIER_INLINE vec<float> zip_high_halves(vec<float> even, vec<float> odd) {
+  return vec<float>(_mm512_maskz_unpackhi_ps(0xffff, even, odd));
+}
+#endif
 
 /// Transposes the kQuad x kQuad values that kQuad registers hold in each lane.
 template <typename V>

@@ -25,16 +25,22 @@ struct Columns {
   Column<T> column[kMostMembers + kCurvatureKinds]; ///< the first `count` of them are written
   std::size_t count = 0;
 
-  void add(T* first, std::ptrdiff_t stride, std::size_t samples) noexcept {
+  /// Adds all columns of a group, or one where the others are null. They have the same extent.
+  void add(T* const (&first)[3], std::ptrdiff_t stride, std::size_t samples) noexcept {
     if (samples == 0) {
       return; // and the stride may be anything
     }
     const std::ptrdiff_t last =
         static_cast<std::ptrdiff_t>(samples - 1) * stride * static_cast<std::ptrdiff_t>(sizeof(T));
-    const auto address = reinterpret_cast<std::uintptr_t>(first);
-    const std::uintptr_t lowest = last < 0 ? address + static_cast<std::uintptr_t>(last) : address;
-    const auto span = static_cast<std::size_t>(last < 0 ? -last : last);
-    column[count++] = {first, stride, reinterpret_cast<const void*>(lowest), span + sizeof(T)};
+    const std::ptrdiff_t lowest = std::min<std::ptrdiff_t>(last, 0);
+    const auto bytes = static_cast<std::size_t>(std::max(last, -last)) + sizeof(T);
+    for (T* const values : first) {
+      if (values != nullptr) {
+        const std::uintptr_t begin =
+            reinterpret_cast<std::uintptr_t>(values) + static_cast<std::uintptr_t>(lowest);
+        column[count++] = {values, stride, reinterpret_cast<const void*>(begin), bytes};
+      }
+    }
   }
 };
 
@@ -101,13 +107,16 @@ Status check_overlaps(const Columns<T>& columns, const MemoryRange& status,
                        [&](const MemoryRange& input) { return range.meets(input); });
   };
   bool bad = meets_input(status);
+  const bool others = status.bytes > 0 || !inputs.empty();
+  for (std::size_t i = 0; others && i < columns.count; ++i) {
+    const MemoryRange range = columns.column[i].range();
+    bad = bad || range.meets(status) || meets_input(range);
+  }
   // Most outputs lie one behind the other in memory. Then no two columns meet, and pairs need no
   // look.
   bool ascend = true;
-  for (std::size_t i = 0; i < columns.count; ++i) {
-    const MemoryRange range = columns.column[i].range();
-    bad = bad || range.meets(status) || meets_input(range);
-    ascend = ascend && (i == 0 || columns.column[i - 1].range().precedes(range));
+  for (std::size_t i = 1; i < columns.count; ++i) {
+    ascend = ascend && columns.column[i - 1].range().precedes(columns.column[i].range());
   }
   for (std::size_t i = 0; i < columns.count && !ascend; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -133,11 +142,7 @@ Status check_outputs(const OutputList<T>& out, std::size_t samples, std::size_t 
       return status;
     }
     any = true;
-    for (T* const first : {group.x, group.y, group.z}) {
-      if (first != nullptr) {
-        columns.add(first, group.stride, samples);
-      }
-    }
+    columns.add({group.x, group.y, group.z}, group.stride, samples);
   }
   for (std::size_t k = 0; out.wants_curvature() && k < out.curvature_count; ++k) {
     const Values<T>& values = *out.curvature[k];
@@ -146,7 +151,7 @@ Status check_outputs(const OutputList<T>& out, std::size_t samples, std::size_t 
         return status;
       }
       any = true;
-      columns.add(values.first, 1, samples);
+      columns.add({values.first, nullptr, nullptr}, 1, samples);
     }
   }
   if (!any) {

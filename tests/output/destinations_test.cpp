@@ -257,8 +257,8 @@ protected:
     Canvas<T> canvas(0);
     std::size_t number = 0;
     for (const Size size :
-         {Size{3, 3}, Size{5, 4}, Size{9, 9}, Size{13, 3}, Size{16, 16}, Size{17, 5}, Size{17, 17},
-          Size{26, 2}, Size{31, 2}, Size{32, 3}, Size{33, 9}}) {
+         {Size{3, 3}, Size{5, 4}, Size{6, 6}, Size{9, 9}, Size{11, 11}, Size{13, 3}, Size{16, 16},
+          Size{17, 5}, Size{17, 17}, Size{26, 2}, Size{31, 2}, Size{32, 3}, Size{33, 9}}) {
       const Grid<T> samples = Grid<T>::uniform(size.nu, size.nv);
       const Planes<T> reference = reference_of(set, samples);
       const std::size_t count = reference.count();
