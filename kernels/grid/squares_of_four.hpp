@@ -1,11 +1,12 @@
 // Watertight grids of 4 x 4 samples from edge to edge, whose parameters are pairs X and -X.
 //
-// Four samples in five are on the border, and each component has just four others. Registers of
-// four groups of four lanes therefore hold all three components of a patch, a group each:
-//   columns   lane l                 power l of Y of the polynomial that an inner column is
-//   inner     lane 2 i + j           inner column i, inner row j
-//   border    lane e                 an inner sample of edge e; its mirror image in another
-//   register corners   lane v * 2 + u
+// Three samples in four are on the border, and each component has just four others. A register of
+// four groups of four lanes therefore holds all three components of a patch, a group each, and the
+// last group is idle. In a group,
+//   lane l of a column           is power l of Y of the polynomial that the column is,
+//   lane 2 i + j of the inner    is the sample of inner column i and inner row j,
+//   lane e of the border         is an inner sample of edge e; a second register has the others,
+//   lane 2 v + u of the corners  is corner (u, v).
 // A component's samples fill one register, which takes two permutations. Larger grids fill groups
 // by themselves (grid/small_grids.hpp). The operations of a sample are those of tiles, and so are
 // its bits.
@@ -105,7 +106,7 @@ private:
   Assembly component_[3];
 };
 
-/// The registers that hold the samples of one patch.
+/// The registers that hold the samples of one patch, in the order of SquareSources.
 template <typename V, bool kDerivatives>
 struct SquareSamples {
   using T = ScalarOf<V>;
