@@ -18,6 +18,26 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
+/// The columns of a grid, by the tiles that take them.
+template <typename V>
+struct ColumnSplit {
+  std::size_t full; ///< in whole registers
+  std::size_t rest; ///< behind them
+  bool single;      ///< and one more behind these
+
+  explicit SIMDBEZIER_PART ColumnSplit(std::size_t nu, bool single_columns = true)
+      : full(nu / kLanes<V> * kLanes<V>), rest(nu - full), single(false) {
+    if (single_columns && full > 0 && rest == 1) {
+      --rest;
+      single = true;
+    }
+  }
+  [[nodiscard]] SIMDBEZIER_PART std::size_t whole_registers() const { return full / kLanes<V>; }
+  [[nodiscard]] SIMDBEZIER_PART std::size_t registers() const {
+    return whole_registers() + (rest > 0 ? 1 : 0);
+  }
+};
+
 /// The lanes that are corners of the patch, where both edges v = const share a register.
 template <typename V>
 struct SharedCorners {

@@ -38,22 +38,6 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// The columns of a grid, by the tiles that take them.
-template <typename V>
-struct ColumnSplit {
-  std::size_t full; ///< whole registers
-  std::size_t rest; ///< behind them
-  bool column;      ///< and one more behind these
-
-  SIMDBEZIER_PART ColumnSplit(std::size_t nu, bool single_columns)
-      : full(nu / kLanes<V> * kLanes<V>), rest(nu - full), column(false) {
-    if (single_columns && full > 0 && rest == 1) {
-      --rest;
-      column = true;
-    }
-  }
-};
-
 /// Whether two registers of a line are streamed together. Memory takes each second line at half of
 /// its rate.
 template <detail::OutputSet kOutputs, typename T>
@@ -169,14 +153,14 @@ SIMDBEZIER_PART void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<
     }
   }
   // A single column goes along with the last whole register.
-  const std::size_t plain = split.column ? split.full - kL : split.full;
+  const std::size_t plain = split.single ? split.full - kL : split.full;
   std::size_t first = 0;
   if constexpr (kSweepsTwice<kOutputs, T>) {
     using W = RegisterPair<V>;
     for (; first + 2 * kL <= plain; first += 2 * kL) {
       tiles.template sweep<ColumnTile<1, true, false, W>>(first, 2 * kL);
     }
-    if (split.column && first + 2 * kL == split.full) {
+    if (split.single && first + 2 * kL == split.full) {
       return tiles.template sweep<ColumnTile<1, true, true, W>>(first, 2 * kL);
     }
     // The last registers of shorter ones overlap. In staging, derivatives are faster one by one.
@@ -190,7 +174,7 @@ SIMDBEZIER_PART void sweep_tiles(const GridTask<T>& task, const ColumnSplit<vec<
   for (; first < plain; first += kL) {
     tiles.template sweep<ColumnTile<1, true, false, V>>(first, kL);
   }
-  if (split.column) {
+  if (split.single) {
     tiles.template sweep<ColumnTile<1, true, true, V>>(plain, kL);
   } else {
     sweep_rest<kOutputs, T>(tiles, split.full, split.rest);

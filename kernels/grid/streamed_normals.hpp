@@ -66,20 +66,6 @@ struct UncertainRegisters {
   std::uint16_t row[kMostMiddleRows + 2];
 };
 
-/// Columns of a streamed grid: whole registers, lanes of one more, and a single one.
-template <typename T>
-struct StreamedColumns {
-  std::size_t whole;
-  std::size_t rest;
-  bool single;
-
-  explicit SIMDBEZIER_PART StreamedColumns(std::size_t nu)
-      : whole(nu / kLanes<vec<T>>), rest(nu % kLanes<vec<T>>), single(rest == 1) {
-    rest = single ? 0 : rest;
-  }
-  [[nodiscard]] SIMDBEZIER_PART std::size_t registers() const { return whole + (rest > 0 ? 1 : 0); }
-};
-
 /// Streams one patch, and returns whether all of its normals are certain. behind: the single column
 /// behind its registers. kOneRegister: there is no more before it, which the compiler knows.
 template <bool kOneRegister, typename T>
@@ -88,7 +74,7 @@ SIMDBEZIER_KERNEL bool stream_patch(const GridTask<T>& task, const RowPiece<T>& 
                                     PlaneStreams<vec<T>, 6>& streams,
                                     UncertainRegisters& uncertain) {
   using V = vec<T>;
-  const StreamedColumns<T> split(kOneRegister ? kLanes<V> + 1 : task.nu); // known, if so
+  const ColumnSplit<V> split(kOneRegister ? kLanes<V> + 1 : task.nu); // known, if so
   NormalColumns<T> columns[kOneRegister ? 1 : detail::kMostStreamedRegisters];
   for (std::size_t k = 0; k < split.registers(); ++k) {
     columns[k].build(task, patch, k);
@@ -109,12 +95,12 @@ SIMDBEZIER_KERNEL bool stream_patch(const GridTask<T>& task, const RowPiece<T>& 
       }
     };
     V values[6];
-    for (std::size_t k = 0; k < split.whole; ++k) {
+    for (std::size_t k = 0; k < split.whole_registers(); ++k) {
       find(k, values);
       stream.put(values);
     }
     if (split.rest > 0) {
-      find(split.whole, values);
+      find(split.whole_registers(), values);
       stream.put_first(values, split.rest);
     }
     if (split.single) {
@@ -153,7 +139,7 @@ SIMDBEZIER_RARE void resolve_streamed(const GridTask<T>& task, const RowPiece<T>
   constexpr std::size_t kL = kLanes<V>;
   GridTask<T> plain = task;
   assume<Known::no_origins>(plain);
-  for (std::size_t k = 0; k < StreamedColumns<T>(task.nu).registers(); ++k) {
+  for (std::size_t k = 0; k < ColumnSplit<V>(task.nu).registers(); ++k) {
     NormalColumns<T> columns;
     columns.build(plain, patch, k);
     for (std::size_t j = 0; j < piece.rows(); ++j) {
@@ -197,10 +183,10 @@ SIMDBEZIER_KERNEL void stream_normals(const GridTask<T>& shared_task, const RowP
   ColumnBuffer<T, 6> buffer;
   put_into_buffer(column_task, piece, buffer);
   const ColumnPlanes<T> behind = buffer.planes(piece);
-  const StreamedColumns<T> split(task.nu);
+  const ColumnSplit<vec<T>> split(task.nu);
   const SingleColumnTile<vec<T>> column(task.x, task.nu - 1, 1, task.watertight);
   const auto stream =
-      split.single && split.whole == 1 ? stream_patch<true, T> : stream_patch<false, T>;
+      split.single && split.whole_registers() == 1 ? stream_patch<true, T> : stream_patch<false, T>;
   T* first[6];
   PlaneStreams<vec<T>, 6> streams;
   UncertainRegisters uncertain;
