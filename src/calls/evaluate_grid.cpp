@@ -40,6 +40,10 @@ public:
 
   Isa run(int /*worker*/, std::size_t begin, std::size_t end,
           unsigned char* scratch) const noexcept {
+    if (strips_ == 1 && PieceEvaluator<T>::runs_at_once(kernels_, outputs_, plan_)) {
+      return PieceEvaluator<T>::run_at_once(kernels_, plan_, piece_at(begin, end), outputs_,
+                                            begin * plan_.nu() * plan_.nv());
+    }
     PieceEvaluator<T> evaluator(kernels_, strip_rows_,
                                 scratch == nullptr ? nullptr : scratch + delivery_bytes_);
     Delivery<T> delivery(outputs_, *kernels_.table, chunk_samples_, scratch);

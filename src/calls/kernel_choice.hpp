@@ -182,9 +182,9 @@ private:
     return makes_lines(2) && choice.outputs != kPositionNormal;
   }
 
-  /// Whether grids are streamed row by row, wherever rows begin. Others are faster by way of staging
-  /// (docs/experiments.md, To memory): nearly all of a patch's time goes to preparing it, or the
-  /// last registers of rows are too empty.
+  /// Whether grids are streamed row by row, wherever rows begin. Others are faster by way of
+  /// staging (docs/experiments.md, To memory): nearly all of a patch's time goes to preparing it,
+  /// or the last registers of rows are too empty.
   [[nodiscard]] bool turns_rows(const GridPlan<T>& plan) const noexcept {
     const std::size_t nu = plan.nu();
     const std::size_t lanes = table->lanes;

@@ -54,32 +54,61 @@ void PieceEvaluator<T>::Prepared::find_rows(const GridPlan<T>& where,
 }
 
 template <typename T>
-void PieceEvaluator<T>::fill(Prepared& prepared, const PatchStorage<T>& set,
-                             const GridPlan<T>& plan, const GridPiece& piece,
-                             const Target& to) const noexcept {
-  GridTask<T>& task = prepared.task;
+void PieceEvaluator<T>::fill(GridTask<T>& task, const PatchKernels<T>& kernels,
+                             const PatchStorage<T>& set, const GridPlan<T>& plan,
+                             const GridPiece& piece, std::span<const RowRun<T>> runs,
+                             const Target& to) noexcept {
   static_cast<PatchArrays<T>&>(task) = set.arrays(piece.patch);
   task.patch_count = piece.patches;
   task.x = plan.x();
   task.nu = plan.nu();
-  task.runs = prepared.runs;
-  task.run_count = prepared.run_count;
+  task.runs = runs.data();
+  task.run_count = runs.size();
   for (std::size_t g = 0; g < kVectorOutputs; ++g) {
     task.out[g] = to.planes[g];
   }
   std::copy_n(to.curvature, kCurvatureKinds, task.curvature);
-  task.first_component = kernels_.first_component;
+  task.first_component = kernels.first_component;
   task.status = to.status;
   task.patch_step = (piece.last_row - piece.first_row) * plan.nu();
   task.resolve_normal = resolve_normal<T>;
   task.prefetch = pays_to_prefetch(set, true);
   task.streaming = to.streaming;
-  task.by_lines = kernels_.by_lines;
-  task.plain_to_memory = kernels_.plain_to_memory;
+  task.by_lines = kernels.by_lines;
+  task.plain_to_memory = kernels.plain_to_memory;
   task.cached_bytes = cached_sample_bytes();
-  task.watertight = kernels_.watertight;
+  task.watertight = kernels.watertight;
   task.record = to.record;
   task.drain = to.drain;
+}
+
+template <typename T>
+void PieceEvaluator<T>::run_task(GridTask<T>& task, const PatchKernels<T>& kernels,
+                                 const Target& to) noexcept {
+  if (to.status != nullptr) {
+    for (std::size_t p = 0; p < task.patch_count; ++p) {
+      prefill_status(task, to.status + p * task.patch_step);
+    }
+  }
+  kernels.run(task);
+}
+
+template <typename T>
+Isa PieceEvaluator<T>::run_at_once(const PatchKernels<T>& kernels, const GridPlan<T>& plan,
+                                   const GridPiece& piece, const OutputPlan<T>& outputs,
+                                   std::size_t sample) noexcept {
+  RowRun<T> runs[kInlineRows];
+  const std::size_t run_count = plan.fill_runs(piece.first_row, piece.last_row, runs);
+  Planes<T> planes[kVectorOutputs];
+  outputs.find_planes(sample, planes);
+  const Target to(outputs, planes, sample);
+  GridTask<T> task;
+  fill(task, kernels, kernels.set->buckets[0], plan, piece, {runs, run_count}, to);
+  run_task(task, kernels, to);
+  if (outputs.streaming()) {
+    kernels.table->fence();
+  }
+  return task.executed;
 }
 
 template <typename T>
@@ -119,7 +148,7 @@ void PieceEvaluator<T>::run_bucket(const PatchStorage<T>& bucket, const GridPlan
                                    const GridPiece* next) noexcept {
   Prepared& now = prepared_[turn_];
   if (!now.ahead || !(now.piece == piece) || to.status != nullptr || kernels_.choice.any_shape) {
-    fill(now, bucket, plan, piece, to);
+    fill(now.task, kernels_, bucket, plan, piece, {now.runs, now.run_count}, to);
   }
   now.ahead = false;
   if (to.drain != nullptr && to.next != nullptr && next != nullptr) {
@@ -128,16 +157,11 @@ void PieceEvaluator<T>::run_bucket(const PatchStorage<T>& bucket, const GridPlan
     later.find_rows(plan, *next);
     Target after = to;
     after.planes = to.next;
-    fill(later, bucket, plan, *next, after);
+    fill(later.task, kernels_, bucket, plan, *next, {later.runs, later.run_count}, after);
     later.ahead = true;
     later.piece = *next;
   }
-  if (to.status != nullptr) {
-    for (std::size_t p = 0; p < piece.patches; ++p) {
-      prefill_status(now.task, to.status + p * now.task.patch_step);
-    }
-  }
-  kernels_.run(now.task);
+  run_task(now.task, kernels_, to);
   executed_ = now.task.executed;
 }
 

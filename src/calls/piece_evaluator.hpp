@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "src/calls/grid_plan.hpp"
 #include "src/calls/kernel_choice.hpp"
@@ -40,14 +41,19 @@ public:
     const Planes<T>* next = nullptr;    ///< with a drain: the planes of the piece after this one
     std::size_t record = 1;             ///< see GridTask
 
-    /// The piece whose first sample has the caller's index `sample`.
-    Target(const OutputPlan<T>& outputs, Delivery<T>& delivery, std::size_t sample) noexcept
-        : planes(delivery.begin(sample)), status(outputs.out().status_at(sample)),
-          drain(delivery.queue()), streaming(outputs.streaming() && !outputs.staged()),
-          next(delivery.next()), record(outputs.record()) {
+    /// The piece whose first sample has the caller's index `sample`; its planes are these.
+    Target(const OutputPlan<T>& outputs, const Planes<T>* of_sample, std::size_t sample) noexcept
+        : planes(of_sample), status(outputs.out().status_at(sample)),
+          streaming(outputs.streaming() && !outputs.staged()), record(outputs.record()) {
       for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
         curvature[k] = outputs.out().curvature_at(k, sample);
       }
+    }
+    /// The piece that is delivered next.
+    Target(const OutputPlan<T>& outputs, Delivery<T>& delivery, std::size_t sample) noexcept
+        : Target(outputs, delivery.begin(sample), sample) {
+      drain = delivery.queue();
+      next = delivery.next();
     }
     /// The rest of the piece from one of its samples on, for patches that are no longer staged
     /// together; its planes are formed in `memory`.
@@ -76,6 +82,20 @@ public:
   void run(const GridPlan<T>& plan, const GridPiece& piece, const Target& to,
            const GridPiece* next) noexcept;
 
+  /// Whether kernels can take all patches of a call at once: they write outputs to their places, on
+  /// few rows, and the patches have one shape.
+  [[nodiscard]] static bool runs_at_once(const PatchKernels<T>& kernels,
+                                         const OutputPlan<T>& outputs,
+                                         const GridPlan<T>& plan) noexcept {
+    return !outputs.staged() && kernels.set->places == nullptr && plan.nv() <= kInlineRows;
+  }
+  /// Evaluates the piece of such a call whose first sample has the caller's index `sample`, without
+  /// an object and a delivery, which cost a small call a sixth of its time. Returns the instruction
+  /// set that ran.
+  static Isa run_at_once(const PatchKernels<T>& kernels, const GridPlan<T>& plan,
+                         const GridPiece& piece, const OutputPlan<T>& outputs,
+                         std::size_t sample) noexcept;
+
   /// The instruction set of the kernels that ran.
   [[nodiscard]] Isa executed() const noexcept { return executed_; }
 
@@ -98,9 +118,14 @@ private:
     void find_rows(const GridPlan<T>& where, const GridPiece& rows) noexcept;
   };
 
-  /// Writes the task of a piece. bucket, piece.patch: where the piece's patches are stored.
-  void fill(Prepared& prepared, const PatchStorage<T>& bucket, const GridPlan<T>& plan,
-            const GridPiece& piece, const Target& to) const noexcept;
+  /// Writes the task of a piece on rows that these runs describe. bucket, piece.patch: where the
+  /// piece's patches are stored.
+  static void fill(GridTask<T>& task, const PatchKernels<T>& kernels, const PatchStorage<T>& bucket,
+                   const GridPlan<T>& plan, const GridPiece& piece, std::span<const RowRun<T>> runs,
+                   const Target& to) noexcept;
+  /// Runs a task that has been written.
+  static void run_task(GridTask<T>& task, const PatchKernels<T>& kernels,
+                       const Target& to) noexcept;
   void run_bucket(const PatchStorage<T>& bucket, const GridPlan<T>& plan, const GridPiece& piece,
                   const Target& to, const GridPiece* next) noexcept;
   void run_mixed(const GridPlan<T>& plan, const GridPiece& piece, const Target& to) noexcept;

@@ -65,18 +65,8 @@ const Planes<T>* Delivery<T>::begin(std::size_t sample) noexcept {
     restart(sample);
   }
   expected_ = sample;
-  Planes<T>* const planes = planes_[buffer_];
-  const OutputList<T>& out = plan_.out();
-  for (std::size_t g = 0; g < out.vector_count; ++g) {
-    if (out.wants(g) && !plan_.is_staged(g)) {
-      const Vectors<T>& group = *out.vectors[g];
-      T* const first[3] = {group.x, group.y, group.z};
-      for (std::size_t c = 0; c < plan_.dimension(); ++c) {
-        planes[g].component[c] = first[c] + static_cast<std::ptrdiff_t>(sample) * group.stride;
-      }
-    }
-  }
-  return planes;
+  plan_.find_planes(sample, planes_[buffer_]);
+  return planes_[buffer_];
 }
 
 template <typename T>

@@ -108,6 +108,20 @@ void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
 }
 
 template <typename T>
+void OutputPlan<T>::find_planes(std::size_t sample,
+                                Planes<T> (&planes)[kVectorOutputs]) const noexcept {
+  for (std::size_t g = 0; g < out_.vector_count; ++g) {
+    if (out_.wants(g) && !is_staged(g)) {
+      const Vectors<T>& group = *out_.vectors[g];
+      T* const first[3] = {group.x, group.y, group.z};
+      for (std::size_t c = 0; c < dimension_; ++c) {
+        planes[g].component[c] = first[c] + static_cast<std::ptrdiff_t>(sample) * group.stride;
+      }
+    }
+  }
+}
+
+template <typename T>
 void OutputPlan<T>::write_directly() noexcept {
   staged_planes_ = 0;
   streams_ = 0;

@@ -52,6 +52,9 @@ public:
   /// Values from one sample to the next where kernels write directly: 1 for planes, 3 for triples
   /// of each group, more for one vertex of all groups, counted from a group's first component.
   [[nodiscard]] std::size_t record() const noexcept { return record_; }
+  /// Finds where the outputs that are not staged have sample number `sample`. planes: of every
+  /// vector output; others are left alone.
+  void find_planes(std::size_t sample, Planes<T> (&planes)[kVectorOutputs]) const noexcept;
   /// Gives up staging: kernels know the outputs' layout themselves.
   void write_directly() noexcept;
   [[nodiscard]] std::size_t staged_planes() const noexcept { return staged_planes_; }
