@@ -76,12 +76,17 @@ using StreamedTile =
                        std::conditional_t<(kColumns < kLanes<V>), ColumnTile<1, false, false, V>,
                                           ColumnTile<1, false, false, RegisterPair<V>>>>;
 
-/// Whether squares of this side, whose rows are a part of a line, but more than half of it, are
-/// streamed by straight code. The others of AVX2 are staged (9 floats) or faster in a loop.
+/// Whether rows of so many columns never come here, because staging is faster: 9 floats on AVX2.
+template <typename T, std::size_t kColumns>
+constexpr bool kIsStaged = !kLineWide<vec<T>> && kColumns * sizeof(T) < 40;
+
+/// Whether squares of this side are streamed by straight code: those whose rows are a part of a
+/// line, but more than half of it. AVX2 is faster in a loop for 15 x 15 derivatives. PatchKernels
+/// of src/calls/kernel_choice.hpp has such squares streamed where rows of their length are not.
 template <detail::OutputSet kOutputs, typename T, std::size_t kSide>
 constexpr bool kStreamsSquare = (kSide * sizeof(T) > 32) && (kSide * sizeof(T) < 64) &&
-                                (kLineWide<vec<T>> ||
-                                 (kSide != 9 && (kSide != 15 || kOutputs == detail::kPosition)));
+                                !kIsStaged<T, kSide> &&
+                                (kLineWide<vec<T>> || kSide != 15 || kOutputs == detail::kPosition);
 
 /// Streams the patches of a task if they are squares of one of these sides, which have straight
 /// code, and returns whether they are. It is up to 1.25 times as fast as loops over their few rows.
@@ -128,11 +133,13 @@ SIMDBEZIER_PART bool stream_tiles(const GridTask<T>& task, const RowPiece<T>& pi
   if (nu > 2 * kL) {
     return false;
   }
-  if (nu == kL + 1) {
-    stream_tile<kOutputs, ColumnTile<1, true, true, V>>(task, piece, across);
-  } else {
-    stream_tile<kOutputs, ColumnTile<1, false, false, W>>(task, piece, across);
+  if constexpr (!kIsStaged<T, kL + 1>) {
+    if (nu == kL + 1) {
+      stream_tile<kOutputs, ColumnTile<1, true, true, V>>(task, piece, across);
+      return true;
+    }
   }
+  stream_tile<kOutputs, ColumnTile<1, false, false, W>>(task, piece, across);
   return true;
 }
 #endif

@@ -42,11 +42,9 @@ SIMDBEZIER_INLINE __m512d two_halves(const T* low, const T* high) {
   __builtin_memcpy(&second, high, sizeof(second));
   return _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(first), second, 1);
 }
-#endif
 
-#if defined(SIMDBEZIER_KERNELS_AVX512)
 /// Loads three lanes of chunk[j], the q-th from the j-th 128 bits behind first + q * step. The last
-/// lane is not used.
+/// lane repeats another one, so that arithmetic on it raises no exception of its own.
 SIMDBEZIER_INLINE void load_three_quads(const float* first, std::size_t step, vec<float> chunk[4]) {
   const auto two = [&](std::size_t at) __attribute__((always_inline)) {
     return _mm512_castpd_ps(two_halves(first + at, first + step + at));

@@ -25,7 +25,7 @@ struct Columns {
   Column<T> column[kMostMembers + kCurvatureKinds]; ///< the first `count` of them are written
   std::size_t count = 0;
 
-  /// Adds all columns of a group, or one where the others are null. They have the same extent.
+  /// Adds those columns of a group that are not null. They have the same extent.
   void add(T* const (&first)[3], std::ptrdiff_t stride, std::size_t samples) noexcept {
     if (samples == 0) {
       return; // and the stride may be anything
@@ -107,6 +107,7 @@ Status check_overlaps(const Columns<T>& columns, const MemoryRange& status,
                        [&](const MemoryRange& input) { return range.meets(input); });
   };
   bool bad = meets_input(status);
+  // Most calls have neither statuses nor inputs that outputs could meet.
   const bool others = status.bytes > 0 || !inputs.empty();
   for (std::size_t i = 0; others && i < columns.count; ++i) {
     const MemoryRange range = columns.column[i].range();

@@ -287,6 +287,32 @@ protected:
     }
   }
 
+  /// Squares whose given parameters are pairs, which may take code that is made for uniform ones.
+  template <typename T>
+  void mirrored_parameters() {
+    const PatchSet<T> set = packed<T>(mixed_nets(4));
+    Random random(33);
+    Canvas<T> canvas(0);
+    for (std::size_t n = 3; n <= 18; ++n) {
+      std::vector<T> x(n, T(0));
+      for (std::size_t k = 0; k < n / 2; ++k) {
+        x[k] = k == 0 ? T(-1) : static_cast<T>(-random.between(0.01, 0.99));
+        x[n - 1 - k] = -x[k];
+      }
+      const Grid<T> samples{n, n, x.data(), x.data(), Parameters::centred};
+      const Planes<T> reference = reference_of(set, samples);
+      const std::size_t count = reference.count();
+      const CallOptions options{.threads = 1, .destination = Destination::memory, .patch_count = 4};
+      for (const PlaneCase& layout : kPlaneCases) {
+        for (const std::size_t shift : {n % 16, (3 * n + 5) % 16}) {
+          canvas.reset(plane_elements(layout, count));
+          check(set, samples, reference, canvas, plane_outputs(layout, count, shift, canvas.at(0)),
+                options, layout.name);
+        }
+      }
+    }
+  }
+
   /// Given parameters: edges in the middle of rows, samples outside, and a single row or column.
   template <typename T>
   void given_parameters() {
@@ -327,6 +353,8 @@ TEST_P(DestinationTest, VerticesAtEveryAlignmentF32) { vertices_at_every_alignme
 TEST_P(DestinationTest, VerticesAtEveryAlignmentF64) { vertices_at_every_alignment<double>(); }
 TEST_P(DestinationTest, LocalOriginsF32) { local_origins<float>(); }
 TEST_P(DestinationTest, LocalOriginsF64) { local_origins<double>(); }
+TEST_P(DestinationTest, MirroredParametersF32) { mirrored_parameters<float>(); }
+TEST_P(DestinationTest, MirroredParametersF64) { mirrored_parameters<double>(); }
 TEST_P(DestinationTest, MixturesF32) { mixtures<float>(); }
 TEST_P(DestinationTest, MixturesF64) { mixtures<double>(); }
 TEST_P(DestinationTest, NormalsWithStatusF32) { normals_with_status<float>(); }

@@ -68,6 +68,69 @@ protected:
       EXPECT_EQ(different, 0U) << "of " << repeats << " chunks, threads: " << options.threads;
     }
   }
+
+  /// Planes of small squares that leave the caches by plain stores: kernels store them in another
+  /// way than those that stay. The same patches follow each other again and again.
+  template <typename T>
+  void plain_planes() {
+    const std::size_t bytes = detail::last_level_cache() / 2;
+    if (bytes > kMostBytes) {
+      GTEST_SKIP() << "caches of " << 2 * bytes << " bytes";
+    }
+    const std::vector<Net> some = mixed_nets(kRepeated);
+    const std::vector<T> points = packed_points<T>(some);
+    const PatchSet<T> few = packed<T>(some);
+    const auto repeats_of = [&](std::size_t samples, std::size_t planes) {
+      return bytes / (kRepeated * samples * planes * sizeof(T)) + 1;
+    };
+    std::vector<T> all;
+    for (std::size_t r = 0; r < repeats_of(16, 3); ++r) {
+      all.insert(all.end(), points.begin(), points.end());
+    }
+    PatchSet<T> set;
+    expect_packed(
+        pack(ControlNets<T>::packed(all.data(), repeats_of(16, 3) * kRepeated, 3, 3, 3), set));
+    std::vector<T> found;
+    for (const std::size_t side : {4U, 5U, 6U, 9U}) {
+      for (const Output second : {Output::position, Output::normal, Output::du}) {
+        const std::size_t groups = second == Output::position ? 1
+                                   : second == Output::normal ? 2
+                                                              : 3;
+        const std::size_t chunk = kRepeated * side * side;
+        const std::size_t repeats = repeats_of(side * side, 3 * groups);
+        const auto outputs = [&](T* first, std::size_t count) {
+          Outputs<T> out;
+          const auto next = [&] {
+            T* const plane = first;
+            first += 3 * count;
+            return Vectors<T>::planes(plane, plane + count, plane + 2 * count);
+          };
+          out.position = next();
+          if (groups > 1) {
+            out[second] = next();
+          }
+          if (groups > 2) {
+            out.dv = next();
+          }
+          return out;
+        };
+        const Grid<T> samples = Grid<T>::uniform(side, side);
+        const CallOptions plain{.threads = 1, .destination = Destination::cache};
+        std::vector<T> expected(3 * groups * chunk);
+        grid(few, samples, outputs(expected.data(), chunk), plain);
+        found.assign(3 * groups * chunk * repeats, T(-7));
+        CallOptions many = plain;
+        many.patch_count = repeats * kRepeated;
+        grid(set, samples, outputs(found.data(), chunk * repeats), many);
+        std::size_t different = 0;
+        for (std::size_t k = 0; k < 3 * groups * repeats; ++k) {
+          different += std::memcmp(found.data() + k * chunk, expected.data() + k / repeats * chunk,
+                                   chunk * sizeof(T)) != 0;
+        }
+        EXPECT_EQ(different, 0U) << side << "x" << side << ", " << groups << " outputs";
+      }
+    }
+  }
 };
 
 TEST_P(LargeCalls, OnOneGrid) {
@@ -106,6 +169,9 @@ TEST_P(LargeCalls, OnTwoRows) {
   }
   EXPECT_EQ(std::memcmp(found[0].data(), found[1].data(), found[0].size() * sizeof(float)), 0);
 }
+
+TEST_P(LargeCalls, InPlanesByPlainStoresF32) { plain_planes<float>(); }
+TEST_P(LargeCalls, InPlanesByPlainStoresF64) { plain_planes<double>(); }
 
 INSTANTIATE_FOR_EVERY_ISA(LargeCalls);
 
