@@ -74,6 +74,22 @@ SIMDBEZIER_RARE void resolve_small_normals(const GridTask<ScalarOf<V>>& task, st
   resolve_normals(task, patch, uncertain, load_vector<V>(x), load_vector<V>(y), squared, floor);
 }
 
+/// Finds the normals of a register of consecutive samples, `active` of them, puts them by
+/// store(output, component, value), and looks again at those that did not pass the quick test.
+/// task: one whose address may leave.
+template <typename V, typename Store>
+SIMDBEZIER_INLINE void finish_small_normals(const GridTask<ScalarOf<V>>& task, std::size_t patch,
+                                            std::size_t first, std::size_t active, V floor,
+                                            NormalSamples<V>& s, const Store& store) {
+  s.cross();
+  for (std::size_t c = 0; c < 3; ++c) {
+    store(Output::normal, c, s.normal[c]);
+  }
+  if (!all_of<V>(s.squared > floor)) [[unlikely]] {
+    resolve_small_normals<V>(task, patch, first, active, s.squared, floor);
+  }
+}
+
 /// Which samples of a small grid stand where.
 template <typename V>
 struct SmallSamples {
@@ -135,14 +151,8 @@ SIMDBEZIER_KERNEL void sweep_small_jets(const GridTask<T>& shared_task) {
         }
       }
       if constexpr (kNormals) {
-        s.cross();
-        for (std::size_t c = 0; c < 3; ++c) {
-          store(Output::normal, c, s.normal[c]);
-        }
-        const V floor = broadcast<V>(task.normal_floor[patch]);
-        if (!all_of<V>(s.squared > floor)) [[unlikely]] {
-          resolve_small_normals<V>(shared_task, patch, first, active, s.squared, floor);
-        }
+        finish_small_normals(shared_task, patch, first, active,
+                             broadcast<V>(task.normal_floor[patch]), s, store);
       }
     }
     drain_some(task.drain, (kNormals ? 6 : 9) * grid.samples);

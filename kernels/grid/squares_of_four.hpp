@@ -198,14 +198,8 @@ SIMDBEZIER_KERNEL void sweep_squares_of_four(const GridTask<T>& shared_task) {
       }
     }
     if constexpr (kNormals) {
-      s.cross();
-      for (std::size_t c = 0; c < 3; ++c) {
-        store(Output::normal, c, s.normal[c]);
-      }
-      const V floor = broadcast<V>(task.normal_floor[patch]);
-      if (!all_of<V>(s.squared > floor)) [[unlikely]] {
-        resolve_small_normals<V>(shared_task, patch, 0, 16, s.squared, floor);
-      }
+      finish_small_normals(shared_task, patch, 0, kLanes<V>, broadcast<V>(task.normal_floor[patch]),
+                           s, store);
     }
     drain_some(task.drain, (kNormals ? 6 : kJets ? 9 : 3) * std::size_t{16});
     coefficients += detail::kCoefficients;

@@ -40,7 +40,7 @@ public:
 
   Isa run(int /*worker*/, std::size_t begin, std::size_t end,
           unsigned char* scratch) const noexcept {
-    if (strips_ == 1 && PieceEvaluator<T>::runs_at_once(kernels_, outputs_, plan_)) {
+    if (begin < end && strips_ == 1 && PieceEvaluator<T>::runs_at_once(kernels_, outputs_, plan_)) {
       return PieceEvaluator<T>::run_at_once(kernels_, plan_, piece_at(begin, end), outputs_,
                                             begin * plan_.nu() * plan_.nv());
     }

@@ -90,8 +90,8 @@ public:
     return !outputs.staged() && kernels.set->places == nullptr && plan.nv() <= kInlineRows;
   }
   /// Evaluates the piece of such a call whose first sample has the caller's index `sample`, without
-  /// an object and a delivery, which cost a small call a sixth of its time. Returns the instruction
-  /// set that ran.
+  /// an evaluator and a delivery, which a call on one patch would feel (a tenth of its time).
+  /// Returns the instruction set that ran.
   static Isa run_at_once(const PatchKernels<T>& kernels, const GridPlan<T>& plan,
                          const GridPiece& piece, const OutputPlan<T>& outputs,
                          std::size_t sample) noexcept;
