@@ -279,21 +279,15 @@ SIMDBEZIER_PART bool sweep_small_grid(const GridTask<T>& task) {
     if (!is_small_grid(task)) {
       return false;
     }
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-    if constexpr (kFourGroups<vec<T>>) {
-      if (is_square_of_four(task)) {
-        sweep_squares_of_four<kOutputs>(task);
-        return true;
-      }
-    }
-#endif
     if (pays_across<kOutputs>(task)) {
       sweep_small_grid_across<kOutputs>(task);
       return true;
     }
 #if defined(SIMDBEZIER_KERNELS_AVX512)
     if constexpr (kFourGroups<vec<T>>) {
-      if constexpr (kOutputs == detail::kPosition) {
+      if (is_square_of_four(task)) {
+        sweep_squares_of_four<kOutputs>(task);
+      } else if constexpr (kOutputs == detail::kPosition) {
         small_grid_positions(task);
       } else {
         sweep_small_jets<kOutputs == detail::kPositionNormal>(task);

@@ -41,6 +41,13 @@ SIMDBEZIER_PART bool is_small_grid(const GridTask<T>& task) {
   return small;
 }
 
+/// Whether rows of a small grid are as many as its columns, and pairs.
+template <typename T>
+SIMDBEZIER_PART bool is_mirrored_square(const GridTask<T>& task) {
+  return task.nu == task.runs[1].rows + std::size_t{2} &&
+         are_mirrored(task.runs[1].y, task.runs[1].rows);
+}
+
 #if defined(SIMDBEZIER_KERNELS_AVX512)
 
 /// Whether registers have four groups of four lanes: floats of AVX-512.

@@ -150,13 +150,6 @@ constexpr bool is_known_across(std::size_t side) {
   }
 }
 
-/// Whether rows of a small grid are as many as its columns, and pairs.
-template <typename T>
-SIMDBEZIER_PART bool is_mirrored_square(const GridTask<T>& task) {
-  return task.nu == task.runs[1].rows + std::size_t{2} &&
-         are_mirrored(task.runs[1].y, task.runs[1].rows);
-}
-
 /// Whether lanes of a small grid are better patches: there is a register of them, and results go to
 /// planes that stay in the caches. Samples that leave them by plain stores are stored faster patch
 /// by patch: by lanes, parts of many lines are written in turns, and these are read first. Rows

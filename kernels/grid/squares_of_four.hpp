@@ -162,8 +162,7 @@ private:
 /// Whether the task is of such squares, given that it is of small grids.
 template <typename T>
 SIMDBEZIER_PART bool is_square_of_four(const GridTask<T>& task) {
-  const RowRun<T>& inner = task.runs[1];
-  return task.nu == 4 && inner.rows == 2 && are_mirrored(inner.y, 2) && are_mirrored(task.x + 1, 2);
+  return task.nu == 4 && is_mirrored_square(task) && are_mirrored(task.x + 1, 2);
 }
 
 template <detail::OutputSet kOutputs, typename T>
