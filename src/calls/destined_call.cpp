@@ -86,10 +86,13 @@ private:
   Isa executed_ = Isa::automatic;
 };
 
-/// The way that is taken where nothing is known.
-const WayOfCall& unmeasured(std::span<const WayOfCall> ways) noexcept {
-  return *std::find_if(ways.begin(), ways.end(),
-                       [](const WayOfCall& way) { return way.way == Way::memory; });
+/// The way that is taken where nothing can be measured: what is known already, or streaming.
+const WayOfCall& unmeasured(std::span<const WayOfCall> ways, Way known) noexcept {
+  const auto place = [ways](Way wanted) {
+    return std::find_if(ways.begin(), ways.end(),
+                        [wanted](const WayOfCall& way) { return way.way == wanted; });
+  };
+  return place(known) == ways.end() ? *place(Way::memory) : *place(known);
 }
 
 } // namespace
@@ -111,8 +114,8 @@ CallKind measured_kind(CallKind kind, std::size_t bytes, const Options& options)
   return kind.add(static_cast<std::uint64_t>(threads)).add(bytes / 4 > last_level_cache() ? 1 : 0);
 }
 
-Status run_and_decide(std::span<const WayOfCall> ways, const CallKind& kind, std::size_t bytes,
-                      const Options& options) noexcept {
+Status run_and_decide(std::span<const WayOfCall> ways, Way known, const CallKind& kind,
+                      std::size_t bytes, const Options& options) noexcept {
   if (ways.size() == 1) {
     destination_notes().decide(kind, ways.front().way);
     return run_work(ways.front().work, options);
@@ -126,7 +129,7 @@ Status run_and_decide(std::span<const WayOfCall> ways, const CallKind& kind, std
   const bool ready = all.allocate();
   if (!ready || half == 0) {
     destination_notes().decide(kind, Way::undecided);
-    return ready ? run_work(unmeasured(ways).work, options) : Status::out_of_memory;
+    return ready ? run_work(unmeasured(ways, known).work, options) : Status::out_of_memory;
   }
   const std::size_t caches =
       2 * std::max(last_level_cache(), second_level_cache() * static_cast<std::size_t>(threads));
@@ -134,7 +137,7 @@ Status run_and_decide(std::span<const WayOfCall> ways, const CallKind& kind, std
   const std::size_t dirty =
       plain ? aligned_items(std::min((items - measured) / 2, items / (bytes / caches + 1))) : 0;
   const WayOfCall& fastest = all.measure(half, dirty);
-  destination_notes().decide(kind, fastest.way);
+  destination_notes().add_measurement(kind, fastest.way);
   all.run(fastest, measured + dirty, items);
   report(all.executed(), options);
   return Status::ok;

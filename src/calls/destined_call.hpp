@@ -10,8 +10,9 @@
 //
 // Which way is the fastest depends on the machine, on what the kernels can put where it belongs by
 // themselves, on the width of rows and on the number of threads; no rule foretells it. The first
-// large call of each kind therefore evaluates its first samples in all ways that its caller allows,
-// and the fastest one is kept. All give the same bits, so that it does not matter who decides what.
+// large calls of each kind therefore evaluate their first samples in all ways that their caller
+// allows, and the fastest one is kept: what two calls agree about, or what the third one says. All
+// give the same bits, so that it does not matter who decides what.
 #pragma once
 
 #include <cstddef>
@@ -86,9 +87,11 @@ struct WayOfCall {
 
 /// Runs the same work in some ways, one at least, of a call that has claimed its kind, and notes
 /// which is the fastest. Way::memory is among them, and is what is taken where nothing can be
-/// measured. Returns ok | out_of_memory, before anything is written.
-[[nodiscard]] Status run_and_decide(std::span<const WayOfCall> ways, const CallKind& kind,
-                                    std::size_t bytes, const Options& options) noexcept;
+/// measured, unless `known`, what earlier calls have found, is another one of them. Returns ok |
+/// out_of_memory, before anything is written.
+[[nodiscard]] Status run_and_decide(std::span<const WayOfCall> ways, Way known,
+                                    const CallKind& kind, std::size_t bytes,
+                                    const Options& options) noexcept;
 
 /// Adds the number of threads, on which bandwidth depends, and whether most of the output has left
 /// the caches when the call returns: plain stores cost more then.
@@ -98,7 +101,7 @@ struct WayOfCall {
 /// Runs a checked call that has claimed its kind, and measures on the way, as far as there is a
 /// choice: where nothing is staged, or in chunks of a size of its own, streaming is one way.
 template <typename Call>
-Status measure_ways(const Call& call, Destination destination, const CallKind& kind,
+Status measure_ways(const Call& call, Destination destination, Way known, const CallKind& kind,
                     std::size_t bytes, const Options& options) noexcept {
   const auto cache = call.plan(Way::cache);
   const auto memory = call.plan(Way::memory);
@@ -108,7 +111,7 @@ Status measure_ways(const Call& call, Destination destination, const CallKind& k
                             {Way::memory_by_l1, AnyWork(by_l1, by_l1.grain())}};
   const std::size_t first = destination == Destination::memory ? 1 : 0;
   const bool alike = memory.scratch_bytes() == by_l1.scratch_bytes();
-  return run_and_decide(std::span(ways).subspan(first, (alike ? 2 : 3) - first), kind, bytes,
+  return run_and_decide(std::span(ways).subspan(first, (alike ? 2 : 3) - first), known, kind, bytes,
                         options);
 }
 
@@ -123,7 +126,7 @@ Status run_to_destination(const Call& call, const Options& options) noexcept {
     kind.add(static_cast<std::uint64_t>(destination));
     const DestinationNotes::Answer answer = destination_notes().ask(kind);
     if (answer.claimed) {
-      return measure_ways(call, destination, kind, bytes, options);
+      return measure_ways(call, destination, answer.choice, kind, bytes, options);
     }
     way = answer.choice == Way::undecided ? way : answer.choice;
   }

@@ -77,6 +77,44 @@ TEST(DestinationNotes, a_claim_can_be_given_back) {
   EXPECT_EQ(notes.ask(kind(1)).choice, Way::memory);
 }
 
+TEST(DestinationNotes, measurements_are_notes_until_two_agree_or_there_are_three) {
+  struct Case {
+    std::vector<Way> measured;
+    Way kept;
+  };
+  const Case cases[] = {
+      {{Way::cache, Way::cache}, Way::cache},
+      {{Way::memory, Way::memory}, Way::memory},
+      {{Way::cache, Way::memory, Way::memory}, Way::memory},
+      {{Way::memory, Way::cache, Way::memory}, Way::memory},
+      {{Way::cache, Way::memory, Way::memory_by_l1}, Way::memory_by_l1},
+  };
+  DestinationNotes notes;
+  std::uint64_t k = 0;
+  for (const Case& c : cases) {
+    SCOPED_TRACE(++k);
+    Way known = Way::undecided;
+    for (const Way way : c.measured) {
+      DestinationNotes::Answer answer = notes.ask(kind(k));
+      EXPECT_TRUE(answer.claimed);
+      EXPECT_EQ(answer.choice, known);
+      // Meanwhile, others take what is known; and a claim that is given back changes nothing.
+      answer = notes.ask(kind(k));
+      EXPECT_FALSE(answer.claimed);
+      EXPECT_EQ(answer.choice, known);
+      notes.decide(kind(k), Way::undecided);
+      answer = notes.ask(kind(k));
+      EXPECT_TRUE(answer.claimed);
+      EXPECT_EQ(answer.choice, known);
+      notes.add_measurement(kind(k), way);
+      known = way;
+    }
+    const DestinationNotes::Answer answer = notes.ask(kind(k));
+    EXPECT_FALSE(answer.claimed);
+    EXPECT_EQ(answer.choice, c.kept);
+  }
+}
+
 TEST(DestinationNotes, too_many_kinds_are_left_undecided) {
   constexpr std::uint64_t kKinds = 20 * DestinationNotes::kSlots;
   DestinationNotes notes;
