@@ -1,6 +1,6 @@
 // An evaluator as a shader would have it: bicubic patches in powers of u and v, float, one loop
-// over samples that a compiler makes vectors of. gcc -O3 -march=native -shared -fPIC
-// shader_horner.c -o shader_horner.so
+// over samples that a compiler makes vectors of. In a clone: gcc -O3 -march=native -shared -fPIC
+// -I include examples/evaluators/shader_horner.c -o shader_horner.so
 #include <simdbezier/evaluator_plugin.h>
 
 const char* sbe_name(void) { return "shader_horner"; }
