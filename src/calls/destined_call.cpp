@@ -116,21 +116,16 @@ CallKind measured_kind(CallKind kind, std::size_t bytes, const Options& options)
 
 Status run_and_decide(std::span<const WayOfCall> ways, Way known, const CallKind& kind,
                       std::size_t bytes, const Options& options) noexcept {
-  if (ways.size() == 1) {
-    destination_notes().decide(kind, ways.front().way);
-    return run_work(ways.front().work, options);
-  }
   const AnyWork& first = ways.front().work;
   const std::size_t items = first.units / first.grain;
   const int threads = thread_count(options.threads, items, first.duration);
+  const std::size_t half = ways.size() == 1 ? 0 : half_block(items, bytes, ways.size(), threads);
   AllWays all(ways, threads);
-  const std::size_t half = half_block(items, bytes, ways.size(), threads);
-  const std::size_t measured = half_blocks(ways.size()) * half;
-  const bool ready = all.allocate();
-  if (!ready || half == 0) {
+  if (half == 0 || !all.allocate()) {
     destination_notes().decide(kind, Way::undecided);
-    return ready ? run_work(unmeasured(ways, known).work, options) : Status::out_of_memory;
+    return run_work(unmeasured(ways, known).work, options);
   }
+  const std::size_t measured = half_blocks(ways.size()) * half;
   const std::size_t caches =
       2 * std::max(last_level_cache(), second_level_cache() * static_cast<std::size_t>(threads));
   const bool plain = ways.front().way == Way::cache;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -96,6 +97,7 @@ private:
   }
   static constexpr std::uint64_t with(std::uint64_t seen, Choice choice,
                                       std::uint64_t stage) noexcept {
+    assert((static_cast<std::uint64_t>(choice) & ~kChoice) == 0);
     return (seen & ~kState) | static_cast<std::uint64_t>(choice) | stage;
   }
 

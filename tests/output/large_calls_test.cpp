@@ -1,6 +1,6 @@
-// Calls that write more than the caches hold decide by themselves whether to stream: the first one
-// of its kind stores in every way, those after it in the fastest one. The bits are those of plain
-// stores.
+// Calls that write more than the caches hold decide by themselves whether to stream: the first two
+// or three of a kind store in every way, those after them in the fastest one. The bits are those of
+// plain stores.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -51,12 +51,12 @@ protected:
     const PatchSet<float> set = packed<float>(nets);
     std::vector<float> found(repeats * kChunk);
     out.position = Vectors<float>::xyz(found.data());
-    constexpr CallOptions kCalls[] = {{.threads = 1},
-                                      {.threads = 1}, // keeps what the first one found
-                                      {.threads = 2},
-                                      {.threads = 6},
-                                      {.threads = 1, .destination = Destination::memory},
-                                      {.threads = 1, .destination = Destination::memory}};
+    constexpr CallOptions kAutomatic = {.threads = 1};
+    constexpr CallOptions kMemory = {.threads = 1, .destination = Destination::memory};
+    // The fourth call of a kind keeps what those before it have found.
+    constexpr CallOptions kCalls[] = {kAutomatic,     kAutomatic,     kAutomatic, kAutomatic,
+                                      {.threads = 2}, {.threads = 6}, kMemory,    kMemory,
+                                      kMemory,        kMemory};
     for (const CallOptions& options : kCalls) {
       std::fill(found.begin(), found.end(), -7.0F);
       call(set, out, options);

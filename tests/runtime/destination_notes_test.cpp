@@ -1,5 +1,5 @@
-// What large calls find out: each kind of call is decided once, by one
-// thread, and never mixed up with another.
+// What large calls find out: each kind of call is decided once, or measured by one call at a time,
+// and never mixed up with another.
 #include "src/runtime/destination.hpp"
 
 #include <atomic>
@@ -113,6 +113,42 @@ TEST(DestinationNotes, measurements_are_notes_until_two_agree_or_there_are_three
     EXPECT_FALSE(answer.claimed);
     EXPECT_EQ(answer.choice, c.kept);
   }
+}
+
+// Kinds that look for the same places: open and claimed ones keep theirs, and their own answers.
+TEST(DestinationNotes, open_kinds_side_by_side_are_not_mixed_up) {
+  constexpr std::uint64_t kKinds = 3 * DestinationNotes::kSlots;
+  DestinationNotes notes;
+  std::vector<bool> has_place(kKinds);
+  const auto expect = [&](std::uint64_t k, bool claimed) {
+    const DestinationNotes::Answer answer = notes.ask(kind(k));
+    EXPECT_EQ(answer.claimed, claimed) << k;
+    EXPECT_EQ(answer.choice, has_place[k] ? decision(k) : Way::undecided) << k;
+  };
+  for (std::uint64_t k = 0; k < kKinds; ++k) {
+    has_place[k] = notes.ask(kind(k)).claimed;
+    notes.add_measurement(kind(k), decision(k));
+  }
+  for (std::uint64_t k = 0; k < kKinds; ++k) {
+    expect(k, has_place[k]);
+  }
+  for (std::uint64_t k = kKinds; k-- > 0;) { // while those that came first are claimed
+    notes.add_measurement(kind(k), decision(k));
+  }
+  for (std::uint64_t k = 0; k < kKinds; ++k) {
+    expect(k, false);
+  }
+}
+
+TEST(DestinationNotes, a_decision_takes_the_place_of_a_measurement) {
+  DestinationNotes notes;
+  EXPECT_TRUE(notes.ask(kind(1)).claimed);
+  notes.add_measurement(kind(1), Way::cache);
+  EXPECT_TRUE(notes.ask(kind(1)).claimed);
+  notes.decide(kind(1), Way::memory);
+  const DestinationNotes::Answer answer = notes.ask(kind(1));
+  EXPECT_FALSE(answer.claimed);
+  EXPECT_EQ(answer.choice, Way::memory);
 }
 
 TEST(DestinationNotes, too_many_kinds_are_left_undecided) {

@@ -38,12 +38,13 @@ struct Log {
 struct FakeWork {
   Way way;
   int takes; ///< nanoseconds of a patch
+  std::size_t scratch;
   Log* log;
 
   [[nodiscard]] std::size_t grain() const { return 1; }
   [[nodiscard]] std::size_t units() const { return kPatches; }
   [[nodiscard]] std::size_t duration() const { return kLongDuration; }
-  [[nodiscard]] std::size_t scratch_bytes() const { return way == Way::memory ? 64 : 128; }
+  [[nodiscard]] std::size_t scratch_bytes() const { return scratch; }
   Isa run(int, std::size_t begin, std::size_t end, unsigned char*) const {
     log->used[static_cast<std::size_t>(way)] = true;
     for (std::size_t patch = begin; patch < end; ++patch) {
@@ -58,9 +59,12 @@ struct FakeCall {
   std::uint64_t name;
   Way fastest;
   std::size_t bytes;
+  bool alike; ///< streams in one way alone
   Log* log;
 
-  [[nodiscard]] FakeWork plan(Way way) const { return {way, way == fastest ? 10 : 20, log}; }
+  [[nodiscard]] FakeWork plan(Way way) const {
+    return {way, way == fastest ? 10 : 20, way == Way::memory && !alike ? 64U : 128U, log};
+  }
   [[nodiscard]] std::size_t written() const { return bytes; }
   [[nodiscard]] CallKind kind() const { return CallKind().add(name); }
 };
@@ -72,12 +76,14 @@ constexpr std::size_t kShort = kL3;
 struct Step {
   std::size_t bytes;
   Way fastest;
-  bool measures;
+  int ways; ///< that the call measures; 1: it measures nothing
   Way last; ///< that wrote the call's last patches
+  bool alike = false;
 };
 
 struct Case {
   const char* name;
+  Destination destination;
   std::vector<Step> calls;
 };
 
@@ -87,33 +93,50 @@ const std::vector<Case>& cases() {
   constexpr Way kLittle = Way::memory_by_l1;
   static const std::vector<Case> all = {
       {"two calls agree",
-       {{kMeasurable, kLittle, true, kLittle},
-        {kMeasurable, kLittle, true, kLittle},
-        {kMeasurable, kPlain, false, kLittle},
-        {kMeasurable, kPlain, false, kLittle}}},
+       Destination::automatic,
+       {{kMeasurable, kLittle, 3, kLittle},
+        {kMeasurable, kLittle, 3, kLittle},
+        {kMeasurable, kPlain, 1, kLittle},
+        {kMeasurable, kPlain, 1, kLittle}}},
       {"the first one is misled",
-       {{kMeasurable, kPlain, true, kPlain},
-        {kMeasurable, kMuch, true, kMuch},
-        {kMeasurable, kMuch, true, kMuch},
-        {kMeasurable, kPlain, false, kMuch}}},
+       Destination::automatic,
+       {{kMeasurable, kPlain, 3, kPlain},
+        {kMeasurable, kMuch, 3, kMuch},
+        {kMeasurable, kMuch, 3, kMuch},
+        {kMeasurable, kPlain, 1, kMuch}}},
       {"the second one is misled",
-       {{kMeasurable, kMuch, true, kMuch},
-        {kMeasurable, kPlain, true, kPlain},
-        {kMeasurable, kMuch, true, kMuch},
-        {kMeasurable, kPlain, false, kMuch}}},
+       Destination::automatic,
+       {{kMeasurable, kMuch, 3, kMuch},
+        {kMeasurable, kPlain, 3, kPlain},
+        {kMeasurable, kMuch, 3, kMuch},
+        {kMeasurable, kPlain, 1, kMuch}}},
       {"they never agree",
-       {{kMeasurable, kPlain, true, kPlain},
-        {kMeasurable, kMuch, true, kMuch},
-        {kMeasurable, kLittle, true, kLittle},
-        {kMeasurable, kPlain, false, kLittle}}},
+       Destination::automatic,
+       {{kMeasurable, kPlain, 3, kPlain},
+        {kMeasurable, kMuch, 3, kMuch},
+        {kMeasurable, kLittle, 3, kLittle},
+        {kMeasurable, kPlain, 1, kLittle}}},
       {"short calls take what is known, and measure nothing",
-       {{kShort, kPlain, false, kMuch},
-        {kMeasurable, kPlain, true, kPlain},
-        {kShort, kMuch, false, kPlain},
-        {kMeasurable, kLittle, true, kLittle},
-        {kShort, kMuch, false, kLittle},
-        {kMeasurable, kPlain, true, kPlain},
-        {kShort, kMuch, false, kPlain}}},
+       Destination::automatic,
+       {{kShort, kPlain, 1, kMuch},
+        {kMeasurable, kPlain, 3, kPlain},
+        {kShort, kMuch, 1, kPlain},
+        {kMeasurable, kLittle, 3, kLittle},
+        {kShort, kMuch, 1, kLittle},
+        {kMeasurable, kPlain, 3, kPlain},
+        {kShort, kMuch, 1, kPlain}}},
+      {"plain stores are no choice where streaming is asked for",
+       Destination::memory,
+       {{kMeasurable, kPlain, 2, kMuch},
+        {kMeasurable, kPlain, 2, kMuch},
+        {kMeasurable, kLittle, 1, kMuch}}},
+      {"a call with one way says nothing of others",
+       Destination::memory,
+       {{kMeasurable, kLittle, 1, kMuch, true},
+        {kMeasurable, kLittle, 2, kLittle},
+        {kMeasurable, kLittle, 1, kMuch, true},
+        {kMeasurable, kLittle, 2, kLittle},
+        {kMeasurable, kMuch, 1, kLittle}}},
   };
   return all;
 }
@@ -130,10 +153,11 @@ TEST(WayChoice, what_two_calls_agree_about_is_kept) {
       Options options;
       options.threads = 1;
       options.executed = &executed;
-      ASSERT_EQ(run_to_destination(FakeCall{name, step.fastest, step.bytes, &log}, options),
-                Status::ok);
+      options.destination = c.destination;
+      const FakeCall call{name, step.fastest, step.bytes, step.alike, &log};
+      ASSERT_EQ(run_to_destination(call, options), Status::ok);
       EXPECT_EQ(executed, Isa::scalar);
-      EXPECT_EQ(log.used[1] && log.used[2] && log.used[3], step.measures);
+      EXPECT_EQ(log.used[1] + log.used[2] + log.used[3], step.ways);
       EXPECT_EQ(log.last.back(), step.last);
       for (const Way way : log.last) {
         ASSERT_NE(way, Way::undecided); // each patch has been written
