@@ -24,9 +24,9 @@ namespace simdbezier {
 /// fifth of the second-level cache, a quarter of the first-level one; meshes have one size). Calls
 /// of a kind that another call is measuring, that are too short to measure, or whose kind is one
 /// too many for the notes (some 250), take the last answer, and stream from much where there is
-/// none. memory measures the last two ways. The answer never changes a bit. SIMDBEZIER_DESTINATION=cache or =memory
-/// in the environment, read once per process, stands for automatic in all large calls; any other
-/// word counts as none.
+/// none. memory measures the last two ways. The answer never changes a bit.
+/// SIMDBEZIER_DESTINATION=cache or =memory in the environment, read once per process, stands for
+/// automatic in all large calls; any other word counts as none.
 enum class Destination : std::uint8_t {
   automatic, ///< decided by the output's size, and beyond the caches by measurement
   cache,     ///< plain stores
