@@ -1,6 +1,7 @@
 // See cache_sizes.hpp.
 #include "src/runtime/cache_sizes.hpp"
 
+#include <algorithm>
 #include <initializer_list>
 
 #if defined(__x86_64__)
@@ -18,7 +19,9 @@ struct CacheSizes {
 
   CacheSizes() noexcept {
 #if defined(__x86_64__)
+    read_totals();
     // The C library adds up all caches of a machine; these leaves describe one (Intel, AMD).
+    // Virtual machines may leave them empty.
     for (const unsigned leaf : {0x4U, 0x8000001dU}) {
       read(leaf);
     }
@@ -26,6 +29,26 @@ struct CacheSizes {
   }
 
 #if defined(__x86_64__)
+  /// What processors of AMD said before they had leaves for single caches: the sizes of a core's
+  /// caches, and of all third-level ones together, of which a core has no more than kShare.
+  void read_totals() noexcept {
+    constexpr std::size_t kShare = std::size_t{32} << 20;
+    unsigned a = 0;
+    unsigned b = 0;
+    unsigned c = 0;
+    unsigned d = 0;
+    if (__get_cpuid(0x80000005U, &a, &b, &c, &d) != 0 && c >> 24U != 0) {
+      first = static_cast<std::size_t>(c >> 24U) << 10U;
+    }
+    if (__get_cpuid(0x80000006U, &a, &b, &c, &d) != 0) {
+      if (c >> 16U != 0) {
+        second = static_cast<std::size_t>(c >> 16U) << 10U;
+      }
+      if (d >> 18U != 0) {
+        last = std::min(static_cast<std::size_t>(d >> 18U) << 19U, kShare);
+      }
+    }
+  }
   void read(unsigned leaf) noexcept {
     for (unsigned index = 0; index < 8; ++index) {
       unsigned a = 0;
