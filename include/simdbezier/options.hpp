@@ -13,18 +13,18 @@ namespace simdbezier {
 /// any alignment of T will do.
 ///
 /// automatic is cache for outputs of up to half of the last-level cache, and for scattered samples.
-/// Beyond that the call takes what is faster on this machine: the first large call of its kind
+/// Beyond that the call takes what is faster on this machine. The first large call of its kind
 /// (instruction set, shape, size of the grid if it is one, outputs and their layout, threads, more
-/// than four times the last-level cache or less) evaluates its first megabytes, then a part of them
-/// again in each way. So does the second one, and the third where these two do not agree, since
-/// others who use the machine can mislead one measurement; then the process keeps the answer. Plain
-/// stores come last, after up to half of the output has filled the caches by them. At most a
-/// quarter of the output is written twice. There are three ways: plain stores, and streaming ones
-/// that come, where kernels cannot write lines directly, from much or from little staging memory (a
-/// fifth of the second-level cache, a quarter of the first-level one; meshes have one size). Calls
-/// of a kind that another call is measuring, that are too short to measure, or whose kind is one
-/// too many for the notes (some 250), take the last answer, and stream from much where there is
-/// none. memory measures the last two ways. The answer never changes a bit.
+/// than four times the last-level cache or less) evaluates blocks in each way, and the rest in the
+/// fastest one. So does the second, and the third where these two do not agree, since others who
+/// use the machine can mislead one measurement; then the process keeps the answer. Ways are (1)
+/// plain stores, (2) streaming ones, of kernels where these can make whole lines, else from staging
+/// memory, a fifth of the second-level cache, (3) streaming ones from other staging: of that size
+/// where kernels would turn rows to lines, else a quarter of the first-level cache (meshes have one
+/// size). Blocks are up to a quarter of the output. Another is streamed first, while the caches
+/// write back what they hold, and one fills them before plain stores are timed. Calls of a kind
+/// that is being measured, that are too short for it, or whose kind is one too many for the notes
+/// (some 250) take the last answer, or (2). memory measures (2) and (3). No answer changes a bit.
 /// SIMDBEZIER_DESTINATION=cache or =memory in the environment, read once per process, stands for
 /// automatic in all large calls; any other word counts as none.
 enum class Destination : std::uint8_t {

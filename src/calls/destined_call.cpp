@@ -15,6 +15,15 @@ namespace {
 /// A later way has to be faster by more than a clock's errors.
 constexpr double kMargin = 1.02;
 
+/// The way `wanted` if it is among `ways`, else Way::memory, which always is.
+const WayOfCall& find_way(std::span<const WayOfCall> ways, Way wanted) noexcept {
+  const auto place = [ways](Way way) {
+    return std::find_if(ways.begin(), ways.end(),
+                        [way](const WayOfCall& given) { return given.way == way; });
+  };
+  return place(wanted) == ways.end() ? *place(Way::memory) : *place(wanted);
+}
+
 /// One call's work in some ways, a part of it at a time.
 class AllWays {
 public:
@@ -27,29 +36,31 @@ public:
     }
     return scratch_.allocate(bytes, threads_);
   }
-  /// Evaluates patches or samples [begin, end).
-  void run(const WayOfCall& way, std::size_t begin, std::size_t end) noexcept {
+  /// Evaluates the next `items` patches or samples, each of which is evaluated once: at a second
+  /// time caches would know what it reads and page tables where it goes, which flatters streaming.
+  void run(const WayOfCall& way, std::size_t items) noexcept {
     const std::size_t grain = way.work.grain;
-    const Isa ran = run_units(begin * grain, end * grain, threads_, scratch_, way.work);
+    const std::size_t end = done_ + items;
+    const Isa ran = run_units(done_ * grain, end * grain, threads_, scratch_, way.work);
+    done_ = end;
     executed_ = ran == Isa::automatic ? executed_ : ran; // a part may have nothing for a kernel
   }
-  /// Evaluates the first half blocks, of `half` patches or samples each, and `dirty` behind them;
-  /// returns the fastest way.
-  [[nodiscard]] const WayOfCall& measure(std::size_t half, std::size_t dirty) noexcept {
-    // Pages are there afterwards, and lines are in no cache, as those are that come later.
-    const std::size_t measured = half_blocks(ways_.size()) * half;
-    run(ways_.back(), 0, measured);
+  /// Evaluates some half blocks, of `half` patches or samples each, in each way; returns the
+  /// fastest one. filling: how many patches or samples fill the caches.
+  [[nodiscard]] const WayOfCall& measure(std::size_t half, std::size_t filling) noexcept {
+    // What others have left in the caches is written back meanwhile, and not while this streams.
+    run(find_way(ways_, Way::memory), filling);
     // All blocks of a way together, and plain stores last: caches that they have filled are written
     // back while others stream, which would make plain stores seem up to 1.4 times as fast as they
     // are in the long run, and streaming slower.
     std::int64_t time[kMostWays];
     for (std::size_t k = ways_.size(); k-- > 0;) {
-      if (k == 0) {
+      if (ways_[k].way == Way::cache) {
         // Plain stores would seem to cost nothing but the reading of lines, if caches were not full
         // of ones that have to be written back.
-        run(ways_.front(), measured, measured + dirty);
+        run(ways_[k], filling);
       }
-      time[k] = measure_way(ways_[k], k * kHalvesOfWay * half, half);
+      time[k] = measure_way(ways_[k], half);
     }
     std::size_t fastest = 0;
     for (std::size_t k = 1; k < ways_.size(); ++k) {
@@ -59,22 +70,21 @@ public:
     }
     return ways_[fastest];
   }
+  [[nodiscard]] std::size_t done() const noexcept { return done_; }
   [[nodiscard]] Isa executed() const noexcept { return executed_; }
 
 private:
   static constexpr std::size_t kMostWays = 3;
 
-  /// Returns the median of the times that some blocks take, the first of which begins half a block
-  /// behind `begin`. Times of plain stores scatter so much that the least one would flatter them.
-  [[nodiscard]] std::int64_t measure_way(const WayOfCall& way, std::size_t begin,
-                                         std::size_t half) noexcept {
-    run(way, begin, begin + half);
+  /// Returns the median of the times that some blocks take, behind half a block that is not timed.
+  /// Times of plain stores scatter so much that the least one would flatter them.
+  [[nodiscard]] std::int64_t measure_way(const WayOfCall& way, std::size_t half) noexcept {
+    run(way, half);
     std::int64_t times[kMeasurements];
-    for (std::size_t k = 0; k < kMeasurements; ++k) {
-      const std::size_t at = begin + (1 + 2 * k) * half;
+    for (std::int64_t& time : times) {
       const std::int64_t start = clock_now();
-      run(way, at, at + 2 * half);
-      times[k] = clock_now() - start;
+      run(way, 2 * half);
+      time = clock_now() - start;
     }
     std::nth_element(times, times + kMeasurements / 2, times + kMeasurements);
     return times[kMeasurements / 2];
@@ -83,17 +93,9 @@ private:
   std::span<const WayOfCall> ways_;
   int threads_;
   ThreadScratch scratch_;
+  std::size_t done_ = 0;
   Isa executed_ = Isa::automatic;
 };
-
-/// The way that is taken where nothing can be measured: what is known already, or streaming.
-const WayOfCall& unmeasured(std::span<const WayOfCall> ways, Way known) noexcept {
-  const auto place = [ways](Way wanted) {
-    return std::find_if(ways.begin(), ways.end(),
-                        [wanted](const WayOfCall& way) { return way.way == wanted; });
-  };
-  return place(known) == ways.end() ? *place(Way::memory) : *place(known);
-}
 
 } // namespace
 
@@ -123,17 +125,16 @@ Status run_and_decide(std::span<const WayOfCall> ways, Way known, const CallKind
   AllWays all(ways, threads);
   if (half == 0 || !all.allocate()) {
     destination_notes().decide(kind, Way::undecided);
-    return run_work(unmeasured(ways, known).work, options);
+    return run_work(find_way(ways, known).work, options);
   }
   const std::size_t measured = half_blocks(ways.size()) * half;
   const std::size_t caches =
       2 * std::max(last_level_cache(), second_level_cache() * static_cast<std::size_t>(threads));
-  const bool plain = ways.front().way == Way::cache;
-  const std::size_t dirty =
-      plain ? aligned_items(std::min((items - measured) / 2, items / (bytes / caches + 1))) : 0;
-  const WayOfCall& fastest = all.measure(half, dirty);
+  const std::size_t filling =
+      aligned_items(std::min((items - measured) / 3, items / (bytes / caches + 1)));
+  const WayOfCall& fastest = all.measure(half, filling);
   destination_notes().add_measurement(kind, fastest.way);
-  all.run(fastest, measured + dirty, items);
+  all.run(fastest, items - all.done());
   report(all.executed(), options);
   return Status::ok;
 }

@@ -10,7 +10,7 @@
 //
 // Which way is the fastest depends on the machine, on what the kernels can put where it belongs by
 // themselves, on the width of rows and on the number of threads; no rule foretells it. The first
-// large calls of each kind therefore evaluate their first samples in all ways that their caller
+// large calls of each kind therefore evaluate some of their samples in each way that their caller
 // allows, and the fastest one is kept: what two calls agree about, or what the third one says. All
 // give the same bits, so that it does not matter who decides what.
 #pragma once
@@ -105,12 +105,12 @@ Status measure_ways(const Call& call, Destination destination, Way known, const 
                     std::size_t bytes, const Options& options) noexcept {
   const auto cache = call.plan(Way::cache);
   const auto memory = call.plan(Way::memory);
-  const auto by_l1 = call.plan(Way::memory_by_l1);
+  const auto other = call.plan(Way::memory_other);
   const WayOfCall ways[] = {{Way::cache, AnyWork(cache, cache.grain())},
                             {Way::memory, AnyWork(memory, memory.grain())},
-                            {Way::memory_by_l1, AnyWork(by_l1, by_l1.grain())}};
+                            {Way::memory_other, AnyWork(other, other.grain())}};
   const std::size_t first = destination == Destination::memory ? 1 : 0;
-  const bool alike = memory.scratch_bytes() == by_l1.scratch_bytes();
+  const bool alike = memory.scratch_bytes() == other.scratch_bytes();
   return run_and_decide(std::span(ways).subspan(first, (alike ? 2 : 3) - first), known, kind, bytes,
                         options);
 }

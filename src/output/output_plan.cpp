@@ -48,7 +48,7 @@ std::size_t OutputPlan<T>::chunk_bytes() const noexcept {
   switch (way_) {
   case Way::memory: // two chunks, and half as much again, leave two fifths for all else
     return second_level_cache() / 5;
-  case Way::memory_by_l1: // two chunks, and half as much again, stay in the cache
+  case Way::memory_other: // two chunks, and half as much again, stay in the cache
     return first_level_cache() / 4;
   default: // what a kernel writes and a drain reads at once stays in a first-level cache
     return std::size_t{20} << 10;
@@ -90,16 +90,22 @@ void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
   const auto place_in_line = [](const T* first) {
     return reinterpret_cast<std::uintptr_t>(first) % 64;
   };
+  bool on_lines = true;
   for (std::size_t k = 0; possible && k < streams_; ++k) {
     const StreamShape<T>& shape = stream_[k];
+    on_lines = on_lines && place_in_line(shape.first) == 0;
     const bool placed =
         anywhere ? !rows.same_place || place_in_line(shape.first) == place_in_line(stream_[0].first)
-                 : place_in_line(shape.first) == 0;
+                 : on_lines;
     possible = shape.members == record && shape.stride == static_cast<std::ptrdiff_t>(record) &&
                (!streaming() || placed);
     for (std::size_t m = 1; m < record; ++m) {
       possible = possible && shape.plane[m] == shape.plane[0] + m;
     }
+  }
+  if (possible && way_ == Way::memory_other && !(whole_lines && on_lines)) {
+    way_ = Way::memory; // from staging of that size
+    return;
   }
   if (possible) {
     record_ = record;

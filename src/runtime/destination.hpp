@@ -16,12 +16,14 @@ Destination environment_destination() noexcept;
 /// How outputs get to the caller's memory. What is streamed and cannot be written directly fills
 /// staging memory first. A large part of the second-level cache holds many patches, whose kernels
 /// run as if they wrote to a cache. But where streaming stores and misses of the first-level cache
-/// have buffers in common, both are faster if staging stays in that cache.
+/// have buffers in common, both are faster if staging stays in that cache. Kernels that put rows
+/// together to whole lines themselves need no copies, but take more arithmetic, which others hide
+/// who use the other half of a core or of the memory.
 enum class Way : std::uint8_t {
   undecided,
   cache,       ///< by plain stores
-  memory,      ///< by streaming stores, from staging in the second-level cache
-  memory_by_l1 ///< likewise, in the first-level one
+  memory,      ///< by streaming stores, of kernels or else from staging in the second-level cache
+  memory_other ///< by streaming stores, from staging where Way::memory has another cache or none
 };
 
 /// The way of calls on single samples, which measure nothing: results in the order of samples

@@ -26,14 +26,18 @@ constexpr std::size_t kChunk = 3 * kRepeated * kSide * kSide;
 /// Machines with larger caches than this would need more memory than a test should take.
 constexpr std::size_t kMostBytes = std::size_t{600} << 20;
 
+/// So many bytes are worth measuring.
+std::size_t measured_bytes() {
+  return std::max(detail::last_level_cache() / 2, 48 * detail::second_level_cache());
+}
+
 class LargeCalls : public IsaTest {
 protected:
   /// call(set, out, options) on as many patches as are worth measuring.
   using Call =
       std::function<void(const PatchSet<float>&, const Outputs<float>&, const CallOptions&)>;
   void check(const Call& call) {
-    const std::size_t bytes =
-        std::max(detail::last_level_cache() / 2, 48 * detail::second_level_cache());
+    const std::size_t bytes = measured_bytes();
     if (bytes > kMostBytes) {
       GTEST_SKIP() << "caches of " << bytes << " bytes";
     }
@@ -44,13 +48,27 @@ protected:
     for (std::size_t k = 0; k < repeats * kRepeated; ++k) {
       nets.push_back(some[k % kRepeated]);
     }
+    const PatchSet<float> few = packed<float>(some);
+    const PatchSet<float> many = packed<float>(nets);
+    check(call, few, many, repeats, 1);
+    check(call, few, many, repeats, 3);
+  }
+
+private:
+  /// many: `few` so many times. planes: 1 for triples, 3 for x, y and z apart.
+  static void check(const Call& call, const PatchSet<float>& few, const PatchSet<float>& many,
+                    std::size_t repeats, std::size_t planes) {
+    const std::size_t piece = kChunk / planes;
+    const auto outputs = [&](float* first, std::size_t pieces) {
+      const std::size_t plane = piece * pieces;
+      Outputs<float> out;
+      out.position = planes == 1 ? Vectors<float>::xyz(first)
+                                 : Vectors<float>::planes(first, first + plane, first + 2 * plane);
+      return out;
+    };
     std::vector<float> expected(kChunk);
-    Outputs<float> out;
-    out.position = Vectors<float>::xyz(expected.data());
-    call(packed<float>(some), out, {.threads = 1, .destination = Destination::cache});
-    const PatchSet<float> set = packed<float>(nets);
+    call(few, outputs(expected.data(), 1), {.threads = 1, .destination = Destination::cache});
     std::vector<float> found(repeats * kChunk);
-    out.position = Vectors<float>::xyz(found.data());
     constexpr CallOptions kAutomatic = {.threads = 1};
     constexpr CallOptions kMemory = {.threads = 1, .destination = Destination::memory};
     // The fourth call of a kind keeps what those before it have found.
@@ -59,16 +77,18 @@ protected:
                                       kMemory,        kMemory};
     for (const CallOptions& options : kCalls) {
       std::fill(found.begin(), found.end(), -7.0F);
-      call(set, out, options);
+      call(many, outputs(found.data(), repeats), options);
       std::size_t different = 0;
-      for (std::size_t r = 0; r < repeats; ++r) {
-        different +=
-            std::memcmp(found.data() + r * kChunk, expected.data(), kChunk * sizeof(float)) != 0;
+      for (std::size_t k = 0; k < planes * repeats; ++k) {
+        different += std::memcmp(found.data() + k * piece, expected.data() + k / repeats * piece,
+                                 piece * sizeof(float)) != 0;
       }
-      EXPECT_EQ(different, 0U) << "of " << repeats << " chunks, threads: " << options.threads;
+      EXPECT_EQ(different, 0U) << "of " << planes << " times " << repeats
+                               << " pieces, threads: " << options.threads;
     }
   }
 
+protected:
   /// Planes of small squares that leave the caches by plain stores: kernels store them in another
   /// way than those that stay. The same patches follow each other again and again.
   template <typename T>
@@ -150,7 +170,7 @@ TEST_P(LargeCalls, OnGridsOfTheirOwn) {
 
 // No row begins in the last part of the call, which therefore runs no kernel.
 TEST_P(LargeCalls, OnTwoRows) {
-  const std::size_t bytes = detail::last_level_cache() * 3 / 4;
+  const std::size_t bytes = measured_bytes();
   if (bytes > kMostBytes) {
     GTEST_SKIP() << "caches of " << bytes << " bytes";
   }

@@ -15,7 +15,7 @@ namespace {
 
 CallKind kind(std::uint64_t k) { return CallKind().add(k).add(17); }
 Way decision(std::uint64_t k) {
-  return k % 3 == 0 ? Way::memory : k % 3 == 1 ? Way::cache : Way::memory_by_l1;
+  return k % 3 == 0 ? Way::memory : k % 3 == 1 ? Way::cache : Way::memory_other;
 }
 
 TEST(DestinationNotes, one_of_many_threads_decides) {
@@ -87,7 +87,7 @@ TEST(DestinationNotes, measurements_are_notes_until_two_agree_or_there_are_three
       {{Way::memory, Way::memory}, Way::memory},
       {{Way::cache, Way::memory, Way::memory}, Way::memory},
       {{Way::memory, Way::cache, Way::memory}, Way::memory},
-      {{Way::cache, Way::memory, Way::memory_by_l1}, Way::memory_by_l1},
+      {{Way::cache, Way::memory, Way::memory_other}, Way::memory_other},
   };
   DestinationNotes notes;
   std::uint64_t k = 0;

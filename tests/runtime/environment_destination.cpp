@@ -1,5 +1,5 @@
 // What large calls do: `./environment_destination WORD` sets SIMDBEZIER_DESTINATION to WORD, makes
-// some calls and prints how each of them stored its units: "cache", "memory" or "memory-by-l1",
+// some calls and prints how each of them stored its units: "cache", "memory" or "memory-other",
 // joined by + in the ones that measure. Once per process, because the library reads the variable at
 // its first use. The calls write nothing, so that they cost nothing.
 #include <cstdio>
@@ -18,7 +18,7 @@ using namespace simdbezier::detail;
 
 constexpr std::size_t kPatches = 100000;
 constexpr std::size_t kWays = 3;
-constexpr const char* kNames[kWays] = {"cache", "memory", "memory-by-l1"};
+constexpr const char* kNames[kWays] = {"cache", "memory", "memory-other"};
 constexpr std::size_t kStrips[kWays] = {1, 3, 2}; ///< a patch's units
 
 /// How often each patch went each way, and which one last.
