@@ -8,6 +8,7 @@
 #include "src/runtime/batch.hpp"
 #include "src/runtime/cache_sizes.hpp"
 #include "src/runtime/clock.hpp"
+#include "src/runtime/page_faults.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -45,11 +46,22 @@ public:
     done_ = end;
     executed_ = ran == Isa::automatic ? executed_ : ran; // a part may have nothing for a kernel
   }
+  /// Streams half a block and what fills the caches, while what others have left in these is
+  /// written back. Returns whether the output's memory is new: then the system provides pages,
+  /// which takes so long, even if they have 2 MiB each, that nothing else can be measured.
+  [[nodiscard]] bool begin(std::size_t half, std::size_t filling, std::size_t item) noexcept {
+    constexpr std::size_t kLargePage = std::size_t{2} << 20;
+    constexpr std::size_t kOfOthers = 4; // of stacks, and of the program
+    const WayOfCall& way = find_way(ways_, Way::memory);
+    run(way, half); // staging memory is new in any case
+    const std::int64_t before = page_faults();
+    run(way, filling);
+    const std::size_t pages = filling * item / static_cast<std::size_t>(threads_) / kLargePage;
+    return page_faults() - before > static_cast<std::int64_t>(kOfOthers + pages / 2);
+  }
   /// Evaluates some half blocks, of `half` patches or samples each, in each way; returns the
   /// fastest one. filling: how many patches or samples fill the caches.
   [[nodiscard]] const WayOfCall& measure(std::size_t half, std::size_t filling) noexcept {
-    // What others have left in the caches is written back meanwhile, and not while this streams.
-    run(find_way(ways_, Way::memory), filling);
     // All blocks of a way together, and plain stores last: caches that they have filled are written
     // back while others stream, which would make plain stores seem up to 1.4 times as fast as they
     // are in the long run, and streaming slower.
@@ -132,9 +144,14 @@ Status run_and_decide(std::span<const WayOfCall> ways, Way known, const CallKind
       2 * std::max(last_level_cache(), second_level_cache() * static_cast<std::size_t>(threads));
   const std::size_t filling =
       aligned_items(std::min((items - measured) / 3, items / (bytes / caches + 1)));
-  const WayOfCall& fastest = all.measure(half, filling);
-  destination_notes().add_measurement(kind, fastest.way);
-  all.run(fastest, items - all.done());
+  if (all.begin(half, filling, bytes / items)) {
+    destination_notes().decide(kind, Way::undecided);
+    all.run(find_way(ways, known), items - all.done());
+  } else {
+    const WayOfCall& fastest = all.measure(half, filling);
+    destination_notes().add_measurement(kind, fastest.way);
+    all.run(fastest, items - all.done());
+  }
   report(all.executed(), options);
   return Status::ok;
 }

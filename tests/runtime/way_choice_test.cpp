@@ -13,16 +13,19 @@
 #include "src/runtime/batch.hpp"
 #include "src/runtime/cache_sizes.hpp"
 #include "src/runtime/clock.hpp"
+#include "src/runtime/page_faults.hpp"
 
 namespace simdbezier::detail {
 
 namespace way_choice_test {
 std::int64_t now = 0;
-constexpr std::size_t kL2 = 1000;
+std::int64_t faults = 0;
+constexpr std::size_t kL2 = 1'000'000;
 constexpr std::size_t kL3 = 20 * kL2;
 } // namespace way_choice_test
 
 std::int64_t clock_now() noexcept { return way_choice_test::now; }
+std::int64_t page_faults() noexcept { return way_choice_test::faults; }
 std::size_t last_level_cache() noexcept { return way_choice_test::kL3; }
 std::size_t second_level_cache() noexcept { return way_choice_test::kL2; }
 bool exceeds_caches(std::size_t bytes) noexcept { return bytes > way_choice_test::kL3 / 2; }
@@ -34,8 +37,13 @@ constexpr std::size_t kPatches = 100'000;
 constexpr std::size_t kMeasurable = 4 * kL3;
 constexpr std::size_t kPatchesInCaches = kPatches / 5; ///< of a call of kMeasurable bytes
 
+constexpr std::size_t kPatch = kMeasurable / kPatches; ///< bytes
+constexpr std::size_t kSmallPage = std::size_t{4} << 10;
+constexpr std::size_t kLargePage = std::size_t{2} << 20;
+
 struct Log {
-  bool used[4] = {};                                                 ///< by number of Way
+  std::size_t new_page = 0; ///< bytes of a page where the output's memory is new, or 0
+  bool used[4] = {};        ///< by number of Way
   std::vector<Way> way = std::vector<Way>(kPatches, Way::undecided); ///< of each patch
   bool once = true;                                                  ///< no patch is written twice
 };
@@ -67,8 +75,11 @@ struct FakeWork {
   [[nodiscard]] std::size_t duration() const { return kLongDuration; }
   [[nodiscard]] std::size_t scratch_bytes() const { return scratch; }
   Isa run(int, std::size_t begin, std::size_t end, unsigned char*) const {
-    log->used[static_cast<std::size_t>(way)] = true;
+    bool& used = log->used[static_cast<std::size_t>(way)];
+    faults += used ? 1 : 100; // of others, or of staging
+    used = true;
     for (std::size_t patch = begin; patch < end; ++patch) {
+      faults += log->new_page != 0 && patch % (log->new_page / kPatch) == 0 ? 1 : 0;
       log->once = log->once && log->way[patch] == Way::undecided;
       log->way[patch] = way;
     }
@@ -97,9 +108,10 @@ constexpr std::size_t kShort = kL3;
 struct Step {
   std::size_t bytes;
   Way fastest;
-  int ways; ///< that the call measures; 1: it measures nothing
+  int ways; ///< that write patches; 1: the call measures nothing
   Way last; ///< that wrote the call's last patches
   bool alike = false;
+  std::size_t new_page = 0;
 };
 
 struct Case {
@@ -158,6 +170,16 @@ const std::vector<Case>& cases() {
         {kMeasurable, kOther, 1, kMuch, true},
         {kMeasurable, kOther, 2, kOther},
         {kMeasurable, kMuch, 1, kOther}}},
+      {"calls to new memory say nothing, and begin by streaming",
+       Destination::automatic,
+       {{kMeasurable, kPlain, 1, kMuch, false, kSmallPage},
+        {kMeasurable, kPlain, 1, kMuch, false, kLargePage},
+        {kMeasurable, kMuch, 3, kMuch},
+        {kMeasurable, kPlain, 1, kMuch, false, kLargePage},
+        {kMeasurable, kPlain, 3, kPlain},
+        {kMeasurable, kMuch, 2, kPlain, false, kSmallPage},
+        {kMeasurable, kPlain, 3, kPlain},
+        {kMeasurable, kMuch, 1, kPlain, false, kSmallPage}}},
   };
   return all;
 }
@@ -170,6 +192,7 @@ TEST(WayChoice, what_two_calls_agree_about_is_kept) {
     for (const Step& step : c.calls) {
       SCOPED_TRACE("call " + std::to_string(&step - c.calls.data()));
       Log log;
+      log.new_page = step.new_page;
       left_in_caches = kPatchesInCaches;
       Isa executed = Isa::automatic;
       Options options;

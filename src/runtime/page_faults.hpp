@@ -1,0 +1,14 @@
+// How a measurement finds out that it is one of the system, which provides pages at their first
+// use, rather than of the machine. It is a file of its own so that tests can put another one in its
+// place.
+#pragma once
+
+#include <cstdint>
+
+namespace simdbezier::detail {
+
+/// How many pages of memory the system has provided since the calling thread began; 0 where it does
+/// not say.
+std::int64_t page_faults() noexcept;
+
+} // namespace simdbezier::detail
