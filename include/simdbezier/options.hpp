@@ -22,11 +22,11 @@ namespace simdbezier {
 /// memory, a fifth of the second-level cache, (3) streaming ones from other staging: of that size
 /// where kernels would turn rows to lines, else a quarter of the first-level cache (meshes have one
 /// size). Blocks are up to a quarter of the output. Another is streamed first, while the caches
-/// write back what they hold, and one fills them before plain stores are timed. Calls of a kind
-/// that is being measured, that are too short for it, or whose kind is one too many for the notes
-/// (some 250) take the last answer, or (2). memory measures (2) and (3). No answer changes a bit.
-/// SIMDBEZIER_DESTINATION=cache or =memory in the environment, read once per process, stands for
-/// automatic in all large calls; any other word counts as none.
+/// write back what they hold, and one fills them before plain stores are timed. Calls that are too
+/// short, to memory never written to, of a kind that is being measured or is one too many for the
+/// notes (some 4000), take the last answer, or (2). memory measures (2) and (3). No way changes a
+/// bit. SIMDBEZIER_DESTINATION=cache or =memory in the environment, read once per process, stands
+/// for automatic in all large calls; any other word counts as none.
 enum class Destination : std::uint8_t {
   automatic, ///< decided by the output's size, and beyond the caches by measurement
   cache,     ///< plain stores

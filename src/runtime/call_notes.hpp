@@ -78,7 +78,7 @@ public:
     }
   }
 
-  static constexpr std::size_t kSlots = 256;
+  static constexpr std::size_t kSlots = 4096;
 
 private:
   static constexpr std::size_t kProbes = 8;

@@ -22,7 +22,7 @@ TEST(DestinationNotes, one_of_many_threads_decides) {
   constexpr std::uint64_t kKinds = 100;
   constexpr int kRounds = 100;
   constexpr int kThreads = 4;
-  DestinationNotes notes[kRounds];
+  std::vector<DestinationNotes> notes(kRounds);
   std::atomic<int> claims = 0;
   std::atomic<int> wrong = 0;
   std::barrier start(kThreads);
