@@ -14,19 +14,19 @@ namespace simdbezier {
 ///
 /// automatic is cache for outputs of up to half of the last-level cache, and for scattered samples.
 /// Beyond that the call takes what is faster on this machine. The first large call of its kind
-/// (instruction set, shape, size of the grid if it is one, outputs and their layout, threads, more
+/// (instruction set, shape, size of the grid if it is one, outputs and their layout, options, more
 /// than four times the last-level cache or less) evaluates blocks in each way, and the rest in the
 /// fastest one. So does the second, and the third where these two do not agree, since others who
 /// use the machine can mislead one measurement; then the process keeps the answer. Ways are (1)
 /// plain stores, (2) streaming ones, of kernels where these can make whole lines, else from staging
 /// memory, a fifth of the second-level cache, (3) streaming ones from other staging: of that size
 /// where kernels would turn rows to lines, else a quarter of the first-level cache (meshes have one
-/// size). Blocks are up to a quarter of the output. Another is streamed first, while the caches
-/// write back what they hold, and one fills them before plain stores are timed. Calls that are too
-/// short, to memory never written to, of a kind that is being measured or is one too many for the
-/// notes (some 4000), take the last answer, or (2). memory measures (2) and (3). No way changes a
-/// bit. SIMDBEZIER_DESTINATION=cache or =memory in the environment, read once per process, stands
-/// for automatic in all large calls; any other word counts as none.
+/// size). Blocks take a quarter of the output at most, and up to a third each goes before: by (2),
+/// while caches write back what they hold, and by (1), to fill them before (1) is timed. Calls that
+/// are too short, of a kind that is being measured or is one too many for the notes (some thousand)
+/// take the last answer, else (2); so do those whose memory is new (Linux), after a first part by
+/// (2). memory measures (2) and (3). No way changes a bit. SIMDBEZIER_DESTINATION=cache or =memory,
+/// read once per process, stands for automatic in all large calls; other words count as none.
 enum class Destination : std::uint8_t {
   automatic, ///< decided by the output's size, and beyond the caches by measurement
   cache,     ///< plain stores

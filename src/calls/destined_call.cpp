@@ -2,6 +2,7 @@
 #include "src/calls/destined_call.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "src/calls/measured_blocks.hpp"
@@ -31,11 +32,10 @@ public:
   AllWays(std::span<const WayOfCall> ways, int threads) noexcept : ways_(ways), threads_(threads) {}
 
   [[nodiscard]] bool allocate() noexcept {
-    std::size_t bytes = 0;
     for (const WayOfCall& way : ways_) {
-      bytes = std::max(bytes, way.work.scratch_bytes);
+      scratch_bytes_ = std::max(scratch_bytes_, way.work.scratch_bytes);
     }
-    return scratch_.allocate(bytes, threads_);
+    return scratch_.allocate(scratch_bytes_, threads_);
   }
   /// Evaluates the next `items` patches or samples, each of which is evaluated once: at a second
   /// time caches would know what it reads and page tables where it goes, which flatters streaming.
@@ -46,18 +46,31 @@ public:
     done_ = end;
     executed_ = ran == Isa::automatic ? executed_ : ran; // a part may have nothing for a kernel
   }
-  /// Streams half a block and what fills the caches, while what others have left in these is
-  /// written back. Returns whether the output's memory is new: then the system provides pages,
-  /// which takes so long, even if they have 2 MiB each, that nothing else can be measured.
-  [[nodiscard]] bool begin(std::size_t half, std::size_t filling, std::size_t item) noexcept {
-    constexpr std::size_t kLargePage = std::size_t{2} << 20;
-    constexpr std::size_t kOfOthers = 4; // of stacks, and of the program
+  /// Streams half a block, and as many patches or samples as fill the caches, while what others
+  /// have left in these is written back.
+  void begin(std::size_t half, std::size_t filling) noexcept {
+    if (unsigned char* const own = scratch_.of(0)) {
+      std::memset(own, 0, scratch_bytes_); // a first use of pages, as the start of threads is
+    }
     const WayOfCall& way = find_way(ways_, Way::memory);
-    run(way, half); // staging memory is new in any case
-    const std::int64_t before = page_faults();
+    run(way, half);
+    counted_from_ = done_;
+    faults_before_ = page_faults();
     run(way, filling);
-    const std::size_t pages = filling * item / static_cast<std::size_t>(threads_) / kLargePage;
-    return page_faults() - before > static_cast<std::int64_t>(kOfOthers + pages / 2);
+  }
+  /// Whether the output's memory was new since begin(), as far as the calling thread has seen it:
+  /// half of its pages or more. Then the system has provided them, which takes longer than what is
+  /// measured, even where they have 2 MiB each. item: bytes of a patch or sample.
+  [[nodiscard]] bool found_new_memory(std::size_t item) const noexcept {
+    constexpr std::size_t kLargePage = std::size_t{2} << 20;
+    // Threads that start anew in every run (src/runtime/threads_std.cpp) have new stacks, but for
+    // some five that the C library keeps.
+    constexpr int kKeptStacks = 5;
+    constexpr std::size_t kRuns = 16;
+    const auto threads = static_cast<std::size_t>(threads_);
+    const std::size_t others = threads_ > kKeptStacks ? kRuns * threads : 2;
+    const std::size_t pages = (done_ - counted_from_) * item / threads / kLargePage;
+    return page_faults() - faults_before_ > static_cast<std::int64_t>(others + pages / 2);
   }
   /// Evaluates some half blocks, of `half` patches or samples each, in each way; returns the
   /// fastest one. filling: how many patches or samples fill the caches.
@@ -105,7 +118,10 @@ private:
   std::span<const WayOfCall> ways_;
   int threads_;
   ThreadScratch scratch_;
+  std::size_t scratch_bytes_ = 0;
   std::size_t done_ = 0;
+  std::size_t counted_from_ = 0;
+  std::int64_t faults_before_ = 0;
   Isa executed_ = Isa::automatic;
 };
 
@@ -144,14 +160,18 @@ Status run_and_decide(std::span<const WayOfCall> ways, Way known, const CallKind
       2 * std::max(last_level_cache(), second_level_cache() * static_cast<std::size_t>(threads));
   const std::size_t filling =
       aligned_items(std::min((items - measured) / 3, items / (bytes / caches + 1)));
-  if (all.begin(half, filling, bytes / items)) {
-    destination_notes().decide(kind, Way::undecided);
-    all.run(find_way(ways, known), items - all.done());
-  } else {
-    const WayOfCall& fastest = all.measure(half, filling);
-    destination_notes().add_measurement(kind, fastest.way);
-    all.run(fastest, items - all.done());
+  const std::size_t item = bytes / items;
+  const WayOfCall* way = &find_way(ways, known);
+  all.begin(half, filling);
+  if (!all.found_new_memory(item)) {
+    way = &all.measure(half, filling);
   }
+  if (all.found_new_memory(item)) {
+    destination_notes().decide(kind, Way::undecided);
+  } else {
+    destination_notes().add_measurement(kind, way->way);
+  }
+  all.run(*way, items - all.done());
   report(all.executed(), options);
   return Status::ok;
 }

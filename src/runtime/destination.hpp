@@ -17,13 +17,14 @@ Destination environment_destination() noexcept;
 /// staging memory first. A large part of the second-level cache holds many patches, whose kernels
 /// run as if they wrote to a cache. But where streaming stores and misses of the first-level cache
 /// have buffers in common, both are faster if staging stays in that cache. Kernels that put rows
-/// together to whole lines themselves need no copies, but take more arithmetic, which others hide
-/// who use the other half of a core or of the memory.
+/// together to whole lines themselves need no copies, but take more arithmetic: that costs nothing
+/// as long as memory is the limit, and much beside others who use the same core.
 enum class Way : std::uint8_t {
   undecided,
   cache,       ///< by plain stores
   memory,      ///< by streaming stores, of kernels or else from staging in the second-level cache
-  memory_other ///< by streaming stores, from staging where Way::memory has another cache or none
+  memory_other ///< likewise, from staging: in the second-level cache where kernels would turn rows
+               ///< to lines, otherwise in the first-level one
 };
 
 /// The way of calls on single samples, which measure nothing: results in the order of samples

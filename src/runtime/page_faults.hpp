@@ -7,8 +7,8 @@
 
 namespace simdbezier::detail {
 
-/// How many pages of memory the system has provided since the calling thread began; 0 where it does
-/// not say.
+/// How many pages of memory the system has provided to the calling thread so far; 0 where it does
+/// not say (other systems than Linux).
 std::int64_t page_faults() noexcept;
 
 } // namespace simdbezier::detail

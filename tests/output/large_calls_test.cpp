@@ -174,7 +174,7 @@ TEST_P(LargeCalls, OnTwoRows) {
   if (bytes > kMostBytes) {
     GTEST_SKIP() << "caches of " << bytes << " bytes";
   }
-  const std::uint32_t nu[] = {static_cast<std::uint32_t>(bytes / 2 / (3 * sizeof(float)))};
+  const std::uint32_t nu[] = {static_cast<std::uint32_t>(bytes / 2 / (3 * sizeof(float)) + 1)};
   const std::uint32_t nv[] = {2};
   PatchGrids grids;
   grids.nu = nu;
