@@ -67,8 +67,9 @@ struct BandPlan {
   }
 };
 
-/// Whether bands are faster than tiles. In staging, samples are passed on in smaller portions tile
-/// by tile.
+/// Whether bands are faster than tiles. In staging they are where planes go one by one and
+/// registers are shorter than a line; elsewhere samples are passed on in smaller portions, tile by
+/// tile.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool pays_in_bands(const GridTask<T>& task, const RowPiece<T>& piece,
                                    const BandPlan<kOutputs, vec<T>>& plan) {
@@ -79,7 +80,7 @@ SIMDBEZIER_PART bool pays_in_bands(const GridTask<T>& task, const RowPiece<T>& p
   constexpr bool kPositions = kOutputs == detail::kPosition;
   constexpr bool kFloat = sizeof(T) == sizeof(float);
   const std::size_t nu = task.nu;
-  if (task.drain != nullptr) {
+  if (task.drain != nullptr && (kLineWide<V> || !plan.plane_by_plane)) {
     return false;
   }
   if (rows_leave<kOutputs>(task, piece.rows())) {

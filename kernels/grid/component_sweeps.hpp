@@ -46,7 +46,7 @@ SIMDBEZIER_KERNEL void sweep_by_components(const GridTask<T>& shared_task, const
           const JetPlanes<T> to{plane(Output::position), plane(Output::du), plane(Output::dv)};
           sweep_derivatives(piece, component, tile, nu, to, none);
         }
-        drain_some(task.drain, piece.rows() * kL * 3);
+        drain_some(task.drain, piece.rows() * fresh_columns(tile) * 3);
       }
     }
   }

@@ -42,6 +42,16 @@ SIMDBEZIER_PART void put_into_buffer(GridTask<T>& column_task, const Piece& piec
   column_task.nu = 1;
 }
 
+/// Returns how many columns a tile adds to those before it, with the one behind it: fewer than it
+/// has where it begins within the one before. A drain that counted them all would be through with
+/// the chunk before too early, and memory idle for the rest.
+template <typename SomeTile>
+SIMDBEZIER_PART std::size_t fresh_columns(const SomeTile& tile) {
+  constexpr std::size_t kL = kLanes<vec<typename SomeTile::T>>;
+  const std::size_t before = (tile.first + kL - 1) / kL * kL;
+  return tile.first + tile.active - before + (SomeTile::kBuffered ? 1 : 0);
+}
+
 /// Sweeps positions and normals of a tile and the column behind it.
 template <bool kAny, Known kKnown, typename Piece, typename SomeTile, typename T>
 SIMDBEZIER_PART void sweep_normal_patches(const GridTask<T>& shared_task, const Piece& piece,
@@ -58,7 +68,7 @@ SIMDBEZIER_PART void sweep_normal_patches(const GridTask<T>& shared_task, const 
   ColumnBuffer<T, 6> buffer;
   const ColumnPlanes<T> extra = buffer.planes(piece);
   put_into_buffer(column_task, piece, buffer);
-  const std::size_t samples = piece.rows() * (tile.active + (SomeTile::kBuffered ? 1 : 0));
+  const std::size_t samples = piece.rows() * fresh_columns(tile);
   const bool prefetch = task.prefetch && tile.first == 0;
   for (; patch < last_patch; ++patch) {
     if (prefetch) {
@@ -108,7 +118,7 @@ SIMDBEZIER_PART void sweep_component_patches(const GridTask<T>& task, const Piec
   ColumnBuffer<T, 3> buffer;
   const JetPlanes<T> there{buffer.first(0, piece), buffer.first(1, piece), buffer.first(2, piece)};
   const ColumnPlanes<T> extra = buffer.planes(piece);
-  const std::size_t samples = piece.rows() * (tile.active + (SomeTile::kBuffered ? 1 : 0));
+  const std::size_t samples = piece.rows() * fresh_columns(tile);
   const bool prefetch = task.prefetch && tile.first == 0;
   const std::size_t nu = piece.columns(task.nu);
   for (; patch < last_patch; ++patch) {

@@ -210,6 +210,8 @@ SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece
   const JetPlanes<T> there{buffer.first(0, piece), buffer.first(1, piece), buffer.first(2, piece)};
   const ColumnPlanes<T> extra = buffer.planes(piece);
   const bool prefetch = task.prefetch && at.first == 0;
+  const std::size_t columns = at.end() - at.first + (Last::kBuffered ? 1 : 0);
+  const std::size_t values = piece.rows() * columns * (kJets ? 3 : 1); // of a component
   for (; patch < end; ++patch) {
     if (prefetch) {
       prefetch_patch(task, patch);
@@ -231,6 +233,7 @@ SIMDBEZIER_KERNEL void sweep_band(const GridTask<T>& shared_task, const RowPiece
         sweep_position(piece, component, column, 1, there.position, extra);
       }
       band.sweep(piece, component, task.nu, to, extra);
+      drain_some(task.drain, values);
     }
   }
 }
