@@ -87,9 +87,9 @@ struct WayOfCall {
 
 /// Runs the same work in some ways, one at least, of a call that has claimed its kind, and notes
 /// which is the fastest. Where there is one way alone, too little work or no memory to measure, or
-/// the output's memory has never been written to, it notes nothing, and takes `known`, what earlier
-/// calls have found, if that is among the ways, else Way::memory, which always is. Returns ok |
-/// out_of_memory, before anything is written.
+/// the output's memory is new (found_new_memory()), it notes nothing, and takes `known`, what
+/// earlier calls have found, if that is among the ways, else Way::memory, which always is. Returns
+/// ok | out_of_memory, before anything is written.
 [[nodiscard]] Status run_and_decide(std::span<const WayOfCall> ways, Way known,
                                     const CallKind& kind, std::size_t bytes,
                                     const Options& options) noexcept;

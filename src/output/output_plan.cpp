@@ -103,14 +103,15 @@ void OutputPlan<T>::put_directly(const DirectRows& rows) noexcept {
       possible = possible && shape.plane[m] == shape.plane[0] + m;
     }
   }
-  if (possible && way_ == Way::memory_other && !(whole_lines && on_lines)) {
-    way_ = Way::memory; // from staging of that size
+  if (!possible) {
     return;
   }
-  if (possible) {
-    record_ = record;
-    write_directly();
+  if (way_ == Way::memory_other && !(whole_lines && on_lines)) {
+    way_ = Way::memory; // in staging of the size that it has where kernels cannot stream
+    return;
   }
+  record_ = record;
+  write_directly();
 }
 
 template <typename T>

@@ -47,7 +47,7 @@ public:
   [[nodiscard]] bool streaming() const noexcept { return way_ != Way::cache; }
   /// Bytes of staging memory that one chunk should fill.
   [[nodiscard]] std::size_t chunk_bytes() const noexcept;
-  /// Gives up staging where kernels can do without it.
+  /// Gives up staging where kernels can do without it; Way::memory_other stages rows to be turned.
   void put_directly(const DirectRows& rows) noexcept;
   /// Values from one sample to the next where kernels write directly: 1 for planes, 3 for triples
   /// of each group, more for one vertex of all groups, counted from a group's first component.
