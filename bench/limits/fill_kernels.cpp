@@ -39,10 +39,16 @@ void fill_plain(unsigned char* out, std::size_t bytes) {
 #endif
 }
 
-// A line is always completed at once, because half lines are streamed at a third of the speed.
+// A line is always completed at once, because half lines are streamed at a third of the speed. Each
+// page is asked for before the first store to it: otherwise all stores wait until the processor has
+// found where it lies, by which a virtual machine loses up to two fifths of the rate.
 void fill_stream(unsigned char* out, std::size_t bytes) {
   constexpr std::size_t kStep = sizeof(RegisterOf<double>);
+  constexpr std::size_t kPage = 4096;
   for (unsigned char* const end = out + bytes; out != end; out += 64) {
+    if (reinterpret_cast<std::uintptr_t>(out) % kPage == 0) {
+      asm volatile("prefetcht0 %0" : : "m"(out[kPage])); // a builtin might be dropped
+    }
 #pragma GCC unroll 4
     for (std::size_t k = 0; k < 64; k += kStep) {
       stream_one(out + k);

@@ -26,6 +26,20 @@ struct CurveBlock {
   std::size_t end;
 };
 
+/// Asks for the pages of whole lines that go past the caches: those behind samples
+/// [begin, begin + count), which are written next.
+template <typename T>
+SIMDBEZIER_INLINE void ask_for_planes(const CurveTask<T>& task, std::size_t begin,
+                                      std::size_t count) {
+  for (const auto& planes : task.out) {
+    for (const T* const plane : planes.component) {
+      if (plane != nullptr) {
+        ask_for_pages(page_behind(plane + begin), count * sizeof(T));
+      }
+    }
+  }
+}
+
 /// Calls body(block) for all curves of a task, and passes on what was staged before in between.
 template <typename T, typename Body>
 SIMDBEZIER_INLINE void for_curve_blocks(const CurveTask<T>& task, std::size_t values, Body body) {
@@ -33,6 +47,9 @@ SIMDBEZIER_INLINE void for_curve_blocks(const CurveTask<T>& task, std::size_t va
   for (std::size_t begin = 0; begin < task.curve_count; begin += most) {
     const std::size_t left = task.curve_count - begin;
     const CurveBlock block{begin, begin + (left < most ? left : most)};
+    if (task.streaming) {
+      ask_for_planes(task, begin * task.n, (block.end - begin) * task.n);
+    }
     body(block);
     drain_some(task.drain, values * task.n * (block.end - begin));
   }

@@ -137,9 +137,13 @@ fill_rows(const CurveTask<T>& shared_task, std::size_t begin, std::size_t end, s
   } else if (memory != nullptr) {
     fill_by_rings<kKnownOrder, false>(task, shape, begin, end, batch, rows, memory);
   } else { // without a test after every register: 5 % of streaming stores
+    const std::size_t row = rows.row(task.n);
     for (std::size_t first = begin; first < end; first += batch) {
-      fill_along<kKnownOrder>(task, shape, first, std::min(first + batch, end),
-                              rows.at((first - begin) * rows.row(task.n)), streaming,
+      const CurveRows<kTriples, T> to = rows.at((first - begin) * row);
+      if (streaming) {
+        ask_for_pages(page_behind(to.first[0]), batch * row * sizeof(T));
+      }
+      fill_along<kKnownOrder>(task, shape, first, std::min(first + batch, end), to, streaming,
                               []() SIMDBEZIER_INLINE_LAMBDA {});
     }
   }

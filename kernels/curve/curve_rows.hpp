@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "kernels/curve/curve_outputs.hpp"
+#include "kernels/simd/pages.hpp"
 #include "kernels/simd/registers_to_records.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {

@@ -119,6 +119,11 @@ public:
     std::size_t first = first_;
     std::size_t place = place_;
     for (; place + kLanes<V> <= end; place += kLanes<V>) {
+      if (comes_to_page<T, kMembers * kLanes<V>>(kMembers * place)) [[unlikely]] {
+        repeat<kStreams>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+          ask_for_pages(page_behind(to_[k] + kMembers * place), kPage);
+        });
+      }
       LinePart<T> value[kComponents];
       samples.template evaluate<kComponents>(curve, first, value);
       if constexpr (kTriples) {

@@ -168,6 +168,11 @@ SIMDBEZIER_PART void fill_lines(const CurveTask<T>& task, const CurveShape& shap
       if (task.prefetch) {
         prefetch_values(from + kValuesAhead<T>, together * stride);
       }
+      if (streaming && comes_to_page<T, kValues>(at)) [[unlikely]] {
+        repeat<Lines::kStreams>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA {
+          ask_for_pages(page_behind(rows.first[s] + at), kPage);
+        });
+      }
       put();
     }
   };

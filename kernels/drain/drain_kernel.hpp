@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "kernels/simd/pages.hpp"
 #include "kernels/simd/registers_to_records.hpp"
 #include "src/tables/drain_queue.hpp"
 
@@ -101,6 +102,9 @@ SIMDBEZIER_KERNEL void drain_with_gaps(const DrainStream<T>& s, std::size_t step
 
 template <typename T>
 SIMDBEZIER_INLINE void drain_steps(const DrainStream<T>& s, std::size_t steps) {
+  if (s.streaming) {
+    ask_for_pages(page_behind(s.to), steps * 64 * s.members);
+  }
   const bool packed = s.stride == static_cast<std::ptrdiff_t>(s.members);
   if (s.members == 1 && packed) {
     s.streaming ? drain_plane<true>(s, steps) : drain_plane<false>(s, steps);

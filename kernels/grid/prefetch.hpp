@@ -1,7 +1,8 @@
-// Asks for patches that grid kernels will soon come to.
+// Asks for patches, and for pages of outputs, that grid kernels will soon come to.
 #pragma once
 
 #include "kernels/simd/operands.hpp"
+#include "kernels/simd/pages.hpp"
 #include "src/storage/bicubic_layout.hpp"
 #include "src/tables/kernel_table.hpp"
 
@@ -27,5 +28,52 @@ SIMDBEZIER_PART void prefetch_patch(const GridTask<T>& task, std::size_t patch) 
     prefetch_line(edges + k);
   }
 }
+
+/// Asks for the pages of outputs that leave the caches (simd/pages.hpp), one patch ahead, or as
+/// many as fill a page.
+template <typename T>
+class PagesAhead {
+public:
+  /// Patches of the task are written in order, `samples` of each from sample `first` on. task: as
+  /// the kernel was given it. A copy whose address is known would have to be in memory.
+  SIMDBEZIER_PART PagesAhead(const GridTask<T>& task, std::size_t first, std::size_t samples)
+      : task_(task), first_(first), samples_(samples) {
+    const std::size_t bytes = samples * task.record * sizeof(T);
+    together_ = bytes < kPage ? kPage / bytes : 1;
+    const bool leave = task.streaming || task.plain_to_memory;
+    due_ = leave && bytes <= kMostPages * kPage ? 0 : task.patch_count;
+  }
+  /// Patches up to `patch` are about to be written.
+  SIMDBEZIER_PART void come_to(std::size_t patch) {
+    if (patch >= due_) [[unlikely]] {
+      ask(patch);
+    }
+  }
+
+private:
+  /// Of a longer patch, pages would be forgotten until their turn.
+  static constexpr std::size_t kMostPages = 64;
+
+  SIMDBEZIER_KERNEL void ask(std::size_t patch) {
+    const std::size_t record = task_.record * sizeof(T);
+    const std::size_t kinds = task_.record > 1 ? 1 : 3; // the other components lie beside it
+    const std::size_t samples = together_ > 1 ? together_ * task_.patch_step : samples_;
+    for (; due_ <= patch; due_ += together_) {
+      const std::size_t at = (due_ + together_) * task_.patch_step + first_;
+      for (const detail::Planes<T>& planes : task_.out) {
+        for (std::size_t c = 0; c < kinds && planes.component[c] != nullptr; ++c) {
+          const auto first = reinterpret_cast<std::uintptr_t>(planes.component[c]);
+          ask_for_pages(first + at * record, samples * record);
+        }
+      }
+    }
+  }
+
+  const GridTask<T>& task_;
+  std::size_t first_;
+  std::size_t samples_;
+  std::size_t together_; ///< patches, of a page where one is less
+  std::size_t due_;      ///< patches whose time has come
+};
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -33,7 +33,9 @@ SIMDBEZIER_KERNEL void stream_tile(const GridTask<T>& shared_task, const RowPiec
   const ColumnPlanes<T> behind = buffer.planes(piece);
   const bool goes_on = piece.rows() * task.nu == task.patch_step;
   Stream streams[3 * kPlanes];
+  PagesAhead<T> pages(shared_task, piece.first * task.nu, piece.rows() * task.nu);
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
+    pages.come_to(patch);
     if (task.prefetch) {
       prefetch_patch(task, patch);
     }

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "kernels/simd/interleave.hpp"
+#include "kernels/simd/pages.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -49,6 +50,7 @@ public:
   SIMDBEZIER_INLINE std::size_t pass_on(std::size_t lines) {
     const std::size_t count = lines < lines_ ? lines : lines_;
     if (count > 0) {
+      ask_for_pages(page_behind(to_), count * 64);
       std::size_t k = 0;
       if (foreign_ > 0) [[unlikely]] {
         put_part(kLine);
