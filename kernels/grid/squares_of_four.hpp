@@ -180,7 +180,7 @@ SIMDBEZIER_KERNEL void sweep_squares_of_four(const GridTask<T>& shared_task) {
   std::size_t at = 0;
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
     if (task.prefetch) {
-      prefetch_patch(task, patch);
+      prefetch_patch<kJets ? kPatchesAhead : kSmallPatchesAhead>(task, patch);
     }
     const SquareSamples<V, kJets> samples(coefficients, edges, grid);
     const auto store = [&](Output output, std::size_t c, V value) SIMDBEZIER_INLINE_LAMBDA {
