@@ -40,7 +40,7 @@ public:
   SIMDBEZIER_PART PagesAhead(const GridTask<T>& task, std::size_t first, std::size_t samples)
       : task_(task), first_(first), samples_(samples) {
     const std::size_t bytes = samples * task.record * sizeof(T);
-    together_ = bytes < kPage ? kPage / bytes : 1;
+    together_ = bytes < kPage && samples == task.patch_step ? kPage / bytes : 1;
     const bool leave = task.streaming || task.plain_to_memory;
     due_ = leave && bytes <= kMostPages * kPage ? 0 : task.patch_count;
   }
@@ -58,7 +58,7 @@ private:
   SIMDBEZIER_KERNEL void ask(std::size_t patch) {
     const std::size_t record = task_.record * sizeof(T);
     const std::size_t kinds = task_.record > 1 ? 1 : 3; // the other components lie beside it
-    const std::size_t samples = together_ > 1 ? together_ * task_.patch_step : samples_;
+    const std::size_t samples = together_ * samples_;
     for (; due_ <= patch; due_ += together_) {
       const std::size_t at = (due_ + together_) * task_.patch_step + first_;
       for (const detail::Planes<T>& planes : task_.out) {
