@@ -1,6 +1,8 @@
 // Fills memory with whole registers, past the caches and through them.
 #include "bench/limits/limit_kernels.hpp"
 
+#include <cstdint>
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
@@ -40,8 +42,8 @@ void fill_plain(unsigned char* out, std::size_t bytes) {
 }
 
 // A line is always completed at once, because half lines are streamed at a third of the speed. Each
-// page is asked for before the first store to it: otherwise all stores wait until the processor has
-// found where it lies, by which a virtual machine loses up to two fifths of the rate.
+// page but the first is asked for before the first store to it: otherwise all stores wait until the
+// processor has found where it lies, by which a virtual machine loses up to two fifths of the rate.
 void fill_stream(unsigned char* out, std::size_t bytes) {
   constexpr std::size_t kStep = sizeof(RegisterOf<double>);
   constexpr std::size_t kPage = 4096;

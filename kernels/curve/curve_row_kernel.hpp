@@ -140,7 +140,7 @@ fill_rows(const CurveTask<T>& shared_task, std::size_t begin, std::size_t end, s
     const std::size_t row = rows.row(task.n);
     for (std::size_t first = begin; first < end; first += batch) {
       const CurveRows<kTriples, T> to = rows.at((first - begin) * row);
-      if (streaming) {
+      if (streaming) { // triples, as fill_along() says: one stream
         ask_for_pages(page_behind(to.first[0]), batch * row * sizeof(T));
       }
       fill_along<kKnownOrder>(task, shape, first, std::min(first + batch, end), to, streaming,

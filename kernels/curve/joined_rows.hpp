@@ -119,9 +119,10 @@ public:
     std::size_t first = first_;
     std::size_t place = place_;
     for (; place + kLanes<V> <= end; place += kLanes<V>) {
-      if (comes_to_page<T, kMembers * kLanes<V>>(kMembers * place)) [[unlikely]] {
+      constexpr std::size_t kStep = kMembers * kLanes<V>; // values
+      if (is_turn_to_ask<T, kStep>(kMembers * place)) [[unlikely]] {
         repeat<kStreams>([&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
-          ask_for_pages(page_behind(to_[k] + kMembers * place), kPage);
+          ask_until_next_turn<kStep>(to_[k] + kMembers * place);
         });
       }
       LinePart<T> value[kComponents];

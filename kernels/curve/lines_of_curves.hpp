@@ -168,9 +168,9 @@ SIMDBEZIER_PART void fill_lines(const CurveTask<T>& task, const CurveShape& shap
       if (task.prefetch) {
         prefetch_values(from + kValuesAhead<T>, together * stride);
       }
-      if (streaming && comes_to_page<T, kValues>(at)) [[unlikely]] {
+      if (streaming && is_turn_to_ask<T, kValues>(at)) [[unlikely]] {
         repeat<Lines::kStreams>([&](std::size_t s) SIMDBEZIER_INLINE_LAMBDA {
-          ask_for_pages(page_behind(rows.first[s] + at), kPage);
+          ask_until_next_turn<kValues>(rows.first[s] + at);
         });
       }
       put();

@@ -357,7 +357,7 @@ SIMDBEZIER_KERNEL void grid_kernel(GridTask<T>& task) {
     }
     const std::size_t cached = kUsual<kOutputs> ? task.cached_bytes : kCachedBytes;
     const std::size_t together = cached / bytes_of<kOutputs>(task, piece) + 1;
-    PagesAhead<T> pages(task, piece.first * task.nu, piece.rows() * task.nu);
+    PagesAhead<T> pages(task, piece);
     for (std::size_t patch = 0; patch < task.patch_count; patch += together) {
       const std::size_t left = task.patch_count - patch;
       const std::size_t end = patch + (left < together ? left : together);

@@ -35,12 +35,13 @@ SIMDBEZIER_PART void prefetch_patch(const GridTask<T>& task, std::size_t patch) 
 template <typename T>
 class PagesAhead {
 public:
-  /// Patches of the task are written in order, `samples` of each from sample `first` on. task: as
-  /// the kernel was given it. A copy whose address is known would have to be in memory.
-  SIMDBEZIER_PART PagesAhead(const GridTask<T>& task, std::size_t first, std::size_t samples)
-      : task_(task), first_(first), samples_(samples) {
-    const std::size_t bytes = samples * task.record * sizeof(T);
-    together_ = bytes < kPage && samples == task.patch_step ? kPage / bytes : 1;
+  /// The rows of a piece are written, of the task's patches in order. task: as the kernel was given
+  /// it. A copy whose address is known would have to be in memory.
+  template <typename Piece>
+  SIMDBEZIER_PART PagesAhead(const GridTask<T>& task, const Piece& piece)
+      : task_(task), first_(piece.first * task.nu), samples_(piece.rows() * task.nu) {
+    const std::size_t bytes = samples_ * task.record * sizeof(T);
+    together_ = bytes < kPage && samples_ == task.patch_step ? kPage / bytes : 1;
     due_ = task.streaming && bytes <= kMostPages * kPage ? 0 : task.patch_count;
   }
   /// Patches up to `patch` are about to be written.
@@ -51,7 +52,7 @@ public:
   }
 
 private:
-  /// Of a longer patch, pages would be forgotten until their turn.
+  /// Pages of each plane. Of longer pieces they would be forgotten until their turn.
   static constexpr std::size_t kMostPages = 16;
 
   SIMDBEZIER_KERNEL void ask(std::size_t patch) {
@@ -70,8 +71,8 @@ private:
   }
 
   const GridTask<T>& task_;
-  std::size_t first_;
-  std::size_t samples_;
+  std::size_t first_;    ///< of a patch's samples
+  std::size_t samples_;  ///< of each patch
   std::size_t together_; ///< patches, of a page where one is less
   std::size_t due_;      ///< patches whose time has come
 };

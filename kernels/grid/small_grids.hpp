@@ -88,7 +88,6 @@ SIMDBEZIER_KERNEL void sweep_small_positions(const GridTask<T>& shared_task) {
   const GridTask<T> task = shared_task;
   const SmallGrid<V> grid(task);
   const SmallGridSources& sources = kSmallGrids.of(task.nu, grid.rows + 2).position;
-  constexpr std::size_t kAhead = kFull <= 2 ? kSmallPatchesAhead : kPatchesAhead;
   Assembly sample[kFull + 1];
   for (std::size_t k = 0; k <= kFull; ++k) {
     sample[k] = Assembly(sources.of_register(k));
@@ -96,7 +95,7 @@ SIMDBEZIER_KERNEL void sweep_small_positions(const GridTask<T>& shared_task) {
   const std::size_t rest = grid.samples - kFull * kLanes<V>;
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
     if (task.prefetch) {
-      prefetch_patch<kAhead>(task, patch);
+      prefetch_patch<kSmallPatchesAhead>(task, patch);
     }
     Component<T> component(task, patch, 0);
     for (std::size_t c = 0; c < 3; ++c, component = component.next()) {

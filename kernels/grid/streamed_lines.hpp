@@ -33,7 +33,7 @@ SIMDBEZIER_KERNEL void stream_tile(const GridTask<T>& shared_task, const RowPiec
   const ColumnPlanes<T> behind = buffer.planes(piece);
   const bool goes_on = piece.rows() * task.nu == task.patch_step;
   Stream streams[3 * kPlanes];
-  PagesAhead<T> pages(shared_task, piece.first * task.nu, piece.rows() * task.nu);
+  PagesAhead<T> pages(shared_task, piece);
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
     pages.come_to(patch);
     if (task.prefetch) {

@@ -191,7 +191,7 @@ SIMDBEZIER_KERNEL void stream_normals(const GridTask<T>& shared_task, const RowP
   PlaneStreams<vec<T>, 6> streams;
   UncertainRegisters uncertain;
   bool begun = false;
-  PagesAhead<T> pages(shared_task, piece.first * task.nu, piece.rows() * task.nu);
+  PagesAhead<T> pages(shared_task, piece);
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
     pages.come_to(patch);
     if (task.prefetch) {

@@ -67,7 +67,7 @@ SIMDBEZIER_KERNEL void stream_planes(const GridTask<T>& shared_task, const RowPi
   const bool goes_on = piece.rows() * nu == task.patch_step;
   ValueStream<V> streams[3 * kPlanes];
   StreamedComponent<T, kPlanes> component;
-  PagesAhead<T> pages(shared_task, piece.first * task.nu, piece.rows() * task.nu);
+  PagesAhead<T> pages(shared_task, piece);
   for (std::size_t patch = 0; patch < task.patch_count; ++patch) {
     pages.come_to(patch);
     if (task.prefetch) {
