@@ -14,9 +14,11 @@ inline constexpr int kMostComponents = 16;
 
 /// Whether points carry a weight, as one more value behind their components, and in which form.
 enum class Weights : std::uint8_t {
-  none,       ///< polynomial
-  cartesian,  ///< x y z w: the point is (x, y, z)
-  homogeneous ///< wx wy wz w: the point is (wx/w, wy/w, wz/w)
+  none,      ///< polynomial
+  cartesian, ///< x y z w: the point is (x, y, z)
+  /// wx wy wz w: the point is (wx/w, wy/w, wz/w). Points whose quotients differ by 16 units of
+  /// roundoff of S at most, in every component, are one point to all calls.
+  homogeneous
 };
 
 /// Non-owning description of `count` control nets with equal degrees and components.

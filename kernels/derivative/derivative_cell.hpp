@@ -32,8 +32,7 @@ public:
       : shape_(*task.shape), orders_(*task.orders), cell_(cell), side_u_(side_u), side_v_(side_v),
         x_(x), y_(y) {
     if (shape_.rational) {
-      point_u_ = side_u_ != kInside && cell_.origins == nullptr &&
-                 corner_u(static_cast<std::size_t>(shape_.components)) != T(0);
+      point_u_ = side_u_ != kInside && cell_.origins == nullptr && mark_u() != T(0);
       prepare_weight();
     }
   }
@@ -147,7 +146,7 @@ private:
           position + (side_v_ != kInside ? origin(component, detail::kEdgeOriginsAt + edge_v())
                                          : origin_u(component));
     } else if (point_u_ && side_v_ == kInside) {
-      position = position + broadcast<V>(corner_u(component));
+      position = position + broadcast<V>(point_u(component));
     }
   }
   SIMDBEZIER_PART V origin(std::size_t component, std::size_t which) const {
@@ -155,12 +154,19 @@ private:
   }
   /// Returns what is added to positions on an edge u = const where derivatives by u use them.
   SIMDBEZIER_PART V relative_origin_u(std::size_t component) const {
-    return point_u_ ? broadcast<V>(corner_u(component))
+    return point_u_ ? broadcast<V>(point_u(component))
                     : origin(component, detail::kRelativeOriginsAt + edge_u() - detail::kEdgeU0);
   }
-  /// Returns the corner where an edge u = const begins; for the weight's channel, the edge's mark.
-  SIMDBEZIER_PART T corner_u(std::size_t channel) const {
-    return cell_.edges[shape_.corners_at() + channel * 4 + edge_u() - detail::kEdgeU0];
+  /// Returns the mark of an edge u = const, see NetShape.
+  SIMDBEZIER_PART T mark_u() const {
+    const auto weight = static_cast<std::size_t>(shape_.components);
+    return cell_.edges[shape_.corners_at() + weight * 4 + edge_u() - detail::kEdgeU0];
+  }
+  /// Returns where an edge u = const with a mark is.
+  SIMDBEZIER_PART T point_u(std::size_t component) const {
+    const std::size_t corner =
+        detail::corner_index(edge_u() - detail::kEdgeU0, mark_u() > 1 ? 1 : 0);
+    return cell_.edges[shape_.corners_at() + component * 4 + corner];
   }
   /// Returns the origin of the edge u = const if the samples are on one, and the cell's own
   /// elsewhere.

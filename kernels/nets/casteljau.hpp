@@ -134,9 +134,7 @@ Isa split_kernel(const detail::SplitTask<T>& task, std::size_t begin, std::size_
     const auto deliver = [&](T* group, std::size_t half_u, std::size_t half_v) {
       const detail::NetView<T>& out = task.out[2 * half_v + half_u];
       scatter_group<V>(group, out, first, count);
-      restore_points(in, out, first, count,
-                     {!task.in_u, task.in_u && half_u == 0, task.in_u && half_u == 1},
-                     {!task.in_v, task.in_v && half_v == 0, task.in_v && half_v == 1});
+      restore_points(in, out, first, count, task.support_u[half_u], task.support_v[half_v]);
     };
     const auto finish = [&](T* group, std::size_t half_u) {
       if (task.in_v) {
@@ -175,7 +173,7 @@ Isa segment_kernel(const detail::SegmentTask<T>& task, std::size_t begin, std::s
       segment_axis<V>(net, lines, temp, v, Lever<V>(task.v[0]), Lever<V>(task.v[1]));
     }
     scatter_group<V>(net, task.out, first, count);
-    restore_points(in, task.out, first, count, task.kept_u, task.kept_v);
+    restore_points(in, task.out, first, count, task.support_u, task.support_v);
   });
   return Isa::SIMDBEZIER_ISA;
 }

@@ -51,7 +51,7 @@ template <typename V>
 SIMDBEZIER_INLINE void gather_points(const detail::NetView<const ScalarOf<V>>& in, bool rational,
                                      std::size_t first, std::size_t count, ScalarOf<V>* group) {
   read_group<V>(in, first, count, group);
-  if (rational && !in.cartesian) {
+  if (rational && in.weights != Weights::cartesian) {
     project<V>(group, in.order_u * in.order_v, in.channels);
   }
 }
@@ -182,7 +182,8 @@ Isa box_kernel(const detail::BoxTask<T>& task, std::size_t begin, std::size_t en
     gather_points<V>(in, rational, first, count, net);
     for (std::size_t c = 0; c < in.channels; ++c) {
       control[c] = range_over<V>(net, points, in.channels, c);
-      control[c] = rational && !in.cartesian ? opened<V>(control[c]) : control[c];
+      control[c] =
+          rational && in.weights != Weights::cartesian ? opened<V>(control[c]) : control[c];
     }
     ValueRange<V> moved[detail::kMostChannels];
     for (std::size_t c = 0; task.levels > 0 && c < components; ++c) {

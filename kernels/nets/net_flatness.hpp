@@ -142,7 +142,7 @@ SIMDBEZIER_INLINE vec<T> flatness_of(const detail::FlatnessTask<T>& task, bool r
     const MaskOf<V> not_light = w.low > broadcast<V>(kSafelySmall<T>);
     const MaskOf<V> not_heavy = w.high < broadcast<V>(kSafelyLarge<T>);
     safe = safe & not_light & not_heavy;
-    if (!in.cartesian) {
+    if (in.weights != Weights::cartesian) {
       bound = bound + broadcast<V>(8 * kSlack * task.root_components) * size + denormals;
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels/simd/squares.hpp"
+#include "src/storage/one_point.hpp"
 #include "src/tables/net_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -113,7 +114,7 @@ template <typename V, typename S>
 SIMDBEZIER_INLINE void gather_group(const detail::NetView<const S>& nets, std::size_t first,
                                     std::size_t count, ScalarOf<V>* group) {
   read_group<V>(nets, first, count, group);
-  if (nets.cartesian) {
+  if (nets.weights == Weights::cartesian) {
     weigh<V>(group, nets.order_u * nets.order_v, nets.channels);
   }
 }
@@ -122,7 +123,7 @@ SIMDBEZIER_INLINE void gather_group(const detail::NetView<const S>& nets, std::s
 template <typename V, typename S>
 SIMDBEZIER_INLINE void scatter_group(ScalarOf<V>* group, const detail::NetView<S>& nets,
                                      std::size_t first, std::size_t count) {
-  if (nets.cartesian) {
+  if (nets.weights == Weights::cartesian) {
     project<V>(group, nets.order_u * nets.order_v, nets.channels);
   }
   const std::size_t done = values_in_blocks<V>(nets, count);
@@ -138,92 +139,54 @@ SIMDBEZIER_INLINE void scatter_group(ScalarOf<V>* group, const detail::NetView<S
   }
 }
 
-/// Finds the point of the input that point k of `order` is. Returns false where it is none of them.
-SIMDBEZIER_INLINE bool kept_point(const detail::KeptPoints& kept, std::size_t k, std::size_t order,
-                                  std::size_t order_in, std::size_t& source) {
-  source = kept.all || k == 0 ? k : order_in - 1;
-  return kept.all || (k == 0 && kept.first) || (k + 1 == order && kept.last);
-}
-
 SIMDBEZIER_INLINE std::ptrdiff_t steps(std::size_t k, std::ptrdiff_t stride) {
   return static_cast<std::ptrdiff_t>(k) * stride;
 }
 
-/// One edge of a net in memory.
+/// Replaces a point of a result, a mean of columns x rows points of the input, if these are one.
 template <typename S>
-struct EdgeView {
-  S* first;
-  std::size_t order;
-  std::ptrdiff_t stride;
-};
-/// Returns the edge in u (at v = 0 or 1), or in v.
-template <typename S>
-SIMDBEZIER_INLINE EdgeView<S> edge_of(const detail::NetView<S>& nets, std::size_t patch, bool in_u,
-                                      bool last) {
-  S* const net = net_at(nets, patch);
-  return in_u ? EdgeView<S>{net + (last ? steps(nets.order_v - 1, nets.row_stride) : 0),
-                            nets.order_u, nets.point_stride}
-              : EdgeView<S>{net + (last ? steps(nets.order_u - 1, nets.point_stride) : 0),
-                            nets.order_v, nets.row_stride};
-}
-
-/// Where all points of an edge of the input are equal, those of the result's edge are the same
-/// point, whatever the weights.
-template <typename S>
-SIMDBEZIER_INLINE void restore_collapsed_edge(const detail::NetView<const S>& in,
-                                              const detail::NetView<S>& out, std::size_t patch,
-                                              bool in_u, bool last) {
-  const EdgeView<const S> from = edge_of(in, patch, in_u, last);
-  const EdgeView<S> to = edge_of(out, patch, in_u, last);
-  for (std::size_t c = 0; c < in.components; ++c) {
-    const S* const component = from.first + steps(c, in.component_stride);
-    for (std::size_t k = 1; k < from.order; ++k) {
-      if (component[steps(k, from.stride)] != component[0]) {
-        return;
-      }
+SIMDBEZIER_PART void restore_point(const detail::NetView<const S>& in, const S* from,
+                                   std::size_t columns, std::size_t rows, std::ptrdiff_t stride,
+                                   S* to) {
+  const bool cartesian = in.weights == Weights::cartesian;
+  if (columns * rows == 1) {
+    for (std::size_t c = 0; cartesian && c < in.channels; ++c) {
+      to[steps(c, stride)] = from[steps(c, in.component_stride)] + S(0);
     }
+    return;
   }
-  for (std::size_t k = 0; k < to.order; ++k) {
+  double point[detail::kMostChannels];
+  const auto at = [&](std::size_t k) SIMDBEZIER_INLINE_LAMBDA {
+    return from + steps(k / columns, in.row_stride) + steps(k % columns, in.point_stride);
+  };
+  if (detail::are_one_point<S>(at, columns * rows, in.components, in.component_stride, in.weights,
+                               point)) {
+    const double weight = cartesian ? 1 : static_cast<double>(to[steps(in.components, stride)]);
     for (std::size_t c = 0; c < in.components; ++c) {
-      to.first[steps(k, to.stride) + steps(c, out.component_stride)] =
-          from.first[steps(c, in.component_stride)] + S(0);
+      to[steps(c, stride)] = static_cast<S>(point[c] * weight) + S(0);
     }
   }
 }
 
-/// Repairs what the way through w P / w has done to cartesian nets: points that the operation has
-/// not touched are copied, and collapsed edges made so again.
+/// Makes points that are means of one point that point again, in rational nets: see Support.
 template <typename S>
-SIMDBEZIER_INLINE void restore_points(const detail::NetView<const S>& in,
-                                      const detail::NetView<S>& out, std::size_t first,
-                                      std::size_t count, const detail::KeptPoints& kept_u,
-                                      const detail::KeptPoints& kept_v) {
-  if (!in.cartesian) {
+SIMDBEZIER_INLINE void
+restore_points(const detail::NetView<const S>& in, const detail::NetView<S>& out, std::size_t first,
+               std::size_t count, const detail::Support& u, const detail::Support& v) {
+  if (in.weights == Weights::none) {
     return;
   }
   for (std::size_t p = first; p < first + count; ++p) {
     for (std::size_t j = 0; j < out.order_v; ++j) {
       for (std::size_t i = 0; i < out.order_u; ++i) {
-        std::size_t i_in = 0;
-        std::size_t j_in = 0;
-        if (!kept_point(kept_u, i, out.order_u, in.order_u, i_in) ||
-            !kept_point(kept_v, j, out.order_v, in.order_v, j_in)) {
-          continue;
+        if (u.first[i] <= u.last[i] && v.first[j] <= v.last[j]) {
+          restore_point(in,
+                        net_at(in, p) + steps(v.first[j], in.row_stride) +
+                            steps(u.first[i], in.point_stride),
+                        u.last[i] - u.first[i] + std::size_t{1},
+                        v.last[j] - v.first[j] + std::size_t{1}, out.component_stride,
+                        net_at(out, p) + steps(j, out.row_stride) + steps(i, out.point_stride));
         }
-        const S* const from =
-            net_at(in, p) + steps(j_in, in.row_stride) + steps(i_in, in.point_stride);
-        S* const to = net_at(out, p) + steps(j, out.row_stride) + steps(i, out.point_stride);
-        for (std::size_t c = 0; c < in.channels; ++c) {
-          to[steps(c, out.component_stride)] = from[steps(c, in.component_stride)] + S(0);
-        }
-      }
-    }
-    for (const bool last : {false, true}) {
-      if (kept_v.all || (last ? kept_v.last : kept_v.first)) {
-        restore_collapsed_edge(in, out, p, true, last);
-      }
-      if (kept_u.all || (last ? kept_u.last : kept_u.first)) {
-        restore_collapsed_edge(in, out, p, false, last);
       }
     }
   }

@@ -74,7 +74,7 @@ Isa map_kernel(const detail::MapTask<T>& task, std::size_t begin, std::size_t en
       net = buffers[2];
     }
     scatter_group<Wide>(net, task.out, first, count);
-    restore_points(in, task.out, first, count, task.kept_u, task.kept_v);
+    restore_points(in, task.out, first, count, task.support_u, task.support_v);
   });
   return Isa::SIMDBEZIER_ISA;
 }

@@ -1,5 +1,5 @@
-// Edges of rational patches whose control points are all one: a pole of a sphere, the tip of a
-// cone.
+// Edges of rational patches whose control points are all one (src/storage/one_point.hpp): a pole of
+// a sphere, the tip of a cone.
 //
 // Such an edge stays where it is whatever its weights, but evaluated as h / w its derivative is the
 // difference of two equal products, each rounded: noise instead of zero, and with it curvatures.
@@ -8,15 +8,18 @@
 // unless they might be computed as zero where others are 1/u times as large: 0/0 is no number.
 // An edge v = const without an origin is the point with a weight of 1: from such edges, kernels
 // take only the point and derivatives along it, so they need not know that it is a point.
+//
+// Both ends of an edge keep their own control points, which other patches share; of homogeneous
+// ones they may differ by a rounding. Between them the edge is where the nearer_end() is.
 #pragma once
 
 #include <algorithm>
 #include <limits>
 #include <type_traits>
 
-#include "kernels/pack/coinciding_points.hpp"
 #include "kernels/pack/double_double.hpp"
 #include "src/storage/bicubic_layout.hpp"
+#include "src/storage/one_point.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
@@ -98,39 +101,76 @@ private:
 
   [[nodiscard]] bool is_point(std::size_t patch, std::size_t edge) const {
     const EdgePoints points(task_, patch, edge);
-    return is_one_point(points.first, points.step, points.count, points.channels,
-                        task_.nets.weights);
+    return detail::are_one_point(points.first, static_cast<std::ptrdiff_t>(points.step),
+                                 points.count, task_.shape.channels() - 1, 1, task_.nets.weights);
   }
+
+  /// The cells that an edge passes, from its first to its last one.
+  struct EdgeCells {
+    std::size_t first;
+    std::size_t step;
+    std::size_t count;
+
+    EdgeCells(const detail::NetShape& shape, const Side& side)
+        : first(side.along_u ? side.end * (shape.cells_v() - 1) * shape.cells_u()
+                             : side.end * (shape.cells_u() - 1)),
+          step(side.along_u ? 1 : shape.cells_u()),
+          count(side.along_u ? shape.cells_u() : shape.cells_v()) {}
+    [[nodiscard]] std::size_t at(std::size_t k) const { return first + k * step; }
+  };
 
   /// Packs the edge in every cell that has a part of it.
   SIMDBEZIER_RARE void pack_edge(std::size_t patch, std::size_t edge) const {
-    const detail::NetShape& shape = task_.shape;
-    const Side side(edge);
-    const std::size_t across = side.along_u ? shape.cells_v() : shape.cells_u();
-    for (std::size_t cell = 0; cell < shape.cells(); ++cell) {
-      const std::size_t place = side.along_u ? cell / shape.cells_u() : cell % shape.cells_u();
-      if (place == side.end * (across - 1)) {
-        const std::size_t begin = side.along_u ? cell - cell % shape.cells_u() : place;
-        pack_cell_edge(patch, cell, begin, edge);
-      }
+    const EdgeCells cells(task_.shape, Side(edge));
+    const std::size_t end = nearer_end(patch, edge);
+    for (std::size_t k = 0; k < cells.count; ++k) {
+      pack_cell_edge(patch, cells, k, edge, end);
     }
   }
 
-  /// begin is the cell in which the edge begins, and whose corner there is the point.
-  void pack_cell_edge(std::size_t patch, std::size_t cell, std::size_t begin,
-                      std::size_t edge) const {
+  /// The corners of a component where an edge ends.
+  [[nodiscard]] T* outer_corner(std::size_t patch, std::size_t edge, std::size_t end,
+                                std::size_t component) const {
     const detail::NetShape& shape = task_.shape;
     const Side side(edge);
-    T* const block = task_.edges + patch * shape.edges();
-    T* const edges = block + cell * shape.cell_edges();
-    const T* const points = block + begin * shape.cell_edges() + shape.corners_at();
+    const EdgeCells cells(shape, side);
+    return task_.edges + patch * shape.edges() +
+           cells.at(end * (cells.count - 1)) * shape.cell_edges() + shape.corners_at() +
+           component * 4 + side.corner(end);
+  }
+
+  /// Returns the end of an edge that is nearer to the origin in the first component where the ends
+  /// differ: whichever way the edge runs, and whatever is mirrored, that is the same point.
+  [[nodiscard]] std::size_t nearer_end(std::size_t patch, std::size_t edge) const {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(task_.shape.components); ++c) {
+      const double begin = __builtin_fabs(*outer_corner(patch, edge, 0, c));
+      const double end = __builtin_fabs(*outer_corner(patch, edge, 1, c));
+      if (begin != end) {
+        return begin < end ? 0 : 1;
+      }
+    }
+    return 0;
+  }
+
+  /// Packs the edge in its cell number k, as the point at one of its ends.
+  void pack_cell_edge(std::size_t patch, const EdgeCells& cells, std::size_t k, std::size_t edge,
+                      std::size_t end) const {
+    const detail::NetShape& shape = task_.shape;
+    const Side side(edge);
+    const std::size_t cell = cells.at(k);
+    T* const edges = task_.edges + patch * shape.edges() + cell * shape.cell_edges();
     const bool around = task_.origins != nullptr || !side.along_u;
     const auto components = static_cast<std::size_t>(shape.components);
     for (std::size_t c = 0; c < components; ++c) {
-      const T point = points[c * 4 + side.corner(0)];
+      const T point = *outer_corner(patch, edge, end, c);
       put_constant(edges, c, edge, around ? T(0) : point);
       T* const corners = edges + shape.corners_at() + c * 4;
-      corners[side.corner(0)] = corners[side.corner(1)] = point;
+      if (k > 0) {
+        corners[side.corner(0)] = point;
+      }
+      if (k + 1 < cells.count) {
+        corners[side.corner(1)] = point;
+      }
       if (task_.origins != nullptr) {
         T* const origins = task_.origins + patch * shape.origins() + cell * shape.cell_origins();
         origins[c * detail::kOriginsPerComponent + detail::kEdgeOriginsAt + edge] = point;
@@ -143,7 +183,7 @@ private:
     keep_positive(edges + components * shape.edge_powers() * kEdges + edge,
                   least_weight(patch, edge));
     if (task_.origins == nullptr) {
-      edges[shape.corners_at() + components * 4 + side.end] = T(1);
+      edges[shape.corners_at() + components * 4 + side.end] = static_cast<T>(1 + end);
     }
   }
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "kernels/pack/bicubic_pack_kernel.hpp"
-#include "kernels/pack/coinciding_points.hpp"
 #include "kernels/pack/shape_pack_formulas.hpp"
 #include "kernels/pack/tangent_floor.hpp"
 #include "kernels/pack/zero_signs.hpp"
+#include "src/storage/one_point.hpp"
 #include "src/tables/curve_table.hpp"
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
@@ -204,31 +204,47 @@ private:
     }
   }
 
-  /// Rational curves whose control points are all equal are packed as that point with a weight of
-  /// 1, like collapsed edges of patches (pack/collapsed_edges.hpp), and for the same reason.
+  /// Rational curves whose control points are one are packed as that point with a weight of 1, like
+  /// collapsed edges of patches (pack/collapsed_edges.hpp), and for the same reason.
   void pack_collapsed() const {
     for (std::size_t p = 0; p < count_; ++p) {
       const S* const given = task_.control_points + (first_ + p) * shape_.control_values();
-      const bool point =
-          is_one_point(given, shape_.channels(), order_, shape_.channels(), task_.curves.weights);
-      for (std::size_t cell = 0; point && cell < shape_.cells(); ++cell) {
-        pack_point(task_.values + (first_ + p) * curve_values_, cell);
+      if (detail::are_one_point(given, static_cast<std::ptrdiff_t>(shape_.channels()), order_,
+                                components_, 1, task_.curves.weights)) {
+        pack_point(task_.values + (first_ + p) * curve_values_);
       }
     }
   }
-  SIMDBEZIER_RARE void pack_point(T* const first, std::size_t cell) const {
-    T* values = first + cell * shape_.cell_values();
-    for (std::size_t c = 0; c <= components_; ++c, values += shape_.channel_values()) {
-      const T point = first[c * shape_.channel_values() + shape_.ends_at()];
-      for (std::size_t k = 0; k < order_; ++k) {
-        values[k] = T(0);
+  SIMDBEZIER_RARE void pack_point(T* const first) const {
+    const std::size_t last = (shape_.cells() - 1) * shape_.cell_values();
+    const auto end_of = [&](std::size_t c, std::size_t end) {
+      return first[end * last + c * shape_.channel_values() + shape_.ends_at() + end];
+    };
+    std::size_t nearer = 0;
+    for (std::size_t c = components_; c-- > 0;) {
+      const double begin = __builtin_fabs(end_of(c, 0));
+      const double end = __builtin_fabs(end_of(c, 1));
+      nearer = begin == end ? nearer : begin < end ? 0 : 1;
+    }
+    for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
+      T* values = first + cell * shape_.cell_values();
+      for (std::size_t c = 0; c <= components_; ++c, values += shape_.channel_values()) {
+        for (std::size_t k = 0; k < order_; ++k) {
+          values[k] = T(0);
+        }
+        if (c == components_) {
+          values[0] = T(1);
+          continue;
+        }
+        const T point = end_of(c, nearer);
+        if (cell > 0) {
+          values[shape_.ends_at()] = point;
+        }
+        if (cell + 1 < shape_.cells()) {
+          values[shape_.ends_at() + 1] = point;
+        }
+        values[shape_.origins ? shape_.origin_at() : 0] = point;
       }
-      if (c == components_) {
-        values[0] = T(1);
-        return;
-      }
-      values[shape_.ends_at()] = values[shape_.ends_at() + 1] = point;
-      values[shape_.origins ? shape_.origin_at() : 0] = point;
     }
   }
 

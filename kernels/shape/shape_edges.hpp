@@ -207,7 +207,10 @@ private:
     const std::size_t corners = shape_.corners_at();
     const V marks =
         replaced(zero, corners + slots_.channel(P::Slots::kWeight) * 4, &Cell<T>::edges);
-    const V point = replaced(zero, corners + slots_.channel(slot) * 4, &Cell<T>::edges);
+    const std::size_t points = corners + slots_.channel(slot) * 4;
+    const V point =
+        select_where<V>(marks > broadcast<V>(T(1)), replaced(zero, points + 2, &Cell<T>::edges),
+                        replaced(zero, points, &Cell<T>::edges));
     found.position[slot] = found.to_patch[slot] =
         select_where<V>(marks > zero, point, broadcast<V>(T(-0.0)));
   }

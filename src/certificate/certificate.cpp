@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "src/certificate/certificate_sums.hpp"
+#include "src/certificate/merged_points.hpp"
 #include "src/certificate/position_bounds.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/patch_storage.hpp"
@@ -60,6 +61,9 @@ public:
     }
     bound.du *= static_cast<double>(shape_.cells_u());
     bound.dv *= static_cast<double>(shape_.cells_v());
+    if (storage_.given.weights == Weights::homogeneous) {
+      add_merged(c, bound);
+    }
     return bound;
   }
 
@@ -201,14 +205,39 @@ private:
     return reach;
   }
 
+  /// Adds what edges that are points up to roundings lose when they become points. Let a be how far
+  /// apart their points are, and R the ratio of the patch's weights: such an edge has moved by up
+  /// to a, derivatives along it have been up to degree R a (M. S. Floater, Derivatives of rational
+  /// Bezier curves, 1992), and those across it change by up to |w_u / w| a.
+  void add_merged(std::size_t c, Bound& bound) const {
+    const std::size_t order_u = shape_.order_u();
+    const std::size_t order_v = shape_.order_v();
+    const PointRun edges[] = {{0, 1, order_u},
+                              {(order_v - 1) * order_u, 1, order_u},
+                              {0, order_u, order_v},
+                              {order_u - 1, order_u, order_v}};
+    double apart = 0;
+    for (const PointRun& edge : edges) {
+      apart = std::max(apart, merged_distance(net_, edge, shape_.channels(), c));
+    }
+    const double slope = 1.01 * apart * largest(weight()) / least_weight();
+    bound.position += 1.01 * apart;
+    bound.du += shape_.degree_u * slope;
+    bound.dv += shape_.degree_v * slope;
+  }
+
+  [[nodiscard]] double least_weight() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < shape_.points(); ++k) {
+      least = std::min(least, control_value(k, weight()));
+    }
+    return least;
+  }
+
   /// A lower bound of w as computed: the least of its control values, or what the other terms leave
   /// of its constant.
   [[nodiscard]] double lowest_weight(const TermSums& w, double error) const {
-    double lowest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < shape_.points(); ++k) {
-      lowest = std::min(lowest, control_value(k, weight()));
-    }
-    return std::max(lowest * (1 - 4 * kUnit), 2 * w.constant - w.size - error) - error;
+    return std::max(least_weight() * (1 - 4 * kUnit), 2 * w.constant - w.size - error) - error;
   }
 
   const PatchStorage<T>& storage_;

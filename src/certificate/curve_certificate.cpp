@@ -6,6 +6,7 @@
 #include <simdbezier/error_bounds.hpp>
 
 #include "src/certificate/certificate_sums.hpp"
+#include "src/certificate/merged_points.hpp"
 #include "src/certificate/position_bounds.hpp"
 #include "src/runtime/fp_environment.hpp"
 #include "src/storage/curve_storage.hpp"
@@ -58,6 +59,9 @@ public:
         worst.at[d] = std::max(worst.at[d], scale * here.at[d]);
         scale *= static_cast<double>(shape_.cells());
       }
+    }
+    if (storage_.given.weights == Weights::homogeneous) {
+      add_merged(component, worst);
     }
     return worst;
   }
@@ -131,6 +135,27 @@ private:
     return bounds.error;
   }
 
+  /// Adds what a curve that is a point up to roundings loses when it becomes that point: with its
+  /// points up to a apart, weights in a ratio of R and degree n, |C'| <= n R a, as for patches, and
+  /// w C'' = h'' - 2 C' w' - C w'' around one of the points is at most (8 + 2 R) n^2 R a w.
+  void add_merged(std::size_t component, ByOrder& error) const {
+    const double apart =
+        1.01 * merged_distance(net_, {0, 1, shape_.order()}, shape_.channels(), component);
+    const double ratio = largest(static_cast<std::size_t>(shape_.components)) / least_weight();
+    const double slope = static_cast<double>(shape_.degree) * ratio;
+    error.at[0] += apart;
+    error.at[1] += slope * apart;
+    error.at[2] += slope * (8 + 2 * ratio) * static_cast<double>(shape_.degree) * apart;
+  }
+
+  [[nodiscard]] double least_weight() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < shape_.order(); ++i) {
+      least = std::min(least, net_.value((i + 1) * shape_.channels() - 1));
+    }
+    return least;
+  }
+
   /// Errors of C = h/w and its derivatives w C^(d) = h^(d) - …, in the order of their computation:
   /// those of the operands, then the operations' own.
   [[nodiscard]] ByOrder quotient(std::size_t cell, std::size_t component) const {
@@ -141,14 +166,12 @@ private:
     const double most_weight = largest(weight);
     add_carried((largest(component) + std::fabs(o)) * most_weight, h);
     add_carried(most_weight, w);
-    double least = std::numeric_limits<double>::infinity(); // w, and by it all that is computed
-    double most = 0;                                        // |C - O|
+    double most = 0; // |C - O|
     for (std::size_t i = 0; i < shape_.order(); ++i) {
-      least = std::min(least, net_.value((i + 1) * shape_.channels() - 1));
       const double point = net_.coordinate(i, shape_.channels(), component);
       most = std::max(most, std::fabs(point - o) + 8 * kUnit * std::fabs(point));
     }
-    const double divisor = least - w.error.at[0];
+    const double divisor = least_weight() - w.error.at[0]; // bounds all w that are computed
     if (!(divisor > 0)) {
       constexpr double kUnknown = std::numeric_limits<double>::infinity();
       return {{kUnknown, kUnknown, kUnknown}};

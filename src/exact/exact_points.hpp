@@ -7,6 +7,7 @@
 #include "src/exact/quantities.hpp"
 #include "src/storage/given_points.hpp"
 #include "src/storage/net_shape.hpp"
+#include "src/storage/one_point.hpp"
 
 namespace simdbezier::detail {
 
@@ -15,7 +16,8 @@ namespace simdbezier::detail {
 class ExactPoints {
 public:
   ExactPoints(const GivenNet& net, std::size_t count, std::size_t components)
-      : count_(count), components_(components < 3 ? components : 3), weights_(net.all->weights) {
+      : count_(count), components_(components < 3 ? components : 3), weights_(net.all->weights),
+        tolerance_(one_point_tolerance(weights_, net.all->in_double)) {
     const std::size_t channels = components + (rational() ? 1 : 0);
     for (std::size_t k = 0; k < count; ++k) {
       for (std::size_t c = 0; c < components_; ++c) {
@@ -54,15 +56,16 @@ public:
     return weights_ == Weights::homogeneous ? weight_[origin] : 1;
   }
   /// Homogeneous coordinates of point k, components and then the weight, relative to another one
-  /// where there are weights: what lies where that one does has numerators of exactly zero. Of
-  /// homogeneous input, these are multiplied by its weight, so that there is no quotient; a common
-  /// factor of all numerators scales the figure and changes no direction.
+  /// where there are weights: what is one point with that one (one_point.hpp) has numerators of
+  /// exactly zero. Of homogeneous input, these are multiplied by its weight, so that there is no
+  /// quotient; a common factor of all numerators scales the figure and changes no direction.
   template <typename Field>
   void place(const Field& field, std::size_t k, std::size_t origin,
              typename Field::Value to[4]) const {
     const auto weight = rational() ? field.number(kWeight, weight_[k]) : field.one();
+    const bool one = weights_ == Weights::homogeneous && are_one(k, origin);
     for (std::size_t c = 0; c < 3; ++c) {
-      if (c >= components_) {
+      if (c >= components_ || one) {
         to[c] = field.zero();
         continue;
       }
@@ -80,9 +83,21 @@ public:
   }
 
 private:
+  [[nodiscard]] bool are_one(std::size_t k, std::size_t l) const {
+    for (std::size_t c = 0; c < components_; ++c) {
+      const double x = point_[k][c] / weight_[k];
+      const double y = point_[l][c] / weight_[l];
+      if (!is_one_coordinate(std::fmin(x, y), std::fmax(x, y), tolerance_)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
   std::size_t count_;
   std::size_t components_;
   Weights weights_;
+  double tolerance_;
   double largest_point_ = 0;
   double largest_weight_ = 0;
   double point_[kMostOrder * kMostOrder][3];

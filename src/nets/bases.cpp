@@ -43,7 +43,7 @@ NetReport change_basis(const ControlNets<T>& nets, const MutableNets<T>& out, Ba
   const auto map_of = to_bezier ? to_bezier_map : from_bezier_map;
   const LinearMap u = map_of(basis, nets.degree_u);
   const LinearMap v = map_of(basis, nets.degree_v);
-  const MapTask<T> task{view_of(nets), view_of(out), &u, &v, {}, {}};
+  const MapTask<T> task{view_of(nets), view_of(out), &u, &v, support_of(u), support_of(v)};
   return compute_nets(nets, &NetTable<T>::map, task, 3 * shape_of(nets).control_values(), options,
                       is_power(basis));
 }
@@ -130,6 +130,7 @@ NetReport convert_mesh(const SplineMesh<T>& mesh, const MutableNets<T>& out,
     return checked;
   }
   const LinearMap map = to_bezier_map(Basis::b_spline, 3);
+  const Support support = support_of(map);
   const std::size_t columns = mesh.patches_u();
   const std::size_t groups = lane_groups(columns); // of one row
   const NetKernel<MapTask<T>> kernel = kernel_table<T>(isa).nets->map;
@@ -140,7 +141,8 @@ NetReport convert_mesh(const SplineMesh<T>& mesh, const MutableNets<T>& out,
       const std::size_t first = unit % groups * kMaxLanes;
       MutableNets<T> to = out;
       to.points += static_cast<std::ptrdiff_t>(row * columns) * out.patch_stride;
-      const MapTask<T> task{view_of(row_of_patches(mesh, row)), view_of(to), &map, &map, {}, {}};
+      const MapTask<T> task{
+          view_of(row_of_patches(mesh, row)), view_of(to), &map, &map, support, support};
       const std::size_t last = first + kMaxLanes < columns ? first + kMaxLanes : columns;
       executed = kernel(task, first, last, scratch);
     }

@@ -1,6 +1,7 @@
 // See src/nets/linear_maps.hpp.
 #include "src/nets/linear_maps.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <initializer_list>
 #include <numeric>
@@ -200,6 +201,42 @@ LinearMap hodograph_map(int degree) noexcept {
     set_row(map.row[i], {{k, k + 1, -1, 1}}, degree, 1);
   }
   return map;
+}
+
+Support support_of_piece(int degree, bool first, bool last) noexcept {
+  Support support{};
+  for (int k = 0; k <= degree; ++k) {
+    support.first[k] = static_cast<std::uint8_t>(last ? k : 0);
+    support.last[k] = static_cast<std::uint8_t>(first ? k : degree);
+  }
+  return support;
+}
+
+Support support_of(const LinearMap& map) noexcept {
+  if (map.identity) {
+    return support_of_piece(static_cast<int>(map.rows) - 1, true, true);
+  }
+  Support support{};
+  for (std::size_t r = 0; r < map.rows; ++r) {
+    std::size_t first = kMostOrder;
+    std::size_t last = 0;
+    bool positive = map.keeps_constants;
+    const auto include = [&](double entry, std::size_t column) {
+      positive = positive && entry >= 0;
+      if (entry != 0) {
+        first = std::min(first, column);
+        last = std::max(last, column);
+      }
+    };
+    for (std::size_t q = 0; q < map.row[r].pairs; ++q) {
+      const LinearMap::Pair& pair = map.row[r].pair[q];
+      include(pair.entry_a, pair.a);
+      include(pair.entry_b, pair.b);
+    }
+    support.first[r] = static_cast<std::uint8_t>(positive ? first : 1);
+    support.last[r] = static_cast<std::uint8_t>(positive ? last : 0);
+  }
+  return support;
 }
 
 LinearMap to_bezier_map(Basis basis, int degree) noexcept {

@@ -11,6 +11,11 @@ LinearMap identity_map(int degree) noexcept;
 LinearMap elevation_map(int degree, int new_degree) noexcept;
 /// Degree 1 gives two equal values.
 LinearMap hodograph_map(int degree) noexcept;
+/// The support of a map whose factors are positive; none of others.
+Support support_of(const LinearMap& map) noexcept;
+/// The support of a piece of a direction, or of the whole: `first`, it begins where that begins;
+/// `last`, it ends where that ends.
+Support support_of_piece(int degree, bool first, bool last) noexcept;
 LinearMap to_bezier_map(Basis basis, int degree) noexcept;
 LinearMap from_bezier_map(Basis basis, int degree) noexcept;
 

@@ -101,7 +101,7 @@ NetView<const S> view_of(const ControlNets<S>& nets) noexcept {
           nets.row_stride,
           nets.point_stride,
           nets.component_stride,
-          nets.weights == Weights::cartesian,
+          nets.weights,
           packed};
 }
 
@@ -110,7 +110,7 @@ NetView<S> view_of(const MutableNets<S>& nets) noexcept {
   const NetView<const S> view = view_of(static_cast<ControlNets<S>>(nets));
   return {nets.points,           view.order_u,      view.order_v,    view.components,
           view.channels,         view.patch_stride, view.row_stride, view.point_stride,
-          view.component_stride, view.cartesian,    view.packed};
+          view.component_stride, view.weights,      view.packed};
 }
 
 template <typename S>

@@ -53,6 +53,12 @@ NetReport run_split(const ControlNets<T>& nets, const UnitParameter<T>* u,
   task.in = view_of(nets);
   task.u = u == nullptr ? Weighting<T>{} : weighting(*u);
   task.v = v == nullptr ? Weighting<T>{} : weighting(*v);
+  for (std::size_t half = 0; half < 2; ++half) {
+    task.support_u[half] =
+        support_of_piece(nets.degree_u, u == nullptr || half == 0, u == nullptr || half == 1);
+    task.support_v[half] =
+        support_of_piece(nets.degree_v, v == nullptr || half == 0, v == nullptr || half == 1);
+  }
   return compute_nets(nets, &NetTable<T>::split, task, 3 * net_values(nets), options);
 }
 
@@ -62,18 +68,16 @@ bool is_whole(const UnitParameter<T>& from, const UnitParameter<T>& to) noexcept
 }
 
 template <typename T>
-KeptPoints kept_points(const UnitParameter<T>& from, const UnitParameter<T>& to) noexcept {
-  const bool first = from.t() == 0 && from.complement() == 1;
-  const bool last = to.complement() == 0 && to.t() == 1;
-  return {first && last, first, last};
+Support support_between(int degree, const UnitParameter<T>& from,
+                        const UnitParameter<T>& to) noexcept {
+  return support_of_piece(degree, from.t() == 0 && from.complement() == 1,
+                          to.complement() == 0 && to.t() == 1);
 }
 
 template <typename T>
 NetReport run_map(const ControlNets<T>& nets, const MutableNets<T>& out, const LinearMap& u,
-                  const LinearMap& v, bool keeps_ends, const Options& options) noexcept {
-  const KeptPoints kept_u{u.identity, keeps_ends, keeps_ends};
-  const KeptPoints kept_v{v.identity, keeps_ends, keeps_ends};
-  const MapTask<T> task{view_of(nets), view_of(out), &u, &v, kept_u, kept_v};
+                  const LinearMap& v, const Options& options) noexcept {
+  const MapTask<T> task{view_of(nets), view_of(out), &u, &v, support_of(u), support_of(v)};
   NetShape most = shape_of(nets);
   most.degree_u = std::max(most.degree_u, out.degree_u);
   most.degree_v = std::max(most.degree_v, out.degree_v);
@@ -161,8 +165,7 @@ NetReport run_hodograph(const ControlNets<T>& nets, const MutableNets<T>& out, i
   const auto map = [](int degree, int order) {
     return order == 0 ? identity_map(degree) : hodograph_map(degree);
   };
-  return run_map<T>(nets, out, map(nets.degree_u, order_u), map(nets.degree_v, order_v), false,
-                    options);
+  return run_map<T>(nets, out, map(nets.degree_u, order_u), map(nets.degree_v, order_v), options);
 }
 
 } // namespace
@@ -216,8 +219,8 @@ NetReport segment(const ControlNets<T>& nets, const std::type_identity_t<SubPatc
                                     !detail::is_whole(piece.v0, piece.v1),
                                     {detail::weighting(piece.u0), detail::weighting(piece.u1)},
                                     {detail::weighting(piece.v0), detail::weighting(piece.v1)},
-                                    detail::kept_points(piece.u0, piece.u1),
-                                    detail::kept_points(piece.v0, piece.v1)};
+                                    detail::support_between(nets.degree_u, piece.u0, piece.u1),
+                                    detail::support_between(nets.degree_v, piece.v0, piece.v1)};
   return detail::compute_nets(nets, &detail::NetTable<T>::segment, task,
                               4 * detail::net_values(nets), options);
 }
@@ -236,7 +239,7 @@ NetReport elevate(const ControlNets<T>& nets, const std::type_identity_t<Mutable
     return {status};
   }
   return detail::run_map<T>(nets, out, detail::elevation_map(nets.degree_u, out.degree_u),
-                            detail::elevation_map(nets.degree_v, out.degree_v), true, options);
+                            detail::elevation_map(nets.degree_v, out.degree_v), options);
 }
 
 template <typename T>

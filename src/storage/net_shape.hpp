@@ -27,8 +27,9 @@ constexpr std::size_t whole_blocks(std::size_t values) { return (values + 15) / 
 /// Layouts, all in elements:
 ///   coefficients    [patch][cell][channel][power k of X][power l of Y]
 ///   edges           [patch][cell]{ [channel][power][edge v=0, v=1, u=0, u=1], [channel][corner] }
-///                   In place of corners the weight has two marks: 1 where the cell's edge u=0 or
-///                   u=1 is packed around its corner, a point (pack/collapsed_edges.hpp), else 0
+///                   In place of corners the weight has two marks, for the cell's edges u=0 and
+///                   u=1: 1 where the edge is a point and packed around its corner at v=0, 2 around
+///                   that at v=1 (pack/collapsed_edges.hpp), else 0
 ///   origins         [patch][cell][channel][8], see kOriginBlock
 ///   given points    [patch][j][i][channel], see given_points.hpp
 /// Cells: lower v first, then lower u. Channels: the components, then the weight. For bicubic

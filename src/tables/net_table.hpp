@@ -26,16 +26,17 @@ struct NetView {
   std::ptrdiff_t row_stride;
   std::ptrdiff_t point_stride;
   std::ptrdiff_t component_stride;
-  bool cartesian; ///< weights that multiply the components on the way in, divide on the way out
-  bool packed;    ///< the values of a net lie side by side, in the order of a group
+  Weights weights; ///< cartesian ones multiply the components on the way in, divide on the way out
+  bool packed;     ///< the values of a net lie side by side, in the order of a group
 };
 
-/// Which control points of a result are points of the input, in one direction. Cartesian nets have
-/// these copied, since (w P) / w is not always P.
-struct KeptPoints {
-  bool all = false;   ///< the direction was not touched
-  bool first = false; ///< point 0 is point 0
-  bool last = false;  ///< the last one is the last one
+/// Which control points of the input a point of the result is a mean of, with positive factors, in
+/// one direction: point k of those from first[k] to last[k]; none is known where last[k] is less.
+/// Where they are one point (one_point.hpp), rational results are that point whatever its weights,
+/// which roundings would not say; a single one is copied.
+struct Support {
+  std::uint8_t first[kMostOrder];
+  std::uint8_t last[kMostOrder];
 };
 
 /// Parameters as UnitParameter holds them.
@@ -55,6 +56,8 @@ struct SplitTask {
   bool in_v;
   Weighting<T> u;
   Weighting<T> v;
+  Support support_u[2]; ///< of the lower and the upper half
+  Support support_v[2];
 };
 
 /// A piece of each net. Its scratch has room for four nets.
@@ -66,8 +69,8 @@ struct SegmentTask {
   bool in_v;
   Weighting<T> u[2];
   Weighting<T> v[2];
-  KeptPoints kept_u;
-  KeptPoints kept_v;
+  Support support_u;
+  Support support_v;
 };
 
 /// A linear map of one direction's values: out_r = factor_r sum_k entry_rk in_k / divisor_r.
@@ -99,8 +102,8 @@ struct MapTask {
   NetView<T> out;
   const LinearMap* u;
   const LinearMap* v;
-  KeptPoints kept_u;
-  KeptPoints kept_v;
+  Support support_u;
+  Support support_v;
 };
 
 /// Boxes of nets. Their scratch has room for one net, and two for each level.

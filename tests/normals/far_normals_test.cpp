@@ -121,11 +121,12 @@ TEST_P(FarNormals, of_double_points_in_float_sets) {
   EXPECT_GT(checked_, 500U) << "hardly any normals were well conditioned";
 }
 
-// Homogeneous floats say more than points of floats: h / w lies between them.
+// Homogeneous floats say more than points of floats: h / w lies between them. Those that are nearer
+// than the roundings of such floats are one point (src/storage/one_point.hpp).
 TEST_P(FarNormals, of_homogeneous_floats) {
   Random random(62);
   for (const FarCase& c : far_cases()) {
-    if (c.homogeneous) {
+    if (c.homogeneous && c.size > 16) {
       check<float>(c, far_net<float>(c, random));
     }
   }

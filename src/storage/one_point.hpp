@@ -1,0 +1,79 @@
+// What it is for control points to be one point: the only place that decides it.
+//
+// Values are taken as they were given, before any change of form or origin. Cartesian points, with
+// or without weights, are one where their coordinates are equal. Homogeneous ones, (w x, w), are
+// one where the quotients differ by no more than numbers of the input's type can tell: 3/1 and
+// 0.3/0.1 are one point in the file and differ by two roundings, and products with weights that a
+// program has rounded, turned or halved by a few more. In each coordinate the largest and the
+// smallest quotient may differ by kOneFactor units of roundoff of the larger of their magnitudes.
+//
+// Packing, exact questions and topologies ask here, so that a side that is a point for one of them
+// is one for all. The quotients are formed in double by single divisions, so that the answer is the
+// same on every machine, and it does not depend on the order of the points.
+#pragma once
+
+#include <cstddef>
+
+#include <simdbezier/control_nets.hpp>
+
+namespace simdbezier::detail {
+
+/// Each of the four numbers of two quotients may have been rounded so often by a quarter of this.
+inline constexpr double kOneFactor = 16;
+
+/// How far coordinates of one point may be apart, relative to the larger one.
+constexpr double one_point_tolerance(Weights weights, bool in_double) noexcept {
+  return weights == Weights::homogeneous ? kOneFactor * (in_double ? 0x1p-53 : 0x1p-24) : 0.0;
+}
+
+/// Whether coordinates between two that are not in descending order are one.
+[[gnu::always_inline]] inline bool is_one_coordinate(double low, double high,
+                                                     double tolerance) noexcept {
+  return high - low <= tolerance * (-low > high ? -low : high);
+}
+
+/// Whether `count` points are one point: point(k) leads to the first value of one, and a weight
+/// stands behind its components. Values that are not finite are no point. nearest: null, or where
+/// each component nearest to zero goes, in Cartesian form.
+template <typename S, typename PointAt>
+[[gnu::always_inline]] inline bool
+are_one_point(const PointAt& point, std::size_t count, std::size_t components,
+              std::ptrdiff_t component_stride, Weights weights, double* nearest) noexcept {
+  const bool divided = weights == Weights::homogeneous;
+  const double tolerance = one_point_tolerance(weights, sizeof(S) == sizeof(double));
+  for (std::size_t c = 0; c < components; ++c) {
+    double low = 0;
+    double high = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const S* const values = point(k);
+      auto x = static_cast<double>(values[static_cast<std::ptrdiff_t>(c) * component_stride]);
+      if (divided) {
+        x /= static_cast<double>(values[static_cast<std::ptrdiff_t>(components) * component_stride]);
+      }
+      low = k == 0 || x < low ? x : low;
+      high = k == 0 || x > high ? x : high;
+      // More points only bring them further apart. The difference of numbers that are not finite is
+      // nan.
+      if (!(x - x == 0) || !is_one_coordinate(low, high, tolerance)) {
+        return false;
+      }
+    }
+    if (nearest != nullptr) {
+      nearest[c] = low > 0 ? low : high;
+    }
+  }
+  return true;
+}
+
+/// The same for points that are `step` values apart.
+template <typename S>
+[[gnu::always_inline]] inline bool
+are_one_point(const S* first, std::ptrdiff_t step, std::size_t count, std::size_t components,
+              std::ptrdiff_t component_stride, Weights weights) noexcept {
+  const auto point = [=](std::size_t k) __attribute__((always_inline)) {
+    return first + static_cast<std::ptrdiff_t>(k) * step;
+  };
+  return are_one_point<S>(point, count, components, component_stride, weights, nullptr);
+}
+
+} // namespace simdbezier::detail
