@@ -31,6 +31,14 @@ public:
     }
   }
 
+  /// Puts point k where another one is: the caller says that both are one.
+  void merge(std::size_t k, std::size_t into) {
+    const bool divided = weights_ == Weights::homogeneous;
+    for (std::size_t c = 0; c < components_; ++c) {
+      point_[k][c] = divided ? point_[into][c] / weight_[into] * weight_[k] : point_[into][c];
+    }
+  }
+
   [[nodiscard]] std::size_t components() const { return components_; }
   [[nodiscard]] bool rational() const { return weights_ != Weights::none; }
   [[nodiscard]] double largest_point() const { return largest_point_; }

@@ -27,14 +27,25 @@ int weight_sign(const NormalQuestion& question) {
 
 template <typename T>
 SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept {
+  return resolve_corner_normal(query, 0, normal);
+}
+
+template <typename T>
+SampleStatus resolve_corner_normal(const NormalQuery<T>& query, unsigned sides,
+                                   T normal[3]) noexcept {
   const auto x = static_cast<double>(query.x);
   const auto y = static_cast<double>(query.y);
   if (!std::isfinite(x) || !std::isfinite(y)) {
     normal[0] = normal[1] = normal[2] = std::numeric_limits<T>::quiet_NaN();
     return SampleStatus::non_finite;
   }
-  const NormalQuestion question(query.net, static_cast<std::size_t>(query.shape->degree_u),
-                                static_cast<std::size_t>(query.shape->degree_v), x, y);
+  NormalQuestion question(query.net, static_cast<std::size_t>(query.shape->degree_u),
+                          static_cast<std::size_t>(query.shape->degree_v), x, y);
+  for (const PatchEdge side : {PatchEdge::v0, PatchEdge::v1, PatchEdge::u0, PatchEdge::u1}) {
+    if ((sides >> static_cast<unsigned>(side) & 1U) != 0) {
+      question.merge_side(side);
+    }
+  }
   const LeadingTerm term =
       leading_term(question, 0, question.highest(), kLimitTolerance<T>,
                    [&](const auto& field) { return NormalSeries(field, question); });
@@ -54,5 +65,8 @@ SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept {
 
 template SampleStatus resolve_normal(const NormalQuery<float>&, float[3]) noexcept;
 template SampleStatus resolve_normal(const NormalQuery<double>&, double[3]) noexcept;
+template SampleStatus resolve_corner_normal(const NormalQuery<float>&, unsigned, float[3]) noexcept;
+template SampleStatus resolve_corner_normal(const NormalQuery<double>&, unsigned,
+                                            double[3]) noexcept;
 
 } // namespace simdbezier::detail

@@ -18,4 +18,10 @@ namespace simdbezier::detail {
 template <typename T>
 SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept;
 
+/// The same in a corner of a patch whose sides there count as points, however long they are:
+/// 1 << PatchEdge for each of them.
+template <typename T>
+SampleStatus resolve_corner_normal(const NormalQuery<T>& query, unsigned sides,
+                                   T normal[3]) noexcept;
+
 } // namespace simdbezier::detail

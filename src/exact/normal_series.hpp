@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include <simdbezier/patch_edge.hpp>
+
 #include "src/exact/exact_points.hpp"
 #include "src/exact/leading_term.hpp"
 #include "src/exact/line_basis.hpp"
@@ -20,6 +22,18 @@ public:
       : points_(net, (degree_u + 1) * (degree_v + 1), 3), degree_u_(degree_u),
         degree_v_(degree_v), u_{x, x == 0 && y == 0 ? 0.5 : -x, kParameterU},
         v_{y, x == 0 && y == 0 ? 0.5 : -y, kParameterV} {}
+
+  /// Makes the control points of a side one point, which the sample is nearest to.
+  void merge_side(PatchEdge side) {
+    const bool in_u = side == PatchEdge::v0 || side == PatchEdge::v1;
+    const std::size_t last = in_u ? degree_u_ : degree_v_;
+    const std::size_t first = side == PatchEdge::v1   ? degree_v_ * (degree_u_ + 1)
+                              : side == PatchEdge::u1 ? degree_u_
+                                                      : 0;
+    for (std::size_t k = 0; k <= last; ++k) {
+      points_.merge(first + k * (in_u ? 1 : degree_u_ + 1), nearest());
+    }
+  }
 
   [[nodiscard]] const ExactPoints& points() const { return points_; }
   [[nodiscard]] std::size_t degree_u() const { return degree_u_; }

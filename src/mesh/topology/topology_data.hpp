@@ -125,6 +125,17 @@ struct TopologyData {
   [[nodiscard]] std::uint32_t corner_of(std::size_t side, std::size_t end) const noexcept {
     return corners[corner_at(side, end)];
   }
+  /// The sides of a corner, 1 << PatchEdge, that count as points though their control points may
+  /// not be one.
+  [[nodiscard]] unsigned short_sides_at(std::size_t corner) const noexcept {
+    unsigned found = 0;
+    const std::size_t side = corner / kPatchCorners * kPatchEdges;
+    for (std::size_t k = 0; k < kPatchEdges && !displacement.empty(); ++k) {
+      const bool ends = corner_at(side + k, 0) == corner || corner_at(side + k, 1) == corner;
+      found |= ends && sides[side + k].collapsed() ? 1U << k : 0;
+    }
+    return found;
+  }
   /// Whether a side is the first one of its edge.
   [[nodiscard]] bool owns_edge(std::size_t side) const noexcept {
     return !sides[side].collapsed() && members[first[sides[side].edge()]] == side;

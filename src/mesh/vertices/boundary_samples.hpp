@@ -71,7 +71,7 @@ public:
   BoundarySamples(const MeshData& mesh, const BoundaryWishes& wishes, PatchRunner<T>& runner,
                   ParameterLines<T>& lines, unsigned char* memory) noexcept
       : mesh_(mesh), topology_(*mesh.topology.data()), wishes_(wishes), runner_(runner),
-        lines_(lines), corners_(runner, mesh.patches(), wishes.dimension, wishes.normals,
+        lines_(lines), corners_(runner, topology_, wishes.dimension, wishes.normals,
                                 take<CornerValues<T>>(memory, CornerCache<T>::memory_corners())),
         unions_(take<T>(memory, UnionLines<T>::memory_values())),
         rings_(mesh, runner, lines, wishes.dimension, wishes.normals,
@@ -106,7 +106,8 @@ public:
     topology_.for_joined(lowest, [&](std::size_t corner) {
       if (wishes_.every_patch || entry.members == 0) {
         const auto number = static_cast<std::uint32_t>(corner);
-        if (!rings_.fetch_corner(number, positions_, normals_, count_)) {
+        if (topology_.short_sides_at(corner) != 0 ||
+            !rings_.fetch_corner(number, positions_, normals_, count_)) {
           corners_.fetch(number, positions_, normals_, count_);
         }
         ++count_;

@@ -26,9 +26,9 @@ class CornerCache {
 public:
   /// Corners of scratch, whose memory begins on a line of the cache.
   [[nodiscard]] static std::size_t memory_corners() noexcept { return kBlocks * kBlockCorners; }
-  CornerCache(PatchRunner<T>& runner, std::size_t patches, std::size_t dimension, bool normals,
-              CornerValues<T>* memory) noexcept
-      : runner_(runner), patches_(patches), dimension_(dimension), normals_(normals),
+  CornerCache(PatchRunner<T>& runner, const TopologyData& topology, std::size_t dimension,
+              bool normals, CornerValues<T>* memory) noexcept
+      : runner_(runner), topology_(topology), dimension_(dimension), normals_(normals),
         memory_(memory) {
     std::fill_n(known_, kBlocks, ~std::size_t(0));
     std::fill_n(x_, kMaxLanes + 2, T(0.5));
@@ -67,7 +67,7 @@ private:
   static constexpr std::size_t kBlockCorners = kBlockPatches * kPatchCorners;
 
   __attribute__((noinline)) void evaluate(std::size_t first, CornerValues<T>* values) noexcept {
-    const std::size_t last = std::min(patches_, first + kBlockPatches);
+    const std::size_t last = std::min(topology_.patches(), first + kBlockPatches);
     for (std::size_t patch = first; patch < last;) {
       const std::size_t count = runner_.together(patch, last - patch);
       const std::size_t at = kPatchCorners * (patch - first);
@@ -86,11 +86,16 @@ private:
         values[k].position[c] = planes_[c][k];
         values[k].normal[c] = planes_[3 + c][k];
       }
+      const unsigned points = normals_ ? topology_.short_sides_at(kPatchCorners * first + k) : 0;
+      if (points != 0) {
+        runner_.find_corner_normal(first + k / kPatchCorners, k % kPatchCorners, points,
+                                   values[k].normal);
+      }
     }
   }
 
   PatchRunner<T>& runner_;
-  std::size_t patches_;
+  const TopologyData& topology_;
   std::size_t dimension_;
   bool normals_;
   CornerValues<T>* memory_;

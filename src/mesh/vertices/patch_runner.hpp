@@ -104,6 +104,17 @@ public:
     }
   }
 
+  /// The normal in a corner of a patch whose sides there, 1 << PatchEdge each, count as points.
+  void find_corner_normal(std::size_t patch, std::size_t corner, unsigned sides,
+                          T (&normal)[3]) const noexcept {
+    const PatchPlace place = kernels_.set->place(patch);
+    const PatchStorage<T>& bucket = kernels_.set->buckets[place.bucket];
+    resolve_corner_normal<T>({&bucket.shape,
+                              bucket.given.net(place.index * bucket.shape.control_values()),
+                              T(corner % 2 == 0 ? -0.5 : 0.5), T(corner / 2 == 0 ? -0.5 : 0.5)},
+                             sides, normal);
+  }
+
   /// The bucket of a patch with whose edges a kernel is acquainted, or kNoEdges.
   static constexpr std::uint32_t kNoEdges = ~0U;
   [[nodiscard]] std::uint32_t edge_bucket(std::size_t patch) const noexcept {
