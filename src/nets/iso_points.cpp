@@ -1,6 +1,8 @@
 // See src/nets/iso_points.hpp.
 #include "src/nets/iso_points.hpp"
 
+#include "src/storage/one_point.hpp"
+
 namespace simdbezier::detail {
 namespace {
 
@@ -57,6 +59,41 @@ void copy_boundary(const IsoTask<S>& task, std::size_t patch, double* points) {
   }
 }
 
+/// Makes points of rational curves that are means of one point (one_point.hpp) that point again:
+/// all of them where the whole curve is, also where values of S are one and those of double are
+/// not.
+template <typename S>
+void restore_points(const IsoTask<S>& task, std::size_t patch, double* points) {
+  const bool boundary = task.t == 0 || task.t == 1;
+  const std::size_t across = boundary ? 1 : static_cast<std::size_t>(task.degree) + 1;
+  const std::size_t along = static_cast<std::size_t>(task.curve_degree) + 1;
+  const S* const first = task.net(patch) + (task.t == 1 ? task.degree * task.across : 0);
+  const auto restore = [&](std::size_t begin, std::size_t count) {
+    const auto point = [&](std::size_t k) {
+      return first + static_cast<std::ptrdiff_t>(begin + k / across) * task.along +
+             static_cast<std::ptrdiff_t>(k % across) * task.across;
+    };
+    double one[kMostChannels];
+    if (!are_one_point<S>(point, count * across, task.channels - 1, task.nets.component_stride,
+                          task.nets.weights, one)) {
+      return false;
+    }
+    for (std::size_t k = begin; k < begin + count; ++k) {
+      double* const to = points + k * task.channels;
+      const double weight = task.nets.weights == Weights::homogeneous ? to[task.channels - 1] : 1;
+      for (std::size_t c = 0; c + 1 < task.channels; ++c) {
+        to[c] = one[c] * weight + 0.0;
+      }
+    }
+    return true;
+  };
+  if (!restore(0, along) && !boundary) {
+    for (std::size_t k = 0; k < along; ++k) {
+      restore(k, 1);
+    }
+  }
+}
+
 /// Homogeneous points become Cartesian ones.
 template <typename S>
 void divide_by_weights(const IsoTask<S>& task, double* points) {
@@ -75,6 +112,9 @@ void form_curve(const IsoTask<S>& task, std::size_t patch, double* points) noexc
     copy_boundary(task, patch, points);
   } else {
     interpolate(task, patch, points);
+  }
+  if (task.nets.weights != Weights::none) {
+    restore_points(task, patch, points);
   }
   if (task.form != task.nets.weights) {
     divide_by_weights(task, points);

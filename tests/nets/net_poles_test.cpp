@@ -124,6 +124,23 @@ TYPED_TEST(NetPoles, are_in_their_pieces) {
   });
 }
 
+// The side itself as a curve stands still, whatever is kept of its points.
+TYPED_TEST(NetPoles, are_curves_that_are_points) {
+  this->test_all([&](const PoleNet<TypeParam>& net, Random&) {
+    const double at = net.shape.at_end() ? 1 : 0;
+    CurveSet<TypeParam> set;
+    ASSERT_TRUE(net.shape.along_u() ? iso_v(net.nets(), at, set) : iso_u(net.nets(), at, set));
+    const TypeParam t[] = {TypeParam(0), TypeParam(0.3), TypeParam(1)};
+    TypeParam slope[9];
+    SampleStatus status[3];
+    CurveOutputs<TypeParam> out;
+    out.d1 = Vectors<TypeParam>::xyz(slope);
+    out.status = status;
+    ASSERT_EQ(evaluate(set, CurveGrid<TypeParam>::at(t), out), Status::ok);
+    EXPECT_EQ(std::count(slope, slope + 9, TypeParam(0)), 9);
+  });
+}
+
 // Three lines of a uniform bicubic mesh in one point, whose weights differ: the surface ends there,
 // and three lines of its net are that point.
 TYPED_TEST(NetPoles, of_splines) {
