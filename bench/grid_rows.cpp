@@ -1,6 +1,4 @@
 // grid/<outputs>/<type>/<isa>/<nu>x<nv>/<destination>/threads:<t>[/<key>:<value>…]
-#include <algorithm>
-#include <cstdlib>
 #include <string>
 
 #include <simdbezier/simdbezier.hpp>
@@ -19,7 +17,6 @@ constexpr Size kSizes[] = {{4, 4},   {5, 5},   {8, 8},   {9, 9},   {16, 16}, {17
 constexpr OutputGroups kOutputs[] = {OutputGroups::position, OutputGroups::position_normal,
                                      OutputGroups::position_derivatives,
                                      OutputGroups::second_derivatives};
-constexpr std::size_t kLargestSwept = 65;
 
 template <typename T>
 void add_library(OutputGroups outputs, Isa isa, Size size, MemoryLevel level) {
@@ -77,34 +74,19 @@ void add_size(OutputGroups outputs, Size size) {
   }
 }
 
-/// Adds rows of every size in cache, for the plot of speed against size.
-template <typename T>
-void add_sweep(OutputGroups outputs) {
-  for (std::size_t n = 2; n <= kLargestSwept; ++n) {
-    const Size size{n, n};
-    const bool registered = std::any_of(std::begin(kSizes), std::end(kSizes),
-                                        [n](Size known) { return known.nu == n && known.nv == n; });
-    if (registered) {
-      continue;
-    }
-    for (const Algorithm baseline : {Algorithm::de_casteljau, Algorithm::autovectorised}) {
-      add_grid_row<T>({outputs, baseline, Isa::automatic, size, MemoryLevel::cache});
-    }
-    for (const Isa isa : simdbezier::available_isas()) {
-      add_library<T>(outputs, isa, size, MemoryLevel::cache);
-    }
-  }
-}
-
 template <typename T>
 void add_type() {
-  const char* const sweep = std::getenv("SIMDBEZIER_BENCH_SWEEP");
   for (const OutputGroups outputs : kOutputs) {
     for (const Size size : kSizes) {
       add_size<T>(outputs, size);
     }
-    if (sweep != nullptr && *sweep != '\0' && *sweep != '0') {
-      add_sweep<T>(outputs);
+    for (const Size size : swept_beside(kSizes)) {
+      for (const Algorithm baseline : {Algorithm::de_casteljau, Algorithm::autovectorised}) {
+        add_grid_row<T>({outputs, baseline, Isa::automatic, size, MemoryLevel::cache});
+      }
+      for (const Isa isa : simdbezier::available_isas()) {
+        add_library<T>(outputs, isa, size, MemoryLevel::cache);
+      }
     }
   }
 }

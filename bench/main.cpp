@@ -1,7 +1,9 @@
 // simdbezier_bench: all rows, as README.md beside this file lists them.
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <omp.h>
@@ -15,6 +17,15 @@ namespace simdbezier_bench {
 namespace {
 
 std::atomic<bool> failed{false};
+
+constexpr char kUsage[] =
+    "usage: simdbezier_bench [--evaluator FILE.so]... [Google Benchmark's flags]\n"
+    "  --evaluator FILE.so  rows of another evaluator beside the library's own\n"
+    "                       (simdbezier/evaluator_plugin.h, docs/judge-your-own.md)\n"
+    "bench/README.md describes the rows, and --benchmark_list_tests lists them.\n"
+    "exit: 0 all rows are right, 1 a wrong row, a plug-in's fault, or a filter that no row "
+    "matches\n"
+    "\n";
 
 } // namespace
 
@@ -50,6 +61,9 @@ int main(int argc, char** argv) {
   std::string min_time = "--benchmark_min_time=0.05";
   std::vector<char*> arguments(argv, argv + argc);
   arguments.insert(arguments.begin() + (argc > 0 ? 1 : 0), min_time.data());
+  if (std::find(argv, argv + argc, std::string_view("--help")) != argv + argc) {
+    std::fputs(kUsage, stdout); // Google Benchmark's flags follow
+  }
   bool faulty = false;
   const auto plugins = start_plugins(take_evaluators(arguments), faulty);
   int count = static_cast<int>(arguments.size());
@@ -78,7 +92,12 @@ int main(int argc, char** argv) {
   register_mesh_peer_rows();
   register_plugin_rows(plugins);
   register_limit_rows();
-  benchmark::RunSpecifiedBenchmarks();
+  const std::size_t matching = benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
-  return any_row_failed() || faulty ? 1 : 0;
+  if (matching == 0) {
+    std::fputs("simdbezier_bench: --benchmark_filter: no row matches; --benchmark_list_tests lists "
+               "them\n",
+               stderr);
+  }
+  return any_row_failed() || faulty || matching == 0 ? 1 : 0;
 }

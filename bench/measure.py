@@ -15,6 +15,8 @@ keep in a repository; ratios.py and plots.py read it.
   --rounds N      default 3
   --filter REGEX  only these of the published rows
   --all           every row that the program knows, not only the published ones
+  --evaluator FILE.so
+                  rows of another evaluator, too (may be given several times)
   --sweep         grid sizes 2 to 65 in cache instead, for the plots of speed against size
   --lock FILE     hold an exclusive lock on FILE during each run, for machines where others measure
 """
@@ -48,6 +50,7 @@ PUBLISHED = re.compile(
 NARROW_TO_MEMORY = re.compile(r"^grid/[a-z_]+/f32/(scalar|sse2)/.*/memory/")
 SWEEP = re.compile(r"^grid/[a-z_]+/f32/(avx2|avx512|neon64|de_casteljau|autovectorised)/"
                    r"(\d+)x\2/cache/threads:1$|^limit/(horner|fma)")
+SWEPT_EVALUATOR = re.compile(r"/f32/[^/]+/(\d+)x\1/cache/")
 
 
 def arguments():
@@ -60,21 +63,34 @@ def arguments():
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--filter", type=re.compile, default=re.compile(""))
     parser.add_argument("--all", action="store_true")
+    parser.add_argument("--evaluator", action="append", default=[])
     parser.add_argument("--sweep", action="store_true")
     parser.add_argument("--lock")
     return parser.parse_args()
 
 
+def flags(options):
+    return [f"--evaluator={file}" for file in options.evaluator]
+
+
+def listed(bench, *more):
+    run = subprocess.run([bench, "--benchmark_list_tests", *more], check=False, text=True,
+                         capture_output=True)
+    if run.returncode != 0:
+        sys.exit(f"measure.py: {run.stderr.strip()}")
+    return run.stdout.split()
+
+
 def names(options):
-    listed = subprocess.run([options.bench, "--benchmark_list_tests"], check=True, text=True,
-                            capture_output=True).stdout.split()
+    own = listed(options.bench)
+    others = set(listed(options.bench, *flags(options))) - set(own) if options.evaluator else set()
     if options.sweep:
-        chosen = [name for name in listed if SWEEP.search(name)]
+        chosen = [*filter(SWEEP.search, own), *filter(SWEPT_EVALUATOR.search, others)]
     elif options.all:
-        chosen = listed
+        chosen = [*own, *others]
     else:
-        chosen = [name for name in listed
-                  if PUBLISHED.search(name) and not NARROW_TO_MEMORY.search(name)]
+        chosen = [*others, *(name for name in own
+                             if PUBLISHED.search(name) and not NARROW_TO_MEMORY.search(name))]
     return sorted(filter(options.filter.search, chosen), key=natural_order)
 
 
@@ -143,7 +159,7 @@ def measure(options, rows):
     pattern = "|".join(map(re.escape, sorted({*rows, *limits})))
     with tempfile.NamedTemporaryFile(suffix=".json") as report, locked(options.lock):
         result = subprocess.run(
-            [options.bench, f"--benchmark_filter=^({pattern})$",
+            [options.bench, *flags(options), f"--benchmark_filter=^({pattern})$",
              f"--benchmark_repetitions={repetitions_of(rows)}", "--benchmark_min_time=0.01",
              "--benchmark_enable_random_interleaving=true", f"--benchmark_out={report.name}"],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False, env=environment,
@@ -151,9 +167,13 @@ def measure(options, rows):
         if result.returncode != 0:
             print(f"measure.py: the run of {rows[0]} … failed", file=sys.stderr)
         try:
-            return json.load(report)
+            found = json.load(report)
         except ValueError:
             return None
+    for row in found["benchmarks"]:
+        if row.get("error_occurred"):
+            print(f"measure.py: {row['name']}: {row['error_message']}", file=sys.stderr)
+    return found
 
 
 def shares(rates):
@@ -201,7 +221,8 @@ def main():
     chosen = names(options)
     plan = list(runs(chosen))
     if not plan:
-        print("measure.py: no such rows", file=sys.stderr)
+        print(f"measure.py: --filter: no {'' if options.all else 'published '}row's name matches "
+              f"'{options.filter.pattern}'", file=sys.stderr)
         return 1
     context, values, of_limit = {}, {}, {}
     for number, rows in enumerate(itertools.chain.from_iterable([plan] * options.rounds), 1):
@@ -220,7 +241,7 @@ def main():
     for name in missing:
         print(f"measure.py: no result: {name}", file=sys.stderr)
     kept = ("date", "cpu", "cores", "caches", "compiler", "flags", "baseline_flags",
-            "isas", "isa")
+            "isas", "isa", "evaluators")
     write(options.out, {key: context[key] for key in kept if key in context},
           values, of_limit)
     return 1 if missing else 0

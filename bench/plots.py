@@ -7,10 +7,12 @@ FOLDER (default: docs/) receives
   speed_by_size.svg  samples/s in cache against grid size (SWEEP.json: measure.py --sweep)
   roofline.svg       multiply-adds/s against multiply-adds per byte written, with the machine's
                      limits (RESULTS.json); multiply-adds as the library counts them
-The same files give the same bytes with one version of matplotlib, which this script needs (Debian:
-python3-matplotlib).
+Plug-ins that were measured with them (measure.py --evaluator) are drawn, too, with broken lines
+where they write x y z triples instead of planes. The same files give the same bytes with one
+version of matplotlib, which this script needs (Debian: python3-matplotlib).
 """
 
+import itertools
 import math
 import re
 import sys
@@ -22,13 +24,14 @@ matplotlib.use("svg")
 from matplotlib import pyplot  # noqa: E402
 
 sys.dont_write_bytecode = True  # results.py is imported from the source tree
-from results import Name, read  # noqa: E402
+from results import Name, evaluators, read  # noqa: E402
 
 TITLES = {"position": "positions", "position_derivatives": "positions, du, dv",
           "position_normal": "positions, normals",
           "second_derivatives": "all up to second derivatives"}
 COLOURS = {"avx512": "#1b6ca8", "avx2": "#2e8b57", "neon64": "#1b6ca8",
            "autovectorised": "#c0392b", "de_casteljau": "#8e44ad"}
+EVALUATOR_COLOURS = ("#e67e22", "#16a085", "#7f8c8d", "#d81b60", "#6d4c41")
 MARKERS = {"position": "o", "position_derivatives": "s", "position_normal": "^",
            "second_derivatives": "D"}
 
@@ -59,30 +62,39 @@ def save(figure, path):
     path.write_text(text, encoding="utf-8")
 
 
-def grids(rows, kind="f32"):
-    """Plain square grid rows of one thread: (Name, n, samples/s)."""
+def colours(*contexts):
+    """Name -> colour, of the library's instruction sets, baselines and plug-ins."""
+    others = dict.fromkeys(name for context in contexts for name in evaluators(context))
+    return {**dict(zip(others, itertools.cycle(EVALUATOR_COLOURS))), **COLOURS}
+
+
+def grids(rows, drawn, kind="f32"):
+    """Plain square grid rows of one thread: (Name, n, samples/s). Plug-ins may write triples."""
     for text, row in rows.items():
         if text.startswith("grid/"):
             name = Name(text)
             nu, nv = map(int, name.size.split("x"))
-            if name.type == kind and name.threads == 1 and not name.keys and nu == nv:
+            plain = not name.keys or (name.keys == {"layout": "aos"} and name.who not in COLOURS)
+            if name.type == kind and name.threads == 1 and plain and nu == nv and name.who in drawn:
                 yield name, nu, row.median
 
 
-def by_size(rows, path):
+def by_size(rows, drawn, path):
     lines = {}
-    for name, n, rate in grids(rows):
-        if name.place == "cache" and name.who in COLOURS:
-            lines.setdefault(name.outputs, {}).setdefault(name.who, {})[n] = rate / 1e9
+    for name, n, rate in grids(rows, drawn):
+        if name.place == "cache":
+            key = name.who, "layout" in name.keys
+            lines.setdefault(name.outputs, {}).setdefault(key, {})[n] = rate / 1e9
     shown = [outputs for outputs in TITLES if outputs in lines]
     height = (len(shown) + 1) // 2
     figure = pyplot.figure(figsize=(9, 3.1 * height))
     for place, outputs in enumerate(shown, 1):
         axis = figure.add_subplot(height, 2, place)
-        for who, colour in COLOURS.items():
-            rates = lines[outputs].get(who, {})
+        for (who, colour), triples in itertools.product(drawn.items(), (False, True)):
+            rates = lines[outputs].get((who, triples), {})
             if rates:
-                axis.plot(*zip(*sorted(rates.items())), color=colour, label=who, linewidth=1.2)
+                axis.plot(*zip(*sorted(rates.items())), "--" if triples else "-", color=colour,
+                          label=who, linewidth=1.2)
         axis.set_title(TITLES[outputs], fontsize=10)
         axis.set_xticks(range(0, 65, 8))
         axis.set_ylim(bottom=0)
@@ -97,7 +109,7 @@ def by_size(rows, path):
     save(figure, path)
 
 
-def roofline(rows, path):
+def roofline(rows, drawn, path):
     def limit(name, scale=1.0):
         return rows[name].median * scale / 1e9 if name in rows else None
 
@@ -120,16 +132,15 @@ def roofline(rows, path):
                       rotation=math.degrees(math.atan(bandwidth)), rotation_mode="anchor",
                       transform_rotates_text=True, fontsize=8)
     shown = set()
-    for name, n, rate in grids(rows):
+    for name, n, rate in grids(rows, drawn):
         # Of curvatures, roots and divisions are most of the work.
-        if (n in (16, 32) and name.who in COLOURS and name.who != "de_casteljau"
-                and name.outputs in MARKERS):
+        if n in (16, 32) and name.who != "de_casteljau" and name.outputs in MARKERS:
             shown |= {name.outputs, name.who}
             work = multiply_adds(name.outputs, n)
             filled = name.place == "cache"
             axis.plot(work / name.bytes_per_sample, rate * work / 1e9, MARKERS[name.outputs],
-                      color=COLOURS[name.who], markersize=4 + n / 16, alpha=0.9,
-                      markerfacecolor=COLOURS[name.who] if filled else "white")
+                      color=drawn[name.who], markersize=4 + n / 16, alpha=0.9,
+                      markerfacecolor=drawn[name.who] if filled else "white")
     axis.set_xscale("log")
     axis.set_yscale("log")
     axis.minorticks_off()
@@ -143,7 +154,7 @@ def roofline(rows, path):
     handles = [axis.plot([], [], MARKERS[o], color="grey", label=TITLES[o])[0]
                for o in TITLES if o in shown]
     handles += [axis.plot([], [], "o", color=c, label=w)[0]
-                for w, c in COLOURS.items() if w in shown]
+                for w, c in drawn.items() if w in shown]
     handles.append(axis.plot([], [], "o", color="grey", markerfacecolor="white",
                              label="to memory")[0])
     axis.legend(handles=handles, fontsize=8, loc="upper left", bbox_to_anchor=(1.01, 1))
@@ -158,10 +169,10 @@ def main(arguments):
     folder = Path(arguments[2]) if len(arguments) == 3 else Path(__file__).parent.parent / "docs"
     matplotlib.rcParams.update({"svg.hashsalt": "simdbezier", "svg.fonttype": "none",
                                 "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"]})
-    _, results = read(arguments[0])
-    _, sweep = read(arguments[1])
-    by_size(sweep, folder / "speed_by_size.svg")
-    roofline(results, folder / "roofline.svg")
+    (context, results), (sweep_context, sweep) = map(read, arguments[:2])
+    drawn = colours(context, sweep_context)
+    by_size(sweep, drawn, folder / "speed_by_size.svg")
+    roofline(results, drawn, folder / "roofline.svg")
     return 0
 
 

@@ -4,12 +4,10 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
+#include <optional>
 
 #include <dlfcn.h>
-
-#include <simdbezier/evaluator_plugin.h>
 
 #include <tools/process/failure.hpp>
 
@@ -19,28 +17,30 @@ namespace simdbezier_bench {
 namespace {
 
 using simdbezier::tools::EvaluatorDied;
+using simdbezier::tools::EvaluatorFunctions;
+using simdbezier::tools::kPluginVectors;
 using simdbezier::tools::PluginGridTask;
+using simdbezier::tools::PluginLayout;
+using simdbezier::tools::PluginOutputs;
 using simdbezier::tools::PluginPatchTask;
 
 constexpr Size kSizes[] = {{4, 4}, {8, 8}, {16, 16}, {17, 17}, {32, 32}, {33, 33}, {65, 65}};
 constexpr std::size_t kTriedPatches = 64;
 
-template <typename T>
-using PatchFunction = int (*)(const T*, int, int, const T*, const T*, const T*, std::size_t, T*, T*,
-                              T*);
-using GridFunction = decltype(&sbe_grid_f32);
-
-template <typename F>
-F symbol(void* library, const char* name) {
-  return library == nullptr ? nullptr : reinterpret_cast<F>(dlsym(library, name));
+/// Which of a plug-in's vectors the k-th group of a row's outputs is.
+std::size_t vector_of(OutputGroups outputs, std::size_t group) {
+  const bool is_normal = outputs == OutputGroups::position_normal && group == 1;
+  return is_normal ? std::size_t{simdbezier::tools::kNormal} : group;
 }
 
-/// A row of one plug-in, which writes x y z triples as de_casteljau does.
+/// A row of one plug-in in one of its layouts.
 template <typename T>
 class TimedPlugin {
 public:
-  TimedPlugin(PluginProcess process, OutputGroups outputs, Size size, MemoryLevel level)
-      : process_(std::move(process)) {
+  TimedPlugin(PluginProcess process, OutputGroups outputs, Size size, MemoryLevel level,
+              PluginLayout layout)
+      : process_(std::move(process)), layout_(layout),
+        by_grid_(process_->facts().forms<T>().has_grid(layout)) {
     const std::vector<T> u = uniform_parameters<T>(size.nu);
     const std::vector<T> v = uniform_parameters<T>(size.nv);
     for (std::size_t k = 0; k < size.nu * size.nv; ++k) {
@@ -52,19 +52,24 @@ public:
     job_.nu = size.nu;
     job_.nv = size.nv;
     job_.input = shared_nets<T>(job_.patches);
-    job_.out = place_results<T>(outputs, job_.patches * u_.size(), Layout::triples);
+    const bool planes = layout == PluginLayout::planes;
+    job_.out = place_results<T>(outputs, job_.patches * u_.size(),
+                                planes ? Layout::planes : Layout::triples);
   }
 
   std::string check() {
+    poison_grid(job_);
     try {
-      if (const std::string fault = tried(); !fault.empty()) {
+      const std::size_t patches = std::min(job_.patches, kTriedPatches);
+      const int answer = run(patches, [&](const auto& task) { return process_->evaluate(task); });
+      if (std::string fault = answer != 0 ? refused(answer) : find_nan(patches); !fault.empty()) {
         return fault;
       }
     } catch (const EvaluatorDied& died) {
       return died.what();
     }
-    load();
-    if (patch_ == nullptr && grid_ == nullptr) {
+    functions_ = load();
+    if (!functions_) {
       return process_->facts().file + ": cannot be loaded a second time";
     }
     poison_grid(job_);
@@ -76,19 +81,10 @@ public:
   }
 
   void operator()() {
-    load();
-    T* const* const out = job_.out.component;
-    if (grid_ != nullptr) {
-      if constexpr (std::is_same_v<T, float>) {
-        answer_ = grid_(job_.input, job_.patches, job_.nu, job_.nv, out[0], out[3], out[6]);
-      }
-      return;
+    if (!functions_) {
+      functions_ = load();
     }
-    for (std::size_t p = 0; p < job_.patches; ++p) {
-      const std::size_t first = 3 * p * u_.size();
-      answer_ |= patch_(job_.input + 48 * p, 3, 3, nullptr, u_.data(), v_.data(), u_.size(),
-                        out[0] + first, part(out[3], first), part(out[6], first));
-    }
+    answer_ = run(job_.patches, *functions_);
   }
 
   [[nodiscard]] double items() const { return static_cast<double>(job_.patches * u_.size()); }
@@ -97,91 +93,122 @@ public:
   }
 
 private:
-  static T* part(T* values, std::size_t first) {
-    return values == nullptr ? nullptr : values + first;
+  /// Calls with one task for all patches, or with one for each. Returns an answer that is not 0,
+  /// or 0.
+  template <typename Call>
+  int run(std::size_t patches, const Call& call) {
+    PluginPatchTask<T> task{{}, 3, 3, {}, u_, v_, {layout_, {}}};
+    std::array<T**, 3 * kMostGroups> wanted;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < 3 * group_count(job_.out.groups); ++k) {
+      if (k % 3 == 0 || layout_ == PluginLayout::planes) {
+        wanted[count] = &task.out.at[vector_of(job_.out.groups, k / 3)][k % 3];
+        *wanted[count++] = job_.out.component[k];
+      }
+    }
+    if (by_grid_) {
+      return call(
+          PluginGridTask<T>{{job_.input, 48 * patches}, patches, job_.nu, job_.nv, task.out});
+    }
+    int answer = 0;
+    for (std::size_t p = 0; p < patches && answer == 0; ++p) {
+      task.net = {job_.input + 48 * p, 48};
+      answer = call(task);
+      for (std::size_t k = 0; k < count; ++k) {
+        *wanted[k] += u_.size() * job_.out.stride;
+      }
+    }
+    return answer;
   }
 
   [[nodiscard]] std::string refused(int answer) const {
     return process_->facts().file + ": returned " + std::to_string(answer) + " for bicubic patches";
   }
 
-  /// Runs some patches in the plug-in's own process. Returns an empty string, or what went wrong.
-  std::string tried() {
-    const std::size_t patches = std::min(job_.patches, kTriedPatches);
-    const bool tangents = job_.out.groups == OutputGroups::position_derivatives;
-    const std::size_t values = 3 * patches * u_.size();
-    std::vector<T> position(values);
-    std::vector<T> du(tangents ? values : 0);
-    std::vector<T> dv(du.size());
-    const std::span<const T> nets(job_.input, 48 * patches);
-    int answer = 0;
-    if constexpr (std::is_same_v<T, float>) {
-      if (process_->facts().grid_f32) {
-        answer =
-            process_->evaluate(PluginGridTask{nets, patches, job_.nu, job_.nv, position, du, dv});
-        return answer != 0 ? refused(answer) : find_nan(position, du, dv);
-      }
-    }
-    const std::size_t count = 3 * u_.size();
-    for (std::size_t p = 0; p < patches && answer == 0; ++p) {
-      const auto of = [&](std::vector<T>& all) {
-        return all.empty() ? std::span<T>() : std::span<T>(all).subspan(p * count, count);
-      };
-      answer = process_->evaluate(PluginPatchTask<T>{
-          nets.subspan(48 * p, 48), 3, 3, {}, u_, v_, of(position), of(du), of(dv)});
-    }
-    return answer != 0 ? refused(answer) : find_nan(position, du, dv);
-  }
-
-  std::string find_nan(const std::vector<T>& position, const std::vector<T>& du,
-                       const std::vector<T>& dv) const {
-    const std::pair<const std::vector<T>*, const char*> all[] = {
-        {&position, "position"}, {&du, "du"}, {&dv, "dv"}};
-    for (const auto& [values, name] : all) {
-      for (std::size_t k = 0; k < values->size(); ++k) {
-        if (std::isnan((*values)[k])) {
-          return process_->facts().file + ": " + name + " is nan, or was not written, at sample " +
-                 std::to_string(k / 3 % u_.size()) + " of patch " +
-                 std::to_string(k / 3 / u_.size());
+  [[nodiscard]] std::string find_nan(std::size_t patches) const {
+    for (std::size_t k = 0; k < 3 * group_count(job_.out.groups); ++k) {
+      for (std::size_t sample = 0; sample < patches * u_.size(); ++sample) {
+        if (std::isnan(job_.out.component[k][sample * job_.out.stride])) {
+          return process_->facts().file + ": " +
+                 simdbezier::tools::kPluginVectorNames[vector_of(job_.out.groups, k / 3)] +
+                 " is nan, or was not written, at sample " + std::to_string(sample % u_.size()) +
+                 " of patch " + std::to_string(sample / u_.size());
         }
       }
     }
     return {};
   }
 
-  void load() {
-    if (patch_ != nullptr || grid_ != nullptr) {
-      return;
-    }
+  [[nodiscard]] std::optional<EvaluatorFunctions<T>> load() const {
     const auto file = std::filesystem::absolute(process_->facts().file);
     void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    constexpr bool kSingle = std::is_same_v<T, float>;
-    patch_ = symbol<PatchFunction<T>>(library, kSingle ? "sbe_evaluate_f32" : "sbe_evaluate_f64");
-    if (kSingle) {
-      grid_ = symbol<GridFunction>(library, "sbe_grid_f32");
-    }
+    return library == nullptr ? std::nullopt : std::optional(EvaluatorFunctions<T>(library));
   }
 
   PluginProcess process_;
+  PluginLayout layout_;
+  bool by_grid_;
   std::vector<T> u_;
   std::vector<T> v_;
   GridJob<T> job_;
-  PatchFunction<T> patch_ = nullptr;
-  GridFunction grid_ = nullptr;
+  std::optional<EvaluatorFunctions<T>> functions_;
   int answer_ = 0;
 };
 
+/// Whether a plug-in has rows of these outputs: positions always, since a row says best what is
+/// wrong with them, and others that it does not refuse.
+template <typename T>
+bool offers(const PluginProcess& plugin, OutputGroups outputs, PluginLayout layout) {
+  const simdbezier::tools::EvaluatorForms& forms = plugin->facts().forms<T>();
+  if (!forms.has_patch(layout) && !forms.has_grid(layout)) {
+    return false;
+  }
+  if (outputs == OutputGroups::position) {
+    return true;
+  }
+  if (layout == PluginLayout::triples && outputs != OutputGroups::position_derivatives) {
+    return false;
+  }
+  const std::vector<T> net(kValuesPerPatch);
+  const T parameters[] = {0, 1, 0, 1};
+  T values[3 * kPluginVectors][4];
+  PluginOutputs<T> out{layout, {}};
+  for (std::size_t k = 0; k < group_count(outputs); ++k) {
+    for (std::size_t c = 0; c < (layout == PluginLayout::planes ? 3 : 1); ++c) {
+      out.at[vector_of(outputs, k)][c] = values[3 * k + c];
+    }
+  }
+  try {
+    return (forms.has_grid(layout) ? plugin->evaluate(PluginGridTask<T>{net, 1, 2, 2, out})
+                                   : plugin->evaluate(PluginPatchTask<T>{
+                                         net, 3, 3, {}, parameters, parameters, out})) == 0;
+  } catch (const EvaluatorDied&) {
+    return true; // its rows say how
+  }
+}
+
 template <typename T>
 void add_rows(const PluginProcess& plugin) {
-  for (const OutputGroups outputs : {OutputGroups::position, OutputGroups::position_derivatives}) {
-    for (const Size size : kSizes) {
-      for (const MemoryLevel level : {MemoryLevel::cache, MemoryLevel::memory}) {
-        RowName name{"grid", outputs, sizeof(T) == 4, plugin->facts().name};
-        name.nu = size.nu;
-        name.nv = size.nv;
-        name.level = level;
-        register_row(name.text(), benchmark::kMicrosecond, 1,
-                     [=] { return TimedPlugin<T>(plugin, outputs, size, level); });
+  for (const PluginLayout layout : simdbezier::tools::kPluginLayouts) {
+    for (const OutputGroups outputs :
+         {OutputGroups::position, OutputGroups::position_normal, OutputGroups::position_derivatives,
+          OutputGroups::second_derivatives}) {
+      if (!offers<T>(plugin, outputs, layout)) {
+        continue;
+      }
+      const auto add = [&](Size size, MemoryLevel level) {
+        const RowName name{"grid",  outputs, sizeof(T) == 4, plugin->facts().name,
+                           size.nu, size.nv, level};
+        register_row(name.text() + (layout == PluginLayout::triples ? "/layout:aos" : ""),
+                     benchmark::kMicrosecond, 1,
+                     [=] { return TimedPlugin<T>(plugin, outputs, size, level, layout); });
+      };
+      for (const Size size : kSizes) {
+        add(size, MemoryLevel::cache);
+        add(size, MemoryLevel::memory);
+      }
+      for (const Size size : swept_beside(kSizes)) {
+        add(size, MemoryLevel::cache);
       }
     }
   }
@@ -220,13 +247,14 @@ std::vector<PluginProcess> start_plugins(const std::vector<std::string>& files, 
 }
 
 void register_plugin_rows(const std::vector<PluginProcess>& plugins) {
+  std::string names;
   for (const PluginProcess& plugin : plugins) {
-    if (plugin->facts().f32 || plugin->facts().grid_f32) {
-      add_rows<float>(plugin);
-    }
-    if (plugin->facts().f64) {
-      add_rows<double>(plugin);
-    }
+    add_rows<float>(plugin);
+    add_rows<double>(plugin);
+    names += (names.empty() ? "" : " ") + plugin->facts().name;
+  }
+  if (!plugins.empty()) {
+    benchmark::AddCustomContext("evaluators", names);
   }
 }
 

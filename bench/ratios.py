@@ -15,16 +15,17 @@ name matches REGEX (default: all), family by family: median samples/s, spread ov
   cache row       tiles: to the grid row in cache of the same size and layout
   threads:1       to the same row with one thread
   16x16 grid      pack: time a patch to that of its 256 positions (grid row in cache)
+  library         other evaluators' grids: to the library's fastest row of the same layout, outputs
+                  and type; their ratios to a baseline are given where it has their layout, too
+                  (autovectorised: planes, de_casteljau: x y z triples)
 """
 
 import re
 import sys
 
 sys.dont_write_bytecode = True  # results.py is imported from the source tree
-from results import Name, limit_of, natural_order, read  # noqa: E402
-
-BASELINES = ("de_casteljau", "autovectorised")
-INSTRUCTION_SETS = ("scalar", "sse2", "avx2", "avx512", "neon64")
+from results import (BASELINES, INSTRUCTION_SETS, Name, evaluators, limit_of,  # noqa: E402
+                     natural_order, read)
 
 
 def rate(value):
@@ -56,6 +57,11 @@ class Ratios:
         keys = {key: value for key, value in row.keys.items() if key == "patches"}
         return self.median(row.text(who=baseline, threads=1, keys=keys))
 
+    def to_library(self, row):
+        """The library's fastest row that differs from this one in nothing else."""
+        rates = [self.median(row.text(who=who)) for who in INSTRUCTION_SETS]
+        return max(filter(None, rates), default=None)
+
     def to_limit(self, row):
         share = self.rows[row.text()].share
         if share is not None:
@@ -78,7 +84,8 @@ class Ratios:
 
     def cells(self, row, columns):
         references = {"limit": self.to_limit, "threads:1": self.to_one_thread,
-                      "cache row": self.to_cache_row, "16x16 grid": self.to_grid}
+                      "cache row": self.to_cache_row, "16x16 grid": self.to_grid,
+                      "library": self.to_library}
         cells = []
         own = self.median(row.text())
         for column in columns:
@@ -102,14 +109,19 @@ FAMILIES = {
     "scattered_sorted": ("de_casteljau", "threads:1"),
     "scattered_random": ("de_casteljau", "limit", "threads:1"),
     "pack": ("16x16 grid",),
+    "other evaluators, planes": ("library", "autovectorised"),
+    "other evaluators, x y z triples": ("library", "de_casteljau"),
 }
 
 
-def family_of(name):
-    """The family of a row of the library; None for baselines, other libraries and limits."""
+def family_of(name, guests):
+    """The family of a row of the library or of one of the guests; None for baselines, other
+    libraries and limits."""
     if name.startswith("limit/"):
         return None
     row = Name(name)
+    if row.who in guests:
+        return "other evaluators, " + ("x y z triples" if "layout" in row.keys else "planes")
     if row.who not in INSTRUCTION_SETS:
         return None
     return f"grid, {row.place}" if row.call == "grid" else row.call
@@ -120,7 +132,7 @@ def main(arguments):
         print(__doc__.strip(), file=sys.stderr)
         return 2
     try:
-        _, rows = read(arguments[0])
+        context, rows = read(arguments[0])
         wanted = re.compile(arguments[1] if len(arguments) == 2 else "")
     except (OSError, ValueError, KeyError, TypeError, re.error) as error:
         print(f"ratios.py: {arguments[0]}: {error!r}", file=sys.stderr)
@@ -129,14 +141,15 @@ def main(arguments):
     ratios = Ratios(rows)
     printed = {family: [] for family in (*FAMILIES, None)}
     for name in sorted(filter(wanted.search, rows), key=natural_order):
-        family = family_of(name)
+        family = family_of(name, evaluators(context))
         spread = rows[name].spread
         cells = [name, rate(rows[name].median), "-" if spread is None else f"{spread:.1%}"]
         if family is not None:
             cells += ratios.cells(Name(name), FAMILIES[family])
         printed[family].append(cells)
     if not any(printed.values()):
-        print("ratios.py: no rows", file=sys.stderr)
+        print(f"ratios.py: {arguments[0]}: no row's name matches '{wanted.pattern}'",
+              file=sys.stderr)
         return 1
     for family, lines in printed.items():
         if lines:

@@ -73,13 +73,16 @@ def speed(path, colours):
     said += table(('', ''), [(text(key), text(context[key])) for key in
                              ('date', 'cpu', 'cores', 'compiler', 'flags', 'isas') if key in context])
     limits, families = [], collections.defaultdict(lambda: collections.defaultdict(list))
+    # Triples are shown where a plug-in writes them.
+    layouts = ({}, {'layout': 'aos'}) if results.evaluators(context) else ({},)
     for name in sorted(rows, key=results.natural_order):
         if name.startswith('limit/'):
             limits.append((name[6:], rows[name].median / 1e9, colours.of('limit')))
             continue
         row = results.Name(name)
-        if row.threads == 1 and not row.keys:
-            family = f'{row.call}, {row.outputs}, {row.type}, {row.place}'
+        if row.threads == 1 and row.keys in layouts:
+            family = ', '.join((row.call, row.outputs, row.type, row.place,
+                                *(['x y z triples'] if row.keys else [])))
             families[family][row.size].append((row.who, rows[name].median / 1e9, colours.of(row.who)))
     for family, sizes in families.items():
         said += f'<h3>{text(family)}</h3>' + bars(list(sizes.items()), '10⁹/s')

@@ -5,6 +5,8 @@ import json
 import re
 import statistics
 
+INSTRUCTION_SETS = ("scalar", "sse2", "avx2", "avx512", "neon64")
+BASELINES = ("de_casteljau", "autovectorised")
 VALUES = {"position": 3, "position_normal": 6, "position_derivatives": 9, "second_derivatives": 18,
           "curvature": 7}
 
@@ -65,6 +67,11 @@ def read(path):
                 for family, members in report["rows"].items()
                 for rest, numbers in members.items()}
     return report.get("context", {}), rows
+
+
+def evaluators(context):
+    """The names of plug-ins that took part in a run."""
+    return context.get("evaluators", "").split()
 
 
 def natural_order(name):

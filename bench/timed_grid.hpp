@@ -1,6 +1,9 @@
 // One row of grids: its name, its data, its call and its check.
 #pragma once
 
+#include <algorithm>
+#include <cstdlib>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +25,23 @@ struct Size {
   std::size_t nu;
   std::size_t nv;
 };
+
+constexpr std::size_t kLargestSwept = 65;
+
+/// Squares of every size, for the plot of speed against size, without those that have rows anyway.
+/// None unless SIMDBEZIER_BENCH_SWEEP is set.
+inline std::vector<Size> swept_beside(std::span<const Size> known) {
+  std::vector<Size> sizes;
+  const char* const sweep = std::getenv("SIMDBEZIER_BENCH_SWEEP");
+  const bool wanted = sweep != nullptr && *sweep != '\0' && *sweep != '0';
+  for (std::size_t n = 2; wanted && n <= kLargestSwept; ++n) {
+    if (std::none_of(known.begin(), known.end(),
+                     [n](Size size) { return size.nu == n && size.nv == n; })) {
+      sizes.push_back({n, n});
+    }
+  }
+  return sizes;
+}
 
 struct GridRow {
   OutputGroups outputs;

@@ -4,9 +4,13 @@
 //
 //     gcc -O2 -shared -fPIC $(pkg-config --cflags simdbezier) mine.c -o mine.so
 //
-// All memory belongs to the caller and holds x y z triples side by side. Everything asked for is to
-// be written. A function returns 0; another number says that it does not evaluate such patches,
-// which is no fault: they are left out.
+// Each function has one layout of its results: x y z triples side by side, or planes, one array
+// for each component. Write the layout that your evaluator writes by itself; the suites compare it
+// with rows of the same layout. A file has one function that evaluates single patches at the least.
+//
+// All memory belongs to the caller. Everything asked for is to be written. A function returns 0;
+// another number says that it does not evaluate such patches or such outputs, which is no fault:
+// they are left out.
 #pragma once
 
 #include <stddef.h>
@@ -15,7 +19,7 @@
 extern "C" {
 #endif
 
-// One patch at n pairs of parameters in [0,1].
+// Triples. One patch at n pairs of parameters in [0,1].
 //   net       control points [j][i][xyz], i runs in u: 3 (degree_u + 1) (degree_v + 1) numbers
 //   weights   null, or one a control point: S = sum w P B B / sum w B B
 //   position  S of every sample; du, dv: the derivatives, where not null
@@ -26,10 +30,46 @@ int sbe_evaluate_f64(const double* net, int degree_u, int degree_v, const double
                      const double* u, const double* v, size_t n, double* position, double* du,
                      double* dv);
 
-// Optional: bicubic patches, 48 numbers each, on one uniform grid of nu x nv parameters i / (nu -
-// 1), j / (nv - 1), u fastest, patch after patch. Benchmarks call this one where it is there.
+// Triples, optional: bicubic patches, 48 numbers each, on one uniform grid of nu x nv parameters
+// i / (nu - 1), j / (nv - 1), u fastest, patch after patch. Benchmarks call this one where it is
+// there, instead of the former.
 int sbe_grid_f32(const float* nets, size_t patches, size_t nu, size_t nv, float* position,
                  float* du, float* dv);
+int sbe_grid_f64(const double* nets, size_t patches, size_t nu, size_t nv, double* position,
+                 double* du, double* dv);
+
+// Where planes go: component c (x, y, z) of a vector of sample k is position[c][k]. The position
+// is always asked for. The three planes of each other vector are null where it is not; du and dv
+// are asked for together, and so are duu, duv and dvv. The normal is du x dv, of length 1, or
+// 0 0 0 where there is none. What is accepted in one call has to be accepted beside the others.
+typedef struct sbe_planes_f32 {
+  float* position[3];
+  float* du[3];
+  float* dv[3];
+  float* duu[3];
+  float* duv[3];
+  float* dvv[3];
+  float* normal[3];
+} sbe_planes_f32;
+typedef struct sbe_planes_f64 {
+  double* position[3];
+  double* du[3];
+  double* dv[3];
+  double* duu[3];
+  double* duv[3];
+  double* dvv[3];
+  double* normal[3];
+} sbe_planes_f64;
+
+// Planes: the same two calls.
+int sbe_evaluate_planes_f32(const float* net, int degree_u, int degree_v, const float* weights,
+                            const float* u, const float* v, size_t n, const sbe_planes_f32* out);
+int sbe_evaluate_planes_f64(const double* net, int degree_u, int degree_v, const double* weights,
+                            const double* u, const double* v, size_t n, const sbe_planes_f64* out);
+int sbe_grid_planes_f32(const float* nets, size_t patches, size_t nu, size_t nv,
+                        const sbe_planes_f32* out);
+int sbe_grid_planes_f64(const double* nets, size_t patches, size_t nu, size_t nv,
+                        const sbe_planes_f64* out);
 
 // Optional: what rows and tables call the evaluator. Otherwise, and for null, it has its file's
 // name. Whatever is not a letter, a digit, or one of . + - becomes an underscore.

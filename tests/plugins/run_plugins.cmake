@@ -13,6 +13,15 @@ function(run_plugins)
   set(output "${output}${errors}" PARENT_SCOPE)
 endfunction()
 
+# run(CODE ARGUMENTS…): the program, which has to exit with CODE. Leaves what it printed in `output`.
+function(run code)
+  execute_process(COMMAND ${PROGRAM} ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+  if(NOT result EQUAL code)
+    message(FATAL_ERROR "${ARGN}: expected exit code ${code}, found ${result}:\n${output}${errors}")
+  endif()
+  set(output "${output}${errors}" PARENT_SCOPE)
+endfunction()
+
 function(expect)
   foreach(pattern IN LISTS ARGN)
     if(NOT output MATCHES "${pattern}")

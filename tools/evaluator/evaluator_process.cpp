@@ -14,8 +14,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <simdbezier/evaluator_plugin.h>
-
 #include <tools/evaluator/evaluator_arrays.hpp>
 #include <tools/process/failure.hpp>
 
@@ -26,36 +24,33 @@ namespace {
 constexpr std::size_t kSharedBytes = std::size_t{256} << 20; // only what is used of them is there
 constexpr int kPatience = 120'000;                           // milliseconds for one call
 
-enum class Function : std::uint8_t { f32, f64, grid_f32 };
-
+/// A task whose arrays are places in the shared memory.
 struct PluginRequest {
-  Function function;
+  bool is_single, is_grid;
+  PluginLayout layout;
   int degree_u, degree_v;
   std::size_t n; // samples, or patches
   std::size_t nu, nv;
-  struct { // places in the shared memory, in bytes from its start; 0 stands for null
-    std::size_t net, weights, u, v, position, du, dv;
+  struct { // in bytes from its start; 0 stands for null
+    std::size_t net, weights, u, v;
+    std::array<std::array<std::size_t, 3>, kPluginVectors> out;
   } at;
   int answer;
 };
 
 // The functions that the child found.
 struct Loaded {
-  decltype(&sbe_evaluate_f32) f32 = nullptr;
-  decltype(&sbe_evaluate_f64) f64 = nullptr;
-  decltype(&sbe_grid_f32) grid_f32 = nullptr;
+  EvaluatorFunctions<float> f32;
+  EvaluatorFunctions<double> f64;
+  explicit Loaded(void* library) : f32(library), f64(library) {}
 };
-
-template <typename F>
-void find(void* library, const char* name, F& function) {
-  function = reinterpret_cast<F>(dlsym(library, name));
-}
 
 } // namespace
 
 struct EvaluatorProcess::Shared {
   PluginRequest request;
-  bool has[3];
+  EvaluatorForms f32;
+  EvaluatorForms f64;
   char name[64];
   char error[512];
 
@@ -70,27 +65,27 @@ namespace {
 
 using Shared = EvaluatorProcess::Shared;
 
-template <typename T, typename Evaluate>
-int run_patch(Evaluate evaluate, Shared& shared) {
+template <typename T>
+int run_request(const EvaluatorFunctions<T>& functions, Shared& shared) {
   const PluginRequest& task = shared.request;
-  return evaluate(shared.at<T>(task.at.net), task.degree_u, task.degree_v,
-                  shared.at<T>(task.at.weights), shared.at<T>(task.at.u), shared.at<T>(task.at.v),
-                  task.n, shared.at<T>(task.at.position), shared.at<T>(task.at.du),
-                  shared.at<T>(task.at.dv));
-}
-
-int run_request(const Loaded& loaded, Shared& shared) {
-  const PluginRequest& task = shared.request;
-  switch (task.function) {
-  case Function::f32:
-    return run_patch<float>(loaded.f32, shared);
-  case Function::f64:
-    return run_patch<double>(loaded.f64, shared);
-  default:
-    return loaded.grid_f32(shared.at<float>(task.at.net), task.n, task.nu, task.nv,
-                           shared.at<float>(task.at.position), shared.at<float>(task.at.du),
-                           shared.at<float>(task.at.dv));
+  const auto array = [&](std::size_t place, std::size_t count) {
+    T* const values = shared.at<T>(place);
+    return std::span<const T>(values, values == nullptr ? 0 : count);
+  };
+  PluginOutputs<T> out{task.layout, {}};
+  for (std::size_t k = 0; k < kPluginVectors; ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      out.at[k][c] = shared.at<T>(task.at.out[k][c]);
+    }
   }
+  if (task.is_grid) {
+    return functions(
+        PluginGridTask<T>{array(task.at.net, 48 * task.n), task.n, task.nu, task.nv, out});
+  }
+  const auto points = static_cast<std::size_t>((task.degree_u + 1) * (task.degree_v + 1));
+  return functions(PluginPatchTask<T>{array(task.at.net, 3 * points), task.degree_u, task.degree_v,
+                                      array(task.at.weights, points), array(task.at.u, task.n),
+                                      array(task.at.v, task.n), out});
 }
 
 // Names are parts of rows' names and of JSON: what is not a letter, a digit or one of . + - becomes
@@ -106,24 +101,19 @@ std::string plain_name(std::string name) {
 
 // Leaves what it found, or an error, in the shared memory.
 Loaded load(const std::string& file, Shared& shared) {
-  Loaded loaded;
   void* const library = dlopen(std::filesystem::absolute(file).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
     std::strncpy(shared.error, dlerror(), sizeof shared.error - 1);
-    return loaded;
+    return Loaded(nullptr);
   }
-  find(library, "sbe_evaluate_f32", loaded.f32);
-  find(library, "sbe_evaluate_f64", loaded.f64);
-  find(library, "sbe_grid_f32", loaded.grid_f32);
-  decltype(&sbe_name) name = nullptr;
-  find(library, "sbe_name", name);
+  Loaded loaded(library);
+  shared.f32 = loaded.f32.forms();
+  shared.f64 = loaded.f64.forms();
+  const auto name = reinterpret_cast<decltype(&sbe_name)>(dlsym(library, "sbe_name"));
   const char* const called = name != nullptr ? name() : nullptr;
   const bool has_name = called != nullptr && *called != '\0';
   const std::string known = has_name ? called : std::filesystem::path(file).stem().string();
   std::strncpy(shared.name, plain_name(known).c_str(), sizeof shared.name - 1);
-  shared.has[0] = loaded.f32 != nullptr;
-  shared.has[1] = loaded.f64 != nullptr;
-  shared.has[2] = loaded.grid_f32 != nullptr;
   return loaded;
 }
 
@@ -134,7 +124,8 @@ Loaded load(const std::string& file, Shared& shared) {
   const Loaded loaded = load(file, shared);
   char byte = 0;
   while (write(answers, &byte, 1) == 1 && read(requests, &byte, 1) == 1) {
-    shared.request.answer = run_request(loaded, shared);
+    shared.request.answer = shared.request.is_single ? run_request(loaded.f32, shared)
+                                                     : run_request(loaded.f64, shared);
   }
   _exit(0);
 }
@@ -180,11 +171,14 @@ EvaluatorProcess::EvaluatorProcess(const std::string& file) : shared_(map_shared
     bad_input(file + ": expected a shared object, found '" + shared_->error + "'");
   }
   facts_.name = shared_->name;
-  facts_.f32 = shared_->has[0];
-  facts_.f64 = shared_->has[1];
-  facts_.grid_f32 = shared_->has[2];
-  if (!facts_.f32 && !facts_.f64) {
-    bad_input(file + ": expected sbe_evaluate_f32 or sbe_evaluate_f64, found neither");
+  facts_.f32 = shared_->f32;
+  facts_.f64 = shared_->f64;
+  const auto evaluates = [](const EvaluatorForms& forms) {
+    return forms.has_patch(PluginLayout::triples) || forms.has_patch(PluginLayout::planes);
+  };
+  if (!evaluates(facts_.f32) && !evaluates(facts_.f64)) {
+    bad_input(file + ": expected sbe_evaluate_f32 or sbe_evaluate_f64, found neither, nor "
+                     "sbe_evaluate_planes_f32 or sbe_evaluate_planes_f64");
   }
 }
 
@@ -209,26 +203,25 @@ void EvaluatorProcess::mourn(const std::string& what) {
   throw EvaluatorDied(cause_);
 }
 
-void EvaluatorProcess::send(const char* function) {
+void EvaluatorProcess::send(const std::string& function) {
   if (child_ < 0) {
     throw EvaluatorDied(cause_ + " (before)");
   }
   const char byte = 1;
   if (write(to_child_, &byte, 1) != 1) {
-    bury(std::string("cannot be asked for ") + function);
+    bury("cannot be asked for " + function);
   }
   wait_for_answer(function);
 }
 
-void EvaluatorProcess::wait_for_answer(const char* function) {
+void EvaluatorProcess::wait_for_answer(const std::string& function) {
   pollfd answer{from_child_, POLLIN, 0};
   int ready = 0;
   do {
     ready = poll(&answer, 1, kPatience);
   } while (ready < 0 && errno == EINTR);
   if (ready == 0) {
-    bury(std::string(function) + " did not return within " + std::to_string(kPatience / 1000) +
-         " s");
+    bury(function + " did not return within " + std::to_string(kPatience / 1000) + " s");
   }
   char byte = 0;
   if (read(from_child_, &byte, 1) == 1) {
@@ -238,24 +231,36 @@ void EvaluatorProcess::wait_for_answer(const char* function) {
   waitpid(child_, &status, 0);
   const std::string how = WIFSIGNALED(status) ? std::string(strsignal(WTERMSIG(status)))
                                               : "exit code " + std::to_string(WEXITSTATUS(status));
-  mourn(std::string(function) + " ended its process: " + how);
+  mourn(function + " ended its process: " + how);
 }
 
-int EvaluatorProcess::ask(const char* function, const EvaluatorArrays& arrays) {
+int EvaluatorProcess::ask(const std::string& function, const EvaluatorArrays& arrays) {
   send(function);
   if (const std::string fault = arrays.fault(); !fault.empty()) {
-    bury(function + (" " + fault));
+    bury(function + " " + fault);
   }
   arrays.copy_out();
   return shared_->request.answer;
 }
 
 template <typename T>
+void EvaluatorProcess::place(EvaluatorArrays& arrays, const PluginOutputs<T>& out,
+                             std::size_t samples) {
+  shared_->request.layout = out.layout;
+  const std::size_t count = out.layout == PluginLayout::planes ? samples : 3 * samples;
+  for (std::size_t k = 0; k < kPluginVectors; ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      shared_->request.at.out[k][c] = arrays.output(
+          kPluginVectorNames[k], std::span<T>(out.at[k][c], out.at[k][c] == nullptr ? 0 : count));
+    }
+  }
+}
+
+template <typename T>
 int EvaluatorProcess::evaluate(const PluginPatchTask<T>& task) {
   EvaluatorArrays arrays({shared_->base(), kSharedBytes}, sizeof(Shared));
-  constexpr bool kSingle = sizeof(T) == sizeof(float);
   PluginRequest& request = shared_->request = {};
-  request.function = kSingle ? Function::f32 : Function::f64;
+  request.is_single = std::is_same_v<T, float>;
   request.degree_u = task.degree_u;
   request.degree_v = task.degree_v;
   request.n = task.u.size();
@@ -263,27 +268,27 @@ int EvaluatorProcess::evaluate(const PluginPatchTask<T>& task) {
   request.at.weights = arrays.input("weights", task.weights);
   request.at.u = arrays.input("u", task.u);
   request.at.v = arrays.input("v", task.v);
-  request.at.position = arrays.output("position", task.position);
-  request.at.du = arrays.output("du", task.du);
-  request.at.dv = arrays.output("dv", task.dv);
-  return ask(kSingle ? "sbe_evaluate_f32" : "sbe_evaluate_f64", arrays);
+  place(arrays, task.out, request.n);
+  return ask(function_name<T>("evaluate", task.out.layout), arrays);
 }
 
-template int EvaluatorProcess::evaluate(const PluginPatchTask<float>&);
-template int EvaluatorProcess::evaluate(const PluginPatchTask<double>&);
-
-int EvaluatorProcess::evaluate(const PluginGridTask& task) {
+template <typename T>
+int EvaluatorProcess::evaluate(const PluginGridTask<T>& task) {
   EvaluatorArrays arrays({shared_->base(), kSharedBytes}, sizeof(Shared));
   PluginRequest& request = shared_->request = {};
-  request.function = Function::grid_f32;
+  request.is_single = std::is_same_v<T, float>;
+  request.is_grid = true;
   request.n = task.patches;
   request.nu = task.nu;
   request.nv = task.nv;
   request.at.net = arrays.input("nets", task.nets);
-  request.at.position = arrays.output("position", task.position);
-  request.at.du = arrays.output("du", task.du);
-  request.at.dv = arrays.output("dv", task.dv);
-  return ask("sbe_grid_f32", arrays);
+  place(arrays, task.out, task.patches * task.nu * task.nv);
+  return ask(function_name<T>("grid", task.out.layout), arrays);
 }
+
+template int EvaluatorProcess::evaluate(const PluginPatchTask<float>&);
+template int EvaluatorProcess::evaluate(const PluginPatchTask<double>&);
+template int EvaluatorProcess::evaluate(const PluginGridTask<float>&);
+template int EvaluatorProcess::evaluate(const PluginGridTask<double>&);
 
 } // namespace simdbezier::tools

@@ -2,11 +2,11 @@
 // it does there cannot end the program that judges it.
 #pragma once
 
-#include <cstddef>
 #include <memory>
-#include <span>
 #include <stdexcept>
 #include <string>
+
+#include <tools/evaluator/evaluator_functions.hpp>
 
 namespace simdbezier::tools {
 
@@ -15,38 +15,17 @@ class EvaluatorDied : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Which functions a file has.
+/// What a file has.
 struct EvaluatorFacts {
   std::string file;
   std::string name;
-  bool f32 = false;
-  bool f64 = false;
-  bool grid_f32 = false;
-};
+  EvaluatorForms f32;
+  EvaluatorForms f64;
 
-/// One patch at many parameters. Spans of derivatives are empty where they are not wanted.
-template <typename T>
-struct PluginPatchTask {
-  std::span<const T> net;
-  int degree_u = 3;
-  int degree_v = 3;
-  std::span<const T> weights;
-  std::span<const T> u;
-  std::span<const T> v;
-  std::span<T> position;
-  std::span<T> du;
-  std::span<T> dv;
-};
-
-/// Bicubic patches on one grid.
-struct PluginGridTask {
-  std::span<const float> nets;
-  std::size_t patches = 0;
-  std::size_t nu = 0;
-  std::size_t nv = 0;
-  std::span<float> position;
-  std::span<float> du;
-  std::span<float> dv;
+  template <typename T>
+  [[nodiscard]] const EvaluatorForms& forms() const noexcept {
+    return std::is_same_v<T, float> ? f32 : f64;
+  }
 };
 
 class EvaluatorArrays;
@@ -67,14 +46,17 @@ public:
   /// EvaluatorDied, also where it has written anywhere near its arrays but not into an output.
   template <typename T>
   int evaluate(const PluginPatchTask<T>& task);
-  int evaluate(const PluginGridTask& task);
+  template <typename T>
+  int evaluate(const PluginGridTask<T>& task);
 
   struct Shared; ///< memory that both processes see
 
 private:
-  int ask(const char* function, const EvaluatorArrays& arrays);
-  void send(const char* function);
-  void wait_for_answer(const char* function);
+  template <typename T>
+  void place(EvaluatorArrays& arrays, const PluginOutputs<T>& out, std::size_t samples);
+  int ask(const std::string& function, const EvaluatorArrays& arrays);
+  void send(const std::string& function);
+  void wait_for_answer(const std::string& function);
   [[noreturn]] void bury(const std::string& what);
   [[noreturn]] void mourn(const std::string& what);
 

@@ -51,6 +51,7 @@ public:
     certificate_ = certificate;
     is_bicubic_ = net.is_bicubic();
     is_rational_ = net.is_rational();
+    degrees_ = {static_cast<double>(net.degree_u), static_cast<double>(net.degree_v)};
     scales_ = scales_of(control_polygon(net));
     bounds_.emplace(net, rule_);
   }
@@ -60,6 +61,7 @@ public:
     where_ = {net, 0, truth.x, truth.y};
     const OracleSample& exact = truth.sample;
     const SampleErrors allowed = bounds_->at(exact, truth.weight);
+    allowed_position_ = allowed.position;
     if (gives.position) {
       add_vector(Quantity::position, result.position, exact.position, scales_.position,
                  allowed.position);
@@ -116,10 +118,11 @@ private:
     for (std::size_t c = 0; c < 3; ++c) {
       const double error = std::abs((truth[c] - static_cast<double>(value[c])).to_double());
       // A component in which no control point differs must be exact with us where there are no
-      // weights; others are measured against the other components.
+      // weights; others are measured against the other components, and where those do not differ
+      // either, against what is subtracted.
       const bool exact = scale[c] == 0 && ours_ && !is_rational_;
-      const double own_scale = scale[c] == 0 && !exact ? largest_of(scale) : scale[c];
-      const double own_bound = bound[c] == 0 && !exact ? largest_of(bound) : bound[c];
+      const double own_scale = exact ? scale[c] : or_others(quantity, scale, c, scales_.position);
+      const double own_bound = exact ? bound[c] : or_others(quantity, bound, c, allowed_position_);
       where_.component = static_cast<int>(c);
       metric.add(relative(error, kUnitRoundoff<T> * own_scale), relative(error, own_bound), where_);
       if (const double* const own = certified(quantity)) {
@@ -129,6 +132,18 @@ private:
       metric.hash.add(value[c]);
       measurement_.nan_values += std::isnan(value[c]) ? 1 : 0;
     }
+  }
+
+  /// What component c of a vector has, or else another one, or else the positions that its control
+  /// values are differences of.
+  [[nodiscard]] double or_others(Quantity quantity, const Vector3& values, std::size_t c,
+                                 const Vector3& positions) const {
+    if (values[c] != 0 || largest_of(values) != 0) {
+      return values[c] != 0 ? values[c] : largest_of(values);
+    }
+    const auto [m, n] = degrees_;
+    const double factors[] = {1, m, n, m * m, m * n, n * n};
+    return factors[static_cast<std::size_t>(quantity)] * largest_of(positions);
   }
 
   /// The evaluator's own bounds, or null where it gives none.
@@ -211,7 +226,9 @@ private:
   bool ours_;
   bool is_bicubic_ = true;
   bool is_rational_ = false;
+  std::array<double, 2> degrees_{};
   NetScales scales_;
+  Vector3 allowed_position_{};
   std::optional<NetBounds> bounds_;
   std::optional<Certificate> certificate_;
   Worst where_;

@@ -1,10 +1,12 @@
 // simdbezier_accuracy: the whole accuracy suite. Every family x type x evaluator, against the
 // oracle; prints a table, writes rows as JSON, judges the gates, exits 1 naming what regressed.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <optional>
+#include <regex>
 #include <string>
 
 #include <tools/process/failure.hpp>
@@ -19,24 +21,30 @@ namespace {
 
 constexpr const char* kUsage =
     "usage: simdbezier_accuracy [--json FILE] [--thresholds FILE] [--write-thresholds]\n"
-    "                           [--nets N] [--samples N] [--evaluator FILE.so]...\n"
+    "                           [--quick | --nets N --samples N] [--filter REGEX]\n"
+    "                           [--evaluator FILE.so]...\n"
     "  --evaluator FILE.so  judge another evaluator beside the library's own\n"
     "                       (simdbezier/evaluator_plugin.h, docs/judge-your-own.md)\n"
     "  --json FILE          write all rows, worst inputs as hexadecimal floats\n"
     "  --thresholds FILE    compare with committed figures "
-    "(tests/properties/accuracy/suite/thresholds.json)\n"
-    "  --write-thresholds   write that file instead of comparing; to be reviewed by hand\n"
-    "  --nets, --samples    nets a family (500) and samples a net (100); committed figures hold\n"
-    "                       for the defaults only\n"
-    "exit: 0 all gates hold, 1 a regression or a plug-in's fault (each is named), 2 bad usage or\n"
-    "a file's error\n";
+    "(tests/properties/accuracy/suite/thresholds.json);\n"
+    "                       other evaluators that FILE has figures of are judged by them, and\n"
+    "                       not by the library's bounds\n"
+    "  --write-thresholds   write that file instead of comparing, with all evaluators' figures;\n"
+    "                       to be reviewed by hand\n"
+    "  --nets, --samples    nets a family (500) and samples a net (100); figures hold for the\n"
+    "                       numbers that they were written with\n"
+    "  --quick              --nets 12 --samples 16: some seconds\n"
+    "  --filter REGEX       measure those of FAMILY/TYPE/EVALUATOR only, which REGEX is found in\n"
+    "exit: 0 all gates hold, 1 a regression or a plug-in's fault (each is named), 2 bad usage, a\n"
+    "file's error, or a filter that nothing matches\n";
 
 struct Settings {
   std::string json;
   std::string thresholds;
   bool write_thresholds = false;
-  std::size_t nets = 500;
-  std::size_t samples = 100;
+  RunSize size;
+  std::string filter;
   std::vector<std::string> evaluators; ///< files
 };
 
@@ -61,6 +69,10 @@ struct Settings {
       settings.write_thresholds = true;
       continue;
     }
+    if (name == "--quick") {
+      settings.size = {12, 16};
+      continue;
+    }
     if (k + 1 == argc) {
       return std::nullopt;
     }
@@ -71,17 +83,19 @@ struct Settings {
       settings.thresholds = value;
     } else if (name == "--evaluator") {
       settings.evaluators.push_back(value);
+    } else if (name == "--filter") {
+      settings.filter = value;
     } else if (name == "--nets") {
-      settings.nets = std::stoul(value);
+      settings.size.nets = std::stoul(value);
     } else if (name == "--samples") {
-      settings.samples = std::stoul(value);
+      settings.size.samples = std::stoul(value);
     } else {
       return std::nullopt;
     }
   }
   const bool complete = !settings.write_thresholds || !settings.thresholds.empty();
-  return complete && settings.nets > 0 && settings.samples > 0 ? std::optional(settings)
-                                                               : std::nullopt;
+  const bool some = settings.size.nets > 0 && settings.size.samples > 0;
+  return complete && some ? std::optional(settings) : std::nullopt;
 }
 
 template <typename T>
@@ -118,32 +132,49 @@ void run(const char* type, const Settings& settings, const std::vector<PluginPro
   for (const PluginProcess& plugin : plugins) {
     add_plugin(plugin, evaluators);
   }
-  std::vector<Family<T>> families = all_families<T>(settings.nets, settings.samples);
+  const auto [nets, samples] = settings.size;
+  std::vector<Family<T>> families = all_families<T>(nets, samples);
   // There are many shapes: a twelfth of the samples each.
-  for (Family<T>& family : shape_families<T>(settings.nets / 4 + 1, settings.samples / 3 + 1)) {
+  for (Family<T>& family : shape_families<T>(nets / 4 + 1, samples / 3 + 1)) {
     families.push_back(std::move(family));
   }
+  const std::regex filter(settings.filter);
   for (const Family<T>& family : families) {
-    std::fprintf(stderr, "%s/%s\n", family.name.c_str(), type);
-    const Reference at_centred = make_reference(family, true);
-    const Reference at_unit = make_reference(family, false);
+    std::array<std::optional<Reference>, 2> references; // at u, v; at x, y
     for (auto& evaluator : evaluators) {
-      if (evaluator != nullptr && (evaluator->variant().empty() || family.with_origins)) {
-        run_one(evaluator, family, type, evaluator->reads_centred() ? at_centred : at_unit, report);
+      if (evaluator == nullptr || !(evaluator->variant().empty() || family.with_origins) ||
+          !std::regex_search(
+              family.name + evaluator->variant() + "/" + type + "/" + evaluator->name(), filter)) {
+        continue;
       }
+      const bool centred = evaluator->reads_centred();
+      std::optional<Reference>& reference = references[centred ? 1 : 0];
+      if (!reference) {
+        std::fprintf(stderr, "%s/%s\n", family.name.c_str(), type);
+        reference = make_reference(family, centred);
+      }
+      run_one(evaluator, family, type, *reference, report);
     }
   }
 }
 
 [[nodiscard]] int run_suite(const Settings& settings) {
   Report report;
+  Thresholds thresholds;
+  const bool compares = !settings.thresholds.empty() && !settings.write_thresholds;
+  if (compares) {
+    thresholds = read_thresholds(settings.thresholds, settings.size);
+  }
   const std::vector<PluginProcess> plugins = start_plugins(settings, report);
   run<float>("f32", settings, plugins, report);
   run<double>("f64", settings, plugins, report);
+  if (report.rows.empty() && report.failures.empty()) {
+    tools::bad_input("--filter " + settings.filter + ": nothing that was measured matches");
+  }
   report.judge_contracts();
-  report.judge_plugins();
-  if (!settings.thresholds.empty() && !settings.write_thresholds) {
-    report.judge_thresholds(read_thresholds(settings.thresholds));
+  report.judge_plugins(thresholds);
+  if (compares) {
+    report.judge_thresholds(thresholds);
   }
   print_table(report);
   if (!plugins.empty()) {
@@ -157,7 +188,7 @@ void run(const char* type, const Settings& settings, const std::vector<PluginPro
   }
   std::printf("%zu rows, %zu failures\n", report.rows.size(), report.failures.size());
   if (settings.write_thresholds) {
-    write_thresholds(report, settings.thresholds);
+    write_thresholds(report, settings.thresholds, settings.size);
   }
   return report.failures.empty() ? 0 : 1;
 }

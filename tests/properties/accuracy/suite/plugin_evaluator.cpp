@@ -1,12 +1,20 @@
 #include "tests/properties/accuracy/suite/plugin_evaluator.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace simdbezier::tests {
 namespace {
 
-/// What of a net the plug-in evaluates: found by asking for its middle.
-enum class Given : std::uint8_t { nothing, positions, tangents };
+using tools::PluginLayout;
+
+/// How a net is evaluated, and what the plug-in gives there: found by asking for its middle.
+struct Given {
+  PluginLayout layout = PluginLayout::triples;
+  bool tangents = false;
+  bool second = false;
+  bool normal = false;
+};
 
 template <typename T>
 class PluginEvaluator : public Evaluator<T> {
@@ -18,13 +26,11 @@ public:
 
   [[nodiscard]] bool handles(const Net& net) const override {
     // Homogeneous points would have to be divided first, and that rounds.
-    return !net.homogeneous && given(net) != Given::nothing;
+    return !net.homogeneous && given(net).has_value();
   }
   [[nodiscard]] Capabilities capabilities(const Net& net) const override {
-    Capabilities gives;
-    gives.tangents = given(net) == Given::tangents;
-    gives.normal = false;
-    return gives;
+    const Given gives = given(net).value_or(Given());
+    return {.tangents = gives.tangents, .normal = gives.normal, .second_derivatives = gives.second};
   }
 
   void evaluate(const Net& net, std::span<const Parameters2<T>> at, int /*grid*/,
@@ -35,39 +41,58 @@ public:
       u.push_back(sample.u);
       v.push_back(sample.v);
     }
-    const bool tangents = given(net) == Given::tangents;
-    std::vector<T> position(3 * at.size());
-    std::vector<T> du(tangents ? position.size() : 0);
-    std::vector<T> dv(du.size());
-    if (const int answer = run(net, u, v, position, du, dv); answer != 0) {
+    const Given wanted = given(net).value_or(Given());
+    std::vector<T> values(3 * tools::kPluginVectors * at.size());
+    if (const int answer = run(net, u, v, wanted, values); answer != 0) {
       throw tools::EvaluatorDied(process_->facts().file + ": returned " + std::to_string(answer) +
                                  " for a patch whose middle it had evaluated");
     }
+    const bool planes = wanted.layout == PluginLayout::planes;
     for (std::size_t k = 0; k < at.size(); ++k) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        results[k].position[c] = position[3 * k + c];
-        if (tangents) {
-          results[k].du[c] = du[3 * k + c];
-          results[k].dv[c] = dv[3 * k + c];
+      Result<T>& result = results[k];
+      T* const vectors[] = {result.position, result.du,  result.dv,    result.duu,
+                            result.duv,      result.dvv, result.normal};
+      for (std::size_t vector = 0; vector < tools::kPluginVectors; ++vector) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          vectors[vector][c] =
+              values[3 * vector * at.size() + (planes ? c * at.size() + k : 3 * k + c)];
         }
       }
+      const bool zero = result.normal[0] == 0 && result.normal[1] == 0 && result.normal[2] == 0;
+      result.status = zero ? SampleStatus::degenerate : SampleStatus::regular;
     }
   }
 
 private:
-  [[nodiscard]] Given given(const Net& net) const {
+  /// Everything, or what is not refused alone; nothing where even positions are refused.
+  [[nodiscard]] std::optional<Given> given(const Net& net) const {
     const T middle[] = {T(0.5)};
-    T position[3];
-    T du[3];
-    T dv[3];
-    if (run(net, middle, middle, position, du, dv) == 0) {
-      return Given::tangents;
+    T unused[3 * tools::kPluginVectors];
+    const auto gives = [&](const Given& wanted) {
+      return run(net, middle, middle, wanted, unused) == 0;
+    };
+    const tools::EvaluatorForms& forms = process_->facts().forms<T>();
+    for (const PluginLayout layout : {PluginLayout::planes, PluginLayout::triples}) {
+      const bool planes = layout == PluginLayout::planes; // triples have no more than tangents
+      const Given all{layout, true, planes, planes};
+      if (!forms.has_patch(layout)) {
+        continue;
+      }
+      if (gives(all)) {
+        return all;
+      }
+      if (gives({.layout = layout})) {
+        return Given{layout, gives({.layout = layout, .tangents = true}),
+                     planes && gives({.layout = layout, .second = true}),
+                     planes && gives({.layout = layout, .normal = true})};
+      }
     }
-    return run(net, middle, middle, position, {}, {}) == 0 ? Given::positions : Given::nothing;
+    return std::nullopt;
   }
 
-  int run(const Net& net, std::span<const T> u, std::span<const T> v, std::span<T> position,
-          std::span<T> du, std::span<T> dv) const {
+  /// Writes vector after vector, as far as they are wanted.
+  int run(const Net& net, std::span<const T> u, std::span<const T> v, const Given& wanted,
+          std::span<T> values) const {
     std::vector<T> points;
     for (const Vector3& point : net.points) {
       for (const double value : point) {
@@ -75,8 +100,16 @@ private:
       }
     }
     const std::vector<T> weights(net.weights.begin(), net.weights.end());
-    return process_->evaluate(tools::PluginPatchTask<T>{points, net.degree_u, net.degree_v, weights,
-                                                        u, v, position, du, dv});
+    const bool asked[] = {true,          wanted.tangents, wanted.tangents, wanted.second,
+                          wanted.second, wanted.second,   wanted.normal};
+    tools::PluginPatchTask<T> task{points, net.degree_u,       net.degree_v, weights, u,
+                                   v,      {wanted.layout, {}}};
+    for (std::size_t k = 0; k < 3 * tools::kPluginVectors; ++k) {
+      if (asked[k / 3] && (k % 3 == 0 || wanted.layout == PluginLayout::planes)) {
+        task.out.at[k / 3][k % 3] = &values[k * u.size()];
+      }
+    }
+    return process_->evaluate(task);
   }
 
   PluginProcess process_;
@@ -86,8 +119,8 @@ private:
 
 template <typename T>
 void add_plugin(const PluginProcess& process, Evaluators<T>& list) {
-  const tools::EvaluatorFacts& facts = process->facts();
-  if (sizeof(T) == sizeof(float) ? facts.f32 : facts.f64) {
+  const tools::EvaluatorForms& forms = process->facts().forms<T>();
+  if (forms.has_patch(PluginLayout::triples) || forms.has_patch(PluginLayout::planes)) {
     list.push_back(std::make_unique<PluginEvaluator<T>>(process));
   }
 }

@@ -82,8 +82,13 @@ void print_ranking(const Report& report, const std::string& type, Quantity quant
   std::printf("ranking of %s/%s over %zu families: RMS, max\n",
               kQuantityNames[static_cast<std::size_t>(quantity)], type.c_str(), families.size());
   for (std::size_t k = 0; k < sorted.size(); ++k) {
-    std::printf("%4zu. %-24s %10.3g %10.3g\n", k + 1, sorted[k].evaluator.c_str(), sorted[k].rms(),
-                sorted[k].max);
+    const Standing& standing = sorted[k];
+    std::printf("%4zu. %-24s ", k + 1, standing.evaluator.c_str());
+    if (std::isfinite(standing.max)) {
+      std::printf("%10.3g %10.3g\n", standing.rms(), standing.max);
+    } else {
+      std::printf("%21s\n", "not finite: it failed");
+    }
   }
 }
 
@@ -91,8 +96,9 @@ void print_ranking(const Report& report, const std::string& type, Quantity quant
 
 void print_rankings(const Report& report) {
   for (const char* const type : {"f32", "f64"}) {
-    for (const Quantity quantity : {Quantity::position, Quantity::du, Quantity::dv}) {
-      print_ranking(report, type, quantity);
+    for (auto q = Quantity::position; q <= Quantity::normal;
+         q = Quantity(static_cast<int>(q) + 1)) {
+      print_ranking(report, type, q);
     }
   }
 }

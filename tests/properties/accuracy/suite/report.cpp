@@ -93,10 +93,9 @@ void Report::add(const FamilyInfo& family, const std::string& type, ResultClass 
   expect_none(measurement.missed_limits, "zero normals where the surface has a limit");
 }
 
-void Report::judge_plugins() {
+void Report::judge_plugins(const Thresholds& own) {
   for (const Row& row : rows) {
-    const bool judged = row.quantity == Quantity::position || row.quantity == Quantity::du ||
-                        row.quantity == Quantity::dv;
+    const bool judged = row.quantity <= Quantity::normal && !own.contains(row.threshold_class());
     if (row.result_class == ResultClass::plugin && judged && !(row.metric.max_ratio <= 1)) {
       char text[200];
       std::snprintf(text, sizeof text,
@@ -141,17 +140,23 @@ void Report::judge_contracts() {
   }
 }
 
-bool has_threshold(const Row& row) {
-  return is_ours(row.result_class) && row.quantity < Quantity::gaussian;
+std::string Row::threshold_class() const {
+  if (quantity >= Quantity::gaussian || result_class == ResultClass::other) {
+    return {};
+  }
+  return class_name(result_class) +
+         (result_class == ResultClass::plugin ? "/" + evaluator : std::string());
 }
 
 void Report::judge_thresholds(const Thresholds& thresholds) {
   for (const Row& row : rows) {
-    if (!has_threshold(row)) {
+    const std::string name = row.threshold_class();
+    const auto known_class = thresholds.find(name);
+    const bool known = known_class != thresholds.end();
+    if (name.empty() || (!known && row.result_class == ResultClass::plugin)) {
       continue;
     }
-    const auto known_class = thresholds.find(class_name(row.result_class));
-    if (known_class == thresholds.end() || !known_class->second.contains(row.key())) {
+    if (!known || !known_class->second.contains(row.key())) {
       failures.push_back(row.name() + ": G2, no committed threshold");
       continue;
     }

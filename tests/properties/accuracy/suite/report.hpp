@@ -32,14 +32,20 @@ struct Row {
   /// The key of thresholds: the same for all instruction sets of a class.
   [[nodiscard]] std::string key() const { return family.name + "/" + type + "/" + quantity_name(); }
   [[nodiscard]] std::string name() const { return key() + "/" + evaluator; }
+  /// Whose thresholds it has: a class of the library, or "plugin/<name>". Empty for those that have
+  /// none: other libraries, and curvatures, whose errors are those of the derivatives.
+  [[nodiscard]] std::string threshold_class() const;
 };
 
 /// "fma", "nofma", "plugin" or "other".
 [[nodiscard]] std::string class_name(ResultClass result_class);
 
-/// Whether a row has committed figures: ours, and not a curvature, whose errors are those of the
-/// derivatives, which have them.
-[[nodiscard]] bool has_threshold(const Row& row);
+/// How many nets a family has and samples a net: figures depend on them.
+struct RunSize {
+  std::size_t nets = 500;
+  std::size_t samples = 100;
+  [[nodiscard]] bool operator==(const RunSize&) const = default;
+};
 
 /// Committed maximum and RMS of one key.
 struct Threshold {
@@ -47,7 +53,7 @@ struct Threshold {
   double rms = 0;
 };
 
-/// Class name -> key -> figures.
+/// threshold_class() -> key -> figures.
 using Thresholds = std::map<std::string, std::map<std::string, Threshold>>;
 
 /// What a run found: rows, and counts that must be zero.
@@ -59,18 +65,20 @@ struct Report {
            const std::string& evaluator, const Measurement& measurement);
   /// G1 ratios, G4 hashes inside a class, G5 against de Casteljau, G6 limits.
   void judge_contracts();
-  /// What plug-ins do outside of the bounds that hold for the library's own FMA class.
-  void judge_plugins();
-  /// G2: not above the committed figures by more than 5 %.
+  /// What plug-ins do outside of the bounds that hold for the library's own FMA class; those with
+  /// figures of their own are judged by these instead.
+  void judge_plugins(const Thresholds& own);
+  /// G2: not above the committed figures by more than 5 %. Plug-ins without any are not judged.
   void judge_thresholds(const Thresholds& thresholds);
 };
 
 void print_table(const Report& report);
 /// Plug-ins among all others, by RMS error.
 void print_rankings(const Report& report);
-/// Throw std::runtime_error naming the file where it cannot be read or written.
+/// Throw std::runtime_error naming the file where it cannot be read or written, and where its
+/// figures are those of a run of another size.
 void write_json(const Report& report, const std::string& path);
-[[nodiscard]] Thresholds read_thresholds(const std::string& path);
-void write_thresholds(const Report& report, const std::string& path);
+[[nodiscard]] Thresholds read_thresholds(const std::string& path, const RunSize& size);
+void write_thresholds(const Report& report, const std::string& path, const RunSize& size);
 
 } // namespace simdbezier::tests

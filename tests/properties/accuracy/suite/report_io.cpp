@@ -14,6 +14,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// The key of thresholds.json that says how many nets and samples the run had. It is absent where
+/// they are the default.
+constexpr const char* kRunSize = "nets, samples";
+
+[[nodiscard]] std::string text(const RunSize& size) {
+  return std::to_string(size.nets) + " nets and " + std::to_string(size.samples) + " samples";
+}
+
 [[nodiscard]] std::string hex_float(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%a", value);
@@ -128,18 +136,27 @@ void write_json(const Report& report, const std::string& path) {
   write_text(json.dump(1), path);
 }
 
-Thresholds read_thresholds(const std::string& path) {
+Thresholds read_thresholds(const std::string& path, const RunSize& size) {
   std::ifstream file(path);
   if (!file) {
     throw std::runtime_error("cannot read " + path);
   }
   Thresholds thresholds;
   try {
+    RunSize written;
     const Json json = Json::parse(file);
-    for (const char* name : {"fma", "nofma"}) {
-      for (const auto& [key, value] : json.at(name).items()) {
+    for (const auto& [name, entries] : json.items()) {
+      if (name == kRunSize) {
+        written = {entries.at(0).get<std::size_t>(), entries.at(1).get<std::size_t>()};
+        continue;
+      }
+      for (const auto& [key, value] : entries.items()) {
         thresholds[name][key] = {value.at(0).get<double>(), value.at(1).get<double>()};
       }
+    }
+    if (!(written == size)) {
+      throw std::runtime_error(path + ": expected figures of " + text(size) + ", found those of " +
+                               text(written));
     }
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(path + ": " + error.what());
@@ -147,19 +164,28 @@ Thresholds read_thresholds(const std::string& path) {
   return thresholds;
 }
 
-void write_thresholds(const Report& report, const std::string& path) {
+void write_thresholds(const Report& report, const std::string& path, const RunSize& size) {
   Thresholds found;
   for (const Row& row : report.rows) {
-    if (has_threshold(row)) {
-      Threshold& entry = found[class_name(row.result_class)][row.key()];
+    // What is not finite gets no figures: it is a failure, and stays one.
+    if (!row.threshold_class().empty() && std::isfinite(row.metric.rms())) {
+      Threshold& entry = found[row.threshold_class()][row.key()];
       entry.max = std::max(entry.max, rounded_up(row.metric.max));
       entry.rms = std::max(entry.rms, rounded_up(row.metric.rms()));
     }
   }
   // One line a key: what a reviewer reads in a diff.
   std::string text = "{\n";
+  if (!(size == RunSize())) {
+    found[kRunSize] = {};
+  }
   for (const auto& [name, entries] : found) {
-    text += (text.size() > 2 ? ",\n" : "") + Json(name).dump() + ": {\n";
+    text += (text.size() > 2 ? ",\n" : "") + Json(name).dump() + ": ";
+    if (name == kRunSize) {
+      text += Json({size.nets, size.samples}).dump();
+      continue;
+    }
+    text += "{\n";
     std::string separator;
     for (const auto& [key, entry] : entries) {
       const Json values = {entry.max, entry.rms};
