@@ -22,7 +22,8 @@ struct MeshOutputs {
   Vectors<T> position = {};
   /// Merged over all patches that have the vertex; see evaluate_mesh().
   Vectors<T> normal = {};
-  /// u as x and v as y, z null, on the lowest patch that has the vertex.
+  /// u as x and v as y, z null, on the lowest patch that has the vertex: of all triangles in a
+  /// layout of split_parameters(). At a side that is a point, the parameter along it is 1/2.
   Vectors<T> parameters = {};
   /// The number of that patch.
   Values<std::uint32_t> patch = {};
@@ -42,7 +43,14 @@ struct MeshOutputs {
 ///           disagree with the first one's along the edge, and are not turned, are left out. The
 ///           first normal stays where the sum is shorter than 0.001 of the number of normals. On
 ///           edges of more than two sides, all sides count.
-/// Creases:  split_creases() makes a layout in which such vertices are several.
+/// Order:    where control points are equal, positions do not depend on the order of the patches.
+///           Nor do normals at inner points and on edges of one side or two; those of more patches
+///           differ by the rounding of their sum. What does depend on it: at edges whose sides
+///           disagree (TopologyCounts::turned_edges), and in their corners, the lowest patch
+///           decides which normals count and what is their outside, as it does in each connected
+///           part where TopologyOptions::orient turns the others; and sums that are too short.
+/// Creases:  split_creases() makes a layout in which such vertices are several, and
+///           split_parameters() one in which every patch has its own.
 /// Returns:  ok | null_output | output_too_small | bad_components (not three) | bad_stride |
 ///           overlapping_outputs | unequal_lengths (set and layout differ in their number of
 ///           patches) | bad_patch_range | size_overflow | unknown_isa | unsupported_isa |
@@ -58,8 +66,8 @@ template <typename T>
 /// Further components of the control points, such as colours or texture coordinates: components
 /// first_component and up to two that follow it, of the lowest patch that has the vertex.
 ///
-/// set: the same patches, with any number of components. In a layout of split_creases() with an
-/// angle of 0, every patch's vertices are its own, and so are these values.
+/// set: the same patches, with any number of components. In a layout of split_parameters(), or of
+/// split_creases() with an angle of 0, every patch's vertices are its own, and so are these values.
 /// Returns, allocation: as evaluate_mesh(); bad_components where the set has no such component.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_mesh_attributes(
@@ -83,5 +91,19 @@ template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status split_creases(const PatchSet<T>& set, const MeshLayout& layout,
                                                   double angle, MeshLayout& split,
                                                   const Options& options = {}) noexcept;
+
+/// Gives each side and corner its own vertices, for u, v of its own, with the position and merged
+/// normal of the one in `layout`, bit for bit. Sides that are points keep one vertex a patch.
+/// Triangles stay as they are; of patches with one row of cells, two neighbouring sides of which
+/// are one edge, some appear that have two vertices in one place.
+///
+/// layout:   of lay_out_mesh() or split_creases(), which may also come after it. split: replaced on
+///           ok, left as it was otherwise; may be the same. Holds the layout, too.
+/// Threads:  the caller's alone. Allocation: that of the layout once more, and 4 bytes for each
+///           vertex on an edge and side of it. Determinism: a function of the layout.
+/// Cost:     some 50 ns a patch, and 1 ns for each of these vertices.
+/// Returns:  ok | size_overflow | out_of_memory.
+[[nodiscard]] SIMDBEZIER_API Status split_parameters(const MeshLayout& layout,
+                                                     MeshLayout& split) noexcept;
 
 } // namespace simdbezier

@@ -52,7 +52,9 @@ struct MeshOptions {
   double crease_angle = kUnlimited;
 
   bool normals = true;
-  bool parameters = false;    ///< u, v and the patch's number for every vertex
+  /// u, v and the patch's number for every vertex. Patches then share positions and normals, but no
+  /// vertices: see split_parameters().
+  bool parameters = false;
   bool short_indices = false; ///< 16-bit ones, where vertices are few enough
   bool local_origin = false;  ///< see PackOptions
   int threads = 0;            ///< as in Options
@@ -107,9 +109,9 @@ struct Mesh {
 ///
 /// nets:     any views with three components, see find_topology(). They are read only here.
 /// Returns:  in MeshPlan::status, what pack(), find_topology(), choose_rates() or certify_rates(),
-///           lay_out_mesh() and split_creases() return; bad_tolerance also where nothing says how
-///           fine the mesh is to be, bad_grid where a grid has fewer than 2 samples or where
-///           tolerances are given as well; out_of_memory.
+///           lay_out_mesh(), split_creases() and split_parameters() return; bad_tolerance also
+///           where nothing says how fine the mesh is to be, bad_grid where a grid has fewer than 2
+///           samples or where tolerances are given as well; out_of_memory.
 /// Memory:   allocates what the plan holds, and working memory for edges and rates. A mesh is
 ///           planned whole; vertices and triangles can then be had range by range.
 /// Threads:  MeshOptions::threads.

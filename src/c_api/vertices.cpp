@@ -183,6 +183,16 @@ simdbezier_status simdbezier_split_creases(const simdbezier_patch_set* set,
   });
 }
 
+simdbezier_status simdbezier_split_parameters(const simdbezier_mesh_layout* layout,
+                                              simdbezier_mesh_layout** split) {
+  return answer(__func__, [&] {
+    require_place(split, {"split"});
+    MeshLayout made;
+    require_ok(split_parameters(object_of(layout, kLayout), made), blamed_in_mesh);
+    give(split, std::move(made));
+  });
+}
+
 size_t simdbezier_format_bytes(simdbezier_vertex_format format, size_t components) {
   return format < 0 || format > static_cast<int>(kLastFormat)
              ? 0

@@ -169,15 +169,15 @@ private:
   }
 
   Status lay_out() {
-    const Status status = lay_out_mesh(plan_.topology, {plan_.nu, plan_.nv, diagonals_},
-                                       plan_.layout, {.threads = options_.threads});
-    if (!status || options_.crease_angle == kUnlimited) {
-      return status;
+    Status status = lay_out_mesh(plan_.topology, {plan_.nu, plan_.nv, diagonals_}, plan_.layout,
+                                 {.threads = options_.threads});
+    if (status && options_.crease_angle != kUnlimited) {
+      Options how;
+      how.threads = options_.threads;
+      how.isa = options_.isa;
+      status = split_creases(plan_.set, plan_.layout, options_.crease_angle, plan_.layout, how);
     }
-    Options how;
-    how.threads = options_.threads;
-    how.isa = options_.isa;
-    return split_creases(plan_.set, plan_.layout, options_.crease_angle, plan_.layout, how);
+    return status && options_.parameters ? split_parameters(plan_.layout, plan_.layout) : status;
   }
 
   std::span<const ControlNets<S>> given_;

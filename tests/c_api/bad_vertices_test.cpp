@@ -107,9 +107,14 @@ const Refusal<MeshWorld> kVertices[] = {
      [](MeshWorld& w) {
        return simdbezier_split_creases(w.set.get(), w.layout, -1, nullptr, &w.made_layout);
      }},
-    {SIMDBEZIER_NULL_OUTPUT, "split", [](MeshWorld& w) {
+    {SIMDBEZIER_NULL_OUTPUT, "split",
+     [](MeshWorld& w) {
        return simdbezier_split_creases(w.set.get(), w.layout, 0, nullptr, nullptr);
-     }}};
+     }},
+    {SIMDBEZIER_NULL_INPUT, "layout",
+     [](MeshWorld& w) { return simdbezier_split_parameters(nullptr, &w.made_layout); }},
+    {SIMDBEZIER_NULL_OUTPUT, "split",
+     [](MeshWorld& w) { return simdbezier_split_parameters(w.layout, nullptr); }}};
 
 const Refusal<MeshWorld> kFormats[] = {
     {SIMDBEZIER_NULL_INPUT, "set",

@@ -91,6 +91,11 @@ TYPED_TEST(CMesh, HasVertices) {
   EXPECT_EQ(simdbezier_mesh_layout_vertices(c_split), split.size().vertices);
   EXPECT_GT(split.size().vertices, vertices);
   simdbezier_mesh_layout_free(c_split);
+  ASSERT_TRUE(split_parameters(this->layout_, split));
+  EXPECT_C_OK(simdbezier_split_parameters(this->c_layout_, &c_split));
+  EXPECT_EQ(simdbezier_mesh_layout_vertices(c_split), split.size().vertices);
+  EXPECT_GT(split.size().vertices, vertices);
+  simdbezier_mesh_layout_free(c_split);
 }
 
 TYPED_TEST(CMesh, IsMadeInOneCall) {

@@ -49,7 +49,9 @@ TEST(MeshOptions, options_are_followed) {
     EXPECT_EQ(usual.triangles[t][0], small.short_triangles[t][0]);
   }
   EXPECT_TRUE(mesh_of([](auto& o) { o.normals = false; }).normals.empty());
-  EXPECT_EQ(mesh_of([](auto& o) { o.parameters = true; }).patches.size(), usual.positions.size());
+  const Mesh<float> apart = mesh_of([](auto& o) { o.parameters = true; });
+  EXPECT_EQ(apart.patches.size(), apart.positions.size());
+  EXPECT_EQ(apart.triangles.size(), usual.triangles.size());
   const Mesh<float> uniform = mesh_of([](auto& o) {
     o = {};
     o.nu = 5;

@@ -118,6 +118,44 @@ def test_options_of_a_mesh():
     assert repr(few).startswith('<simdbezier.Mesh: 81 vertices, 128 triangles, within ')
 
 
+def squares(turns, dtype):
+    """Flat patches in a row, x from 0 to 1, from 1 to 2 …, each turned by its row of `turns`."""
+    corners = np.array([[(0, 0, 0), (1, 0, 0)], [(0, 1, 0), (1, 1, 0)]], dtype)
+    return np.stack([turn(corners + np.array([k, 0, 0], dtype)) for k, turn in enumerate(turns)])
+
+
+# A patch as it is, and as its neighbours may have it.
+TURNS = [lambda p: p, lambda p: p[::-1], lambda p: p[:, ::-1], lambda p: p.swapaxes(0, 1),
+         lambda p: p[::-1, ::-1].swapaxes(0, 1)]
+
+
+@pytest.mark.parametrize('options', [{}, {'crease': 0}, {'crease': 30}, {'orient': True}])
+@pytest.mark.parametrize('dtype', [np.float32, np.float64])
+def test_parameters_are_each_patchs_own(dtype, options):
+    points = squares(TURNS, dtype)
+    whole = simdbezier.tessellate(points, grid=3, **options)
+    mesh = simdbezier.tessellate(points, grid=3, parameters=True, **options)
+    assert len(mesh.positions) == 9 * len(points)
+    np.testing.assert_array_equal(mesh.positions[mesh.triangles], whole.positions[whole.triangles])
+    np.testing.assert_array_equal(mesh.normals[mesh.triangles], whole.normals[whole.triangles])
+    patch_of_triangle = np.floor(whole.positions[whole.triangles][:, :, 0].mean(axis=1)).astype(int)
+    np.testing.assert_array_equal(mesh.patches[mesh.triangles],
+                                  np.repeat(patch_of_triangle[:, None], 3, axis=1))
+    for patch in range(len(points)):
+        u, v = mesh.parameters[mesh.patches == patch].T
+        expected = reference.polynomial(points[patch:patch + 1], u, v)[0]
+        np.testing.assert_allclose(mesh.positions[mesh.patches == patch], expected, atol=1e-6)
+
+
+def test_parameters_of_a_tube_do_not_run_back():
+    angle = 2 * math.pi * np.arange(9) / 8
+    ring = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=-1)
+    ring[-1] = ring[0]
+    mesh = simdbezier.tessellate(np.stack([ring, ring + [0, 0, 1]])[None], grid=9, parameters=True)
+    assert np.ptp(mesh.parameters[mesh.triangles], axis=1).max() == 1 / 8
+    assert len(mesh.positions) == 81 and len(mesh.triangles) == 128
+
+
 @pytest.mark.parametrize('parameters', [False, True])
 @pytest.mark.parametrize('ending', ['obj', 'ply', 'stl', 'glb'])
 @pytest.mark.parametrize('dtype', [np.float32, np.float64])

@@ -60,8 +60,10 @@ void tessellate(const Arguments& arguments, PatchFile patches, MeshStats& stats)
     WeldedMesh<T> mesh(std::move(patches), arguments, stats);
     return write_mesh(mesh, arguments, stats);
   }
-  const std::uint64_t vertices = checked_sample_count(patches.count, arguments.grid,
-                                                      (arguments.mesh.normals ? 6 : 3) * sizeof(T));
+  const std::size_t values =
+      3 + (arguments.mesh.normals ? 3 : 0) + (arguments.mesh.parameters ? 2 : 0);
+  const std::uint64_t vertices =
+      checked_sample_count(patches.count, arguments.grid, values * sizeof(T));
   if (vertices > kMostMeshVertices) {
     bad_usage("--grid: expected at most " + std::to_string(kMostMeshVertices) +
               " vertices, found " + std::to_string(vertices));

@@ -56,6 +56,7 @@ MeshContents GridMesh<T>::contents() const {
   contents.corners = arguments_.mesh.quads ? 4 : 3;
   contents.faces = patches_ * (grid_.nu - 1) * (grid_.nv - 1) * (arguments_.mesh.quads ? 1 : 2);
   contents.normals = arguments_.mesh.normals;
+  contents.uv = arguments_.mesh.parameters;
   contents.storage = arguments_.mesh.storage;
   contents.box = box_;
   // Positions may leave the control points' box by rounding, which is less than this part of the
@@ -90,7 +91,7 @@ void GridMesh<T>::write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& 
 template <typename T>
 void GridMesh<T>::write_block(const GridBlock& block, MeshWriter<T>& writer,
                               StageSeconds& seconds) {
-  const std::size_t stride = arguments_.mesh.normals ? 6 : 3;
+  const std::size_t stride = contents().stride();
   values_.resize(block.samples(grid_) * stride);
   Outputs<T> out;
   out.position = Vectors<T>::xyz(values_.data(), static_cast<std::ptrdiff_t>(stride));
@@ -108,8 +109,24 @@ void GridMesh<T>::write_block(const GridBlock& block, MeshWriter<T>& writer,
       }
     }
   }
+  if (arguments_.mesh.parameters) {
+    put_parameters(block, stride);
+  }
   const Stopwatch watch(seconds.write);
   writer.vertices({values_});
+}
+
+// Puts u and v at the end of every vertex of a block.
+template <typename T>
+void GridMesh<T>::put_parameters(const GridBlock& block, std::size_t stride) {
+  T* to = values_.data() + stride - 2;
+  for (std::size_t row = 0; row < block.patch_count * block.row_count; ++row) {
+    const std::size_t j = block.first_row + row % block.row_count;
+    for (std::size_t i = 0; i < grid_.nu; ++i, to += stride) {
+      to[0] = static_cast<T>(i) / static_cast<T>(grid_.nu - 1);
+      to[1] = static_cast<T>(j) / static_cast<T>(grid_.nv - 1);
+    }
+  }
 }
 
 template <typename T>

@@ -33,6 +33,7 @@ private:
   void measure(const PatchFile& file, MeshStats& stats) const;
   [[nodiscard]] std::uint64_t vertices_per_patch() const noexcept { return grid_.nu * grid_.nv; }
   void write_block(const GridBlock& block, MeshWriter<T>& writer, StageSeconds& seconds);
+  void put_parameters(const GridBlock& block, std::size_t stride);
   /// Writes the faces of these patches, a bounded number at a time.
   void write_faces(std::size_t first, std::size_t count, MeshWriter<T>& writer,
                    StageSeconds& seconds);

@@ -154,6 +154,10 @@ void parse_contents(const Words& words, MeshArguments& mesh) {
                 ", found " + mesh_format_name(mesh.format));
     }
   };
+  mesh.parameters = words.has("--parameters");
+  if (mesh.parameters) {
+    expect("--parameters", &MeshAbilities::normals); // vertices have both or none
+  }
   if (mesh.quads) {
     expect("--quads", &MeshAbilities::quads);
   }

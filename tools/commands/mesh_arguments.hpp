@@ -21,6 +21,7 @@ struct MeshArguments {
   VertexStorage storage = VertexStorage::full;
   bool weld = true;
   bool normals = true;
+  bool parameters = false; ///< u, v of every vertex
   bool flip = false;
   bool quads = false;
   bool orient = false;

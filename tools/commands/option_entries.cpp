@@ -58,7 +58,12 @@ void add_mesh(Entries& entries) {
         "Quads where cells have four vertices (" + mesh_format_names(".", &MeshAbilities::quads) +
             ")",
         command},
-       {"--no-normals", "", "", "Positions only", command},
+       {"--no-normals", "", "", "No normals", command},
+       {"--parameters", "", "",
+        "Each patch's own u, v as texture coordinates; patches share no vertices then, but normals "
+        "(" +
+            mesh_format_names(".", &MeshAbilities::normals) + ")",
+        command},
        {"--quantise", "BITS", "16 or 8",
         "Stores positions in 16 bits and normals in this many (" +
             mesh_format_names(".", &MeshAbilities::quantised) + ")",

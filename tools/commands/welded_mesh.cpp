@@ -61,6 +61,9 @@ WeldedMesh<T>::WeldedMesh(PatchFile file, const Arguments& arguments, MeshStats&
     check(split_creases(set_, layout_, *arguments_.mesh.crease * kRadiansPerDegree, layout_,
                         options));
   }
+  if (arguments_.mesh.parameters) {
+    check(split_parameters(layout_, layout_));
+  }
   count_faces();
   const MeshContents mesh = contents();
   stats_.vertices = stats_.samples = mesh.vertices;
@@ -180,6 +183,7 @@ MeshContents WeldedMesh<T>::contents() const {
   contents.corners = mesh.quads ? 4 : 3;
   contents.among_quads = among_quads_;
   contents.normals = mesh.normals;
+  contents.uv = mesh.parameters;
   contents.storage = mesh.storage;
   contents.deviation = deviation_;
   contents.generator = program_version();
@@ -237,12 +241,16 @@ void WeldedMesh<T>::write_vertices(const Block& block, MeshWriter<T>& writer,
                                    StageSeconds& seconds) {
   const std::size_t vertices =
       layout_.first_vertex(block.first + block.count) - layout_.first_vertex(block.first);
-  const std::size_t stride = arguments_.mesh.normals ? 6 : 3;
+  const std::size_t stride = contents().stride();
   values_.resize(vertices * stride);
   MeshOutputs<T> out;
   out.position = Vectors<T>::xyz(values_.data(), static_cast<std::ptrdiff_t>(stride));
   if (arguments_.mesh.normals) {
     out.normal = Vectors<T>::xyz(values_.data() + 3, static_cast<std::ptrdiff_t>(stride));
+  }
+  if (arguments_.mesh.parameters) {
+    out.parameters =
+        Vectors<T>::pairs(values_.data() + stride - 2, static_cast<std::ptrdiff_t>(stride));
   }
   Options options;
   options.threads = arguments_.threads;

@@ -94,6 +94,9 @@ SIMDBEZIER_API simdbezier_status simdbezier_split_creases(const simdbezier_patch
                                                           double angle,
                                                           const simdbezier_options* options,
                                                           simdbezier_mesh_layout** split);
+// split_parameters(). split: written on ok only.
+SIMDBEZIER_API simdbezier_status simdbezier_split_parameters(const simdbezier_mesh_layout* layout,
+                                                             simdbezier_mesh_layout** split);
 
 // MeshOptions. How fine the mesh is has to be said: by a tolerance, by pixels, by a longest edge,
 // by an angle between normals, or by a grid.
@@ -117,7 +120,7 @@ typedef struct simdbezier_mesh_options {
   int32_t flip;
   int32_t drop_repeated;
   int32_t no_normals;
-  int32_t parameters; // not 0: u, v and patch of every vertex
+  int32_t parameters; // not 0: u, v and patch of every vertex, which patches do not share then
   int32_t short_indices;
   int32_t local_origin;
   int32_t threads;

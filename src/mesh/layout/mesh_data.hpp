@@ -29,6 +29,9 @@ struct MeshData {
   /// (split_creases()). It is empty where no edge is split.
   std::vector<std::size_t> side_first;
   std::vector<std::uint32_t> side_vertices;
+  /// The layout whose vertices this one splits without splitting their normals
+  /// (split_parameters()); empty where there is none.
+  MeshLayout merged;
   std::uint32_t most_segments = 0; ///< of one edge
   bool has_unions = true;          ///< whether an edge has points that one of its sides has not
   /// The rates of edges with many sides, each of which would otherwise look at all the others.
@@ -60,6 +63,10 @@ struct MeshData {
   /// patch behind the last one.
   [[nodiscard]] std::uint32_t first_vertex(std::size_t patch) const noexcept {
     return patch == 0 ? 0 : inner[patch - 1] + inner_points(patch - 1);
+  }
+  /// The layout whose vertices have a normal each: this one, or the one that it splits.
+  [[nodiscard]] const MeshData& normals() const noexcept {
+    return merged.data() == nullptr ? *this : *merged.data();
   }
   [[nodiscard]] bool is_split(std::size_t side) const noexcept {
     return !side_first.empty() && side_first[side] != kWhole;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "src/mesh/vertices/boundary_samples.hpp"
 #include "src/mesh/vertices/merged_normals.hpp"
@@ -23,7 +24,7 @@ public:
            whole_lines(2 * mesh.most_sides * sizeof(std::uint32_t));
   }
   BoundaryStore(const MeshData& mesh, ValuesOf values, unsigned char* memory) noexcept
-      : mesh_(mesh), topology_(*mesh.topology.data()), values_(values),
+      : mesh_(mesh), merged_(mesh.normals()), topology_(*mesh.topology.data()), values_(values),
         members_(reinterpret_cast<Member*>(memory)),
         scratch_(reinterpret_cast<std::uint32_t*>(
             memory + whole_lines(mesh.most_boundary_samples * sizeof(Member)))) {}
@@ -32,7 +33,7 @@ public:
   void store(const BoundaryEntry& entry, const Planes<T>& positions, const Planes<T>& normals,
              const VertexTarget<T>& to) noexcept {
     list_members(entry);
-    if (is_split(entry)) {
+    if (is_split(mesh_, entry)) {
       store_split(entry, positions, normals, to);
     } else {
       store_whole(entry, positions, normals, to);
@@ -48,13 +49,15 @@ private:
     std::uint32_t place; ///< a side, or 4 * patch + corner
     bool turned;
     bool apart;
-    std::uint32_t vertex; ///< of the point in question, where vertices are split
+    // Of the point in question, where vertices are split:
+    std::uint32_t vertex;
+    std::uint32_t merged; ///< the vertex in the layout where normals are merged
   };
 
   void list_members(const BoundaryEntry& entry) noexcept {
     const auto describe = [&](std::uint32_t place, ApartFlag flag) {
       const std::uint32_t patch = place / 4;
-      return Member{place, topology_.is_turned(patch), topology_.is_apart(place, flag), 0};
+      return Member{place, topology_.is_turned(patch), topology_.is_apart(place, flag), 0, 0};
     };
     std::size_t m = 0;
     if (entry.corner) {
@@ -69,17 +72,17 @@ private:
       }
     }
   }
-  [[nodiscard]] bool is_split(const BoundaryEntry& entry) const noexcept {
+  [[nodiscard]] bool is_split(const MeshData& mesh, const BoundaryEntry& entry) const noexcept {
     if (!entry.corner) {
-      return mesh_.is_split(topology_.sides_of(entry.place)[0]);
+      return mesh.is_split(topology_.sides_of(entry.place)[0]);
     }
-    if (mesh_.side_first.empty()) {
+    if (mesh.side_first.empty()) {
       return false;
     }
     std::uint32_t corner = entry.place;
     do {
       corner = topology_.next_corner[corner];
-    } while (mesh_.corners[corner] == mesh_.corners[entry.place] && corner != entry.place);
+    } while (mesh.corners[corner] == mesh.corners[entry.place] && corner != entry.place);
     return corner != entry.place;
   }
   [[nodiscard]] std::uint32_t first_vertex(const BoundaryEntry& entry) const noexcept {
@@ -115,22 +118,38 @@ private:
   void store_split(const BoundaryEntry& entry, const Planes<T>& positions, const Planes<T>& normals,
                    const VertexTarget<T>& to) noexcept {
     for (std::uint32_t k = 0; k < entry.points; ++k) {
+      std::optional<NormalSums<T>> sums; // of the last one; several share it
+      std::uint32_t merged = 0;
       for_vertices(entry, k, [&](std::size_t m, std::uint32_t vertex) {
         const std::size_t place = vertex - to.first;
         const std::size_t from = values_ == ValuesOf::owner ? 0 : m;
         put(positions, entry.first + from * entry.points + k, 1, to.position, to.step, place);
         if (to.normal.wanted()) {
-          const auto sample = [&](std::size_t n) { return entry.first + n * entry.points + k; };
-          NormalSums<T> sums(normals, sample(m), members_[m].turned);
-          for (std::size_t n = m + 1; n < entry.members; ++n) {
-            if (members_[n].vertex == vertex) {
-              sums.add(normals, sample(n), members_[n].turned);
-            }
+          if (!sums || merged != members_[m].merged) {
+            merged = members_[m].merged;
+            sums = sums_of(merged, entry, k, normals);
           }
-          sums.finish(1, to.normal, place, to.step);
+          sums->finish(1, to.normal, place, to.step);
         }
       });
     }
+  }
+  /// Of those at point k that share a merged vertex.
+  [[nodiscard]] NormalSums<T> sums_of(std::uint32_t merged, const BoundaryEntry& entry,
+                                      std::uint32_t k, const Planes<T>& normals) const noexcept {
+    const bool whole = !is_split(merged_, entry); // else those apart have their own
+    std::size_t m = 0;
+    while (members_[m].merged != merged) {
+      ++m;
+    }
+    const auto sample = [&](std::size_t n) { return entry.first + n * entry.points + k; };
+    NormalSums<T> sums(normals, sample(m), members_[m].turned);
+    while (++m < entry.members) {
+      if (members_[m].merged == merged && !(whole && members_[m].apart)) {
+        sums.add(normals, sample(m), members_[m].turned);
+      }
+    }
+    return sums;
   }
 
   /// Calls visit(first member, vertex) for the different vertices of a point.
@@ -138,8 +157,11 @@ private:
   void for_vertices(const BoundaryEntry& entry, std::uint32_t k, const Visit& visit) noexcept {
     for (std::size_t m = 0; m < entry.members; ++m) {
       Member& member = members_[m];
-      member.vertex =
-          entry.corner ? mesh_.corners[member.place] : mesh_.edge_vertex(member.place, k + 1);
+      const auto vertex_in = [&](const MeshData& mesh) {
+        return entry.corner ? mesh.corners[member.place] : mesh.edge_vertex(member.place, k + 1);
+      };
+      member.vertex = vertex_in(mesh_);
+      member.merged = vertex_in(merged_);
     }
     for (std::size_t m = 0; m < entry.members; ++m) {
       const std::uint32_t vertex = members_[m].vertex;
@@ -157,7 +179,12 @@ private:
         const std::uint32_t place = members_[m].place;
         const std::size_t at = vertex - to.parameters_first;
         if (entry.corner) {
-          to.parameters.put(at, place / 4, T(place % 2), T(place % 4 / 2));
+          // A side that is a point has all parameters from 0 to 1, whose middle is near to all.
+          const std::size_t patch = place / kPatchCorners;
+          const Side* const sides = &topology_.sides[kPatchEdges * patch];
+          const T u = sides[place % 4 / 2].collapsed() ? T(0.5) : T(place % 2);
+          const T v = sides[2 + place % 2].collapsed() ? T(0.5) : T(place % 4 / 2);
+          to.parameters.put(at, static_cast<std::uint32_t>(patch), u, v);
           return;
         }
         const std::uint32_t along =
@@ -175,6 +202,7 @@ private:
   }
 
   const MeshData& mesh_;
+  const MeshData& merged_; ///< whose vertices have a normal each
   const TopologyData& topology_;
   ValuesOf values_;
   Member* members_;

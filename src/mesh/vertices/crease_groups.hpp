@@ -1,4 +1,4 @@
-// Decides which patches share a vertex where their normals differ.
+// Decides which patches share a vertex where their normals, or their parameters, differ.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "src/mesh/net_points.hpp"
@@ -32,6 +33,26 @@ struct CreaseGroups {
     }
     side_groups.resize(values);
   }
+  /// Gives every patch vertices of its own. The ends of a side that is a point stay one.
+  void part(const TopologyData& topology, const MeshData& mesh) {
+    std::iota(corners.begin(), corners.end(), 0U);
+    for (std::size_t side = 0; side < topology.sides.size(); ++side) {
+      if (topology.sides[side].collapsed()) {
+        const auto [low, high] =
+            std::minmax({corners[corner_at(side, 0)], corners[corner_at(side, 1)]});
+        auto* const own = &corners[side / kPatchEdges * kPatchCorners];
+        std::replace(own, own + kPatchCorners, high, low);
+      }
+    }
+    for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
+      std::uint32_t group = 0;
+      for (const std::uint32_t side : topology.sides_of(edge)) {
+        if (side_first[side] != MeshData::kWhole) {
+          std::fill_n(&side_groups[side_first[side]], mesh.segments[edge] - 1, group++);
+        }
+      }
+    }
+  }
   /// Marks edges on which all sides share all vertices as whole.
   void close(const TopologyData& topology, const MeshData& mesh) {
     for (std::size_t edge = 0; edge < topology.edges(); ++edge) {
@@ -56,7 +77,7 @@ class CreaseFinder {
 public:
   CreaseFinder(const MeshData& mesh, double angle, const Planes<T>& normals,
                CreaseGroups& groups) noexcept
-      : topology_(*mesh.topology.data()), always_(angle >= std::numbers::pi), never_(angle == 0),
+      : topology_(*mesh.topology.data()), always_(angle >= std::numbers::pi),
         cosine_(std::cos(angle)), sine_(std::sin(angle)), normals_(normals), groups_(groups) {}
 
   /// Gives groups to the patches at a corner, or at each point of an edge. sample_of_corner:
@@ -81,8 +102,8 @@ private:
   }
   /// Whether two samples' normals may be merged.
   [[nodiscard]] bool join(std::size_t a, std::size_t b, bool against) const noexcept {
-    if (always_ || never_) {
-      return always_;
+    if (always_) {
+      return true;
     }
     const Point3 x = normal(a);
     const Point3 y = normal(b);
@@ -156,7 +177,6 @@ private:
 
   const TopologyData& topology_;
   bool always_;
-  bool never_;
   double cosine_;
   double sine_;
   const Planes<T>& normals_;

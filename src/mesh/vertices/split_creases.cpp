@@ -65,24 +65,27 @@ private:
   std::uint32_t most_rate_;
 };
 
+/// Fills groups that are not all apart.
 template <typename T>
-Status split_vertices(const PatchSet<T>& set, const MeshData& whole, double angle,
-                      const Request<T>& request, const Options& options, MeshLayout& split) {
-  CreaseGroups groups(whole);
+Status find_groups(const PatchSet<T>& set, const MeshData& whole, double angle,
+                   const Request<T>& request, const Options& options, CreaseGroups& groups) {
   std::vector<std::uint32_t> sample_of_corner(groups.corners.size());
   const OutputSelection normals = {Output::normal};
   const PatchKernels<T> kernels(*set.storage(), request, normals, options);
   const CreaseWork<T> work(whole, kernels, angle, groups, sample_of_corner.data());
-  const Status ran =
-      run_blocks_here(work.units(), work.duration(), options, work.scratch_bytes(),
-                      [&](int worker, std::size_t begin, std::size_t end, unsigned char* scratch) {
-                        return work.run(worker, begin, end, scratch);
-                      });
-  if (!ran) {
-    return ran;
-  }
+  return run_blocks_here(
+      work.units(), work.duration(), options, work.scratch_bytes(),
+      [&](int worker, std::size_t begin, std::size_t end, unsigned char* scratch) {
+        return work.run(worker, begin, end, scratch);
+      });
+}
+
+/// A layout whose vertices are those of the groups. merged: see MeshData.
+Status number_groups(CreaseGroups& groups, const MeshData& whole, const MeshLayout& merged,
+                     MeshLayout& split) {
   groups.close(*whole.topology.data(), whole);
   auto mesh = std::make_shared<MeshData>(whole);
+  mesh->merged = merged;
   mesh->side_first = std::move(groups.side_first);
   mesh->side_vertices = std::move(groups.side_groups);
   const Status numbered = number_vertices(groups.corners, *mesh);
@@ -93,8 +96,40 @@ Status split_vertices(const PatchSet<T>& set, const MeshData& whole, double angl
   return numbered;
 }
 
+template <typename T>
+Status split_vertices(const PatchSet<T>& set, const MeshLayout& layout, double angle,
+                      const Request<T>& request, const Options& options, MeshLayout& split) {
+  const MeshData& whole = layout.data()->normals();
+  CreaseGroups groups(whole);
+  if (angle == 0) {
+    groups.part(*whole.topology.data(), whole);
+  } else if (const Status found = find_groups(set, whole, angle, request, options, groups);
+             !found) {
+    return found;
+  }
+  MeshLayout creased;
+  Status status = number_groups(groups, whole, {}, creased);
+  if (status && &whole != layout.data()) { // the layout was split by parameters as well
+    status = split_parameters(creased, creased);
+  }
+  split = status ? creased : split;
+  return status;
+}
+
 } // namespace
 } // namespace detail
+
+Status split_parameters(const MeshLayout& layout, MeshLayout& split) noexcept try {
+  if (layout.data() == nullptr || layout.data()->merged.data() != nullptr) {
+    split = layout;
+    return Status::ok;
+  }
+  detail::CreaseGroups groups(*layout.data());
+  groups.part(*layout.data()->topology.data(), *layout.data());
+  return detail::number_groups(groups, *layout.data(), layout, split);
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory;
+}
 
 template <typename T>
 Status split_creases(const PatchSet<T>& set, const MeshLayout& layout, double angle,
@@ -117,7 +152,7 @@ Status split_creases(const PatchSet<T>& set, const MeshLayout& layout, double an
   if (!request.components.space()) {
     return Status::bad_components;
   }
-  return detail::split_vertices(set, *layout.data(), angle, request, options, split);
+  return detail::split_vertices(set, layout, angle, request, options, split);
 } catch (const std::bad_alloc&) {
   return Status::out_of_memory;
 }

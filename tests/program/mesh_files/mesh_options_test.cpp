@@ -1,6 +1,7 @@
 // Options of tessellate that contradict each other or cannot be met.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <ostream>
 
 #include "tests/program/formats/sample_nets.hpp"
@@ -212,14 +213,17 @@ TEST(RefusedMeshOptions, SurfacesOfOneSide) {
   EXPECT_GT(found, 0U);
 }
 
-TEST(RefusedMeshOptions, QuadsInFormatsOfTriangles) {
-  for (const std::string extension : {"stl", "glb"}) {
+TEST(RefusedMeshOptions, WhatAFormatDoesNotHold) {
+  const std::array<std::string, 3> cases[] = {{"--quads", "stl", "obj or ply"},
+                                              {"--quads", "glb", "obj or ply"},
+                                              {"--parameters", "stl", "obj, ply or glb"}};
+  for (const auto& [option, extension, formats] : cases) {
     for (const std::vector<std::string>& out :
          {std::vector<std::string>{"out." + extension}, {"-", "--to", extension}}) {
-      std::vector<std::string> arguments = {"tessellate", "builtin:teapot", "--quads", "-o"};
+      std::vector<std::string> arguments = {"tessellate", "builtin:teapot", option, "-o"};
       arguments.insert(arguments.end(), out.begin(), out.end());
       expect_failure(run(arguments), 2,
-                     "--quads: expected an output in obj or ply, found " + extension + "\n");
+                     option + ": expected an output in " + formats + ", found " + extension + "\n");
     }
   }
 }

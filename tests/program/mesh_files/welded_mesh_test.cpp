@@ -161,6 +161,69 @@ TEST(WeldedMesh, OrientMakesNeighboursAgree) {
   EXPECT_GT(turned, 0U);
 }
 
+// How far u and v of one face are apart, at most.
+double widest_face(const ReadMesh& mesh) {
+  double widest = 0;
+  for (const auto& face : mesh.faces) {
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const auto& a = mesh.uv.at(face[k]);
+      const auto& b = mesh.uv.at(face[(k + 1) % face.size()]);
+      widest = std::max({widest, std::abs(a[0] - b[0]), std::abs(a[1] - b[1])});
+    }
+  }
+  return widest / (mesh.quantised ? 65535 : 1);
+}
+
+struct WithParameters {
+  const char* extension;
+  std::vector<std::string> options;
+};
+const WithParameters kWithParameters[] = {{"obj", {}},
+                                          {"ply", {}},
+                                          {"glb", {}},
+                                          {"obj", {"--no-normals"}},
+                                          {"ply", {"--quads"}},
+                                          {"ply", {"--crease", "30"}},
+                                          {"ply", {"--crease", "0", "--precision", "f64"}},
+                                          {"glb", {"--quantise", "16"}},
+                                          {"obj", {"--no-weld"}},
+                                          {"glb", {"--no-weld", "--no-normals"}}};
+
+// The same faces, whose vertices have their own u, v in every patch.
+TEST(WeldedMesh, ParametersAreEachPatchsOwn) {
+  constexpr std::size_t kCells = 4;
+  for (const MeshModel& model : mesh_models()) {
+    if (model.name.starts_with("ball")) {
+      continue; // points have one vertex, whose u is none
+    }
+    const TemporaryFolder folder;
+    const std::string in = folder.write("in.bez", bez_of(model));
+    for (const auto& [extension, more] : kWithParameters) {
+      SCOPED_TRACE(model.name + " " + extension + (more.empty() ? "" : " " + more[0]));
+      std::vector<std::string> options = {"--grid", std::to_string(kCells + 1)};
+      options.insert(options.end(), more.begin(), more.end());
+      const ReadMesh whole = read_mesh(extension, tessellated(in, extension, options));
+      options.emplace_back("--parameters");
+      const ReadMesh mesh = read_mesh(extension, tessellated(in, extension, options));
+      EXPECT_TRUE(whole.uv.empty());
+      ASSERT_EQ(mesh.uv.size(), mesh.positions.size());
+      EXPECT_EQ(mesh.uv.size(), model.patches.size() * (kCells + 1) * (kCells + 1));
+      EXPECT_NEAR(widest_face(mesh), 1.0 / kCells, 1e-4);
+      EXPECT_EQ(mesh.deviation, whole.deviation);
+      ASSERT_EQ(mesh.faces.size(), whole.faces.size());
+      for (std::size_t k = 0; k < mesh.faces.size(); ++k) {
+        ASSERT_EQ(mesh.faces[k].size(), whole.faces[k].size());
+        for (std::size_t c = 0; c < mesh.faces[k].size(); ++c) {
+          const std::uint32_t a = mesh.faces[k][c];
+          const std::uint32_t b = whole.faces[k][c];
+          EXPECT_EQ(mesh.positions[a], whole.positions[b]);
+          EXPECT_TRUE(mesh.normals.empty() || mesh.normals[a] == whole.normals.at(b));
+        }
+      }
+    }
+  }
+}
+
 // Two unit squares side by side in different planes, with a gap between them.
 std::string two_squares(const TemporaryFolder& folder, double gap, double slope) {
   std::vector<Net> nets = {flat_net(), flat_net()};
