@@ -9,8 +9,10 @@
 
 #include <tools/commands/grid_mesh.hpp>
 #include <tools/commands/welded_mesh.hpp>
-#include <tools/mesh_files/mesh_file.hpp>
+#include <tools/mesh_files/mesh_formats.hpp>
 #include <tools/patches/library_status.hpp>
+#include <tools/patches/move_patches.hpp>
+#include <tools/patches/patch_box.hpp>
 #include <tools/process/failure.hpp>
 #include <tools/process/output_file.hpp>
 
@@ -52,6 +54,28 @@ void write_mesh(MeshSource<T>& mesh, const Arguments& arguments, MeshStats& stat
   }
   print(stats, arguments.mesh.stats); // where this fails, there is no mesh either
   writer->finish();
+  if (stats.origin && arguments.mesh.stats == StatsForm::none &&
+      !mesh_abilities(arguments.mesh.format).moved) {
+    std::fputs(
+        ("simdbezier: positions count from the origin " + spaced(*stats.origin) + "\n").c_str(),
+        stderr);
+  }
+}
+
+// Lets the file's points count from the origin that is asked for, and the camera's place as well.
+void move_to_origin(PatchFile& patches, MeshArguments& mesh, MeshStats& stats) {
+  if (mesh.own_origin) {
+    mesh.origin = own_origin(box_of(patches));
+  }
+  if (!mesh.origin || *mesh.origin == std::array<double, 3>{}) {
+    mesh.origin.reset();
+    return;
+  }
+  stats.origin = mesh.origin;
+  move_patches(patches, *mesh.origin);
+  for (std::size_t c = 0; c < 3; ++c) {
+    mesh.camera.eye[c] -= (*mesh.origin)[c];
+  }
 }
 
 template <typename T>
@@ -74,7 +98,8 @@ void tessellate(const Arguments& arguments, PatchFile patches, MeshStats& stats)
 
 } // namespace
 
-void run_tessellate(const Arguments& arguments) {
+void run_tessellate(const Arguments& asked) {
+  Arguments arguments = asked;
   chosen_isa();
   const std::vector<std::string> inputs = inputs_of(arguments);
   refuse_input_as_output(arguments.out, inputs);
@@ -86,6 +111,7 @@ void run_tessellate(const Arguments& arguments) {
   {
     const Stopwatch watch(stats.seconds.read);
     patches = read_patches(arguments.in, arguments.format);
+    move_to_origin(patches, arguments.mesh, stats);
   }
   arguments.precision == Precision::f32 ? tessellate<float>(arguments, std::move(patches), stats)
                                         : tessellate<double>(arguments, std::move(patches), stats);

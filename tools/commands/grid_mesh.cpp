@@ -58,6 +58,8 @@ MeshContents GridMesh<T>::contents() const {
   contents.normals = arguments_.mesh.normals;
   contents.uv = arguments_.mesh.parameters;
   contents.storage = arguments_.mesh.storage;
+  contents.floats = arguments_.mesh.floats;
+  contents.origin = arguments_.mesh.origin;
   contents.box = box_;
   // Positions may leave the control points' box by rounding, which is less than this part of the
   // largest coordinate. Bounds that are 0 or small stay, and positions beyond them come to them:

@@ -38,9 +38,11 @@ std::optional<double> positive(const Words& words, const char* option) {
   return number(words, option, [](double value) { return value > 0; });
 }
 
-// Reads six numbers separated by commas.
-std::array<double, 6> parse_places(const Words& words, const std::string& text) {
-  std::array<double, 6> numbers{};
+// Reads N numbers separated by commas.
+template <std::size_t N>
+std::array<double, N> parse_numbers(const Words& words, const char* option,
+                                    const std::string& text) {
+  std::array<double, N> numbers{};
   std::string_view rest = text;
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const bool last = k + 1 == numbers.size();
@@ -49,7 +51,7 @@ std::array<double, 6> parse_places(const Words& words, const std::string& text) 
     const std::string_view word = rest.substr(0, end);
     const auto value = missing ? std::nullopt : parse_finite(word);
     if (!value) {
-      refuse(!missing && is_number(word) ? 1 : 2, words, "--camera", in_quotes(text));
+      refuse(!missing && is_number(word) ? 1 : 2, words, option, in_quotes(text));
     }
     numbers[k] = *value;
     rest.remove_prefix(last ? end : end + 1);
@@ -73,7 +75,7 @@ std::array<double, 2> parse_picture(const Words& words) {
 Camera parse_camera(const Words& words) {
   constexpr double kNearest = 1e-3; // a share of the distance to what is looked at
   const std::string text = *words.value("--camera");
-  const std::array<double, 6> places = parse_places(words, text);
+  const std::array<double, 6> places = parse_numbers<6>(words, "--camera", text);
   const auto [width, height] = parse_picture(words);
   const double angle =
       number(words, "--view-angle", [](double v) { return v > 0 && v < 180; }).value_or(45);
@@ -113,7 +115,8 @@ void check_combinations(const Words& words) {
     expect_without(words, resolution, "--grid");
     expect_without(words, resolution, "--no-weld");
   }
-  for (const char* const joined : {"--snap", "--crease", "--orient", "--drop-repeated"}) {
+  for (const char* const joined :
+       {"--snap", "--point-size", "--crease", "--orient", "--drop-repeated"}) {
     expect_without(words, joined, "--no-weld");
   }
   expect_without(words, "--weld", "--no-weld");
@@ -125,7 +128,7 @@ MeshFormat parse_format(const Words& words) {
   if (const auto name = words.value("--to")) {
     const auto format = mesh_format_of("mesh." + *name);
     if (!format) {
-      refuse(2, words, "--to", in_quotes(*name));
+      refuse(2, words, "--to", in_quotes(*name) + mesh_format_hint("mesh." + *name));
     }
     if (!is_written_directly(out) && mesh_format_of(out) && mesh_format_of(out) != format) {
       bad_usage("--to: expected the format of " + out + ", found " + in_quotes(*name));
@@ -134,7 +137,7 @@ MeshFormat parse_format(const Words& words) {
   }
   const auto format = mesh_format_of(out);
   if (!format) {
-    refuse(2, words, "-o", in_quotes(out));
+    refuse(2, words, "-o", in_quotes(out) + mesh_format_hint(out));
   }
   return *format;
 }
@@ -170,6 +173,32 @@ void parse_contents(const Words& words, MeshArguments& mesh) {
   }
 }
 
+void parse_origin(const Words& words, MeshArguments& mesh) {
+  const std::string text = words.value("--origin").value_or("none");
+  mesh.own_origin = text == "auto";
+  if (text != "auto" && text != "none") {
+    mesh.origin = parse_numbers<3>(words, "--origin", text);
+  }
+}
+
+// Floats can be stored in all formats, doubles where they are computed and the format has them.
+bool parse_floats(const Words& words, MeshFormat format) {
+  const std::string type = words.value("--vertex-precision").value_or("");
+  if (type == "f64") {
+    if (words.value("--precision") != "f64") {
+      bad_usage("--vertex-precision: expected f64 with --precision f64, found without");
+    }
+    if (!mesh_abilities(format).doubles) {
+      bad_usage("--vertex-precision: expected f64 for an output in " +
+                mesh_format_names("", &MeshAbilities::doubles) + ", found " +
+                mesh_format_name(format));
+    }
+  } else if (words.has("--vertex-precision") && type != "f32") {
+    refuse(2, words, "--vertex-precision", in_quotes(type));
+  }
+  return type == "f32";
+}
+
 StatsForm parse_stats(const Words& words) {
   const auto form = words.value("--stats");
   if (!form) {
@@ -199,6 +228,9 @@ MeshArguments parse_mesh_arguments(const Words& words) {
   mesh.angle = number(words, "--angle", [](double v) { return v > 0 && v <= 180; });
   mesh.crease = number(words, "--crease", [](double v) { return v >= 0 && v <= 180; });
   mesh.snap = positive(words, "--snap").value_or(0);
+  mesh.point_size = positive(words, "--point-size").value_or(0);
+  parse_origin(words, mesh);
+  mesh.floats = parse_floats(words, mesh.format);
   if (mesh.pixels) {
     mesh.camera = parse_camera(words);
   }

@@ -1,6 +1,7 @@
 // What the command line says about a mesh.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <numbers>
 #include <optional>
@@ -27,6 +28,10 @@ struct MeshArguments {
   bool orient = false;
   bool drop_repeated = false;
   double snap = 0;
+  double point_size = 0;
+  bool own_origin = false; ///< the file's middle becomes the origin
+  std::optional<std::array<double, 3>> origin;
+  bool floats = false;          ///< see MeshContents
   std::optional<double> crease; ///< in degrees
   StatsForm stats = StatsForm::none;
 

@@ -56,20 +56,70 @@ bool asks_too_small_an_angle(const RatedPatches<T>& patches, RateOptions how,
   return report.status != Status::bad_tolerance || report.patch != patch;
 }
 
-// Throws a Failure that says why the patch cannot keep its distance: rounding, or too many cells.
-[[noreturn]] void refuse_distance(const MeshArguments& mesh, const Tolerances& tolerances,
-                                  std::size_t patch, double error, const std::string& name) {
+// Whether the patch would have its rates if no edges were moved together.
+template <typename T>
+bool is_moved_too_far(const RatedPatches<T>& patches, const MeshArguments& mesh,
+                      const RateOptions& how, const CertifiedRates& rates, std::size_t patch) {
+  Topology topology;
+  TopologyOptions options;
+  options.orient = mesh.orient;
+  options.flip = mesh.flip;
+  options.threads = how.threads;
+  if (std::max(mesh.snap, mesh.point_size) == 0 ||
+      !find_topology(patches.nets, topology, options)) {
+    return false;
+  }
+  const RateReport report = choose_rates<T>(patches.nets, topology, how, rates);
+  return report.status != Status::bad_tolerance || report.patch != patch;
+}
+
+// Throws a Failure that says why the patch cannot keep its distance: rounding, edges that are moved
+// together, or too many cells.
+template <typename T>
+[[noreturn]] void refuse_distance(const RatedPatches<T>& patches, const MeshArguments& mesh,
+                                  const Tolerances& tolerances, const RateOptions& how,
+                                  const CertifiedRates& rates, std::size_t patch) {
+  const std::string name = patches.describe(patch);
   const double found = tolerances.of(patch);
   if (found == kUnlimited) {
     bad_input(resolution_options(mesh) + ": expected a patch whose error of rounding is bounded, " +
               "found " + name);
   }
-  const std::string needed =
-      found > error
-          ? "a distance that " + std::to_string(kMostSegments) + " cells a direction can keep"
-          : "a distance above the error of rounding, " + shortest(error);
-  bad_input(tolerances.option_of(patch) + ": expected " + needed + ", found " + shortest(found) +
-            " for " + name);
+  const double error = patches.errors[patch] + patches.storage_error;
+  const std::string option = tolerances.option_of(patch);
+  if (!(found > error)) {
+    bad_input(
+        option + ": expected a distance above the error of rounding, " + shortest(error) +
+        (patches.far && mesh.origin == std::nullopt ? " (--origin auto makes it smaller)" : "") +
+        ", found " + shortest(found) + " for " + name);
+  }
+  if (is_moved_too_far(patches, mesh, how, rates, patch)) {
+    const bool snapped = mesh.snap >= mesh.point_size;
+    bad_input((snapped ? "--snap" : "--point-size") +
+              (": expected a distance that leaves room within " + option) + ", " + shortest(found) +
+              ", found " + shortest(snapped ? mesh.snap : mesh.point_size) + " for " + name);
+  }
+  bad_input(option + ": expected a distance that " + std::to_string(kMostSegments) +
+            " cells a direction can keep, found " + shortest(found) + " for " + name);
+}
+
+// The tolerance that leaves room for what storing adds: a little less than the difference, because
+// stated deviations are sums that are rounded upwards.
+double without(double tolerance, double storage_error) {
+  return storage_error == 0 || tolerance == kUnlimited
+             ? tolerance
+             : std::max(tolerance - storage_error - 0x1p-50 * tolerance,
+                        std::numeric_limits<double>::min());
+}
+
+// Whether deviations are within tolerances also when storing has added to them, as is usual.
+bool keep(const Tolerances& tolerances, std::span<const double> deviations, double storage_error) {
+  for (std::size_t patch = 0; patch < deviations.size(); ++patch) {
+    if (deviations[patch] > without(tolerances.of(patch), storage_error)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 template <typename T>
@@ -78,12 +128,22 @@ void choose_adaptive(const RatedPatches<T>& patches, const Arguments& arguments,
   const MeshArguments& mesh = arguments.mesh;
   const Tolerances tolerances = find_tolerances(patches, mesh);
   RateOptions how;
-  how.tolerance = tolerances.all;
-  how.tolerances = tolerances.single;
   how.errors = patches.errors;
   how.normal_angle = mesh.angle ? *mesh.angle * kRadiansPerDegree : kUnlimited;
   how.threads = arguments.threads;
-  const RateReport report = choose_rates<T>(patches.nets, patches.topology, how, rates);
+  std::vector<double> single;
+  const auto choose = [&](double storage_error) {
+    single.resize(tolerances.single.size());
+    std::ranges::transform(tolerances.single, single.begin(),
+                           [&](double t) { return without(t, storage_error); });
+    how.tolerance = without(tolerances.all, storage_error);
+    how.tolerances = single;
+    return choose_rates<T>(patches.nets, patches.topology, how, rates);
+  };
+  RateReport report = choose(0);
+  if (report.status && !keep(tolerances, rates.deviation, patches.storage_error)) {
+    report = choose(patches.storage_error);
+  }
   if (report.status == Status::bad_tolerance) {
     const std::size_t patch = report.patch;
     const std::string name = patches.describe(patch);
@@ -91,7 +151,7 @@ void choose_adaptive(const RatedPatches<T>& patches, const Arguments& arguments,
       bad_input("--angle: expected degrees that " + std::to_string(kMostSegments) +
                 " cells a direction can keep, found " + shortest(*mesh.angle) + " for " + name);
     }
-    refuse_distance(mesh, tolerances, patch, patches.errors[patch], name);
+    refuse_distance(patches, mesh, tolerances, how, rates, patch);
   }
   check(report.status);
 }

@@ -26,6 +26,8 @@ struct RatedPatches {
   const Topology& topology;
   std::span<const double> errors;         ///< what rounding adds, for each patch
   double diagonal;                        ///< the diagonal of the box of all control points
+  double storage_error;                   ///< what the file's format adds
+  bool far;                               ///< whether an origin of their own would be better
   const std::string& name;                ///< the name of their file, for messages
   std::span<const std::uint32_t> numbers; ///< those of patches in the file; empty: 0, 1, 2, …
 

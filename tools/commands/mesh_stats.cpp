@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <tools/mesh_files/mesh_formats.hpp>
 #include <tools/process/output_file.hpp>
 
 namespace simdbezier::tools {
@@ -50,6 +51,7 @@ std::string stats_as_text(const MeshStats& stats) {
               ? "; " + rounded(stats.deviation / stats.diagonal) + " of the diagonal\n"
               : "\n";
   text += "diagonal           " + rounded(stats.diagonal) + "\n";
+  text += stats.origin ? "origin             " + spaced(*stats.origin) + "\n" : "";
   text += "edges of patches   " + std::to_string(stats.open_edges) + " open, " +
           std::to_string(stats.non_manifold_edges) + " non-manifold";
   if (stats.joined) {
@@ -71,6 +73,9 @@ std::string stats_as_json(const MeshStats& stats) {
   json["triangles"] = stats.triangles;
   json["deviation"] = stats.deviation;
   json["diagonal"] = stats.diagonal;
+  if (stats.origin) {
+    json["origin"] = *stats.origin;
+  }
   json["open_edges"] = stats.open_edges;
   json["non_manifold_edges"] = stats.non_manifold_edges;
   if (stats.joined) {

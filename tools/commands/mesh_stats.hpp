@@ -1,6 +1,7 @@
 // What tessellate tells about its work.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -24,10 +25,11 @@ struct StageSeconds {
 struct MeshStats {
   std::size_t patches = 0;
   std::uint64_t vertices = 0;
-  std::uint64_t triangles = 0; ///< quads count as two
-  double deviation = 0;        ///< certified, as the file states it
-  double diagonal = 0;         ///< the diagonal of the box of all control points
-  std::size_t open_edges = 0;  ///< edges of patches that no other patch has
+  std::uint64_t triangles = 0;                 ///< quads count as two
+  double deviation = 0;                        ///< certified, as the file states it
+  double diagonal = 0;                         ///< the diagonal of the box of all control points
+  std::optional<std::array<double, 3>> origin; ///< where positions count from, if that is not 0
+  std::size_t open_edges = 0;                  ///< edges of patches that no other patch has
   std::size_t non_manifold_edges = 0;
   /// Of one mesh without gaps: what its topology found; repeated patches also where they are left
   /// out.

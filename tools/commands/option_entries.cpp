@@ -48,6 +48,10 @@ void add_mesh(Entries& entries) {
        {"--snap", "D", "a distance above 0",
         "Joins pairs of open edges that are this near to each other; shorter ones become points",
         command},
+       {"--point-size", "D", "a distance above 0",
+        "Makes points of edges whose control points are this near to the first one, also of those "
+        "that patches share",
+        command},
        {"--crease", "DEG", "degrees from 0 to 180",
         "Patches whose normals differ by this much where they meet do not share normals there",
         command},
@@ -67,6 +71,15 @@ void add_mesh(Entries& entries) {
        {"--quantise", "BITS", "16 or 8",
         "Stores positions in 16 bits and normals in this many (" +
             mesh_format_names(".", &MeshAbilities::quantised) + ")",
+        command},
+       {"--vertex-precision", "TYPE", "f32 or f64",
+        "Numbers to store (default those of --precision; .stl and .glb have floats)", command},
+       {"--origin", "POINT", "auto, x,y,z or none",
+        "Where positions count from: auto is about the middle of the model, none (the default) is "
+        "0; " +
+            mesh_format_names(".", &MeshAbilities::moved) +
+            " puts the mesh in its place by its node, other files name the origin, and so does "
+            "stderr",
         command},
        {"--stats", "FORM", "text or json",
         "What was written, how long it took, and its certified deviation: text on stderr (the "

@@ -125,6 +125,7 @@ void WeldedMesh<T>::find_edges(bool orient) {
   how.orient = orient;
   how.flip = arguments_.mesh.flip;
   how.snap = arguments_.mesh.snap;
+  how.point_size = arguments_.mesh.point_size;
   how.threads = arguments_.threads;
   const Status status = find_topology(views(nets_), topology_, how);
   if (status == Status::not_orientable) {
@@ -137,8 +138,10 @@ void WeldedMesh<T>::find_edges(bool orient) {
 
 template <typename T>
 void WeldedMesh<T>::choose_cells() {
-  rates_ = choose_mesh_rates<T>(
-      {views(nets_), topology_, errors_, stats_.diagonal, name_, numbers_}, arguments_);
+  rates_ = choose_mesh_rates<T>({views(nets_), topology_, errors_, stats_.diagonal,
+                                 storage_error<T>(arguments_.mesh.format, contents()), is_far(box_),
+                                 name_, numbers_},
+                                arguments_);
 }
 
 template <typename T>
@@ -185,6 +188,8 @@ MeshContents WeldedMesh<T>::contents() const {
   contents.normals = mesh.normals;
   contents.uv = mesh.parameters;
   contents.storage = mesh.storage;
+  contents.floats = mesh.floats;
+  contents.origin = mesh.origin;
   contents.deviation = deviation_;
   contents.generator = program_version();
   // Positions may leave the control points' box by their errors, whose bounds may be far larger

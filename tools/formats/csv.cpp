@@ -16,6 +16,10 @@ constexpr Names kCentred = {"patch", "x", "y"};
 // that the first columns of results are samples again.
 constexpr Names kCentredResult = {"patch", "centred_u", "centred_v"};
 
+std::string header_of(const Names& names) {
+  return std::string(names[0]) + "," + std::string(names[1]) + "," + std::string(names[2]);
+}
+
 constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 
 /// ",x,y,z", ",dux,duy,duz", … or ",nx,ny,nz".
@@ -90,7 +94,8 @@ std::size_t column_count(std::span<const Output> outputs) {
 
 SampleReader::SampleReader(const std::string& path, std::size_t patches)
     : input_(path), patches_(patches) {
-  const std::string expected = "the header patch,u,v or patch,x,y";
+  const std::string expected = "the header " + header_of(kUnit) + ", " + header_of(kCentred) +
+                               " or " + header_of(kCentredResult);
   if (!next_line()) {
     fail(expected, "the end of the file");
   }

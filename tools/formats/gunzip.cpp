@@ -46,7 +46,23 @@ std::size_t Gunzip::unpack(char* data, std::size_t size) {
   return room - stream_.avail_out;
 }
 
+// Tapes and block devices fill their blocks so.
+void Gunzip::pass_over_zeros() {
+  for (; stream_.avail_in > 0 && *stream_.next_in == 0; ++stream_.next_in, --stream_.avail_in) {
+    is_padded_ = true;
+  }
+  if (is_padded_ && stream_.avail_in > 0) {
+    throw DamagedInput{"zeros up to the end behind compressed data", "something else"};
+  }
+}
+
 void Gunzip::step() {
+  if (is_complete_) {
+    pass_over_zeros();
+  }
+  if (stream_.avail_in == 0 && is_padded_) {
+    return;
+  }
   if (is_complete_) { // another file follows
     expect_memory(inflateReset(&stream_));
     is_complete_ = false;

@@ -10,9 +10,10 @@
 
 namespace simdbezier::tools {
 
-/// Takes compressed bytes, gives back what they stand for. Files that follow each other are one, as
-/// gzip has it. Throws DamagedInput where the bytes are none of gzip's, and where they unpack to
-/// more than the limit that SECURITY.md states, which small files could exceed a thousandfold.
+/// Takes compressed bytes, gives back what they stand for. Files that follow each other are one,
+/// and zeros behind the last one are passed over, as gzip has it. Throws DamagedInput where the
+/// bytes are none of gzip's, and where they unpack to more than the limit that SECURITY.md states,
+/// which small files could exceed a thousandfold.
 class Gunzip {
 public:
   /// What compressed bytes begin with, and text never does.
@@ -37,6 +38,7 @@ public:
   void expect_end() const;
 
 private:
+  void pass_over_zeros();
   void step();
   void check_limit() const;
 
@@ -45,6 +47,7 @@ private:
   std::uint64_t bytes_in_ = 0;
   std::uint64_t bytes_out_ = 0;
   bool is_complete_ = false; // the bytes so far are one or more whole files
+  bool is_padded_ = false;   // and zeros behind them
   bool has_more_ = false;    // whether there is more than there was room for
 };
 

@@ -75,6 +75,7 @@ struct PatchFile {
   LargeVector<std::uint32_t>
       lines; ///< of every point's first coordinate; empty where there is no file
   std::vector<std::uint32_t> vertices; ///< where meshes name their points: numbers of points
+  double moved_error = 0; ///< how far points may be from where move_patches() should put them
 
   /// Makes room for what an input of so many bytes usually has. Memory that turns out not to be
   /// needed is never touched.

@@ -1,14 +1,16 @@
 // RenderMan .rib: Patch and PatchMesh, "bilinear" or "bicubic" in the bezier basis, with points
-// "P" (x y z) or "Pw" (wx wy wz w), u fastest. Points are taken as they stand: transformations,
-// like all requests that are no geometry, are passed over.
+// "P" (x y z) or "Pw" (wx wy wz w), u fastest. Points are taken as they stand: a patch that a
+// transformation moves is refused, and requests that concern no shape are passed over.
 #include <tools/formats/lexer.hpp>
 #include <tools/formats/patch_file.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include <tools/formats/rib_requests.hpp>
+#include <tools/formats/rib_scopes.hpp>
 #include <tools/process/failure.hpp>
 
 namespace simdbezier::tools {
@@ -22,15 +24,6 @@ constexpr std::string_view kSpace = " \t\n\r\f\v";
 
 // Counts beyond this are no counts of points in a file.
 constexpr std::size_t kMostPoints = std::size_t{1} << 31;
-
-struct Basis {
-  std::string name = "bezier";
-  std::size_t step = 3;
-};
-struct Bases {
-  Basis u;
-  Basis v;
-};
 
 class RibReader {
 public:
@@ -59,10 +52,43 @@ private:
       patch_mesh();
     } else if (lexer_.at_word("Basis")) {
       basis();
+    } else if (const auto* const known =
+                   std::ranges::find(kRibTransformations, lexer_.text(), &RibTransformation::name);
+               known != std::end(kRibTransformations)) {
+      transformation(*known);
     } else {
       other_request();
       lexer_.next();
     }
+  }
+
+  /// Reads a transformation, which replaces those before it (Identity, Transform) or joins them.
+  void transformation(const RibTransformation& known) {
+    const std::size_t line = lexer_.line();
+    std::vector<double> numbers;
+    if (lexer_.next().at(TokenKind::open)) {
+      pass_over_array(&numbers);
+      lexer_.next();
+    } else {
+      for (; at_number() && numbers.size() < known.numbers; lexer_.next()) {
+        numbers.push_back(lexer_.number());
+      }
+    }
+    if (numbers.size() != known.numbers) {
+      bad_input_at(lexer_.name(), line,
+                   std::to_string(known.numbers) + " numbers behind " + std::string(known.name),
+                   std::to_string(numbers.size()));
+    }
+    scopes_.transform(known, numbers, line);
+  }
+
+  /// Opens a scope. Another frame is another picture, which would show all of its patches once
+  /// more.
+  void begin_scope(std::string_view name) {
+    if (file_.count > 0 && (name == "FrameBegin" || name == "WorldBegin")) {
+      lexer_.fail("patches in one frame or world only");
+    }
+    scopes_.begin(name);
   }
 
   /// Passes over anything but a patch or a basis. Its numbers come here one by one, as words do.
@@ -71,9 +97,11 @@ private:
     if (is_listed(name, kRibOtherGeometry)) {
       lexer_.fail("a Patch or PatchMesh");
     } else if (is_listed(name, kRibScopeBegins)) {
-      bases_.push_back(bases_.back());
+      begin_scope(name);
     } else if (is_listed(name, kRibScopeEnds)) {
-      bases_.resize(bases_.size() > 1 ? bases_.size() - 1 : 1);
+      scopes_.end(name);
+    } else if (is_listed(name, kRibUnknownTransformations)) {
+      scopes_.move(name, lexer_.line());
     } else if (!is_listed(name, kRibPassedOver) && !parse_finite(name)) {
       lexer_.fail("a request of .rib files");
     }
@@ -95,18 +123,22 @@ private:
   }
 
   /// Passes over an array, from its opening to its closing bracket. Anything but numbers and
-  /// strings means that the latter is missing, and what follows could be geometry.
-  void pass_over_array() {
+  /// strings means that the latter is missing, and what follows could be geometry. Hands over the
+  /// numbers where they are wanted.
+  void pass_over_array(std::vector<double>* numbers = nullptr) {
     const std::string expected = "']' for the array in line " + std::to_string(lexer_.line());
     while (!lexer_.next().at(TokenKind::close)) {
       if (!lexer_.at(TokenKind::string) && !at_number()) {
         lexer_.fail(expected);
       }
+      if (numbers != nullptr && lexer_.at(TokenKind::word)) {
+        numbers->push_back(lexer_.number());
+      }
     }
   }
 
   void basis() {
-    for (Basis* const basis : {&bases_.back().u, &bases_.back().v}) {
+    for (RibScopes::Basis* const basis : {&scopes_.bases().u, &scopes_.bases().v}) {
       lexer_.next();
       if (lexer_.at(TokenKind::open)) {
         basis->name = basis_of_matrix();
@@ -142,20 +174,25 @@ private:
 
   void patch_mesh() {
     const int degree = patch_type();
-    const MeshDirection u = direction(degree, bases_.back().u, "u");
-    const MeshDirection v = direction(degree, bases_.back().v, "v");
+    const MeshDirection u = direction(degree, scopes_.bases().u, "u");
+    const MeshDirection v = direction(degree, scopes_.bases().v, "v");
     add(degree, u, v);
   }
 
   /// Reads the degree. Bicubic patches in another basis are refused.
   int patch_type() {
     const std::size_t line = lexer_.line();
+    if (const RibScopes::Mover& mover = scopes_.mover(); mover.line > 0) {
+      bad_input_at(lexer_.name(), mover.line,
+                   "no transformation of the patch in line " + std::to_string(line),
+                   in_quotes(mover.name));
+    }
     lexer_.next();
     const bool bicubic = lexer_.text() == "bicubic";
     if (!lexer_.at(TokenKind::string) || !(bicubic || lexer_.text() == "bilinear")) {
       lexer_.fail("\"bicubic\" or \"bilinear\"");
     }
-    for (const Basis* const basis : {&bases_.back().u, &bases_.back().v}) {
+    for (const RibScopes::Basis* const basis : {&scopes_.bases().u, &scopes_.bases().v}) {
       if (bicubic && basis->name != "bezier") {
         bad_input_at(lexer_.name(), line, "a patch in the bezier basis",
                      "one in " + in_quotes(basis->name));
@@ -164,7 +201,7 @@ private:
     return bicubic ? 3 : 1;
   }
 
-  MeshDirection direction(int degree, const Basis& basis, const std::string& name) {
+  MeshDirection direction(int degree, const RibScopes::Basis& basis, const std::string& name) {
     const std::size_t step = degree == 3 ? basis.step : 1;
     const auto order = static_cast<std::size_t>(degree) + 1;
     const std::size_t points = next_count("the number of points in " + name, 2);
@@ -260,7 +297,7 @@ private:
 
   Lexer lexer_;
   PatchFile file_;
-  std::vector<Bases> bases_ = {{}};
+  RibScopes scopes_;
 };
 
 } // namespace

@@ -72,12 +72,16 @@ std::string member(std::string_view name, std::uint64_t value) {
   return member(name, std::to_string(value));
 }
 
+bool has_deviation(const MeshContents& contents) {
+  return contents.deviation && std::isfinite(*contents.deviation); // JSON has no infinity
+}
+
 std::string asset(const MeshContents& contents) {
   std::string text = R"("asset":{"version":"2.0")";
   if (!contents.generator.empty()) {
     text += joined({",", member("generator", quoted(contents.generator))});
   }
-  if (contents.deviation && std::isfinite(*contents.deviation)) { // JSON has no infinity
+  if (has_deviation(contents)) {
     text += joined({R"(,"extras":{)", member("deviation", shortest(*contents.deviation)), "}"});
   }
   text += '}';
@@ -85,12 +89,28 @@ std::string asset(const MeshContents& contents) {
 }
 
 std::string node(const MeshContents& contents) {
-  if (contents.storage == VertexStorage::full) {
-    return joined({"{", member("mesh", 0), "}"});
+  std::array<double, 3> place = contents.origin.value_or(std::array<double, 3>{});
+  std::string scale;
+  if (contents.storage != VertexStorage::full) {
+    const QuantisedSpace space = quantised_space(*contents.box);
+    for (std::size_t c = 0; c < 3; ++c) {
+      place[c] += space.low[c];
+    }
+    scale = joined({",", member("scale", list({space.extent, space.extent, space.extent}))});
   }
-  const QuantisedSpace space = quantised_space(*contents.box);
-  return joined({"{", member("mesh", 0), ",", member("translation", list(space.low)), ",",
-                 member("scale", list({space.extent, space.extent, space.extent})), "}"});
+  const bool moved = contents.origin || !scale.empty();
+  return joined({"{", member("mesh", 0),
+                 moved ? joined({",", member("translation", list(place))}) : "", scale, "}"});
+}
+
+// Programs that simplify a mesh may keep what the asset says about another one. What the mesh says
+// holds for a mesh of these counts.
+std::string mesh_extras(const MeshContents& contents, const GlbParts& parts) {
+  return has_deviation(contents)
+             ? joined({R"(,"extras":{)", member("deviation", shortest(*contents.deviation)), ",",
+                       member("vertices", parts.vertices), ",",
+                       member("triangles", parts.triangles), "}"})
+             : "";
 }
 
 class Accessors {
@@ -110,9 +130,10 @@ public:
                      member("count", vertices_), ",", member("type", quoted(shape)), more, "},"});
   }
 
-  [[nodiscard]] std::string meshes() const {
+  [[nodiscard]] std::string meshes(std::string_view extras) const {
+    constexpr std::uint64_t kTriangles = 4; // the default, which not every program knows
     return joined({R"("meshes":[{"primitives":[{"attributes":{)", attributes_, "},",
-                   member("indices", count_), "}]}]"});
+                   member("indices", count_), ",", member("mode", kTriangles), "}]", extras, "}]"});
   }
   [[nodiscard]] std::string list(FieldType index, std::uint64_t indices) const {
     return joined({R"("accessors":[)", list_, "{", member("bufferView", 1), ",",
@@ -154,8 +175,8 @@ std::string glb_description(const MeshContents& contents, const GlbParts& parts,
   const FieldType index = parts.index_bytes() == 2 ? FieldType::u16 : FieldType::u32;
   return joined({"{", asset(contents), contents.storage == VertexStorage::full ? "" : kExtensions,
                  R"(,"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)", node(contents), "],",
-                 accessors.meshes(), ",", accessors.list(index, parts.triangles * 3), ",",
-                 buffers(parts), "}"});
+                 accessors.meshes(mesh_extras(contents, parts)), ",",
+                 accessors.list(index, parts.triangles * 3), ",", buffers(parts), "}"});
 }
 
 } // namespace simdbezier::tools

@@ -35,6 +35,23 @@ void expect_at_most(const std::string& path, const char* format, const char* wha
 }
 
 template <typename T>
+bool is_rounded(MeshFormat format, const MeshContents& contents) {
+  return sizeof(T) > sizeof(float) && (contents.floats || !mesh_abilities(format).doubles);
+}
+
+// A mesh that storing rounds away would be points on top of each other.
+template <typename T>
+void check_size(const std::string& path, MeshFormat format, const MeshContents& contents) {
+  const double size = diagonal_of(*contents.box);
+  const double error = storage_error<T>(format, contents);
+  if (size > 0 && !(error < size)) {
+    bad_input(path + ": expected a mesh larger than the error of storing its vertices, " +
+              shortest(error) + ", found one of size " + shortest(size) +
+              (size < largest_coordinate(*contents.box) ? " far from its origin" : ""));
+  }
+}
+
+template <typename T>
 void check_contents(const std::string& path, MeshFormat format, const MeshContents& contents) {
   const FormatEntry& entry = entry_of(format);
   expect_at_most(path, entry.name, "vertices", kMostMeshVertices, contents.vertices);
@@ -47,8 +64,9 @@ void check_contents(const std::string& path, MeshFormat format, const MeshConten
   if (contents.corners != 3 && !entry.can.quads) {
     bad_input(path + ": expected triangles in " + entry.name + ", found quads");
   }
-  if (!entry.can.doubles && contents.box) {
+  if (contents.box && (is_rounded<T>(format, contents) || !entry.can.doubles)) {
     static_cast<void>(as_float(path, largest_coordinate(*contents.box)));
+    check_size<T>(path, format, contents);
   }
   assert(contents.storage == VertexStorage::full || contents.box);
 }
@@ -61,6 +79,10 @@ std::optional<MeshFormat> mesh_format_of(const std::string& path) {
   return entry == std::end(kFormats)
              ? std::nullopt
              : std::optional(static_cast<MeshFormat>(entry - std::begin(kFormats)));
+}
+
+std::string mesh_format_hint(const std::string& path) {
+  return extension_of(path) == "gltf" ? " (.glb is the form of glTF that is one file)" : "";
 }
 
 std::string mesh_format_name(MeshFormat format) { return entry_of(format).extension; }
@@ -77,6 +99,10 @@ std::string mesh_format_names(const std::string& prefix, bool MeshAbilities::*ab
   return alternatives(wanted);
 }
 
+double diagonal_of(const MeshBox& box) {
+  return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+}
+
 double largest_coordinate(const MeshBox& box) {
   double largest = 0;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -86,22 +112,31 @@ double largest_coordinate(const MeshBox& box) {
 }
 
 template <typename T>
-double stated_deviation(MeshFormat format, const MeshContents& contents) {
+double storage_error(MeshFormat format, const MeshContents& contents) {
   constexpr double kHalfFloat = 0x1p-24; // unit roundoff
   const bool quantised = contents.storage != VertexStorage::full;
-  const bool rounded = sizeof(T) > sizeof(float) && !mesh_abilities(format).doubles;
-  if (!quantised && !rounded) {
-    return *contents.deviation;
+  if (!quantised && !is_rounded<T>(format, contents)) {
+    return 0;
   }
   assert(contents.box);
   const double size = largest_coordinate(*contents.box);
   // Whoever reads quantised positions computes in floats. 1 / 65535, the extent and both products
-  // are rounded, which are parts of the extent; so are the box's corner and the sum.
+  // are rounded, which are parts of the extent; so are the box's corner and the sum. Where there
+  // is an origin, the node's translation is the sum of it and the corner, as a double, and the
+  // deviation is for those who add it in doubles.
   const double extent = quantised ? quantised_space(*contents.box).extent : 0;
+  const double corner =
+      contents.origin ? 0x1p-52 * (largest_coordinate({*contents.origin, *contents.origin}) + size)
+                      : kHalfFloat * 2 * size;
   const double component =
-      quantised ? extent / 65535 / 2 + kHalfFloat * (4 * extent + 2 * size) : kHalfFloat * size;
-  const double error = std::sqrt(3.0) * (component * (1 + 0x1p-32) + 0x1p-148);
-  return std::nextafter(*contents.deviation + error, HUGE_VAL);
+      quantised ? extent / 65535 / 2 + kHalfFloat * 4 * extent + corner : kHalfFloat * size;
+  return std::sqrt(3.0) * (component * (1 + 0x1p-32) + 0x1p-148);
+}
+
+template <typename T>
+double stated_deviation(MeshFormat format, const MeshContents& contents) {
+  const double error = storage_error<T>(format, contents);
+  return error > 0 ? std::nextafter(*contents.deviation + error, HUGE_VAL) : *contents.deviation;
 }
 
 std::uintmax_t checked_file_size(const std::string& path, Count bytes) {
@@ -109,6 +144,10 @@ std::uintmax_t checked_file_size(const std::string& path, Count bytes) {
     bad_input(path + ": expected a file whose bytes can be counted, found " + to_string(bytes));
   }
   return *bytes.value();
+}
+
+std::string spaced(const std::array<double, 3>& point) {
+  return shortest(point[0]) + " " + shortest(point[1]) + " " + shortest(point[2]);
 }
 
 template <typename T>
@@ -191,6 +230,8 @@ template std::unique_ptr<MeshWriter<float>> make_mesh_writer(const std::string&,
                                                              const MeshContents&);
 template std::unique_ptr<MeshWriter<double>> make_mesh_writer(const std::string&, MeshFormat,
                                                               const MeshContents&);
+template double storage_error<float>(MeshFormat, const MeshContents&);
+template double storage_error<double>(MeshFormat, const MeshContents&);
 template double stated_deviation<float>(MeshFormat, const MeshContents&);
 template double stated_deviation<double>(MeshFormat, const MeshContents&);
 template float as_float(const std::string&, float);

@@ -22,6 +22,7 @@ struct MeshAbilities {
   bool normals = false;
   bool quantised = false; ///< see VertexStorage
   bool doubles = false;   ///< positions are rounded to floats where this is false
+  bool moved = false;     ///< programs that read it put the mesh at its origin by themselves
   std::uint64_t most_faces = kAny;
   std::uint64_t most_patches = kAny; ///< the patches whose numbers vertices can have
 };
@@ -34,8 +35,8 @@ struct MeshAbilities {
   X(obj, "an OBJ file", {.quads = true, .normals = true, .doubles = true})                         \
   X(ply, "a PLY file",  {.quads = true, .normals = true, .doubles = true})                         \
   X(stl, "an STL file", {.most_faces = 0xFFFFFFFF}) /* has normals of facets only */               \
-  X(glb, "a GLB file",  {.normals = true, .quantised = true, /* patch numbers are floats */        \
-                         .most_patches = std::uint64_t{1} << 24})
+  X(glb, "a GLB file",  {.normals = true, .quantised = true, .moved = true,                        \
+                         .most_patches = std::uint64_t{1} << 24}) /* their numbers are floats */
 // clang-format on
 
 #define SIMDBEZIER_DECLARE_MESH_FORMAT(NAME, ...) NAME,
@@ -49,6 +50,9 @@ enum class MeshFormat : std::uint8_t {
 
 [[nodiscard]] const MeshAbilities& mesh_abilities(MeshFormat format);
 
+/// Returns "" or a word behind a name that is none of ours, where it is nearly one.
+[[nodiscard]] std::string mesh_format_hint(const std::string& path);
+
 /// Returns "obj", ….
 [[nodiscard]] std::string mesh_format_name(MeshFormat format);
 /// Returns "obj, ply, … or glb", every name behind `prefix`: all formats, or those with the
@@ -60,6 +64,9 @@ struct MeshBox {
   std::array<double, 3> low = {};
   std::array<double, 3> high = {};
 };
+
+/// Returns the length of the box's diagonal.
+[[nodiscard]] double diagonal_of(const MeshBox& box);
 
 /// Returns the largest absolute value of a coordinate in the box.
 [[nodiscard]] double largest_coordinate(const MeshBox& box);
@@ -84,8 +91,11 @@ struct MeshContents {
   bool uv = false;           ///< within 0 and 1
   std::uint64_t patches = 0; ///< every vertex has a patch number below this; 0: none has
   VertexStorage storage = VertexStorage::full;
+  bool floats = false; ///< doubles are stored as floats in formats that have both
+  /// The point that all positions, and the box, count from; files state it.
+  std::optional<std::array<double, 3>> origin;
   /// A box around all positions, which may be larger than the smallest one. Formats that round
-  /// positions need it: quantised ones, and doubles with a stated deviation in STL and GLB.
+  /// positions need it: quantised ones, and doubles with a stated deviation that become floats.
   std::optional<MeshBox> box;
   /// How far positions may leave the box by rounding; quantised ones come to its border.
   double margin = 0;
@@ -159,8 +169,12 @@ template <typename T>
 [[nodiscard]] std::unique_ptr<MeshWriter<T>>
 make_mesh_writer(const std::string& path, MeshFormat format, const MeshContents& contents);
 
-/// Returns the deviation that a file states: what the contents have, and the largest distance by
-/// which the format moves a vertex.
+/// Returns a bound on the distance by which storing moves a vertex. Of the contents it needs the
+/// box, the origin and the kind of numbers.
+template <typename T>
+[[nodiscard]] double storage_error(MeshFormat format, const MeshContents& contents);
+
+/// Returns the deviation that a file states: what the contents have, and storage_error().
 template <typename T>
 [[nodiscard]] double stated_deviation(MeshFormat format, const MeshContents& contents);
 

@@ -27,6 +27,9 @@ template <typename T>
 /// Returns the size as the system counts it. Throws Failure where a file of that size cannot be.
 std::uintmax_t checked_file_size(const std::string& path, Count bytes);
 
+/// Returns "x y z", in the shortest decimals that read back to the same bits.
+[[nodiscard]] std::string spaced(const std::array<double, 3>& point);
+
 /// Returns the value as float. Throws Failure where it is too large for one.
 template <typename T>
 [[nodiscard]] float as_float(const std::string& path, T value);

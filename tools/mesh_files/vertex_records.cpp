@@ -23,11 +23,13 @@ RecordLayout::Field append(RecordLayout& layout, FieldType type, std::size_t com
   return field;
 }
 
-RecordLayout records(FieldType position, FieldType normal, FieldType uv, FieldType patch) {
+RecordLayout records(FieldType position, FieldType normal, FieldType uv, FieldType st,
+                     FieldType patch) {
   RecordLayout layout;
   layout.position = append(layout, position, 3);
   layout.normal = append(layout, normal, 3);
   layout.uv = append(layout, uv, 2);
+  layout.st = append(layout, st, 2);
   layout.patch = append(layout, patch, 1);
   return layout;
 }
@@ -63,9 +65,10 @@ std::size_t size_of(FieldType type) noexcept {
 
 template <typename T>
 RecordLayout exact_records(const MeshContents& contents) {
-  constexpr FieldType kType = sizeof(T) == sizeof(float) ? FieldType::f32 : FieldType::f64;
-  return records(kType, contents.normals ? kType : FieldType::none,
-                 contents.uv ? kType : FieldType::none,
+  const FieldType type =
+      sizeof(T) == sizeof(float) || contents.floats ? FieldType::f32 : FieldType::f64;
+  const FieldType uv = contents.uv ? type : FieldType::none;
+  return records(type, contents.normals ? type : FieldType::none, uv, uv,
                  contents.patches > 0 ? FieldType::u32 : FieldType::none);
 }
 
@@ -76,14 +79,16 @@ RecordLayout glb_records(const MeshContents& contents) {
   const FieldType normal = full ? FieldType::f32 : narrow;
   const FieldType other = full ? FieldType::f32 : FieldType::u16;
   RecordLayout layout = records(other, contents.normals ? normal : FieldType::none,
-                                contents.uv ? other : FieldType::none,
+                                contents.uv ? other : FieldType::none, FieldType::none,
                                 contents.patches > 0 ? FieldType::f32 : FieldType::none);
   layout.unit_normals = contents.normals;
   return layout;
 }
 
 RecordLayout float_positions() {
-  return records(FieldType::f32, FieldType::none, FieldType::none, FieldType::none);
+  RecordLayout layout;
+  layout.position = append(layout, FieldType::f32, 3);
+  return layout;
 }
 
 QuantisedSpace quantised_space(const MeshBox& box) {
@@ -101,7 +106,8 @@ RecordPacker<T>::RecordPacker(std::string path, const MeshContents& contents,
     : path_(std::move(path)), contents_(contents), layout_(layout),
       space_(contents.box ? quantised_space(*contents.box) : QuantisedSpace()),
       records_are_values_(std::endian::native == std::endian::little &&
-                          layout == exact_records<T>(contents) && contents.patches == 0) {}
+                          layout == exact_records<T>(contents) &&
+                          layout.size == contents.stride() * sizeof(T)) {}
 
 template <typename T>
 std::span<const std::byte> RecordPacker<T>::pack(const VertexBlock<T>& block) {
@@ -115,8 +121,10 @@ std::span<const std::byte> RecordPacker<T>::pack(const VertexBlock<T>& block) {
   pack_numbers(layout_.normal, block.values.subspan(3), 3, [&](const T* n, std::size_t c) {
     return layout_.unit_normals && n[0] == 0 && n[1] == 0 && n[2] == 0 ? kUpwards[c] : n[c];
   });
-  pack_numbers(layout_.uv, block.values.subspan(contents_.normals ? 6 : 3), 2,
-               [](const T* uv, std::size_t c) { return uv[c]; });
+  for (const RecordLayout::Field& field : {layout_.uv, layout_.st}) {
+    pack_numbers(field, block.values.subspan(contents_.normals ? 6 : 3), 2,
+                 [](const T* uv, std::size_t c) { return uv[c]; });
+  }
   pack_patches(block.patch);
   return records_;
 }

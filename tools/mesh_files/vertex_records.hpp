@@ -27,13 +27,15 @@ struct RecordLayout {
   Field position;
   Field normal;
   Field uv;
+  Field st; ///< u and v once more
   Field patch;
   std::size_t size = 0;
   bool unit_normals = false; ///< zero normals are replaced
   bool operator==(const RecordLayout&) const = default;
 };
 
-/// Returns the fields of PLY: those of the mesh in T's precision, patch numbers as u32.
+/// Returns the fields of PLY: those of the mesh in T's precision or as floats, patch numbers as
+/// u32.
 template <typename T>
 [[nodiscard]] RecordLayout exact_records(const MeshContents& contents);
 /// Returns the fields of GLB: floats or normalised integers, patch numbers as float.

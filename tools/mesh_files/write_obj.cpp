@@ -31,6 +31,9 @@ public:
     if (mesh.deviation) {
       file_.text("# deviation " + shortest(*mesh.deviation) + "\n");
     }
+    if (mesh.origin) {
+      file_.text("# origin " + spaced(*mesh.origin) + "\n");
+    }
   }
 
   [[nodiscard]] bool takes_faces_early() const noexcept override { return true; }
@@ -56,7 +59,7 @@ private:
       file_.text(keyword);
       for (const T value : values.subspan(k, count)) {
         file_.character(' ');
-        file_.number(value);
+        contents().floats ? file_.number(as_float(this->path(), value)) : file_.number(value);
       }
       file_.character('\n');
     }

@@ -1,4 +1,6 @@
-// Binary PLY, little endian, in T's precision: the vertices as records, then the faces.
+// Binary PLY, little endian, in T's precision or as floats: the vertices as records, then the
+// faces. Some programs look for texture coordinates by the names u v, others by s t: there are
+// both.
 #include <tools/mesh_files/mesh_formats.hpp>
 
 #include <tools/mesh_files/little_endian.hpp>
@@ -22,14 +24,15 @@ std::string properties(const std::string& type, std::initializer_list<const char
 
 template <typename T>
 std::string header(const MeshContents& mesh) {
-  const std::string type = sizeof(T) == sizeof(float) ? "float" : "double";
+  const std::string type = sizeof(T) == sizeof(float) || mesh.floats ? "float" : "double";
   std::string text = "ply\nformat binary_little_endian 1.0\n";
   text += mesh.generator.empty() ? "" : "comment " + mesh.generator + "\n";
   text += mesh.deviation ? "comment deviation " + shortest(*mesh.deviation) + "\n" : "";
+  text += mesh.origin ? "comment origin " + spaced(*mesh.origin) + "\n" : "";
   text += "element vertex " + std::to_string(mesh.vertices) + "\n";
   text += properties(type, {"x", "y", "z"});
   text += mesh.normals ? properties(type, {"nx", "ny", "nz"}) : "";
-  text += mesh.uv ? properties(type, {"u", "v"}) : "";
+  text += mesh.uv ? properties(type, {"u", "v", "s", "t"}) : "";
   text += mesh.patches > 0 ? properties("uint", {"patch"}) : "";
   text += "element face " + std::to_string(mesh.faces) + "\n";
   text += mesh.vertices <= kMostSignedVertices ? "property list uchar int "

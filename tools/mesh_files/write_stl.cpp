@@ -18,10 +18,13 @@ constexpr std::size_t kFacetBytes = 50;
 
 using Position = std::array<float, 3>;
 
-// It must not begin with "solid", as the text form does.
+// It must not begin with "solid", as the text form does. An origin stands in it whole or not at
+// all.
 std::string header(const MeshContents& mesh) {
   std::string text = "binary STL";
   text += mesh.deviation ? ", deviation " + shortest(*mesh.deviation) : "";
+  const std::string origin = mesh.origin ? ", origin " + spaced(*mesh.origin) : "";
+  text += text.size() + origin.size() <= kHeaderBytes ? origin : "";
   text += mesh.generator.empty() ? "" : ", " + mesh.generator;
   text.resize(kHeaderBytes);
   return text;

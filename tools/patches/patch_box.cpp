@@ -1,7 +1,6 @@
 #include <tools/patches/patch_box.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <tools/patches/pack_patches.hpp>
@@ -40,8 +39,6 @@ MeshBox box_of(const PatchFile& file) {
   return box;
 }
 
-double diagonal_of(const MeshBox& box) {
-  return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
-}
+bool is_far(const MeshBox& box) { return largest_coordinate(box) > 2 * diagonal_of(box); }
 
 } // namespace simdbezier::tools

@@ -10,7 +10,7 @@ namespace simdbezier::tools {
 /// library.
 [[nodiscard]] MeshBox box_of(const PatchFile& file);
 
-/// Returns the length of the box's diagonal.
-[[nodiscard]] double diagonal_of(const MeshBox& box);
+/// Returns whether an origin inside of the box would at least halve the largest coordinate.
+[[nodiscard]] bool is_far(const MeshBox& box);
 
 } // namespace simdbezier::tools

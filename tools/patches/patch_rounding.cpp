@@ -66,6 +66,9 @@ template <typename T>
 std::vector<double> rounding_errors(const PatchFile& file, std::size_t first, std::size_t count) {
   std::vector<double> errors(count);
   check(position_errors(pack_patches<T>(file, first, count), errors));
+  for (double& error : errors) {
+    error += file.moved_error;
+  }
   if constexpr (std::is_same_v<T, float>) { // and otherwise points are not rounded
     const PatchNets<double> block = file.nets<double>(first, count);
     std::size_t k = 0;

@@ -76,6 +76,8 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)), buffer_(kBuff
   }
   try {
     temporary_.emplace(target.native());
+  } catch (const FolderRefuses& error) {
+    fail("a folder where a temporary file can stand beside it", error_text(error.code().value()));
   } catch (const std::system_error& error) {
     fail("a writable file", error_text(error.code().value()));
   }

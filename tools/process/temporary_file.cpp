@@ -78,7 +78,14 @@ TemporaryFile::TemporaryFile(const std::string& target) {
     fail(errno);
   }
   // A file that replaces another may be secret and gets its mode later; others have the usual one.
-  create(replaces ? 0600 : 0666);
+  try {
+    create(replaces ? 0600 : 0666);
+  } catch (const std::system_error& error) {
+    if (replaces) {
+      throw FolderRefuses(error.code());
+    }
+    throw;
+  }
 }
 
 void TemporaryFile::create(mode_t mode) {

@@ -26,11 +26,18 @@ private:
   int number_;
 };
 
+/// The folder takes no new file, whatever the rights of the target.
+class FolderRefuses : public std::system_error {
+public:
+  using std::system_error::system_error;
+};
+
 /// A temporary file has a random name in the folder of its target. Whatever ends the program
 /// removes it, except SIGKILL and a crash of the system.
 class TemporaryFile {
 public:
-  /// Creates one for `target`, a path without a link at its end. Throws std::system_error.
+  /// Creates one for `target`, a path without a link at its end. Throws std::system_error,
+  /// FolderRefuses where the target itself could be written.
   explicit TemporaryFile(const std::string& target);
   ~TemporaryFile();
   TemporaryFile(const TemporaryFile&) = delete;

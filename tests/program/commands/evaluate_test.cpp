@@ -221,9 +221,12 @@ void PrintTo(const BadSamples& item, std::ostream* out) { *out << item.name; }
 std::vector<BadSamples> bad_samples() {
   const std::string good = "patch,u,v\n0,0.5,0.5\n";
   return {
-      {"Empty", "", ":1: expected the header patch,u,v or patch,x,y, found the end of the file"},
+      {"Empty", "",
+       ":1: expected the header patch,u,v, patch,x,y or patch,centred_u,centred_v, found the end "
+       "of the file"},
       {"NoHeader", "0,0.5,0.5\n",
-       ":1: expected the header patch,u,v or patch,x,y, found '0,0.5,0.5'"},
+       ":1: expected the header patch,u,v, patch,x,y or patch,centred_u,centred_v, found "
+       "'0,0.5,0.5'"},
       {"OtherHeader", "u,v,patch\n", ":1: expected the header"},
       {"MixedHeader", "patch,u,y\n", ":1: expected the header"},
       {"LongHeader", "patch,u,v,w\n", ":1: expected the header"},
@@ -246,13 +249,17 @@ std::vector<BadSamples> bad_samples() {
       {"EndlessLine", good + std::string(2000000, '0'),
        ":3: expected a line of at most 1048576 characters"},
       {"ColumnTwice", "patch,u,u\n0,0.5,0.5\n",
-       ":1: expected the header patch,u,v or patch,x,y, found 'patch,u,u' with 'u' twice"},
+       ":1: expected the header patch,u,v, patch,x,y or patch,centred_u,centred_v, found "
+       "'patch,u,u' with 'u' twice"},
       {"PatchTwice", "patch,patch,u\n",
-       ":1: expected the header patch,u,v or patch,x,y, found 'patch,patch,u' with 'patch' twice"},
+       ":1: expected the header patch,u,v, patch,x,y or patch,centred_u,centred_v, found "
+       "'patch,patch,u' with 'patch' twice"},
       {"OneColumnMoreTwice", "patch,u,v, v \n0,0.5,0.5,0.5\n",
-       ":1: expected the header patch,u,v or patch,x,y, found 'patch,u,v, v' with 'v' twice"},
+       ":1: expected the header patch,u,v, patch,x,y or patch,centred_u,centred_v, found "
+       "'patch,u,v, v' with 'v' twice"},
       {"FirstColumnAgain", "patch,u,v,patch\n",
-       ":1: expected the header patch,u,v or patch,x,y, found 'patch,u,v,patch' with 'patch' "
+       ":1: expected the header patch,u,v, patch,x,y or patch,centred_u,centred_v, found "
+       "'patch,u,v,patch' with 'patch' "
        "twice"},
       {"NanWithPayload", good + "0,nan(1),0.5\n",
        ":3: expected a finite number, found 'nan(1)', which is not a number"},

@@ -84,6 +84,10 @@ std::vector<Packed> packed_files() {
              }
              return all;
            }()},
+          {"WithZerosBehind", "in.bez.gz", gzip(text) + std::string(512, '\0')},
+          {"WithManyZerosBehind", "in.bez.gz", gzip(text) + std::string(200000, '\0')},
+          {"SeveralWithZerosBehind", "in.bez.gz",
+           gzip(text.substr(0, half)) + gzip(text.substr(half)) + std::string(1, '\0')},
           {"CrLfAndMark", "in.bez.gz", gzip("\xef\xbb\xbf" + replaced(text, "\n", "\r\n"))}};
 }
 
@@ -137,6 +141,10 @@ std::vector<Damaged> damaged_files() {
        "1: expected data that gzip has compressed, found 'unknown compression method'"},
       {"SomethingBehind", packed + "more",
        "expected data that gzip has compressed, found 'incorrect header check'"},
+      {"SomethingBehindZeros", packed + std::string(512, '\0') + "more",
+       "expected zeros up to the end behind compressed data, found something else"},
+      {"AFileBehindZeros", packed + std::string(70000, '\0') + packed,
+       "expected zeros up to the end behind compressed data, found something else"},
       {"TruncatedSecond", packed + packed.substr(0, 5), "expected the rest of the compressed data"},
       {"NoPatches", gzip(""), "1: expected the number of patches, found the end of the file"},
       {"BadNumber", gzip(replaced(patches(), "\n", "\nx ")),

@@ -41,6 +41,10 @@ const Case kCases[] = {
     {"PlyPatches", MeshFormat::ply, false, {.normals = false, .patches = true}, "int"},
     {"PlyQuads", MeshFormat::ply, false, {.corners = 4}, "int"},
     {"PlyEmpty", MeshFormat::ply, false, {.vertices = 0, .faces = 0}, "int"},
+    {"ObjFloats", MeshFormat::obj, true, {.uv = true, .floats = true}},
+    {"PlyFloats", MeshFormat::ply, true, {.floats = true}, "int"},
+    {"PlyAllFloats", MeshFormat::ply, true, {.uv = true, .patches = true, .floats = true}, "int"},
+    {"PlyFloatsOfFloats", MeshFormat::ply, false, {.floats = true}, "int"},
     {"StlF32", MeshFormat::stl, false, {.normals = false}},
     {"StlF64", MeshFormat::stl, true, {.uv = true}},
     {"StlEmpty", MeshFormat::stl, false, {.vertices = 0, .faces = 0}},
@@ -95,15 +99,18 @@ protected:
                               : written<float>(mesh, GetParam().format, block);
   }
   static bool is_empty() { return GetParam().shape.vertices == 0 || GetParam().shape.faces == 0; }
+  static bool has_floats() {
+    return GetParam().shape.floats || GetParam().format == MeshFormat::stl ||
+           GetParam().format == MeshFormat::glb;
+  }
   // The number that a file should hold for one that is not quantised.
   static double stored(double value) {
-    const bool floats =
-        GetParam().format == MeshFormat::stl || GetParam().format == MeshFormat::glb;
-    return floats ? double{static_cast<float>(value)} : value;
+    return has_floats() ? double{static_cast<float>(value)} : value;
   }
   // Text says a float by as many digits as it takes.
   static double found(double value) {
-    return GetParam().doubles ? value : double{static_cast<float>(value)};
+    return GetParam().doubles && !GetParam().shape.floats ? value
+                                                          : double{static_cast<float>(value)};
   }
   template <std::size_t N>
   static void expect_equal(const double* expected, const std::array<double, N>& values) {
@@ -187,15 +194,18 @@ TEST_P(MeshFile, HasEveryFaceAndPatchNumber) {
 TEST_P(MeshFile, SaysItsDeviation) {
   SampleMesh mesh = sample();
   EXPECT_EQ(read(GetParam().format, bytes(mesh)).deviation, std::nullopt);
+  if (GetParam().format == MeshFormat::ply) {
+    EXPECT_EQ(read(GetParam().format, bytes(mesh)).position_type,
+              GetParam().doubles && !has_floats() ? "double" : "float");
+  }
   mesh.contents.deviation = 0.1;
   mesh.contents.generator = "test \"1.0\"";
   const ReadMesh file = read(GetParam().format, bytes(mesh));
   ASSERT_TRUE(file.deviation);
   EXPECT_NE(file.generator.find("test \"1.0\""), std::string::npos) << file.generator;
   // What storing adds: half a step of a quantised component, or of a double that becomes a float.
-  const bool floats = GetParam().format == MeshFormat::stl || GetParam().format == MeshFormat::glb;
   const double step = GetParam().shape.storage != VertexStorage::full ? 10.0 / 65535 / 2
-                      : floats && GetParam().doubles                  ? 6 * 0x1p-24
+                      : has_floats() && GetParam().doubles            ? 6 * 0x1p-24
                                                                       : 0;
   EXPECT_GE(*file.deviation, 0.1 + step * std::sqrt(3.0));
   EXPECT_LE(*file.deviation, 0.1 + step * std::sqrt(3.0) * 1.05);

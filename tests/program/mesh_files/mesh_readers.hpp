@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,11 +20,30 @@ struct ReadMesh {
   std::string generator;
   std::string position_type; ///< as the format calls it
   std::string index_type;
+  /// Where positions count from, as a comment or header says it.
+  std::optional<std::array<double, 3>> origin;
   /// GLB: what the node says, and 1 and 0 where it says nothing.
   double scale = 1;
   std::array<double, 3> translation = {};
   bool quantised = false; ///< GLB: positions are whole numbers, 65535 stands for 1
 };
+
+/// The three numbers behind a word in a text; nothing where it is not there.
+[[nodiscard]] inline std::optional<std::array<double, 3>> origin_behind(const std::string& text,
+                                                                        const std::string& word) {
+  const std::size_t at = text.find(word);
+  if (at == std::string::npos) {
+    return std::nullopt;
+  }
+  std::array<double, 3> point{};
+  const char* rest = text.c_str() + at + word.size();
+  for (double& value : point) {
+    char* end = nullptr;
+    value = std::strtod(rest, &end);
+    rest = end;
+  }
+  return point;
+}
 
 /// Test failures, and whatever was read before, where the file is not what the format demands.
 [[nodiscard]] ReadMesh read_obj_mesh(const std::string& bytes);

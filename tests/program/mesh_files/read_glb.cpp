@@ -130,6 +130,9 @@ void read_node(const Json& node, ReadMesh& mesh) {
   if (node.contains("scale")) {
     mesh.scale = node["scale"][0];
     EXPECT_EQ(node["scale"], (Json{mesh.scale, mesh.scale, mesh.scale}));
+    EXPECT_TRUE(node.contains("translation"));
+  }
+  if (node.contains("translation")) {
     mesh.translation = node["translation"];
   }
 }
@@ -149,6 +152,7 @@ ReadMesh read_glb_mesh(const std::string& bytes) {
     return mesh;
   }
   const Json& primitive = glb.json["meshes"][0]["primitives"][0];
+  EXPECT_EQ(primitive["mode"], 4);
   const Json& position =
       glb.json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
   mesh.positions = glb.attribute<3>(primitive, "POSITION");
@@ -160,7 +164,14 @@ ReadMesh read_glb_mesh(const std::string& bytes) {
   mesh.quantised = position["componentType"] != kFloat;
   EXPECT_EQ(glb.json.contains("extensionsRequired"), mesh.quantised);
   check_bounds(position, mesh.positions);
+  const Json& extras = glb.json["meshes"][0].value("extras", Json::object());
+  EXPECT_EQ(extras.contains("deviation"), mesh.deviation.has_value());
   read_triangles(glb, glb.json["accessors"][primitive["indices"].get<std::size_t>()], mesh);
+  if (mesh.deviation) {
+    EXPECT_EQ(extras["deviation"], *mesh.deviation);
+    EXPECT_EQ(extras["vertices"], mesh.positions.size());
+    EXPECT_EQ(extras["triangles"], mesh.faces.size());
+  }
   read_node(glb.json["nodes"][0], mesh);
   return mesh;
 }

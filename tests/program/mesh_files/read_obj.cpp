@@ -39,6 +39,8 @@ void read_comment(const std::string& line, ReadMesh& mesh) {
   const std::string deviation = "# deviation ";
   if (line.starts_with(deviation)) {
     mesh.deviation = std::strtod(line.c_str() + deviation.size(), nullptr);
+  } else if (line.starts_with("# origin ")) {
+    mesh.origin = origin_behind(line, "# origin ");
   } else {
     mesh.generator = line.substr(2);
   }

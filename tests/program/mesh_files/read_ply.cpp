@@ -44,6 +44,8 @@ PlyHeader read_header(std::istringstream& text, ReadMesh& mesh) {
     words >> first >> second >> third;
     if (first == "comment" && second == "deviation") {
       mesh.deviation = std::strtod(third.c_str(), nullptr);
+    } else if (first == "comment" && second == "origin") {
+      mesh.origin = origin_behind(line, "origin ");
     } else if (first == "comment") {
       mesh.generator = line.substr(8);
     } else if (first == "element") {
@@ -71,6 +73,8 @@ void take_vertex(ByteReader& data, const PlyHeader& header, ReadMesh& mesh) {
   }
   if (number.contains("u")) {
     mesh.uv.push_back({number.at("u"), number.at("v")});
+    EXPECT_EQ(number.at("s"), number.at("u"));
+    EXPECT_EQ(number.at("t"), number.at("v"));
   }
   if (number.contains("patch")) {
     mesh.patches.push_back(number.at("patch"));

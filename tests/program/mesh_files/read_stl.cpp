@@ -27,6 +27,7 @@ ReadMesh read_stl_mesh(const std::string& bytes) {
   if (const std::size_t at = header.find(deviation); at != std::string::npos) {
     mesh.deviation = std::strtod(header.c_str() + at + deviation.size(), nullptr);
   }
+  mesh.origin = origin_behind(header, ", origin ");
   mesh.generator = header.substr(0, header.find('\0'));
   mesh.position_type = "float";
   const auto count = data.take<std::uint32_t>();

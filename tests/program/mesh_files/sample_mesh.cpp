@@ -42,6 +42,7 @@ SampleMesh make_sample(const SampleShape& shape, bool floats) {
   mesh.contents.uv = shape.uv;
   mesh.contents.patches = shape.patches ? std::uint64_t{1} << 24 : 0;
   mesh.contents.storage = shape.storage;
+  mesh.contents.floats = shape.floats;
   mesh.contents.box = tools::MeshBox{{-3, -3.5, -4}, {5, 5, 6}};
   std::mt19937_64 random(shape.vertices * 31 + shape.faces);
   for (std::uint32_t k = 0; k < shape.vertices; ++k) {

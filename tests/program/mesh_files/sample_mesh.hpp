@@ -18,6 +18,7 @@ struct SampleShape {
   bool uv = false;
   bool patches = false;
   tools::VertexStorage storage = tools::VertexStorage::full;
+  bool floats = false;
 };
 
 struct SampleMesh {

@@ -92,6 +92,9 @@ __attribute__((visibility("default"))) int openat(int folder, const char* name, 
   va_start(rest, flags);
   const mode_t mode = mode_of(flags, rest);
   va_end(rest);
+  if ((flags & O_CREAT) != 0 && is_wanted("folder_refuses")) {
+    return failed(EACCES);
+  }
   const int file = next<int(int, const char*, int, ...)>("openat")(folder, name, flags, mode);
   if ((flags & O_CREAT) != 0 && file >= 0) {
     created();

@@ -103,5 +103,18 @@ TEST(Faults, RefusedOwnerKeepsOtherGroupsOut) {
   EXPECT_EQ(after.st_mode & 07777, 0644U);
 }
 
+// A file that may be written, in a folder that takes no other file: it is the folder that is named.
+TEST(Refusals, OfAFolderAreNotThoseOfTheFile) {
+  const TemporaryFolder folder;
+  const std::string old = folder.write("out.csv", "before");
+  expect_failure(run({"evaluate", "builtin:teapot", "-o", old}, {.fault = "folder_refuses"}), 1,
+                 old + ": expected a folder where a temporary file can stand beside it, found "
+                       "'Permission denied'");
+  EXPECT_EQ(read_file(old), "before");
+  const std::string absent = folder.path("absent.csv");
+  expect_failure(run({"evaluate", "builtin:teapot", "-o", absent}, {.fault = "folder_refuses"}), 1,
+                 absent + ": expected a writable file, found 'Permission denied'");
+}
+
 } // namespace
 } // namespace simdbezier::tests::refusals_test

@@ -1,5 +1,5 @@
-// node check_glb.mjs NODE_MODULES FILE.glb…
-// One line of JSON a file: what Khronos' validator says, and what three.js's loader has loaded.
+// node check_glb.mjs NODE_MODULES FILE.glb|FILE.ply…
+// One line of JSON a file: what Khronos' validator says of GLB, and what three.js's loader has loaded.
 import { createRequire } from "node:module";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -9,6 +9,7 @@ const [modules, ...files] = process.argv.slice(2);
 const validator = createRequire(join(modules, "x"))(join(modules, "gltf-validator"));
 const loaderPath = join(modules, "three/examples/jsm/loaders/GLTFLoader.js");
 const { GLTFLoader } = await import(pathToFileURL(loaderPath));
+const { PLYLoader } = await import(pathToFileURL(loaderPath.replace(/GLTF(?=Loader)/, "PLY")));
 
 // Positions as a viewer places them.
 function corners(mesh) {
@@ -34,6 +35,7 @@ function describe(gltf) {
       result.meshes += 1;
       result.vertices = object.geometry.getAttribute("position").count;
       result.triangles = object.geometry.index.count / 3;
+      result.extras = object.userData;
       result.attributes = Object.keys(object.geometry.attributes).sort();
       Object.assign(result, corners(object));
     }
@@ -41,11 +43,21 @@ function describe(gltf) {
   return result;
 }
 
+// The kind of numbers of each attribute.
+function numberTypes(geometry) {
+  const types = Object.entries(geometry.attributes).map(([k, v]) => [k, v.array.constructor.name]);
+  return Object.fromEntries(types);
+}
+
 for (const file of files) {
   const bytes = readFileSync(file);
-  const report = await validator.validateBytes(new Uint8Array(bytes), { maxIssues: 10 });
   const { buffer, byteOffset, byteLength } = bytes;
   const data = buffer.slice(byteOffset, byteOffset + byteLength);
+  if (file.endsWith(".ply")) {
+    console.log(JSON.stringify(numberTypes(new PLYLoader().parse(data))));
+    continue;
+  }
+  const report = await validator.validateBytes(new Uint8Array(bytes), { maxIssues: 10 });
   const gltf = await new GLTFLoader().parseAsync(data, "");
   console.log(JSON.stringify({ issues: report.issues, three: describe(gltf) }));
 }

@@ -1,0 +1,59 @@
+#include <tools/patches/move_patches.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <tools/process/failure.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+// Moves a point and returns how far at most it is from where it should be: a difference is rounded
+// once, also where the point is multiplied by its weight.
+double move_point(double* values, double weight, const std::array<double, 3>& origin) {
+  double error = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    values[c] = std::fma(-weight, origin[c], values[c]) + 0.0;
+    if (!std::isfinite(values[c] / weight)) {
+      bad_input("--origin: expected an origin whose distance from all points a double can hold, "
+                "found a point too far from it");
+    }
+    error = std::max(error, (std::abs(values[c]) * 0x1p-53 + 0x1p-1074) / weight);
+  }
+  return std::sqrt(3.0) * error * (1 + 0x1p-40);
+}
+
+} // namespace
+
+std::array<double, 3> own_origin(const MeshBox& box) {
+  const double step = std::exp2(std::floor(std::log2(diagonal_of(box))) - 3);
+  std::array<double, 3> origin;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double middle = box.low[c] / 2 + box.high[c] / 2;
+    const double rounded = std::nearbyint(middle / step) * step;
+    origin[c] = std::isfinite(rounded) ? rounded + 0.0 : middle; // there may be no step
+  }
+  return origin;
+}
+
+void move_patches(PatchFile& file, const std::array<double, 3>& origin) {
+  const auto move = [&](std::size_t first, std::size_t count, const PatchRun& run) {
+    for (std::size_t k = 0; k < count; ++k) {
+      double* const point = file.points.data() + first + k * run.stride;
+      const double weight = run.weights == Weights::homogeneous ? point[3] : 1;
+      file.moved_error = std::max(file.moved_error, move_point(point, weight, origin));
+    }
+  };
+  // Points that are named by numbers may be those of several runs; such a file has no others, and
+  // none with homogeneous weights.
+  const PatchRun& some = file.runs.front();
+  if (some.first_vertex) {
+    return move(0, file.points.size() / some.stride, some);
+  }
+  for (const PatchRun& run : file.runs) {
+    move(run.first_value, run.u.points * run.v.points, run);
+  }
+}
+
+} // namespace simdbezier::tools
