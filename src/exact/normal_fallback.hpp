@@ -15,6 +15,10 @@ namespace simdbezier::detail {
 /// too, where numbers would have more than 100 000 binary digits, or where a rational patch's
 /// weight is too close to zero for its sign to be known. Where a parameter is not finite, the
 /// normal is nan.
+///
+/// A patch without any normal is found to be one once for all of its samples (src/exact/
+/// curve_like.hpp), as long as a thread asks about no other patch in between: threads remember the
+/// control points that they were asked about last, and what is known of them.
 template <typename T>
 SampleStatus resolve_normal(const NormalQuery<T>& query, T normal[3]) noexcept;
 

@@ -6,6 +6,7 @@
 
 #include <simdbezier/patch_edge.hpp>
 
+#include "src/exact/curve_like.hpp"
 #include "src/exact/exact_points.hpp"
 #include "src/exact/leading_term.hpp"
 #include "src/exact/line_basis.hpp"
@@ -73,8 +74,8 @@ public:
   /// Whether the patch is one point: doubles would form all coefficients to find that none is
   /// there. Most patches are told apart from a point by the first few of theirs.
   [[nodiscard]] bool is_point() const { return detail::is_point(points_, count()); }
-  /// Whether the patch is straight.
-  [[nodiscard]] bool is_zero() const { return is_straight(points_, count()); }
+  /// Whether there is no normal anywhere.
+  [[nodiscard]] bool is_zero() const { return is_curve_like(points_, degree_u_, degree_v_); }
 
 private:
   [[nodiscard]] std::size_t count() const { return (degree_u_ + 1) * (degree_v_ + 1); }

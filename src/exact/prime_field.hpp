@@ -62,6 +62,17 @@ public:
   [[nodiscard]] Value subtract_product(Value a, Value b, Value c) const {
     return subtract(c, multiply(a, b));
   }
+  /// sum_k a[k] b[step k], whose terms are reduced together.
+  [[nodiscard]] Value sum_of_products(const Value* a, const Value* b, std::size_t step,
+                                      std::size_t count) const {
+    const u64 most = u64{prime_} << 32; // terms are below half of it, and sums below it
+    u64 sum = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      sum += u64{a[k].value} * b[k * step].value;
+      sum -= sum >= most ? most : 0;
+    }
+    return {reduce(sum)};
+  }
   [[nodiscard]] Value determinant(Value a, Value b, Value c, Value d) const {
     return subtract(multiply(a, b), multiply(c, d));
   }

@@ -58,10 +58,15 @@ template <typename Field, typename IsNotZero>
   return true;
 }
 
-/// Whether the points fit exactly, decided by doubles and then by as many primes as it takes.
+/// Whether the points fit exactly, decided by doubles, which subtract equal points without an
+/// error, and then by as many primes as it takes.
 [[nodiscard]] inline bool fit_exactly(const ExactPoints& given, std::size_t far,
                                       std::size_t count) {
   const BoundedField doubles{given.largest_point(), given.largest_weight()};
+  if (fit(doubles, given, far, count,
+          [](const Bounded& a) { return !BoundedField::vanishes(a); })) {
+    return true;
+  }
   if (!fit(doubles, given, far, count,
            [](const Bounded& a) { return std::fabs(a.value) > a.error; })) {
     return false;

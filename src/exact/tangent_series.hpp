@@ -58,6 +58,9 @@ public:
     return all;
   }
 
+  /// Whether the curve is one point.
+  [[nodiscard]] bool is_point() const { return detail::is_point(points_, degree_ + 1); }
+
 private:
   ExactPoints points_;
   std::size_t degree_;
