@@ -51,7 +51,8 @@ struct MeshOutputs {
 ///           part where TopologyOptions::orient turns the others; and sums that are too short.
 /// Creases:  split_creases() makes a layout in which such vertices are several, and
 ///           split_parameters() one in which every patch has its own.
-/// Returns:  ok | null_output | output_too_small | bad_components (not three) | bad_stride |
+/// Returns:  ok | null_output | missing_y | missing_z | extra_z (planes that are not the
+///           components) | output_too_small | bad_components (not three) | bad_stride |
 ///           overlapping_outputs | unequal_lengths (set and layout differ in their number of
 ///           patches) | bad_patch_range | size_overflow | unknown_isa | unsupported_isa |
 ///           out_of_memory. On an error nothing has been written.

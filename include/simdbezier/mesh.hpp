@@ -109,8 +109,10 @@ struct Mesh {
 ///
 /// nets:     any views with three components, see find_topology(). They are read only here.
 /// Returns:  in MeshPlan::status, what pack(), find_topology(), choose_rates() or certify_rates(),
-///           lay_out_mesh(), split_creases() and split_parameters() return; bad_tolerance also
-///           where nothing says how fine the mesh is to be, bad_grid where a grid has fewer than 2
+///           lay_out_mesh(), split_creases() and split_parameters() return, among them
+///           snap_too_large where it is MeshOptions::snap that leaves too little of a tolerance;
+///           bad_tolerance also where nothing says how fine the mesh is to be, bad_grid where a
+///           grid has fewer than 2
 ///           samples or where tolerances are given as well; out_of_memory.
 /// Memory:   allocates what the plan holds, and working memory for edges and rates. A mesh is
 ///           planned whole; vertices and triangles can then be had range by range.
@@ -137,6 +139,28 @@ template <typename T, typename S>
 template <typename T, typename S>
 [[nodiscard]] Mesh<T> tessellate(const ControlNets<S>& nets, const MeshOptions& options) noexcept {
   return tessellate<T>(std::span<const ControlNets<S>>(&nets, 1), options);
+}
+
+/// The same where no type is named: tessellate(nets, options) has the number type of the nets. The
+/// integer has no meaning; it keeps these from taking part where a type is named.
+template <int = 0, typename S>
+[[nodiscard]] MeshPlan<S> plan_mesh(std::span<const ControlNets<S>> nets,
+                                    const MeshOptions& options) noexcept {
+  return plan_mesh<S>(nets, options);
+}
+template <int = 0, typename S>
+[[nodiscard]] MeshPlan<S> plan_mesh(const ControlNets<S>& nets,
+                                    const MeshOptions& options) noexcept {
+  return plan_mesh<S>(nets, options);
+}
+template <int = 0, typename S>
+[[nodiscard]] Mesh<S> tessellate(std::span<const ControlNets<S>> nets,
+                                 const MeshOptions& options) noexcept {
+  return tessellate<S>(nets, options);
+}
+template <int = 0, typename S>
+[[nodiscard]] Mesh<S> tessellate(const ControlNets<S>& nets, const MeshOptions& options) noexcept {
+  return tessellate<S>(nets, options);
 }
 
 } // namespace simdbezier

@@ -119,7 +119,8 @@ template <typename S>
 ///           size_overflow | non_finite_input | bad_weight | unknown_isa | unsupported_isa |
 ///           bad_rates (spans that are not one value a patch) | bad_tolerance (not above zero, or
 ///           not above the patch's error, or an error below 0 or nan, or more than most_segments
-///           would be needed; the report names the patch) | out_of_memory. Outputs are undefined
+///           would be needed; the report names the patch) | snap_too_large (likewise, where the
+///           topology's snapping has taken more than half of a tolerance) | out_of_memory. Outputs are undefined
 ///           on an error. The topology has to be that of these nets: their numbers of patches are
 ///           all that is compared.
 /// Cost:     on AVX-512, 0.25 to 0.4 us a bicubic float patch and 0.65 us in double, certificate

@@ -18,7 +18,7 @@ public:
   enum Code : std::uint8_t {
     ok,
     null_input,     ///< a required input pointer is null
-    null_output,    ///< no output was asked for, or one names only some of its planes
+    null_output,    ///< no output was asked for, or the memory of one is null
     bad_degree,     ///< a degree is below 1 or above kMostDegree
     bad_components, ///< components are not 1 to kMostComponents, differ, or an output needs three
     bad_weight,     ///< a weight is not positive and finite, or there are some where none can be
@@ -39,7 +39,12 @@ public:
     unequal_lengths,  ///< spans that belong together have different lengths
     bad_tolerance,    ///< a tolerance is not above zero, or smaller than rounding allows
     bad_rates,        ///< segments of a patch are not 1 to kMostSegments, or not one value a patch
-    not_orientable    ///< no way of turning patches makes all normals agree
+    not_orientable,   ///< no way of turning patches makes all normals agree
+    missing_y,        ///< an output has no y plane for the points' second component
+    missing_z,        ///< an output has no z plane for the points' third component
+    extra_y,          ///< an output has a y plane, and the points no second component for it
+    extra_z,          ///< an output has a z plane, and the points no third component for it
+    snap_too_large    ///< snapping moves a patch by more than half of its tolerance
   };
 
   constexpr Status() noexcept = default;

@@ -11,7 +11,7 @@ _Nets = Union[ArrayLike, Sequence[NDArray[Any]]]
 _Names = Union[str, Iterable[str]]
 _Arrays = dict[str, NDArray[Any]]
 _Out = Optional[dict[str, NDArray[Any]]]
-# Control points, or with weights a pair of points and weights.
+# Control points, or with weights beside them a pair of points and weights.
 _Points = Any
 
 class PatchIndexError(IndexError, ValueError): ...
@@ -26,6 +26,7 @@ class PatchSet:
         local_origin: bool = False,
         relative_to: Optional[ArrayLike] = None,
         threads: int = 0,
+        homogeneous: bool = False,
     ) -> None: ...
     def __len__(self) -> int: ...
     @property
@@ -63,6 +64,7 @@ class CurveSet:
         local_origin: bool = False,
         relative_to: Optional[ArrayLike] = None,
         threads: int = 0,
+        homogeneous: bool = False,
     ) -> None: ...
     def __len__(self) -> int: ...
     @property
@@ -121,24 +123,35 @@ def tessellate(
     longest_edge: Optional[float] = None,
     dtype: Optional[DTypeLike] = None,
     threads: int = 0,
+    homogeneous: bool = False,
 ) -> Mesh: ...
 def available_isas() -> list[str]: ...
 def elevate(
-    points: ArrayLike, degree_u: int, degree_v: int, weights: Optional[ArrayLike] = None
+    points: ArrayLike, degree_u: int, degree_v: int, weights: Optional[ArrayLike] = None,
+    *, homogeneous: bool = False
 ) -> _Points: ...
-def reverse_u(points: ArrayLike, weights: Optional[ArrayLike] = None) -> _Points: ...
-def reverse_v(points: ArrayLike, weights: Optional[ArrayLike] = None) -> _Points: ...
-def transpose(points: ArrayLike, weights: Optional[ArrayLike] = None) -> _Points: ...
+def reverse_u(
+    points: ArrayLike, weights: Optional[ArrayLike] = None, *, homogeneous: bool = False
+) -> _Points: ...
+def reverse_v(
+    points: ArrayLike, weights: Optional[ArrayLike] = None, *, homogeneous: bool = False
+) -> _Points: ...
+def transpose(
+    points: ArrayLike, weights: Optional[ArrayLike] = None, *, homogeneous: bool = False
+) -> _Points: ...
 def hodograph_u(points: ArrayLike) -> NDArray[Any]: ...
 def hodograph_v(points: ArrayLike) -> NDArray[Any]: ...
 def split_u(
-    points: ArrayLike, u: float = 0.5, weights: Optional[ArrayLike] = None
+    points: ArrayLike, u: float = 0.5, weights: Optional[ArrayLike] = None,
+    *, homogeneous: bool = False
 ) -> tuple[_Points, _Points]: ...
 def split_v(
-    points: ArrayLike, v: float = 0.5, weights: Optional[ArrayLike] = None
+    points: ArrayLike, v: float = 0.5, weights: Optional[ArrayLike] = None,
+    *, homogeneous: bool = False
 ) -> tuple[_Points, _Points]: ...
 def split(
-    points: ArrayLike, u: float = 0.5, v: float = 0.5, weights: Optional[ArrayLike] = None
+    points: ArrayLike, u: float = 0.5, v: float = 0.5, weights: Optional[ArrayLike] = None,
+    *, homogeneous: bool = False
 ) -> tuple[_Points, _Points, _Points, _Points]: ...
 def segment(
     points: ArrayLike,
@@ -147,11 +160,17 @@ def segment(
     v0: float,
     v1: float,
     weights: Optional[ArrayLike] = None,
+    *,
+    homogeneous: bool = False,
 ) -> _Points: ...
 def control_boxes(
-    points: ArrayLike, weights: Optional[ArrayLike] = None
+    points: ArrayLike, weights: Optional[ArrayLike] = None,
+    *, homogeneous: bool = False
 ) -> tuple[NDArray[Any], NDArray[Any]]: ...
 def tight_boxes(
-    points: ArrayLike, levels: int = 2, weights: Optional[ArrayLike] = None
+    points: ArrayLike, levels: int = 2, weights: Optional[ArrayLike] = None,
+    *, homogeneous: bool = False
 ) -> tuple[NDArray[Any], NDArray[Any]]: ...
-def flatness(points: ArrayLike, weights: Optional[ArrayLike] = None) -> NDArray[Any]: ...
+def flatness(
+    points: ArrayLike, weights: Optional[ArrayLike] = None, *, homogeneous: bool = False
+) -> NDArray[Any]: ...

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "python/src/call_arguments.hpp"
+
 namespace simdbezier::python {
 namespace {
 
@@ -74,14 +76,18 @@ struct Points {
 };
 
 /// All arrays of one argument, with one type.
-std::vector<Points> point_arrays(const py::object& points, const py::object& weights,
-                                 py::ssize_t dimensions) {
+std::vector<Points> point_arrays(const GivenPoints& given, py::ssize_t dimensions) {
+  const auto& [points, weights, homogeneous] = given;
+  const Weights inside = flag(homogeneous, "homogeneous") ? Weights::homogeneous : Weights::none;
+  if (inside != Weights::none && !weights.is_none()) {
+    throw_value_error("weights", "expected none beside homogeneous points");
+  }
   std::vector<Points> all;
   const auto add = [&](const py::object& one, const py::object& weight, const std::string& index) {
     const py::array array = float_array(one, dimensions, "points" + index);
     const bool rational = !weight.is_none();
     all.push_back({rational ? joined(array, weight, "weights" + index) : array,
-                   rational ? Weights::cartesian : Weights::none, "points" + index});
+                   rational ? Weights::cartesian : inside, "points" + index});
   };
   if (!is_list_of_arrays(points, dimensions)) {
     add(points, weights, "");
@@ -251,13 +257,18 @@ bool wants_float(const py::object& dtype, bool points_are_float) {
   return wanted.equal(py::dtype::of<float>());
 }
 
-AnyPointViews<ControlNets> control_nets(const py::object& points, const py::object& weights) {
-  return any_views_of<ControlNets>(point_arrays(points, weights, 4));
+AnyPointViews<ControlNets> control_nets(const GivenPoints& given) {
+  return any_views_of<ControlNets>(point_arrays(given, 4));
 }
 
-AnyPointViews<ControlCurves> control_curves(const py::object& points, const py::object& weights) {
-  const py::array array = float_array(points, 3, "points");
-  return any_views_of<ControlCurves>(point_arrays(array, weights, 3));
+AnyPointViews<ControlCurves> control_curves(const GivenPoints& given) {
+  const py::array array = float_array(given.points, 3, "points");
+  return any_views_of<ControlCurves>(point_arrays({array, given.weights, given.homogeneous}, 3));
+}
+
+std::string homogeneous_hint(int components) {
+  return components == 4 ? "; homogeneous=True takes (w x, w y, w z, w) as points with weights"
+                         : "";
 }
 
 py::array_t<std::uint32_t> indices(const py::object& values, std::size_t count,

@@ -50,17 +50,31 @@ template <typename S, template <typename> class View>
 struct PointViews {
   std::vector<View<S>> views;
   std::vector<py::array> arrays;
+
+  /// The argument that weights came with.
+  [[nodiscard]] const char* weights_argument() const {
+    return views.front().weights == Weights::homogeneous ? "points" : "weights";
+  }
 };
 template <template <typename> class View>
 using AnyPointViews = std::variant<PointViews<float, View>, PointViews<double, View>>;
 
+/// Control points as functions are given them. homogeneous: whether the last value of each point is
+/// a weight that the others have been multiplied by; then there are no other weights.
+struct GivenPoints {
+  const py::object& points;
+  const py::object& weights;
+  const py::object& homogeneous;
+};
+
 /// Points (patches, rows, columns, components), or a list of such arrays for patches of several
 /// degrees; weights (patches, rows, columns) likewise, or None.
-[[nodiscard]] AnyPointViews<ControlNets> control_nets(const py::object& points,
-                                                      const py::object& weights);
+[[nodiscard]] AnyPointViews<ControlNets> control_nets(const GivenPoints& given);
 /// Points (curves, points, components) and weights (curves, points).
-[[nodiscard]] AnyPointViews<ControlCurves> control_curves(const py::object& points,
-                                                          const py::object& weights);
+[[nodiscard]] AnyPointViews<ControlCurves> control_curves(const GivenPoints& given);
+
+/// What to add to an error about points of so many values each: four may be meant as homogeneous.
+[[nodiscard]] std::string homogeneous_hint(int components);
 
 /// `values` as a contiguous array of V with one dimension; the object itself where it is one.
 template <typename V>

@@ -32,8 +32,9 @@ class PyCurveSet : public PySet<Curves> {
 public:
   PyCurveSet(const py::object& points, const py::object& weights, const py::object& dtype,
              const py::object& local_origin, const py::object& relative_to,
-             const py::object& threads)
-      : PySet(control_curves(points, weights), dtype, local_origin, relative_to, threads) {}
+             const py::object& threads, const py::object& homogeneous)
+      : PySet(control_curves({points, weights, homogeneous}), dtype, local_origin, relative_to,
+              threads) {}
 
   [[nodiscard]] int degree() const {
     return std::visit([](const auto& set) { return set.degree(); }, set_);
@@ -96,32 +97,32 @@ public:
 
 void add_curve_set(py::module_& module) {
   const py::tuple position = py::make_tuple("position");
-  py::class_<PyCurveSet>(module, "CurveSet",
-                         "Bezier curves of one degree, packed to be evaluated many times. "
-                         "Immutable.")
-      .def(py::init<const py::object&, const py::object&, const py::object&, const py::object&,
-                    const py::object&, const py::object&>(),
-           py::arg("points"), py::arg("weights") = py::none(), py::arg("dtype") = py::none(),
-           py::kw_only(), py::arg("local_origin") = false, py::arg("relative_to") = py::none(),
-           py::arg("threads") = 0)
-      .def("__len__", &PyCurveSet::size)
+  py::class_<PyCurveSet> type(module, "CurveSet",
+                              "Bezier curves of one degree, packed to be evaluated many times. "
+                              "Immutable.");
+  using Object = const py::object&;
+  define_constructor<PyCurveSet, Object, Object, Object, Object, Object, Object, Object>(
+      type, py::arg("points"), py::arg("weights") = py::none(), py::arg("dtype") = py::none(),
+      py::kw_only(), py::arg("local_origin") = false, py::arg("relative_to") = py::none(),
+      py::arg("threads") = 0, py::arg("homogeneous") = false);
+  type.def("__len__", &PyCurveSet::size)
       .def("__repr__", &PyCurveSet::text)
       .def_property_readonly("degree", &PyCurveSet::degree, "The degree of every curve.")
       .def_property_readonly("components", &PyCurveSet::components, "Components of every point.")
       .def_property_readonly("rational", &PyCurveSet::rational, "Whether curves have weights.")
-      .def_property_readonly("dtype", &PyCurveSet::dtype, "The type of all results.")
-      .def("evaluate_grid", &PyCurveSet::evaluate_grid, py::arg("n"), py::arg("outputs") = position,
-           py::arg("out") = py::none(), py::arg("threads") = 0,
-           "Every curve at n uniform parameters, ends included: a dict of arrays (curves, n, "
-           "components). Arrays in `out` are written to without a copy, where samples are evenly "
-           "spaced, and returned.")
-      .def("evaluate", &PyCurveSet::evaluate, py::arg("curve"), py::arg("t"),
-           py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
-           "Single samples in any order: a dict of arrays (samples, components). `curve` is one "
-           "number for all of them, or one each.")
-      .def("error_bounds", &PyCurveSet::error_bounds, py::arg("curve"),
-           "Certified bounds on |computed - exact| of every component: a dict with position, d1 "
-           "and d2.");
+      .def_property_readonly("dtype", &PyCurveSet::dtype, "The type of all results.");
+  define(type, "evaluate_grid", &PyCurveSet::evaluate_grid, py::arg("n"),
+         py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
+         "Every curve at n uniform parameters, ends included: a dict of arrays (curves, n, "
+         "components). Arrays in `out` are written to without a copy, where samples are evenly "
+         "spaced, and returned.");
+  define(type, "evaluate", &PyCurveSet::evaluate, py::arg("curve"), py::arg("t"),
+         py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
+         "Single samples in any order: a dict of arrays (samples, components). `curve` is one "
+         "number for all of them, or one each.");
+  define(type, "error_bounds", &PyCurveSet::error_bounds, py::arg("curve"),
+         "Certified bounds on |computed - exact| of every component: a dict with position, d1 "
+         "and d2.");
 }
 
 } // namespace simdbezier::python

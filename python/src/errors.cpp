@@ -55,7 +55,8 @@ void require_ok(Status status, const std::string& argument) {
   }
 }
 
-void require_ok(const PackReport& report, const std::string& points, const std::string& parameter) {
+void require_ok(const PackReport& report, const std::string& weights,
+                const std::string& parameter) {
   if (report) {
     return;
   }
@@ -65,16 +66,16 @@ void require_ok(const PackReport& report, const std::string& points, const std::
     if (report.point < 0) {
       require_ok(report.status, parameter);
     }
-    throw_value_error(points, std::string(to_string(report.status)) + " (patch " +
-                                  std::to_string(report.patch) + ", point " +
-                                  std::to_string(report.point) + ", component " +
-                                  std::to_string(report.component) + ")");
+    throw_value_error("points", std::string(to_string(report.status)) + " (patch " +
+                                    std::to_string(report.patch) + ", point " +
+                                    std::to_string(report.point) + ", component " +
+                                    std::to_string(report.component) + ")");
   case Status::bad_weight:
-    throw_value_error("weights", std::string(to_string(report.status)) + " (patch " +
-                                     std::to_string(report.patch) + ", point " +
-                                     std::to_string(report.point) + ")");
+    throw_value_error(weights, std::string(to_string(report.status)) + " (patch " +
+                                   std::to_string(report.patch) + ", point " +
+                                   std::to_string(report.point) + ")");
   default:
-    require_ok(report.status, points);
+    require_ok(report.status, "points");
   }
 }
 

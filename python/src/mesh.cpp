@@ -8,6 +8,7 @@
 
 #include <tools/mesh_files/mesh_file.hpp>
 
+#include "python/src/calls.hpp"
 #include "python/src/mesh_files.hpp"
 #include "python/src/module.hpp"
 
@@ -25,8 +26,13 @@ public:
   }
 
   void save(const py::object& path) const {
-    const auto bytes = py::module_::import("os").attr("fsencode")(path).cast<py::bytes>();
-    const std::string name = bytes;
+    const auto os = py::module_::import("os");
+    if (!py::isinstance<py::str>(path) && !py::isinstance<py::bytes>(path) &&
+        !py::isinstance(path, os.attr("PathLike"))) {
+      throw_type_error("path", "expected a str, bytes or os.PathLike object, found " +
+                                   py::repr(path).cast<std::string>());
+    }
+    const std::string name = os.attr("fsencode")(path).cast<py::bytes>();
     if (name.find('\0') != std::string::npos) {
       throw_value_error("path", "has a null character in it");
     }
@@ -116,7 +122,7 @@ double crease_angle(const py::object& crease) {
   return degrees * std::numbers::pi / 180;
 }
 
-std::string blamed(Status status, const MeshOptions& options) {
+std::string blamed(Status status, const MeshOptions& options, const char* weights) {
   const bool relative = std::isfinite(options.relative_tolerance);
   const bool absolute = std::isfinite(options.tolerance) || !options.tolerances.empty();
   switch (status.code()) {
@@ -124,10 +130,12 @@ std::string blamed(Status status, const MeshOptions& options) {
     return relative && absolute ? "tolerance or relative" : relative ? "relative" : "tolerance";
   case Status::bad_grid:
     return "grid";
+  case Status::snap_too_large:
+    return "snap";
   case Status::not_orientable:
     return "orient";
   case Status::bad_weight:
-    return "weights";
+    return weights;
   default:
     return "points";
   }
@@ -144,17 +152,22 @@ PyMesh tessellated(const PointViews<S, ControlNets>& nets, const MeshOptions& op
                                        std::to_string(patches) + " patches, found " +
                                        std::to_string(options.tolerances.size()));
   }
+  if (nets.views.front().components != 3) {
+    const int found = nets.views.front().components;
+    throw_value_error("points", "expected three components, found " + std::to_string(found) +
+                                    homogeneous_hint(found));
+  }
   Mesh<T> mesh;
   {
     const py::gil_scoped_release release;
     mesh = simdbezier::tessellate<T>(std::span<const ControlNets<S>>(nets.views), options);
   }
+  const std::string argument = blamed(mesh.status, options, nets.weights_argument());
   if (!mesh && mesh.fault_patch > 0) {
-    throw_value_error(blamed(mesh.status, options), std::string(to_string(mesh.status)) +
-                                                        " (patch " +
-                                                        std::to_string(mesh.fault_patch) + ")");
+    throw_value_error(argument, std::string(to_string(mesh.status)) + " (patch " +
+                                    std::to_string(mesh.fault_patch) + ")");
   }
-  require_ok(mesh.status, blamed(mesh.status, options));
+  require_ok(mesh.status, argument);
   return PyMesh(std::move(mesh));
 }
 
@@ -165,8 +178,8 @@ PyMesh tessellate_points(const py::object& points, const py::object& tolerance,
                          const py::object& orient, const py::object& flip, const py::object& snap,
                          const py::object& point_size, const py::object& drop_repeated,
                          const py::object& longest_edge, const py::object& dtype,
-                         const py::object& threads) {
-  const AnyPointViews<ControlNets> any = control_nets(points, weights);
+                         const py::object& threads, const py::object& homogeneous) {
+  const AnyPointViews<ControlNets> any = control_nets({points, weights, homogeneous});
   MeshOptions options;
   py::array_t<double> tolerances;
   set_tolerance(tolerance, tolerances, options);
@@ -203,8 +216,9 @@ PyMesh tessellate_points(const py::object& points, const py::object& tolerance,
 } // namespace
 
 void add_mesh(py::module_& module) {
-  py::class_<PyMesh>(module, "Mesh", "A closed mesh of triangles. Its arrays are its own memory.")
-      .def("__repr__", &PyMesh::text)
+  py::class_<PyMesh> mesh(module, "Mesh",
+                          "A closed mesh of triangles. Its arrays are its own memory.");
+  mesh.def("__repr__", &PyMesh::text)
       .def_property_readonly("positions", property([](const auto& mesh, const py::object& self) {
                                return rows(mesh.positions, self);
                              }),
@@ -239,19 +253,20 @@ void add_mesh(py::module_& module) {
                                    static_cast<py::ssize_t>(mesh.deviations.size()),
                                    mesh.deviations.data(), self);
                              }),
-                             "The same for single patches: (patches,)")
-      .def("save", &PyMesh::save, py::arg("path"),
-           ("Writes a file of the format that its name ends in: " + tools::mesh_format_names(".") +
-            ".")
-               .c_str());
-  module.def("tessellate", &tessellate_points, py::arg("points"), py::arg("tolerance") = py::none(),
-             py::arg("weights") = py::none(), py::kw_only(), py::arg("relative") = py::none(),
-             py::arg("grid") = py::none(), py::arg("crease") = py::none(),
-             py::arg("normals") = true, py::arg("parameters") = false, py::arg("orient") = false,
-             py::arg("flip") = false, py::arg("snap") = 0.0, py::arg("point_size") = 0.0,
-             py::arg("drop_repeated") = false, py::arg("longest_edge") = py::none(),
-             py::arg("dtype") = py::none(), py::arg("threads") = 0,
-             "A closed mesh of all patches, within a tolerance of their surface.");
+                             "The same for single patches: (patches,)");
+  define(
+      mesh, "save", &PyMesh::save, py::arg("path"),
+      ("Writes a file of the format that its name ends in: " + tools::mesh_format_names(".") + ".")
+          .c_str());
+  define(module, "tessellate", &tessellate_points, py::arg("points"),
+         py::arg("tolerance") = py::none(), py::arg("weights") = py::none(), py::kw_only(),
+         py::arg("relative") = py::none(), py::arg("grid") = py::none(),
+         py::arg("crease") = py::none(), py::arg("normals") = true, py::arg("parameters") = false,
+         py::arg("orient") = false, py::arg("flip") = false, py::arg("snap") = 0.0,
+         py::arg("point_size") = 0.0, py::arg("drop_repeated") = false,
+         py::arg("longest_edge") = py::none(), py::arg("dtype") = py::none(),
+         py::arg("threads") = 0, py::arg("homogeneous") = false,
+         "A closed mesh of all patches, within a tolerance of their surface.");
 }
 
 } // namespace simdbezier::python

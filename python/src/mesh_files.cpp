@@ -73,8 +73,10 @@ void save_mesh(const Mesh<T>& mesh, const std::string& path) {
   const auto format = tools::mesh_format_of(path);
   if (!format) {
     const py::gil_scoped_acquire acquire;
+    const bool text_form = path.size() >= 5 && path.substr(path.size() - 5) == ".gltf";
     throw_value_error("path", "expected a name that ends in " + tools::mesh_format_names(".") +
-                                  ", found '" + path + "'");
+                                  ", found '" + path + "'" +
+                                  (text_form ? "; .glb is glTF in one file" : ""));
   }
   const auto& triangles = mesh.triangles;
   const auto is_outside = [&](const auto& triangle) {

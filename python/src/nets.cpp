@@ -6,6 +6,7 @@
 #include <simdbezier/bounds.hpp>
 #include <simdbezier/nets.hpp>
 
+#include "python/src/calls.hpp"
 #include "python/src/module.hpp"
 
 namespace simdbezier::python {
@@ -35,10 +36,10 @@ MutableNets<S> view_of(py::array_t<S>& array, const ControlNets<S>& like) {
       static_cast<int>(array.shape(1) - 1), like.components, like.weights);
 }
 
-/// The points, and with weights a pair of them and the weights: views of one array.
+/// The points, and with weights beside them a pair of them and the weights: views of one array.
 template <typename S>
 py::object given_back(const py::array_t<S>& array, const ControlNets<S>& like) {
-  if (like.weights == Weights::none) {
+  if (like.weights != Weights::cartesian) {
     return array;
   }
   const py::ellipsis all;
@@ -51,9 +52,8 @@ py::object given_back(const py::array_t<S>& array, const ControlNets<S>& like) {
 /// What an operation makes of nets: `degrees(nets)` says what the degrees of `count` results are,
 /// call(nets, outputs) runs it.
 template <std::size_t N, typename Degrees, typename Call>
-py::object operate(const py::object& points, const py::object& weights, Degrees degrees,
-                   Call call) {
-  const AnyPointViews<ControlNets> any = control_nets(points, weights);
+py::object operate(const GivenPoints& given, Degrees degrees, Call call) {
+  const AnyPointViews<ControlNets> any = control_nets(given);
   return std::visit(
       [&]<typename S>(const PointViews<S, ControlNets>& nets) -> py::object {
         const ControlNets<S>& in = only_one(nets);
@@ -69,7 +69,7 @@ py::object operate(const py::object& points, const py::object& weights, Degrees 
           const py::gil_scoped_release release;
           report = call(in, out);
         }
-        require_ok(report, "points", "points");
+        require_ok(report, nets.weights_argument(), "points");
         if constexpr (N == 1) {
           return given_back(arrays[0], in);
         } else {
@@ -89,14 +89,15 @@ const auto kSwapped = [](const auto& nets) { return std::pair(nets.degree_v, net
 int lowered(int degree) { return degree > 1 ? degree - 1 : 1; }
 
 #define SIMDBEZIER_OPERATION(function, degrees)                                                    \
-  [](const py::object& given, const py::object& given_weights) {                                   \
-    return operate<1>(given, given_weights, degrees, [](const auto& nets, const auto& out) {       \
-      return simdbezier::function(nets, out[0]);                                                   \
-    });                                                                                            \
+  [](const py::object& given, const py::object& given_weights, const py::object& form) {           \
+    return operate<1>(                                                                             \
+        {given, given_weights, form}, degrees,                                                     \
+        [](const auto& nets, const auto& out) { return simdbezier::function(nets, out[0]); });     \
   }
 
 py::object elevated(const py::object& points, const py::object& degree_u,
-                    const py::object& degree_v, const py::object& weights) {
+                    const py::object& degree_v, const py::object& weights,
+                    const py::object& homogeneous) {
   const auto degrees = [&](const auto& nets) {
     const auto check = [](const py::object& wanted, int found, const char* argument) {
       const std::size_t degree = integer(wanted, 1, argument);
@@ -110,7 +111,7 @@ py::object elevated(const py::object& points, const py::object& degree_u,
     const int u = check(degree_u, nets.degree_u, "degree_u");
     return std::pair(u, check(degree_v, nets.degree_v, "degree_v"));
   };
-  return operate<1>(points, weights, degrees, [](const auto& nets, const auto& out) {
+  return operate<1>({points, weights, homogeneous}, degrees, [](const auto& nets, const auto& out) {
     return simdbezier::elevate(nets, out[0]);
   });
 }
@@ -133,39 +134,42 @@ auto same_cut_at(const Cuts&... cuts) {
   };
 }
 
-py::object split_in_u(const py::object& points, const py::object& u, const py::object& weights) {
+py::object split_in_u(const py::object& points, const py::object& u, const py::object& weights,
+                      const py::object& homogeneous) {
   const Cut cut(u, "u");
-  return operate<2>(points, weights, same_cut_at(cut),
+  return operate<2>({points, weights, homogeneous}, same_cut_at(cut),
                     [&]<typename S>(const ControlNets<S>& nets, const auto& out) {
                       return split_u(nets, static_cast<S>(cut.at), out[0], out[1]);
                     });
 }
 
-py::object split_in_v(const py::object& points, const py::object& v, const py::object& weights) {
+py::object split_in_v(const py::object& points, const py::object& v, const py::object& weights,
+                      const py::object& homogeneous) {
   const Cut cut(v, "v");
-  return operate<2>(points, weights, same_cut_at(cut),
+  return operate<2>({points, weights, homogeneous}, same_cut_at(cut),
                     [&]<typename S>(const ControlNets<S>& nets, const auto& out) {
                       return split_v(nets, static_cast<S>(cut.at), out[0], out[1]);
                     });
 }
 
 py::object split_in_four(const py::object& points, const py::object& u, const py::object& v,
-                         const py::object& weights) {
+                         const py::object& weights, const py::object& homogeneous) {
   const Cut cut_u(u, "u");
   const Cut cut_v(v, "v");
-  return operate<4>(points, weights, same_cut_at(cut_u, cut_v),
+  return operate<4>({points, weights, homogeneous}, same_cut_at(cut_u, cut_v),
                     [&]<typename S>(const ControlNets<S>& nets, const auto& out) {
                       return split(nets, static_cast<S>(cut_u.at), static_cast<S>(cut_v.at), out);
                     });
 }
 
 py::object segment_of(const py::object& points, const py::object& u0, const py::object& u1,
-                      const py::object& v0, const py::object& v1, const py::object& weights) {
+                      const py::object& v0, const py::object& v1, const py::object& weights,
+                      const py::object& homogeneous) {
   const Cut low_u(u0, "u0");
   const Cut high_u(u1, "u1");
   const Cut low_v(v0, "v0");
   const Cut high_v(v1, "v1");
-  return operate<1>(points, weights, same_cut_at(low_u, high_u, low_v, high_v),
+  return operate<1>({points, weights, homogeneous}, same_cut_at(low_u, high_u, low_v, high_v),
                     [&]<typename S>(const ControlNets<S>& nets, const auto& out) {
                       const SubPatch<S> piece{static_cast<S>(low_u.at), static_cast<S>(high_u.at),
                                               static_cast<S>(low_v.at), static_cast<S>(high_v.at)};
@@ -175,8 +179,8 @@ py::object segment_of(const py::object& points, const py::object& u0, const py::
 
 /// Boxes: (low, high), each (patches, components).
 template <typename Call>
-py::object boxes(const py::object& points, const py::object& weights, Call call) {
-  const AnyPointViews<ControlNets> any = control_nets(points, weights);
+py::object boxes(const GivenPoints& given, Call call) {
+  const AnyPointViews<ControlNets> any = control_nets(given);
   return std::visit(
       [&]<typename S>(const PointViews<S, ControlNets>& nets) -> py::object {
         const ControlNets<S>& in = only_one(nets);
@@ -189,25 +193,26 @@ py::object boxes(const py::object& points, const py::object& weights, Call call)
           const py::gil_scoped_release release;
           report = call(in, out);
         }
-        require_ok(report, "points", "points");
+        require_ok(report, nets.weights_argument(), "points");
         return py::make_tuple(low, high);
       },
       any);
 }
 
 py::object tight_boxes_of(const py::object& points, const py::object& levels,
-                          const py::object& weights) {
+                          const py::object& weights, const py::object& homogeneous) {
   const std::size_t depth = integer(levels, 0, "levels");
   if (depth > kMostBoxLevels) {
     throw_value_error("levels", "expected 0 to " + std::to_string(kMostBoxLevels));
   }
-  return boxes(points, weights, [&](const auto& nets, const auto& out) {
+  return boxes({points, weights, homogeneous}, [&](const auto& nets, const auto& out) {
     return tight_boxes(nets, static_cast<int>(depth), out);
   });
 }
 
-py::object flatness_of(const py::object& points, const py::object& weights) {
-  const AnyPointViews<ControlNets> any = control_nets(points, weights);
+py::object flatness_of(const py::object& points, const py::object& weights,
+                       const py::object& homogeneous) {
+  const AnyPointViews<ControlNets> any = control_nets({points, weights, homogeneous});
   return std::visit(
       [&]<typename S>(const PointViews<S, ControlNets>& nets) -> py::object {
         const ControlNets<S>& in = only_one(nets);
@@ -218,7 +223,7 @@ py::object flatness_of(const py::object& points, const py::object& weights) {
           const py::gil_scoped_release release;
           report = flatness(in, out);
         }
-        require_ok(report, "points", "points");
+        require_ok(report, nets.weights_argument(), "points");
         return values;
       },
       any);
@@ -229,55 +234,58 @@ py::object flatness_of(const py::object& points, const py::object& weights) {
 void add_nets(py::module_& module) {
   const auto points = py::arg("points");
   const auto weights = py::arg("weights") = py::none();
-  module.def("elevate", &elevated, points, py::arg("degree_u"), py::arg("degree_v"), weights,
-             "The same patches with higher degrees.");
-  module.def("reverse_u", SIMDBEZIER_OPERATION(reverse_u, kSame), points, weights,
-             "The same surfaces, run through backwards in u.");
-  module.def("reverse_v", SIMDBEZIER_OPERATION(reverse_v, kSame), points, weights,
-             "The same surfaces, run through backwards in v.");
-  module.def("transpose", SIMDBEZIER_OPERATION(transpose, kSwapped), points, weights,
-             "The same surfaces with u and v exchanged.");
+  const py::kw_only named;
+  const auto homogeneous = py::arg("homogeneous") = false;
+  define(module, "elevate", &elevated, points, py::arg("degree_u"), py::arg("degree_v"), weights,
+         named, homogeneous, "The same patches with higher degrees.");
+  define(module, "reverse_u", SIMDBEZIER_OPERATION(reverse_u, kSame), points, weights, named,
+         homogeneous, "The same surfaces, run through backwards in u.");
+  define(module, "reverse_v", SIMDBEZIER_OPERATION(reverse_v, kSame), points, weights, named,
+         homogeneous, "The same surfaces, run through backwards in v.");
+  define(module, "transpose", SIMDBEZIER_OPERATION(transpose, kSwapped), points, weights, named,
+         homogeneous, "The same surfaces with u and v exchanged.");
   const auto lower_u = [](const auto& nets) {
     return std::pair(lowered(nets.degree_u), nets.degree_v);
   };
   const auto lower_v = [](const auto& nets) {
     return std::pair(nets.degree_u, lowered(nets.degree_v));
   };
-  module.def(
-      "hodograph_u",
+  define(
+      module, "hodograph_u",
       [lower_u](const py::object& p) {
-        return operate<1>(p, py::none(), lower_u, [](const auto& nets, const auto& out) {
-          return hodograph_u(nets, out[0]);
-        });
+        return operate<1>(
+            {p, py::none(), py::bool_(false)}, lower_u,
+            [](const auto& nets, const auto& out) { return hodograph_u(nets, out[0]); });
       },
       points, "Control points of dS/du.");
-  module.def(
-      "hodograph_v",
+  define(
+      module, "hodograph_v",
       [lower_v](const py::object& p) {
-        return operate<1>(p, py::none(), lower_v, [](const auto& nets, const auto& out) {
-          return hodograph_v(nets, out[0]);
-        });
+        return operate<1>(
+            {p, py::none(), py::bool_(false)}, lower_v,
+            [](const auto& nets, const auto& out) { return hodograph_v(nets, out[0]); });
       },
       points, "Control points of dS/dv.");
-  module.def("split_u", &split_in_u, points, py::arg("u") = 0.5, weights,
-             "Cuts every patch at u: (low, high).");
-  module.def("split_v", &split_in_v, points, py::arg("v") = 0.5, weights,
-             "Cuts every patch at v: (low, high).");
-  module.def("split", &split_in_four, points, py::arg("u") = 0.5, py::arg("v") = 0.5, weights,
-             "Cuts every patch in four: element 2 * (v half) + (u half).");
-  module.def("segment", &segment_of, points, py::arg("u0"), py::arg("u1"), py::arg("v0"),
-             py::arg("v1"), weights, "The piece of every patch over [u0, u1] x [v0, v1].");
-  module.def(
-      "control_boxes",
-      [](const py::object& p, const py::object& w) {
-        return boxes(p, w,
+  define(module, "split_u", &split_in_u, points, py::arg("u") = 0.5, weights, named, homogeneous,
+         "Cuts every patch at u: (low, high).");
+  define(module, "split_v", &split_in_v, points, py::arg("v") = 0.5, weights, named, homogeneous,
+         "Cuts every patch at v: (low, high).");
+  define(module, "split", &split_in_four, points, py::arg("u") = 0.5, py::arg("v") = 0.5, weights,
+         named, homogeneous, "Cuts every patch in four: element 2 * (v half) + (u half).");
+  define(module, "segment", &segment_of, points, py::arg("u0"), py::arg("u1"), py::arg("v0"),
+         py::arg("v1"), weights, named, homogeneous,
+         "The piece of every patch over [u0, u1] x [v0, v1].");
+  define(
+      module, "control_boxes",
+      [](const py::object& p, const py::object& w, const py::object& form) {
+        return boxes({p, w, form},
                      [](const auto& nets, const auto& out) { return control_boxes(nets, out); });
       },
-      points, weights, "Boxes of the control points: (low, high).");
-  module.def("tight_boxes", &tight_boxes_of, points, py::arg("levels") = 2, weights,
-             "Certified boxes of the surfaces: (low, high).");
-  module.def("flatness", &flatness_of, points, weights,
-             "Certified distances from the bilinear patches of the corners.");
+      points, weights, named, homogeneous, "Boxes of the control points: (low, high).");
+  define(module, "tight_boxes", &tight_boxes_of, points, py::arg("levels") = 2, weights, named,
+         homogeneous, "Certified boxes of the surfaces: (low, high).");
+  define(module, "flatness", &flatness_of, points, weights, named, homogeneous,
+         "Certified distances from the bilinear patches of the corners.");
 }
 
 } // namespace simdbezier::python

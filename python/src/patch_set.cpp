@@ -40,8 +40,9 @@ class PyPatchSet : public PySet<Patches> {
 public:
   PyPatchSet(const py::object& points, const py::object& weights, const py::object& dtype,
              const py::object& local_origin, const py::object& relative_to,
-             const py::object& threads)
-      : PySet(control_nets(points, weights), dtype, local_origin, relative_to, threads) {}
+             const py::object& threads, const py::object& homogeneous)
+      : PySet(control_nets({points, weights, homogeneous}), dtype, local_origin, relative_to,
+              threads) {}
 
   [[nodiscard]] PatchShape shape(const py::object& patch) const {
     const std::size_t index = index_of(patch);
@@ -129,40 +130,40 @@ private:
 
 void add_patch_set(py::module_& module) {
   const py::tuple position = py::make_tuple("position");
-  py::class_<PyPatchSet>(module, "PatchSet",
-                         "Bezier patches, packed to be evaluated many times. Immutable.")
-      .def(py::init<const py::object&, const py::object&, const py::object&, const py::object&,
-                    const py::object&, const py::object&>(),
-           py::arg("points"), py::arg("weights") = py::none(), py::arg("dtype") = py::none(),
-           py::kw_only(), py::arg("local_origin") = false, py::arg("relative_to") = py::none(),
-           py::arg("threads") = 0)
-      .def("__len__", &PyPatchSet::size)
+  py::class_<PyPatchSet> type(module, "PatchSet",
+                              "Bezier patches, packed to be evaluated many times. Immutable.");
+  using Object = const py::object&;
+  define_constructor<PyPatchSet, Object, Object, Object, Object, Object, Object, Object>(
+      type, py::arg("points"), py::arg("weights") = py::none(), py::arg("dtype") = py::none(),
+      py::kw_only(), py::arg("local_origin") = false, py::arg("relative_to") = py::none(),
+      py::arg("threads") = 0, py::arg("homogeneous") = false);
+  type.def("__len__", &PyPatchSet::size)
       .def("__repr__", &PyPatchSet::text)
       .def_property_readonly("components", &PyPatchSet::components, "Components of every point.")
-      .def_property_readonly("dtype", &PyPatchSet::dtype, "The type of all results.")
-      .def(
-          "degrees",
-          [](const PyPatchSet& set, const py::object& patch) {
-            const PatchShape shape = set.shape(patch);
-            return py::make_tuple(shape.degree_u, shape.degree_v);
-          },
-          py::arg("patch"), "Degrees of one patch: (along a row, across rows).")
-      .def(
-          "is_rational",
-          [](const PyPatchSet& set, const py::object& patch) { return set.shape(patch).rational; },
-          py::arg("patch"), "Whether one patch has weights.")
-      .def("evaluate_grid", &PyPatchSet::evaluate_grid, py::arg("nu"), py::arg("nv"),
-           py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
-           "Every patch on a uniform grid, ends included: a dict of arrays (patches, nv, nu, "
-           "components). Arrays in `out` are written to without a copy, where samples are evenly "
-           "spaced, and returned.")
-      .def("evaluate", &PyPatchSet::evaluate, py::arg("patch"), py::arg("u"), py::arg("v"),
-           py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
-           "Single samples in any order: a dict of arrays (samples, components). `patch` is one "
-           "number for all of them, or one each.")
-      .def("error_bounds", &PyPatchSet::error_bounds, py::arg("patch"),
-           "Certified bounds on |computed - exact| of every component: a dict with position, du "
-           "and dv.");
+      .def_property_readonly("dtype", &PyPatchSet::dtype, "The type of all results.");
+  define(
+      type, "degrees",
+      [](const PyPatchSet& set, const py::object& patch) {
+        const PatchShape shape = set.shape(patch);
+        return py::make_tuple(shape.degree_u, shape.degree_v);
+      },
+      py::arg("patch"), "Degrees of one patch: (along a row, across rows).");
+  define(
+      type, "is_rational",
+      [](const PyPatchSet& set, const py::object& patch) { return set.shape(patch).rational; },
+      py::arg("patch"), "Whether one patch has weights.");
+  define(type, "evaluate_grid", &PyPatchSet::evaluate_grid, py::arg("nu"), py::arg("nv"),
+         py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
+         "Every patch on a uniform grid, ends included: a dict of arrays (patches, nv, nu, "
+         "components). Arrays in `out` are written to without a copy, where samples are evenly "
+         "spaced, and returned.");
+  define(type, "evaluate", &PyPatchSet::evaluate, py::arg("patch"), py::arg("u"), py::arg("v"),
+         py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
+         "Single samples in any order: a dict of arrays (samples, components). `patch` is one "
+         "number for all of them, or one each.");
+  define(type, "error_bounds", &PyPatchSet::error_bounds, py::arg("patch"),
+         "Certified bounds on |computed - exact| of every component: a dict with position, du "
+         "and dv.");
 }
 
 } // namespace simdbezier::python

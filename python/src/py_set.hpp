@@ -9,6 +9,7 @@
 
 #include <simdbezier/options.hpp>
 
+#include "python/src/calls.hpp"
 #include "python/src/module.hpp"
 #include "python/src/wanted_outputs.hpp"
 
@@ -79,7 +80,7 @@ protected:
     for (const std::string& name : wanted) {
       if (!Kind::has(name, components)) {
         throw_value_error("outputs", "'" + name + "' needs " + Kind::kNeeds + ", the set has " +
-                                         std::to_string(components));
+                                         std::to_string(components) + homogeneous_hint(components));
       }
     }
     const OutputArrays<T> arrays(known, wanted, out, samples, components, inputs);
@@ -106,7 +107,7 @@ private:
       const py::gil_scoped_release release;
       report = pack(packable(points), packed, options);
     }
-    require_ok(report, "points", "relative_to");
+    require_ok(report, points.weights_argument(), "relative_to");
     set_ = std::move(packed);
   }
 };

@@ -92,16 +92,20 @@ simdbezier_status iso_curves(const char* function, const simdbezier_patch_set* p
 
 /// iso_u() or iso_v() of nets.
 template <typename Call>
-simdbezier_status iso_points(const char* function, const simdbezier_nets* nets, double* points,
-                             std::size_t length, const simdbezier_options* options,
-                             Call call) noexcept {
+simdbezier_status iso_points(const char* function, const simdbezier_nets* nets,
+                             const char* parameter, double* points, std::size_t length,
+                             const simdbezier_options* options, Call call) noexcept {
   return answer(function, [&] {
     const Path path{"nets"};
     const simdbezier_nets given = read(nets, path);
     const Values<double> out = span_of(points, length, {"points"});
     const CallOptions how(options);
     with_scalar(given.scalar, path / "scalar", [&]<typename S>() {
-      require_ok(call(nets_of<S>(given, path), out, *how), [&](Status status) {
+      const PackReport report = call(nets_of<S>(given, path), out, *how);
+      require_ok(report, [&](Status status) {
+        if (status == Status::non_finite_input && report.point < 0) {
+          return Path{parameter};
+        }
         const bool about_points = status == Status::null_output ||
                                   status == Status::output_too_small ||
                                   status == Status::overlapping_outputs;
@@ -197,7 +201,7 @@ simdbezier_status simdbezier_iso_v(const simdbezier_patch_set* patches, double v
 
 simdbezier_status simdbezier_iso_u_points(const simdbezier_nets* nets, double u0, double* points,
                                           size_t length, const simdbezier_options* options) {
-  return iso_points(__func__, nets, points, length, options,
+  return iso_points(__func__, nets, "u0", points, length, options,
                     [&](const auto& views, const Values<double>& out, const Options& how) {
                       return iso_u(views, u0, out, how);
                     });
@@ -205,7 +209,7 @@ simdbezier_status simdbezier_iso_u_points(const simdbezier_nets* nets, double u0
 
 simdbezier_status simdbezier_iso_v_points(const simdbezier_nets* nets, double v0, double* points,
                                           size_t length, const simdbezier_options* options) {
-  return iso_points(__func__, nets, points, length, options,
+  return iso_points(__func__, nets, "v0", points, length, options,
                     [&](const auto& views, const Values<double>& out, const Options& how) {
                       return iso_v(views, v0, out, how);
                     });

@@ -114,6 +114,7 @@ simdbezier_status derivatives_at(const char* function, const simdbezier_patch_se
     with_object(set, kSet, [&]<typename T>(const PatchSet<T>& patches) {
       const auto where = where_of<T>(given);
       std::vector<PartialDerivative<T>> wanted;
+      reserve(wanted, length);
       for (std::size_t k = 0; k < length; ++k) {
         const auto one = read_element(derivatives, k, "derivatives");
         wanted.push_back(

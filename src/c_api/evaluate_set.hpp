@@ -45,7 +45,7 @@ Path blamed_output(const Out& out, Status status, std::size_t samples, std::int6
   for (std::size_t k = 0; k < Out::kVectors; ++k) {
     const auto name = static_cast<typename Out::Name>(k);
     if (is_at_fault(out[name], status, samples, components)) {
-      return all / output_name(name);
+      return blamed_plane(status, all / output_name(name));
     }
   }
   if (status != Status::output_too_small) {

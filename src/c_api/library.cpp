@@ -10,7 +10,7 @@ namespace simdbezier::c_api {
 namespace {
 
 // Numbers of C are those of C++; a new Status gets a name in types.h.
-static_assert(static_cast<int>(SIMDBEZIER_NOT_ORIENTABLE) == Status::not_orientable);
+static_assert(static_cast<int>(SIMDBEZIER_SNAP_TOO_LARGE) == Status::snap_too_large);
 static_assert(static_cast<int>(SIMDBEZIER_OUT_OF_MEMORY) == Status::out_of_memory);
 #define SIMDBEZIER_INSTRUCTION_SET(name, upper, fuses, runs_here)                                  \
   static_assert(SIMDBEZIER_ISA_##upper == static_cast<int>(Isa::name));                            \
@@ -93,6 +93,10 @@ Path blamed_in_call(Status status, const Path& where) {
   case Status::unsupported_isa:
     return kOptions / "isa";
   case Status::null_output:
+  case Status::missing_y:
+  case Status::missing_z:
+  case Status::extra_y:
+  case Status::extra_z:
   case Status::overlapping_outputs:
   case Status::output_too_small:
   case Status::bad_stride:

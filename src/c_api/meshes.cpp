@@ -68,6 +68,8 @@ Path blamed_in_tessellation(Status status, const MeshOptions& options,
     return kOptions / (few ? "nu or nv" : "nu and nv beside a tolerance");
   case Status::bad_rates:
     return kOptions / (options.nu != 0 ? "nu or nv" : "tolerances");
+  case Status::snap_too_large:
+    return kOptions / "snap";
   case Status::not_orientable:
     return kOptions / "orient";
   default:

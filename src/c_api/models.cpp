@@ -56,8 +56,9 @@ simdbezier_status simdbezier_find_topology(const simdbezier_nets* nets, size_t l
       how.snap = known.snap;
       how.threads = known.threads;
       require_ok(find_topology(views, found, how), [&](Status status) {
-        return status == Status::bad_tolerance ? kOptions / "point_size or snap"
-                                               : blamed_nets(status, {"nets"});
+        return status == Status::bad_tolerance    ? kOptions / "point_size or snap"
+               : status == Status::not_orientable ? kOptions / "orient"
+                                                  : blamed_nets(status, {"nets"});
       });
       give(topology, std::move(found));
     });

@@ -254,7 +254,8 @@ simdbezier_status simdbezier_spline_to_bezier(const simdbezier_spline_mesh* mesh
     with_scalar(given.scalar, path / "scalar", [&]<typename T>() {
       require_ok(spline_to_bezier(mesh_of<T>(given, path), output_of<T>(out, kOut), *how),
                  [&](Status status) {
-                   const Path found = blamed(status, false, kOut);
+                   const Path found =
+                       blamed(status, true, kOut); // mesh_of() has seen to its memory
                    const bool of_mesh = found.is_of(kNets) || status == Status::bad_grid;
                    return of_mesh ? path : found;
                  });

@@ -97,6 +97,8 @@ void require_rates(const RateReport& report, std::span<const ControlNets<S>> net
     case Status::bad_tolerance:
     case Status::bad_rates:
       return blamed(report.status);
+    case Status::snap_too_large:
+      return kTopology;
     case Status::unsupported_isa:
       return kOptions / "isa";
     default:

@@ -60,7 +60,7 @@ Path blamed_output(const MeshOutputs<T>& out, Status status, std::size_t vertice
       {"position", out.position, 3}, {"normal", out.normal, 3}, {"parameters", out.parameters, 2}};
   for (const auto& [name, vectors, components] : members) {
     if (is_at_fault(vectors, status, vertices, components)) {
-      return kOut / name;
+      return blamed_plane(status, kOut / name);
     }
   }
   const bool patch =
@@ -158,8 +158,9 @@ simdbezier_status simdbezier_evaluate_mesh_attributes(const simdbezier_patch_set
       require_ok(evaluate_mesh_attributes(patches, numbers, to, first_component, *how,
                                           range_of(first_patch, patch_count)),
                  [](Status status) {
-                   return status == Status::bad_components ? Path{"first_component"}
-                                                           : blamed_in_mesh(status);
+                   return status == Status::bad_components
+                              ? Path{"first_component"}
+                              : blamed_plane(status, blamed_in_mesh(status));
                  });
     });
   });

@@ -16,6 +16,7 @@
 #include <simdbezier/vectors.hpp>
 
 #include "src/c_api/structs.hpp"
+#include "src/output/output_list.hpp"
 
 namespace simdbezier::c_api {
 
@@ -155,6 +156,18 @@ Path blamed_tolerance(const Tolerances& options, std::size_t at) {
   return kOptions / (options.tolerances.empty() ? "tolerance" : "tolerances");
 }
 
+/// Room for what is read from an array of structs. No memory holds as many as are asked for where
+/// there is none.
+template <typename V>
+void reserve(std::vector<V>& values, std::size_t length) {
+  const bool overflows = length > values.max_size();
+  try {
+    values.reserve(length);
+  } catch (const std::exception&) {
+    throw Fault{overflows ? SIMDBEZIER_SIZE_OVERFLOW : SIMDBEZIER_OUT_OF_MEMORY, {"length"}};
+  }
+}
+
 /// body(std::span<const ControlNets<S>>) with the nets of an array, S being their type.
 template <typename Body>
 auto with_net_array(const simdbezier_nets* nets, std::size_t length, Body body) {
@@ -162,7 +175,7 @@ auto with_net_array(const simdbezier_nets* nets, std::size_t length, Body body) 
       length == 0 ? SIMDBEZIER_F32 : read_element(nets, 0, "nets").scalar;
   return with_scalar(scalar, Path{"nets", 0} / "scalar", [&]<typename S>() {
     std::vector<ControlNets<S>> views;
-    views.reserve(length);
+    reserve(views, length);
     for (std::size_t k = 0; k < length; ++k) {
       views.push_back(nets_of<S>(read_element(nets, k, "nets"), {"nets", k}));
     }
@@ -261,12 +274,24 @@ bool is_at_fault(const Vectors<T>& vectors, Status status, std::size_t samples,
   switch (status.code()) {
   case Status::output_too_small:
     return vectors.capacity < samples;
-  case Status::null_output:
-    return (vectors.y == nullptr) != (components < 2) || (vectors.z == nullptr) != (components < 3);
   case Status::bad_stride:
     return vectors.stride < components && vectors.y == vectors.x + 1;
   default:
-    return false;
+    return detail::check_planes(vectors, static_cast<std::size_t>(components)) == status;
+  }
+}
+
+/// The plane of a vector output that a status is about, or the whole of it.
+inline Path blamed_plane(Status status, const Path& vectors) {
+  switch (status.code()) {
+  case Status::missing_y:
+  case Status::extra_y:
+    return vectors / "y";
+  case Status::missing_z:
+  case Status::extra_z:
+    return vectors / "z";
+  default:
+    return vectors;
   }
 }
 

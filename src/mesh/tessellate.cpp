@@ -94,10 +94,10 @@ Mesh<T> tessellate(std::span<const ControlNets<S>> nets, const MeshOptions& opti
 }
 
 #define SIMDBEZIER_INSTANTIATE(T, S)                                                               \
-  template SIMDBEZIER_API MeshPlan<T> plan_mesh(std::span<const ControlNets<S>>,                   \
-                                                const MeshOptions&) noexcept;                      \
-  template SIMDBEZIER_API Mesh<T> tessellate(std::span<const ControlNets<S>>,                      \
-                                             const MeshOptions&) noexcept;
+  template SIMDBEZIER_API MeshPlan<T> plan_mesh<T, S>(std::span<const ControlNets<S>>,             \
+                                                      const MeshOptions&) noexcept;                \
+  template SIMDBEZIER_API Mesh<T> tessellate<T, S>(std::span<const ControlNets<S>>,                \
+                                                   const MeshOptions&) noexcept;
 SIMDBEZIER_INSTANTIATE(float, float)
 SIMDBEZIER_INSTANTIATE(float, double)
 SIMDBEZIER_INSTANTIATE(double, float)

@@ -8,6 +8,7 @@
 
 #include "src/nets/linear_maps.hpp"
 #include "src/nets/net_call.hpp"
+#include "src/nets/net_places.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -153,30 +154,19 @@ NetReport convert_mesh(const SplineMesh<T>& mesh, const MutableNets<T>& out,
                      options, values * kLineBytes, work)};
 }
 
-/// The bytes of a mesh that can be read; false where an offset overflows.
+/// A mesh of sound components as one net; its rows and columns are no degrees.
 template <typename T>
-bool bytes_of(const SplineMesh<T>& mesh, MemoryRange& range) noexcept {
-  const auto row = static_cast<std::ptrdiff_t>(mesh.rows) - 1;
-  const auto column = static_cast<std::ptrdiff_t>(mesh.columns) - 1;
-  std::ptrdiff_t lowest = 0;
-  std::ptrdiff_t highest = 1;
-  const std::ptrdiff_t steps[3][2] = {{row, mesh.row_stride},
-                                      {column, mesh.point_stride},
-                                      {channels_of(mesh) - 1, mesh.component_stride}};
-  for (const auto& [count, stride] : steps) {
-    std::ptrdiff_t reach = 0;
-    if (__builtin_mul_overflow(count, stride, &reach) ||
-        __builtin_add_overflow(reach < 0 ? lowest : highest, reach,
-                               reach < 0 ? &lowest : &highest)) {
-      return false;
-    }
-  }
-  constexpr std::ptrdiff_t kMost = PTRDIFF_MAX / 4 / static_cast<std::ptrdiff_t>(sizeof(T));
-  if (lowest < -kMost || highest > kMost) {
-    return false;
-  }
-  range = {mesh.points + lowest, static_cast<std::size_t>(highest - lowest) * sizeof(T)};
-  return true;
+ControlNets<T> one_net(const SplineMesh<T>& mesh) noexcept {
+  return {mesh.points,
+          1,
+          static_cast<int>(mesh.columns - 1),
+          static_cast<int>(mesh.rows - 1),
+          0,
+          mesh.row_stride,
+          mesh.point_stride,
+          mesh.component_stride,
+          mesh.components,
+          mesh.weights};
 }
 
 template <typename T>
@@ -198,11 +188,11 @@ Status check_mesh(const SplineMesh<T>& mesh, const MutableNets<T>& out) noexcept
   }
   pieces.count = mesh.patches_u() * mesh.patches_v();
   status = check_output(out, pieces, 3, 3);
-  MemoryRange range{};
-  if (status == Status::ok && !bytes_of(mesh, range)) {
+  Lattice lattice;
+  if (status == Status::ok && !lattice_of(one_net(mesh), lattice)) {
     return Status::size_overflow;
   }
-  return status == Status::ok ? check_apart<T>(out, range) : status;
+  return status == Status::ok ? check_apart<T>(out, lattice.range) : status;
 }
 
 } // namespace

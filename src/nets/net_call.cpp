@@ -191,13 +191,7 @@ Status check_apart(const ControlNets<S>& a, const ControlNets<S>& b) noexcept {
 template <typename S>
 Status check_apart(const ControlNets<S>& nets, const MemoryRange& range) noexcept {
   Lattice lattice;
-  if (nets.count == 0 || range.bytes == 0 || !lattice_of(nets, lattice)) {
-    return Status::ok;
-  }
-  const auto begin = reinterpret_cast<std::uintptr_t>(range.begin);
-  const bool apart =
-      begin >= lattice.begin + static_cast<std::uintptr_t>(lattice.highest) ||
-      begin + range.bytes <= lattice.begin + static_cast<std::uintptr_t>(lattice.lowest);
+  const bool apart = nets.count == 0 || !lattice_of(nets, lattice) || !lattice.range.meets(range);
   return apart ? Status::ok : Status::overlapping_outputs;
 }
 

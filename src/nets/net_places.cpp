@@ -58,7 +58,8 @@ bool lattice_of(const ControlNets<S>& nets, Lattice& lattice) noexcept {
                                   nets.degree_u,
                                   static_cast<std::ptrdiff_t>(shape_of(nets).channels()) - 1};
   lattice.begin = reinterpret_cast<std::uintptr_t>(nets.points);
-  lattice.highest = sizeof(S);
+  std::ptrdiff_t lowest = 0;
+  std::ptrdiff_t highest = sizeof(S);
   for (int k = 0; k < 4; ++k) {
     Lattice::Direction& direction = lattice.direction[k];
     direction.last = std::max<std::ptrdiff_t>(last[k], 0);
@@ -66,14 +67,15 @@ bool lattice_of(const ControlNets<S>& nets, Lattice& lattice) noexcept {
     const std::ptrdiff_t stride = direction.last == 0 ? 0 : strides[k]; // or not taken at all
     if (__builtin_mul_overflow(stride, static_cast<std::ptrdiff_t>(sizeof(S)), &direction.stride) ||
         __builtin_mul_overflow(direction.stride, direction.last, &reach) ||
-        __builtin_add_overflow(reach < 0 ? lattice.lowest : lattice.highest, reach,
-                               reach < 0 ? &lattice.lowest : &lattice.highest)) {
+        __builtin_add_overflow(reach < 0 ? lowest : highest, reach,
+                               reach < 0 ? &lowest : &highest)) {
       return false;
     }
   }
   // Room for sums and differences of two of them.
   constexpr auto kMostSpan = static_cast<std::ptrdiff_t>(kMost);
-  return lattice.lowest > -kMostSpan && lattice.highest < kMostSpan;
+  lattice.range = {nets.points, lowest, highest};
+  return lowest > -kMostSpan && highest < kMostSpan;
 }
 
 bool nests(Lattice lattice, std::ptrdiff_t value_bytes) noexcept {
@@ -91,10 +93,7 @@ bool nests(Lattice lattice, std::ptrdiff_t value_bytes) noexcept {
 }
 
 bool collide(const Lattice& a, const Lattice& b, std::ptrdiff_t value_bytes) noexcept {
-  const std::uintptr_t a_begin = a.begin + static_cast<std::uintptr_t>(a.lowest);
-  const std::uintptr_t b_begin = b.begin + static_cast<std::uintptr_t>(b.lowest);
-  if (a_begin >= b.begin + static_cast<std::uintptr_t>(b.highest) ||
-      b_begin >= a.begin + static_cast<std::uintptr_t>(a.highest)) {
+  if (!a.range.meets(b.range)) {
     return false;
   }
   const auto distance = static_cast<std::ptrdiff_t>(b.begin - a.begin);

@@ -7,6 +7,8 @@
 
 #include <simdbezier/control_nets.hpp>
 
+#include "src/output/memory_range.hpp"
+
 namespace simdbezier::detail {
 
 /// The places of a view: address + sum of index * stride, in bytes.
@@ -15,10 +17,9 @@ struct Lattice {
     std::ptrdiff_t stride;
     std::ptrdiff_t last; ///< highest index
   };
-  std::uintptr_t begin = 0;
+  std::uintptr_t begin = 0; ///< where all indices are 0
   Direction direction[4] = {};
-  std::ptrdiff_t lowest = 0; ///< offset of the first byte, and that behind the last one
-  std::ptrdiff_t highest = 0;
+  MemoryRange range; ///< from the lowest place to the highest one
 };
 
 /// The places of the values of nets whose degrees and components are sound; false where an offset
@@ -29,13 +30,8 @@ bool lattice_of(const ControlNets<S>& nets, Lattice& lattice) noexcept;
 /// Whether all places are within the memory given; a null span stands for unknown memory.
 template <typename S>
 bool lies_in(const Lattice& lattice, std::size_t count, std::span<const S> memory) noexcept {
-  if (count == 0 || (memory.data() == nullptr && memory.empty())) {
-    return true;
-  }
-  const auto begin = reinterpret_cast<std::uintptr_t>(memory.data());
-  return lattice.begin + static_cast<std::uintptr_t>(lattice.lowest) >= begin &&
-         lattice.begin + static_cast<std::uintptr_t>(lattice.highest) <=
-             begin + memory.size_bytes();
+  return count == 0 || (memory.data() == nullptr && memory.empty()) ||
+         MemoryRange(memory).contains(lattice.range);
 }
 
 /// Whether every stride exceeds what the smaller ones span, so that no two values share a place.

@@ -14,10 +14,10 @@ template <typename T>
 struct Column {
   T* first;
   std::ptrdiff_t stride;
-  const void* lowest;
-  std::size_t bytes;
+  std::ptrdiff_t lowest; ///< bytes from `first` on, and behind the last ones
+  std::ptrdiff_t highest;
 
-  [[nodiscard]] MemoryRange range() const noexcept { return {lowest, bytes}; }
+  [[nodiscard]] MemoryRange range() const noexcept { return {first, lowest, highest}; }
 };
 
 template <typename T>
@@ -33,12 +33,10 @@ struct Columns {
     const std::ptrdiff_t last =
         static_cast<std::ptrdiff_t>(samples - 1) * stride * static_cast<std::ptrdiff_t>(sizeof(T));
     const std::ptrdiff_t lowest = std::min<std::ptrdiff_t>(last, 0);
-    const auto bytes = static_cast<std::size_t>(std::max(last, -last)) + sizeof(T);
+    const std::ptrdiff_t highest = std::max<std::ptrdiff_t>(last, 0) + std::ptrdiff_t{sizeof(T)};
     for (T* const values : first) {
       if (values != nullptr) {
-        const std::uintptr_t begin =
-            reinterpret_cast<std::uintptr_t>(values) + static_cast<std::uintptr_t>(lowest);
-        column[count++] = {values, stride, reinterpret_cast<const void*>(begin), bytes};
+        column[count++] = {values, stride, lowest, highest};
       }
     }
   }
@@ -74,9 +72,8 @@ Status check_vectors(const Vectors<T>& group, std::size_t samples, std::size_t d
   if (group.capacity == 0) { // there is no memory that could be looked at
     return samples == 0 ? Status::ok : Status::output_too_small;
   }
-  if (group.x == nullptr || (group.y == nullptr) != (dimension < 2) ||
-      (group.z == nullptr) != (dimension < 3)) {
-    return Status::null_output;
+  if (const Status status = check_planes(group, dimension); !status) {
+    return status;
   }
   if (group.stride == 0 || (samples > 1 && records_overlap(group, dimension))) {
     return Status::bad_stride;
@@ -108,7 +105,7 @@ Status check_overlaps(const Columns<T>& columns, const MemoryRange& status,
   };
   bool bad = meets_input(status);
   // Most calls have neither statuses nor inputs that outputs could meet.
-  const bool others = status.bytes > 0 || !inputs.empty();
+  const bool others = !status.empty() || !inputs.empty();
   for (std::size_t i = 0; others && i < columns.count; ++i) {
     const MemoryRange range = columns.column[i].range();
     bad = bad || range.meets(status) || meets_input(range);

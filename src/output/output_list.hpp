@@ -118,7 +118,23 @@ private:
   bool wants_curvature_ = false;
 };
 
-/// ok | null_output | bad_stride | output_too_small | overlapping_outputs | size_overflow, for
+/// ok | null_output | missing_y | missing_z | extra_y | extra_z: whether a vector has a plane for
+/// each of `dimension` (1 to 3) components, and no other.
+template <typename T>
+[[nodiscard]] Status check_planes(const Vectors<T>& group, std::size_t dimension) noexcept {
+  if (group.x == nullptr) {
+    return Status::null_output;
+  }
+  if ((group.y == nullptr) != (dimension < 2)) {
+    return dimension < 2 ? Status::extra_y : Status::missing_y;
+  }
+  if ((group.z == nullptr) != (dimension < 3)) {
+    return dimension < 3 ? Status::extra_z : Status::missing_z;
+  }
+  return Status::ok;
+}
+
+/// As check_planes(), and bad_stride | output_too_small | overlapping_outputs | size_overflow, for
 /// `samples` samples of vectors of `dimension` (1 to 3) components. Groups of different strides
 /// must not share a range of memory at all.
 template <typename T>

@@ -10,7 +10,7 @@ std::string_view to_string(Status status) noexcept {
   case Status::null_input:
     return "a required input pointer is null";
   case Status::null_output:
-    return "no output was asked for, or one of its planes is null";
+    return "no output was asked for, or the memory of one is null";
   case Status::input_too_small:
     return "the memory of the control points ends before the last one";
   case Status::output_too_small:
@@ -41,6 +41,16 @@ std::string_view to_string(Status status) noexcept {
     return "a patch has fewer than 1 or more than 4096 segments, or rates are not one a patch";
   case Status::not_orientable:
     return "patches cannot be turned so that all normals agree";
+  case Status::missing_y:
+    return "an output has no y plane, which the second component of the points needs";
+  case Status::missing_z:
+    return "an output has no z plane, which the third component of the points needs";
+  case Status::extra_y:
+    return "an output has a y plane, but the points have no second component for it";
+  case Status::extra_z:
+    return "an output has a z plane, but the points have no third component for it";
+  case Status::snap_too_large:
+    return "snapping moves a patch by more than half of its tolerance, so that too little is left";
   case Status::bad_patch_range:
     return "patches or curves outside of the set were asked for";
   case Status::bad_patch_index:

@@ -27,10 +27,15 @@ const Refusal<World> kCases[] = {
     {SIMDBEZIER_NULL_INPUT, "out",
      [](World& w) { return simdbezier_evaluate_grid(w.set.get(), &w.grid, nullptr, nullptr); }},
     {SIMDBEZIER_NULL_OUTPUT, "out", [](World& w) { return w.out.position = {}, w.evaluate(); }},
-    {SIMDBEZIER_NULL_OUTPUT, "out->position",
+    {SIMDBEZIER_MISSING_Z, "out->position.z",
      [](World& w) { return w.out.position.z = nullptr, w.evaluate(); }},
     {SIMDBEZIER_NULL_OUTPUT, "out->position.x",
      [](World& w) { return w.out.position.x = nullptr, w.evaluate(); }},
+    {SIMDBEZIER_NON_FINITE_INPUT, "v0",
+     [](World& w) {
+       double points[24];
+       return simdbezier_iso_v_points(&w.nets, kNan, points, 24, nullptr);
+     }},
     {SIMDBEZIER_NULL_INPUT, "samples->u",
      [](World& w) { return w.samples.u = nullptr, w.evaluate_samples(); }},
     {SIMDBEZIER_NULL_INPUT, "grids->nu",

@@ -5,6 +5,25 @@
 namespace simdbezier::tests::bad_meshes_test {
 namespace {
 
+/// Makes the patches' common side one of two that are a hundredth apart.
+void bring_near(MeshWorld& w) {
+  for (std::size_t row = 0; row < 4; ++row) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      w.values[48 + 12 * row + c] = w.values[12 * row + 9 + c] + 0.01F;
+    }
+  }
+}
+
+/// Makes the patches a ring that is turned by half.
+void close_a_turned_ring(MeshWorld& w) {
+  for (std::size_t row = 0; row < 4; ++row) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      w.values[48 + 12 * row + c] = w.values[12 * row + 9 + c];
+      w.values[48 + 12 * row + 9 + c] = w.values[12 * (3 - row) + c];
+    }
+  }
+}
+
 const Refusal<MeshWorld> kModels[] = {
     {SIMDBEZIER_OUTPUT_TOO_SMALL, "links",
      [](MeshWorld& w) {
@@ -13,6 +32,15 @@ const Refusal<MeshWorld> kModels[] = {
      }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->point_size or snap",
      [](MeshWorld& w) { return w.topology_options.point_size = -1, w.join(); }},
+    {SIMDBEZIER_NOT_ORIENTABLE, "options->orient",
+     [](MeshWorld& w) {
+       close_a_turned_ring(w);
+       return w.topology_options.orient = 1, w.join();
+     }},
+    {SIMDBEZIER_SIZE_OVERFLOW, "length",
+     [](MeshWorld& w) {
+       return simdbezier_find_topology(&w.nets, SIZE_MAX, nullptr, &w.made_topology);
+     }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->tolerance",
      [](MeshWorld& w) { return w.mesh_options.tolerance = 0, w.tessellate(); }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->tolerance",
@@ -37,6 +65,12 @@ const Refusal<MeshWorld> kModels[] = {
      [](MeshWorld& w) { return w.mesh_options.point_size = kNan, w.tessellate(); }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->snap",
      [](MeshWorld& w) { return w.mesh_options.snap = -1, w.plan(); }},
+    {SIMDBEZIER_SNAP_TOO_LARGE, "options->snap",
+     [](MeshWorld& w) {
+       bring_near(w);
+       w.mesh_options.snap = 0.05;
+       return w.mesh_options.tolerance = 0.001, w.plan();
+     }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->crease_angle",
      [](MeshWorld& w) { return w.mesh_options.crease_angle = -1, w.tessellate(); }},
     {SIMDBEZIER_BAD_TOLERANCE, "options->crease_angle",

@@ -57,9 +57,9 @@ const Refusal<MeshWorld> kVertices[] = {
      }},
     {SIMDBEZIER_NULL_OUTPUT, "out",
      [](MeshWorld& w) { return w.mesh_out.position = {}, w.evaluate_vertices(); }},
-    {SIMDBEZIER_NULL_OUTPUT, "out->position",
+    {SIMDBEZIER_MISSING_Y, "out->position.y",
      [](MeshWorld& w) { return w.mesh_out.position.y = nullptr, w.evaluate_vertices(); }},
-    {SIMDBEZIER_NULL_OUTPUT, "out->parameters",
+    {SIMDBEZIER_EXTRA_Z, "out->parameters.z",
      [](MeshWorld& w) { // which have no z
        w.mesh_out.parameters = w.mesh_out.position;
        return w.mesh_out.position = {}, w.evaluate_vertices();

@@ -80,10 +80,11 @@ TEST_F(Arguments, grids_too_large) {
 TEST_F(Arguments, outputs_missing) {
   const auto grid = Grid<float>::uniform(4, 4);
   refuse_grid(Status::null_output, grid, Outputs<float>{});
+  const Status statuses[] = {Status::null_output, Status::missing_y, Status::missing_z};
   for (int missing = 0; missing < 3; ++missing) {
     Outputs<float> out = outputs();
     (missing == 0 ? out.position.x : missing == 1 ? out.position.y : out.position.z) = nullptr;
-    refuse_grid(Status::null_output, grid, out);
+    refuse_grid(statuses[missing], grid, out);
   }
   Outputs<float> only_status;
   SampleStatus status[kSamples];

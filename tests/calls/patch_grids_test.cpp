@@ -273,7 +273,7 @@ TEST_F(PatchGridErrors, Outputs) {
   Outputs<float> out;
   EXPECT_EQ(evaluate(set_, grids, out), Status::null_output);
   out.position = {canvas_.at(0), canvas_.at(kPlaces), nullptr, 1};
-  EXPECT_EQ(evaluate(set_, grids, out), Status::null_output);
+  EXPECT_EQ(evaluate(set_, grids, out), Status::missing_z);
   out.position = Vectors<float>::xyz(canvas_.at(0), 0);
   EXPECT_EQ(evaluate(set_, grids, out), Status::bad_stride);
   out.position = Vectors<float>::xyz(canvas_.at(0), 2);

@@ -41,10 +41,11 @@ TEST_F(CurveArguments, GridSizes) {
 
 TEST_F(CurveArguments, Outputs) {
   refuse(Status::null_output, grid_, CurveOutputs<float>{});
+  const Status statuses[] = {Status::null_output, Status::missing_y, Status::missing_z};
   for (int missing = 0; missing < 3; ++missing) {
     auto out = results_.outputs();
     (missing == 0 ? out.d1.x : missing == 1 ? out.position.y : out.tangent.z) = nullptr;
-    refuse(Status::null_output, grid_, out);
+    refuse(statuses[missing], grid_, out);
   }
   auto out = results_.outputs();
   out.d2.stride = 0;
@@ -123,7 +124,7 @@ TEST_F(CurveArguments, Components) {
   }
   // A plane that has no component.
   ASSERT_TRUE(pack(random_curves<float>(kCurves, 3, 2, 0, 1).view(), set_));
-  refuse(Status::null_output, grid_, results_.outputs());
+  refuse(Status::extra_z, grid_, results_.outputs());
 }
 
 TEST_F(CurveArguments, CurvatureAlone) {

@@ -60,7 +60,7 @@ TEST_F(DerivativeArguments, outputs) {
   refuse(Status::null_output, {});
   refuse(Status::null_output, {{1, 0, {}}});
   refuse(Status::null_output, {{0, 0, output(0)}, {1, 0, {}}});
-  refuse(Status::null_output, {{1, 0, Vectors<float>::planes(&values_[0], &values_[4])}});
+  refuse(Status::missing_z, {{1, 0, Vectors<float>::planes(&values_[0], &values_[4])}});
   refuse(Status::bad_stride, {{1, 0, Vectors<float>::xyz(values_.data(), 0)}});
   refuse(Status::bad_stride, {{1, 0, Vectors<float>::xyz(values_.data(), 2)}});
   constexpr std::ptrdiff_t kHuge = std::numeric_limits<std::ptrdiff_t>::max() / 4;
@@ -110,7 +110,7 @@ TEST_F(DerivativeArguments, grids) {
 TEST_F(DerivativeArguments, components_and_instruction_sets) {
   refuse(Status::bad_components, {{2, 1, output(0)}}, {.first_component = 3});
   refuse(Status::bad_components, {{2, 1, output(0)}}, {.first_component = -1});
-  refuse(Status::null_output, {{2, 1, output(0)}}, {.first_component = 1});
+  refuse(Status::extra_z, {{2, 1, output(0)}}, {.first_component = 1});
 #if defined(__x86_64__)
   refuse(Status::unsupported_isa, {{2, 1, output(0)}}, {.isa = absent_isa()});
 #endif

@@ -1,4 +1,5 @@
 // Sides that match only nearly: closed by a distance, and certified with what that moves.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -118,7 +119,7 @@ TEST(Snapping, is_part_of_the_certificate) {
     EXPECT_GE(mesh.deviations[1], gap);
     EXPECT_LE(mesh.deviations[1], 0.2);
     const Mesh<double> refused = mesh_of(model, 0.029, 0.05, 0);
-    EXPECT_EQ(refused.status, gap > 0.029 ? Status::bad_tolerance : Status::ok);
+    EXPECT_EQ(refused.status, gap > 0.029 ? Status::snap_too_large : Status::ok);
     EXPECT_EQ(refused.fault_patch, gap > 0.029 ? 1U : 0U);
   }
 }
@@ -162,6 +163,19 @@ TEST(Snapping, of_quotients_is_part_of_the_certificate) {
     EXPECT_GE(plan.deviation, apart);
     ++judged;
   }
+}
+
+// The tolerance is not to blame where sides are moved by more than it allows.
+TEST(Snapping, is_blamed_where_it_leaves_too_little_of_the_tolerance) {
+  const std::vector<MeshModel> models = mesh_models();
+  const MeshModel near = shaken(
+      *std::ranges::find(models, "torus 4 x 3", [](const MeshModel& one) { return one.name; }),
+      0.01, 5);
+  EXPECT_EQ(to_string(mesh_of(near, 2e-3, 0.2, 0).status), to_string(Status::snap_too_large));
+  EXPECT_EQ(to_string(mesh_of(near, 2e-3, 0, 0).status), "ok");
+  EXPECT_EQ(to_string(mesh_of(near, 0.2, 0.2, 0).status), "ok");
+  EXPECT_EQ(to_string(mesh_of(near, 1e-17, 0, 0).status), to_string(Status::bad_tolerance));
+  EXPECT_EQ(to_string(mesh_of(near, -1, 0.2, 0).status), to_string(Status::bad_tolerance));
 }
 
 TEST(Snapping, leaves_what_is_farther_apart) {

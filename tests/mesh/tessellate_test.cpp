@@ -148,6 +148,27 @@ TEST(TessellateData, is_closed_where_the_data_is_and_as_close_as_certified) {
   }
 }
 
+TEST(Tessellate, has_the_type_of_the_nets_where_none_is_named) {
+  const Model model = random_sheet(2, 2, 7);
+  const std::vector<double> values = model.values();
+  const std::vector<float> rounded(values.begin(), values.end());
+  MeshOptions options;
+  options.tolerance = 0.01;
+  const auto check = [&]<typename S>(const ControlNets<S>& nets) {
+    const std::span<const ControlNets<S>> views(&nets, 1);
+    const auto deduced = tessellate(nets, options);
+    static_assert(std::is_same_v<decltype(deduced), const Mesh<S>>);
+    static_assert(std::is_same_v<decltype(plan_mesh(nets, options)), MeshPlan<S>>);
+    static_assert(std::is_same_v<decltype(tessellate<double>(nets, options)), Mesh<double>>);
+    EXPECT_EQ(deduced.positions, tessellate<S>(nets, options).positions);
+    EXPECT_EQ(tessellate(views, options).triangles, deduced.triangles);
+    EXPECT_EQ(plan_mesh(views, options).nu, plan_mesh<S>(views, options).nu);
+    EXPECT_FALSE(deduced.positions.empty());
+  };
+  check(ControlNets<double>::packed(std::span<const double>(values)));
+  check(ControlNets<float>::packed(std::span<const float>(rounded)));
+}
+
 TEST(Tessellate, of_ten_thousand_random_patches_is_one_sheet) {
   const int side = by_form(100, 316); // 10^5 patches
   const Model model = random_sheet(side, side, 1);

@@ -243,8 +243,8 @@ TYPED_TEST(VertexCalls, refuse_bad_input) {
   const auto none = [](auto&) {};
   EXPECT_EQ(status(none), Status::ok);
   EXPECT_EQ(status([](auto& out) { out = {}; }), Status::null_output);
-  EXPECT_EQ(status([](auto& out) { out.position.y = nullptr; }), Status::null_output);
-  EXPECT_EQ(status([](auto& out) { out.parameters.y = nullptr; }), Status::null_output);
+  EXPECT_EQ(status([](auto& out) { out.position.y = nullptr; }), Status::missing_y);
+  EXPECT_EQ(status([](auto& out) { out.parameters.y = nullptr; }), Status::missing_y);
   EXPECT_EQ(status([](auto& out) { --out.position.capacity; }), Status::output_too_small);
   EXPECT_EQ(status([](auto& out) { --out.normal.capacity; }), Status::output_too_small);
   EXPECT_EQ(status([](auto& out) { --out.parameters.capacity; }), Status::output_too_small);

@@ -11,6 +11,9 @@ CURVES = simdbezier.CurveSet(POINTS[:, 0])
 DOUBLES = simdbezier.CurveSet(POINTS[:, 0], dtype=np.float64)
 SIX = simdbezier.PatchSet(np.tile(POINTS, 2))
 SHAPE = (2, 3, 5, 3)
+FOUR = np.concatenate([POINTS, np.ones((2, 4, 4, 1), np.float32)], axis=-1)
+NEAR = POINTS.copy()  # whose patches have a side in common, but for a hundredth
+NEAR[1, :, 0] = NEAR[0, :, 3] + np.float32(0.01)
 
 
 def fresh(shape=SHAPE, dtype=np.float32):
@@ -190,7 +193,21 @@ CASES = [
     (ValueError, 'path', lambda: simdbezier.tessellate(POINTS, grid=3).save('mesh.png')),
     (ValueError, 'path', lambda: simdbezier.tessellate(POINTS, grid=3).save(b'\xff.png')),
     (ValueError, 'path: has a null', lambda: simdbezier.tessellate(POINTS, grid=3).save('a\0b.obj')),
-    (TypeError, '', lambda: simdbezier.tessellate(POINTS, grid=3).save(3)),
+    (TypeError, 'path', lambda: simdbezier.tessellate(POINTS, grid=3).save(3)),
+    (TypeError, 'path', lambda: simdbezier.tessellate(POINTS, grid=3).save(None)),
+    (ValueError, 'snap: snapping moves', lambda: simdbezier.tessellate(NEAR, 1e-3, snap=0.1)),
+    # Points with weights in them.
+    (ValueError, 'weights: expected none beside',
+     lambda: simdbezier.PatchSet(FOUR, FOUR[..., 0], homogeneous=True)),
+    (ValueError, 'points: expected 1 to 16 components, found 0',
+     lambda: simdbezier.CurveSet(POINTS[0, :, :, :1], homogeneous=True)),
+    (ValueError, 'points: a weight is not positive',
+     lambda: simdbezier.PatchSet(-FOUR, homogeneous=True)),
+    (ValueError, 'points: a weight is not positive',
+     lambda: simdbezier.tessellate(-FOUR, 0.1, homogeneous=True)),
+    (ValueError, 'points: a weight is not positive',
+     lambda: simdbezier.transpose(-FOUR, homogeneous=True)),
+    (TypeError, 'homogeneous', lambda: simdbezier.flatness(FOUR, homogeneous='w')),
     (OSError, '/nowhere/', lambda: simdbezier.tessellate(POINTS, grid=3).save(b'/nowhere/\xff.obj')),
     (TypeError, 'tolerance', lambda: simdbezier.tessellate(POINTS, tolerance=np.array('fine'))),
     (ValueError, 'tolerance', lambda: simdbezier.tessellate(POINTS, tolerance=np.array(-1.0))),
@@ -213,6 +230,69 @@ def test_it_is_refused_by_name(error, argument, call):
     with pytest.raises(error) as caught:
         call()
     assert str(caught.value).startswith(argument)
+
+
+# Calls that do not fit, and the one line that they are told: never the arrays of the call.
+MISUSES = [
+    (lambda: simdbezier.tessellate(POINTS, toleranse=1),
+     "tessellate(): no argument is called 'toleranse', expected points, tolerance, weights, "),
+    (lambda: simdbezier.tessellate(tolerance=1), "tessellate(): 'points' is missing, expected points, "),
+    (lambda: simdbezier.tessellate(POINTS, 1, None, 3),
+     'tessellate(): expected at most 3 arguments without a name, found 4'),
+    (lambda: simdbezier.tessellate(POINTS, 1, tolerance=1), "tessellate(): 'tolerance' is given twice"),
+    (lambda: simdbezier.PatchSet(POINTS, weight=POINTS),
+     "PatchSet(): no argument is called 'weight', expected points, weights, dtype, "),
+    (lambda: simdbezier.CurveSet(), "CurveSet(): 'points' is missing, expected points, "),
+    (lambda: PATCHES.evaluate_grid(5, 5, output='normal'),
+     "PatchSet.evaluate_grid(): no argument is called 'output', expected nu, nv, outputs, out, threads"),
+    (lambda: PATCHES.evaluate_grid(5), "PatchSet.evaluate_grid(): 'nv' is missing, expected nu, nv, "),
+    (lambda: simdbezier.PatchSet.evaluate_grid(CURVES, 5, 5),
+     'PatchSet.evaluate_grid(): called with another object as self'),
+    (lambda: CURVES.evaluate(0, 1, 'position', None, 0, 7),
+     'CurveSet.evaluate(): expected at most 5 arguments without a name, found 6'),
+    (lambda: simdbezier.split_u(POINTS, v=0.5),
+     "split_u(): no argument is called 'v', expected points, u, weights, homogeneous"),
+    (lambda: simdbezier.tessellate(POINTS, grid=3).save(), "Mesh.save(): 'path' is missing, expected path"),
+]
+
+
+@pytest.mark.parametrize('call, text', MISUSES, ids=[str(k) for k in range(len(MISUSES))])
+def test_calls_that_do_not_fit_are_told_so_in_one_line(call, text):
+    with pytest.raises(TypeError) as caught:
+        call()
+    assert str(caught.value).startswith(text) and '\n' not in str(caught.value)
+
+
+def test_every_function_tells_an_unknown_argument():
+    owners = [simdbezier, PATCHES, CURVES, simdbezier.tessellate(POINTS, grid=3)]
+    tried = 0
+    for owner in owners:
+        for name in dir(owner):
+            function = getattr(owner, name)
+            if name.startswith('_') or not callable(function) or name in (
+                    'Mesh', 'PatchIndexError', 'available_isas'):
+                continue
+            with pytest.raises(TypeError, match=rf"{name}\(\): no argument is called 'colour', "):
+                function(colour=POINTS)
+            tried += 1
+    assert tried >= 25
+
+
+def test_four_components_are_told_of_homogeneous_points():
+    four = simdbezier.PatchSet(FOUR)
+    curves = simdbezier.CurveSet(FOUR[0])
+    for call in (lambda: simdbezier.tessellate(FOUR, 0.1), lambda: four.evaluate_grid(3, 3, 'normal'),
+                 lambda: curves.evaluate_grid(3, 'tangent')):
+        with pytest.raises(ValueError, match='homogeneous=True'):
+            call()
+    with pytest.raises(ValueError) as caught:
+        simdbezier.tessellate(POINTS[..., :2], 0.1)
+    assert 'homogeneous' not in str(caught.value)
+
+
+def test_gltf_is_told_of_glb(tmp_path):
+    with pytest.raises(ValueError, match=r'^path: .*mesh\.gltf.*\.glb is glTF in one file'):
+        simdbezier.tessellate(POINTS, grid=3).save(tmp_path / 'mesh.gltf')
 
 
 @pytest.mark.parametrize('name', ['obj', 'ply', 'stl', 'glb'])

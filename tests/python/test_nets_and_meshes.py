@@ -59,6 +59,32 @@ def test_weights_come_back_with_the_points(points):
     assert [part.shape for half in halves for part in half] == [(5, 4, 3, 3), (5, 4, 3)] * 2
 
 
+def test_homogeneous_points_come_back_homogeneous(points):
+    weights = 0.5 + np.random.default_rng(1).random((5, 4, 3)).astype(points.dtype)
+    homogeneous = np.concatenate([points * weights[..., None], weights[..., None]], axis=-1)
+    u, v = reference.grid(5, 6)
+    for call, where in (
+            (lambda p, **of: simdbezier.split_u(p, 0.25, **of)[0], lambda u, v: (u / 4, v)),
+            (lambda p, **of: simdbezier.elevate(p, 5, 4, **of), lambda u, v: (u, v)),
+            (simdbezier.transpose, lambda u, v: (v, u))):
+        got = call(homogeneous, homogeneous=True)
+        assert got.shape[-1] == 4 and got.dtype == points.dtype
+        position, _, _ = reference.surface(got[..., :3] / got[..., 3:], got[..., 3], u, v)
+        expected, _, _ = reference.surface(points, weights, *where(u, v))
+        np.testing.assert_allclose(position, expected, atol=1e-5)
+    apart = simdbezier.tight_boxes(points, 2, weights)
+    inside = simdbezier.tight_boxes(homogeneous, 2, homogeneous=True)
+    np.testing.assert_allclose(inside, apart, atol=1e-5)
+    mesh = simdbezier.tessellate(homogeneous, grid=4, homogeneous=True)
+    same = simdbezier.tessellate(points, grid=4, weights=weights)
+    np.testing.assert_allclose(mesh.positions, same.positions, atol=1e-6)
+    curves = simdbezier.CurveSet(homogeneous[:, 0], homogeneous=True)
+    assert curves.rational and curves.components == 3
+    np.testing.assert_allclose(
+        curves.evaluate_grid(5)['position'],
+        simdbezier.CurveSet(points[:, 0], weights[:, 0]).evaluate_grid(5)['position'], atol=1e-6)
+
+
 def test_boxes_and_flatness_hold(points):
     u, v = reference.grid(9, 9)
     surface = reference.polynomial(points, u, v)

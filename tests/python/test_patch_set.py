@@ -43,6 +43,23 @@ def test_grids_are_those_of_the_definition(net):
                                    atol=tolerance(points), rtol=tolerance(points))
 
 
+@pytest.mark.parametrize('several', [False, True])
+def test_homogeneous_points_are_points_with_weights(net, several):
+    points, weights = net
+    if weights is None or points.shape[3] == 16:
+        weights = np.ones(points.shape[:3], points.dtype)
+        points = points[..., :3]
+    homogeneous = np.concatenate([points * weights[..., None], weights[..., None]], axis=-1)
+    patches = simdbezier.PatchSet([homogeneous[:2], homogeneous[2:]] if several else homogeneous,
+                                  homogeneous=True)
+    assert patches.components == points.shape[3] and patches.is_rational(4)
+    got = patches.evaluate_grid(7, 4, outputs=('position', 'du', 'dv'))
+    expected = reference.surface(points, weights, *reference.grid(7, 4))
+    for name, values in zip(('position', 'du', 'dv'), expected):
+        np.testing.assert_allclose(got[name].reshape(values.shape), values,
+                                   atol=tolerance(points), rtol=tolerance(points))
+
+
 def test_positions_keep_their_bound(net):
     points, weights = net
     patches = simdbezier.PatchSet(points, weights)

@@ -193,16 +193,18 @@ TEST_F(RefusalTest, NormalsAndCurvaturesOutsideOfSpace) {
 
 // An output has as many planes as there are components, no more and no less.
 TEST_F(RefusalTest, PlanesThatDoNotMatchTheComponents) {
-  for (const int components : {1, 2}) {
-    expect_refused(components, Status::null_output,
-                   [](Planes<float>& p, Outputs<float>& out, CallOptions&) {
-                     out.du = p.outputs().du; // three planes
-                   });
-  }
-  expect_refused(7, Status::null_output, [](Planes<float>&, Outputs<float>& out, CallOptions&) {
+  const auto three_planes = [](Planes<float>& p, Outputs<float>& out, CallOptions&) {
+    out.du = p.outputs().du;
+  };
+  expect_refused(1, Status::extra_y, three_planes);
+  expect_refused(2, Status::extra_z, three_planes);
+  expect_refused(7, Status::missing_z, [](Planes<float>&, Outputs<float>& out, CallOptions&) {
     out.position.z = nullptr;
   });
-  expect_refused(7, Status::null_output, [](Planes<float>&, Outputs<float>&, CallOptions& options) {
+  expect_refused(2, Status::missing_y, [](Planes<float>&, Outputs<float>& out, CallOptions&) {
+    out.position.y = nullptr;
+  });
+  expect_refused(7, Status::extra_z, [](Planes<float>&, Outputs<float>&, CallOptions& options) {
     options.first_component = 5; // two are left
   });
   expect_refused(2, Status::null_output,

@@ -43,6 +43,11 @@ enum {
   SIMDBEZIER_BAD_TOLERANCE,
   SIMDBEZIER_BAD_RATES,
   SIMDBEZIER_NOT_ORIENTABLE,
+  SIMDBEZIER_MISSING_Y,
+  SIMDBEZIER_MISSING_Z,
+  SIMDBEZIER_EXTRA_Y,
+  SIMDBEZIER_EXTRA_Z,
+  SIMDBEZIER_SNAP_TOO_LARGE,
   SIMDBEZIER_BAD_STRUCT_SIZE = 100, // a wrong struct_size, or unknown members that are not zero
   SIMDBEZIER_BAD_SCALAR,            // neither float nor double, or not what the others are
   SIMDBEZIER_BAD_VALUE,             // a number that stands for no name of its enumeration

@@ -34,11 +34,10 @@ public:
   RateCall(std::span<const ControlNets<S>> nets, const Topology& topology,
            const RateOptions& options, Isa isa, const CertifiedRates& out)
       : nets_(nets), flags_(topology.data()->flags), options_(options), isa_(isa),
-        errors_(options.errors), out_(out),
+        displacement_(topology.data()->displacement), errors_(options.errors), out_(out),
         most_(std::clamp(options.most_segments, 1U, kMostSegments)) {
-    const std::vector<double>& displacement = topology.data()->displacement;
-    if (!displacement.empty()) {
-      own_errors_ = displacement;
+    if (!displacement_.empty()) {
+      own_errors_ = displacement_;
       for (std::size_t patch = 0; patch < errors_.size(); ++patch) {
         own_errors_[patch] += errors_[patch];
       }
@@ -49,6 +48,14 @@ public:
       own_deviations_.resize(out.nu.size());
       deviations_ = own_deviations_;
     }
+  }
+
+  /// A tolerance is not to blame where snapping has taken more than half of it.
+  [[nodiscard]] RateReport with_snapping_blamed(const RateReport& report) const {
+    const bool snapped = report.status == Status::bad_tolerance && !displacement_.empty() &&
+                         wanted(report.patch) > 0 &&
+                         displacement_[report.patch] > wanted(report.patch) / 2;
+    return snapped ? RateReport{Status::snap_too_large, report.patch} : report;
   }
 
   /// Chooses rates, with their certificates.
@@ -254,7 +261,8 @@ private:
   const std::vector<std::uint8_t>& flags_;
   const RateOptions& options_;
   Isa isa_;
-  std::span<const double> errors_; ///< of vertices, by rounding and by snapping
+  const std::vector<double>& displacement_; ///< by snapping; may be empty
+  std::span<const double> errors_;          ///< of vertices, by rounding and by snapping
   std::vector<double> own_errors_;
   const CertifiedRates& out_;
   std::uint32_t most_;

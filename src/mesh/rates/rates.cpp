@@ -97,13 +97,13 @@ RateReport choose_rates(std::span<const ControlNets<S>> nets, const Topology& to
   }
   for (std::size_t patch = 0; report && patch < out.nu.size(); ++patch) {
     if (std::max(out.nu[patch], out.nv[patch]) > options.most_segments) {
-      return {Status::bad_tolerance, patch};
+      report = {Status::bad_tolerance, patch};
     }
   }
   if (report && !settled) {
     return call.certify();
   }
-  return report;
+  return call.with_snapping_blamed(report);
 } catch (const std::bad_alloc&) {
   return {Status::out_of_memory};
 }

@@ -182,11 +182,6 @@ public:
     if (in_.values == ValuesOf::owner && request_.components.of_set != 3) {
       return Status::bad_components;
     }
-    const Vectors<T>& position = in_.vectors.position;
-    const std::size_t dimension = request_.components.dimension;
-    if ((position.y != nullptr && dimension < 2) || (position.z != nullptr && dimension < 3)) {
-      return Status::bad_components;
-    }
     const std::size_t vertices = last_vertex() - first_vertex();
     if (out_.wants_vectors() || !in_.attributes.wanted()) {
       const MemoryRange patches[] = {in_.attributes.range(vertices)};

@@ -16,7 +16,8 @@ __extension__ using Wide = __int128;
 
 inline constexpr std::ptrdiff_t kLastOffset = std::numeric_limits<std::ptrdiff_t>::max();
 
-/// Strides around which arithmetic wraps, and small ones that may make values share a place.
+/// Strides around which arithmetic wraps, small ones that may make values share a place, and powers
+/// of two of every magnitude, of either sign.
 [[nodiscard]] inline std::ptrdiff_t hostile_stride(ByteSource& bytes) {
   static constexpr std::ptrdiff_t kStrides[] = {0,
                                                 1,
@@ -38,7 +39,13 @@ inline constexpr std::ptrdiff_t kLastOffset = std::numeric_limits<std::ptrdiff_t
                                                 std::ptrdiff_t{1} << 62,
                                                 std::ptrdiff_t{1} << 61,
                                                 -(std::ptrdiff_t{1} << 60)};
-  const std::ptrdiff_t stride = bytes.pick(kStrides);
+  constexpr std::size_t kListed = std::size(kStrides);
+  const std::size_t choice = bytes.below(256);
+  if (choice >= 128) {
+    const std::ptrdiff_t power = std::ptrdiff_t{1} << choice % 63;
+    return bytes.flag() ? -power : power;
+  }
+  const std::ptrdiff_t stride = kStrides[choice % kListed];
   return stride > 0 && stride < 65 && bytes.flag() ? -stride : stride;
 }
 
@@ -152,26 +159,42 @@ template <typename S>
           curves.degree,       1,
           curves.curve_stride, 0,
           curves.point_stride, curves.component_stride,
-          curves.components,   curves.weights};
+          curves.components,   curves.weights,
+          curves.memory};
 }
 template <typename S>
 [[nodiscard]] ControlCurves<S> as_curves(const ControlNets<S>& nets) {
   return {nets.points,       nets.count,        nets.degree_u,
           nets.patch_stride, nets.point_stride, nets.component_stride,
-          nets.components,   nets.weights};
+          nets.components,   nets.weights,      nets.memory};
 }
 
-/// What a call that only reads nets has to do with a description of values in `memory`.
+/// The same places as an output.
+template <typename S>
+[[nodiscard]] MutableNets<S> as_output(const ControlNets<S>& nets) {
+  const std::span<const S> memory = nets.memory;
+  return {const_cast<S*>(nets.points),
+          nets.count,
+          nets.degree_u,
+          nets.degree_v,
+          nets.patch_stride,
+          nets.row_stride,
+          nets.point_stride,
+          nets.component_stride,
+          nets.components,
+          nets.weights,
+          {const_cast<S*>(memory.data()), memory.size()}};
+}
+
+/// What a call that only reads nets has to do with a description that knows its memory.
 enum class Verdict : std::uint8_t {
   possible, ///< all values are there; strides may still make them share places
   refused,  ///< some error
-  overflow, ///< size_overflow: nothing else is wrong
-  skipped   ///< reads elsewhere, which is the caller's fault and nobody's to notice
+  overflow  ///< size_overflow: nothing else is wrong
 };
 
 template <typename S>
-[[nodiscard]] Verdict verdict_on(const ControlNets<S>& nets, std::span<const S> memory,
-                                 bool curves = false) {
+[[nodiscard]] Verdict verdict_on(const ControlNets<S>& nets, bool curves = false) {
   if (!sound_integer(nets.degree_u, kMostDegree) || !sound_integer(nets.degree_v, kMostDegree) ||
       !sound_integer(nets.components, kMostComponents) || nets.weights > Weights::homogeneous) {
     return Verdict::refused;
@@ -189,8 +212,8 @@ template <typename S>
                         nets.component_stride == 0 || nets.patch_stride == 0;
     return shared ? Verdict::refused : Verdict::overflow;
   }
-  return reach.within(nets.points - memory.data(), memory.size()) ? Verdict::possible
-                                                                  : Verdict::skipped;
+  return reach.within(nets.points - nets.memory.data(), nets.memory.size()) ? Verdict::possible
+                                                                            : Verdict::refused;
 }
 
 } // namespace simdbezier::fuzz

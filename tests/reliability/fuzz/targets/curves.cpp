@@ -224,13 +224,11 @@ private:
     std::ranges::copy(curves_.values, block.data());
     ControlCurves<S> curves = view();
     curves.points = block.data();
+    curves.memory = block.span();
     ControlNets<S> nets = as_nets(curves);
     spoil(bytes_, nets);
     curves = as_curves(nets); // what was done to rows is lost
-    const Verdict verdict = verdict_on<S>(as_nets(curves), block.span(), true);
-    if (verdict == Verdict::skipped) {
-      return;
-    }
+    const Verdict verdict = verdict_on(as_nets(curves), true);
     CurveSet<T> set = before;
     const PackReport report = pack(curves, set, pack_options_);
     require(verdict != Verdict::refused || !report, "pack (curves) takes what makes no sense");

@@ -208,11 +208,9 @@ private:
     std::ranges::copy(nets_.values, block.data());
     ControlNets<T> nets = nets_.view();
     nets.points = block.data();
+    nets.memory = block.span();
     spoil(bytes_, nets);
-    const Verdict verdict = verdict_on<T>(nets, block.span());
-    if (verdict == Verdict::skipped) {
-      return;
-    }
+    const Verdict verdict = verdict_on(nets);
     const bool sound = verdict == Verdict::possible;
     const std::size_t values = sound ? nets.count * static_cast<std::size_t>(nets.components) : 64;
     const Block<T> low(values, placement(bytes_), T(-7));
@@ -231,6 +229,9 @@ private:
                   status == Status::bad_stride,
               "a measure takes strides that overflow");
     }
+    const NetReport written = reverse_u(nets_.view(), as_output(nets), options);
+    require(sound || !written, "an operation writes to nets that make no sense");
+    block.check_surroundings();
   }
 
   ByteSource& bytes_;

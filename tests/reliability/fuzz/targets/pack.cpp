@@ -110,13 +110,11 @@ private:
     std::ranges::copy(nets_.values, block.data());
     ControlNets<S> nets = nets_.view();
     nets.points = block.data() + (bytes_.rarely(64) ? bytes_.below(size) : 0);
+    nets.memory = block.span();
     spoil(bytes_, nets);
     PackOptions options = options_;
     options.threads = static_cast<int>(bytes_.below(3));
-    const Verdict verdict = verdict_on<S>(nets, block.span());
-    if (verdict == Verdict::skipped) {
-      return;
-    }
+    const Verdict verdict = verdict_on(nets);
     PatchSet<T> set = before;
     const PackReport report = pack(nets, set, options);
     require(verdict != Verdict::refused || !report, "pack takes nets that make no sense");

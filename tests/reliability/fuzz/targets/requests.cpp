@@ -38,7 +38,8 @@ public:
     }
     const Status status = call();
     require_status(status,
-                   {Status::ok, Status::null_input, Status::null_output, Status::bad_components,
+                   {Status::ok, Status::null_input, Status::null_output, Status::missing_y,
+                    Status::missing_z, Status::extra_y, Status::extra_z, Status::bad_components,
                     Status::bad_stride, Status::overlapping_outputs, Status::bad_offsets,
                     Status::bad_grid, Status::bad_patch_range, Status::bad_patch_index,
                     Status::size_overflow, Status::unsupported_isa, Status::out_of_memory},
