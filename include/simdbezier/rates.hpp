@@ -107,7 +107,8 @@ template <typename S>
 ///           middle and R half of the diagonal of the box of the control points, and the bound is
 ///           divided by the smallest weight. Where weights are products of a factor a column and
 ///           one a row (cylinders, spheres, tori), the bound by derivatives in space counts if it
-///           is smaller.
+///           is smaller. Where weights are more than 4.5-fold apart, so does the distance of point
+///           sets, for which pieces of the surface are halved until it is known.
 /// Source:   D. Filip, R. Magedson, R. Markot, "Surface Algorithms Using Bounds on Derivatives",
 ///           CAGD 3 (1986), whose bound has the triangle inequality instead of the diagonal's own
 ///           derivative.
@@ -126,7 +127,8 @@ template <typename S>
 /// Cost:     on AVX-512, 0.25 to 0.4 us a bicubic float patch and 0.65 us in double, certificate
 ///           included. With weights, of another degree or with a forced diagonal: 1 to 4 us up to
 ///           degree 5, 15 us of degree 15, 35 us of that with weights (AVX2); with weights that are
-///           products 2 to 4 us more up to degree 3, 100 us more of degree 15.
+///           products 2 to 4 us more up to degree 3, 100 us more of degree 15. With weights that are
+///           far apart, some 5 us a cell of a bicubic patch more, up to a second.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<S>> nets,
                                                      const Topology& topology,

@@ -29,4 +29,15 @@ struct CellCounts {
   [[nodiscard]] double product() const { return static_cast<double>(nu) * nv; }
 };
 
+/// Cells, how far their triangles are from the patch at most, and the diagonals for which that
+/// holds.
+struct CertifiedCells {
+  CellCounts cells;
+  double bound;
+  std::uint16_t diagonals;
+};
+inline CertifiedCells uncertified(const CellCounts& cells) {
+  return {cells, std::numeric_limits<double>::infinity(), 0};
+}
+
 } // namespace simdbezier::detail

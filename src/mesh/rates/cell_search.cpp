@@ -233,7 +233,17 @@ GroupBound::Lanes<CertifiedCells> GroupBound::raise(const Lanes<CellCounts>& cel
   for (std::size_t lane = 0; lane < count_; ++lane) {
     trials[lane] = CellTrials(cells[lane], most);
   }
-  return Search(*this, t, false).run(trials);
+  Lanes<CertifiedCells> raised = Search(*this, t, false).run(trials);
+  for (std::size_t lane = 0; lane < count_; ++lane) {
+    CellCounts fewer = cells[lane];
+    while (spaces_[lane] != nullptr && std::max(fewer.nu, fewer.nv) <= most &&
+           fewer.product() < raised[lane].cells.product()) {
+      const double stop = in_patch(lane, t[lane]);
+      take_if_close(lane, spaces_[lane]->certify(fewer, stop, stop), raised[lane]);
+      fewer = {fewer.nu + 1, fewer.nv + 1};
+    }
+  }
+  return raised;
 }
 
 GroupBound::Lanes<CertifiedCells> GroupBound::choose(const Lanes<double>& t,
@@ -269,7 +279,14 @@ GroupBound::Lanes<CertifiedCells> GroupBound::choose(const Lanes<double>& t,
     const auto scaled = [&](std::uint32_t n) { return static_cast<std::uint32_t>(n * scale); };
     trials[lane] = CellTrials(best[lane], {scaled(even[lane].nu), scaled(even[lane].nv)}, most);
   }
-  return Search(*this, t, true).run(trials);
+  Lanes<CertifiedCells> chosen = Search(*this, t, true).run(trials);
+  for (std::size_t lane = 0; lane < count_; ++lane) {
+    if (spaces_[lane] != nullptr) {
+      take_if_close(lane, spaces_[lane]->choose(chosen[lane].cells, in_patch(lane, t[lane]), most),
+                    chosen[lane]);
+    }
+  }
+  return chosen;
 }
 
 } // namespace simdbezier::detail

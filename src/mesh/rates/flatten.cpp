@@ -8,6 +8,7 @@
 
 #include "src/calls/curve_input.hpp"
 #include "src/mesh/rates/bound_parts.hpp"
+#include "src/mesh/rates/curve_cells.hpp"
 #include "src/mesh/rates/power_of_two.hpp"
 #include "src/runtime/attempt.hpp"
 #include "src/runtime/batch.hpp"
@@ -16,6 +17,9 @@
 namespace simdbezier {
 namespace detail {
 namespace {
+
+/// Roundings of a bound's own.
+constexpr double kRoundedUp = 1 + 1e-12;
 
 /// One curve's control points around the middle of their box, weighted where it is rational, in
 /// double.
@@ -49,6 +53,28 @@ public:
     scale();
     centre();
     return Status::ok;
+  }
+
+  /// Whether weights are so far apart that second() may ask for far too many points.
+  [[nodiscard]] bool is_spread() const {
+    const auto [least, most] = std::minmax_element(weight_, weight_ + points_);
+    return *most > kLeastSpread * *least && *most < kMostSpread * *least;
+  }
+  /// Fewer segments than `usual`, for which t becomes the bound; or `usual`.
+  [[nodiscard]] std::uint32_t fewer_segments(std::uint32_t usual, double& t) const {
+    SimplexNet net;
+    net.resize(points_ - 1, components_, false);
+    for (std::size_t i = 0; i < points_; ++i) {
+      for (std::size_t c = 0; c < components_; ++c) {
+        net.point(0, i)[c] = weighted(i, c);
+      }
+      net.point(0, i)[components_] = weight_[i];
+    }
+    double bound = t * scale_.inverse() / (kRoundedUp * kRoundedUp);
+    const std::uint32_t n =
+        CurveCells(std::move(net), kPointSetDoubt * (radius_ + size_)).choose(usual, bound);
+    t = n < usual ? bound * kRoundedUp * scale_ + std::numeric_limits<double>::denorm_min() : t;
+    return n;
   }
 
   /// A bound on |C''|, or on what takes its place for rational curves.
@@ -163,13 +189,22 @@ Status choose_points(const ControlCurves<S>& curves, const FlattenOptions& optio
   const double second = bound.second();
   const bool possible = t > 0 && error >= 0;
   const std::uint32_t most = std::min(options.most_points, kMostPolylinePoints);
-  const std::uint32_t count = possible ? points_for(second, t, most) : 0;
+  std::uint32_t count = possible ? points_for(second, t, most) : 0;
+  double found = count == 0 ? t : bound_of(second, count - 1);
+  if (possible && bound.is_spread()) {
+    const std::uint32_t usual = count == 0 ? most : count - 1;
+    double fewer = t;
+    if (const std::uint32_t n = bound.fewer_segments(usual, fewer); n < usual) {
+      count = n + 1;
+      found = fewer;
+    }
+  }
   if (count == 0) {
     return Status::bad_tolerance;
   }
   points[curve] = count;
   if (!deviation.empty()) {
-    deviation[curve] = bound_of(second, count - 1) + error;
+    deviation[curve] = found + error;
   }
   return Status::ok;
 }

@@ -58,6 +58,9 @@ void GroupBound::form() {
   }
   for (std::size_t lane = 0; lane < count_; ++lane) {
     separable_[lane] = bound_separable(patches_[lane]);
+    spaces_[lane] = has_spread_weights(patches_[lane])
+                        ? std::make_unique<SpaceBound>(patches_[lane], flags_[lane])
+                        : nullptr;
   }
   kernels_.form(group_, whole_);
 }
@@ -91,6 +94,18 @@ void GroupBound::include_corners(LaneSet lanes, const LaneSegments& segments,
   }
 }
 
+CertifiedCells GroupBound::smaller_as_sets(std::size_t lane, const CertifiedCells& certified,
+                                           bool may_fall) const {
+  if (spaces_[lane] == nullptr) {
+    return certified;
+  }
+  CertifiedCells least = certified;
+  take_if_close(
+      lane, spaces_[lane]->certify(certified.cells, in_patch(lane, certified.bound), 0, may_fall),
+      least);
+  return least;
+}
+
 GroupBound::Lanes<CertifiedCells> GroupBound::certify(const Lanes<CellCounts>& cells) const {
   const LaneSegments segments = segments_of(cells);
   CellBounds bounds;
@@ -98,8 +113,11 @@ GroupBound::Lanes<CertifiedCells> GroupBound::certify(const Lanes<CellCounts>& c
   include_corners(all_lanes(), segments, bounds);
   Lanes<CertifiedCells> certified;
   for (std::size_t lane = 0; lane < count_; ++lane) {
-    certified[lane] = {cells[lane], smaller_in_space(lane, cells[lane], bounds.bound[lane]),
-                       static_cast<std::uint16_t>(bounds.falling[lane])};
+    certified[lane] =
+        smaller_as_sets(lane,
+                        {cells[lane], smaller_in_space(lane, cells[lane], bounds.bound[lane]),
+                         static_cast<std::uint16_t>(bounds.falling[lane])},
+                        true);
   }
   return certified;
 }
@@ -111,7 +129,8 @@ GroupBound::Lanes<double> GroupBound::rising_bounds(const CellCounts& cells) con
   kernels_.bound(group_, segments_of(all), kAllZones, bounds);
   Lanes<double> rising{};
   for (std::size_t lane = 0; lane < count_; ++lane) {
-    rising[lane] = smaller_in_space(lane, cells, bounds.rising[lane]);
+    const CertifiedCells usual{cells, smaller_in_space(lane, cells, bounds.rising[lane]), 0};
+    rising[lane] = smaller_as_sets(lane, usual, false).bound;
   }
   return rising;
 }

@@ -4,27 +4,18 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <simdbezier/isa.hpp>
 
 #include "src/mesh/rates/bound_parts.hpp"
 #include "src/mesh/rates/separable_bound.hpp"
+#include "src/mesh/rates/space_bound.hpp"
 #include "src/mesh/rates/vector_patch.hpp"
 #include "src/tables/bound_task.hpp"
 
 namespace simdbezier::detail {
-
-/// Cells, how far their triangles are from the patch at most, and the diagonals for which that
-/// holds.
-struct CertifiedCells {
-  CellCounts cells;
-  double bound;
-  std::uint16_t diagonals;
-};
-inline CertifiedCells uncertified(const CellCounts& cells) {
-  return {cells, std::numeric_limits<double>::infinity(), 0};
-}
 
 /// Bounds for any rates, in double, for patches of one shape: any degrees and weights. Kernels
 /// bound all patches of a group at once, each in a lane; bounds of a patch do not depend on the
@@ -89,6 +80,19 @@ private:
     const double other = separable_[lane].at(cells);
     return in_space(lane, other < bound ? other : bound);
   }
+  /// A certificate with the bound of point sets, if there is one for the lane and it is smaller.
+  [[nodiscard]] CertifiedCells smaller_as_sets(std::size_t lane, const CertifiedCells& certified,
+                                               bool may_fall) const;
+  /// A tolerance in the scale of a lane's patch.
+  [[nodiscard]] double in_patch(std::size_t lane, double t) const {
+    return t * patches_[lane].scale.inverse() / (kRounding * kRounding);
+  }
+  /// Takes a certificate of SpaceBound, unless it is infinite.
+  void take_if_close(std::size_t lane, const CertifiedCells& found, CertifiedCells& to) const {
+    if (found.bound < std::numeric_limits<double>::infinity()) {
+      to = {found.cells, in_space(lane, found.bound), found.diagonals};
+    }
+  }
   /// choose() by Filip's bound alone, which is coarser and has a formula for the counts.
   [[nodiscard]] CellCounts filip(std::size_t lane, double tolerance, std::uint32_t most) const;
 
@@ -97,6 +101,7 @@ private:
   WholePatches whole_{};
   Lanes<VectorPatch> patches_;
   Lanes<SeparableBound> separable_{};
+  Lanes<std::unique_ptr<SpaceBound>> spaces_; ///< of patches whose weights are far apart
   Lanes<std::uint8_t> flags_{};
   std::size_t count_ = 0;
   std::vector<LaneValues> memory_; ///< kept from one group to the next

@@ -1,0 +1,28 @@
+// The bound of point sets on polylines of curves whose weights are far apart.
+#pragma once
+
+#include <cstdint>
+
+#include "src/mesh/rates/simplex_distance.hpp"
+
+namespace simdbezier::detail {
+
+class CurveCells {
+public:
+  /// doubt: what all roundings together may be.
+  CurveCells(SimplexNet curve, double doubt) : curve_(std::move(curve)), doubt_(doubt) {}
+
+  /// Few segments whose bound is at most `stop`, which becomes the bound; `usual` where fewer ones
+  /// do not hold.
+  std::uint32_t choose(std::uint32_t usual, double& stop);
+
+private:
+  double bound_segment(std::uint32_t i, std::uint32_t n, double enough, double stop);
+
+  SimplexNet curve_;
+  double doubt_;
+  SimplexNet segment_;
+  SimplexDistance distance_;
+};
+
+} // namespace simdbezier::detail
