@@ -17,7 +17,7 @@ enum class EdgeKind : std::uint8_t {
   boundary,     ///< no other edge has these control points
   shared,       ///< exactly one other has
   non_manifold, ///< more than one other has
-  collapsed     ///< all control points are equal; never matched with another edge
+  collapsed     ///< all control points are one; never matched with another edge
 };
 
 /// What one edge of one patch is.
@@ -39,10 +39,13 @@ struct EdgeLink {
 ///              shared edge gets the other one. A non_manifold edge gets the next one with the same
 ///              points, in order of patch and edge, and the last gets the first. For boundary and
 ///              collapsed edges, edge, reversed and patch are 0.
-/// Match:       equal degree, components and form of weights, and bit-equal control points, weights
-///              included, in the same or the opposite order; -0 equals +0, nan is compared by bits.
-///              These are the edges along which evaluation is watertight. Collapsed: all points are
-///              equal, whatever their weights; homogeneous points are divided before comparing.
+/// Match:       equal degree and components, and bit-equal control points, weights included, in the
+///              same or the opposite order; -0 equals +0, nan is compared by bits. A weight of 1
+///              counts as none; the forms of other weights have to be the same. These are the edges
+///              along which evaluation is watertight. Collapsed: all points are one, whatever their
+///              weights. Cartesian points are one where their coordinates are equal, homogeneous
+///              ones where the quotients differ by roundings: by 16 u of the larger of two, in each
+///              coordinate, u = 2^-24 or 2^-53.
 /// Allocation:  about 30 bytes an edge. Threads: Options::threads, for hashing; other options have
 ///              no meaning. Determinism: the result is a function of the input.
 /// Returns:     ok | null_input | input_too_small | null_output | output_too_small | bad_degree |

@@ -19,6 +19,7 @@
 #include <simdbezier/isa.hpp>
 #include <simdbezier/patch_set.hpp>
 #include <simdbezier/rates.hpp>
+#include <simdbezier/split_edges.hpp>
 #include <simdbezier/topology.hpp>
 
 namespace simdbezier {
@@ -45,6 +46,9 @@ struct MeshOptions {
   bool flip = false;
   double point_size = 0;
   double snap = 0;
+  /// Cuts patches where corners of others lie on their open sides, see split_edges(), with `snap`
+  /// and at least the distance given there.
+  bool split_edges = false;
   /// Leaves out patches that repeat an earlier one (Topology::is_repeated()).
   bool drop_repeated = false;
   /// The angle of split_creases(), in radians. Infinity: all normals are merged. 0: patches share
@@ -68,12 +72,15 @@ struct MeshPlan {
   /// The patch at fault; 0 where the fault is not that of a single patch.
   std::size_t fault_patch = 0;
   PatchSet<T> set;
-  /// Counts all patches given, also repeated ones that were left out.
+  /// Counts all patches given, or their pieces, also repeated ones that were left out.
   TopologyCounts counts;
-  Topology topology; ///< how the patches of the set are connected
+  SplitCounts splits; ///< what came of MeshOptions::split_edges
+  Topology topology;  ///< how the patches of the set are connected
   MeshLayout layout;
   /// The number of each patch of the set among those given. Empty: the same numbers.
   std::vector<std::uint32_t> patches;
+  /// Which part of a patch given each patch of the set is; empty without MeshOptions::split_edges.
+  std::vector<PatchPiece> pieces;
   std::vector<std::uint32_t> nu; ///< cells of each patch of the set
   std::vector<std::uint32_t> nv;
   std::vector<double> deviations; ///< certified, of each patch of the set
@@ -101,6 +108,7 @@ struct Mesh {
   /// out.
   std::vector<double> deviations;
   TopologyCounts counts;
+  SplitCounts splits;
 
   [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
 };
@@ -109,10 +117,10 @@ struct Mesh {
 ///
 /// nets:     any views with three components, see find_topology(). They are read only here.
 /// Returns:  in MeshPlan::status, what pack(), find_topology(), choose_rates() or certify_rates(),
-///           lay_out_mesh(), split_creases() and split_parameters() return, among them
-///           snap_too_large where it is MeshOptions::snap that leaves too little of a tolerance;
-///           bad_tolerance also where nothing says how fine the mesh is to be, bad_grid where a
-///           grid has fewer than 2
+///           lay_out_mesh(), split_creases(), split_parameters() and split_edges() return, among
+///           them snap_too_large where it is MeshOptions::snap that leaves too little of a
+///           tolerance; bad_tolerance also where nothing says how fine the mesh is to be, bad_grid
+///           where a grid has fewer than 2
 ///           samples or where tolerances are given as well; out_of_memory.
 /// Memory:   allocates what the plan holds, and working memory for edges and rates. A mesh is
 ///           planned whole; vertices and triangles can then be had range by range.

@@ -19,7 +19,7 @@ struct TopologyData;
 }
 
 /// What a model is made of. A side is an edge of one patch; sides with equal control points are one
-/// edge of the model.
+/// edge of the model, as find_adjacency() compares them.
 struct TopologyCounts {
   std::size_t patches = 0;
   std::size_t edges = 0;              ///< collapsed ones are not counted
@@ -38,8 +38,9 @@ struct TopologyCounts {
 
 /// How edges are joined.
 struct TopologyOptions {
-  /// A side whose control points all lie within this distance of its first one counts as a point.
-  /// 0: where they are equal.
+  /// A side whose control points all lie within this distance of both of its ends counts as a
+  /// point, and so do all sides that share its edge. 0: where they are one point, as for
+  /// find_adjacency().
   double point_size = 0;
   /// Turns patches so that the normals of neighbours agree: those that disagree with the lowest
   /// patch of their connected part. Without it, all stay as they are given.
@@ -47,10 +48,12 @@ struct TopologyOptions {
   /// Then turns all patches: triangles run the other way round, and normals point to the other
   /// side.
   bool flip = false;
-  /// Pairs of open sides whose control points are within this distance of each other's, one by one
-  /// in either direction, become one edge (weights have to be equal), the closest first: a mesh has
-  /// the points of the lower one there. Open sides that are no longer than this become points, as
-  /// by point_size. 0: only sides with equal control points are one.
+  /// Pairs of open sides become one edge, in either direction, the closest first, where points of
+  /// equal parameters are certainly within this distance of each other: a mesh has the points of
+  /// the lower side there. The bound compares control points and weights after degrees have been
+  /// raised to the higher one and weights divided by the largest (docs/tessellation.md). Sides that
+  /// are no longer than this become points, as by point_size, as do open ones that match a point.
+  /// 0: only sides with equal control points are one.
   double snap = 0;
   int threads = 0; ///< as in Options
 };

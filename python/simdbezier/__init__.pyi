@@ -118,6 +118,7 @@ def tessellate(
     orient: bool = False,
     flip: bool = False,
     snap: float = 0.0,
+    split_edges: bool = False,
     point_size: float = 0.0,
     drop_repeated: bool = False,
     longest_edge: Optional[float] = None,

@@ -176,9 +176,10 @@ PyMesh tessellate_points(const py::object& points, const py::object& tolerance,
                          const py::object& grid, const py::object& crease,
                          const py::object& normals, const py::object& parameters,
                          const py::object& orient, const py::object& flip, const py::object& snap,
-                         const py::object& point_size, const py::object& drop_repeated,
-                         const py::object& longest_edge, const py::object& dtype,
-                         const py::object& threads, const py::object& homogeneous) {
+                         const py::object& split_edges, const py::object& point_size,
+                         const py::object& drop_repeated, const py::object& longest_edge,
+                         const py::object& dtype, const py::object& threads,
+                         const py::object& homogeneous) {
   const AnyPointViews<ControlNets> any = control_nets({points, weights, homogeneous});
   MeshOptions options;
   py::array_t<double> tolerances;
@@ -194,6 +195,7 @@ PyMesh tessellate_points(const py::object& points, const py::object& tolerance,
   options.orient = flag(orient, "orient");
   options.flip = flag(flip, "flip");
   options.snap = positive(number(snap, "snap"), true, "snap");
+  options.split_edges = flag(split_edges, "split_edges");
   options.point_size = positive(number(point_size, "point_size"), true, "point_size");
   options.drop_repeated = flag(drop_repeated, "drop_repeated");
   options.threads = thread_count(threads);
@@ -263,9 +265,9 @@ void add_mesh(py::module_& module) {
          py::arg("relative") = py::none(), py::arg("grid") = py::none(),
          py::arg("crease") = py::none(), py::arg("normals") = true, py::arg("parameters") = false,
          py::arg("orient") = false, py::arg("flip") = false, py::arg("snap") = 0.0,
-         py::arg("point_size") = 0.0, py::arg("drop_repeated") = false,
-         py::arg("longest_edge") = py::none(), py::arg("dtype") = py::none(),
-         py::arg("threads") = 0, py::arg("homogeneous") = false,
+         py::arg("split_edges") = false, py::arg("point_size") = 0.0,
+         py::arg("drop_repeated") = false, py::arg("longest_edge") = py::none(),
+         py::arg("dtype") = py::none(), py::arg("threads") = 0, py::arg("homogeneous") = false,
          "A closed mesh of all patches, within a tolerance of their surface.");
 }
 

@@ -31,6 +31,7 @@ MeshOptions mesh_options_of(const simdbezier_mesh_options* given) {
   options.nv = known.nv;
   options.point_size = known.point_size;
   options.snap = known.snap;
+  options.split_edges = known.split_edges != 0;
   options.crease_angle = known.unshared != 0 ? 0 : limit_of(known.crease_angle);
   options.orient = known.orient != 0;
   options.flip = known.flip != 0;

@@ -22,8 +22,9 @@ public:
       : given_(nets), nets_(nets), options_(options), plan_(plan) {}
 
   Status run() {
-    for (const auto step : {&MeshPlanner::check, &MeshPlanner::join, &MeshPlanner::pack_nets,
-                            &MeshPlanner::measure, &MeshPlanner::choose, &MeshPlanner::lay_out}) {
+    for (const auto step : {&MeshPlanner::check, &MeshPlanner::leave_out, &MeshPlanner::split,
+                            &MeshPlanner::join, &MeshPlanner::pack_nets, &MeshPlanner::measure,
+                            &MeshPlanner::choose, &MeshPlanner::lay_out}) {
       if (const Status status = (this->*step)(); !status) {
         return status;
       }
@@ -53,24 +54,63 @@ private:
     return toleranced || is_uniform() ? Status::ok : Status::bad_tolerance;
   }
 
-  Status join() {
+  [[nodiscard]] TopologyOptions topology_options() const {
     TopologyOptions how;
-    how.orient = options_.orient && !options_.drop_repeated;
     how.flip = options_.flip;
     how.point_size = options_.point_size;
-    how.snap = options_.snap;
+    how.snap = std::max(options_.snap, split_.snap);
     how.threads = options_.threads;
-    Status status = find_topology(given_, plan_.topology, how);
+    return how;
+  }
+
+  /// Repeated patches go first: beside them, long edges would have several sides.
+  Status leave_out() {
+    if (!options_.drop_repeated) {
+      return Status::ok;
+    }
+    Status status = find_topology(nets_, plan_.topology, topology_options());
     plan_.counts = plan_.topology.counts();
-    const bool drops = options_.drop_repeated && plan_.counts.repeated_patches > 0;
-    if (status && drops) {
-      status = find_distinct_nets(given_, plan_.topology, distinct_);
+    if (status && plan_.counts.repeated_patches > 0) {
+      status = find_distinct_nets(nets_, plan_.topology, distinct_);
       nets_ = distinct_.nets;
       plan_.patches = std::move(distinct_.patches);
     }
-    if (status && (drops || how.orient != options_.orient)) {
-      how.orient = options_.orient;
-      status = find_topology(nets_, plan_.topology, how);
+    return status;
+  }
+
+  Status split() {
+    if (!options_.split_edges) {
+      return Status::ok;
+    }
+    SplitOptions how;
+    how.snap = options_.snap;
+    how.threads = options_.threads;
+    const Status status = split_edges(nets_, split_, how);
+    nets_ = status ? split_.nets : nets_;
+    plan_.splits = split_.counts;
+    std::vector<std::uint32_t> patches;
+    for (PatchPiece& piece : split_.pieces) {
+      piece.patch = plan_.patches.empty() ? piece.patch : plan_.patches[piece.patch];
+      patches.push_back(piece.patch);
+    }
+    plan_.patches = std::move(patches);
+    plan_.pieces = std::move(split_.pieces);
+    return status;
+  }
+
+  Status join() {
+    const bool left_out = options_.drop_repeated && plan_.counts.repeated_patches > 0;
+    if (options_.drop_repeated && !left_out && !options_.orient && !options_.split_edges) {
+      return Status::ok; // all is known
+    }
+    TopologyOptions how = topology_options();
+    how.orient = options_.orient;
+    const Status status = find_topology(nets_, plan_.topology, how);
+    if (!options_.drop_repeated || options_.split_edges) {
+      const std::size_t repeated = plan_.counts.repeated_patches;
+      plan_.counts = plan_.topology.counts();
+      plan_.counts.repeated_patches =
+          options_.drop_repeated ? repeated : plan_.counts.repeated_patches;
     }
     return status;
   }
@@ -98,7 +138,12 @@ private:
     plan_.deviations.resize(patches);
     diagonals_.resize(patches);
     errors_.resize(patches);
-    return position_errors(plan_.set, errors_, {.threads = options_.threads, .isa = options_.isa});
+    const Status status =
+        position_errors(plan_.set, errors_, {.threads = options_.threads, .isa = options_.isa});
+    for (std::size_t patch = 0; patch < plan_.pieces.size(); ++patch) {
+      errors_[patch] += plan_.pieces[patch].error;
+    }
+    return status;
   }
 
   Status choose() {
@@ -182,6 +227,7 @@ private:
 
   std::span<const ControlNets<S>> given_;
   std::span<const ControlNets<S>> nets_; ///< without what is left out
+  SplitNets<S> split_;
   DistinctNets<S> distinct_;
   const MeshOptions& options_;
   MeshPlan<T>& plan_;

@@ -83,6 +83,12 @@ Point3 point_of(const ControlNets<S>& nets, const S* values) noexcept {
   return point;
 }
 
+/// The weight of a control point whose values begin somewhere; 1 where points have none.
+template <typename S>
+S weight_of(const ControlNets<S>& nets, const S* values) noexcept {
+  return nets.weights == Weights::none ? S(1) : values[3 * nets.component_stride];
+}
+
 /// Control point i, j in space.
 template <typename S>
 Point3 point_at(const ControlNets<S>& nets, std::size_t patch, std::ptrdiff_t i,
@@ -110,8 +116,17 @@ public:
     }
   }
   [[nodiscard]] double low(std::size_t c) const noexcept { return low_[c]; }
+  [[nodiscard]] double high(std::size_t c) const noexcept { return high_[c]; }
   [[nodiscard]] double middle(std::size_t c) const noexcept {
     return low_[c] + (high_[c] - low_[c]) / 2;
+  }
+  /// Whether a point is inside, or as near as a distance in each coordinate.
+  [[nodiscard]] bool reaches(const Point3& point, double distance) const noexcept {
+    bool near = true;
+    for (std::size_t c = 0; c < 3; ++c) {
+      near = near && point.x[c] >= low_[c] - distance && point.x[c] <= high_[c] + distance;
+    }
+    return near;
   }
   /// The longest side of the box; nan where a value is nan.
   [[nodiscard]] double longest() const noexcept {

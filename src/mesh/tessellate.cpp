@@ -1,6 +1,7 @@
 // See mesh.hpp.
 #include <simdbezier/mesh.hpp>
 
+#include <algorithm>
 #include <limits>
 
 #include <simdbezier/mesh_primitives.hpp>
@@ -37,6 +38,13 @@ Status evaluate_vertices(const MeshPlan<T>& plan, const MeshOptions& options, Me
     return Status::ok;
   }
   const Status status = evaluate_mesh(plan.set, plan.layout, out, how);
+  for (std::size_t k = 0; k < mesh.patches.size() && !plan.pieces.empty(); ++k) {
+    const PatchPiece& piece = plan.pieces[mesh.patches[k]];
+    const double u = static_cast<double>(mesh.parameters[k][0]);
+    const double v = static_cast<double>(mesh.parameters[k][1]);
+    mesh.parameters[k] = {static_cast<T>(piece.u0 + (piece.u1 - piece.u0) * u),
+                          static_cast<T>(piece.v0 + (piece.v1 - piece.v0) * v)};
+  }
   if (!plan.patches.empty()) {
     for (std::uint32_t& patch : mesh.patches) {
       patch = plan.patches[patch];
@@ -66,9 +74,11 @@ Status fill_mesh(const MeshPlan<T>& plan, const MeshOptions& options, std::size_
   }
   mesh.deviation = plan.deviation;
   mesh.counts = plan.counts;
+  mesh.splits = plan.splits;
   mesh.deviations.resize(given);
   for (std::size_t patch = 0; patch < plan.deviations.size(); ++patch) {
-    mesh.deviations[plan.patches.empty() ? patch : plan.patches[patch]] = plan.deviations[patch];
+    double& deviation = mesh.deviations[plan.patches.empty() ? patch : plan.patches[patch]];
+    deviation = std::max(deviation, plan.deviations[patch]);
   }
   return write_faces(plan, options, mesh);
 }

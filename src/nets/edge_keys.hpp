@@ -14,12 +14,12 @@
 namespace simdbezier::detail {
 
 /// A key for every control point of a net's boundary, and what follows from the keys of an edge.
-/// Points with the same compared_bits() have the same key; others hardly ever, unless they are made
-/// to.
+/// Points that EdgeValues takes for the same have the same key; others hardly ever, unless they are
+/// made to.
 ///
-/// kDegree, kChannels: those of the net, in both directions, or 0 where they are known at run time
-/// only.
-template <typename S, int kDegree, int kChannels>
+/// kDegree, kComponents: those of a net without weights, in both directions, or 0 where they are
+/// known at run time only.
+template <typename S, int kDegree, int kComponents>
 class EdgeKeys {
 public:
   explicit EdgeKeys(const ControlNets<S>& nets) noexcept {
@@ -29,10 +29,10 @@ public:
       stride_[edge] = form.stride;
       degree_[edge] = form.degree;
       seed_[edge] = static_cast<std::uint64_t>(form.degree) * 64 +
-                    static_cast<std::uint64_t>(form.channels) * 4 +
-                    static_cast<std::uint64_t>(form.weights);
-      channels_ = form.channels;
+                    static_cast<std::uint64_t>(form.components);
+      components_ = form.components;
       component_stride_ = form.component_stride;
+      weights_ = form.weights;
     }
   }
 
@@ -77,23 +77,33 @@ private:
     }
   }
   [[nodiscard]] std::uint64_t key_of(const S* point) const noexcept {
-    const std::ptrdiff_t channels = kChannels > 0 ? kChannels : channels_;
+    const std::ptrdiff_t components = kComponents > 0 ? kComponents : components_;
     std::uint64_t key = 0;
-    for (std::ptrdiff_t c = 0; c < channels; ++c) {
-      std::uint64_t bits = compared_bits(point[c * component_stride_]);
-      if constexpr (sizeof(S) == 8) {
-        bits = std::rotl(bits, 32); // the low half of round numbers is 0, and would be of products
+    for (std::ptrdiff_t c = 0; c < components; ++c) {
+      key = with_value(key, point[c * component_stride_]);
+    }
+    if (kComponents == 0 && weights_ != Weights::none) {
+      const S weight = point[components * component_stride_];
+      if (weight != 1) { // where it is 1, its form does not matter either
+        key = with_value(key, weight) + static_cast<std::uint64_t>(weights_);
       }
-      key = (key + bits) * 0x9e3779b97f4a7c15ULL;
     }
     return key | 1; // products by odd numbers keep what the other factor is
+  }
+  [[nodiscard]] static std::uint64_t with_value(std::uint64_t key, S value) noexcept {
+    std::uint64_t bits = compared_bits(value);
+    if constexpr (sizeof(S) == 8) {
+      bits = std::rotl(bits, 32); // the low half of round numbers is 0, and would be of products
+    }
+    return (key + bits) * 0x9e3779b97f4a7c15ULL;
   }
 
   std::ptrdiff_t first_[kPatchEdges]; ///< as in EdgeForm
   std::ptrdiff_t stride_[kPatchEdges];
   std::ptrdiff_t degree_[kPatchEdges];
   std::ptrdiff_t component_stride_;
-  std::ptrdiff_t channels_;
+  std::ptrdiff_t components_;
+  Weights weights_;
   std::uint64_t seed_[kPatchEdges];
   std::uint64_t keys_[kPatchEdges][kMostOrder]; ///< [edge][point]
 };

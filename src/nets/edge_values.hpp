@@ -1,4 +1,7 @@
 // The values of a patch's edge, wherever they lie, and comparisons of them.
+//
+// Points without a weight, and those of weight 1 in either form, are the same where their
+// coordinates are: evaluation multiplies and divides by 1 there, so that bits are equal as well.
 #pragma once
 
 #include <bit>
@@ -13,7 +16,7 @@
 #include <simdbezier/patch_edge.hpp>
 
 #include "src/nets/net_views.hpp"
-#include "src/storage/net_shape.hpp"
+#include "src/storage/one_point.hpp"
 
 namespace simdbezier::detail {
 
@@ -34,7 +37,7 @@ struct EdgeForm {
   std::ptrdiff_t stride; ///< from one point to the next
   std::ptrdiff_t component_stride;
   std::ptrdiff_t degree;
-  std::ptrdiff_t channels;
+  std::ptrdiff_t components; ///< a weight, if there is one, stands behind them
   Weights weights;
 
   template <typename S>
@@ -42,8 +45,8 @@ struct EdgeForm {
       : first(edge == PatchEdge::v1   ? nets.degree_v * nets.row_stride
               : edge == PatchEdge::u1 ? nets.degree_u * nets.point_stride
                                       : 0),
-        component_stride(nets.component_stride),
-        channels(static_cast<std::ptrdiff_t>(shape_of(nets).channels())), weights(nets.weights) {
+        component_stride(nets.component_stride), components(nets.components),
+        weights(nets.weights) {
     const bool in_u = edge == PatchEdge::v0 || edge == PatchEdge::v1;
     stride = in_u ? nets.point_stride : nets.row_stride;
     degree = in_u ? nets.degree_u : nets.degree_v;
@@ -71,8 +74,9 @@ public:
   /// Whether the other direction has the smaller bits where both first differ: for exactly one
   /// direction, or for none where both have the same values.
   [[nodiscard]] bool runs_against() const noexcept {
+    const std::ptrdiff_t channels = form_->components + (is_polynomial() ? 0 : 1);
     for (std::ptrdiff_t k = 0; k <= form_->degree / 2; ++k) {
-      for (std::ptrdiff_t c = 0; c < form_->channels; ++c) {
+      for (std::ptrdiff_t c = 0; c < channels; ++c) {
         const auto forward = bits(k, c);
         const auto backward = bits(form_->degree - k, c);
         if (forward != backward) {
@@ -86,21 +90,29 @@ public:
   [[nodiscard]] bool operator==(const EdgeValues& other) const noexcept {
     const EdgeForm& a = *form_;
     const EdgeForm& b = *other.form_;
-    if (a.degree != b.degree || a.channels != b.channels || a.weights != b.weights) {
+    if (a.degree != b.degree || a.components != b.components) {
       return false;
     }
     // Edges that are compared are equal nearly always, and have the same zeros nearly always.
-    const bool whole = a.component_stride == 1 && b.component_stride == 1 && a.channels == 3;
+    const bool whole = a.component_stride == 1 && b.component_stride == 1 && a.components == 3 &&
+                       is_polynomial() && other.is_polynomial();
     return (whole && has_bytes_of(other)) || same_but_for_zeros(other);
   }
 
-  /// Whether all points are equal, whatever their weights.
+  /// Whether all points are one, whatever their weights. Values of homogeneous ones that are not
+  /// finite are no points; others are compared by their bits.
   [[nodiscard]] bool collapsed() const noexcept {
-    const bool polynomial = form_->weights == Weights::none;
-    const std::ptrdiff_t components = polynomial ? form_->channels : form_->channels - 1;
+    if (form_->weights == Weights::homogeneous) {
+      const auto are_one = [&](std::size_t count) {
+        return are_one_point(first_, stride_, count, form_->components, form_->component_stride,
+                             Weights::homogeneous);
+      };
+      return are_one(2) &&
+             are_one(static_cast<std::size_t>(form_->degree) + 1); // mostly not even 2
+    }
     for (std::ptrdiff_t k = 1; k <= form_->degree; ++k) {
-      for (std::ptrdiff_t c = 0; c < components; ++c) {
-        if (!same_coordinate(k, c)) {
+      for (std::ptrdiff_t c = 0; c < form_->components; ++c) {
+        if (bits(k, c) != bits(0, c)) {
           return false;
         }
       }
@@ -114,12 +126,13 @@ public:
   }
 
 private:
+  [[nodiscard]] bool is_polynomial() const noexcept { return form_->weights == Weights::none; }
   /// Value c of point k.
-  [[nodiscard]] S value(std::ptrdiff_t k, std::ptrdiff_t c) const noexcept {
-    return first_[k * stride_ + c * form_->component_stride];
-  }
   [[nodiscard]] BitsOf<S> bits(std::ptrdiff_t k, std::ptrdiff_t c) const noexcept {
-    return compared_bits(value(k, c));
+    return compared_bits(first_[k * stride_ + c * form_->component_stride]);
+  }
+  [[nodiscard]] BitsOf<S> weight_bits(std::ptrdiff_t k) const noexcept {
+    return is_polynomial() ? compared_bits(S(1)) : bits(k, form_->components);
   }
 
   /// Of points whose three values are side by side: whether they have the same bytes.
@@ -134,24 +147,18 @@ private:
   [[nodiscard, gnu::noinline, gnu::cold]] bool
   same_but_for_zeros(const EdgeValues& other) const noexcept {
     for (std::ptrdiff_t k = 0; k <= form_->degree; ++k) {
-      for (std::ptrdiff_t c = 0; c < form_->channels; ++c) {
+      const BitsOf<S> weight = weight_bits(k);
+      const bool formless = weight == compared_bits(S(1));
+      if (weight != other.weight_bits(k) || !(formless || form_->weights == other.form_->weights)) {
+        return false;
+      }
+      for (std::ptrdiff_t c = 0; c < form_->components; ++c) {
         if (bits(k, c) != other.bits(k, c)) {
           return false;
         }
       }
     }
     return true;
-  }
-
-  /// Whether point k has the coordinate of point 0.
-  [[nodiscard]] bool same_coordinate(std::ptrdiff_t k, std::ptrdiff_t c) const noexcept {
-    if (form_->weights != Weights::homogeneous) {
-      return bits(k, c) == bits(0, c);
-    }
-    const auto coordinate = [&](std::ptrdiff_t i) {
-      return value(i, c) / value(i, form_->channels - 1);
-    };
-    return coordinate(k) == coordinate(0);
   }
 
   const EdgeForm* form_;

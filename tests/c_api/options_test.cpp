@@ -168,5 +168,23 @@ TEST(CMeshOptions, AreThoseOfCpp) {
   }
 }
 
+/// Two patches above each other, beside one that is as high as both.
+TEST(CMeshOptions, SplitEdges) {
+  const std::vector<double> values = {0,  0, 0, 1, 0, 0, 0,  2, 0, 1, 2, 0, -1, 0, 0, 0, 0, 0,
+                                      -1, 1, 0, 0, 1, 0, -1, 1, 0, 0, 1, 0, -1, 2, 0, 0, 2, 0};
+  const simdbezier_nets nets = c_nets(values, 1, 1);
+  auto options = sized<simdbezier_mesh_options>();
+  options.nu = options.nv = 2;
+  for (const bool splits : {false, true}) {
+    options.split_edges = splits ? 1 : 0;
+    simdbezier_mesh* mesh = nullptr;
+    EXPECT_C_OK(simdbezier_tessellate(&nets, 1, SIMDBEZIER_F64, &options, &mesh));
+    auto arrays = sized<simdbezier_mesh_arrays>();
+    EXPECT_C_OK(simdbezier_mesh_look(mesh, &arrays));
+    EXPECT_EQ(arrays.vertices, splits ? 9U : 10U);
+    simdbezier_mesh_free(mesh);
+  }
+}
+
 } // namespace
 } // namespace simdbezier::tests::options_test

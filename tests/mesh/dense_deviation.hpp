@@ -32,9 +32,9 @@ Point corner(const Mesh<T>& mesh, std::size_t triangle, std::size_t k) {
   return {p[0], p[1], p[2]};
 }
 
-/// The largest distance of dense samples of a patch from its triangles.
-template <typename T>
-double found_deviation(const MeshPlan<T>& plan, const Mesh<T>& mesh, const PatchPoints& patch,
+/// The largest distance of dense samples of patch p, surface(u, v), from its triangles.
+template <typename T, typename Surface>
+double farthest_sample(const MeshPlan<T>& plan, const Mesh<T>& mesh, const Surface& surface,
                        std::size_t p, std::uint32_t in_cell) {
   std::vector<std::array<Point, 3>> triangles;
   for (std::size_t t = plan.layout.first_triangle(p); t < plan.layout.first_triangle(p + 1); ++t) {
@@ -45,8 +45,8 @@ double found_deviation(const MeshPlan<T>& plan, const Mesh<T>& mesh, const Patch
   const std::uint32_t nu = in_cell * plan.nu[p];
   const std::uint32_t nv = in_cell * plan.nv[p];
   for (std::uint32_t k = 0; k < (nu + 1) * (nv + 1); ++k) {
-    const Point x = surface(patch, static_cast<double>(k % (nu + 1)) / nu,
-                            static_cast<double>(k / (nu + 1)) / nv);
+    const Point x =
+        surface(static_cast<double>(k % (nu + 1)) / nu, static_cast<double>(k / (nu + 1)) / nv);
     double least = std::numeric_limits<double>::infinity();
     const std::size_t begin = nearest + triangles.size();
     for (std::size_t t = 0; t < triangles.size() && least > worst; ++t) {
@@ -62,6 +62,14 @@ double found_deviation(const MeshPlan<T>& plan, const Mesh<T>& mesh, const Patch
     worst = std::max(worst, least);
   }
   return std::sqrt(worst);
+}
+
+/// The same for a bicubic patch.
+template <typename T>
+double found_deviation(const MeshPlan<T>& plan, const Mesh<T>& mesh, const PatchPoints& patch,
+                       std::size_t p, std::uint32_t in_cell) {
+  return farthest_sample(
+      plan, mesh, [&](double u, double v) { return surface(patch, u, v); }, p, in_cell);
 }
 
 } // namespace simdbezier::tests

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -93,6 +95,71 @@ TEST(Snapping, makes_points_of_open_sides_that_are_as_short) {
         EXPECT_EQ(census.euler, 2);
       }
     }
+  }
+}
+
+/// A ball with sides at its poles of which some are longer than the distance: the ends of the
+/// meridians there are moved by 0.69 of it, in opposite directions, except for the first two.
+MeshModel with_torn_poles(MeshModel model, double distance) {
+  std::map<Point, std::vector<Point>> meridians; // at each pole, by their next control points
+  for (PatchPoints& patch : model.patches) {
+    for (const std::size_t j : {std::size_t{0}, std::size_t{3}}) {
+      const Point pole = patch[j][1];
+      if (patch[j][0] != pole || patch[j][3] != pole) {
+        continue;
+      }
+      for (const std::size_t i : {std::size_t{0}, std::size_t{3}}) {
+        std::vector<Point>& known = meridians[pole];
+        const Point next = patch[j == 0 ? 1 : 2][i];
+        const auto at = std::find(known.begin(), known.end(), next) - known.begin();
+        if (at == std::ssize(known)) {
+          known.push_back(next);
+        }
+        patch[j][i][0] += at < 2 ? 0 : (at % 2 == 0 ? 0.69 : -0.69) * distance;
+      }
+    }
+  }
+  return model;
+}
+
+TEST(Snapping, makes_points_of_longer_sides_around_a_pole) {
+  for (const MeshModel& model : mesh_models()) {
+    if (model.name == "ball 4 x 2") {
+      for (unsigned seed = 0; seed < 4; ++seed) {
+        const MeshModel torn = with_torn_poles(model, 1e-3);
+        const Mesh<double> mesh = mesh_of(seed == 0 ? torn : shuffled(torn, seed), 0.05, 1e-3, 0);
+        ASSERT_EQ(mesh.status, Status::ok);
+        EXPECT_EQ(mesh.counts.collapsed_sides, 8U);
+        EXPECT_EQ(mesh.counts.open_edges, 0U);
+        const TriangleCensus census = census_of(mesh);
+        EXPECT_EQ(census.open + census.crowded + census.degenerate, 0U);
+        EXPECT_EQ(census.euler, 2);
+      }
+    }
+  }
+}
+
+/// Two patches whose common side is shorter than the distance.
+TEST(Snapping, makes_points_of_short_sides_that_are_shared) {
+  MeshModel model{"bow tie", {}, 0, 0};
+  for (int k = 0; k < 2; ++k) {
+    PatchPoints& patch = model.patches.emplace_back();
+    for (std::size_t j = 0; j < 4; ++j) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double x = static_cast<double>(3 * k) + static_cast<double>(i) - 3;
+        patch[j][i] = {x, static_cast<double>(j) * (std::fabs(x) + 1e-4), 0};
+      }
+    }
+  }
+  for (const bool snaps : {false, true}) {
+    const Mesh<double> mesh = mesh_of(model, 0.05, snaps ? 1e-3 : 0, snaps ? 0 : 1e-3);
+    ASSERT_EQ(mesh.status, Status::ok);
+    EXPECT_EQ(mesh.counts.collapsed_sides, 2U);
+    EXPECT_EQ(mesh.counts.edges, 6U);
+    EXPECT_EQ(census_of(mesh).degenerate, 0U);
+    const auto is_near = [](const Point& x) { return length(x) < 1e-3; };
+    EXPECT_EQ(std::count_if(mesh.positions.begin(), mesh.positions.end(), is_near), 2)
+        << "one for each patch, since patches that touch in a point stay apart";
   }
 }
 

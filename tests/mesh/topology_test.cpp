@@ -157,6 +157,31 @@ TEST(TopologyTest, sides_with_points_that_are_no_numbers_are_no_points) {
   }
 }
 
+/// Weights of 1 are none, so that patches may repeat others that have no weights.
+TEST(TopologyTest, patches_with_weights_of_one_repeat_those_without) {
+  const MeshModel model = named("patch");
+  const std::vector<double> plain = model.values();
+  for (const Weights form : {Weights::cartesian, Weights::homogeneous}) {
+    for (const double inner : {1.0, 2.0}) {
+      std::vector<double> values;
+      for (std::size_t k = 0; k < 16; ++k) {
+        const double weight = k == 5 ? inner : 1; // an inner control point
+        for (std::size_t c = 0; c < 3; ++c) {
+          values.push_back(plain[3 * k + c] * (form == Weights::homogeneous ? weight : 1));
+        }
+        values.push_back(weight);
+      }
+      const ControlNets<double> nets[] = {
+          ControlNets<double>::packed(plain.data(), 1, 3, 3),
+          ControlNets<double>::packed(values.data(), 1, 3, 3, 3, form)};
+      Topology topology;
+      ASSERT_EQ(find_topology(std::span<const ControlNets<double>>(nets), topology), Status::ok);
+      EXPECT_EQ(topology.counts().edges, 4U);
+      EXPECT_EQ(topology.counts().repeated_patches, inner == 1 ? 1U : 0U);
+    }
+  }
+}
+
 TEST(TopologyTest, bad_input_is_a_status) {
   Topology topology;
   TopologyOptions options;

@@ -1,5 +1,7 @@
 // Edge links against brute force, on random soups of all degrees, the teapot and the data files.
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -14,36 +16,40 @@ namespace simdbezier::tests::adjacency_test {
 namespace {
 
 /// An edge's points in its own direction, a key for comparing; equal values compare equal, so -0 is
-/// 0.
+/// 0. Every point has a weight behind its components.
 template <typename T>
 struct Edge {
   int degree;
   Weights weights;
   std::vector<std::vector<T>> points;
 
-  [[nodiscard]] T coordinate(const std::vector<T>& point, std::size_t c) const {
-    return weights == Weights::homogeneous ? point[c] / point.back() : point[c];
-  }
+  /// Quotients of homogeneous points may differ by 16 roundings.
   [[nodiscard]] bool collapsed() const {
-    const std::size_t components = points[0].size() - (weights == Weights::none ? 0 : 1);
-    return std::all_of(points.begin(), points.end(), [&](const std::vector<T>& point) {
-      for (std::size_t c = 0; c < components; ++c) {
-        if (coordinate(point, c) != coordinate(points[0], c)) {
-          return false;
-        }
+    const double tolerance =
+        weights == Weights::homogeneous ? 8 * double{std::numeric_limits<T>::epsilon()} : 0;
+    for (std::size_t c = 0; c + 1 < points[0].size(); ++c) {
+      std::vector<double> values;
+      for (const std::vector<T>& point : points) {
+        const double divisor = weights == Weights::homogeneous ? double{point.back()} : 1;
+        values.push_back(double{point[c]} / divisor);
       }
-      return true;
-    });
+      const auto [low, high] = std::minmax_element(values.begin(), values.end());
+      if (*high - *low > tolerance * std::max(std::fabs(*low), std::fabs(*high))) {
+        return false;
+      }
+    }
+    return true;
   }
-  [[nodiscard]] bool same_kind(const Edge& other) const {
-    return degree == other.degree && weights == other.weights &&
-           points[0].size() == other.points[0].size();
+  /// The form of a point whose weight is 1 does not matter.
+  [[nodiscard]] bool same_point(std::size_t k, const Edge& other, std::size_t l) const {
+    return points[k] == other.points[l] && (points[k].back() == 1 || weights == other.weights);
   }
-  [[nodiscard]] bool forward(const Edge& other) const {
-    return same_kind(other) && points == other.points;
-  }
-  [[nodiscard]] bool backward(const Edge& other) const {
-    return same_kind(other) && std::equal(points.begin(), points.end(), other.points.rbegin());
+  [[nodiscard]] bool same(const Edge& other, bool backward) const {
+    bool all = degree == other.degree && points[0].size() == other.points[0].size();
+    for (std::size_t k = 0; all && k < points.size(); ++k) {
+      all = same_point(k, other, backward ? points.size() - 1 - k : k);
+    }
+    return all;
   }
 };
 
@@ -61,6 +67,9 @@ std::vector<Edge<T>> edges_of(const std::vector<Batch<T>>& soup) {
           const int i = side < 2 ? k : (side - 2) * m;
           const T* const point = &batch.at(p, j, i, 0);
           edge.points.emplace_back(point, point + batch.channels());
+          if (edge.weights == Weights::none) {
+            edge.points.back().push_back(1);
+          }
         }
         edges.push_back(std::move(edge));
       }
@@ -82,8 +91,8 @@ std::vector<EdgeLink> brute_force(const std::vector<Batch<T>>& soup) {
     for (std::size_t step = edges.size() - 1; step > 0;
          --step) { // the nearest one ahead comes last
       const std::size_t b = (a + step) % edges.size();
-      const bool forward = edges[a].forward(edges[b]);
-      if (!edges[b].collapsed() && (forward || edges[a].backward(edges[b]))) {
+      const bool forward = edges[a].same(edges[b], false);
+      if (!edges[b].collapsed() && (forward || edges[a].same(edges[b], true))) {
         ++others;
         links[a] = {EdgeKind::shared, static_cast<PatchEdge>(b % 4), !forward, b / 4};
       }
@@ -260,6 +269,76 @@ TEST(Adjacency, DataFiles) {
   if (files == 0) {
     GTEST_SKIP() << "no data files";
   }
+}
+
+/// One patch of degree 1 whose side v = 0 has these values at u = 0 and u = 1.
+template <typename T>
+Batch<T> with_side(Weights weights, std::vector<T> begin, std::vector<T> end) {
+  Batch<T> batch = random_batch<T>({1, 1, 3, weights}, 1, 80 + static_cast<unsigned>(weights));
+  for (std::size_t c = 0; c < batch.channels(); ++c) {
+    batch.at(0, 0, 0, c) = begin[c];
+    batch.at(0, 0, 1, c) = end[c];
+  }
+  return batch;
+}
+
+// A weight of 1 is none, point by point; another one makes points of two forms different ones.
+TEST(Adjacency, FormsMatterWhereWeightsAreNotOne) {
+  constexpr Weights kNone = Weights::none;
+  constexpr Weights kCartesian = Weights::cartesian;
+  constexpr Weights kHomogeneous = Weights::homogeneous;
+  struct Case {
+    Weights a;
+    Weights b;
+    float weight_a; // at one end
+    float weight_b;
+    bool same;
+  };
+  constexpr Case kCases[] = {
+      {kNone, kCartesian, 1, 1, true},        {kNone, kHomogeneous, 1, 1, true},
+      {kCartesian, kHomogeneous, 1, 1, true}, {kNone, kCartesian, 1, 2, false},
+      {kNone, kHomogeneous, 1, 2, false},     {kCartesian, kHomogeneous, 2, 2, false},
+      {kCartesian, kCartesian, 2, 2, true},   {kHomogeneous, kHomogeneous, 2, 2, true},
+      {kCartesian, kCartesian, 1, 2, false},  {kNone, kCartesian, 1, -1, false}};
+  for (const Case& one : kCases) {
+    for (const bool reversed : {false, true}) {
+      const std::vector<float> end{4, 5, 6, 1};
+      const std::vector<float> begin{1, 2, 3, one.weight_b};
+      const std::vector<Batch<float>> soup{with_side<float>(one.a, {1, 2, 3, one.weight_a}, end),
+                                           reversed ? with_side<float>(one.b, end, begin)
+                                                    : with_side<float>(one.b, begin, end)};
+      const std::vector<EdgeLink> links = links_of(soup, 1);
+      const EdgeLink expected = one.same ? EdgeLink{EdgeKind::shared, PatchEdge::v0, reversed, 1}
+                                         : EdgeLink{EdgeKind::boundary};
+      EXPECT_EQ(links[0], expected)
+          << static_cast<int>(one.a) << static_cast<int>(one.b) << one.weight_b << reversed;
+    }
+  }
+}
+
+// 3/1 and 0.3/0.1 are one point, in both types, whatever the scale; points farther apart than
+// roundings are not, nor are Cartesian ones that differ by a rounding.
+template <typename T>
+void expect_rounded_points() {
+  for (const T scale : {T(1), T(7), T(0.1), T(1e6)}) {
+    const auto kind = [&](Weights weights, const std::vector<T>& begin, const std::vector<T>& end) {
+      return links_of<T>({with_side<T>(weights, begin, end)}, 1)[0].kind;
+    };
+    const std::vector<T> whole{0, 0, T(3) * scale, 1};
+    const std::vector<T> tenth{0, 0, T(0.3) * scale, T(0.1)};
+    const std::vector<T> far{0, 0, T(0.3) * scale * (1 + 20 * std::numeric_limits<T>::epsilon()),
+                             T(0.1)};
+    EXPECT_EQ(kind(Weights::homogeneous, whole, tenth), EdgeKind::collapsed) << scale;
+    EXPECT_EQ(kind(Weights::homogeneous, tenth, whole), EdgeKind::collapsed) << scale;
+    EXPECT_EQ(kind(Weights::homogeneous, whole, far), EdgeKind::boundary) << scale;
+    const std::vector<T> up{0, 0, std::nextafter(whole[2], 2 * whole[2]), 1};
+    EXPECT_EQ(kind(Weights::cartesian, whole, up), EdgeKind::boundary) << scale;
+    EXPECT_EQ(kind(Weights::none, whole, up), EdgeKind::boundary) << scale;
+  }
+}
+TEST(Adjacency, RoundedQuotientsAreOnePoint) {
+  expect_rounded_points<float>();
+  expect_rounded_points<double>();
 }
 
 // A regular mesh of many patches: every inner edge is shared, in time that is not quadratic.

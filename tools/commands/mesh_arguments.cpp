@@ -116,7 +116,7 @@ void check_combinations(const Words& words) {
     expect_without(words, resolution, "--no-weld");
   }
   for (const char* const joined :
-       {"--snap", "--point-size", "--crease", "--orient", "--drop-repeated"}) {
+       {"--snap", "--split-edges", "--point-size", "--crease", "--orient", "--drop-repeated"}) {
     expect_without(words, joined, "--no-weld");
   }
   expect_without(words, "--weld", "--no-weld");
@@ -149,6 +149,7 @@ void parse_contents(const Words& words, MeshArguments& mesh) {
   mesh.weld = !words.has("--no-weld");
   mesh.flip = words.has("--flip");
   mesh.orient = words.has("--orient");
+  mesh.split_edges = words.has("--split-edges");
   mesh.drop_repeated = words.has("--drop-repeated");
   mesh.quads = words.has("--quads");
   const auto expect = [&](const char* option, bool MeshAbilities::*ability) {

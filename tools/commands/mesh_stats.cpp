@@ -59,6 +59,11 @@ std::string stats_as_text(const MeshStats& stats) {
     text += stats.joined->orientable ? "" : "; a surface of one side";
     text += "\nrepeated patches   " + std::to_string(stats.joined->repeated_patches);
   }
+  if (stats.splits) {
+    text += "\nsplit edges        " + std::to_string(stats.splits->splits) + " joined, " +
+            std::to_string(stats.splits->unjoined) + " not; largest gap " +
+            rounded(stats.splits->largest_gap);
+  }
   text += "\nsamples            " + std::to_string(stats.samples);
   const double rate = samples_per_second(stats);
   text += rate > 0 ? "; " + rounded(rate) + " a second\n" : "\n";
@@ -82,6 +87,11 @@ std::string stats_as_json(const MeshStats& stats) {
     json["turned_edges"] = stats.joined->turned_edges;
     json["orientable"] = stats.joined->orientable;
     json["repeated_patches"] = stats.joined->repeated_patches;
+  }
+  if (stats.splits) {
+    json["split_edges"] = stats.splits->splits;
+    json["unjoined_edges"] = stats.splits->unjoined;
+    json["largest_gap"] = stats.splits->largest_gap;
   }
   json["samples"] = stats.samples;
   json["samples_per_second"] = samples_per_second(stats);

@@ -34,7 +34,8 @@ struct MeshStats {
   /// Of one mesh without gaps: what its topology found; repeated patches also where they are left
   /// out.
   std::optional<TopologyCounts> joined;
-  std::uint64_t samples = 0; ///< how many were evaluated for vertices
+  std::optional<SplitCounts> splits; ///< what came of splitting edges, where that was asked for
+  std::uint64_t samples = 0;         ///< how many were evaluated for vertices
   StageSeconds seconds;
 };
 

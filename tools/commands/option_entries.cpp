@@ -46,7 +46,10 @@ void add_mesh(Entries& entries) {
        {"--no-weld", "", "",
         "Every patch as a grid of vertices of its own, instead of one mesh without gaps", command},
        {"--snap", "D", "a distance above 0",
-        "Joins pairs of open edges that are this near to each other; shorter ones become points",
+        "Joins pairs of open edges that are this near to each other; shorter edges become points",
+        command},
+       {"--split-edges", "", "",
+        "Cuts patches where corners of others lie on their open edges, so that these can be joined",
         command},
        {"--point-size", "D", "a distance above 0",
         "Makes points of edges whose control points are this near to the first one, also of those "

@@ -93,19 +93,43 @@ void WeldedMesh<T>::take_points(PatchFile file) {
 template <typename T>
 void WeldedMesh<T>::join() {
   const MeshArguments& mesh = arguments_.mesh;
-  find_edges(mesh.orient && !mesh.drop_repeated);
-  const std::size_t repeated = topology_.counts().repeated_patches;
-  const bool drops = mesh.drop_repeated && repeated > 0;
-  if (drops) {
+  std::size_t repeated = 0;
+  if (mesh.drop_repeated) {
+    find_edges(false);
+    repeated = topology_.counts().repeated_patches;
+  }
+  if (repeated > 0) {
     leave_out_repeated();
   }
-  if (drops || (mesh.drop_repeated && mesh.orient)) {
+  if (mesh.split_edges) {
+    split();
+  }
+  if (!mesh.drop_repeated || repeated > 0 || mesh.orient || mesh.split_edges) {
     find_edges(mesh.orient);
   }
   stats_.joined = topology_.counts();
-  stats_.joined->repeated_patches = repeated;
+  stats_.joined->repeated_patches += repeated;
   stats_.open_edges = stats_.joined->open_edges;
   stats_.non_manifold_edges = stats_.joined->non_manifold_edges;
+}
+
+template <typename T>
+void WeldedMesh<T>::split() {
+  SplitOptions how;
+  how.snap = arguments_.mesh.snap;
+  how.threads = arguments_.threads;
+  check(split_edges(views(nets_), pieces_, how));
+  nets_.nets = pieces_.nets;
+  patches_ = pieces_.pieces.size();
+  stats_.splits = pieces_.counts;
+  std::vector<double> errors;
+  std::vector<std::uint32_t> numbers;
+  for (const PatchPiece& piece : pieces_.pieces) {
+    errors.push_back(errors_[piece.patch] + piece.error);
+    numbers.push_back(numbers_.empty() ? piece.patch : numbers_[piece.patch]);
+  }
+  errors_ = std::move(errors);
+  numbers_ = std::move(numbers);
 }
 
 template <typename T>
@@ -124,7 +148,7 @@ void WeldedMesh<T>::find_edges(bool orient) {
   TopologyOptions how;
   how.orient = orient;
   how.flip = arguments_.mesh.flip;
-  how.snap = arguments_.mesh.snap;
+  how.snap = std::max(arguments_.mesh.snap, pieces_.snap);
   how.point_size = arguments_.mesh.point_size;
   how.threads = arguments_.threads;
   const Status status = find_topology(views(nets_), topology_, how);
@@ -163,6 +187,7 @@ void WeldedMesh<T>::pack_all() {
   how.threads = arguments_.threads;
   check(pack(views(nets_), set_, how).status);
   set_free(nets_);
+  set_free(pieces_);
   file_.reset();
 }
 

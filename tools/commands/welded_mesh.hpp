@@ -32,6 +32,7 @@ private:
 
   void take_points(PatchFile file);
   void join();
+  void split();
   void find_edges(bool orient);
   void leave_out_repeated();
   void choose_cells();
@@ -56,7 +57,8 @@ private:
   std::unique_ptr<PatchFile> file_; // whose memory nets_ may refer to
   PatchNets<T> nets_;
   std::vector<double> errors_;         // what rounding adds, for each patch
-  std::vector<std::uint32_t> numbers_; // of patches in the file, where some are left out
+  std::vector<std::uint32_t> numbers_; // of patches in the file, where some are left out or cut
+  SplitNets<T> pieces_;                // of patches that are cut, in whose memory nets_ are then
   MeshRates rates_;
   Topology topology_;
   MeshLayout layout_;

@@ -125,6 +125,7 @@ typedef struct simdbezier_mesh_options {
   int32_t local_origin;
   int32_t threads;
   simdbezier_isa isa;
+  int32_t split_edges; // not 0: patches are cut where corners of others lie on their open sides
 } simdbezier_mesh_options;
 
 typedef struct simdbezier_mesh simdbezier_mesh;

@@ -6,32 +6,46 @@
 #include <utility>
 
 #include "src/runtime/batch.hpp"
+#include "src/storage/one_point.hpp"
 
 namespace simdbezier::detail {
 namespace {
+
+/// Whether two control points of a view are one.
+template <typename S>
+bool are_one(const ControlNets<S>& nets, const Point3& a, const Point3& b) noexcept {
+  const double tolerance = one_point_tolerance(nets.weights, sizeof(S) == sizeof(double));
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!is_one_coordinate(std::min(a.x[c], b.x[c]), std::max(a.x[c], b.x[c]), tolerance)) {
+      return false;
+    }
+  }
+  return true;
+}
 
 /// The way from an end of a side, whose values begin at `end`, to its first control point that is
 /// somewhere else; `stride` leads from one to the next.
 template <typename S>
 Point3 way_along(const ControlNets<S>& nets, const S* end, std::ptrdiff_t stride, int degree) {
   const Point3 from = point_of(nets, end);
-  Point3 way = point_of(nets, end + stride) - from;
-  for (std::ptrdiff_t k = 2; k <= degree && !has_length(way); ++k) {
-    way = point_of(nets, end + k * stride) - from;
+  Point3 way{};
+  for (std::ptrdiff_t k = 1; k <= degree && !has_length(way); ++k) {
+    const Point3 to = point_of(nets, end + k * stride);
+    way = are_one(nets, from, to) ? Point3{} : to - from;
   }
   return way;
 }
 
-/// Whether patch b read in one of eight ways has the values of patch a.
+/// Whether patch b read in one of eight ways has the values of patch a. As on edges, weights of 1
+/// count as none, and their form does not matter.
 template <typename S>
 bool same_in(const ControlNets<S>& a, std::size_t patch_a, const ControlNets<S>& b,
              std::size_t patch_b, int way) {
   const bool transposed = (way & 1) != 0;
   if (a.degree_u != (transposed ? b.degree_v : b.degree_u) ||
-      a.degree_v != (transposed ? b.degree_u : b.degree_v) || a.weights != b.weights) {
+      a.degree_v != (transposed ? b.degree_u : b.degree_v)) {
     return false;
   }
-  const std::ptrdiff_t channels = a.components + (a.weights == Weights::none ? 0 : 1);
   for (std::ptrdiff_t j = 0; j <= a.degree_v; ++j) {
     for (std::ptrdiff_t i = 0; i <= a.degree_u; ++i) {
       std::ptrdiff_t k = transposed ? j : i;
@@ -40,7 +54,11 @@ bool same_in(const ControlNets<S>& a, std::size_t patch_a, const ControlNets<S>&
       l = (way & 4) != 0 ? b.degree_v - l : l;
       const S* const p = values_at(a, patch_a, i, j);
       const S* const q = values_at(b, patch_b, k, l);
-      for (std::ptrdiff_t c = 0; c < channels; ++c) {
+      const S weight = weight_of(a, p);
+      if (weight != weight_of(b, q) || (weight != 1 && a.weights != b.weights)) {
+        return false;
+      }
+      for (std::ptrdiff_t c = 0; c < a.components; ++c) {
         if (p[c * a.component_stride] != q[c * b.component_stride]) {
           return false;
         }
@@ -65,9 +83,7 @@ void NetCorners<S>::read_side(std::size_t side, SideNet& to) const {
     const std::ptrdiff_t i = in_u ? k : far ? nets.degree_u : 0;
     const std::ptrdiff_t j = in_u ? (far ? nets.degree_v : 0) : k;
     to.points.push_back(point_at(nets, at.patch, i, j));
-    const S* const values = values_at(nets, at.patch, i, j);
-    to.weights.push_back(
-        nets.weights == Weights::none ? 1 : static_cast<double>(values[3 * nets.component_stride]));
+    to.weights.push_back(static_cast<double>(weight_of(nets, values_at(nets, at.patch, i, j))));
   }
 }
 
@@ -104,8 +120,8 @@ FreshVector<std::uint8_t> NetCorners<S>::doubts(int threads) const {
 
 template <typename S>
 bool NetCorners<S>::ends_meet(std::size_t side) const noexcept {
-  const Point3 way = corner_point(corner_at(side, 1)) - corner_point(corner_at(side, 0));
-  return way.x[0] == 0 && way.x[1] == 0 && way.x[2] == 0;
+  const auto at = views_.place(side / kPatchEdges);
+  return are_one(*at.nets, corner_point(corner_at(side, 0)), corner_point(corner_at(side, 1)));
 }
 
 template <typename S>

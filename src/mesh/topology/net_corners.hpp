@@ -12,27 +12,12 @@
 
 #include "src/mesh/net_points.hpp"
 #include "src/mesh/topology/quick_look.hpp"
+#include "src/mesh/topology/side_curve.hpp"
 #include "src/mesh/topology/topology_data.hpp"
 #include "src/nets/net_views.hpp"
 #include "src/runtime/fresh_vector.hpp"
 
 namespace simdbezier::detail {
-
-/// The control points of one side, in its direction; weights of 1 where there are none.
-struct SideNet {
-  std::vector<Point3> points;
-  std::vector<double> weights;
-
-  /// The largest distance of any control point from a point; nan where one is nan.
-  [[nodiscard]] double reach(const Point3& from) const noexcept {
-    double most = 0;
-    for (const Point3& point : points) {
-      const double distance = length(point - from);
-      most = distance <= most || std::isnan(most) ? most : distance;
-    }
-    return most;
-  }
-};
 
 /// The control points of all views in space, with patches numbered consecutively.
 template <typename S>

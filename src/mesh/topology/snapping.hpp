@@ -6,9 +6,15 @@
 
 namespace simdbezier::detail {
 
-/// Links open sides in pairs: those closest to each other first, where control points are within a
-/// distance, one by one in the same or the opposite order, and weights are equal. Returns how many
-/// sides were linked.
+/// At least the largest distance between points of two sides at equal parameters; infinite where
+/// they cannot be compared. The proof stands in docs/tessellation.md: with one degree and one scale
+/// of weights, that is the largest distance of control points, and the largest relative difference
+/// of weights times the size of the curves.
+[[nodiscard]] double distance_of(const SideNet& a, const SideNet& b, bool reversed);
+
+/// Links open sides in pairs, those closest to each other first, where points at equal parameters,
+/// from the same or from opposite ends, are certainly within a distance of each other. Open sides
+/// that match a point become points. Returns how many sides were linked.
 template <typename S>
 std::size_t snap_sides(const NetCorners<S>& nets, double distance, EdgeRings<std::uint32_t>& rings);
 

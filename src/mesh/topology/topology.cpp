@@ -22,19 +22,13 @@ namespace {
 
 constexpr std::size_t kMostPatches = std::size_t{1} << 29;
 
-/// Collapsed sides beyond those that are points exactly: all within point_size, and open ones
-/// within `snap` as well. Those would match their neighbours either way round, so that any pairs of
-/// them, around a pole for example, would be joined.
+/// Collapsed sides beyond those that are points exactly, with all that share their edges: those as
+/// short as point_size or `snap`. Open ones would match their neighbours either way round, so that
+/// any pairs of them, around a pole for example, would be joined.
 template <typename S>
-void collapse_short_sides(const NetCorners<S>& nets, const TopologyOptions& options,
-                          EdgeRings<std::uint32_t>& rings) {
-  const double open_size = std::max(options.point_size, options.snap);
-  if (open_size == 0) {
-    return;
-  }
-  for (std::size_t side = 0; side < rings.next.size(); ++side) {
-    const double size = rings.is_alone(side) ? open_size : options.point_size;
-    if (size > 0 && !rings.is_point(side) && nets.side_within(side, size)) {
+void collapse_short_sides(const NetCorners<S>& nets, double size, EdgeRings<std::uint32_t>& rings) {
+  for (std::size_t side = 0; size > 0 && side < rings.next.size(); ++side) {
+    if (!rings.is_point(side) && nets.side_within(side, size)) {
       rings.make_point(side);
     }
   }
@@ -63,7 +57,7 @@ Status build(std::span<const ControlNets<S>> nets, const TopologyOptions& option
   const NetCorners<S> corners(nets);
   {
     auto rings = find_rings<S, std::uint32_t>(nets, options.threads);
-    collapse_short_sides(corners, options, rings);
+    collapse_short_sides(corners, std::max(options.point_size, options.snap), rings);
     if (options.snap > 0) {
       topology.counts.snapped_sides = snap_sides(corners, options.snap, rings);
     }

@@ -169,6 +169,7 @@ const Refused kRefused[] = {
      "--drop-repeated: expected without --no-weld"},
     {"WeldedSheets", 2, {"--no-weld", "--weld"}, "--weld: expected without --no-weld"},
     {"SnapOfSheets", 2, {"--no-weld", "--snap", "1"}, "--snap: expected without --no-weld"},
+    {"SplitEdgesOfSheets", 2, {"--no-weld", "--split-edges"}, "--split-edges: expected without"},
     {"StatsUnknown", 2, {"--stats=xml"}, "--stats: expected text or json, found 'xml'"},
     {"QuantisedPly", 2, {"--quantise", "16"}, "--quantise: expected an output in glb, found ply"},
     {"QuantisedWords", 2, {"--quantise", "12"}, "--quantise: expected 16 or 8, found '12'"},

@@ -244,6 +244,33 @@ TEST(WeldedMesh, SnapJoinsWhatNearlyMeets) {
   EXPECT_GE(*joined.deviation, 1e-4);
 }
 
+// Two halves beside a square.
+TEST(WeldedMesh, SplitEdgesJoinsHalves) {
+  const TemporaryFolder folder;
+  std::vector<Net> nets = {flat_net(), flat_net(), flat_net()};
+  for (std::size_t k = 0; k < 2; ++k) {
+    for (Vector3& point : nets[k].points) {
+      point = {point[0] - 1, (point[1] + static_cast<double>(k)) / 2, 0};
+    }
+  }
+  const std::string in = folder.write("halves.bez", bez_text(nets));
+  for (const std::string precision : {"f32", "f64"}) {
+    const std::vector<std::string> options = {"--grid", "3", "--precision", precision};
+    EXPECT_EQ(welded(in, options).positions.size(), 24U);
+    std::vector<std::string> with = options;
+    with.emplace_back("--split-edges");
+    const ReadMesh joined = welded(in, with);
+    EXPECT_EQ(joined.positions.size(), 25U);
+    EXPECT_EQ(census_of(joined).loops, 1U);
+    EXPECT_EQ(census_of(joined).euler, 1);
+    with.insert(with.end(), {"--stats=json", "-o", folder.path("out.ply")});
+    with.insert(with.begin(), {"tessellate", in});
+    const std::string stats = run(with).out;
+    EXPECT_NE(stats.find("\"split_edges\": 2"), std::string::npos) << stats;
+    EXPECT_NE(stats.find("\"unjoined_edges\": 0"), std::string::npos) << stats;
+  }
+}
+
 TEST(WeldedMesh, CreasesHaveNormalsOnBothSides) {
   const TemporaryFolder folder;
   const std::string in = two_squares(folder, 0, 1); // 45 degrees

@@ -1,5 +1,6 @@
 // Pairs of patches of any degrees that share one edge, in all 8 x 8 placements: only the degree
-// along the edge is common, and with weights those of the edge's points.
+// along the edge is common, and with weights those of the edge's points. Where these are all 1, one
+// patch may have weights, in either form, and the other one none.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +13,10 @@
 
 namespace simdbezier::tests {
 
-enum class EdgeForm : std::uint8_t { polynomial, cartesian, homogeneous };
+/// mixed: weights of 1 along the edge, and each patch in one of the other three forms.
+enum class EdgeForm : std::uint8_t { polynomial, cartesian, homogeneous, mixed };
 inline constexpr EdgeForm kEdgeForms[] = {EdgeForm::polynomial, EdgeForm::cartesian,
-                                          EdgeForm::homogeneous};
+                                          EdgeForm::homogeneous, EdgeForm::mixed};
 
 struct ShapedEdge {
   std::vector<Vector3> points;
@@ -46,7 +48,8 @@ struct ShapedEdgeRule {
     }
     edge.points.push_back(point);
     if (rule.form != EdgeForm::polynomial) {
-      edge.weights.push_back(graded_weight(rule.weight_ratio, random.integer(0, 16)));
+      const double weight = graded_weight(rule.weight_ratio, random.integer(0, 16));
+      edge.weights.push_back(rule.form == EdgeForm::mixed ? 1 : weight);
     }
   }
   if (rule.kind == EdgeKind::collapsed) {
@@ -104,7 +107,13 @@ struct ShapedEdgeBatch {
                    Random& random) {
     // Every other patch as square as it can be: bicubic ones, which have kernels of their own.
     const int across = random.below(2) == 0 ? rule.degree : random.integer(1, 15);
-    nets.push_back(shaped_net_around(edge, place, across, rule, random));
+    ShapedEdgeRule own = rule;
+    ShapedEdge values = edge;
+    if (rule.form == EdgeForm::mixed) {
+      own.form = kEdgeForms[random.below(3)];
+      values.weights.resize(own.form == EdgeForm::polynomial ? 0 : values.weights.size());
+    }
+    nets.push_back(shaped_net_around(values, place, across, own, random));
     return {place, nets.size() - 1};
   }
 };

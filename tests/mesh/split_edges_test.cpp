@@ -1,0 +1,284 @@
+// Long edges against several short ones: patches are cut until edges are equal.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <simdbezier/mesh.hpp>
+
+#include "tests/mesh/general_nets.hpp"
+#include "tests/support/long_form.hpp"
+
+namespace simdbezier::tests::split_edges_test {
+namespace {
+
+constexpr double kScales[] = {1, 3, 7, 0.1, 1e6};
+
+/// Cuts one patch of a gluing in u or v into two or three, so that it has corners on the sides of
+/// its neighbours, or on its own ones.
+std::vector<GeneralNet> with_a_cut(std::vector<GeneralNet> nets, std::mt19937& random) {
+  const long double arbitrary = static_cast<long double>(random() % 1000 + 100) / 1300;
+  const long double places[] = {0.5L, 0.25L, 1 / 3.0L, 0.75L, arbitrary};
+  const std::size_t at = random() % nets.size();
+  const bool in_v = random() % 2 != 0;
+  const bool twice = random() % 3 == 0;
+  const GeneralNet net = in_v ? transposed(nets[at]) : nets[at];
+  const long double t = places[random() % 5];
+  nets.erase(nets.begin() + static_cast<std::ptrdiff_t>(at));
+  std::vector<long double> bounds = {0, t, 1};
+  if (twice) {
+    bounds = {0, t / 2, t, 1};
+  }
+  for (std::size_t k = 0; k + 1 < bounds.size(); ++k) {
+    const GeneralNet part = cut(net, bounds[k], bounds[k + 1]);
+    nets.push_back(in_v ? transposed(part) : part);
+  }
+  std::shuffle(nets.begin(), nets.end(), random);
+  return nets;
+}
+
+template <typename S>
+class SplitEdges : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(SplitEdges, Scalars);
+
+/// Every vertex is the point of its patch at its parameters.
+template <typename S>
+void expect_parameters(const Mesh<S>& mesh, const std::vector<TestPatch>& patches, double most) {
+  double worst = 0;
+  for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
+    ASSERT_LT(mesh.patches[k], patches.size());
+    const TestPatch& patch = patches[mesh.patches[k]];
+    const auto x = patch.at(static_cast<long double>(mesh.parameters[k][0]),
+                            static_cast<long double>(mesh.parameters[k][1]));
+    for (std::size_t c = 0; c < 3; ++c) {
+      worst = std::max(worst, static_cast<double>(std::fabs(
+                                  x[c] - static_cast<long double>(mesh.positions[k][c]))));
+    }
+  }
+  EXPECT_LE(worst, most);
+}
+
+/// What patches of a gluing have besides a cut: unlike ones differ in degrees and scales of
+/// weights.
+enum class Kind : std::uint8_t { plain, weighted, unlike };
+
+template <typename S>
+void expect_closed(unsigned seed, Kind kind, std::size_t& beyond) {
+  const RandomGluing gluing(seed);
+  std::mt19937 random(seed + 1000);
+  const double size = kScales[random() % std::size(kScales)];
+  std::vector<TestPatch> patches;
+  for (GeneralNet net : with_a_cut(nets_of(gluing, kind != Kind::plain), random)) {
+    net = kind == Kind::unlike ? raised_at_random(net, random) : net;
+    const double factor = kind == Kind::unlike ? kScales[random() % std::size(kScales)] : 1;
+    patches.push_back(rounded_patch<S>(weighted(placed(net, size, {0, 0, 0}), factor),
+                                       kind == Kind::plain ? Weights::none
+                                       : seed % 2 == 0     ? Weights::cartesian
+                                                           : Weights::homogeneous));
+  }
+  const GeneralViews<S> views(patches);
+  MeshOptions options;
+  options.tolerance = 0.2 * size;
+  options.split_edges = true;
+  options.normals = false;
+  options.parameters = true;
+  const MeshPlan<S> plan = plan_mesh<S, S>(views.nets, options);
+  ASSERT_EQ(plan.status, Status::ok);
+  const Mesh<S> mesh = tessellate<S, S>(views.nets, options);
+  ASSERT_EQ(mesh.status, Status::ok);
+  expect_parameters(mesh, patches, size * (sizeof(S) == 4 ? 1e-3 : 1e-9));
+  if (seed % 4 == 0) {
+    expect_certified(plan, mesh, patches);
+  }
+  if (mesh.splits.unjoined > 0) {
+    ++beyond; // more pieces than allowed, in spirals
+    return;
+  }
+  const TriangleCensus census = census_of(mesh);
+  EXPECT_EQ(mesh.counts.open_edges > 0, gluing.open_edges > 0);
+  EXPECT_EQ(census.open > 0, gluing.open_edges > 0);
+  EXPECT_EQ(gluing.folded ? 0 : census.crowded + census.degenerate, 0U);
+  const Mesh<double> before =
+      tessellate<double>(ControlNets<double>::packed(std::span<const double>(gluing.values)),
+                         {.tolerance = 0.2, .normals = false});
+  EXPECT_EQ(gluing.folded ? 0 : census.euler - census_of(before).euler, 0);
+  EXPECT_EQ(gluing.folded ? 0 : census.loops - census_of(before).loops, 0U);
+}
+
+TYPED_TEST(SplitEdges, close_gluings_of_which_one_patch_is_cut) {
+  std::size_t beyond = 0;
+  const unsigned gluings = by_form<unsigned>(40, 500);
+  for (unsigned seed = 0; seed < gluings; ++seed) {
+    for (const Kind kind : {Kind::plain, Kind::weighted, Kind::unlike}) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", kind " +
+                   std::to_string(static_cast<int>(kind)));
+      expect_closed<TypeParam>(seed, kind, beyond);
+    }
+  }
+  EXPECT_LT(beyond, gluings / 5);
+}
+
+/// A patch of degree 1 x 2 over x from 0 to 1, cut in v into equal parts.
+std::vector<GeneralNet> column(int parts) {
+  GeneralNet whole{1, 2, {}};
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 2; ++i) {
+      whole.points.push_back({1.0L * i, 4.0L * j, j == 1 ? 4.0L : 0.0L, 1.0L});
+    }
+  }
+  std::vector<GeneralNet> nets;
+  for (int k = 0; k < parts; ++k) {
+    const long double all = parts;
+    nets.push_back(transposed(cut(transposed(whole), k / all, (k + 1) / all)));
+  }
+  return nets;
+}
+
+/// A column of some patches, and one over x from -1 to 0, whose patches are off by a distance at
+/// their inner control points.
+template <typename S>
+std::vector<TestPatch> two_columns(int right, int left, double off) {
+  std::vector<TestPatch> patches;
+  for (const GeneralNet& net : column(right)) {
+    patches.push_back(rounded_patch<S>(net, Weights::none));
+  }
+  for (const GeneralNet& net : column(left)) {
+    GeneralNet moved = placed(net, 1, {-1, 0, 0});
+    moved.at(1, 1)[2] += off;
+    patches.push_back(rounded_patch<S>(moved, Weights::none));
+  }
+  return patches;
+}
+
+TYPED_TEST(SplitEdges, join_an_edge_and_its_halves) {
+  const GeneralViews<TypeParam> views(two_columns<TypeParam>(1, 2, 0));
+  SplitNets<TypeParam> split;
+  ASSERT_EQ(split_edges<TypeParam>(views.nets, split), Status::ok);
+  EXPECT_EQ(split.counts.splits, 2U);
+  EXPECT_EQ(split.counts.unjoined, 0U);
+  ASSERT_EQ(split.pieces.size(), 4U);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(split.pieces[k].patch, k < 2 ? 0 : k - 1);
+    EXPECT_EQ(split.pieces[k].v0, k == 1 ? 0.5 : 0);
+    EXPECT_EQ(split.pieces[k].v1, k == 0 ? 0.5 : 1);
+    EXPECT_EQ(split.pieces[k].u1 - split.pieces[k].u0, 1);
+  }
+  Topology topology;
+  ASSERT_EQ(find_topology<TypeParam>(split.nets, topology), Status::ok);
+  EXPECT_EQ(topology.counts().edges, 12U);
+  EXPECT_EQ(topology.counts().open_edges, 8U) << "exact halves have equal control points";
+}
+
+/// Pieces are longer than what lies beside them, until all of them are cut.
+TYPED_TEST(SplitEdges, join_thirds_with_other_parts) {
+  for (const int parts : {1, 2, 4, 5}) {
+    const GeneralViews<TypeParam> views(two_columns<TypeParam>(3, parts, 0));
+    SplitNets<TypeParam> split;
+    ASSERT_EQ(split_edges<TypeParam>(views.nets, split), Status::ok);
+    EXPECT_EQ(split.counts.unjoined, 0U);
+    const std::size_t pieces = parts == 1 ? 3 : static_cast<std::size_t>(2 + parts);
+    EXPECT_EQ(split.pieces.size(), 2 * pieces) << parts;
+    Topology topology;
+    TopologyOptions how;
+    how.snap = split.snap;
+    ASSERT_EQ(find_topology<TypeParam>(split.nets, topology, how), Status::ok);
+    EXPECT_EQ(topology.counts().open_edges, 2 * pieces + 4) << parts;
+  }
+}
+
+TYPED_TEST(SplitEdges, go_along_with_leaving_out_and_turning_patches) {
+  std::vector<TestPatch> patches = two_columns<TypeParam>(1, 2, 0);
+  patches.insert(patches.begin(), patches[0]);
+  std::reverse(patches.begin() + 2, patches.end());
+  const GeneralViews<TypeParam> views(patches);
+  MeshOptions options;
+  options.nu = options.nv = 3;
+  options.split_edges = options.drop_repeated = options.orient = true;
+  const MeshPlan<TypeParam> plan = plan_mesh<TypeParam, TypeParam>(views.nets, options);
+  ASSERT_EQ(plan.status, Status::ok);
+  EXPECT_EQ(plan.counts.repeated_patches, 1U);
+  EXPECT_EQ(plan.counts.open_edges, 8U);
+  EXPECT_EQ(plan.patches, (std::vector<std::uint32_t>{0, 0, 2, 3}));
+  ASSERT_EQ(plan.pieces.size(), 4U);
+  EXPECT_EQ(plan.pieces[3].patch, 3U);
+  const Mesh<TypeParam> mesh = tessellate<TypeParam, TypeParam>(views.nets, options);
+  ASSERT_EQ(mesh.status, Status::ok);
+  EXPECT_EQ(mesh.positions.size(), 25U);
+  EXPECT_EQ(mesh.deviations.size(), 4U);
+  EXPECT_EQ(mesh.deviations[1], 0);
+}
+
+TYPED_TEST(SplitEdges, count_what_cannot_be_joined) {
+  const GeneralViews<TypeParam> views(two_columns<TypeParam>(1, 2, 0.01));
+  SplitNets<TypeParam> split;
+  ASSERT_EQ(split_edges<TypeParam>(views.nets, split), Status::ok);
+  EXPECT_EQ(split.nets.size(), 3U);
+  EXPECT_EQ(split.counts.splits, 0U);
+  EXPECT_EQ(split.counts.unjoined, 2U);
+  EXPECT_NEAR(split.counts.largest_gap, 0.01, 1e-6);
+  ASSERT_EQ(split_edges<TypeParam>(views.nets, split, {.snap = 0.011}), Status::ok);
+  EXPECT_EQ(split.counts.splits, 2U);
+  EXPECT_EQ(split.counts.unjoined, 0U);
+  EXPECT_EQ(split.snap, 0.011);
+  ASSERT_EQ(split_edges<TypeParam>(views.nets, split, {.snap = 0.011, .most_pieces = 1}),
+            Status::ok);
+  EXPECT_EQ(split.counts.splits, 0U);
+  EXPECT_EQ(split.counts.unjoined, 2U);
+  EXPECT_EQ(split.pieces.size(), 3U);
+}
+
+/// Values that are no numbers, or have no place among others, are found by nobody, and nothing
+/// hangs.
+TEST(SplitEdgesInput, odd_values_end) {
+  const double odd[] = {0,
+                        -1,
+                        1e300,
+                        -1e300,
+                        1e-300,
+                        std::numeric_limits<double>::infinity(),
+                        std::numeric_limits<double>::quiet_NaN()};
+  for (const Weights form : {Weights::none, Weights::cartesian, Weights::homogeneous}) {
+    std::mt19937 random(3);
+    for (int round = 0; round < 500; ++round) {
+      std::vector<TestPatch> patches = two_columns<double>(1, 2, 0);
+      for (TestPatch& patch : patches) {
+        GeneralNet net{patch.degree_u, patch.degree_v, {}};
+        for (std::size_t k = 0; k < patch.values.size(); k += 3) {
+          net.points.push_back({patch.values[k], patch.values[k + 1], patch.values[k + 2], 1.0L});
+        }
+        patch = rounded_patch<double>(net, form);
+        for (double& value : patch.values) {
+          value = random() % 12 == 0 ? odd[random() % std::size(odd)] : value;
+        }
+      }
+      const GeneralViews<double> views(patches);
+      SplitNets<double> split;
+      const Status status = split_edges<double>(views.nets, split);
+      EXPECT_LE(split.pieces.size(), 24U);
+      EXPECT_TRUE(status || split.pieces.empty());
+    }
+  }
+}
+
+TEST(SplitEdgesInput, bad_input_is_a_status) {
+  SplitNets<double> split;
+  split.counts.splits = 77;
+  auto nets = ControlNets<double>::packed(nullptr, 1, 3, 3);
+  const auto status = [&](const SplitOptions& options) {
+    return split_edges(std::span<const ControlNets<double>>(&nets, 1), split, options);
+  };
+  EXPECT_EQ(status({}), Status::null_input);
+  EXPECT_EQ(status({.snap = -1}), Status::bad_tolerance);
+  EXPECT_EQ(split.counts.splits, 77U);
+  nets.count = 0;
+  EXPECT_EQ(status({}), Status::ok);
+  EXPECT_EQ(split.pieces.size(), 0U);
+}
+
+} // namespace
+} // namespace simdbezier::tests::split_edges_test
