@@ -198,8 +198,8 @@ private:
 /// options:   Options::watertight has no effect, since exact ends cost nothing.
 /// Accuracy:  see error_bounds().
 /// Returns ok | null_output | missing_y | missing_z | extra_y | extra_z | output_too_small |
-/// bad_stride | bad_components | overlapping_outputs | bad_grid | bad_patch_range | size_overflow | unknown_isa | unsupported_isa | out_of_memory. On
-/// an error nothing has been written.
+/// bad_stride | bad_components | overlapping_outputs | bad_grid | bad_patch_range | size_overflow |
+/// unknown_isa | unsupported_isa | out_of_memory. On an error nothing has been written.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const CurveSet<T>& set, const CurveGrid<T>& grid,
                                              const CurveOutputs<T>& out,

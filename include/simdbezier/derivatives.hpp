@@ -37,9 +37,8 @@ struct DerivativeOutputs {
 ///
 /// Shapes      component c of sample k of a derivative is its c-th pointer [k * stride], as in
 ///             Outputs. Sets may mix shapes.
-/// Null        no derivative, or one without pointers, is null_output; planes are those of
-/// evaluate(). Aliasing    outputs overlap neither each other, nor the inputs, nor the list of
-/// derivatives; two
+/// Null        no derivative, or one without pointers, is null_output.
+/// Aliasing    outputs overlap neither each other, nor the inputs, nor the list of derivatives; two
 ///             may be members of one vertex. Options::destination has no effect.
 /// Edges       derivatives along an edge, (0,b) where u is 0 or 1 and (a,0) where v is, come from
 ///             that edge's control points alone, and have equal bits on both sides up to the sign
@@ -54,10 +53,10 @@ struct DerivativeOutputs {
 ///             for plus one; rational: 1/4 A^2 B^2 more. Samples of one patch are computed together
 ///             if not more than some hundreds of others lie between them.
 /// Returns     ok | null_input | unequal_lengths | null_output | missing_y | missing_z | extra_y |
-///             extra_z | output_too_small | bad_degree (an
-///             order below 0 or above kMostDerivativeOrder) | bad_components | bad_stride |
-///             overlapping_outputs | bad_patch_index | unknown_isa | unsupported_isa |
-///             size_overflow | out_of_memory. On an error nothing has been written.
+///             extra_z (as for evaluate()) | output_too_small | bad_degree (an order below 0 or
+///             above kMostDerivativeOrder) | bad_components | bad_stride | overlapping_outputs |
+///             bad_patch_index | unknown_isa | unsupported_isa | size_overflow | out_of_memory. On
+///             an error nothing has been written.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_derivatives(
     const PatchSet<T>& set, const Samples<T>& samples,

@@ -33,12 +33,12 @@
 //               bicubic patches) or by Horner's rule (any other: degree_v multiply-adds a sample).
 //               Edges are evaluated as rows are. Rational patches by the quotient rule.
 //   Source      docs/accuracy.md has the proofs, and names the papers that they stand on.
-//   Statuses    ok | null_output | missing_y | missing_z | extra_y | extra_z (an output has fewer or
-//               more planes than components) | output_too_small | bad_components
+//   Statuses    ok | null_output | missing_y | missing_z | extra_y | extra_z (an output has other
+//               planes than there are components) | output_too_small | bad_components
 //               (Outputs::first_component is outside of the set's, or a normal or a curvature is
-//               asked of a set without exactly three) | bad_stride | overlapping_outputs | size_overflow | unknown_isa |
-//               unsupported_isa | out_of_memory, and what each call adds. On an error nothing has
-//               been written.
+//               asked of a set without exactly three) | bad_stride | overlapping_outputs |
+//               size_overflow | unknown_isa | unsupported_isa | out_of_memory, and what each call
+//               adds. On an error nothing has been written.
 #pragma once
 
 #include <simdbezier/options.hpp>
