@@ -218,9 +218,9 @@ PyMesh tessellate_points(const py::object& points, const py::object& tolerance,
 } // namespace
 
 void add_mesh(py::module_& module) {
-  py::class_<PyMesh> mesh(module, "Mesh",
+  py::class_<PyMesh> type(module, "Mesh",
                           "A closed mesh of triangles. Its arrays are its own memory.");
-  mesh.def("__repr__", &PyMesh::text)
+  type.def("__repr__", &PyMesh::text)
       .def_property_readonly("positions", property([](const auto& mesh, const py::object& self) {
                                return rows(mesh.positions, self);
                              }),
@@ -257,7 +257,7 @@ void add_mesh(py::module_& module) {
                              }),
                              "The same for single patches: (patches,)");
   define(
-      mesh, "save", &PyMesh::save, py::arg("path"),
+      type, "save", &PyMesh::save, py::arg("path"),
       ("Writes a file of the format that its name ends in: " + tools::mesh_format_names(".") + ".")
           .c_str());
   define(module, "tessellate", &tessellate_points, py::arg("points"),
