@@ -127,8 +127,8 @@ template <typename S>
 /// Cost:     on AVX-512, 0.25 to 0.4 us a bicubic float patch and 0.65 us in double, certificate
 ///           included. With weights, of another degree or with a forced diagonal: 1 to 4 us up to
 ///           degree 5, 15 us of degree 15, 35 us of that with weights (AVX2); with weights that are
-///           products 2 to 4 us more up to degree 3, 100 us more of degree 15. With weights that are
-///           far apart, some 5 us a cell of a bicubic patch more, up to a second.
+///           products 2 to 4 us more up to degree 3, 100 us more of degree 15. With weights that
+///           are far apart, some 5 us a cell of a bicubic patch more, up to a second.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<S>> nets,
                                                      const Topology& topology,

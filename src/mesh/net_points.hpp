@@ -133,8 +133,8 @@ public:
     return std::max({high_[0] - low_[0], high_[1] - low_[1], high_[2] - low_[2]});
   }
   [[nodiscard]] double diagonal() const noexcept {
-    return length({std::max(high_[0] - low_[0], 0.0), std::max(high_[1] - low_[1], 0.0),
-                   std::max(high_[2] - low_[2], 0.0)});
+    return length(Point3{{std::max(high_[0] - low_[0], 0.0), std::max(high_[1] - low_[1], 0.0),
+                          std::max(high_[2] - low_[2], 0.0)}});
   }
 
 private:

@@ -245,6 +245,7 @@ inline const CCall kEveryCall[] = {
                       w.patch_count),
     SIMDBEZIER_C_CALL(split_creases, w.patches(), w.handle(w.layout), w.number, w.at(w.options),
                       w.place(w.made_layout)),
+    SIMDBEZIER_C_CALL(split_parameters, w.handle(w.layout), w.place(w.made_layout)),
     SIMDBEZIER_C_CALL(find_quantisation_box, w.at(w.nets), w.views, w.as, w.at(w.box)),
     SIMDBEZIER_C_CALL(evaluate_formatted_mesh, w.patches(), w.handle(w.layout), w.at(w.formatted),
                       w.at(w.options), w.first_patch, w.patch_count),

@@ -204,9 +204,9 @@ TEST(MeshAttributes, have_as_many_components_as_the_set_has_behind_the_first) {
     return evaluate_mesh_attributes(plan.set, plan.layout, out, first);
   };
   EXPECT_EQ(status_of(Vectors<float>::xyz(to.data(), 3), 0), Status::ok);
-  EXPECT_EQ(status_of(Vectors<float>::xyz(to.data(), 3), 1), Status::bad_components);
+  EXPECT_EQ(status_of(Vectors<float>::xyz(to.data(), 3), 1), Status::extra_z);
   EXPECT_EQ(status_of(Vectors<float>::pairs(to.data(), 3), 1), Status::ok);
-  EXPECT_EQ(status_of(Vectors<float>::pairs(to.data(), 3), 2), Status::bad_components);
+  EXPECT_EQ(status_of(Vectors<float>::pairs(to.data(), 3), 2), Status::extra_y);
 }
 
 /// The largest value of sum l_i l_j q_ij / 2 over a triangle, q being the terms of its edges.

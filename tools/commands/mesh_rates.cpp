@@ -47,13 +47,18 @@ Tolerances find_tolerances(const RatedPatches<T>& patches, const MeshArguments& 
   return found;
 }
 
+// Whether a patch cannot keep its distance, whatever is to blame.
+bool is_too_fine(Status status) {
+  return status == Status::bad_tolerance || status == Status::snap_too_large;
+}
+
 // Whether the patch would have its rates without the angle.
 template <typename T>
 bool asks_too_small_an_angle(const RatedPatches<T>& patches, RateOptions how,
                              const CertifiedRates& rates, std::size_t patch) {
   how.normal_angle = kUnlimited;
   const RateReport report = choose_rates<T>(patches.nets, patches.topology, how, rates);
-  return report.status != Status::bad_tolerance || report.patch != patch;
+  return !is_too_fine(report.status) || report.patch != patch;
 }
 
 // Whether the patch would have its rates if no edges were moved together.
@@ -70,7 +75,7 @@ bool is_moved_too_far(const RatedPatches<T>& patches, const MeshArguments& mesh,
     return false;
   }
   const RateReport report = choose_rates<T>(patches.nets, topology, how, rates);
-  return report.status != Status::bad_tolerance || report.patch != patch;
+  return !is_too_fine(report.status) || report.patch != patch;
 }
 
 // Throws a Failure that says why the patch cannot keep its distance: rounding, edges that are moved
@@ -144,7 +149,7 @@ void choose_adaptive(const RatedPatches<T>& patches, const Arguments& arguments,
   if (report.status && !keep(tolerances, rates.deviation, patches.storage_error)) {
     report = choose(patches.storage_error);
   }
-  if (report.status == Status::bad_tolerance) {
+  if (is_too_fine(report.status)) {
     const std::size_t patch = report.patch;
     const std::string name = patches.describe(patch);
     if (mesh.angle && asks_too_small_an_angle(patches, how, rates, patch)) {

@@ -11,8 +11,6 @@
 namespace simdbezier::detail {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Cells, in units of an operation for each pair of control points: of which some take 0.5 s.
 constexpr double kMostWork = 0x1p24;
 
@@ -47,7 +45,7 @@ CertifiedCells SpaceBound::certify(const CellCounts& cells, double stop, double 
     const double rising = bound_range(u, v, cells, false, least, stop);
     const double falling = may_fall && rising > least
                                ? bound_range(u, v, cells, true, least, std::min(stop, rising))
-                               : kInfinity;
+                               : std::numeric_limits<double>::infinity();
     all.diagonals =
         static_cast<std::uint16_t>(all.diagonals | (falling < rising ? 1U << zone : 0U));
     all.bound = std::max(all.bound, std::min(rising, falling));
