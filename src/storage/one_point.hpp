@@ -48,7 +48,8 @@ are_one_point(const PointAt& point, std::size_t count, std::size_t components,
       const S* const values = point(k);
       auto x = static_cast<double>(values[static_cast<std::ptrdiff_t>(c) * component_stride]);
       if (divided) {
-        x /= static_cast<double>(values[static_cast<std::ptrdiff_t>(components) * component_stride]);
+        x /=
+            static_cast<double>(values[static_cast<std::ptrdiff_t>(components) * component_stride]);
       }
       low = k == 0 || x < low ? x : low;
       high = k == 0 || x > high ? x : high;
