@@ -63,8 +63,10 @@ thread_local LastPatch last_patch;
 /// A question whose is_zero() is remembered, unless sides have been made points.
 class SampleQuestion : public NormalQuestion {
 public:
-  SampleQuestion(const NormalQuestion& question, unsigned sides)
-      : NormalQuestion(question), remembered_(sides == 0) {
+  SampleQuestion(const GivenNet& net, const NetShape& shape, double x, double y, unsigned sides)
+      : NormalQuestion(net, static_cast<std::size_t>(shape.degree_u),
+                       static_cast<std::size_t>(shape.degree_v), x, y),
+        remembered_(sides == 0) {
     for (const PatchEdge side : {PatchEdge::v0, PatchEdge::v1, PatchEdge::u0, PatchEdge::u1}) {
       if ((sides >> static_cast<unsigned>(side) & 1U) != 0) {
         merge_side(side);
@@ -104,9 +106,7 @@ SampleStatus resolve_corner_normal(const NormalQuery<T>& query, unsigned sides,
   if (sides == 0 && last_patch.is_zero()) {
     return SampleStatus::degenerate;
   }
-  const SampleQuestion question({query.net, static_cast<std::size_t>(query.shape->degree_u),
-                                 static_cast<std::size_t>(query.shape->degree_v), x, y},
-                                sides);
+  const SampleQuestion question(query.net, *query.shape, x, y, sides);
   // Which homogeneous points are one depends on the sample in the last digits: asked before
   // anything else, the answer is the same whichever sample comes first.
   if (query.net.all->weights == Weights::homogeneous && question.is_zero()) {
