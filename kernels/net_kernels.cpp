@@ -1,6 +1,7 @@
 // Compiled once per instruction set: kernels for operations on control nets.
 #include "kernels/nets/casteljau.hpp"
 #include "kernels/nets/group_bounds.hpp"
+#include "kernels/nets/line_means.hpp"
 #include "kernels/nets/net_boxes.hpp"
 #include "kernels/nets/net_flatness.hpp"
 #include "kernels/nets/net_maps.hpp"
@@ -11,7 +12,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <typename T>
 constexpr detail::NetTable<T> make_net_table() {
   return {split_kernel<T>,    segment_kernel<T>, map_kernel<T>, box_kernel<T>,
-          flatness_kernel<T>, rate_kernel<T>,    kBoundKernels};
+          flatness_kernel<T>, rate_kernel<T>,    kBoundKernels, mean_kernel};
 }
 
 extern const detail::NetTable<float> net_table_f32;

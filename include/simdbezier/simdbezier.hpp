@@ -28,6 +28,7 @@
 #include <simdbezier/rates.hpp>           // IWYU pragma: export
 #include <simdbezier/results.hpp>         // IWYU pragma: export
 #include <simdbezier/samples.hpp>         // IWYU pragma: export
+#include <simdbezier/splines.hpp>         // IWYU pragma: export
 #include <simdbezier/split_edges.hpp>     // IWYU pragma: export
 #include <simdbezier/status.hpp>          // IWYU pragma: export
 #include <simdbezier/tiles.hpp>           // IWYU pragma: export

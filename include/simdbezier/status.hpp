@@ -44,7 +44,9 @@ public:
     missing_z,        ///< an output has no z plane for the points' third component
     extra_y,          ///< an output has a y plane, and the points no second component for it
     extra_z,          ///< an output has a z plane, and the points no third component for it
-    snap_too_large    ///< snapping moves a patch by more than half of its tolerance
+    snap_too_large,   ///< snapping moves a patch by more than half of its tolerance
+    bad_knots,        ///< knots of a spline are too few or many, descend, or one counts too often
+    bad_range         ///< a range or parameter of a spline is not inside of its domain
   };
 
   constexpr Status() noexcept = default;

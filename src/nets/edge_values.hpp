@@ -108,7 +108,7 @@ public:
                              static_cast<std::size_t>(form_->components), form_->component_stride,
                              Weights::homogeneous);
       };
-      return are_one(2) && are_one(form_->degree + 1); // mostly not even 2
+      return are_one(form_->degree + 1);
     }
     for (std::ptrdiff_t k = 1; k <= form_->degree; ++k) {
       for (std::ptrdiff_t c = 0; c < form_->components; ++c) {

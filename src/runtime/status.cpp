@@ -51,6 +51,11 @@ std::string_view to_string(Status status) noexcept {
     return "an output has a z plane, but the points have no third component for it";
   case Status::snap_too_large:
     return "snapping moves a patch by more than half of its tolerance, so that too little is left";
+  case Status::bad_knots:
+    return "knots of a spline are too few or too many, descend, or one occurs more than degree + 1 "
+           "times";
+  case Status::bad_range:
+    return "a range or a parameter of a spline is not inside of its domain";
   case Status::bad_patch_range:
     return "patches or curves outside of the set were asked for";
   case Status::bad_patch_index:

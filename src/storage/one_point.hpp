@@ -32,6 +32,18 @@ constexpr double one_point_tolerance(Weights weights, bool in_double) noexcept {
   return high - low <= tolerance * (-low > high ? -low : high);
 }
 
+/// Whether a/w and b/v are surely not one coordinate. Products cost a tenth of quotients, and their
+/// roundings are small beside twice the tolerance. False where they may underflow or are not
+/// finite.
+[[gnu::always_inline]] inline bool are_surely_apart(double a, double w, double b, double v,
+                                                    double tolerance) noexcept {
+  const double x = a * v;
+  const double y = b * w;
+  const double size = (x < 0 ? -x : x) + (y < 0 ? -y : y);
+  const double apart = x < y ? y - x : x - y;
+  return apart > 2 * tolerance * size && size > 0x1p-900;
+}
+
 /// Whether `count` points are one point: point(k) leads to the first value of one, and a weight
 /// stands behind its components. Values that are not finite are no point. nearest: null, or where
 /// each component nearest to zero goes, in Cartesian form.
@@ -41,16 +53,20 @@ are_one_point(const PointAt& point, std::size_t count, std::size_t components,
               std::ptrdiff_t component_stride, Weights weights, double* nearest) noexcept {
   const bool divided = weights == Weights::homogeneous;
   const double tolerance = one_point_tolerance(weights, sizeof(S) == sizeof(double));
+  const auto value = [=](std::size_t k, std::size_t c) __attribute__((always_inline)) {
+    return static_cast<double>(point(k)[static_cast<std::ptrdiff_t>(c) * component_stride]);
+  };
+  for (std::size_t c = 0; c < components && divided; ++c) { // most points are far apart
+    if (are_surely_apart(value(0, c), value(0, components), value(count - 1, c),
+                         value(count - 1, components), tolerance)) {
+      return false;
+    }
+  }
   for (std::size_t c = 0; c < components; ++c) {
     double low = 0;
     double high = 0;
     for (std::size_t k = 0; k < count; ++k) {
-      const S* const values = point(k);
-      auto x = static_cast<double>(values[static_cast<std::ptrdiff_t>(c) * component_stride]);
-      if (divided) {
-        x /=
-            static_cast<double>(values[static_cast<std::ptrdiff_t>(components) * component_stride]);
-      }
+      const double x = divided ? value(k, c) / value(k, components) : value(k, c);
       low = k == 0 || x < low ? x : low;
       high = k == 0 || x > high ? x : high;
       // More points only bring them further apart. The difference of numbers that are not finite is

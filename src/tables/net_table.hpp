@@ -8,6 +8,7 @@
 
 #include "src/tables/bound_task.hpp"
 #include "src/tables/kernel_table.hpp"
+#include "src/tables/mean_task.hpp"
 
 namespace simdbezier::detail {
 
@@ -142,6 +143,7 @@ struct NetTable {
   NetKernel<FlatnessTask<T>> flatness;
   NetKernel<RateTask<T>> rates;
   BoundKernels bounds; ///< in double, whatever T is
+  MeanKernel mean;     ///< likewise
 };
 
 } // namespace simdbezier::detail

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <simdbezier/simdbezier.hpp>
+#include <tools/formats/file_spline.hpp>
 #include <tools/formats/large_pages.hpp>
 #include <tools/formats/segment_mesh.hpp>
 #include <tools/formats/text_input.hpp>
@@ -75,7 +76,9 @@ struct PatchFile {
   LargeVector<std::uint32_t>
       lines; ///< of every point's first coordinate; empty where there is no file
   std::vector<std::uint32_t> vertices; ///< where meshes name their points: numbers of points
-  double moved_error = 0; ///< how far points may be from where move_patches() should put them
+  double moved_error = 0; ///< how far points may be from where they were moved to
+  double cut_error = 0;   ///< how far those of splines may be from their surfaces besides
+  std::vector<SplineRecord> splines; ///< those whose patches are among these
 
   /// Makes room for what an input of so many bytes usually has. Memory that turns out not to be
   /// needed is never touched.
@@ -93,6 +96,9 @@ struct PatchFile {
   /// four values, of which the last one counts only if there are weights.
   void close_indexed_mesh(int degree_u, int degree_v, Weights weights, const MeshDirection& u,
                           const MeshDirection& v);
+  /// Or they hand over a spline surface, whose patches are added one by one. Its patches and points
+  /// have the spline's line. Throws Failure where knots, ranges or numbers of points do not fit.
+  void close_spline(const FileSpline& spline);
 
   [[nodiscard]] const PatchRun& run_of(std::size_t patch) const;
   /// Returns the values of one point.

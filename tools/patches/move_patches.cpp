@@ -38,22 +38,32 @@ std::array<double, 3> own_origin(const MeshBox& box) {
 }
 
 void move_patches(PatchFile& file, const std::array<double, 3>& origin) {
+  double rounded = 0;
   const auto move = [&](std::size_t first, std::size_t count, const PatchRun& run) {
     for (std::size_t k = 0; k < count; ++k) {
       double* const point = file.points.data() + first + k * run.stride;
       const double weight = run.weights == Weights::homogeneous ? point[3] : 1;
-      file.moved_error = std::max(file.moved_error, move_point(point, weight, origin));
+      rounded = std::max(rounded, move_point(point, weight, origin));
     }
   };
-  // Points that are named by numbers may be those of several runs; such a file has no others, and
-  // none with homogeneous weights.
-  const PatchRun& some = file.runs.front();
-  if (some.first_vertex) {
-    return move(0, file.points.size() / some.stride, some);
-  }
+  // Points that are named by numbers may be those of several runs, and none of them is homogeneous;
+  // they stand before, between and behind the others.
+  const auto named = std::ranges::find_if(
+      file.runs, [](const PatchRun& run) { return run.first_vertex.has_value(); });
+  std::size_t behind = 0;
   for (const PatchRun& run : file.runs) {
-    move(run.first_value, run.u.points * run.v.points, run);
+    if (!run.first_vertex) {
+      if (named != file.runs.end()) {
+        move(behind, (run.first_value - behind) / run.stride, *named);
+      }
+      behind = run.first_value + run.u.points * run.v.points * run.stride;
+      move(run.first_value, run.u.points * run.v.points, run);
+    }
   }
+  if (named != file.runs.end()) {
+    move(behind, (file.points.size() - behind) / named->stride, *named);
+  }
+  file.moved_error += rounded;
 }
 
 } // namespace simdbezier::tools

@@ -67,7 +67,7 @@ std::vector<double> rounding_errors(const PatchFile& file, std::size_t first, st
   std::vector<double> errors(count);
   check(position_errors(pack_patches<T>(file, first, count), errors));
   for (double& error : errors) {
-    error += file.moved_error;
+    error += file.moved_error + file.cut_error;
   }
   if constexpr (std::is_same_v<T, float>) { // and otherwise points are not rounded
     const PatchNets<double> block = file.nets<double>(first, count);

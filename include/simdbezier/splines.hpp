@@ -1,0 +1,231 @@
+// B-spline and NURBS surfaces and curves with knots: from their control points to Bézier patches.
+//
+//     to_bezier(surface, nets, intervals)      control nets, and the interval of each patch
+//     pack(surface, set)                       a PatchSet, without nets in between
+//     locate(surface, U, V, places)            which patch has (U, V), and where on it
+//
+// A direction of degree p with n control points d_0 … d_(n-1) has the knots t_0 <= … <= t_(n+p).
+// Its domain is [t_p, t_n]; every span [a, b] = [t_i, t_(i+1)] of it with a < b is one Bézier
+// piece, whose control points are values of the spline's blossom f:
+//
+//     b_k = f[a, …, a, b, …, b]        (p - k times a, k times b)
+//
+// These are means of p + 1 neighbouring d at most, with factors that follow from the knots alone.
+//
+// Constraints that hold for every call
+//   Knots       n + p + 1 numbers in ascending order, in double whatever the points are. A knot may
+//               occur up to p + 1 times; t_p < t_n. No knots: uniform ones, t_i = i - p.
+//               openNURBS leaves the first and the last one out.
+//   Periodic    directions have n control points, each of which counts again after the last one,
+//               and n + 1 knots t_0 <= … <= t_n: one period, which is the domain. Span [t_i,
+//               t_(i+1)] is a mean of points i to i + p modulo n. No knots: t_i = i.
+//   Ranges      A part of the domain makes the first and the last piece end at values that need not
+//               be knots. Spans that it does not meet have no pieces.
+//   Patches     are numbered along u first: patch iv * patches_u + iu.
+//   Error       Along one direction a control point is off by no more than (m + 2) u max|d|, where
+//               m = (p + 1) / 2 rounded up and u = 2^-53, because factors are rounded once and m
+//               pairs are summed; both directions add. Results in float are rounded once more.
+//               spline_error() has the bound of a surface; docs/accuracy.md has the proof.
+//   Bits        Factors that are 1 copy points: clamped ends are control points bit for bit, and
+//               equal points give that point. Pieces on both sides of a knot that occurs up to p
+//               times have bit-equal points there, as do splines that have equal control points and
+//               knots along an edge on which both are clamped, whichever of u and v they call it
+//               and also where one runs the other way with exactly mirrored knots. Results depend
+//               neither on the instruction set nor on threads, nor on what else is in the call.
+//   Weights     must be above 0; products w P are rounded once to double before anything else.
+//   Faults      control values must be finite; the first surface and point at fault is named, and
+//               nothing has been written.
+//   Source      L. Ramshaw, Blossoming: A Connect-the-Dots Approach to Splines, 1987; G. Farin,
+//               Curves and Surfaces for CAGD, 5th ed., 4.7 and 8.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include <simdbezier/control_curves.hpp>
+#include <simdbezier/curves.hpp>
+#include <simdbezier/nets.hpp>
+#include <simdbezier/patch_set.hpp>
+
+namespace simdbezier {
+
+/// Parameters from `begin` to `end`. Where both are equal, what it restricts is not restricted.
+struct Interval {
+  double begin = 0;
+  double end = 0;
+
+  [[nodiscard]] constexpr double length() const noexcept { return end - begin; }
+  [[nodiscard]] constexpr bool empty() const noexcept { return begin == end; }
+  friend constexpr bool operator==(const Interval&, const Interval&) = default;
+};
+
+/// The parameters that a patch of a spline stands for: u = (U - u.begin) / u.length().
+struct PatchInterval {
+  Interval u;
+  Interval v;
+};
+
+/// A spline surface: rows x columns control points, the points of a row in u.
+/// Component c of point (row, column) is points[row * row_stride + column * point_stride +
+/// c * component_stride]; a weight stands behind the components.
+template <typename S>
+struct SplineSurface {
+  const S* points = nullptr;
+  std::size_t rows = 0;    ///< open: degree_v + 1 or more; periodic: degree_v or more
+  std::size_t columns = 0; ///< likewise, in u
+  std::ptrdiff_t row_stride = 0;
+  std::ptrdiff_t point_stride = 3;
+  std::ptrdiff_t component_stride = 1;
+  int components = 3; ///< 1 to kMostComponents, without the weight
+  Weights weights = Weights::none;
+  bool periodic_u = false;
+  bool periodic_v = false;
+  int degree_u = 3; ///< 1 to kMostDegree
+  int degree_v = 3;
+  std::span<const double> knots_u = {}; ///< empty: uniform
+  std::span<const double> knots_v = {};
+  Interval u_range = {}; ///< empty: the whole domain
+  Interval v_range = {};
+  /// Neighbouring knots that are no further apart, all of them together, count as equal.
+  double knot_tolerance = 0;
+  std::span<const S> memory = {}; ///< as in ControlNets
+};
+
+/// A spline curve, likewise.
+template <typename S>
+struct SplineCurve {
+  const S* points = nullptr;
+  std::size_t count = 0; ///< control points
+  std::ptrdiff_t point_stride = 3;
+  std::ptrdiff_t component_stride = 1;
+  int components = 3;
+  Weights weights = Weights::none;
+  bool periodic = false;
+  int degree = 3;
+  std::span<const double> knots = {};
+  Interval range = {};
+  double knot_tolerance = 0;
+  std::span<const S> memory = {};
+};
+
+/// How many patches a surface has in each direction; pieces of a curve are `u`, with v = 1.
+struct SpanCounts {
+  std::size_t u = 0;
+  std::size_t v = 0;
+
+  [[nodiscard]] constexpr std::size_t patches() const noexcept { return u * v; }
+};
+
+/// Where a call on splines stopped: `surface` (or curve) is the first one at fault. Where its knots
+/// are, `point` is the number of the knot and `component` 0 for u, 1 for v; where a control value
+/// is, `point` is row * columns + column, and `component` as in PackReport.
+struct SplineReport {
+  Status status = Status::ok;
+  std::size_t surface = 0;
+  std::size_t point = 0;
+  int component = 0;
+
+  [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
+};
+
+/// The patches of a surface, or the pieces of a curve; 0 where it would be refused.
+/// Cost: that of its knots, not of its points.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API SpanCounts span_count(const SplineSurface<S>& surface) noexcept;
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API SpanCounts span_count(const SplineCurve<S>& curve) noexcept;
+
+/// Makes Bézier nets of spline surfaces, those of the first surface first.
+///
+/// surfaces:   equal degrees, components and presence of weights; see SplineSurface.
+/// out:        as many nets as there are patches, of the surfaces' degrees and components. Weights
+///             may be Cartesian or homogeneous, whichever form the surfaces have; may not overlap
+///             the surfaces' points. Rational points that are one point whatever their weights (see
+///             Weights::homogeneous) stay one.
+/// intervals:  of each patch; or empty.
+/// options:    Options::threads, isa and executed are honoured.
+/// Allocation: tables of the knots, and for each thread degree_v + 2 lines of a row's Bézier
+/// points. Threads:    rows of spans of all surfaces are divided among them. Returns:    ok |
+/// null_input | input_too_small | null_output | output_too_small | bad_degree (also:
+///             not that of `out`) | bad_components (likewise) | bad_weight | bad_stride | bad_grid
+///             (too few points) | bad_knots | bad_range | bad_tolerance | bad_patch_range (`out`
+///             has another number of nets) | unequal_lengths (`intervals`) | overlapping_outputs |
+///             non_finite_input | size_overflow | unknown_isa | unsupported_isa | out_of_memory.
+/// Cost:       about (degree_u + 1) (degree_v + 1) (degree_v + 1) products and sums a channel and
+///             patch.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API SplineReport to_bezier(std::span<const SplineSurface<T>> surfaces,
+                                                    const std::type_identity_t<MutableNets<T>>& out,
+                                                    std::span<PatchInterval> intervals = {},
+                                                    const Options& options = {}) noexcept;
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API SplineReport to_bezier(const SplineSurface<T>& surface,
+                                                    const std::type_identity_t<MutableNets<T>>& out,
+                                                    std::span<PatchInterval> intervals = {},
+                                                    const Options& options = {}) noexcept;
+
+/// The pieces of a curve, in the same way: control points side by side, piece after piece, as
+/// ControlCurves::packed() has them, with weights in the curve's own form.
+template <typename T>
+[[nodiscard]] SIMDBEZIER_API SplineReport to_bezier(const SplineCurve<T>& curve,
+                                                    const std::type_identity_t<Values<T>>& points,
+                                                    std::span<Interval> intervals = {},
+                                                    const Options& options = {}) noexcept;
+
+/// Packs the patches of spline surfaces without nets in between: the set is that of to_bezier() in
+/// S, with homogeneous weights, and pack().
+///
+/// surfaces:   any degrees, with and without weights, of the same components.
+/// intervals:  of each patch, as many as `surfaces` have patches (else unequal_lengths); or empty.
+/// Allocation: the set, what to_bezier() needs, and nets of a few rows of spans for each thread.
+/// Returns:    what to_bezier() and pack() return. On an error the set is as it was.
+template <typename T, typename S>
+[[nodiscard]] SIMDBEZIER_API SplineReport pack(std::span<const SplineSurface<S>> surfaces,
+                                               PatchSet<T>& set,
+                                               std::span<PatchInterval> intervals = {},
+                                               const PackOptions& options = {}) noexcept;
+template <typename T, typename S>
+[[nodiscard]] SIMDBEZIER_API SplineReport pack(const SplineSurface<S>& surface, PatchSet<T>& set,
+                                               std::span<PatchInterval> intervals = {},
+                                               const PackOptions& options = {}) noexcept;
+
+/// Where parameters of a spline lie on its patches. Every array may be null: not asked for.
+struct SplinePlaces {
+  std::uint32_t* patch = nullptr;
+  double* u = nullptr; ///< in [0, 1] of the patch, by one subtraction and one division
+  double* v = nullptr;
+  double* length_u = nullptr; ///< of the patch's interval: dS/dU = (dS/du) / length_u
+  double* length_v = nullptr;
+};
+
+/// Finds the patch and the local parameters of each (U[k], V[k]).
+///
+/// Knots:      at an inner one the patch behind it is taken, which is the right side; at the end of
+///             the domain (or range) the last one.
+/// Periodic:   parameters outside of the period are moved by whole periods.
+/// U, V:       `count` values each, within the domain or range (else bad_range, and nothing is
+///             written), in any order. V may be null for curves.
+/// Returns:    ok | the statuses of knots | null_input | bad_range | non_finite_input; `point` is
+///             the number of the parameter at fault.
+/// Cost:       a binary search for each parameter that is not in the span of the one before.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API SplineReport locate(const SplineSurface<S>& surface, std::size_t count,
+                                                 const double* U, const double* V,
+                                                 const SplinePlaces& places) noexcept;
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API SplineReport locate(const SplineCurve<S>& curve, std::size_t count,
+                                                 const double* U,
+                                                 const SplinePlaces& places) noexcept;
+
+/// A bound on the error of a Bézier control point of a surface in double, relative to the largest
+/// |d| of the component (with weights: |w d|, and likewise the weights):
+/// (m_u + m_v + 4 + (1 for Cartesian weights)) u (1 + 2^-40), m = (degree + 1) / 2 rounded up.
+[[nodiscard]] constexpr double spline_error(int degree_u, int degree_v,
+                                            Weights weights = Weights::none) noexcept {
+  const int pairs = (degree_u + 2) / 2 + (degree_v + 2) / 2;
+  return (pairs + 4 + (weights == Weights::cartesian ? 1 : 0)) * 0x1p-53 * (1 + 0x1p-40);
+}
+
+} // namespace simdbezier

@@ -1,0 +1,55 @@
+// The factors that make Bézier control points of a spline's, in one direction.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "src/splines/spline_knots.hpp"
+
+namespace simdbezier::detail {
+
+/// One Bézier control point: (sum_j factors[j] d[first + j]) / divisor, j < terms.
+struct SplineMean {
+  std::size_t first;  ///< of the spline's points, which begin again after period()
+  std::size_t factor; ///< where its factors begin
+  std::size_t terms;  ///< 1 to degree + 1; a single factor is 1
+  double divisor;     ///< 1, or what makes factors whole numbers
+};
+
+class SplineFactors {
+public:
+  /// Finds the spans, and the means of each. Statuses are those of SplineKnots::build(); may throw
+  /// std::bad_alloc.
+  [[nodiscard]] Status build(const SplineAxis& axis, std::size_t& knot);
+  /// A direction that there is not: one span of one point, which is a copy.
+  void build_point();
+
+  [[nodiscard]] std::size_t spans() const noexcept { return means_.size() / order_; }
+  /// Points of a piece: the degree and 1.
+  [[nodiscard]] std::size_t order() const noexcept { return order_; }
+  [[nodiscard]] const Interval& interval(std::size_t span) const noexcept {
+    return intervals_[span];
+  }
+  [[nodiscard]] const SplineMean& mean(std::size_t span, std::size_t k) const noexcept {
+    return means_[span * order_ + k];
+  }
+  [[nodiscard]] const std::vector<SplineMean>& means() const noexcept { return means_; }
+  [[nodiscard]] const double* factors(const SplineMean& mean) const noexcept {
+    return factors_.data() + mean.factor;
+  }
+  /// Points after which they begin again.
+  [[nodiscard]] std::size_t period() const noexcept { return period_; }
+
+private:
+  void add_span(const SplineKnots& knots, std::size_t span);
+  void add_mean(const TwoDoubles* factors, std::size_t first);
+
+  std::size_t order_ = 1;
+  std::size_t period_ = ~std::size_t{0};
+  std::vector<Interval> intervals_;
+  std::vector<SplineMean> means_; ///< order_ of each span
+  std::vector<double> factors_;
+};
+
+} // namespace simdbezier::detail

@@ -1,0 +1,159 @@
+// Control points of spline surfaces and curves against knot insertion in fractions: every kind of
+// knots x degree x part of the domain x weights x type, on every instruction set.
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/splines/spline_models.hpp"
+#include "tests/support/isa_fixture.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+/// One channel of a surface as fractions, weights multiplied where they are Cartesian.
+template <typename T>
+Rational exact_value(const SurfaceModel<T>& model, std::size_t row, std::size_t column,
+                     std::size_t c) {
+  const Rational value(static_cast<double>(model.at(row, column, c)));
+  const auto weight_at = static_cast<std::size_t>(model.components);
+  return model.weights == Weights::cartesian && c < weight_at
+             ? Rational(value * Rational(static_cast<double>(model.at(row, column, weight_at))))
+             : value;
+}
+
+/// The exact control values [patch][j][i] of one channel.
+template <typename T>
+std::vector<Rational> exact_nets(const SurfaceModel<T>& model, std::size_t c) {
+  std::vector<std::vector<std::vector<Rational>>> rows; // [row][span][i]
+  for (std::size_t row = 0; row < model.v.points; ++row) {
+    std::vector<Rational> line;
+    for (std::size_t column = 0; column < model.u.points; ++column) {
+      line.push_back(exact_value(model, row, column, c));
+    }
+    rows.push_back(exact_pieces(model.u, line));
+  }
+  const std::size_t spans_u = rows[0].size();
+  const std::size_t order_u = model.u.order();
+  std::vector<std::vector<std::vector<Rational>>> columns; // [span * order + i][span][j]
+  for (std::size_t at = 0; at < spans_u * order_u; ++at) {
+    std::vector<Rational> line;
+    for (const auto& row : rows) {
+      line.push_back(row[at / order_u][at % order_u]);
+    }
+    columns.push_back(exact_pieces(model.v, line));
+  }
+  std::vector<Rational> nets;
+  for (std::size_t sv = 0; sv < columns[0].size(); ++sv) {
+    for (std::size_t su = 0; su < spans_u; ++su) {
+      for (std::size_t j = 0; j < model.v.order(); ++j) {
+        for (std::size_t i = 0; i < order_u; ++i) {
+          nets.push_back(columns[su * order_u + i][sv][j]);
+        }
+      }
+    }
+  }
+  return nets;
+}
+
+/// A surface and its exact control values, once for all instruction sets.
+template <typename T>
+struct ExactCase {
+  std::string name;
+  SurfaceModel<T> model;
+  std::vector<std::vector<Rational>> exact; // [channel][value]
+  std::vector<Rational> bound;              // of each channel
+};
+
+template <typename T>
+ExactCase<T> exact_case(const std::string& name, const SurfaceModel<T>& model) {
+  ExactCase<T> item{name, model, {}, {}};
+  const std::size_t points = model.u.points * model.v.points;
+  for (std::size_t c = 0; c < model.channels(); ++c) {
+    item.exact.push_back(exact_nets(model, c));
+    Rational largest = 0;
+    for (std::size_t k = 0; k < points; ++k) {
+      largest = std::max(
+          largest, Rational(abs(exact_value(model, k / model.u.points, k % model.u.points, c))));
+    }
+    item.bound.push_back(largest *
+                         Rational(spline_error(model.u.degree, model.v.degree, model.weights)));
+  }
+  return item;
+}
+
+/// Every kind of knots x part of the domain x degree in one direction, others in the other one.
+template <typename T>
+std::vector<ExactCase<T>> make_cases(std::span<const int> degrees, std::uint64_t seed) {
+  std::vector<ExactCase<T>> cases;
+  Random random(seed);
+  const Weights forms[] = {Weights::none, Weights::cartesian, Weights::homogeneous};
+  for (const KnotKind kind : kKnotKinds) {
+    for (const bool part : {false, true}) {
+      for (const int degree : degrees) {
+        const AxisModel axis = random_axis(random, kind, degree, part);
+        const KnotKind other_kind = kKnotKinds[random.below(std::size(kKnotKinds))];
+        const AxisModel other =
+            random_axis(random, other_kind, random.integer(1, 4), random.below(4) == 0);
+        const bool exchanged = cases.size() % 2 == 1;
+        cases.push_back(exact_case(
+            name_of(kind) + " of degree " + std::to_string(degree) + (part ? ", a part" : ""),
+            random_surface<T>(random, exchanged ? other : axis, exchanged ? axis : other,
+                              random.integer(1, 2), forms[cases.size() % 3])));
+      }
+    }
+  }
+  return cases;
+}
+
+template <typename T>
+const std::vector<ExactCase<T>>& all_cases() {
+  static constexpr int kDegrees[] = {1, 2, 3, 4, 5, 8, 15};
+  static const std::vector<ExactCase<T>> cases =
+      make_cases<T>(std::span(kDegrees, sizeof(T) == sizeof(float) ? 5 : 7), sizeof(T));
+  return cases;
+}
+
+template <typename T>
+void expect_near(const CutSurface<T>& cut, const ExactCase<T>& item) {
+  ASSERT_EQ(to_string(cut.report.status), to_string(Status::ok));
+  const std::size_t channels = item.model.channels();
+  for (std::size_t c = 0; c < channels; ++c) {
+    ASSERT_EQ(cut.values.size(), item.exact[c].size() * channels);
+    for (std::size_t k = 0; k < item.exact[c].size(); ++k) {
+      const Rational& exact = item.exact[c][k];
+      const Rational apart =
+          abs(Rational(static_cast<double>(cut.values[k * channels + c])) - exact);
+      const Rational rounding =
+          sizeof(T) == sizeof(float) ? Rational(abs(exact) * Rational(0x1.0001p-24)) : Rational(0);
+      ASSERT_LE(apart, item.bound[c] + rounding) << "value " << k << " of channel " << c;
+    }
+  }
+}
+
+class SplineTest : public IsaTest {
+protected:
+  template <typename T>
+  void meets_its_bound() {
+    for (const ExactCase<T>& item : all_cases<T>()) {
+      SCOPED_TRACE(item.name);
+      const SplineSurface<T> surface = item.model.view();
+      run(Options{}, [&](const Options& options) {
+        const CutSurface<T> cut(surface, options);
+        expect_near(cut, item);
+        return cut.report.status;
+      });
+      if (HasFatalFailure()) {
+        return;
+      }
+    }
+  }
+};
+
+TEST_P(SplineTest, DoubleMeetsItsBound) { meets_its_bound<double>(); }
+TEST_P(SplineTest, FloatMeetsItsBound) { meets_its_bound<float>(); }
+
+INSTANTIATE_FOR_EVERY_ISA(SplineTest);
+
+} // namespace
+} // namespace simdbezier::tests
