@@ -219,6 +219,44 @@ template <typename S>
                                                  const double* U,
                                                  const SplinePlaces& places) noexcept;
 
+/// Evaluates a spline surface on the grid of all (U[i], V[j]) in its own parameters: sample (i, j)
+/// has the index j * U.size() + i.
+///
+/// surface:    its knots, degrees and ranges are read, its points are not.
+/// set:        made by pack() or by way of to_bezier(); the surface's patches are those from
+///             `first_patch` on (else bad_patch_range).
+/// U, V:       within the domain or range (else bad_range), as locate() takes them. Ascending ones
+///             are the fastest: consecutive parameters of one span are evaluated together.
+/// out:        as in evaluate(). Derivatives are those by U and V, which divides what evaluate()
+/// has
+///             by the intervals' lengths: by one rounding of the first derivatives, by two of the
+///             second ones. All else has the bits of evaluate() at the centred parameters of the
+///             places that locate() finds.
+/// Knots:      at an inner one the right side counts, at the end of the domain the left one.
+/// Allocation: a few values for each of U and V.
+/// Returns:    what locate() and evaluate() return; on an error nothing has been written.
+template <typename T, typename S>
+[[nodiscard]] SIMDBEZIER_API SplineReport
+evaluate_grid(const PatchSet<T>& set, const SplineSurface<S>& surface, std::span<const double> U,
+              std::span<const double> V, const std::type_identity_t<Outputs<T>>& out,
+              const Options& options = {}, std::size_t first_patch = 0) noexcept;
+
+/// The same with a set of its own: pack() and evaluate_grid() in one call.
+template <typename T, typename S>
+[[nodiscard]] SIMDBEZIER_API SplineReport evaluate_grid(const SplineSurface<S>& surface,
+                                                        std::span<const double> U,
+                                                        std::span<const double> V,
+                                                        const Outputs<T>& out,
+                                                        const Options& options = {}) noexcept;
+
+/// Evaluates it at single parameters (U[k], V[k]), in any order and likewise.
+/// Allocation: 36 bytes a sample. Returns also unequal_lengths.
+template <typename T, typename S>
+[[nodiscard]] SIMDBEZIER_API SplineReport
+evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& surface, std::span<const double> U,
+                 std::span<const double> V, const std::type_identity_t<Outputs<T>>& out,
+                 const Options& options = {}, std::size_t first_patch = 0) noexcept;
+
 /// A bound on the error of a Bézier control point of a surface in double, relative to the largest
 /// |d| of the component (with weights: |w d|, and likewise the weights):
 /// (m_u + m_v + 4 + (1 for Cartesian weights)) u (1 + 2^-40), m = (degree + 1) / 2 rounded up.

@@ -49,7 +49,14 @@ template <typename T>
   return samples * values * sizeof(T);
 }
 
-enum class CallName : std::uint8_t { grid, patch_grids, curve_grid, curve_grids, mesh };
+enum class CallName : std::uint8_t {
+  grid,
+  patch_grids,
+  curve_grid,
+  curve_grids,
+  mesh,
+  spline_grid
+};
 
 /// What calls of all names have: instruction set, type and layout of the outputs. lines: whether it
 /// is enough to know which outputs begin on a cache line, and the place within one does not matter.

@@ -41,6 +41,16 @@ public:
   /// memory_values()).
   [[nodiscard]] Status build(const Grid<T>& grid, T* memory = nullptr) noexcept;
   [[nodiscard]] static std::size_t memory_values(std::size_t nu, std::size_t nv) noexcept;
+  /// Lets the plan be of given half-centred parameters, which stay where they are: nu of x, with
+  /// kMaxLanes more readable behind them, and nv of y.
+  void view(const T* x, std::size_t nu, const T* y, std::size_t nv) noexcept {
+    ++generation_;
+    nu_ = nu;
+    nv_ = nv;
+    between_edges_ = false;
+    x_ = x;
+    y_ = y;
+  }
 
   [[nodiscard]] std::size_t nu() const noexcept { return nu_; }
   [[nodiscard]] std::size_t nv() const noexcept { return nv_; }

@@ -1,61 +1,13 @@
 // Where parameters of splines lie, and how many spans there are: what knots alone decide.
 #include <simdbezier/splines.hpp>
 
-#include <algorithm>
-#include <cmath>
-
 #include "src/runtime/fp_environment.hpp"
+#include "src/splines/span_finder.hpp"
 #include "src/splines/spline_axes.hpp"
 
 namespace simdbezier {
 namespace detail {
 namespace {
-
-/// Finds spans, those near the last one without a search.
-class SpanFinder {
-public:
-  explicit SpanFinder(const SplineKnots& knots, const SplineAxis& axis)
-      : spans_(knots.spans()), begin_(spans_.front().interval.begin),
-        end_(spans_.back().interval.end), period_(axis.periodic && axis.range.empty()) {}
-
-  /// Returns whether a parameter is in the domain, and finds its span then.
-  [[nodiscard]] bool find(double parameter) noexcept {
-    parameter_ = parameter;
-    if (period_ && !(begin_ <= parameter && parameter <= end_)) {
-      const double length = end_ - begin_;
-      parameter_ -= length * std::floor((parameter - begin_) / length);
-      parameter_ = std::min(std::max(parameter_, begin_), end_); // it is off by a rounding
-    }
-    if (!(begin_ <= parameter_ && parameter_ <= end_)) {
-      return false;
-    }
-    const auto holds = [&](std::size_t span) {
-      return spans_[span].interval.begin <= parameter_ && parameter_ < spans_[span].interval.end;
-    };
-    if (!holds(span_)) {
-      const auto after = std::upper_bound(
-          spans_.begin(), spans_.end(), parameter_,
-          [](double at, const SplineSpan& span) { return at < span.interval.begin; });
-      span_ = static_cast<std::size_t>(after - spans_.begin()) - 1;
-    }
-    return true;
-  }
-
-  [[nodiscard]] std::size_t span() const noexcept { return span_; }
-  [[nodiscard]] double length() const noexcept { return spans_[span_].interval.length(); }
-  [[nodiscard]] double local() const noexcept {
-    const Interval& interval = spans_[span_].interval;
-    return (parameter_ - interval.begin) / interval.length();
-  }
-
-private:
-  const std::vector<SplineSpan>& spans_;
-  double begin_;
-  double end_;
-  bool period_;
-  double parameter_ = 0;
-  std::size_t span_ = 0;
-};
 
 template <typename V>
 void put(V* array, std::size_t k, V value) noexcept {
@@ -73,9 +25,7 @@ SplineReport for_places(const SplineKnots& knots, const SplineAxis& axis, std::s
   }
   SpanFinder finder(knots, axis);
   for (std::size_t k = 0; k < count; ++k) {
-    if (!std::isfinite(parameters[k]) || !finder.find(parameters[k])) {
-      const Status status =
-          std::isfinite(parameters[k]) ? Status::bad_range : Status::non_finite_input;
+    if (const Status status = finder.find(parameters[k]); !status) {
       return {status, 0, k, direction};
     }
     visit(k, finder);

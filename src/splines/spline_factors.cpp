@@ -20,13 +20,19 @@ public:
       : degree_(static_cast<std::size_t>(knots.degree())) {
     for (std::size_t j = 0; j <= degree_; ++j) {
       for (std::size_t c = 0; c <= degree_; ++c) {
-        vectors_[j][c] = {j == c ? 1.0 : 0.0, 0};
+        vector(j)[c] = {j == c ? 1.0 : 0.0, 0};
       }
     }
     for (std::size_t k = 1; k <= 2 * degree_; ++k) {
       knots_[k] = knots.knot(first + k);
     }
   }
+  /// Copies what there is, and not the room for the highest degree.
+  Triangle(const Triangle& other) noexcept : degree_(other.degree_), stage_(other.stage_) {
+    std::copy_n(other.knots_, 2 * degree_ + 1, knots_);
+    std::copy_n(other.vectors_, (degree_ + 1) * (degree_ + 1), vectors_);
+  }
+  Triangle& operator=(const Triangle&) = delete;
 
   /// Takes `times` stages with the argument x, which lies in the span:
   ///     v_j <- ((t_(j+p+1-r) - x) v_(j-1) + (x - t_j) v_j) / (t_(j+p+1-r) - t_j)
@@ -36,24 +42,37 @@ public:
       for (std::size_t j = degree_; j >= stage_; --j) {
         const TwoDoubles& low = knots_[j];
         const TwoDoubles& high = knots_[j + degree_ + 1 - stage_];
+        TwoDoubles* const here = vector(j);
+        const TwoDoubles* const previous = vector(j - 1);
+        if (x == high) { // a copy is a copy
+          continue;
+        }
+        if (x == low) {
+          std::copy_n(previous, degree_ + 1, here);
+          continue;
+        }
         const TwoDoubles length = high - low;
         const TwoDoubles left = quotient(high - x, length);
         const TwoDoubles right = quotient(x - low, length);
         for (std::size_t c = j - stage_; c <= j; ++c) {
-          vectors_[j][c] = left * vectors_[j - 1][c] + right * vectors_[j][c];
+          here[c] = left * previous[c] + right * here[c];
         }
       }
     }
   }
 
   /// The factors, when all stages have been taken.
-  [[nodiscard]] const TwoDoubles* factors() const noexcept { return vectors_[degree_]; }
+  [[nodiscard]] const TwoDoubles* factors() const noexcept {
+    return vectors_ + degree_ * (degree_ + 1);
+  }
 
 private:
+  [[nodiscard]] TwoDoubles* vector(std::size_t j) noexcept { return vectors_ + j * (degree_ + 1); }
+
   std::size_t degree_;
   std::size_t stage_ = 0;
   TwoDoubles knots_[2 * kMostOrder]; ///< [k]: T_(first + k)
-  TwoDoubles vectors_[kMostOrder][kMostOrder];
+  TwoDoubles vectors_[kMostOrder * kMostOrder];
 };
 
 /// Whole numbers that are `numbers` times `common`, divided by what they share; false where they

@@ -231,7 +231,16 @@ void SplineCutter<S>::store(const double* line, std::size_t j,
                             const NetView<S>& out) const noexcept {
   const std::size_t spans = spline_->u->spans();
   const bool project = out.weights == Weights::cartesian;
-  for (std::size_t span = 0; span < spans; ++span) {
+  const std::size_t row_values = out.order_u * out.channels;
+  for (std::size_t span = 0; out.packed && !project && span < spans; ++span) { // mostly
+    S* const to = out.points + static_cast<std::ptrdiff_t>(span) * out.patch_stride +
+                  static_cast<std::ptrdiff_t>(j) * out.row_stride;
+    for (std::size_t k = 0; k < row_values; ++k) {
+      to[k] = static_cast<S>(line[k]) + S(0);
+    }
+    line += row_values;
+  }
+  for (std::size_t span = 0; !(out.packed && !project) && span < spans; ++span) {
     S* to = out.points + static_cast<std::ptrdiff_t>(span) * out.patch_stride +
             static_cast<std::ptrdiff_t>(j) * out.row_stride;
     for (std::size_t i = 0; i < out.order_u; ++i, to += out.point_stride, line += out.channels) {

@@ -10,8 +10,8 @@
 namespace simdbezier::detail {
 
 struct TwoDoubles {
-  double high = 0; ///< the number, rounded
-  double low = 0;
+  double high; ///< the number, rounded
+  double low;
 
   friend bool operator==(const TwoDoubles&, const TwoDoubles&) = default;
 };
