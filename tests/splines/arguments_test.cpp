@@ -1,0 +1,224 @@
+// What splines are refused for, and what is named as the fault; nothing is written then.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/splines/spline_models.hpp"
+
+namespace simdbezier::tests {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// A sound surface of 5 x 6 points, and memory for what becomes of it.
+struct Given {
+  std::vector<double> knots_u = {0, 0, 0, 1, 2, 3, 4, 4, 4};
+  std::vector<double> knots_v = {0, 0, 0, 0, 1, 2, 2, 2, 2};
+  std::vector<double> points = std::vector<double>(5 * 6 * 4, 1);
+  std::vector<double> values = std::vector<double>(8 * 12 * 4, -77);
+  std::vector<PatchInterval> intervals = std::vector<PatchInterval>(8);
+  SplineSurface<double> surface;
+  MutableNets<double> out =
+      MutableNets<double>::packed(std::span(values), 8, 2, 3, 3, Weights::homogeneous);
+
+  Given() {
+    surface.points = points.data();
+    surface.memory = points;
+    surface.rows = 5;
+    surface.columns = 6;
+    surface.point_stride = 4;
+    surface.row_stride = 24;
+    surface.weights = Weights::homogeneous;
+    surface.degree_u = 2;
+    surface.degree_v = 3;
+    surface.knots_u = knots_u;
+    surface.knots_v = knots_v;
+  }
+  Given(const Given&) = delete;
+  Given& operator=(const Given&) = delete;
+};
+
+struct BadInput {
+  const char* name;
+  std::function<void(Given&)> spoil;
+  Status::Code status;
+  std::size_t point = 0;
+  int component = 0;
+};
+
+const std::vector<BadInput>& bad_inputs() {
+  static const std::vector<BadInput> all = {
+      {"NoPoints", [](Given& g) { g.surface.points = nullptr; }, Status::null_input},
+      {"FewRows", [](Given& g) { g.surface.rows = 3; }, Status::bad_grid, 0, 1},
+      {"DegreeZero", [](Given& g) { g.surface.degree_u = g.out.degree_u = 0; }, Status::bad_degree},
+      {"DegreeSixteen", [](Given& g) { g.surface.degree_v = g.out.degree_v = 16; },
+       Status::bad_degree, 0, 1},
+      {"OtherDegree", [](Given& g) { g.out.degree_u = 3; }, Status::bad_degree},
+      {"FewKnots", [](Given& g) { g.surface.knots_u = std::span(g.knots_u).first(8); },
+       Status::bad_knots, 8},
+      {"ManyKnots",
+       [](Given& g) {
+         g.knots_v.push_back(2);
+         g.surface.knots_v = g.knots_v;
+       },
+       Status::bad_knots, 9, 1},
+      {"NullKnots",
+       [](Given& g) {
+         g.surface.knots_u = std::span<const double>(static_cast<const double*>(nullptr), 9);
+       },
+       Status::null_input},
+      {"DescendingKnots", [](Given& g) { g.knots_u[4] = 0.5; }, Status::bad_knots, 4},
+      {"KnotIsNan", [](Given& g) { g.knots_v[4] = kNan; }, Status::bad_knots, 4, 1},
+      {"KnotIsInfinite", [](Given& g) { g.knots_u[8] = HUGE_VAL; }, Status::bad_knots, 8},
+      {"KnotTooOften", [](Given& g) { g.knots_u[3] = 0; }, Status::bad_knots, 3},
+      {"KnotTooOftenByTolerance", [](Given& g) { g.surface.knot_tolerance = 1; }, Status::bad_knots,
+       3},
+      {"ToleranceIsNan", [](Given& g) { g.surface.knot_tolerance = kNan; }, Status::bad_tolerance},
+      {"EmptyDomain", [](Given& g) { g.knots_v = {0, 0, 0, 0, 0, 0, 0, 0, 0}; }, Status::bad_knots,
+       4, 1},
+      {"RangeOutside",
+       [](Given& g) {
+         g.surface.u_range = {-1, 2};
+       },
+       Status::bad_range},
+      {"RangeBackwards",
+       [](Given& g) {
+         g.surface.v_range = {2, 1};
+       },
+       Status::bad_range, 0, 1},
+      {"RangeIsNan",
+       [](Given& g) {
+         g.surface.u_range = {0, kNan};
+       },
+       Status::bad_range},
+      {"Components",
+       [](Given& g) {
+         g.surface.components = 17;
+         g.out.components = 17;
+       },
+       Status::bad_components},
+      {"OtherComponents", [](Given& g) { g.out.components = 2; }, Status::bad_components},
+      {"OtherWeights", [](Given& g) { g.out.weights = Weights::none; }, Status::bad_components},
+      {"Stride", [](Given& g) { g.surface.point_stride = 0; }, Status::bad_stride},
+      {"HugeStride", [](Given& g) { g.surface.row_stride = PTRDIFF_MAX / 4; },
+       Status::size_overflow},
+      {"ShortMemory", [](Given& g) { g.surface.memory = std::span(g.points).first(119); },
+       Status::input_too_small},
+      {"NotFinite", [](Given& g) { g.points[4 * 7 + 1] = kNan; }, Status::non_finite_input, 7, 1},
+      {"WeightZero", [](Given& g) { g.points[4 * 9 + 3] = 0; }, Status::bad_weight, 9, 3},
+      {"NoOutput", [](Given& g) { g.out.points = nullptr; }, Status::null_output},
+      {"OtherCount", [](Given& g) { g.out.count = 7; }, Status::bad_patch_range},
+      {"ShortOutput", [](Given& g) { g.out.memory = std::span(g.values).first(383); },
+       Status::output_too_small},
+      {"Overlap",
+       [](Given& g) {
+         g.out.points = g.points.data() - 380;
+         g.out.memory = {};
+       },
+       Status::overlapping_outputs},
+      {"Intervals", [](Given& g) { g.intervals.resize(7); }, Status::unequal_lengths}};
+  return all;
+}
+
+TEST(SplineArguments, SoundOnesArePassed) {
+  Given given;
+  EXPECT_TRUE(to_bezier(given.surface, given.out, given.intervals));
+  EXPECT_EQ(span_count(given.surface).u, 4U);
+  EXPECT_EQ(span_count(given.surface).v, 2U);
+}
+
+TEST(SplineArguments, BadOnesAreRefused) {
+  for (const BadInput& bad : bad_inputs()) {
+    SCOPED_TRACE(bad.name);
+    Given given;
+    bad.spoil(given);
+    const SplineReport report = to_bezier(given.surface, given.out, given.intervals);
+    EXPECT_EQ(to_string(report.status), to_string(bad.status));
+    EXPECT_EQ(report.point, bad.point);
+    EXPECT_EQ(report.component, bad.component);
+    EXPECT_EQ(std::count(given.values.begin(), given.values.end(), -77.0),
+              static_cast<std::ptrdiff_t>(given.values.size()));
+  }
+}
+
+TEST(SplineArguments, TheSurfaceAtFaultIsNamed) {
+  Given good;
+  Given bad;
+  bad.points[0] = kNan;
+  const SplineSurface<double> surfaces[] = {good.surface, good.surface, bad.surface};
+  PatchSet<double> set;
+  const SplineReport report = pack(std::span<const SplineSurface<double>>(surfaces), set);
+  EXPECT_EQ(report.status, Status::non_finite_input);
+  EXPECT_EQ(report.surface, 2U);
+  EXPECT_TRUE(set.empty());
+}
+
+TEST(SplineArguments, PlacesAreInsideOfTheDomain) {
+  Given given;
+  std::uint32_t patch[3] = {7, 7, 7};
+  double u[3];
+  double v[3];
+  const SplinePlaces places{patch, u, v};
+  const double inside[] = {0, 1, 4};
+  const double v_inside[] = {0, 1, 2};
+  ASSERT_TRUE(locate(given.surface, 3, inside, v_inside, places));
+  EXPECT_EQ(patch[0], 0U);
+  EXPECT_EQ(patch[1], 5U); // right of both knots
+  EXPECT_EQ(u[1], 0);
+  EXPECT_EQ(v[1], 0);
+  EXPECT_EQ(patch[2], 7U); // the end of the domain belongs to the last patch
+  EXPECT_EQ(u[2], 1);
+  EXPECT_EQ(v[2], 1);
+  struct Outside {
+    double parameter;
+    Status::Code status;
+  };
+  for (const Outside& outside : {Outside{4.5, Status::bad_range}, Outside{-0.1, Status::bad_range},
+                                 Outside{kNan, Status::non_finite_input}}) {
+    const double at[] = {0, 1, outside.parameter};
+    std::uint32_t untouched[3] = {9, 9, 9};
+    const SplineReport report = locate(given.surface, 3, at, v_inside, {untouched});
+    EXPECT_EQ(report.status, outside.status);
+    EXPECT_EQ(report.point, 2U);
+    EXPECT_EQ(untouched[0], 9U);
+  }
+  EXPECT_EQ(locate(given.surface, 3, nullptr, v_inside, places).status, Status::null_input);
+  EXPECT_EQ(locate(given.surface, 3, inside, nullptr, places).status, Status::null_input);
+}
+
+TEST(SplineArguments, PeriodicParametersAreMovedByPeriods) {
+  SplineCurve<double> curve;
+  std::vector<double> points(5 * 3, 1);
+  curve.points = points.data();
+  curve.count = 5;
+  curve.periodic = true;
+  std::uint32_t patch[4];
+  double u[4];
+  const double at[] = {-0.5, 5.25, 4.75, 5};
+  ASSERT_TRUE(locate(curve, 4, at, {patch, u}));
+  EXPECT_EQ(patch[0], 4U);
+  EXPECT_EQ(u[0], 0.5);
+  EXPECT_EQ(patch[1], 0U);
+  EXPECT_EQ(u[1], 0.25);
+  EXPECT_EQ(patch[2], 4U);
+  EXPECT_EQ(patch[3], 4U);
+  EXPECT_EQ(u[3], 1);
+}
+
+TEST(SplineArguments, KnotsWithinTheToleranceAreOne) {
+  Given given;
+  given.knots_u = {0, 0, 1e-12, 1, 2, 2 + 1e-12, 4 - 1e-12, 4, 4};
+  given.surface.knots_u = given.knots_u;
+  EXPECT_EQ(span_count(given.surface).u, 4U);
+  given.surface.knot_tolerance = 1e-9;
+  EXPECT_EQ(span_count(given.surface).u, 3U);
+}
+
+} // namespace
+} // namespace simdbezier::tests
