@@ -63,6 +63,11 @@ public:
   [[nodiscard]] const detail::SetStorage<T>* storage() const noexcept { return storage_.get(); }
   explicit PatchSet(std::shared_ptr<const detail::SetStorage<T>> storage) noexcept
       : storage_(std::move(storage)) {}
+  /// Likewise: gives up the arrays, of which no other set is to know (else null); empty then.
+  [[nodiscard]] std::shared_ptr<detail::SetStorage<T>> take() noexcept {
+    const bool alone = storage_.use_count() == 1;
+    return alone ? std::const_pointer_cast<detail::SetStorage<T>>(std::move(storage_)) : nullptr;
+  }
 
 private:
   std::shared_ptr<const detail::SetStorage<T>> storage_;
@@ -80,6 +85,10 @@ struct PackOptions {
   /// Positions come out relative to this point, which is subtracted from the control points in
   /// double (or wider) before anything is rounded to T. One point for all sets that share edges.
   double relative_to[3] = {0, 0, 0};
+  /// The set's memory is used again where it has room and no copy of the set knows it: for models
+  /// that move, since pages of new memory cost more than packing. The set is then empty on an error
+  /// instead of as it was, and nobody may evaluate it meanwhile.
+  bool reuse_memory = false;
   int threads = 0;          ///< as in Options
   Isa isa = Isa::automatic; ///< see resolve_isa(); results do not depend on it
 };
@@ -92,7 +101,8 @@ struct PackOptions {
 /// nets:       S = float or double, see ControlNets; the memory may be freed after the call. Many
 ///             patches of a few shapes are best given as few ControlNets: up to 8 patches of one
 ///             cost as much as one.
-/// set:        replaced on ok, left as it was otherwise. Patches are numbered consecutively
+/// set:        replaced on ok, left as it was otherwise (but see reuse_memory). Patches are
+/// numbered consecutively
 ///             through all nets.
 /// options:    see PackOptions; a relative_to that is not finite is non_finite_input. Its members
 ///             beyond the components are ignored.

@@ -86,7 +86,8 @@ PackReport pack(std::span<const ControlNets<S>> nets, PatchSet<T>& set,
   }
   auto storage = std::make_shared<detail::SetStorage<T>>();
   std::vector<detail::PackRun> runs;
-  const Status laid_out = detail::lay_out(nets, options, *storage, runs);
+  const auto used = options.reuse_memory ? set.take() : nullptr;
+  const Status laid_out = detail::lay_out(nets, options, used.get(), *storage, runs);
   if (laid_out != Status::ok) {
     return {laid_out};
   }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <new>
+#include <utility>
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
@@ -32,9 +33,20 @@ void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::siz
 #endif
 }
 
+/// The memory of a used bucket, if it has room for what is needed, but not for twice as much.
+template <typename T>
+bool take_memory(PatchStorage<T>* used, std::size_t bytes, PatchStorage<T>& storage) {
+  if (used == nullptr || used->memory_bytes < bytes || used->memory_bytes / 2 > bytes) {
+    return false;
+  }
+  storage.memory = std::move(used->memory);
+  storage.memory_bytes = std::exchange(used->memory_bytes, 0);
+  return true;
+}
+
 /// One block for all arrays of a bucket: given points behind those that start with cache lines.
 template <typename T>
-Status allocate(bool origins, PatchStorage<T>& storage) {
+Status allocate(bool origins, PatchStorage<T>* used, PatchStorage<T>& storage) {
   const NetShape& shape = storage.shape;
   const std::size_t given_bytes = shape.control_values() * storage.given.value_bytes();
   const std::size_t per_patch = storage.bytes_of_patch(origins);
@@ -44,11 +56,14 @@ Status allocate(bool origins, PatchStorage<T>& storage) {
     return Status::size_overflow;
   }
   const std::size_t bytes = count * per_patch + sizeof(T); // behind floats, doubles may need a gap
-  storage.memory.reset(::operator new (bytes, std::align_val_t{64}, std::nothrow));
-  if (storage.memory == nullptr) {
-    return Status::out_of_memory;
+  if (!take_memory(used, bytes, storage)) {
+    storage.memory.reset(::operator new (bytes, std::align_val_t{64}, std::nothrow));
+    storage.memory_bytes = bytes;
+    if (storage.memory == nullptr) {
+      return Status::out_of_memory;
+    }
+    prefer_large_pages(storage.memory.get(), bytes);
   }
-  prefer_large_pages(storage.memory.get(), bytes);
   storage.coefficients = static_cast<T*>(storage.memory.get());
   storage.edges = storage.coefficients + count * shape.coefficients();
   T* const behind_edges = storage.edges + count * shape.edges();
@@ -112,7 +127,7 @@ PackReport check_packable(std::span<const ControlNets<S>> nets) noexcept {
 
 template <typename T, typename S>
 Status lay_out(std::span<const ControlNets<S>> nets, const PackOptions& options,
-               SetStorage<T>& storage, std::vector<PackRun>& runs) {
+               SetStorage<T>* used, SetStorage<T>& storage, std::vector<PackRun>& runs) {
   for (std::size_t entry = 0; entry < nets.size(); ++entry) {
     const std::size_t count = nets[entry].count;
     if (count == 0) {
@@ -127,9 +142,10 @@ Status lay_out(std::span<const ControlNets<S>> nets, const PackOptions& options,
   if (storage.buckets.empty()) { // a set without patches has one empty bucket
     bucket_of(nets.empty() ? ControlNets<S>{} : nets.front(), options, storage);
   }
-  for (PatchStorage<T>& bucket : storage.buckets) {
-    const Status status = allocate(options.local_origin, bucket);
-    if (status != Status::ok) {
+  for (std::size_t k = 0; k < storage.buckets.size(); ++k) {
+    PatchStorage<T>* const same =
+        used == nullptr || k >= used->buckets.size() ? nullptr : &used->buckets[k];
+    if (const Status status = allocate(options.local_origin, same, storage.buckets[k]); !status) {
       return status;
     }
   }
@@ -141,13 +157,13 @@ Status lay_out(std::span<const ControlNets<S>> nets, const PackOptions& options,
 
 template PackReport check_packable(std::span<const ControlNets<float>>) noexcept;
 template PackReport check_packable(std::span<const ControlNets<double>>) noexcept;
-template Status lay_out(std::span<const ControlNets<float>>, const PackOptions&, SetStorage<float>&,
-                        std::vector<PackRun>&);
-template Status lay_out(std::span<const ControlNets<double>>, const PackOptions&,
-                        SetStorage<float>&, std::vector<PackRun>&);
-template Status lay_out(std::span<const ControlNets<float>>, const PackOptions&,
-                        SetStorage<double>&, std::vector<PackRun>&);
-template Status lay_out(std::span<const ControlNets<double>>, const PackOptions&,
-                        SetStorage<double>&, std::vector<PackRun>&);
+#define SIMDBEZIER_INSTANTIATE(T, S)                                                               \
+  template Status lay_out(std::span<const ControlNets<S>>, const PackOptions&, SetStorage<T>*,     \
+                          SetStorage<T>&, std::vector<PackRun>&);
+SIMDBEZIER_INSTANTIATE(float, float)
+SIMDBEZIER_INSTANTIATE(float, double)
+SIMDBEZIER_INSTANTIATE(double, float)
+SIMDBEZIER_INSTANTIATE(double, double)
+#undef SIMDBEZIER_INSTANTIATE
 
 } // namespace simdbezier::detail

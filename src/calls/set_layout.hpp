@@ -26,10 +26,10 @@ template <typename S>
 PackReport check_packable(std::span<const ControlNets<S>> nets) noexcept;
 
 /// Allocates a bucket for every shape and form of weights that occurs, in the order in which they
-/// do, and says which patch goes where. Returns ok | size_overflow | out_of_memory; may throw
-/// std::bad_alloc.
+/// do, and says which patch goes where. used: null, or a set whose memory may be taken. Returns ok
+/// | size_overflow | out_of_memory; may throw std::bad_alloc.
 template <typename T, typename S>
 Status lay_out(std::span<const ControlNets<S>> nets, const PackOptions& options,
-               SetStorage<T>& storage, std::vector<PackRun>& runs);
+               SetStorage<T>* used, SetStorage<T>& storage, std::vector<PackRun>& runs);
 
 } // namespace simdbezier::detail

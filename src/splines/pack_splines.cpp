@@ -135,7 +135,8 @@ SplineReport pack_list(const SplineList<S>& list, PatchSet<T>& set, const PackOp
   const std::vector<ControlNets<S>> views = views_of(list);
   auto storage = std::make_shared<SetStorage<T>>();
   std::vector<PackRun> runs;
-  if (const Status status = lay_out<T, S>(views, options, *storage, runs); !status) {
+  const auto used = options.reuse_memory ? set.take() : nullptr;
+  if (const Status status = lay_out<T, S>(views, options, used.get(), *storage, runs); !status) {
     return {status};
   }
   const SplinePacker<T, S> packer(list, views, runs, options, isa, *storage);

@@ -19,6 +19,7 @@ struct PatchStorage {
   NetShape shape;
   std::size_t count = 0;
   std::unique_ptr<void, FreeAligned> memory;
+  std::size_t memory_bytes = 0;
   T* coefficients = nullptr; ///< count * shape.coefficients(), 64-byte aligned
   T* edges = nullptr;        ///< count * shape.edges(), 64-byte aligned
   GivenPoints given;         ///< count * shape.control_values(); read where a normal degenerates

@@ -63,6 +63,42 @@ TEST(PackSets, mixed_sets_hold_what_their_parts_do) {
   }
 }
 
+TEST(PackSets, memory_is_used_again_where_nobody_else_has_it) {
+  const std::vector<double> points(48 * 40, 1.5);
+  const std::vector<double> others(48 * 40, 2.5);
+  const auto nets = [](const std::vector<double>& values, std::size_t count) {
+    return ControlNets<double>::packed(values.data(), count, 3, 3);
+  };
+  const auto x_of = [](const PatchSet<double>& set) {
+    double x[4] = {};
+    double y[4];
+    double z[4];
+    Outputs<double> out;
+    out.position = {x, y, z};
+    EXPECT_EQ(evaluate(set, Grid<double>::uniform(2, 2, {0, 1}), out), Status::ok);
+    return x[3];
+  };
+  const PackOptions again{.reuse_memory = true};
+  PatchSet<double> set;
+  ASSERT_TRUE(pack(nets(points, 40), set, again));
+  const double* const memory = set.storage()->buckets[0].coefficients;
+  ASSERT_TRUE(pack(nets(others, 39), set, again)); // it has room for them
+  EXPECT_EQ(set.storage()->buckets[0].coefficients, memory);
+  EXPECT_EQ(set.size(), 39U);
+  EXPECT_EQ(x_of(set), 2.5);
+  const PatchSet<double> copy = set;
+  ASSERT_TRUE(pack(nets(points, 39), set, again));
+  EXPECT_NE(set.storage()->buckets[0].coefficients, memory);
+  EXPECT_EQ(x_of(copy), 2.5);
+  EXPECT_EQ(x_of(set), 1.5);
+  ASSERT_TRUE(pack(nets(points, 5), set, again)); // far too much memory for five
+  EXPECT_LT(set.storage()->buckets[0].memory_bytes, 5 * 48 * 8 * 8);
+  std::vector<double> bad = points;
+  bad[48 * 4] = HUGE_VAL;
+  EXPECT_EQ(pack(nets(bad, 5), set, again).status, Status::non_finite_input);
+  EXPECT_TRUE(set.empty());
+}
+
 TEST(PackSets, sets_without_patches) {
   const RandomNets<float> nets({4, 2, 2}, 0, 1);
   PatchSet<float> set;
