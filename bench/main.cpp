@@ -87,6 +87,7 @@ int main(int argc, char** argv) {
   register_tessellate_rows();
   register_tolerance_rows();
   register_pack_rows();
+  register_spline_rows();
   register_curve_rows();
   register_peer_rows();
   register_mesh_peer_rows();

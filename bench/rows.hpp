@@ -20,6 +20,7 @@ void register_tile_rows();
 void register_scattered_rows();
 void register_net_rows();
 void register_pack_rows();
+void register_spline_rows();
 void register_mesh_peer_rows();
 void register_peer_rows();
 void register_limit_rows();

@@ -22,7 +22,7 @@ function(simdbezier_bench_peer name header)
     return()
   endif()
   set(peers_found ${peers_found} ${name} PARENT_SCOPE)
-  set_property(SOURCE peers/peer_rows.cpp peers/mesh_peer_rows.cpp APPEND PROPERTY COMPILE_DEFINITIONS
+  set_property(SOURCE peers/peer_rows.cpp peers/mesh_peer_rows.cpp spline_rows.cpp APPEND PROPERTY COMPILE_DEFINITIONS
                                                          SIMDBEZIER_BENCH_WITH_${upper})
   if(name STREQUAL "eigen")
     set(eigen_include_dir ${SIMDBEZIER_${upper}_INCLUDE_DIR} PARENT_SCOPE)
@@ -42,6 +42,8 @@ endfunction()
 simdbezier_bench_peer(eigen Eigen/Core)
 simdbezier_bench_peer(opensubdiv opensubdiv/osd/cpuEvaluator.h osdCPU)
 simdbezier_bench_peer(opencascade Geom_BezierSurface.hxx TKG3d TKMath TKernel)
+simdbezier_bench_peer(opencascade_spline GeomConvert_BSplineSurfaceToBezierSurface.hxx TKGeomBase TKG3d
+                      TKMath TKernel)
 simdbezier_bench_peer(opencascade_mesh BRepMesh_IncrementalMesh.hxx TKMesh TKTopAlgo TKBRep TKG3d TKMath
                       TKernel)
 simdbezier_bench_peer(sisl sisl.h sisl)

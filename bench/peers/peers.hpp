@@ -21,6 +21,22 @@ std::function<void()> prepare_opencascade(const GridJob<double>& job,
                                           const double* nets);                      // triples
 std::function<void()> prepare_sisl(const GridJob<double>& job, const double* nets); // triples
 
+/// A clamped bicubic NURBS surface, and where it is to be evaluated: at all pairs of some
+/// parameters.
+struct SplineJob {
+  const double* net = nullptr; ///< [row][column][wx wy wz w], points x points of them
+  std::size_t points = 0;
+  const double* knots = nullptr; ///< points + 4, the same in both directions
+  const double* at = nullptr;    ///< ascending
+  std::size_t samples = 0;       ///< parameters
+  Results<double> out;           ///< planes
+};
+
+/// Prepares the evaluation of a job.
+std::function<void()> prepare_opencascade_spline(const SplineJob& job);
+/// Prepares the conversion to Bézier surfaces.
+std::function<void()> prepare_opencascade_patches(const SplineJob& job);
+
 struct MeshCounts {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
