@@ -14,6 +14,7 @@
 #include "tests/properties/accuracy/suite/evaluators.hpp"
 #include "tests/properties/accuracy/suite/plugin_evaluator.hpp"
 #include "tests/properties/accuracy/suite/report.hpp"
+#include "tests/properties/accuracy/suite/spline_rows.hpp"
 #include "tests/support/nets/shape_families.hpp"
 
 namespace simdbezier::tests {
@@ -168,6 +169,10 @@ void run(const char* type, const Settings& settings, const std::vector<PluginPro
   const std::vector<PluginProcess> plugins = start_plugins(settings, report);
   run<float>("f32", settings, plugins, report);
   run<double>("f64", settings, plugins, report);
+#if defined(SIMDBEZIER_WITH_GMP)
+  measure_splines<float>("f32", settings.size.nets, settings.filter, report);
+  measure_splines<double>("f64", settings.size.nets, settings.filter, report);
+#endif
   if (report.rows.empty() && report.failures.empty()) {
     tools::bad_input("--filter " + settings.filter + ": nothing that was measured matches");
   }
