@@ -1,10 +1,12 @@
 #include <tools/commands/arguments.hpp>
 
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <string_view>
 
 #include <tools/mesh_files/mesh_file.hpp>
+#include <tools/process/counts.hpp>
 #include <tools/process/failure.hpp>
 
 namespace simdbezier::tools {
@@ -112,6 +114,18 @@ std::vector<std::string> inputs_of(const Arguments& arguments) {
   return inputs;
 }
 
+PatchFile read_input(const Arguments& arguments) {
+  PatchFile file = read_patches(arguments.in, arguments.format, arguments.reading);
+  if (file.ignored_trims > 0) {
+    std::fputs(("simdbezier: " +
+                quantity(file.ignored_trims, "trimmed surface was", "trimmed surfaces were") +
+                " read as a whole\n")
+                   .c_str(),
+               stderr);
+  }
+  return file;
+}
+
 std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
   const std::optional<Words> words = split_command_line(argc, argv);
   if (!words) {
@@ -129,6 +143,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
       bad_usage("--format: expected with a file, found " + in_quotes(arguments.in));
     }
   }
+  arguments.reading.ignore_trims = words->has("--ignore-trims");
   arguments.json = words->has("--json");
   if (words->command != Command::info) {
     understand_evaluation(*words, arguments);

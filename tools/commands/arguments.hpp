@@ -20,6 +20,7 @@ struct Arguments {
   Command command = Command::info;
   std::string in;
   PatchFormat format = PatchFormat::by_name;
+  ReadOptions reading;
   std::string out;
   GridSize grid;
   std::optional<std::string> samples; ///< for evaluate: a file instead of the grid
@@ -32,6 +33,9 @@ struct Arguments {
 
 /// Returns the names of the files that will be read; "-" is standard input.
 [[nodiscard]] std::vector<std::string> inputs_of(const Arguments& arguments);
+
+/// Reads the patches, and says on standard error what else than the file's own shape they are.
+[[nodiscard]] PatchFile read_input(const Arguments& arguments);
 
 /// Returns nothing where help or the version was asked for, which has then been printed.
 /// Throws Failure with exit code 2 on bad usage.

@@ -199,7 +199,7 @@ void evaluate_samples(const Arguments& arguments, const PatchFile& patches) {
 
 template <typename T>
 void evaluate(const Arguments& arguments) {
-  const PatchFile patches = read_patches(arguments.in, arguments.format);
+  const PatchFile patches = read_input(arguments);
   arguments.samples ? evaluate_samples<T>(arguments, patches)
                     : evaluate_on_grid<T>(arguments, patches);
 }

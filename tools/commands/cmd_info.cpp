@@ -32,6 +32,7 @@ struct Summary {
   std::string name;
   std::size_t patches = 0;
   std::size_t rational = 0;
+  std::size_t ignored_trims = 0;
   MeshBox box;
   std::map<Shape, std::size_t> shapes; ///< how many patches there are of each
   TopologyCounts joined;
@@ -42,6 +43,7 @@ Summary summarise(const PatchFile& file, Isa chosen) {
   Summary summary;
   summary.name = file.name;
   summary.patches = file.count;
+  summary.ignored_trims = file.ignored_trims;
   summary.chosen = chosen;
   for (const PatchRun& run : file.runs) {
     summary.shapes[{run.degree_u, run.degree_v, run.rational()}] += run.count;
@@ -89,6 +91,9 @@ std::string as_text(const Summary& summary) {
   std::string text;
   text += "patches            " + std::to_string(summary.patches) + "\n";
   text += describe(summary.shapes);
+  if (summary.ignored_trims > 0) {
+    text += "ignored trims      " + std::to_string(summary.ignored_trims) + "\n";
+  }
   text += "control point box  " + describe(summary.box.low) + " to " + describe(summary.box.high) +
           "\n";
   text += "edges              " + kinds + " (four a patch, shared ones count on each side)\n";
@@ -113,6 +118,9 @@ std::string as_json(const Summary& summary) {
     json["degrees"] = {{"u", first.degree_u}, {"v", first.degree_v}};
   }
   json["rational"] = summary.rational;
+  if (summary.ignored_trims > 0) {
+    json["ignored_trims"] = summary.ignored_trims;
+  }
   json["shapes"] = nlohmann::ordered_json::array();
   for (const auto& [shape, count] : summary.shapes) {
     json["shapes"].push_back({{"degree_u", shape.degree_u},
@@ -145,7 +153,7 @@ std::string as_json(const Summary& summary) {
 void run_info(const Arguments& arguments) {
   const Isa chosen = chosen_isa();
   refuse_input_as_output("-", inputs_of(arguments));
-  const Summary summary = summarise(read_patches(arguments.in, arguments.format), chosen);
+  const Summary summary = summarise(read_input(arguments), chosen);
   OutputFile out("-");
   out.text(arguments.json ? as_json(summary) : as_text(summary));
   out.commit();

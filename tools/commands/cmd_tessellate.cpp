@@ -110,7 +110,8 @@ void run_tessellate(const Arguments& asked) {
   PatchFile patches;
   {
     const Stopwatch watch(stats.seconds.read);
-    patches = read_patches(arguments.in, arguments.format);
+    patches = read_input(arguments);
+    stats.ignored_trims = patches.ignored_trims;
     move_to_origin(patches, arguments.mesh, stats);
   }
   arguments.precision == Precision::f32 ? tessellate<float>(arguments, std::move(patches), stats)

@@ -44,6 +44,9 @@ double samples_per_second(const MeshStats& stats) {
 std::string stats_as_text(const MeshStats& stats) {
   std::string text;
   text += "patches            " + std::to_string(stats.patches) + "\n";
+  if (stats.ignored_trims > 0) {
+    text += "ignored trims      " + std::to_string(stats.ignored_trims) + "\n";
+  }
   text += "vertices           " + std::to_string(stats.vertices) + "\n";
   text += "triangles          " + std::to_string(stats.triangles) + "\n";
   text += "deviation          " + rounded(stats.deviation) + " at most, certified";
@@ -74,6 +77,9 @@ std::string stats_as_json(const MeshStats& stats) {
   // It is made as an object, because null that becomes one leaks where memory runs out.
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   json["patches"] = stats.patches;
+  if (stats.ignored_trims > 0) {
+    json["ignored_trims"] = stats.ignored_trims;
+  }
   json["vertices"] = stats.vertices;
   json["triangles"] = stats.triangles;
   json["deviation"] = stats.deviation;

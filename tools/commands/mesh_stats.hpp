@@ -24,6 +24,7 @@ struct StageSeconds {
 
 struct MeshStats {
   std::size_t patches = 0;
+  std::size_t ignored_trims = 0; ///< surfaces that were read as a whole, of which a part counts
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;                 ///< quads count as two
   double deviation = 0;                        ///< certified, as the file states it

@@ -104,6 +104,7 @@ Entries make_entries() {
       {"-o", "OUT", "a name that ends in .csv, or - for standard output",
        "Output, required; may be a device or pipe", " evaluate "},
       {"--format", "NAME", patch_format_names(""), "Format of IN, otherwise told by its name", all},
+      {"--ignore-trims", "", "", "Reads surfaces as a whole of which curves cut out a part", all},
       {"--grid", "N|NUxNV", sides,
        "Samples of every patch (default 16); at most 4097 a direction in one mesh without gaps",
        " tessellate "},

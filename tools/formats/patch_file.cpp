@@ -20,7 +20,7 @@ namespace {
 struct Format {
   std::string_view name;
   PatchFormat format;
-  PatchFile (*read)(TextInput&);
+  PatchFile (*read)(TextInput&, const ReadOptions&);
 };
 #define SIMDBEZIER_PATCH_FORMAT_ROW(NAME) {#NAME, PatchFormat::NAME, read_##NAME},
 constexpr Format kFormats[] = {SIMDBEZIER_EACH_PATCH_FORMAT(SIMDBEZIER_PATCH_FORMAT_ROW)};
@@ -86,16 +86,16 @@ void PatchFile::check_quotients() const {
   }
 }
 
-void PatchFile::close_patch(int degree_u, int degree_v, Weights weights) {
+void PatchFile::close_patch(int degree_u, int degree_v, Weights weights, bool pads) {
   const auto columns = static_cast<std::size_t>(degree_u) + 1;
   const auto rows = static_cast<std::size_t>(degree_v) + 1;
-  close_mesh(degree_u, degree_v, weights, {columns, columns, 1}, {rows, rows, 1});
+  close_mesh(degree_u, degree_v, weights, {columns, columns, 1}, {rows, rows, 1}, pads);
 }
 
 void PatchFile::close_mesh(int degree_u, int degree_v, Weights weights, const MeshDirection& u,
-                           const MeshDirection& v) {
+                           const MeshDirection& v, bool pads) {
   PatchRun run{degree_u, degree_v, weights};
-  run.stride = run.values_per_point();
+  run.stride = pads ? 4 : run.values_per_point();
   run.first_value = points.size() - u.points * v.points * run.stride;
   run.first_point = lines.empty() ? 0 : lines.size() - u.points * v.points;
   run.u = u;
@@ -271,7 +271,7 @@ PatchFormat parse_patch_format(const std::string& option, const std::string& nam
   return format->format;
 }
 
-PatchFile read_patches(const std::string& in, PatchFormat format) {
+PatchFile read_patches(const std::string& in, PatchFormat format, const ReadOptions& options) {
   if (in.starts_with("builtin:")) {
     return read_builtin(in);
   }
@@ -283,7 +283,7 @@ PatchFile read_patches(const std::string& in, PatchFormat format) {
   const PatchFormat found = format == PatchFormat::by_name ? format_of(in) : format;
   Progress progress("reading", "bytes", input.stored_size());
   input.show(progress);
-  return std::ranges::find(kFormats, found, &Format::format)->read(input);
+  return std::ranges::find(kFormats, found, &Format::format)->read(input, options);
 }
 
 } // namespace simdbezier::tools

@@ -76,9 +76,10 @@ struct PatchFile {
   LargeVector<std::uint32_t>
       lines; ///< of every point's first coordinate; empty where there is no file
   std::vector<std::uint32_t> vertices; ///< where meshes name their points: numbers of points
-  double moved_error = 0; ///< how far points may be from where they were moved to
-  double cut_error = 0;   ///< how far those of splines may be from their surfaces besides
+  double moved_error = 0;              ///< how far points may be from where they were moved to
+  double cut_error = 0; ///< how far those of splines may be from their surfaces besides
   std::vector<SplineRecord> splines; ///< those whose patches are among these
+  std::size_t ignored_trims = 0; ///< surfaces that are here as a whole, and of which a part counts
 
   /// Makes room for what an input of so many bytes usually has. Memory that turns out not to be
   /// needed is never touched.
@@ -88,10 +89,11 @@ struct PatchFile {
   /// … and, where that is homogeneous, whether it can be divided by its weight, …
   void check_quotients() const;
   /// … and close a patch after its last point, …
-  void close_patch(int degree_u, int degree_v, Weights weights);
-  /// … or a mesh, of all the points that have been appended for it, …
+  void close_patch(int degree_u, int degree_v, Weights weights, bool pads = false);
+  /// … or a mesh, of all the points that have been appended for it, which have four values each
+  /// where the file's other points have them (FileSpline::pads), …
   void close_mesh(int degree_u, int degree_v, Weights weights, const MeshDirection& u,
-                  const MeshDirection& v);
+                  const MeshDirection& v, bool pads = false);
   /// … or one of the u.points * v.points points that `vertices` ends with. Then all points have
   /// four values, of which the last one counts only if there are weights.
   void close_indexed_mesh(int degree_u, int degree_v, Weights weights, const MeshDirection& u,
@@ -143,7 +145,7 @@ private:
   X(bv)  /* BezierView: kinds 4 and 5, and 8 with homogeneous weights */                           \
   X(itd) /* IRIT: SURFACE BEZIER of point types E3, and P3 with homogeneous weights */             \
   X(obj) /* Wavefront: cstype bezier, and rat bezier with Cartesian weights */                     \
-  X(rib) /* RenderMan: Patch and PatchMesh with "P", or "Pw" with homogeneous weights */
+  X(rib) /* RenderMan: Patch, PatchMesh and NuPatch, with "P" or homogeneous "Pw" */
 // clang-format on
 
 #define SIMDBEZIER_DECLARE_PATCH_FORMAT(NAME) NAME,
@@ -153,7 +155,13 @@ enum class PatchFormat : std::uint8_t {
 };
 #undef SIMDBEZIER_DECLARE_PATCH_FORMAT
 
-#define SIMDBEZIER_DECLARE_PATCH_READER(NAME) [[nodiscard]] PatchFile read_##NAME(TextInput& input);
+/// What may be asked of readers.
+struct ReadOptions {
+  bool ignore_trims = false; ///< read surfaces as a whole of which the file shows a part
+};
+
+#define SIMDBEZIER_DECLARE_PATCH_READER(NAME)                                                      \
+  [[nodiscard]] PatchFile read_##NAME(TextInput& input, const ReadOptions& options);
 SIMDBEZIER_EACH_PATCH_FORMAT(SIMDBEZIER_DECLARE_PATCH_READER)
 #undef SIMDBEZIER_DECLARE_PATCH_READER
 
@@ -165,6 +173,7 @@ SIMDBEZIER_EACH_PATCH_FORMAT(SIMDBEZIER_DECLARE_PATCH_READER)
 
 /// Reads "builtin:teapot", a file, or standard input ("-", which needs a format).
 /// Throws Failure: exit code 2 where the name or format is not one of ours, otherwise 1.
-[[nodiscard]] PatchFile read_patches(const std::string& in, PatchFormat format);
+[[nodiscard]] PatchFile read_patches(const std::string& in, PatchFormat format,
+                                     const ReadOptions& options = {});
 
 } // namespace simdbezier::tools

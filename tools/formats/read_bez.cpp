@@ -4,7 +4,7 @@
 
 namespace simdbezier::tools {
 
-PatchFile read_bez(TextInput& input) {
+PatchFile read_bez(TextInput& input, const ReadOptions& /*options*/) {
   CountedPatches patches(input, " of 48 coordinates");
   while (patches.more()) {
     patches.patch(3, 3);

@@ -4,7 +4,7 @@
 
 namespace simdbezier::tools {
 
-PatchFile read_bpt(TextInput& input) {
+PatchFile read_bpt(TextInput& input, const ReadOptions& /*options*/) {
   CountedPatches patches(input, "");
   while (patches.more()) {
     const int degree_v = patches.degree("across the rows");

@@ -91,6 +91,8 @@ private:
 
 } // namespace
 
-PatchFile read_bv(TextInput& input) { return BvReader(input).read(); }
+PatchFile read_bv(TextInput& input, const ReadOptions& /*options*/) {
+  return BvReader(input).read();
+}
 
 } // namespace simdbezier::tools

@@ -153,6 +153,8 @@ private:
 
 } // namespace
 
-PatchFile read_itd(TextInput& input) { return ItdReader(input).read(); }
+PatchFile read_itd(TextInput& input, const ReadOptions& /*options*/) {
+  return ItdReader(input).read();
+}
 
 } // namespace simdbezier::tools

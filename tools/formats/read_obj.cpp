@@ -285,6 +285,8 @@ private:
 
 } // namespace
 
-PatchFile read_obj(TextInput& input) { return ObjReader(input).read(); }
+PatchFile read_obj(TextInput& input, const ReadOptions& /*options*/) {
+  return ObjReader(input).read();
+}
 
 } // namespace simdbezier::tools

@@ -1,44 +1,47 @@
-// RenderMan .rib: Patch and PatchMesh, "bilinear" or "bicubic" in the bezier basis, with points
-// "P" (x y z) or "Pw" (wx wy wz w), u fastest. Points are taken as they stand: a patch that a
-// transformation moves is refused, and requests that concern no shape are passed over.
-#include <tools/formats/lexer.hpp>
+// RenderMan .rib: Patch and PatchMesh, "bilinear" or "bicubic" in any basis, and NuPatch, with
+// points "P" (x y z) or "Pw" (wx wy wz w), u fastest, where transformations and instances of
+// objects put them in the space of the world. Requests that concern no shape are passed over.
 #include <tools/formats/patch_file.hpp>
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include <tools/formats/rib_requests.hpp>
 #include <tools/formats/rib_scopes.hpp>
+#include <tools/formats/rib_surfaces.hpp>
 #include <tools/process/failure.hpp>
 
 namespace simdbezier::tools {
 
 namespace {
 
-constexpr double kBezierBasis[16] = {-1, 3, -3, 1, 3, -6, 3, 0, -3, 3, 0, 0, 1, 0, 0, 0};
-
-constexpr const char* kPoints = "\"P\" or \"Pw\" of the patch";
-constexpr std::string_view kSpace = " \t\n\r\f\v";
-
-// Counts beyond this are no counts of points in a file.
-constexpr std::size_t kMostPoints = std::size_t{1} << 31;
+// Instances may show so many points, and as many times those of the file. They take memory, and
+// few characters could ask for any number of them.
+constexpr std::size_t kInstancePoints = std::size_t{1} << 22;
+constexpr std::size_t kTimesInstanced = 4096;
 
 class RibReader {
 public:
-  explicit RibReader(TextInput& input)
-      : lexer_(input, {.comments = true, .brackets = true, .strings = true}) {
+  RibReader(TextInput& input, const ReadOptions& options)
+      : tokens_(input), scopes_(tokens_), surfaces_(tokens_, file_, options.ignore_trims) {
     file_.name = input.name();
   }
 
   PatchFile read() {
-    lexer_.next();
-    while (!lexer_.at(TokenKind::end)) {
-      lexer_.at(TokenKind::word) ? request() : parameter();
+    tokens_.next();
+    while (!tokens_.at(TokenKind::end)) {
+      tokens_.at(TokenKind::word) ? request() : parameter();
+    }
+    if (scopes_.is_in_object()) {
+      tokens_.fail("ObjectEnd");
     }
     if (file_.count == 0) {
-      lexer_.fail("a Patch or PatchMesh");
+      tokens_.fail("a patch (Patch, PatchMesh or NuPatch)");
     }
     return std::move(file_);
   }
@@ -46,262 +49,202 @@ public:
 private:
   /// Reads a request, from its name to the first token behind it.
   void request() {
-    if (lexer_.at_word("Patch")) {
-      patch();
-    } else if (lexer_.at_word("PatchMesh")) {
-      patch_mesh();
-    } else if (lexer_.at_word("Basis")) {
+    const std::string name(tokens_.text());
+    if (RibSurfaces::reads(name)) {
+      return surface();
+    }
+    const auto* const known =
+        std::ranges::find(kRibTransformations, name, &RibTransformation::name);
+    if (known != std::end(kRibTransformations)) {
+      return transformation(*known);
+    }
+    if (name == "Basis") {
       basis();
-    } else if (const auto* const known =
-                   std::ranges::find(kRibTransformations, lexer_.text(), &RibTransformation::name);
-               known != std::end(kRibTransformations)) {
-      transformation(*known);
+    } else if (name == "TrimCurve") {
+      const RibTrim trim = read_rib_trim(tokens_);
+      scopes_.state().trim = trim.line > 0 ? std::make_shared<const RibTrim>(trim) : nullptr;
+    } else if (name == "ObjectInstance") {
+      instance();
+    } else if (is_listed(name, kRibNamesBehind)) {
+      named(name);
     } else {
-      other_request();
-      lexer_.next();
+      other_request(name);
+    }
+    tokens_.next();
+  }
+
+  void surface() {
+    scopes_.require_known("patch");
+    const RibShape shape = surfaces_.read(scopes_.state());
+    points_read_ += shape.points();
+    add(shape);
+  }
+
+  /// Puts a shape where it belongs.
+  void add(const RibShape& shape) {
+    if (scopes_.is_in_object()) {
+      object_.take(file_, shape);
+    } else {
+      close_rib_shape(file_, shape);
     }
   }
 
-  /// Reads a transformation, which replaces those before it (Identity, Transform) or joins them.
+  /// Reads a transformation, which replaces those before it (Identity, Transform) or is applied in
+  /// front of them.
   void transformation(const RibTransformation& known) {
-    const std::size_t line = lexer_.line();
+    const std::size_t line = tokens_.line();
     std::vector<double> numbers;
-    if (lexer_.next().at(TokenKind::open)) {
-      pass_over_array(&numbers);
-      lexer_.next();
+    if (tokens_.next().at(TokenKind::open)) {
+      tokens_.pass_over_array(&numbers);
+      tokens_.next();
     } else {
-      for (; at_number() && numbers.size() < known.numbers; lexer_.next()) {
-        numbers.push_back(lexer_.number());
+      for (; tokens_.at_number() && numbers.size() < known.numbers; tokens_.next()) {
+        numbers.push_back(tokens_.number());
       }
     }
     if (numbers.size() != known.numbers) {
-      bad_input_at(lexer_.name(), line,
-                   std::to_string(known.numbers) + " numbers behind " + std::string(known.name),
+      bad_input_at(tokens_.name(), line,
+                   quantity(known.numbers, "number", "numbers") + " behind " +
+                       std::string(known.name),
                    std::to_string(numbers.size()));
     }
-    scopes_.transform(known, numbers, line);
+    std::array<double, 16> values = {};
+    std::ranges::copy(numbers, values.begin());
+    const std::optional<AffineMap> map = known.map(values);
+    if (known.replaces) {
+      scopes_.replace(map.value_or(AffineMap()));
+    } else if (map) {
+      scopes_.concatenate(*map, line);
+    }
+    if (!map) {
+      scopes_.concatenate_unknown(known.name, line);
+    }
+  }
+
+  /// Reads a request whose effect depends on the name behind it, which is a string or a number.
+  void named(const std::string& request) {
+    if (request == "ObjectBegin") {
+      scopes_.begin(request);
+    }
+    tokens_.next();
+    if (!tokens_.at(TokenKind::string) && !tokens_.at_number()) {
+      tokens_.fail("a name behind " + request);
+    }
+    const std::string name(tokens_.text());
+    if (request == "ObjectBegin") {
+      object_name_ = name;
+      object_ = {};
+    } else if (request == "Orientation") {
+      scopes_.orient(name);
+    } else if (request == "Attribute") {
+      scopes_.state().keeps_what_trims_enclose &= name != "trimcurve";
+    } else if (request == "CoordinateSystem") {
+      scopes_.mark(name);
+    } else if (request == "ScopedCoordinateSystem") {
+      scopes_.unmark(name); // it could be that of another scope
+    } else if (!scopes_.return_to(name)) {
+      scopes_.concatenate_unknown(request, tokens_.line());
+    }
+  }
+
+  void instance() {
+    tokens_.next();
+    const auto found = objects_.find(std::string(tokens_.text()));
+    if ((!tokens_.at(TokenKind::string) && !tokens_.at_number()) || found == objects_.end()) {
+      tokens_.fail("an object (ObjectBegin) that ended before");
+    }
+    scopes_.require_known("object");
+    const RibState& state = scopes_.state();
+    const std::size_t most = kInstancePoints + kTimesInstanced * points_read_;
+    points_shown_ += found->second.points();
+    if (points_shown_ > most) {
+      tokens_.fail("instances of at most " + std::to_string(most) + " points", "more");
+    }
+    found->second.show(file_, state.map, state.is_inside,
+                       [&](const RibShape& shape) { add(shape); });
+  }
+
+  void other_request(const std::string& name) {
+    if (is_listed(name, kRibOtherGeometry)) {
+      tokens_.fail("a Patch, PatchMesh or NuPatch");
+    }
+    if (is_listed(name, kRibScopeBegins)) {
+      begin_scope(name);
+    } else if (is_listed(name, kRibScopeEnds)) {
+      end_scope(name);
+    } else if (is_listed(name, kRibUnknownTransformations)) {
+      scopes_.concatenate_unknown(name, tokens_.line());
+    } else if (name == "ReverseOrientation") {
+      scopes_.state().is_inside = !scopes_.state().is_inside;
+    } else if (!is_listed(name, kRibPassedOver) && !tokens_.at_number()) {
+      tokens_.fail("a request of .rib files");
+    }
   }
 
   /// Opens a scope. Another frame is another picture, which would show all of its patches once
   /// more.
-  void begin_scope(std::string_view name) {
+  void begin_scope(const std::string& name) {
     if (file_.count > 0 && (name == "FrameBegin" || name == "WorldBegin")) {
-      lexer_.fail("patches in one frame or world only");
+      tokens_.fail("patches in one frame or world only");
     }
     scopes_.begin(name);
   }
 
-  /// Passes over anything but a patch or a basis. Its numbers come here one by one, as words do.
-  void other_request() {
-    const std::string_view name = lexer_.text();
-    if (is_listed(name, kRibOtherGeometry)) {
-      lexer_.fail("a Patch or PatchMesh");
-    } else if (is_listed(name, kRibScopeBegins)) {
-      begin_scope(name);
-    } else if (is_listed(name, kRibScopeEnds)) {
-      scopes_.end(name);
-    } else if (is_listed(name, kRibUnknownTransformations)) {
-      scopes_.move(name, lexer_.line());
-    } else if (!is_listed(name, kRibPassedOver) && !parse_finite(name)) {
-      lexer_.fail("a request of .rib files");
+  void end_scope(const std::string& name) {
+    scopes_.end(name);
+    if (name == "ObjectEnd") {
+      objects_[object_name_] = std::exchange(object_, {});
     }
   }
 
-  /// Passes over a string or an array behind such a request.
+  /// Passes over a string or an array behind a request that is passed over. Numbers come one by
+  /// one, as words do.
   void parameter() {
-    if (lexer_.at(TokenKind::close)) {
-      lexer_.fail("a request of .rib files");
+    if (tokens_.at(TokenKind::close)) {
+      tokens_.fail("a request of .rib files");
     }
-    if (lexer_.at(TokenKind::open)) {
-      pass_over_array();
+    if (tokens_.at(TokenKind::open)) {
+      tokens_.pass_over_array();
     }
-    lexer_.next();
-  }
-
-  [[nodiscard]] bool at_number() const {
-    return lexer_.at(TokenKind::word) && parse_finite(lexer_.text());
-  }
-
-  /// Passes over an array, from its opening to its closing bracket. Anything but numbers and
-  /// strings means that the latter is missing, and what follows could be geometry. Hands over the
-  /// numbers where they are wanted.
-  void pass_over_array(std::vector<double>* numbers = nullptr) {
-    const std::string expected = "']' for the array in line " + std::to_string(lexer_.line());
-    while (!lexer_.next().at(TokenKind::close)) {
-      if (!lexer_.at(TokenKind::string) && !at_number()) {
-        lexer_.fail(expected);
-      }
-      if (numbers != nullptr && lexer_.at(TokenKind::word)) {
-        numbers->push_back(lexer_.number());
-      }
-    }
+    tokens_.next();
   }
 
   void basis() {
-    for (RibScopes::Basis* const basis : {&scopes_.bases().u, &scopes_.bases().v}) {
-      lexer_.next();
-      if (lexer_.at(TokenKind::open)) {
-        basis->name = basis_of_matrix();
-      } else if (lexer_.at(TokenKind::string)) {
-        basis->name = lexer_.text();
-      } else {
-        lexer_.fail("a basis");
-      }
-      basis->step = next_count("the step of a basis", 1);
-    }
-    lexer_.next();
-  }
-
-  std::size_t next_count(const std::string& what, std::size_t least) {
-    const std::string range = std::to_string(least) + " to " + std::to_string(kMostPoints);
-    return lexer_.next().integer(what + " (" + range + ")", least, kMostPoints);
-  }
-
-  std::string basis_of_matrix() {
-    bool bezier = true;
-    for (const double value : kBezierBasis) {
-      bezier = lexer_.next().number() == value && bezier;
-    }
-    expect_close("16 numbers of a basis");
-    return bezier ? "bezier" : "a matrix";
-  }
-
-  void patch() {
-    const int degree = patch_type();
-    const auto order = static_cast<std::size_t>(degree) + 1;
-    add(degree, {order, order, 1}, {order, order, 1});
-  }
-
-  void patch_mesh() {
-    const int degree = patch_type();
-    const MeshDirection u = direction(degree, scopes_.bases().u, "u");
-    const MeshDirection v = direction(degree, scopes_.bases().v, "v");
-    add(degree, u, v);
-  }
-
-  /// Reads the degree. Bicubic patches in another basis are refused.
-  int patch_type() {
-    const std::size_t line = lexer_.line();
-    if (const RibScopes::Mover& mover = scopes_.mover(); mover.line > 0) {
-      bad_input_at(lexer_.name(), mover.line,
-                   "no transformation of the patch in line " + std::to_string(line),
-                   in_quotes(mover.name));
-    }
-    lexer_.next();
-    const bool bicubic = lexer_.text() == "bicubic";
-    if (!lexer_.at(TokenKind::string) || !(bicubic || lexer_.text() == "bilinear")) {
-      lexer_.fail("\"bicubic\" or \"bilinear\"");
-    }
-    for (const RibScopes::Basis* const basis : {&scopes_.bases().u, &scopes_.bases().v}) {
-      if (bicubic && basis->name != "bezier") {
-        bad_input_at(lexer_.name(), line, "a patch in the bezier basis",
-                     "one in " + in_quotes(basis->name));
-      }
-    }
-    return bicubic ? 3 : 1;
-  }
-
-  MeshDirection direction(int degree, const RibScopes::Basis& basis, const std::string& name) {
-    const std::size_t step = degree == 3 ? basis.step : 1;
-    const auto order = static_cast<std::size_t>(degree) + 1;
-    const std::size_t points = next_count("the number of points in " + name, 2);
-    const std::string found = std::to_string(points);
-    const std::size_t line = lexer_.line();
-    lexer_.next();
-    const bool periodic = lexer_.text() == "periodic";
-    if (!lexer_.at(TokenKind::string) || !(periodic || lexer_.text() == "nonperiodic")) {
-      lexer_.fail("\"periodic\" or \"nonperiodic\"");
-    }
-    const std::string each = std::to_string(step);
-    if (periodic ? points % step != 0 : points < order || (points - order) % step != 0) {
-      bad_input_at(lexer_.name(), line,
-                   periodic ? "a multiple of " + each + " points in periodic " + name
-                            : std::to_string(order) + " points in " + name + " and " + each +
-                                  " more a patch",
-                   found);
-    }
-    return {points, step, periodic ? points / step : (points - order) / step + 1};
-  }
-
-  /// Reads the parameter list and adds the patches. What follows a list has to be a request:
-  /// anything else belongs to a list that is not as it should be.
-  void add(int degree, const MeshDirection& u, const MeshDirection& v) {
-    std::optional<Weights> weights;
-    for (lexer_.next(); lexer_.at(TokenKind::string); lexer_.next()) {
-      const std::string name = parameter_name();
-      if (name == "P" || name == "Pw" || name == "Pz") {
-        if (weights || name == "Pz") {
-          lexer_.fail(weights ? "one of \"P\" and \"Pw\"" : kPoints);
+    for (RibBasis* const basis : {&scopes_.state().bases.u, &scopes_.state().bases.v}) {
+      std::optional<RibMatrix> matrix;
+      std::string name;
+      tokens_.next();
+      if (tokens_.at(TokenKind::open)) {
+        matrix.emplace();
+        for (double& number : *matrix) {
+          number = tokens_.next().number();
         }
-        weights = name == "Pw" ? Weights::homogeneous : Weights::none;
-        read_points(Count(u.points) * v.points, *weights);
+        tokens_.expect_close("16 numbers of a basis");
+      } else if (tokens_.at(TokenKind::string)) {
+        name = tokens_.text();
       } else {
-        pass_over_value(name);
+        tokens_.fail("a basis");
       }
-    }
-    if (!weights) {
-      lexer_.fail(kPoints);
-    }
-    if (!lexer_.at(TokenKind::end) && (!lexer_.at(TokenKind::word) || at_number())) {
-      lexer_.fail("a parameter's name or a request behind the patch");
-    }
-    file_.close_mesh(degree, degree, *weights, u, v);
-  }
-
-  /// Declarations may stand in front of the name: "vertex point P".
-  [[nodiscard]] std::string parameter_name() const {
-    const std::string_view text = lexer_.text();
-    const std::size_t end = text.find_last_not_of(kSpace) + 1;
-    return std::string(text.substr(0, end).substr(text.substr(0, end).find_last_of(kSpace) + 1));
-  }
-
-  /// Reads a number, a string, or an array of them, behind a parameter's name.
-  void pass_over_value(const std::string& name) {
-    if (lexer_.next().at(TokenKind::open)) {
-      pass_over_array();
-    } else if (!lexer_.at(TokenKind::string) && !at_number()) {
-      lexer_.fail("a value of the parameter " + in_quotes(name));
+      const std::size_t step = tokens_.next_count("the step of a basis", 1);
+      *basis = matrix ? rib_basis(*matrix, step) : rib_basis(name, step);
     }
   }
 
-  void read_points(Count count, Weights weights) {
-    const std::size_t values = weights == Weights::none ? 3 : 4;
-    const std::size_t all = lexer_.counted(count * values, "coordinates");
-    const std::string what =
-        std::to_string(all / values) + " points of " + std::to_string(values) + " numbers";
-    if (!lexer_.next().at(TokenKind::open)) {
-      lexer_.fail("'[' and " + std::to_string(all / values) + " points");
-    }
-    for (std::size_t k = 0; k < all; ++k) {
-      lexer_.next();
-      if (lexer_.at(TokenKind::close) || lexer_.at(TokenKind::end)) {
-        lexer_.fail(what, lexer_.described() + " after " + quantity(k, "number", "numbers"));
-      }
-      if (k % values == 0) {
-        file_.add_line(lexer_.line());
-      }
-      const bool is_weight = k % values == 3;
-      file_.points.push_back(is_weight ? lexer_.weight() : lexer_.number());
-      if (is_weight) {
-        file_.check_quotients();
-      }
-    }
-    expect_close(what);
-  }
-
-  void expect_close(const std::string& what) {
-    if (!lexer_.next().at(TokenKind::close)) {
-      lexer_.fail("']' after " + what);
-    }
-  }
-
-  Lexer lexer_;
+  RibTokens tokens_;
   PatchFile file_;
   RibScopes scopes_;
+  RibSurfaces surfaces_;
+  std::map<std::string, RibObject> objects_; // by their names or numbers
+  RibObject object_;                         // the one that is being read
+  std::string object_name_;
+  std::size_t points_read_ = 0;
+  std::size_t points_shown_ = 0; // by instances
 };
 
 } // namespace
 
-PatchFile read_rib(TextInput& input) { return RibReader(input).read(); }
+PatchFile read_rib(TextInput& input, const ReadOptions& options) {
+  return RibReader(input, options).read();
+}
 
 } // namespace simdbezier::tools

@@ -5,58 +5,87 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
+
+#include <tools/formats/affine_map.hpp>
 
 namespace simdbezier::tools {
 
-/// These requests are geometry that is no Bézier patch, or decide where, when or whether geometry
-/// appears.
+/// These requests are geometry that is no Bézier patch and no spline, or decide where, when or
+/// whether geometry appears.
 inline constexpr std::string_view kRibOtherGeometry =
-    " Blobby Cone Curves Cylinder Disk Else ElseIf GeneralPolygon Geometry "
-    "HierarchicalSubdivisionMesh Hyperboloid IfBegin MotionBegin NuPatch ObjectInstance Paraboloid "
-    "Points PointsGeneralPolygons PointsPolygons Polygon Procedural Procedural2 ReadArchive Sphere "
-    "SubdivisionMesh Torus TrimCurve Volume ";
+    " ArchiveBegin Blobby Cone Curves Cylinder Disk Else ElseIf GeneralPolygon Geometry "
+    "HierarchicalSubdivisionMesh Hyperboloid IfBegin MotionBegin Paraboloid Points "
+    "PointsGeneralPolygons PointsPolygons Polygon Procedural Procedural2 ReadArchive Sphere "
+    "SubdivisionMesh Torus Volume ";
 
-/// These requests change where patches are, with how many numbers; those of others are unknown.
+using RibNumbers = std::array<double, 16>;
+
+/// Returns nothing where the fourth column of the matrix is no 0 0 0 1: straight lines that are
+/// parallel would not stay so.
+[[nodiscard]] inline std::optional<AffineMap> rib_matrix_map(const RibNumbers& m) {
+  if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1) {
+    return std::nullopt;
+  }
+  return AffineMap(
+      {{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}}});
+}
+
+/// These requests change where patches are, with so many numbers.
 struct RibTransformation {
   std::string_view name;
   std::size_t numbers;
-  std::array<double, 16> identity; ///< the numbers with which nothing changes
-  std::size_t compared;            ///< how many of them decide that
+  bool replaces; ///< those before it
+  std::optional<AffineMap> (*map)(const RibNumbers&);
 };
-inline constexpr std::array<double, 16> kRibIdentity = {1, 0, 0, 0, 0, 1, 0, 0,
-                                                        0, 0, 1, 0, 0, 0, 0, 1};
 inline constexpr RibTransformation kRibTransformations[] = {
-    {"Transform", 16, kRibIdentity, 16},
-    {"ConcatTransform", 16, kRibIdentity, 16},
-    {"Translate", 3, {}, 3},
-    {"Rotate", 4, {}, 1},
-    {"Scale", 3, {1, 1, 1}, 3},
-    {"Skew", 7, {}, 1},
-    {"Identity", 0, {}, 0}};
-inline constexpr std::string_view kRibUnknownTransformations =
-    " CoordSysTransform Deformation Perspective ";
+    {"Transform", 16, true, rib_matrix_map},
+    {"ConcatTransform", 16, false, rib_matrix_map},
+    {"Translate", 3, false,
+     [](const RibNumbers& n) {
+       return std::optional(AffineMap::translation({n[0], n[1], n[2]}));
+     }},
+    {"Rotate", 4, false,
+     [](const RibNumbers& n) {
+       return AffineMap::rotation(n[0], {n[1], n[2], n[3]});
+     }},
+    {"Scale", 3, false,
+     [](const RibNumbers& n) {
+       return std::optional(AffineMap::scaling({n[0], n[1], n[2]}));
+     }},
+    {"Skew", 7, false,
+     [](const RibNumbers& n) {
+       return AffineMap::skew(n[0], {n[1], n[2], n[3]}, {n[4], n[5], n[6]});
+     }},
+    {"Identity", 0, true, [](const RibNumbers&) { return std::optional(AffineMap()); }}};
+inline constexpr std::string_view kRibUnknownTransformations = " Deformation Perspective ";
 
-/// These requests open and close a scope of the bases and of the transformations; TransformBegin
-/// and TransformEnd one of the transformations alone.
+/// What the name behind these requests says is not passed over.
+inline constexpr std::string_view kRibNamesBehind =
+    " Attribute CoordinateSystem CoordSysTransform ObjectBegin Orientation "
+    "ScopedCoordinateSystem ";
+
+/// These requests, and ObjectBegin, open and close a scope of the bases, transformations and so on;
+/// TransformBegin and TransformEnd one of the transformations alone.
 inline constexpr std::string_view kRibScopeBegins =
-    " AttributeBegin FrameBegin ObjectBegin SolidBegin TransformBegin WorldBegin ";
+    " AttributeBegin FrameBegin SolidBegin TransformBegin WorldBegin ";
 inline constexpr std::string_view kRibScopeEnds =
     " AttributeEnd FrameEnd ObjectEnd SolidEnd TransformEnd WorldEnd ";
 
 /// These requests change neither the shape of a patch nor its place.
 inline constexpr std::string_view kRibPassedOver =
-    " ArchiveBegin ArchiveEnd ArchiveRecord AreaLightSource Atmosphere Attribute Bound Bxdf Camera "
-    "Clipping ClippingPlane Color ColorSamples CoordinateSystem "
+    " ArchiveEnd ArchiveRecord AreaLightSource Atmosphere Bound Bxdf Camera "
+    "Clipping ClippingPlane Color ColorSamples "
     "CropWindow Declare DepthOfField Detail DetailRange Displace Displacement Display "
     "DisplayChannel DisplayFilter EditAttributeBegin EditAttributeEnd EditBegin EditEnd "
     "EnableLightFilter ErrorHandler Exposure Exterior Format FrameAspectRatio "
     "GeometricApproximation GeometricRepresentation Hider Illuminate Imager Integrator "
     "Interior Light LightFilter LightSource MakeBrickMap MakeBump MakeCubeFaceEnvironment "
-    "MakeLatLongEnvironment MakeShadow MakeTexture Matte MotionEnd Opacity Option Orientation "
+    "MakeLatLongEnvironment MakeShadow MakeTexture Matte MotionEnd Opacity Option "
     "Pattern PixelFilter PixelSamples PixelSampleImager PixelVariance Projection "
-    "Quantize RelativeDetail Resource ResourceBegin ResourceEnd ReverseOrientation "
-    "SampleFilter ScopedCoordinateSystem ScreenWindow Shader ShadingInterpolation "
+    "Quantize RelativeDetail Resource ResourceBegin ResourceEnd "
+    "SampleFilter ScreenWindow Shader ShadingInterpolation "
     "ShadingRate Shutter Sides Surface System TextureCoordinates "
     "VPAtmosphere VPInterior VPSurface version ";
 

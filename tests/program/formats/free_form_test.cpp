@@ -115,13 +115,79 @@ TEST_P(PatchMeshTest, IsCutIntoItsPatches) {
 INSTANTIATE_TEST_SUITE_P(All, PatchMeshTest, ::testing::ValuesIn(meshes()),
                          [](const auto& test) { return std::string(test.param.name); });
 
+// Bézier points are those of the file, others are not.
 TEST(Rib, BasisEndsWithItsScope) {
   const std::string patch = "Patch \"bicubic\" \"P\" [" + numbered(16, "", " ") + "]\n";
-  const std::string other = "Basis \"b-spline\" 1 \"b-spline\" 1\n";
-  EXPECT_EQ(read_text("rib", "AttributeBegin\n" + other + "AttributeEnd\n" + patch).count, 1U);
-  EXPECT_EQ(read_text("rib", other + "Basis \"bezier\" 3 \"bezier\" 3\n" + patch).count, 1U);
-  EXPECT_NE(refusal("rib", "AttributeBegin\n" + other + "AttributeBegin\n" + patch), "");
-  EXPECT_NE(refusal("rib", other + "AttributeBegin\nAttributeEnd\nAttributeEnd\n" + patch), "");
+  const std::string other = "Basis \"power\" 4 \"power\" 4\n";
+  const std::vector<int> bezier = expected({0, 4, 8, 12}, {0, 1, 2, 3});
+  const auto first = [&](const std::string& text) { return numbers(read_text("rib", text), 0); };
+  EXPECT_EQ(first("AttributeBegin\n" + other + "AttributeEnd\n" + patch), bezier);
+  EXPECT_EQ(first(other + "Basis \"bezier\" 3 \"bezier\" 3\n" + patch), bezier);
+  EXPECT_NE(first("AttributeBegin\n" + other + patch), bezier);
+  EXPECT_NE(first("TransformBegin\n" + other + "TransformEnd\n" + patch), bezier);
+}
+
+// Coefficients of powers may be anything, as long as weights of Bézier points are above 0. Those of
+// points that are means of the file's have to be above 0 themselves.
+TEST(Rib, WeightsCountAsBezierPoints) {
+  const auto text = [](const char* basis, const char* other, const char* last) {
+    std::string points;
+    for (int k = 0; k < 15; ++k) {
+      points += std::string("0 0 0 ") + other + " ";
+    }
+    return std::string("Basis \"") + basis + "\" 1 \"" + basis + "\" 1 Patch \"bicubic\" \"Pw\" [" +
+           points + "2 4 6 " + last + "]";
+  };
+  const tools::PatchFile file = read_text("rib", text("power", "0", "2"));
+  EXPECT_EQ(patch_points(file, 0), std::vector<WeightedPoint>(16, {1, 2, 3, 2}));
+  EXPECT_EQ(refusal("rib", text("power", "0", "-2")),
+            ":1: expected values whose Bézier points have weights above 0, found -2");
+  EXPECT_EQ(refusal("rib", text("b-spline", "0", "1")), ":1: expected a weight above 0, found '0'");
+  EXPECT_NE(refusal("rib", text("catmull-rom", "-1", "1")), "");
+}
+
+struct RibBasisText {
+  const char* name;
+  const char* other; ///< another way to write it; four decimals mean the named basis
+};
+
+TEST(Rib, MatricesOfNamedBasesAreThese) {
+  const RibBasisText cases[] = {
+      {"\"b-spline\"", "[-.1667 .5 -.5 .1667 .5 -1 .5 0 -.5 0 .5 0 .16667 .66667 .16667 0]"},
+      {"\"catmull-rom\"", "[-.5 1.5 -1.5 .5 1 -2.5 2 -.5 -.5 0 .5 0 0 1 0 0]"},
+      {"\"hermite\"", "[2 1 -2 1 -3 -2 3 -1 0 1 0 0 1 0 0 0]"},
+      {"\"power\"", "[1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1]"}};
+  const std::string patch = "Patch \"bicubic\" \"P\" [" + numbered(16, "", " ") + "]\n";
+  for (const auto& [name, other] : cases) {
+    const std::string behind = std::string(" 1 \"bezier\" 3 ") + patch;
+    const auto points = [&](const char* basis) {
+      return patch_points(read_text("rib", std::string("Basis ") + basis + behind), 0);
+    };
+    EXPECT_EQ(points(name), points(other)) << name;
+  }
+}
+
+// n points in step s are (n - 4) / s + 1 patches, or n / s where they are closed.
+TEST(Rib, StepsSayHowManyPatches) {
+  struct Case {
+    const char* basis;
+    const char* u;
+    const char* v;
+    int points;
+    std::size_t patches;
+  };
+  const Case cases[] = {
+      {"\"b-spline\" 1 \"b-spline\" 1", "6 \"nonperiodic\"", "5 \"periodic\"", 30, 15},
+      {"\"hermite\" 2 \"bezier\" 3", "8 \"nonperiodic\"", "7 \"nonperiodic\"", 56, 6},
+      {"\"hermite\" 2 \"power\" 4", "6 \"periodic\"", "8 \"nonperiodic\"", 48, 6},
+      {"\"power\" 4 \"catmull-rom\" 1", "4 \"periodic\"", "4 \"nonperiodic\"", 16, 1},
+      {"[0 0 0 0 0 0 0 0 -1 1 0 0 1 0 0 0] 1 \"bezier\" 4", "5 \"nonperiodic\"", "8 \"periodic\"",
+       40, 4}};
+  for (const auto& [basis, u, v, points, patches] : cases) {
+    const std::string text = std::string("Basis ") + basis + " PatchMesh \"bicubic\" " + u + " " +
+                             v + " \"P\" [" + numbered(points, "", " ") + "]";
+    EXPECT_EQ(read_text("rib", text).count, patches) << text;
+  }
 }
 
 std::string composite(const std::string& type, const std::string& degrees, int points,

@@ -13,12 +13,12 @@ constexpr std::size_t kMoreThanAny = std::numeric_limits<std::size_t>::max() / 2
 /// What a request outside of strings, lists and comments promises.
 std::size_t promise_of_request(std::string_view word) {
   constexpr std::string_view kOtherGeometry[] = {
-      "Sphere",      "NuPatch",         "Polygon", "Torus",  "Cone",           "Cylinder", "Disk",
-      "ReadArchive", "SubdivisionMesh", "Blobby",  "Curves", "ObjectInstance", "Points"};
+      "Sphere",      "Polygon",         "Torus",  "Cone",   "Cylinder", "Disk",
+      "ReadArchive", "SubdivisionMesh", "Blobby", "Curves", "Points"};
   if (std::ranges::find(kOtherGeometry, word) != std::end(kOtherGeometry)) {
     return kMoreThanAny;
   }
-  return word == "Patch" || word == "PatchMesh" ? 1 : 0;
+  return word == "Patch" || word == "PatchMesh" || word == "NuPatch" ? 1 : 0;
 }
 
 std::size_t behind_string(std::string_view text, std::size_t at) {
@@ -31,6 +31,7 @@ std::size_t behind_string(std::string_view text, std::size_t at) {
 std::size_t promised_by_rib(std::string_view text) {
   std::size_t promised = 0;
   std::size_t depth = 0;
+  bool in_object = false; // whose patches show where there are instances
   for (std::size_t at = 0; at < text.size();) {
     const char c = text[at];
     if (kSpace.find(c) != std::string_view::npos) {
@@ -44,7 +45,10 @@ std::size_t promised_by_rib(std::string_view text) {
       at = behind_string(text, at + 1);
     } else {
       const std::size_t end = std::min(text.find_first_of(" \n\t\r\f\v[]\"", at), text.size());
-      promised += depth == 0 ? promise_of_request(text.substr(at, end - at)) : 0;
+      const std::string_view word = text.substr(at, end - at);
+      const std::size_t promise = depth == 0 ? promise_of_request(word) : 0;
+      in_object = (in_object || word == "ObjectBegin") && word != "ObjectEnd";
+      promised += in_object && promise == 1 ? 0 : promise;
       at = end;
     }
   }
