@@ -37,8 +37,8 @@ class PatchSet:
     def is_rational(self, patch: int) -> bool: ...
     def evaluate_grid(
         self,
-        nu: int,
-        nv: int,
+        nu: Union[int, ArrayLike],
+        nv: Union[int, ArrayLike],
         outputs: _Names = ('position',),
         out: _Out = None,
         threads: int = 0,
@@ -103,7 +103,11 @@ class Mesh:
     def deviation(self) -> float: ...
     @property
     def deviations(self) -> NDArray[np.float64]: ...
-    def save(self, path: Union[str, bytes, PathLike[str], PathLike[bytes]]) -> None: ...
+    def save(
+        self,
+        path: Union[str, bytes, PathLike[str], PathLike[bytes]],
+        point_data: Optional[dict[str, ArrayLike]] = None,
+    ) -> None: ...
 
 def tessellate(
     points: _Nets,

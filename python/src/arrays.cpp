@@ -10,25 +10,6 @@ namespace {
 
 py::module_ numpy() { return py::module_::import("numpy"); }
 
-std::string shape_text(const py::array& array) {
-  return py::str(array.attr("shape")).cast<std::string>();
-}
-
-/// numpy's array of any object. Ragged lists are refused.
-py::array any_array(const py::object& values, const std::string& argument) {
-  if (py::isinstance<py::array>(values)) {
-    return values;
-  }
-  try {
-    return numpy().attr("asarray")(values);
-  } catch (py::error_already_set& error) {
-    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) {
-      throw;
-    }
-  }
-  throw_value_error(argument, "expected an array, or lists of equal lengths");
-}
-
 py::array as_type(const py::array& array, const char* dtype) { return array.attr("astype")(dtype); }
 
 /// Whether patches of several shapes are given: a list or tuple of arrays with `dimensions` each.
@@ -194,6 +175,29 @@ bool are_integers(const py::array& objects) {
 
 std::string dtype_name(const py::array& array) {
   return py::str(py::object(array.dtype())).cast<std::string>();
+}
+
+std::string shape_text(const py::array& array) {
+  return py::str(array.attr("shape")).cast<std::string>();
+}
+
+py::array any_array(const py::object& values, const std::string& argument) {
+  if (py::isinstance<py::array>(values)) {
+    return values;
+  }
+  try {
+    return numpy().attr("asarray")(values);
+  } catch (py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) {
+      throw;
+    }
+  }
+  throw_value_error(argument, "expected an array, or lists of equal lengths");
+}
+
+bool has_dimensions(const py::object& values) {
+  return py::isinstance<py::array>(values) ? py::reinterpret_borrow<py::array>(values).ndim() > 0
+                                           : py::isinstance<py::sequence>(values);
 }
 
 bool is_aligned(const py::array& array) { return array.attr("flags").attr("aligned").cast<bool>(); }

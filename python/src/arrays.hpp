@@ -30,6 +30,13 @@ template <typename T>
   return py::isinstance<py::array_t<T>>(array);
 }
 
+/// numpy's array of any object. Ragged lists are refused.
+[[nodiscard]] py::array any_array(const py::object& values, const std::string& argument);
+/// Whether an object is an array with dimensions, or a list or the like, and not a single value.
+[[nodiscard]] bool has_dimensions(const py::object& values);
+
+[[nodiscard]] std::string shape_text(const py::array& array);
+
 /// Whether all values lie where their type may lie, which views of bytes need not do.
 [[nodiscard]] bool is_aligned(const py::array& array);
 

@@ -25,7 +25,7 @@ public:
     return std::visit(question, mesh_);
   }
 
-  void save(const py::object& path) const {
+  void save(const py::object& path, const py::object& point_data) const {
     const auto os = py::module_::import("os");
     if (!py::isinstance<py::str>(path) && !py::isinstance<py::bytes>(path) &&
         !py::isinstance(path, os.attr("PathLike"))) {
@@ -36,8 +36,11 @@ public:
     if (name.find('\0') != std::string::npos) {
       throw_value_error("path", "has a null character in it");
     }
+    const tools::MeshFormat format = mesh_format(name);
+    const std::size_t vertices = ask([](const auto& mesh) { return mesh.positions.size(); });
+    const PointArrays data = point_arrays(point_data, vertices, format);
     const py::gil_scoped_release release;
-    ask([&](const auto& mesh) { save_mesh(mesh, name); });
+    ask([&](const auto& mesh) { save_mesh(mesh, name, format, data); });
   }
 
   [[nodiscard]] std::string text() const {
@@ -79,10 +82,7 @@ auto property(Read read) {
 /// Reads one tolerance, or one a patch.
 void set_tolerance(const py::object& tolerance, py::array_t<double>& several,
                    MeshOptions& options) {
-  const bool one_a_patch = py::isinstance<py::array>(tolerance)
-                               ? py::reinterpret_borrow<py::array>(tolerance).ndim() > 0
-                               : py::isinstance<py::sequence>(tolerance);
-  if (one_a_patch) {
+  if (has_dimensions(tolerance)) { // one a patch
     several = parameters<double>(tolerance, "tolerance");
     options.tolerances = span_of(several);
   } else {
@@ -256,10 +256,11 @@ void add_mesh(py::module_& module) {
                                    mesh.deviations.data(), self);
                              }),
                              "The same for single patches: (patches,)");
-  define(
-      type, "save", &PyMesh::save, py::arg("path"),
-      ("Writes a file of the format that its name ends in: " + tools::mesh_format_names(".") + ".")
-          .c_str());
+  define(type, "save", &PyMesh::save, py::arg("path"), py::arg("point_data") = py::none(),
+         ("Writes a file of the format that its name ends in: " + tools::mesh_format_names(".") +
+          ". point_data: a dict of arrays (vertices,) or (vertices, k) to be written as well (" +
+          tools::mesh_format_names(".", &tools::MeshAbilities::point_data) + ").")
+             .c_str());
   define(module, "tessellate", &tessellate_points, py::arg("points"),
          py::arg("tolerance") = py::none(), py::arg("weights") = py::none(), py::kw_only(),
          py::arg("relative") = py::none(), py::arg("grid") = py::none(),

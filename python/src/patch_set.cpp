@@ -1,4 +1,6 @@
 // PatchSet: packed patches, evaluated into numpy's arrays.
+#include <cmath>
+
 #include <simdbezier/error_bounds.hpp>
 #include <simdbezier/evaluate.hpp>
 
@@ -52,16 +54,20 @@ public:
   [[nodiscard]] py::dict evaluate_grid(const py::object& nu, const py::object& nv,
                                        const py::object& outputs, const py::object& out,
                                        const py::object& threads) const {
-    const std::size_t columns = integer(nu, 2, "nu");
-    const std::size_t rows = integer(nv, 2, "nv");
     return std::visit(
         [&]<typename T>(const PatchSet<T>& set) {
-          const Grid<T> grid = Grid<T>::uniform(columns, rows);
+          const GridSide<T> columns(nu, "nu");
+          const GridSide<T> rows(nv, "nv");
+          const Grid<T> grid{columns.count, rows.count, columns.first(), rows.first()};
           require_addressable(sample_count(set, grid), set.components(), "nu or nv");
+          NamedArrays inputs;
+          columns.add_to(inputs, "nu");
+          rows.add_to(inputs, "nv");
           return evaluate_at(set, grid,
-                             {static_cast<py::ssize_t>(set.size()), static_cast<py::ssize_t>(rows),
-                              static_cast<py::ssize_t>(columns)},
-                             outputs, out, {}, threads);
+                             {static_cast<py::ssize_t>(set.size()),
+                              static_cast<py::ssize_t>(rows.count),
+                              static_cast<py::ssize_t>(columns.count)},
+                             outputs, out, inputs, threads);
         },
         set_);
   }
@@ -114,6 +120,37 @@ public:
   }
 
 private:
+  /// A number of uniform parameters, or an array of any.
+  template <typename T>
+  struct GridSide {
+    std::size_t count = 0;
+    py::array_t<T> given; ///< empty where they are uniform
+
+    GridSide(const py::object& side, const char* argument) {
+      if (!has_dimensions(side)) {
+        count = integer(side, 2, argument);
+        return;
+      }
+      given = parameters<T>(side, argument);
+      count = static_cast<std::size_t>(given.size());
+      if (count == 0) {
+        throw_value_error(argument, "expected one parameter or more, found none");
+      }
+      for (const T parameter : span_of(given)) {
+        if (!std::isfinite(parameter)) {
+          throw_value_error(argument, "expected finite parameters, found " +
+                                          py::str(py::float_(parameter)).cast<std::string>());
+        }
+      }
+    }
+    [[nodiscard]] const T* first() const { return given.size() > 0 ? given.data() : nullptr; }
+    void add_to(NamedArrays& inputs, const char* argument) const {
+      if (given.size() > 0) {
+        inputs.push_back({argument, given});
+      }
+    }
+  };
+
   [[nodiscard]] std::size_t index_of(const py::object& patch) const {
     return element_of(size(), patch, "patch", plural(size(), "patch", "patches"));
   }
@@ -152,11 +189,13 @@ void add_patch_set(py::module_& module) {
       type, "is_rational",
       [](const PyPatchSet& set, const py::object& patch) { return set.shape(patch).rational; },
       py::arg("patch"), "Whether one patch has weights.");
-  define(type, "evaluate_grid", &PyPatchSet::evaluate_grid, py::arg("nu"), py::arg("nv"),
-         py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
-         "Every patch on a uniform grid, ends included: a dict of arrays (patches, nv, nu, "
-         "components). Arrays in `out` are written to without a copy, where samples are evenly "
-         "spaced, and returned.");
+  define(
+      type, "evaluate_grid", &PyPatchSet::evaluate_grid, py::arg("nu"), py::arg("nv"),
+      py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
+      "Every patch on a grid: a dict of arrays (patches, nv, nu, components). nu and nv are "
+      "numbers of uniform parameters, ends included, or arrays of parameters from 0 to 1, in any "
+      "order. Arrays in `out` are written to without a copy, where samples are evenly "
+      "spaced, and returned.");
   define(type, "evaluate", &PyPatchSet::evaluate, py::arg("patch"), py::arg("u"), py::arg("v"),
          py::arg("outputs") = position, py::arg("out") = py::none(), py::arg("threads") = 0,
          "Single samples in any order: a dict of arrays (samples, components). `patch` is one "

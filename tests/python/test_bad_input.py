@@ -47,6 +47,13 @@ def two_in_one(second):
     return grid(position=whole[..., :3], normal=whole[..., second:second + 3])
 
 
+VERTICES = len(simdbezier.tessellate(POINTS, grid=3).positions)
+
+
+def save(point_data, ending='vtu'):
+    simdbezier.tessellate(POINTS, grid=3).save(f'/nowhere/mesh.{ending}', point_data)
+
+
 def with_nan():
     points = POINTS.copy()
     points[1, 2, 3, 0] = np.nan
@@ -86,7 +93,15 @@ CASES = [
     (ValueError, 'nv', lambda: PATCHES.evaluate_grid(5, -3)),
     (TypeError, 'nu', lambda: PATCHES.evaluate_grid(5.0, 3)),
     (TypeError, 'nv', lambda: PATCHES.evaluate_grid(5, '3')),
-    (TypeError, 'nu', lambda: PATCHES.evaluate_grid(np.array([3]), 3)),
+    (TypeError, 'nu', lambda: PATCHES.evaluate_grid(np.array([3j]), 3)),
+    (TypeError, 'nu', lambda: PATCHES.evaluate_grid([True], 3)),
+    (TypeError, 'nv', lambda: PATCHES.evaluate_grid(3, ['a'])),
+    (TypeError, 'nu', lambda: PATCHES.evaluate_grid(np.array(0.5), 3)),
+    (ValueError, 'nu', lambda: PATCHES.evaluate_grid([], 3)),
+    (ValueError, 'nv', lambda: PATCHES.evaluate_grid(3, [[0.5]])),
+    (ValueError, 'nv', lambda: PATCHES.evaluate_grid(3, [[0.5], [0.5, 1]])),
+    (ValueError, 'nu: expected finite', lambda: PATCHES.evaluate_grid([0.5, np.nan], 3)),
+    (ValueError, 'nv: expected finite', lambda: PATCHES.evaluate_grid([0.5], [0, -np.inf])),
     (TypeError, 'threads', lambda: PATCHES.evaluate_grid(5, 3, threads='x')),
     (ValueError, 'threads', lambda: PATCHES.evaluate_grid(5, 3, threads=2**31)),
     (TypeError, 'threads', lambda: CURVES.evaluate_grid(5, threads=2.0)),
@@ -191,6 +206,25 @@ CASES = [
     (TypeError, 'grid', lambda: simdbezier.tessellate(POINTS, grid=3.5)),
     (ValueError, 'points', lambda: simdbezier.tessellate(POINTS[..., :2], tolerance=1)),
     (ValueError, 'path', lambda: simdbezier.tessellate(POINTS, grid=3).save('mesh.png')),
+    (ValueError, 'point_data: expected a file in vtu, found ply', lambda: save({}, 'ply')),
+    (TypeError, 'point_data', lambda: save([np.zeros(VERTICES)])),
+    (TypeError, 'point_data', lambda: save({3: np.zeros(VERTICES)})),
+    (ValueError, "point_data['']", lambda: save({'': np.zeros(VERTICES)})),
+    (ValueError, "point_data['a\\n']", lambda: save({'a\n': np.zeros(VERTICES)})),
+    (ValueError, "point_data['\\ud800']", lambda: save({'\ud800': np.zeros(VERTICES)})),
+    (ValueError, "point_data['Normals']", lambda: save({'Normals': np.zeros((VERTICES, 3))})),
+    (ValueError, "point_data['patch']", lambda: save({'patch': np.zeros(VERTICES)})),
+    (ValueError, "point_data['x']", lambda: save({'x': np.zeros(VERTICES + 1)})),
+    (ValueError, "point_data['x']", lambda: save({'x': np.zeros((3, VERTICES))})),
+    (ValueError, "point_data['x']", lambda: save({'x': np.zeros((VERTICES, 0))})),
+    (ValueError, "point_data['x']", lambda: save({'x': np.zeros((VERTICES, 1, 1))})),
+    (ValueError, "point_data['x']", lambda: save({'x': 1.0})),
+    (ValueError, "point_data['x']", lambda: save({'x': [[1], [1, 2]]})),
+    (TypeError, "point_data['x']", lambda: save({'x': np.zeros(VERTICES, bool)})),
+    (TypeError, "point_data['x']", lambda: save({'x': np.zeros(VERTICES, complex)})),
+    (TypeError, "point_data['x']", lambda: save({'x': np.zeros(VERTICES, np.float16)})),
+    (TypeError, "point_data['x']", lambda: save({'x': np.zeros(VERTICES, np.longdouble)})),
+    (TypeError, "point_data['x']", lambda: save({'x': ['a'] * VERTICES})),
     (ValueError, 'path', lambda: simdbezier.tessellate(POINTS, grid=3).save(b'\xff.png')),
     (ValueError, 'path: has a null', lambda: simdbezier.tessellate(POINTS, grid=3).save('a\0b.obj')),
     (TypeError, 'path', lambda: simdbezier.tessellate(POINTS, grid=3).save(3)),
@@ -252,7 +286,7 @@ MISUSES = [
      'CurveSet.evaluate(): expected at most 5 arguments without a name, found 6'),
     (lambda: simdbezier.split_u(POINTS, v=0.5),
      "split_u(): no argument is called 'v', expected points, u, weights, homogeneous"),
-    (lambda: simdbezier.tessellate(POINTS, grid=3).save(), "Mesh.save(): 'path' is missing, expected path"),
+    (lambda: simdbezier.tessellate(POINTS, grid=3).save(), "Mesh.save(): 'path' is missing, expected path, point_data"),
 ]
 
 

@@ -1,7 +1,9 @@
 """Operations on nets, and meshes with their files."""
+import html
 import math
 import os
 import pathlib
+import re
 import struct
 
 import numpy as np
@@ -182,8 +184,52 @@ def test_parameters_of_a_tube_do_not_run_back():
     assert len(mesh.positions) == 81 and len(mesh.triangles) == 128
 
 
+def vtu_arrays(data):
+    """The arrays of a .vtu file by their names, with their components."""
+    text, _, values = data.partition(b'<AppendedData encoding="raw">\n_')
+    arrays = {}
+    for kind, size, name, rest in re.findall(
+            rb'<DataArray type="([A-Z]+)[a-z]+([0-9]+)" Name="(.*?)"(.*?) format="appended"', text):
+        offset = int(re.search(rb'Name="' + re.escape(name) + rb'".*?offset="(\d+)"', text)[1])
+        bytes_ = struct.unpack_from('<Q', values, offset)[0]
+        dtype = {b'F': '<f', b'I': '<i', b'UI': '<u'}[kind] + str(int(size) // 8)
+        array = np.frombuffer(values, dtype, bytes_ // (int(size) // 8), offset + 8)
+        components = re.search(rb'NumberOfComponents="(\d+)"', rest)
+        name = html.unescape(name.decode())
+        arrays[name] = array.reshape(-1, int(components[1])) if components else array
+    return arrays
+
+
+@pytest.mark.parametrize('dtype', ['f4', 'f8', '>f4', '>f8', 'i1', 'u1', '>i2', 'u2', 'i4', '>u4', 'i8',
+                                   '>u8'])
+def test_vtu_files_take_arrays_of_any_numbers(tmp_path, dtype):
+    mesh = simdbezier.tessellate(hill(np.float32), grid=70)  # several blocks of vertices
+    count = len(mesh.positions)
+    values = np.random.default_rng(1).integers(0, 100, (count, 3)).astype(dtype)
+    given = {'one': values[:, 1], 'three & <more> "\xe4"': values, 'list': values[:, 0].tolist(),
+             'sparse': np.asfortranarray(values)[:, ::2]}
+    path = tmp_path / 'hill.vtu'
+    mesh.save(path, given)
+    found = vtu_arrays(path.read_bytes())
+    assert set(found) - set(given) == {'Points', 'Normals', 'connectivity', 'offsets', 'types'}
+    for name, array in given.items():
+        np.testing.assert_array_equal(found[name], array)
+        if name != 'list':
+            assert found[name].dtype == np.dtype(dtype).newbyteorder('<')
+    mesh.save(path, point_data={})
+    plain = path.read_bytes()
+    mesh.save(path)
+    assert path.read_bytes() == plain
+
+
+def test_vtu_files_take_nan(tmp_path):
+    mesh = simdbezier.tessellate(hill(np.float64), grid=3)
+    mesh.save(tmp_path / 'hill.vtu', point_data={'nan': np.full(len(mesh.positions), np.nan)})
+    assert np.isnan(vtu_arrays((tmp_path / 'hill.vtu').read_bytes())['nan']).all()
+
+
 @pytest.mark.parametrize('parameters', [False, True])
-@pytest.mark.parametrize('ending', ['obj', 'ply', 'stl', 'glb'])
+@pytest.mark.parametrize('ending', ['obj', 'ply', 'stl', 'glb', 'vtu'])
 @pytest.mark.parametrize('dtype', [np.float32, np.float64])
 def test_meshes_become_files(tmp_path, ending, dtype, parameters):
     mesh = simdbezier.tessellate(hill(dtype), tolerance=1e-2, parameters=parameters)
@@ -200,6 +246,11 @@ def test_meshes_become_files(tmp_path, ending, dtype, parameters):
         assert f'element face {triangles}'.encode() in data
     elif ending == 'stl':
         assert struct.unpack_from('<I', data, 80)[0] == triangles
+    elif ending == 'vtu':
+        arrays = vtu_arrays(data)
+        np.testing.assert_array_equal(arrays['Points'].reshape(-1, 3), mesh.positions)
+        np.testing.assert_array_equal(arrays['connectivity'].reshape(-1, 3), mesh.triangles)
+        assert ('patch' in arrays) == ('TCoords' in arrays) == parameters
     else:
         assert data[:4] == b'glTF' and struct.unpack_from('<I', data, 8)[0] == len(data)
     mesh.save(str(path))

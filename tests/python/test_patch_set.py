@@ -43,6 +43,36 @@ def test_grids_are_those_of_the_definition(net):
                                    atol=tolerance(points), rtol=tolerance(points))
 
 
+# Gauss points, and what else may be handed over as parameters.
+U = (np.polynomial.legendre.leggauss(5)[0] + 1) / 2
+V = np.array([1, 0.25, 0, 0.75])
+
+
+@pytest.mark.parametrize('u, v', [(U, V), (U.tolist(), V), (U, 4), (6, V), (U[:1], tuple(V)),
+                                  (np.repeat(U, 2)[::2], V[::-1]), (np.array([0, 1]), V),
+                                  (np.arange(70) / 69, V), (U.astype('>f8'), V.astype('>f4'))],
+                         ids=str)
+def test_grids_take_parameters(net, u, v):
+    points, weights = net
+    patches = simdbezier.PatchSet(points, weights)
+    in_u, in_v = (np.linspace(0, 1, side) if isinstance(side, int) else np.asarray(side, points.dtype)
+                  for side in (u, v))
+    got = patches.evaluate_grid(u, v, outputs=('position', 'du', 'dv'))
+    pairs = np.tile(in_u, len(in_v)), np.repeat(in_v, len(in_u))
+    for name, values in zip(('position', 'du', 'dv'), reference.surface(points, weights, *pairs)):
+        assert got[name].shape == (5, len(in_v), len(in_u), points.shape[3])
+        np.testing.assert_allclose(got[name].reshape(values.shape), values,
+                                   atol=tolerance(points), rtol=tolerance(points))
+
+
+def test_uniform_parameters_are_those_of_a_number():
+    points = np.random.default_rng(4).random((3, 4, 4, 3)).astype(np.float32)
+    patches = simdbezier.PatchSet(points)
+    side = np.arange(9, dtype=np.float32) / 8
+    assert np.array_equal(patches.evaluate_grid(side, side)['position'],
+                          patches.evaluate_grid(9, 9)['position'])
+
+
 @pytest.mark.parametrize('several', [False, True])
 def test_homogeneous_points_are_points_with_weights(net, several):
     points, weights = net

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <tools/commands/bezier_cells.hpp>
 #include <tools/commands/grid_mesh.hpp>
 #include <tools/commands/welded_mesh.hpp>
 #include <tools/mesh_files/mesh_formats.hpp>
@@ -21,8 +22,8 @@ namespace simdbezier::tools {
 namespace {
 
 // Data in a pipe mostly end up on the terminal that would show the bar.
-template <typename T>
-bool may_show_bar(const Arguments& arguments, const MeshWriter<T>& writer) {
+template <typename Writer>
+bool may_show_bar(const Arguments& arguments, const Writer& writer) {
   return arguments.out != "-" && !writer.is_terminal();
 }
 
@@ -37,6 +38,27 @@ void print(const MeshStats& stats, StatsForm form) {
   }
 }
 
+// Lets write(progress) write the whole mesh, and says what has to be said.
+template <typename Writer, typename Write>
+void write_file(Writer& writer, const Write& write, const Arguments& arguments, MeshStats& stats) {
+  {
+    Progress progress("tessellating", "patches", stats.patches, may_show_bar(arguments, writer));
+    write(progress);
+  }
+  {
+    const Stopwatch watch(stats.seconds.write);
+    writer.complete();
+  }
+  print(stats, arguments.mesh.stats); // where this fails, there is no mesh either
+  writer.finish();
+  if (stats.origin && arguments.mesh.stats == StatsForm::none &&
+      !mesh_abilities(arguments.mesh.format).moved) {
+    std::fputs(
+        ("simdbezier: positions count from the origin " + spaced(*stats.origin) + "\n").c_str(),
+        stderr);
+  }
+}
+
 template <typename T>
 void write_mesh(MeshSource<T>& mesh, const Arguments& arguments, MeshStats& stats) {
   std::unique_ptr<MeshWriter<T>> writer;
@@ -44,22 +66,19 @@ void write_mesh(MeshSource<T>& mesh, const Arguments& arguments, MeshStats& stat
     const Stopwatch watch(stats.seconds.write);
     writer = make_mesh_writer<T>(arguments.out, arguments.mesh.format, mesh.contents());
   }
-  {
-    Progress progress("tessellating", "patches", stats.patches, may_show_bar(arguments, *writer));
-    mesh.write(*writer, stats.seconds, progress);
-  }
-  {
+  const auto write = [&](Progress& progress) { mesh.write(*writer, stats.seconds, progress); };
+  write_file(*writer, write, arguments, stats);
+}
+
+// Stored: the type of what is stored.
+template <typename Stored>
+void write_bezier_cells(const PatchFile& patches, const Arguments& arguments, MeshStats& stats) {
+  BezierCells<Stored> cells(patches, arguments, stats);
+  const auto write = [&](Progress& progress) {
     const Stopwatch watch(stats.seconds.write);
-    writer->complete();
-  }
-  print(stats, arguments.mesh.stats); // where this fails, there is no mesh either
-  writer->finish();
-  if (stats.origin && arguments.mesh.stats == StatsForm::none &&
-      !mesh_abilities(arguments.mesh.format).moved) {
-    std::fputs(
-        ("simdbezier: positions count from the origin " + spaced(*stats.origin) + "\n").c_str(),
-        stderr);
-  }
+    cells.write(progress);
+  };
+  write_file(cells, write, arguments, stats);
 }
 
 // Lets the file's points count from the origin that is asked for, and the camera's place as well.
@@ -114,8 +133,13 @@ void run_tessellate(const Arguments& asked) {
     stats.ignored_trims = patches.ignored_trims;
     move_to_origin(patches, arguments.mesh, stats);
   }
-  arguments.precision == Precision::f32 ? tessellate<float>(arguments, std::move(patches), stats)
-                                        : tessellate<double>(arguments, std::move(patches), stats);
+  const bool f32 = arguments.precision == Precision::f32;
+  if (arguments.mesh.bezier_cells) {
+    return f32 || arguments.mesh.floats ? write_bezier_cells<float>(patches, arguments, stats)
+                                        : write_bezier_cells<double>(patches, arguments, stats);
+  }
+  f32 ? tessellate<float>(arguments, std::move(patches), stats)
+      : tessellate<double>(arguments, std::move(patches), stats);
 }
 
 } // namespace simdbezier::tools

@@ -59,6 +59,7 @@ MeshContents GridMesh<T>::contents() const {
   contents.uv = arguments_.mesh.parameters;
   contents.storage = arguments_.mesh.storage;
   contents.floats = arguments_.mesh.floats;
+  describe_vertices<T>(arguments_.mesh, patches_, contents);
   contents.origin = arguments_.mesh.origin;
   contents.box = box_;
   // Positions may leave the control points' box by rounding, which is less than this part of the
@@ -100,30 +101,52 @@ void GridMesh<T>::write_block(const GridBlock& block, MeshWriter<T>& writer,
   if (arguments_.mesh.normals) {
     out.normal = Vectors<T>::xyz(values_.data() + 3, static_cast<std::ptrdiff_t>(stride));
   }
+  if (arguments_.mesh.curvature) {
+    out.curvature = curvatures_.outputs(block.samples(grid_));
+  }
   {
     const Stopwatch watch(seconds.evaluate);
     evaluator_.evaluate(block, out);
-    if (arguments_.mesh.normals && arguments_.mesh.flip) {
-      for (std::size_t k = 3; k < values_.size(); k += stride) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          values_[k + c] = T(0) - values_[k + c]; // no -0
-        }
-      }
+    if (arguments_.mesh.flip) {
+      turn_normals(stride);
     }
   }
   if (arguments_.mesh.parameters) {
     put_parameters(block, stride);
   }
   const Stopwatch watch(seconds.write);
-  writer.vertices({values_});
+  VertexBlock<T> written{values_};
+  if (contents().patches > 0) {
+    written.patch = patch_;
+  }
+  if (arguments_.mesh.curvature) {
+    written.data = curvatures_.records(arguments_.mesh.floats);
+  }
+  writer.vertices(written);
 }
 
-// Puts u and v at the end of every vertex of a block.
+template <typename T>
+void GridMesh<T>::turn_normals(std::size_t stride) {
+  for (std::size_t k = 0; k < values_.size() / stride; ++k) {
+    for (std::size_t c = 3; c < 6 && arguments_.mesh.normals; ++c) {
+      T& value = values_[k * stride + c];
+      value = T(0) - value; // no -0
+    }
+    if (arguments_.mesh.curvature) {
+      curvatures_.turn(k);
+    }
+  }
+}
+
+// Puts u and v at the end of every vertex of a block, and its patch in patch_.
 template <typename T>
 void GridMesh<T>::put_parameters(const GridBlock& block, std::size_t stride) {
   T* to = values_.data() + stride - 2;
+  patch_.clear();
   for (std::size_t row = 0; row < block.patch_count * block.row_count; ++row) {
     const std::size_t j = block.first_row + row % block.row_count;
+    patch_.insert(patch_.end(), grid_.nu,
+                  static_cast<std::uint32_t>(block.first_patch + row / block.row_count));
     for (std::size_t i = 0; i < grid_.nu; ++i, to += stride) {
       to[0] = static_cast<T>(i) / static_cast<T>(grid_.nu - 1);
       to[1] = static_cast<T>(j) / static_cast<T>(grid_.nv - 1);

@@ -8,6 +8,7 @@
 
 #include <tools/commands/arguments.hpp>
 #include <tools/commands/mesh_source.hpp>
+#include <tools/commands/vertex_places.hpp>
 #include <tools/patches/grid_blocks.hpp>
 
 namespace simdbezier::tools {
@@ -33,6 +34,7 @@ private:
   void measure(const PatchFile& file, MeshStats& stats) const;
   [[nodiscard]] std::uint64_t vertices_per_patch() const noexcept { return grid_.nu * grid_.nv; }
   void write_block(const GridBlock& block, MeshWriter<T>& writer, StageSeconds& seconds);
+  void turn_normals(std::size_t stride);
   void put_parameters(const GridBlock& block, std::size_t stride);
   /// Writes the faces of these patches, a bounded number at a time.
   void write_faces(std::size_t first, std::size_t count, MeshWriter<T>& writer,
@@ -45,6 +47,8 @@ private:
   MeshBox box_;
   GridEvaluator<T> evaluator_;
   std::vector<T> values_;
+  std::vector<std::uint32_t> patch_;
+  VertexCurvatures<T> curvatures_;
   std::vector<std::uint32_t> corners_;
 };
 

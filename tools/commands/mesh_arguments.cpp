@@ -120,6 +120,16 @@ void check_combinations(const Words& words) {
     expect_without(words, joined, "--no-weld");
   }
   expect_without(words, "--weld", "--no-weld");
+  if (words.value("--cells") == "bezier") { // which have no gaps to be closed, and no normals
+    for (const char* const of_triangles :
+         {"--grid", "--tolerance", "--relative", "--pixels", "--angle", "--weld", "--snap",
+          "--split-edges", "--point-size", "--crease", "--orient", "--flip", "--drop-repeated",
+          "--quads", "--parameters", "--curvature"}) {
+      if (words.has(of_triangles)) {
+        bad_usage(std::string(of_triangles) + ": expected without --cells bezier, found both");
+      }
+    }
+  }
   expect_without(words, "--crease", "--no-normals");
 }
 
@@ -164,6 +174,17 @@ void parse_contents(const Words& words, MeshArguments& mesh) {
   }
   if (mesh.quads) {
     expect("--quads", &MeshAbilities::quads);
+  }
+  mesh.curvature = words.has("--curvature");
+  if (mesh.curvature) {
+    expect("--curvature", &MeshAbilities::point_data);
+  }
+  if (const auto cells = words.value("--cells"); cells && *cells != "triangles") {
+    if (*cells != "bezier") {
+      refuse(2, words, "--cells", in_quotes(*cells));
+    }
+    expect("--cells bezier", &MeshAbilities::point_data);
+    mesh.bezier_cells = true;
   }
   if (const auto bits = words.value("--quantise")) {
     if (*bits != "16" && *bits != "8") {

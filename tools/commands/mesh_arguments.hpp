@@ -22,7 +22,9 @@ struct MeshArguments {
   VertexStorage storage = VertexStorage::full;
   bool weld = true;
   bool normals = true;
-  bool parameters = false; ///< u, v of every vertex
+  bool parameters = false; ///< u, v of every vertex, and its patch in formats with point data
+  bool curvature = false;
+  bool bezier_cells = false; ///< the patches themselves instead of triangles
   bool flip = false;
   bool quads = false;
   bool orient = false;

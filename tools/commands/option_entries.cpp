@@ -65,11 +65,21 @@ void add_mesh(Entries& entries) {
         "Quads where cells have four vertices (" + mesh_format_names(".", &MeshAbilities::quads) +
             ")",
         command},
+       {"--cells", "KIND", "bezier or triangles",
+        "bezier: the patches themselves, of the same degrees and with their weights, instead of "
+        "triangles (" +
+            mesh_format_names(".", &MeshAbilities::point_data) + ")",
+        command},
        {"--no-normals", "", "", "No normals", command},
        {"--parameters", "", "",
         "Each patch's own u, v as texture coordinates; patches share no vertices then, but normals "
         "(" +
             mesh_format_names(".", &MeshAbilities::normals) + ")",
+        command},
+       {"--curvature", "", "",
+        "Gaussian, mean and both principal curvatures of every vertex, on the lowest patch that "
+        "has it (" +
+            mesh_format_names(".", &MeshAbilities::point_data) + ")",
         command},
        {"--quantise", "BITS", "16 or 8",
         "Stores positions in 16 bits and normals in this many (" +

@@ -32,7 +32,8 @@ void set_free(T& object) {
 
 template <typename T>
 WeldedMesh<T>::WeldedMesh(PatchFile file, const Arguments& arguments, MeshStats& stats)
-    : arguments_(arguments), stats_(stats), patches_(file.count), name_(file.name) {
+    : arguments_(arguments), stats_(stats), patches_(file.count), name_(file.name),
+      numbered_(file.count), places_(arguments.mesh) {
   stats_.patches = patches_;
   {
     const Stopwatch watch(stats_.seconds.pack);
@@ -183,11 +184,10 @@ void WeldedMesh<T>::lay_out() {
 
 template <typename T>
 void WeldedMesh<T>::pack_all() {
-  PackOptions how;
-  how.threads = arguments_.threads;
-  check(pack(views(nets_), set_, how).status);
+  check(pack(views(nets_), set_, {.threads = arguments_.threads}).status);
   set_free(nets_);
-  set_free(pieces_);
+  pieces_.nets.clear();
+  set_free(pieces_.memory);
   file_.reset();
 }
 
@@ -214,6 +214,7 @@ MeshContents WeldedMesh<T>::contents() const {
   contents.uv = mesh.parameters;
   contents.storage = mesh.storage;
   contents.floats = mesh.floats;
+  describe_vertices<T>(mesh, numbered_, contents);
   contents.origin = mesh.origin;
   contents.deviation = deviation_;
   contents.generator = program_version();
@@ -278,18 +279,16 @@ void WeldedMesh<T>::write_vertices(const Block& block, MeshWriter<T>& writer,
   if (arguments_.mesh.normals) {
     out.normal = Vectors<T>::xyz(values_.data() + 3, static_cast<std::ptrdiff_t>(stride));
   }
-  if (arguments_.mesh.parameters) {
-    out.parameters =
-        Vectors<T>::pairs(values_.data() + stride - 2, static_cast<std::ptrdiff_t>(stride));
-  }
-  Options options;
-  options.threads = arguments_.threads;
+  places_.ask(vertices, out);
+  const Options options{.threads = arguments_.threads};
   if (vertices > 0) {
     const Stopwatch watch(seconds.evaluate);
     check(evaluate_mesh(set_, layout_, out, options, {block.first, block.count}));
+    places_.find_curvatures(set_, topology_, options);
+    places_.find_in_file(pieces_.pieces, numbers_);
   }
   const Stopwatch watch(seconds.write);
-  writer.vertices({values_});
+  writer.vertices(places_.block(values_, stride));
 }
 
 template <typename T>

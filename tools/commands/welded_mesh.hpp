@@ -9,6 +9,7 @@
 #include <tools/commands/arguments.hpp>
 #include <tools/commands/mesh_rates.hpp>
 #include <tools/commands/mesh_source.hpp>
+#include <tools/commands/vertex_places.hpp>
 #include <tools/formats/patch_file.hpp>
 
 namespace simdbezier::tools {
@@ -59,6 +60,7 @@ private:
   std::vector<double> errors_;         // what rounding adds, for each patch
   std::vector<std::uint32_t> numbers_; // of patches in the file, where some are left out or cut
   SplitNets<T> pieces_;                // of patches that are cut, in whose memory nets_ are then
+  std::size_t numbered_ = 0;           // patches in the file
   MeshRates rates_;
   Topology topology_;
   MeshLayout layout_;
@@ -66,6 +68,7 @@ private:
   std::uint64_t faces_ = 0;
   std::uint64_t among_quads_ = 0;
   std::vector<T> values_;
+  VertexPlaces<T> places_;
   std::vector<std::uint32_t> corners_;
   std::vector<std::uint32_t> polygons_;
   std::vector<std::uint8_t> sizes_;

@@ -51,6 +51,8 @@ void check_size(const std::string& path, MeshFormat format, const MeshContents& 
   }
 }
 
+} // namespace
+
 template <typename T>
 void check_contents(const std::string& path, MeshFormat format, const MeshContents& contents) {
   const FormatEntry& entry = entry_of(format);
@@ -69,9 +71,8 @@ void check_contents(const std::string& path, MeshFormat format, const MeshConten
     check_size<T>(path, format, contents);
   }
   assert(contents.storage == VertexStorage::full || contents.box);
+  assert(contents.data.empty() || entry.can.point_data);
 }
-
-} // namespace
 
 std::optional<MeshFormat> mesh_format_of(const std::string& path) {
   const std::string extension = extension_of(path);
@@ -164,6 +165,7 @@ void MeshWriter<T>::vertices(const VertexBlock<T>& block) {
   const std::size_t stride = contents_.stride();
   assert(block.values.size() % stride == 0);
   assert(block.patch.size() == (contents_.patches > 0 ? block.values.size() / stride : 0));
+  assert(block.data.size() == block.values.size() / stride * contents_.data_bytes());
   // The loop has no branch, so that a register of values takes one step.
   bool finite = true;
   for (const T value : block.values) {
@@ -224,6 +226,8 @@ std::unique_ptr<MeshWriter<T>> make_mesh_writer(const std::string& path, MeshFor
   return kWriters[static_cast<std::size_t>(format)](path, stated);
 }
 
+template void check_contents<float>(const std::string&, MeshFormat, const MeshContents&);
+template void check_contents<double>(const std::string&, MeshFormat, const MeshContents&);
 template class MeshWriter<float>;
 template class MeshWriter<double>;
 template std::unique_ptr<MeshWriter<float>> make_mesh_writer(const std::string&, MeshFormat,

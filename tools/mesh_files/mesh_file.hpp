@@ -10,7 +10,9 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace simdbezier::tools {
 
@@ -20,9 +22,10 @@ struct MeshAbilities {
 
   bool quads = false;
   bool normals = false;
-  bool quantised = false; ///< see VertexStorage
-  bool doubles = false;   ///< positions are rounded to floats where this is false
-  bool moved = false;     ///< programs that read it put the mesh at its origin by themselves
+  bool quantised = false;  ///< see VertexStorage
+  bool doubles = false;    ///< positions are rounded to floats where this is false
+  bool moved = false;      ///< programs that read it put the mesh at its origin by themselves
+  bool point_data = false; ///< further numbers of vertices, and patches as Bézier cells
   std::uint64_t most_faces = kAny;
   std::uint64_t most_patches = kAny; ///< the patches whose numbers vertices can have
 };
@@ -36,7 +39,8 @@ struct MeshAbilities {
   X(ply, "a PLY file",  {.quads = true, .normals = true, .doubles = true})                         \
   X(stl, "an STL file", {.most_faces = 0xFFFFFFFF}) /* has normals of facets only */               \
   X(glb, "a GLB file",  {.normals = true, .quantised = true, .moved = true,                        \
-                         .most_patches = std::uint64_t{1} << 24}) /* their numbers are floats */
+                         .most_patches = std::uint64_t{1} << 24}) /* their numbers are floats */ \
+  X(vtu, "a VTU file",  {.quads = true, .normals = true, .doubles = true, .point_data = true})
 // clang-format on
 
 #define SIMDBEZIER_DECLARE_MESH_FORMAT(NAME, ...) NAME,
@@ -81,6 +85,27 @@ inline constexpr std::uint64_t kMostMeshVertices = std::numeric_limits<std::uint
 /// Stands in place of a quad's fourth corner, which makes it a triangle.
 inline constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 
+/// A type of numbers by its name in VTK: "Float32", "Int8", "UInt64", …
+struct NumberType {
+  std::string name;
+  std::size_t bytes = 0;
+};
+template <typename V>
+[[nodiscard]] NumberType number_type() {
+  const std::string kind = std::is_floating_point_v<V> ? "Float"
+                           : std::is_signed_v<V>       ? "Int"
+                                                       : "UInt";
+  return {kind + std::to_string(8 * sizeof(V)), sizeof(V)};
+}
+
+/// Numbers that every vertex has besides the usual ones. The name is printable, not empty, none of
+/// the format's own, and no other array's.
+struct PointData {
+  std::string name;
+  NumberType type;
+  std::size_t components = 1;
+};
+
 /// All that has to be known of a mesh before its first vertex is written.
 struct MeshContents {
   std::uint64_t vertices = 0;
@@ -103,10 +128,19 @@ struct MeshContents {
   /// rounding adds.
   std::optional<double> deviation;
   std::string generator; ///< what wrote the file; empty: not stated
+  std::vector<PointData> data = {};
 
   /// Returns how many values a vertex has: x y z, nx ny nz, u v, as far as there are such.
   [[nodiscard]] std::size_t stride() const noexcept {
     return 3 + (normals ? 3U : 0U) + (uv ? 2U : 0U);
+  }
+  /// Returns how many bytes `data` has for a vertex.
+  [[nodiscard]] std::size_t data_bytes() const noexcept {
+    std::size_t bytes = 0;
+    for (const PointData& item : data) {
+      bytes += item.type.bytes * item.components;
+    }
+    return bytes;
   }
 };
 
@@ -115,6 +149,8 @@ template <typename T>
 struct VertexBlock {
   std::span<const T> values;                 ///< MeshContents::stride() of every vertex
   std::span<const std::uint32_t> patch = {}; ///< one of every vertex, if they have any
+  std::span<const std::byte> data =
+      {}; ///< MeshContents::data_bytes() of every vertex, little endian
 };
 
 /// Takes a mesh block by block: vertices in order, and faces when the vertices that they name have

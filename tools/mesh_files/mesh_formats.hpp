@@ -18,6 +18,10 @@ namespace simdbezier::tools {
 SIMDBEZIER_EACH_MESH_FORMAT(SIMDBEZIER_DECLARE_MESH_WRITER)
 #undef SIMDBEZIER_DECLARE_MESH_WRITER
 
+/// Throws Failure where the format cannot hold such a mesh.
+template <typename T>
+void check_contents(const std::string& path, MeshFormat format, const MeshContents& contents);
+
 /// Writes glTF 2.0 in binary form, in files of at most `most_bytes`.
 template <typename T>
 [[nodiscard]] std::unique_ptr<MeshWriter<T>> make_split_glb_writer(const std::string& path,

@@ -64,11 +64,12 @@ std::size_t size_of(FieldType type) noexcept {
 }
 
 template <typename T>
-RecordLayout exact_records(const MeshContents& contents) {
+RecordLayout exact_records(const MeshContents& contents, bool uv_twice) {
   const FieldType type =
       sizeof(T) == sizeof(float) || contents.floats ? FieldType::f32 : FieldType::f64;
   const FieldType uv = contents.uv ? type : FieldType::none;
-  return records(type, contents.normals ? type : FieldType::none, uv, uv,
+  return records(type, contents.normals ? type : FieldType::none, uv,
+                 uv_twice ? uv : FieldType::none,
                  contents.patches > 0 ? FieldType::u32 : FieldType::none);
 }
 
@@ -106,7 +107,7 @@ RecordPacker<T>::RecordPacker(std::string path, const MeshContents& contents,
     : path_(std::move(path)), contents_(contents), layout_(layout),
       space_(contents.box ? quantised_space(*contents.box) : QuantisedSpace()),
       records_are_values_(std::endian::native == std::endian::little &&
-                          layout == exact_records<T>(contents) &&
+                          layout == exact_records<T>(contents, false) &&
                           layout.size == contents.stride() * sizeof(T)) {}
 
 template <typename T>
@@ -206,8 +207,8 @@ void StoredBounds::include(std::span<const std::byte> records) {
                                           : include_as<float>(records);
 }
 
-template RecordLayout exact_records<float>(const MeshContents&);
-template RecordLayout exact_records<double>(const MeshContents&);
+template RecordLayout exact_records<float>(const MeshContents&, bool);
+template RecordLayout exact_records<double>(const MeshContents&, bool);
 template class RecordPacker<float>;
 template class RecordPacker<double>;
 

@@ -34,10 +34,10 @@ struct RecordLayout {
   bool operator==(const RecordLayout&) const = default;
 };
 
-/// Returns the fields of PLY: those of the mesh in T's precision or as floats, patch numbers as
-/// u32.
+/// Returns the fields of PLY and VTU: those of the mesh in T's precision or as floats, patch
+/// numbers as u32. uv_twice: whether they include `st`.
 template <typename T>
-[[nodiscard]] RecordLayout exact_records(const MeshContents& contents);
+[[nodiscard]] RecordLayout exact_records(const MeshContents& contents, bool uv_twice);
 /// Returns the fields of GLB: floats or normalised integers, patch numbers as float.
 [[nodiscard]] RecordLayout glb_records(const MeshContents& contents);
 /// Returns the field of a position as float.

@@ -44,8 +44,8 @@ template <typename T>
 class PlyWriter final : public MeshWriter<T> {
 public:
   PlyWriter(const std::string& path, const MeshContents& mesh)
-      : MeshWriter<T>(path, mesh), packer_(path, mesh, exact_records<T>(mesh)),
-        size_(checked_file_size(path, Count(mesh.vertices) * exact_records<T>(mesh).size +
+      : MeshWriter<T>(path, mesh), packer_(path, mesh, exact_records<T>(mesh, true)),
+        size_(checked_file_size(path, Count(mesh.vertices) * exact_records<T>(mesh, true).size +
                                           face_bytes(mesh))),
         file_(path) {
     const std::string text = header<T>(mesh);

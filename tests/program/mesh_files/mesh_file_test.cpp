@@ -75,6 +75,16 @@ const Case kCases[] = {
      "ushort"},
     {"GlbEmpty", MeshFormat::glb, false, {.vertices = 0, .faces = 0}},
     {"GlbWithoutFaces", MeshFormat::glb, false, {.vertices = 5, .faces = 0}},
+    {"VtuF32", MeshFormat::vtu, false, {}, "Int32"},
+    {"VtuF64", MeshFormat::vtu, true, {}, "Int32"},
+    {"VtuBare", MeshFormat::vtu, false, {.normals = false}, "Int32"},
+    {"VtuUv", MeshFormat::vtu, true, {.normals = false, .uv = true}, "Int32"},
+    {"VtuAll", MeshFormat::vtu, true, {.uv = true, .patches = true}, "Int32"},
+    {"VtuPatches", MeshFormat::vtu, false, {.normals = false, .patches = true}, "Int32"},
+    {"VtuQuads", MeshFormat::vtu, false, {.vertices = 9000, .corners = 4}, "Int32"},
+    {"VtuFloats", MeshFormat::vtu, true, {.uv = true, .patches = true, .floats = true}, "Int32"},
+    {"VtuEmpty", MeshFormat::vtu, false, {.vertices = 0, .faces = 0}, "Int32"},
+    {"VtuWithoutFaces", MeshFormat::vtu, false, {.vertices = 5, .faces = 0}, "Int32"},
 };
 
 ReadMesh read(MeshFormat format, const std::string& bytes) {
@@ -85,6 +95,8 @@ ReadMesh read(MeshFormat format, const std::string& bytes) {
     return read_ply_mesh(bytes);
   case MeshFormat::stl:
     return read_stl_mesh(bytes);
+  case MeshFormat::vtu:
+    return read_vtu_mesh(bytes);
   case MeshFormat::glb:
     break;
   }
@@ -185,7 +197,7 @@ TEST_P(MeshFile, HasEveryFaceAndPatchNumber) {
       EXPECT_EQ(file.faces[k][c], mesh.corners[k * mesh.contents.corners + c]);
     }
   }
-  if (GetParam().format == MeshFormat::ply || GetParam().format == MeshFormat::glb) {
+  if (GetParam().format != MeshFormat::obj && GetParam().format != MeshFormat::stl) {
     EXPECT_EQ(file.patches, std::vector<double>(mesh.patch.begin(), mesh.patch.end()));
   }
   EXPECT_EQ(file.index_type, GetParam().index_type);
@@ -197,6 +209,10 @@ TEST_P(MeshFile, SaysItsDeviation) {
   if (GetParam().format == MeshFormat::ply) {
     EXPECT_EQ(read(GetParam().format, bytes(mesh)).position_type,
               GetParam().doubles && !has_floats() ? "double" : "float");
+  }
+  if (GetParam().format == MeshFormat::vtu) {
+    EXPECT_EQ(read(GetParam().format, bytes(mesh)).position_type,
+              GetParam().doubles && !has_floats() ? "Float64" : "Float32");
   }
   mesh.contents.deviation = 0.1;
   mesh.contents.generator = "test \"1.0\"";
@@ -301,6 +317,7 @@ TEST(MeshFormatOf, GoesByTheExtension) {
   EXPECT_EQ(tools::mesh_format_of("b.PLY"), MeshFormat::ply);
   EXPECT_EQ(tools::mesh_format_of("b.ply.stl"), MeshFormat::stl);
   EXPECT_EQ(tools::mesh_format_of("b.glb"), MeshFormat::glb);
+  EXPECT_EQ(tools::mesh_format_of("b.vtu"), MeshFormat::vtu);
   for (const char* const name : {"", "-", "obj", "b.gltf", "b.glb.gz", "b.", ".ply"}) {
     EXPECT_EQ(tools::mesh_format_of(name), std::nullopt) << name;
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,13 @@ struct ReadMesh {
   double scale = 1;
   std::array<double, 3> translation = {};
   bool quantised = false; ///< GLB: positions are whole numbers, 65535 stands for 1
+  /// VTU: all other arrays by their names, their types and their numbers of components, what
+  /// PointData and CellData say of them, and the types of the cells.
+  std::map<std::string, std::vector<double>> data;
+  std::map<std::string, std::string> data_types;
+  std::map<std::string, std::size_t> data_components;
+  std::map<std::string, std::string> attributes;
+  std::vector<double> cell_types;
 };
 
 /// The three numbers behind a word in a text; nothing where it is not there.
@@ -51,11 +59,13 @@ struct ReadMesh {
 /// Positions are the corners of the facets, three each, and normals one a facet.
 [[nodiscard]] ReadMesh read_stl_mesh(const std::string& bytes);
 [[nodiscard]] ReadMesh read_glb_mesh(const std::string& bytes);
+[[nodiscard]] ReadMesh read_vtu_mesh(const std::string& bytes);
 /// The one of these that a file's extension names.
 [[nodiscard]] inline ReadMesh read_mesh(const std::string& extension, const std::string& bytes) {
   return extension == "obj"   ? read_obj_mesh(bytes)
          : extension == "ply" ? read_ply_mesh(bytes)
          : extension == "stl" ? read_stl_mesh(bytes)
+         : extension == "vtu" ? read_vtu_mesh(bytes)
                               : read_glb_mesh(bytes);
 }
 

@@ -115,7 +115,9 @@ TEST(UnweldedMesh, FlipTurnsFacesAndNormalsOnly) {
                                       {"stl", {}},
                                       {"stl", {"--no-normals"}},
                                       {"glb", {}},
-                                      {"glb", {"--no-normals"}}};
+                                      {"glb", {"--no-normals"}},
+                                      {"vtu", {}},
+                                      {"vtu", {"--quads", "--no-normals"}}};
   for (const std::string precision : {"f32", "f64"}) {
     for (const auto& [extension, more] : cases) {
       SCOPED_TRACE(precision + " " + extension + (more.empty() ? "" : " " + more[0]));

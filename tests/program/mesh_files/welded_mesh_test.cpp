@@ -187,7 +187,8 @@ const WithParameters kWithParameters[] = {{"obj", {}},
                                           {"ply", {"--crease", "0", "--precision", "f64"}},
                                           {"glb", {"--quantise", "16"}},
                                           {"obj", {"--no-weld"}},
-                                          {"glb", {"--no-weld", "--no-normals"}}};
+                                          {"glb", {"--no-weld", "--no-normals"}},
+                                          {"vtu", {"--quads"}}};
 
 // The same faces, whose vertices have their own u, v in every patch.
 TEST(WeldedMesh, ParametersAreEachPatchsOwn) {
