@@ -32,7 +32,7 @@
 //              They are immutable: any number of threads may use one at once.
 //   C++ alone  has results in std::vectors (results.hpp), and what is a line or two in C: nets seen
 //              the other way round (by `first` and strides), meets_tolerance(), iso_u() and iso_v()
-//              from nets to sets (by way of points).
+//              from nets to sets (by way of points), and grids of splines without a set.
 #pragma once
 
 #include <simdbezier/c/curves.h>         // IWYU pragma: export
@@ -42,5 +42,6 @@
 #include <simdbezier/c/nets.h>           // IWYU pragma: export
 #include <simdbezier/c/polylines.h>      // IWYU pragma: export
 #include <simdbezier/c/sets.h>           // IWYU pragma: export
+#include <simdbezier/c/splines.h>        // IWYU pragma: export
 #include <simdbezier/c/types.h>          // IWYU pragma: export
 #include <simdbezier/c/vertex_formats.h> // IWYU pragma: export

@@ -23,7 +23,8 @@ enum class Basis : std::uint8_t {
   centred_power, ///< sum_k c_k (2u-1)^k; any degree. From Bézier: over 2^degree
   hermite,     ///< f(0), f(1), f'(0), f'(1); so P[2][2], … are twists. Cubic. To Bézier: thirds
   catmull_rom, ///< four points; the piece between the middle two, tension 1/2. Cubic. To: sixths
-  b_spline     ///< four points of a uniform cubic B-spline; one piece of it. Cubic. To: sixths
+  b_spline ///< four points of a uniform cubic B-spline; one piece of it. Cubic. To: sixths. Whole
+           ///< surfaces, of any knots: splines.hpp
 };
 
 /// Bézier control points of surfaces given in another basis.
@@ -50,43 +51,5 @@ template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport from_bezier(Basis basis, const ControlNets<T>& nets,
                                                    const std::type_identity_t<MutableNets<T>>& out,
                                                    const Options& options = {}) noexcept;
-
-/// The control points of a uniform bicubic B-spline surface: rows x columns of them, columns in u.
-/// Component c of point (row, column) is points[row * row_stride + column * point_stride +
-/// c * component_stride]; a weight stands behind the components.
-template <typename S>
-struct SplineMesh {
-  const S* points = nullptr;
-  std::size_t rows = 0;    ///< open: 4 or more; periodic: 3 or more
-  std::size_t columns = 0; ///< likewise
-  std::ptrdiff_t row_stride = 0;
-  std::ptrdiff_t point_stride = 3;
-  std::ptrdiff_t component_stride = 1;
-  int components = 3;
-  Weights weights = Weights::none;
-  bool periodic_u = false; ///< column `columns` is column 0 again
-  bool periodic_v = false;
-
-  /// Pieces in each direction: three fewer than control points where open.
-  [[nodiscard]] constexpr std::size_t patches_u() const noexcept {
-    return periodic_u ? columns : columns < 3 ? 0 : columns - 3;
-  }
-  [[nodiscard]] constexpr std::size_t patches_v() const noexcept {
-    return periodic_v ? rows : rows < 3 ? 0 : rows - 3;
-  }
-};
-
-/// The Bézier patches of a whole B-spline mesh: patch iv * patches_u() + iu has the control points
-/// of rows iv to iv + 3 and columns iu to iu + 3 (modulo rows and columns where periodic).
-/// Neighbours, those across a periodic seam included, share bit-equal edges.
-///
-/// out:        patches_u() * patches_v() bicubic nets of the mesh's components and weights.
-/// Allocation: a periodic mesh is copied once, with three more rows or columns.
-/// Returns:    as in nets.hpp; bad_grid where rows or columns are too few. A fault's patch and
-///             point are those of the first patch that the value is part of.
-template <typename T>
-[[nodiscard]] SIMDBEZIER_API NetReport
-spline_to_bezier(const SplineMesh<T>& mesh, const std::type_identity_t<MutableNets<T>>& out,
-                 const Options& options = {}) noexcept;
 
 } // namespace simdbezier

@@ -3,6 +3,7 @@
 //     to_bezier(surface, nets, intervals)      control nets, and the interval of each patch
 //     pack(surface, set)                       a PatchSet, without nets in between
 //     locate(surface, U, V, places)            which patch has (U, V), and where on it
+//     tessellate<T>(surfaces, options)         a closed mesh, as mesh.hpp makes it of nets
 //
 // A direction of degree p with n control points d_0 … d_(n-1) has the knots t_0 <= … <= t_(n+p).
 // Its domain is [t_p, t_n]; every span [a, b] = [t_i, t_(i+1)] of it with a < b is one Bézier
@@ -46,6 +47,7 @@
 
 #include <simdbezier/control_curves.hpp>
 #include <simdbezier/curves.hpp>
+#include <simdbezier/mesh.hpp>
 #include <simdbezier/nets.hpp>
 #include <simdbezier/patch_set.hpp>
 
@@ -264,6 +266,39 @@ evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& surface, std::s
                                             Weights weights = Weights::none) noexcept {
   const int pairs = (degree_u + 2) / 2 + (degree_v + 2) / 2;
   return (pairs + 4 + (weights == Weights::cartesian ? 1 : 0)) * 0x1p-53 * (1 + 0x1p-40);
+}
+
+/// A bound on the distance between a surface and its patches at equal parameters, the patches being
+/// those that to_bezier() makes in S, with homogeneous weights if any. With N the numerator, W the
+/// weight, and N', W' of the patches,
+///     N'/W' - N/W = ((N' - N) - (N/W) (W' - W)) / W',
+/// where N/W is no farther away than the farthest control point.
+/// surface: one that to_bezier() accepts. Infinite where weights are too different for a bound.
+/// Cost:    a look at every control point.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API double extraction_error(const SplineSurface<S>& surface) noexcept;
+
+/// plan_mesh() and tessellate() of mesh.hpp for the patches of spline surfaces, which are numbered
+/// as those of to_bezier().
+///
+/// surfaces:   of any degrees, with and without weights, of three components.
+/// Deviation:  is certified from the splines: extraction_error() is part of it, and of what has to
+///             stay within the tolerance.
+/// report:     where given, says which surface is at fault, and where; ok where none is.
+/// Returns:    what to_bezier() and the call for nets return.
+/// Memory:     besides, the nets of all patches while the mesh is planned.
+template <typename T, typename S>
+[[nodiscard]] SIMDBEZIER_API MeshPlan<T> plan_mesh(std::span<const SplineSurface<S>> surfaces,
+                                                   const MeshOptions& options,
+                                                   SplineReport* report = nullptr) noexcept;
+template <typename T, typename S>
+[[nodiscard]] SIMDBEZIER_API Mesh<T> tessellate(std::span<const SplineSurface<S>> surfaces,
+                                                const MeshOptions& options,
+                                                SplineReport* report = nullptr) noexcept;
+template <typename T, typename S>
+[[nodiscard]] Mesh<T> tessellate(const SplineSurface<S>& surface,
+                                 const MeshOptions& options) noexcept {
+  return tessellate<T>(std::span<const SplineSurface<S>>(&surface, 1), options);
 }
 
 } // namespace simdbezier

@@ -27,6 +27,14 @@ A mesh stays within a tolerance of the surface, and says how far it is at most:
 >>> mesh.positions.shape, mesh.triangles.shape, mesh.deviation < 1e-3
 ((6, 3), (4, 3), True)
 
+B-splines and NURBS with knots are evaluated in their own parameters, U along a row of the points:
+
+>>> spline = simdbezier.SplineSurface(numpy.arange(60.0).reshape(5, 4, 3), degrees=(3, 2))
+>>> spline
+<simdbezier.SplineSurface: 1 x 3 patches of degree 3 x 2, 3 components, float64>
+>>> spline.evaluate_grid([0, 0.5, 1], [0, 3])['position'].shape    # V, U, components
+(2, 3, 3)
+
 Results, accuracy and threads are those of the C++ library. While it computes, other Python threads
 run.
 """
@@ -36,6 +44,8 @@ from ._core import (
     Mesh,
     PatchIndexError,
     PatchSet,
+    SplineCurve,
+    SplineSurface,
     __version__,
     available_isas,
     control_boxes,
@@ -46,6 +56,7 @@ from ._core import (
     reverse_u,
     reverse_v,
     segment,
+    spline_to_bezier,
     split,
     split_u,
     split_v,
@@ -59,6 +70,8 @@ __all__ = [
     'Mesh',
     'PatchIndexError',
     'PatchSet',
+    'SplineCurve',
+    'SplineSurface',
     'available_isas',
     'control_boxes',
     'elevate',
@@ -68,6 +81,7 @@ __all__ = [
     'reverse_u',
     'reverse_v',
     'segment',
+    'spline_to_bezier',
     'split',
     'split_u',
     'split_v',

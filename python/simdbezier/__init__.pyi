@@ -14,6 +14,10 @@ _Out = Optional[dict[str, NDArray[Any]]]
 # Control points, or with weights beside them a pair of points and weights.
 _Points = Any
 
+# Of u, along a row, and of v; None: uniform knots, the whole domain.
+_Knots = Optional[tuple[Optional[ArrayLike], Optional[ArrayLike]]]
+_Ranges = Optional[tuple[Optional[ArrayLike], Optional[ArrayLike]]]
+
 class PatchIndexError(IndexError, ValueError): ...
 
 class PatchSet:
@@ -88,6 +92,88 @@ class CurveSet:
     ) -> _Arrays: ...
     def error_bounds(self, curve: int) -> dict[str, NDArray[np.float64]]: ...
 
+class SplineSurface:
+    def __init__(
+        self,
+        points: ArrayLike,
+        degrees: tuple[int, int] = (3, 3),
+        knots: _Knots = None,
+        weights: Optional[ArrayLike] = None,
+        homogeneous: bool = False,
+        periodic: tuple[bool, bool] = (False, False),
+        ranges: _Ranges = None,
+        knot_tolerance: float = 0.0,
+        dtype: Optional[DTypeLike] = None,
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    @property
+    def spans(self) -> tuple[int, int]: ...
+    @property
+    def components(self) -> int: ...
+    @property
+    def dtype(self) -> np.dtype[Any]: ...
+    @property
+    def intervals(self) -> NDArray[np.float64]: ...
+    @property
+    def patch_set(self) -> PatchSet: ...
+    def to_bezier(self) -> _Points: ...
+    def locate(self, U: ArrayLike, V: ArrayLike) -> _Arrays: ...
+    def evaluate(
+        self,
+        U: ArrayLike,
+        V: ArrayLike,
+        outputs: _Names = ('position',),
+        out: _Out = None,
+        threads: int = 0,
+        derivatives: Optional[Iterable[tuple[int, int]]] = None,
+    ) -> dict[Any, NDArray[Any]]: ...
+    def evaluate_grid(
+        self,
+        U: ArrayLike,
+        V: ArrayLike,
+        outputs: _Names = ('position',),
+        out: _Out = None,
+        threads: int = 0,
+        derivatives: Optional[Iterable[tuple[int, int]]] = None,
+    ) -> dict[Any, NDArray[Any]]: ...
+
+class SplineCurve:
+    def __init__(
+        self,
+        points: ArrayLike,
+        degree: int = 3,
+        knots: Optional[ArrayLike] = None,
+        weights: Optional[ArrayLike] = None,
+        homogeneous: bool = False,
+        periodic: bool = False,
+        range: Optional[ArrayLike] = None,
+        knot_tolerance: float = 0.0,
+        dtype: Optional[DTypeLike] = None,
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    @property
+    def spans(self) -> int: ...
+    @property
+    def degree(self) -> int: ...
+    @property
+    def components(self) -> int: ...
+    @property
+    def dtype(self) -> np.dtype[Any]: ...
+    @property
+    def intervals(self) -> NDArray[np.float64]: ...
+    @property
+    def curve_set(self) -> CurveSet: ...
+    def to_bezier(self) -> _Points: ...
+    def locate(self, t: ArrayLike) -> _Arrays: ...
+    def evaluate(
+        self,
+        t: ArrayLike,
+        outputs: _Names = ('position',),
+        out: _Out = None,
+        threads: int = 0,
+        derivatives: Optional[Iterable[int]] = None,
+    ) -> dict[Any, NDArray[Any]]: ...
+
 class Mesh:
     @property
     def positions(self) -> NDArray[Any]: ...
@@ -110,7 +196,7 @@ class Mesh:
     ) -> None: ...
 
 def tessellate(
-    points: _Nets,
+    points: Union[_Nets, SplineSurface, Sequence[SplineSurface]],
     tolerance: Union[None, float, ArrayLike] = None,
     weights: Optional[_Nets] = None,
     *,
@@ -167,6 +253,16 @@ def segment(
     weights: Optional[ArrayLike] = None,
     *,
     homogeneous: bool = False,
+) -> _Points: ...
+def spline_to_bezier(
+    points: ArrayLike,
+    degrees: tuple[int, int] = (3, 3),
+    knots: _Knots = None,
+    weights: Optional[ArrayLike] = None,
+    homogeneous: bool = False,
+    periodic: tuple[bool, bool] = (False, False),
+    ranges: _Ranges = None,
+    knot_tolerance: float = 0.0,
 ) -> _Points: ...
 def control_boxes(
     points: ArrayLike, weights: Optional[ArrayLike] = None,

@@ -270,6 +270,24 @@ AnyPointViews<ControlCurves> control_curves(const GivenPoints& given) {
   return any_views_of<ControlCurves>(point_arrays({array, given.weights, given.homogeneous}, 3));
 }
 
+OwnPoints own_points(const GivenPoints& given, py::ssize_t dimensions) {
+  const py::array array = float_array(given.points, dimensions, "points");
+  std::vector<Points> all = point_arrays({array, given.weights, given.homogeneous}, dimensions);
+  const Points& points = all.front();
+  return {points.array.attr("copy")("C"), points.weights, components_of(points)};
+}
+
+py::object given_back(const py::array& array, Weights weights) {
+  if (weights != Weights::cartesian) {
+    return array;
+  }
+  const py::ellipsis all;
+  const py::slice points(py::none(), py::int_(-1), py::none());
+  const py::object whole = array;
+  return py::make_tuple(whole[py::make_tuple(all, points)],
+                        whole[py::make_tuple(all, py::int_(-1))]);
+}
+
 std::string homogeneous_hint(int components) {
   return components == 4 ? "; homogeneous=True takes (w x, w y, w z, w) as points with weights"
                          : "";

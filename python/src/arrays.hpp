@@ -80,6 +80,18 @@ struct GivenPoints {
 /// Points (curves, points, components) and weights (curves, points).
 [[nodiscard]] AnyPointViews<ControlCurves> control_curves(const GivenPoints& given);
 
+/// Control points of one spline, (rows, columns, values) or (columns, values), in one piece of
+/// memory that nobody else has: values are the components, and the weight where there are weights.
+struct OwnPoints {
+  py::array array;
+  Weights weights = Weights::none;
+  int components = 0;
+};
+[[nodiscard]] OwnPoints own_points(const GivenPoints& given, py::ssize_t dimensions);
+
+/// Points as they are given back: with weights beside them, a pair of views of one array.
+[[nodiscard]] py::object given_back(const py::array& array, Weights weights);
+
 /// What to add to an error about points of so many values each: four may be meant as homogeneous.
 [[nodiscard]] std::string homogeneous_hint(int components);
 

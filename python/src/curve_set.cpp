@@ -7,27 +7,6 @@
 namespace simdbezier::python {
 namespace {
 
-struct Curves {
-  template <typename T>
-  using Set = CurveSet<T>;
-  template <typename T>
-  using Out = CurveOutputs<T>;
-  static constexpr const char* kIndex = "curve";
-  static constexpr const char* kNeeds = "two or three components";
-
-  static const OutputNames& names() {
-    static const OutputNames all{output_names<CurveOutput, kCurveVectorOutputs>(), {"curvature"}};
-    return all;
-  }
-  static bool has(const std::string& name, int components) {
-    return components == 2 || components == 3 || (name != "tangent" && name != "curvature");
-  }
-  template <typename T>
-  static void set_values(CurveOutputs<T>& to, const OutputArrays<T>& arrays) {
-    to.curvature = arrays.values("curvature");
-  }
-};
-
 class PyCurveSet : public PySet<Curves> {
 public:
   PyCurveSet(const py::object& points, const py::object& weights, const py::object& dtype,
@@ -35,6 +14,7 @@ public:
              const py::object& threads, const py::object& homogeneous)
       : PySet(control_curves({points, weights, homogeneous}), dtype, local_origin, relative_to,
               threads) {}
+  explicit PyCurveSet(AnyCurveSet&& set) : PySet(std::move(set)) {}
 
   [[nodiscard]] int degree() const {
     return std::visit([](const auto& set) { return set.degree(); }, set_);
@@ -94,6 +74,8 @@ public:
 };
 
 } // namespace
+
+py::object curve_set_object(AnyCurveSet set) { return py::cast(PyCurveSet(std::move(set))); }
 
 void add_curve_set(py::module_& module) {
   const py::tuple position = py::make_tuple("position");

@@ -1,8 +1,5 @@
-// tessellate() and Mesh: the mesh's own memory as numpy's arrays, and mesh files.
-#include <cmath>
-#include <limits>
+// Mesh: the mesh's own memory as numpy's arrays, and mesh files.
 #include <memory>
-#include <numbers>
 
 #include <simdbezier/mesh.hpp>
 
@@ -79,143 +76,11 @@ auto property(Read read) {
   };
 }
 
-/// Reads one tolerance, or one a patch.
-void set_tolerance(const py::object& tolerance, py::array_t<double>& several,
-                   MeshOptions& options) {
-  if (has_dimensions(tolerance)) { // one a patch
-    several = parameters<double>(tolerance, "tolerance");
-    options.tolerances = span_of(several);
-  } else {
-    options.tolerance = positive(number_or_infinity(tolerance, "tolerance"), false, "tolerance");
-  }
-}
-
-/// Reads n or (nu, nv) samples.
-void set_grid(const py::object& grid, MeshOptions& options) {
-  if (grid.is_none()) {
-    return;
-  }
-  const bool pair = py::isinstance<py::sequence>(grid);
-  if (pair && py::len(grid) != 2) {
-    throw_value_error("grid", "expected one number, or two");
-  }
-  const auto samples = [&](int k) {
-    const py::object value = pair ? py::object(grid[py::int_(k)]) : grid;
-    const std::size_t count = integer(value, 2, "grid");
-    if (count > kMostSegments + 1) {
-      throw_value_error("grid", "expected at most " + std::to_string(kMostSegments + 1) +
-                                    ", found " + std::to_string(count));
-    }
-    return static_cast<std::uint32_t>(count);
-  };
-  options.nu = samples(0);
-  options.nv = samples(1);
-}
-
-/// Reads degrees; all normals are merged without them.
-double crease_angle(const py::object& crease) {
-  const double degrees = positive(number_or_infinity(crease, "crease"), true, "crease");
-  if (degrees > 180 && !crease.is_none()) {
-    throw_value_error("crease", "expected degrees from 0 to 180, found " +
-                                    py::str(crease).cast<std::string>());
-  }
-  return degrees * std::numbers::pi / 180;
-}
-
-std::string blamed(Status status, const MeshOptions& options, const char* weights) {
-  const bool relative = std::isfinite(options.relative_tolerance);
-  const bool absolute = std::isfinite(options.tolerance) || !options.tolerances.empty();
-  switch (status.code()) {
-  case Status::bad_tolerance: // all else that it is about has been checked
-    return relative && absolute ? "tolerance or relative" : relative ? "relative" : "tolerance";
-  case Status::bad_grid:
-    return "grid";
-  case Status::snap_too_large:
-    return "snap";
-  case Status::not_orientable:
-    return "orient";
-  case Status::bad_weight:
-    return weights;
-  default:
-    return "points";
-  }
-}
-
-template <typename T, typename S>
-PyMesh tessellated(const PointViews<S, ControlNets>& nets, const MeshOptions& options) {
-  std::size_t patches = 0;
-  for (const ControlNets<S>& view : nets.views) {
-    patches += view.count;
-  }
-  if (!options.tolerances.empty() && options.tolerances.size() != patches) {
-    throw_value_error("tolerance", "expected a number, or one for each of " +
-                                       std::to_string(patches) + " patches, found " +
-                                       std::to_string(options.tolerances.size()));
-  }
-  if (nets.views.front().components != 3) {
-    const int found = nets.views.front().components;
-    throw_value_error("points", "expected three components, found " + std::to_string(found) +
-                                    homogeneous_hint(found));
-  }
-  Mesh<T> mesh;
-  {
-    const py::gil_scoped_release release;
-    mesh = simdbezier::tessellate<T>(std::span<const ControlNets<S>>(nets.views), options);
-  }
-  const std::string argument = blamed(mesh.status, options, nets.weights_argument());
-  if (!mesh && mesh.fault_patch > 0) {
-    throw_value_error(argument, std::string(to_string(mesh.status)) + " (patch " +
-                                    std::to_string(mesh.fault_patch) + ")");
-  }
-  require_ok(mesh.status, argument);
-  return PyMesh(std::move(mesh));
-}
-
-PyMesh tessellate_points(const py::object& points, const py::object& tolerance,
-                         const py::object& weights, const py::object& relative,
-                         const py::object& grid, const py::object& crease,
-                         const py::object& normals, const py::object& parameters,
-                         const py::object& orient, const py::object& flip, const py::object& snap,
-                         const py::object& split_edges, const py::object& point_size,
-                         const py::object& drop_repeated, const py::object& longest_edge,
-                         const py::object& dtype, const py::object& threads,
-                         const py::object& homogeneous) {
-  const AnyPointViews<ControlNets> any = control_nets({points, weights, homogeneous});
-  MeshOptions options;
-  py::array_t<double> tolerances;
-  set_tolerance(tolerance, tolerances, options);
-  options.relative_tolerance =
-      positive(number_or_infinity(relative, "relative"), false, "relative");
-  set_grid(grid, options);
-  options.crease_angle = crease_angle(crease);
-  options.longest_edge =
-      positive(number_or_infinity(longest_edge, "longest_edge"), false, "longest_edge");
-  options.normals = flag(normals, "normals");
-  options.parameters = flag(parameters, "parameters");
-  options.orient = flag(orient, "orient");
-  options.flip = flag(flip, "flip");
-  options.snap = positive(number(snap, "snap"), true, "snap");
-  options.split_edges = flag(split_edges, "split_edges");
-  options.point_size = positive(number(point_size, "point_size"), true, "point_size");
-  options.drop_repeated = flag(drop_repeated, "drop_repeated");
-  options.threads = thread_count(threads);
-  const bool measured = !tolerance.is_none() || !relative.is_none() || !longest_edge.is_none();
-  if (!measured && grid.is_none()) {
-    throw_type_error("tolerance", "how fine the mesh is has to be said by tolerance, relative, "
-                                  "longest_edge or grid");
-  }
-  if (!grid.is_none() && measured) {
-    throw_value_error("grid", "expected without tolerance, relative and longest_edge");
-  }
-  const bool is_float = wants_float(dtype, any.index() == 0);
-  return std::visit(
-      [&](const auto& nets) {
-        return is_float ? tessellated<float>(nets, options) : tessellated<double>(nets, options);
-      },
-      any);
-}
-
 } // namespace
+
+py::object mesh_object(AnyMesh mesh) {
+  return std::visit([](auto& of) { return py::cast(PyMesh(std::move(of))); }, mesh);
+}
 
 void add_mesh(py::module_& module) {
   py::class_<PyMesh> type(module, "Mesh",
@@ -261,15 +126,7 @@ void add_mesh(py::module_& module) {
           ". point_data: a dict of arrays (vertices,) or (vertices, k) to be written as well (" +
           tools::mesh_format_names(".", &tools::MeshAbilities::point_data) + ").")
              .c_str());
-  define(module, "tessellate", &tessellate_points, py::arg("points"),
-         py::arg("tolerance") = py::none(), py::arg("weights") = py::none(), py::kw_only(),
-         py::arg("relative") = py::none(), py::arg("grid") = py::none(),
-         py::arg("crease") = py::none(), py::arg("normals") = true, py::arg("parameters") = false,
-         py::arg("orient") = false, py::arg("flip") = false, py::arg("snap") = 0.0,
-         py::arg("split_edges") = false, py::arg("point_size") = 0.0,
-         py::arg("drop_repeated") = false, py::arg("longest_edge") = py::none(),
-         py::arg("dtype") = py::none(), py::arg("threads") = 0, py::arg("homogeneous") = false,
-         "A closed mesh of all patches, within a tolerance of their surface.");
+  add_tessellate(module);
 }
 
 } // namespace simdbezier::python

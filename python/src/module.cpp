@@ -58,4 +58,6 @@ PYBIND11_MODULE(_core, module) {
   add_curve_set(module);
   add_nets(module);
   add_mesh(module);
+  add_spline_surface(module);
+  add_spline_curve(module);
 }

@@ -4,6 +4,11 @@
 #include <cstring>
 #include <new>
 #include <string>
+#include <variant>
+
+#include <simdbezier/curves.hpp>
+#include <simdbezier/mesh.hpp>
+#include <simdbezier/patch_set.hpp>
 
 #include "python/src/arrays.hpp"
 #include "python/src/call_arguments.hpp"
@@ -14,6 +19,17 @@ void add_patch_set(py::module_& module);
 void add_curve_set(py::module_& module);
 void add_nets(py::module_& module);
 void add_mesh(py::module_& module);
+void add_tessellate(py::module_& module);
+void add_spline_surface(py::module_& module);
+void add_spline_curve(py::module_& module);
+
+using AnyPatchSet = std::variant<PatchSet<float>, PatchSet<double>>;
+using AnyCurveSet = std::variant<CurveSet<float>, CurveSet<double>>;
+using AnyMesh = std::variant<Mesh<float>, Mesh<double>>;
+/// Python's objects of sets and meshes that are there.
+[[nodiscard]] py::object patch_set_object(AnyPatchSet set);
+[[nodiscard]] py::object curve_set_object(AnyCurveSet set);
+[[nodiscard]] py::object mesh_object(AnyMesh mesh);
 
 /// How sets are packed, from the keywords that patches and curves share.
 [[nodiscard]] PackOptions pack_options(const py::object& local_origin,

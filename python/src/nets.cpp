@@ -36,19 +36,6 @@ MutableNets<S> view_of(py::array_t<S>& array, const ControlNets<S>& like) {
       static_cast<int>(array.shape(1) - 1), like.components, like.weights);
 }
 
-/// The points, and with weights beside them a pair of them and the weights: views of one array.
-template <typename S>
-py::object given_back(const py::array_t<S>& array, const ControlNets<S>& like) {
-  if (like.weights != Weights::cartesian) {
-    return array;
-  }
-  const py::ellipsis all;
-  const py::slice points(py::none(), py::int_(-1), py::none());
-  const py::object whole = array;
-  return py::make_tuple(whole[py::make_tuple(all, points)],
-                        whole[py::make_tuple(all, py::int_(-1))]);
-}
-
 /// What an operation makes of nets: `degrees(nets)` says what the degrees of `count` results are,
 /// call(nets, outputs) runs it.
 template <std::size_t N, typename Degrees, typename Call>
@@ -71,11 +58,11 @@ py::object operate(const GivenPoints& given, Degrees degrees, Call call) {
         }
         require_ok(report, nets.weights_argument(), "points");
         if constexpr (N == 1) {
-          return given_back(arrays[0], in);
+          return given_back(arrays[0], in.weights);
         } else {
           py::tuple results(N);
           for (std::size_t k = 0; k < N; ++k) {
-            results[k] = given_back(arrays[k], in);
+            results[k] = given_back(arrays[k], in.weights);
           }
           return results;
         }

@@ -9,35 +9,6 @@
 namespace simdbezier::python {
 namespace {
 
-struct Patches {
-  template <typename T>
-  using Set = PatchSet<T>;
-  template <typename T>
-  using Out = Outputs<T>;
-  static constexpr const char* kIndex = "patch";
-  static constexpr const char* kNeeds = "three components";
-
-  static const OutputNames& names() {
-    static const OutputNames all{output_names<Output, kVectorOutputs>(),
-                                 output_names<Curvature, kCurvatureKinds>()};
-    return all;
-  }
-  static bool has(const std::string& name, int components) {
-    Output output = names().is_value(name) ? Output::curvature : Output::status;
-    for (std::size_t k = 0; k < kVectorOutputs; ++k) {
-      output = name == names().vectors[k] ? static_cast<Output>(k) : output;
-    }
-    return components == 3 || !needs_space(output);
-  }
-  template <typename T>
-  static void set_values(Outputs<T>& to, const OutputArrays<T>& arrays) {
-    for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
-      const auto curvature = static_cast<Curvature>(k);
-      to.curvature[curvature] = arrays.values(output_name(curvature));
-    }
-  }
-};
-
 class PyPatchSet : public PySet<Patches> {
 public:
   PyPatchSet(const py::object& points, const py::object& weights, const py::object& dtype,
@@ -45,6 +16,7 @@ public:
              const py::object& threads, const py::object& homogeneous)
       : PySet(control_nets({points, weights, homogeneous}), dtype, local_origin, relative_to,
               threads) {}
+  explicit PyPatchSet(AnyPatchSet&& set) : PySet(std::move(set)) {}
 
   [[nodiscard]] PatchShape shape(const py::object& patch) const {
     const std::size_t index = index_of(patch);
@@ -164,6 +136,8 @@ private:
 };
 
 } // namespace
+
+py::object patch_set_object(AnyPatchSet set) { return py::cast(PyPatchSet(std::move(set))); }
 
 void add_patch_set(py::module_& module) {
   const py::tuple position = py::make_tuple("position");

@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include <simdbezier/curves.hpp>
+#include <simdbezier/evaluate.hpp>
 #include <simdbezier/options.hpp>
 
 #include "python/src/calls.hpp"
@@ -25,13 +27,92 @@ template <typename S>
   return points.views.front();
 }
 
-/// A set of floats or doubles. Kind says what it is a set of:
-///   Set<T>, Out<T>               the set and its outputs in the library
-///   kIndex                       the argument that names one of its elements
-///   kNeeds                       the components that not all outputs do without, in words
-///   names()                      the outputs
-///   has(name, components)        whether an output exists for points of so many components
-///   set_values(out, arrays)      adds the outputs of one number a sample
+// Kinds of sets, which say of theirs:
+//   Set<T>, Out<T>               the set and its outputs in the library
+//   kIndex                       the argument that names one of its elements
+//   kNeeds                       the components that not all outputs do without, in words
+//   names()                      the outputs
+//   has(name, components)        whether an output exists for points of so many components
+//   set_values(out, arrays)      adds the outputs of one number a sample
+
+struct Patches {
+  template <typename T>
+  using Set = PatchSet<T>;
+  template <typename T>
+  using Out = Outputs<T>;
+  static constexpr const char* kIndex = "patch";
+  static constexpr const char* kNeeds = "three components";
+
+  static const OutputNames& names() {
+    static const OutputNames all{output_names<Output, kVectorOutputs>(),
+                                 output_names<Curvature, kCurvatureKinds>()};
+    return all;
+  }
+  static bool has(const std::string& name, int components) {
+    Output output = names().is_value(name) ? Output::curvature : Output::status;
+    for (std::size_t k = 0; k < kVectorOutputs; ++k) {
+      output = name == names().vectors[k] ? static_cast<Output>(k) : output;
+    }
+    return components == 3 || !needs_space(output);
+  }
+  template <typename T>
+  static void set_values(Outputs<T>& to, const OutputArrays<T>& arrays) {
+    for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
+      const auto curvature = static_cast<Curvature>(k);
+      to.curvature[curvature] = arrays.values(output_name(curvature));
+    }
+  }
+};
+
+struct Curves {
+  template <typename T>
+  using Set = CurveSet<T>;
+  template <typename T>
+  using Out = CurveOutputs<T>;
+  static constexpr const char* kIndex = "curve";
+  static constexpr const char* kNeeds = "two or three components";
+
+  static const OutputNames& names() {
+    static const OutputNames all{output_names<CurveOutput, kCurveVectorOutputs>(), {"curvature"}};
+    return all;
+  }
+  static bool has(const std::string& name, int components) {
+    return components == 2 || components == 3 || (name != "tangent" && name != "curvature");
+  }
+  template <typename T>
+  static void set_values(CurveOutputs<T>& to, const OutputArrays<T>& arrays) {
+    to.curvature = arrays.values("curvature");
+  }
+};
+
+/// Outputs of a call in numpy's arrays, which evaluate(to, options) computes for three components
+/// after three others. samples: the dimensions of results in front of the components.
+template <typename Kind, typename T, typename Evaluate>
+py::dict evaluate_outputs(int components, const std::vector<py::ssize_t>& samples,
+                          const py::object& outputs, const py::object& out,
+                          const NamedArrays& inputs, const py::object& threads, Evaluate evaluate) {
+  using Out = typename Kind::template Out<T>;
+  const OutputNames& known = Kind::names();
+  const std::vector<std::string> wanted = wanted_outputs(known, outputs, out);
+  for (const std::string& name : wanted) {
+    if (!Kind::has(name, components)) {
+      throw_value_error("outputs", "'" + name + "' needs " + Kind::kNeeds + ", the set has " +
+                                       std::to_string(components) + homogeneous_hint(components));
+    }
+  }
+  const OutputArrays<T> arrays(known, wanted, out, samples, components, inputs);
+  Options options;
+  options.threads = thread_count(threads);
+  const Status status = evaluate_by_threes<Out>(known, arrays, components, [&](Out& to) {
+    Kind::set_values(to, arrays);
+    const py::gil_scoped_release release;
+    return evaluate(to, options);
+  });
+  require_ok(status, status == Status::bad_patch_index ? Kind::kIndex : "out");
+  return arrays.result();
+}
+
+/// A set of floats or doubles.
 template <typename Kind>
 class PySet : public EmptyUntilConstructed {
 public:
@@ -49,6 +130,7 @@ public:
   }
 
 protected:
+  explicit PySet(std::variant<Set<float>, Set<double>>&& set) : set_(std::move(set)) {}
   template <template <typename> class View>
   PySet(const AnyPointViews<View>& points, const py::object& dtype, const py::object& local_origin,
         const py::object& relative_to, const py::object& threads) {
@@ -73,27 +155,10 @@ protected:
                               const std::vector<py::ssize_t>& samples, const py::object& outputs,
                               const py::object& out, const NamedArrays& inputs,
                               const py::object& threads) {
-    using Out = typename Kind::template Out<T>;
-    const OutputNames& known = Kind::names();
-    const int components = set.components();
-    const std::vector<std::string> wanted = wanted_outputs(known, outputs, out);
-    for (const std::string& name : wanted) {
-      if (!Kind::has(name, components)) {
-        throw_value_error("outputs", "'" + name + "' needs " + Kind::kNeeds + ", the set has " +
-                                         std::to_string(components) + homogeneous_hint(components));
-      }
-    }
-    const OutputArrays<T> arrays(known, wanted, out, samples, components, inputs);
-    Options options;
-    options.threads = thread_count(threads);
-    const auto evaluate = [&](Out& to) {
-      Kind::set_values(to, arrays);
-      const py::gil_scoped_release release;
-      return simdbezier::evaluate(set, where, to, options);
-    };
-    const Status status = evaluate_by_threes<Out>(known, arrays, components, evaluate);
-    require_ok(status, status == Status::bad_patch_index ? Kind::kIndex : "out");
-    return arrays.result();
+    return evaluate_outputs<Kind, T>(set.components(), samples, outputs, out, inputs, threads,
+                                     [&](const auto& to, const Options& options) {
+                                       return simdbezier::evaluate(set, where, to, options);
+                                     });
   }
 
   std::variant<Set<float>, Set<double>> set_;

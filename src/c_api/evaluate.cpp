@@ -4,6 +4,7 @@
 #include <simdbezier/tiles.hpp>
 
 #include "src/c_api/evaluate_set.hpp"
+#include "src/c_api/outputs.hpp"
 
 namespace simdbezier::c_api {
 namespace {
@@ -15,18 +16,6 @@ constexpr Path kSamples{"samples"};
 constexpr Path kOut{"out"};
 
 static_assert(SIMDBEZIER_SAMPLE_NON_FINITE == static_cast<int>(SampleStatus::non_finite));
-
-/// The vector outputs in the order of Output.
-constexpr simdbezier_vectors simdbezier_outputs::*kVectors[] = {
-    &simdbezier_outputs::position, &simdbezier_outputs::du,  &simdbezier_outputs::dv,
-    &simdbezier_outputs::duu,      &simdbezier_outputs::duv, &simdbezier_outputs::dvv,
-    &simdbezier_outputs::normal};
-static_assert(std::size(kVectors) == kVectorOutputs, "every vector output has its member");
-
-constexpr simdbezier_values simdbezier_outputs::*kCurvatureValues[] = {
-    &simdbezier_outputs::gaussian, &simdbezier_outputs::mean, &simdbezier_outputs::minimum,
-    &simdbezier_outputs::maximum};
-static_assert(std::size(kCurvatureValues) == kCurvatureKinds);
 
 /// The bits of simdbezier_tile_format::outputs. They stay what they are where outputs are added,
 /// whose bits follow the last one here, wherever Output has them.
@@ -44,24 +33,6 @@ constexpr OutputBit kOutputBits[] = {{SIMDBEZIER_OUTPUT_POSITION, Output::positi
                                      {SIMDBEZIER_OUTPUT_CURVATURE, Output::curvature},
                                      {SIMDBEZIER_OUTPUT_STATUS, Output::status}};
 static_assert(std::size(kOutputBits) == kOutputs, "every output has its bit");
-
-template <typename T>
-Outputs<T> outputs_of(const simdbezier_outputs* given) {
-  const simdbezier_outputs known = read(given, kOut);
-  Outputs<T> out;
-  for (std::size_t k = 0; k < kVectorOutputs; ++k) {
-    const auto output = static_cast<Output>(k);
-    out[output] = vectors_of<T>(known.*kVectors[k], kOut / output_name(output));
-  }
-  for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
-    const auto curvature = static_cast<Curvature>(k);
-    out.curvature[curvature] =
-        values_of<T>(known.*kCurvatureValues[k], kOut / output_name(curvature));
-  }
-  out.status = sample_statuses(known.status, known.status_length, kOut);
-  out.first_component = known.first_component;
-  return out;
-}
 
 template <typename T>
 Grid<T> where_of(const simdbezier_grid* given) {
@@ -162,14 +133,15 @@ simdbezier_outputs given_back(const Outputs<T>& out, std::size_t samples) noexce
   for (std::size_t k = 0; k < kVectorOutputs; ++k) {
     const Vectors<T>& vectors = out[static_cast<Output>(k)];
     if (vectors.wanted()) {
-      known.*kVectors[k] = {vectors.x, vectors.y, vectors.z, vectors.stride, samples, kScalar<T>};
+      known.*kVectorMembers[k] = {vectors.x,      vectors.y, vectors.z,
+                                  vectors.stride, samples,   kScalar<T>};
     }
   }
   const auto values = [&](const Values<T>& of) {
     return of.wanted() ? simdbezier_values{of.first, samples, kScalar<T>} : simdbezier_values{};
   };
   for (std::size_t k = 0; k < kCurvatureKinds; ++k) {
-    known.*kCurvatureValues[k] = values(out.curvature[static_cast<Curvature>(k)]);
+    known.*kCurvatureMembers[k] = values(out.curvature[static_cast<Curvature>(k)]);
   }
   if (out.status.wanted()) {
     known.status = reinterpret_cast<std::uint8_t*>(out.status.first);

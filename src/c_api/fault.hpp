@@ -41,6 +41,7 @@ struct Fault {
   std::size_t patch = 0;
   int point = -1; ///< not known
   int component = 0;
+  const char* whole = "patch"; ///< what `patch` numbers
 };
 
 /// Keeps a fault for simdbezier_last_fault(), and returns its status.

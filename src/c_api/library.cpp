@@ -11,6 +11,8 @@ namespace {
 
 // Numbers of C are those of C++; a new Status gets a name in types.h.
 static_assert(static_cast<int>(SIMDBEZIER_SNAP_TOO_LARGE) == Status::snap_too_large);
+static_assert(static_cast<int>(SIMDBEZIER_BAD_KNOTS) == Status::bad_knots);
+static_assert(static_cast<int>(SIMDBEZIER_BAD_RANGE) == Status::bad_range);
 static_assert(static_cast<int>(SIMDBEZIER_OUT_OF_MEMORY) == Status::out_of_memory);
 #define SIMDBEZIER_INSTRUCTION_SET(name, upper, fuses, runs_here)                                  \
   static_assert(SIMDBEZIER_ISA_##upper == static_cast<int>(Isa::name));                            \
@@ -156,11 +158,18 @@ const char* simdbezier_last_message(void) {
   const bool of_point = last.fault.status == SIMDBEZIER_NON_FINITE_INPUT ||
                         last.fault.status == SIMDBEZIER_BAD_WEIGHT ||
                         last.fault.status == SIMDBEZIER_COEFFICIENT_OVERFLOW;
-  if (of_point && last.fault.point >= 0 && length > 0) {
+  const bool of_knot = last.fault.status == SIMDBEZIER_BAD_KNOTS;
+  if ((of_point || of_knot || last.fault.status == SIMDBEZIER_BAD_RANGE) && last.fault.point >= 0 &&
+      length > 0) {
     const auto used = std::min(static_cast<std::size_t>(length), sizeof last.message);
-    std::snprintf(last.message + used, sizeof last.message - used,
-                  " (patch %zu, point %d, component %d)", last.fault.patch, last.fault.point,
-                  last.fault.component);
+    char* const end = last.message + used;
+    const std::size_t room = sizeof last.message - used;
+    if (of_point) {
+      std::snprintf(end, room, " (%s %zu, point %d, component %d)", last.fault.whole,
+                    last.fault.patch, last.fault.point, last.fault.component);
+    } else {
+      std::snprintf(end, room, " (%s %d)", of_knot ? "knot" : "parameter", last.fault.point);
+    }
   }
   return last.message;
 }

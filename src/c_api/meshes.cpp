@@ -5,7 +5,7 @@
 #include <simdbezier/mesh.hpp>
 
 #include "src/c_api/handles.hpp"
-#include "src/c_api/views.hpp"
+#include "src/c_api/spline_views.hpp"
 #include "src/mesh/mesh_measures.hpp"
 
 namespace simdbezier::c_api {
@@ -58,9 +58,9 @@ const char* blamed_measure(const MeshOptions& options) {
                                                      : "tolerance";
 }
 
-template <typename S>
-Path blamed_in_tessellation(Status status, const MeshOptions& options,
-                            std::span<const ControlNets<S>> nets, std::size_t patch) {
+/// blamed_points(status): what of the points is at fault where no option is.
+template <typename BlamedPoints>
+Path blamed_in_tessellation(Status status, const MeshOptions& options, BlamedPoints blamed_points) {
   const bool few = options.nu < 2 || options.nv < 2;
   switch (status.code()) {
   case Status::bad_tolerance:
@@ -74,7 +74,7 @@ Path blamed_in_tessellation(Status status, const MeshOptions& options,
   case Status::not_orientable:
     return kOptions / "orient";
   default:
-    return blamed_nets(status, nets_with_patch(nets, patch));
+    return blamed_points(status);
   }
 }
 
@@ -115,6 +115,17 @@ simdbezier_mesh_plan_parts parts_of(const simdbezier_mesh_plan& plan) noexcept {
   return known;
 }
 
+/// Gives a mesh or a plan of one, or refuses the call for what it was refused for.
+template <typename Handle, typename Made, typename BlamedPoints>
+void give_made(Made&& made, const MeshOptions& options, Handle** handle,
+               BlamedPoints blamed_points) {
+  if (!made) {
+    throw Fault{code_of(made.status), blamed_in_tessellation(made.status, options, blamed_points),
+                made.fault_patch};
+  }
+  give(handle, std::forward<Made>(made));
+}
+
 /// A mesh or a plan of one, which `call` makes.
 template <typename Handle, typename Call>
 simdbezier_status make(const char* function, const simdbezier_nets* nets, std::size_t length,
@@ -126,16 +137,50 @@ simdbezier_status make(const char* function, const simdbezier_nets* nets, std::s
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
       with_scalar(scalar, {"scalar"}, [&]<typename T>() {
         auto made = call.template operator()<T>(views, how);
-        if (!made) {
-          throw Fault{code_of(made.status),
-                      blamed_in_tessellation(made.status, how, views, made.fault_patch),
-                      made.fault_patch};
-        }
-        give(handle, std::move(made));
+        const std::size_t patch = made.fault_patch;
+        give_made(std::move(made), how, handle, [&](Status status) {
+          return blamed_nets(status, nets_with_patch(views, patch));
+        });
       });
     });
   });
 }
+
+/// The same of splines.
+template <typename Handle, typename Call>
+simdbezier_status make(const char* function, const simdbezier_spline_surface* surfaces,
+                       std::size_t length, simdbezier_scalar scalar,
+                       const simdbezier_mesh_options* options, Handle** handle, const char* name,
+                       Call call) noexcept {
+  return answer(function, [&] {
+    require_place(handle, {name});
+    const MeshOptions how = mesh_options_of(options);
+    with_surface_array(surfaces, length, [&]<typename S>(std::span<const SplineSurface<S>> views) {
+      with_scalar(scalar, {"scalar"}, [&]<typename T>() {
+        SplineReport report;
+        auto made = call.template operator()<T>(views, how, &report);
+        require_spline(report, {"surfaces", report.surface}, kSurfaceNames);
+        const std::size_t patch = made.fault_patch;
+        give_made(std::move(made), how, handle, [&](Status status) {
+          std::size_t k = 0;
+          std::size_t end = 0; // of the patches of surface k
+          while (k + 1 < views.size() && patch >= (end += span_count(views[k]).patches())) {
+            ++k;
+          }
+          return blamed_nets(status, {"surfaces", k});
+        });
+      });
+    });
+  });
+}
+
+// Overloads and templates cannot be handed over as they are.
+const auto kTessellate = []<typename T>(const auto& views, const auto&... how) {
+  return tessellate<T>(views, how...);
+};
+const auto kPlanMesh = []<typename T>(const auto& views, const auto&... how) {
+  return plan_mesh<T>(views, how...);
+};
 
 } // namespace
 } // namespace simdbezier::c_api
@@ -147,10 +192,7 @@ simdbezier_status simdbezier_tessellate(const simdbezier_nets* nets, size_t leng
                                         simdbezier_scalar scalar,
                                         const simdbezier_mesh_options* options,
                                         simdbezier_mesh** mesh) {
-  return make(__func__, nets, length, scalar, options, mesh, "mesh",
-              []<typename T>(const auto& views, const MeshOptions& how) {
-                return tessellate<T>(views, how);
-              });
+  return make(__func__, nets, length, scalar, options, mesh, "mesh", kTessellate);
 }
 
 void simdbezier_mesh_free(simdbezier_mesh* mesh) { delete mesh; }
@@ -175,10 +217,7 @@ simdbezier_status simdbezier_plan_mesh(const simdbezier_nets* nets, size_t lengt
                                        simdbezier_scalar scalar,
                                        const simdbezier_mesh_options* options,
                                        simdbezier_mesh_plan** plan) {
-  return make(__func__, nets, length, scalar, options, plan, "plan",
-              []<typename T>(const auto& views, const MeshOptions& how) {
-                return plan_mesh<T>(views, how);
-              });
+  return make(__func__, nets, length, scalar, options, plan, "plan", kPlanMesh);
 }
 
 void simdbezier_mesh_plan_free(simdbezier_mesh_plan* plan) { delete plan; }
@@ -198,4 +237,18 @@ simdbezier_status simdbezier_mesh_plan_count(const simdbezier_mesh_plan* plan,
     require_writable(counts, {"counts"});
     with_object(plan, {"plan"}, [&](const auto& of) { write(counts, counts_of(of.counts)); });
   });
+}
+
+simdbezier_status simdbezier_spline_tessellate(const simdbezier_spline_surface* surfaces,
+                                               size_t length, simdbezier_scalar scalar,
+                                               const simdbezier_mesh_options* options,
+                                               simdbezier_mesh** mesh) {
+  return make(__func__, surfaces, length, scalar, options, mesh, "mesh", kTessellate);
+}
+
+simdbezier_status simdbezier_spline_plan_mesh(const simdbezier_spline_surface* surfaces,
+                                              size_t length, simdbezier_scalar scalar,
+                                              const simdbezier_mesh_options* options,
+                                              simdbezier_mesh_plan** plan) {
+  return make(__func__, surfaces, length, scalar, options, plan, "plan", kPlanMesh);
 }

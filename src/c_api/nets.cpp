@@ -110,42 +110,6 @@ simdbezier_status boxes(const char* function, const simdbezier_nets* nets, simdb
                  });
 }
 
-template <typename T>
-SplineMesh<T> mesh_of(const simdbezier_spline_mesh& given, const Path& path) {
-  require(given.points != nullptr, SIMDBEZIER_NULL_INPUT, path / "points");
-  const ptrdiff_t strides[] = {given.row_stride, given.point_stride, given.component_stride};
-  const char* const names[] = {"row_stride", "point_stride", "component_stride"};
-  for (std::size_t k = 0; k < 3; ++k) {
-    require(strides[k] > 0, SIMDBEZIER_BAD_STRIDE, path / names[k]);
-  }
-  const Weights weights = weights_of(given.weights, path);
-  require(given.components >= 1 && given.components <= kMostComponents, SIMDBEZIER_BAD_COMPONENTS,
-          path / "components");
-  require(given.rows > 0 && given.columns > 0, SIMDBEZIER_BAD_GRID, path / "rows");
-  // The place of the last value, refused where it overflows.
-  const int values = given.components + (weights == Weights::none ? 0 : 1);
-  const std::size_t counts[] = {given.rows - 1, given.columns - 1,
-                                static_cast<std::size_t>(values - 1)};
-  std::size_t left = given.length;
-  bool fits = left > 0;
-  for (std::size_t k = 0; fits && k < 3; ++k) {
-    const auto stride = static_cast<std::size_t>(strides[k]);
-    fits = counts[k] <= (left - 1) / stride;
-    left -= fits ? counts[k] * stride : 0;
-  }
-  require(fits, SIMDBEZIER_INPUT_TOO_SMALL, path / "length");
-  return {numbers_at<T>(given.points, path / "points"),
-          given.rows,
-          given.columns,
-          given.row_stride,
-          given.point_stride,
-          given.component_stride,
-          given.components,
-          weights,
-          given.periodic_u != 0,
-          given.periodic_v != 0};
-}
-
 } // namespace
 } // namespace simdbezier::c_api
 
@@ -242,25 +206,6 @@ simdbezier_status simdbezier_from_bezier(simdbezier_basis basis, const simdbezie
                                          const simdbezier_mutable_nets* out,
                                          const simdbezier_options* options) {
   return change_basis(__func__, basis, nets, out, options, SIMDBEZIER_CALL(from_bezier));
-}
-
-simdbezier_status simdbezier_spline_to_bezier(const simdbezier_spline_mesh* mesh,
-                                              const simdbezier_mutable_nets* out,
-                                              const simdbezier_options* options) {
-  return answer(__func__, [&] {
-    const Path path{"mesh"};
-    const simdbezier_spline_mesh given = read(mesh, path);
-    const CallOptions how(options);
-    with_scalar(given.scalar, path / "scalar", [&]<typename T>() {
-      require_ok(spline_to_bezier(mesh_of<T>(given, path), output_of<T>(out, kOut), *how),
-                 [&](Status status) {
-                   const Path found =
-                       blamed(status, true, kOut); // mesh_of() has seen to its memory
-                   const bool of_mesh = found.is_of(kNets) || status == Status::bad_grid;
-                   return of_mesh ? path : found;
-                 });
-    });
-  });
 }
 
 simdbezier_status simdbezier_control_boxes(const simdbezier_nets* nets, simdbezier_values low,

@@ -18,8 +18,10 @@ namespace simdbezier::detail {
 template <typename T, typename S>
 class MeshPlanner {
 public:
-  MeshPlanner(std::span<const ControlNets<S>> nets, const MeshOptions& options, MeshPlan<T>& plan)
-      : given_(nets), nets_(nets), options_(options), plan_(plan) {}
+  /// errors: how far each of the patches given may be from what it stands for; or empty.
+  MeshPlanner(std::span<const ControlNets<S>> nets, std::span<const double> errors,
+              const MeshOptions& options, MeshPlan<T>& plan)
+      : given_(nets), nets_(nets), given_errors_(errors), options_(options), plan_(plan) {}
 
   Status run() {
     for (const auto step : {&MeshPlanner::check, &MeshPlanner::leave_out, &MeshPlanner::split,
@@ -143,6 +145,9 @@ private:
     for (std::size_t patch = 0; patch < plan_.pieces.size(); ++patch) {
       errors_[patch] += plan_.pieces[patch].error;
     }
+    for (std::size_t patch = 0; patch < patches && !given_errors_.empty(); ++patch) {
+      errors_[patch] += given_errors_[plan_.patches.empty() ? patch : plan_.patches[patch]];
+    }
     return status;
   }
 
@@ -227,6 +232,7 @@ private:
 
   std::span<const ControlNets<S>> given_;
   std::span<const ControlNets<S>> nets_; ///< without what is left out
+  std::span<const double> given_errors_;
   SplitNets<S> split_;
   DistinctNets<S> distinct_;
   const MeshOptions& options_;

@@ -1,10 +1,11 @@
-// See mesh.hpp.
+// See mesh.hpp, and splines.hpp for meshes of splines.
 #include <simdbezier/mesh.hpp>
 
 #include <algorithm>
 #include <limits>
 
 #include <simdbezier/mesh_primitives.hpp>
+#include <simdbezier/splines.hpp>
 
 #include "src/mesh/mesh_planner.hpp"
 #include "src/runtime/attempt.hpp"
@@ -83,24 +84,125 @@ Status fill_mesh(const MeshPlan<T>& plan, const MeshOptions& options, std::size_
   return write_faces(plan, options, mesh);
 }
 
+/// The plan that `make(plan)` makes, and its mesh.
+template <typename T, typename Make>
+MeshPlan<T> planned(const Make& make) noexcept {
+  const DefaultFpEnvironment environment;
+  return attempt(&MeshPlan<T>::fault_patch, make);
+}
+template <typename T, typename Make>
+Mesh<T> tessellated(const MeshOptions& options, const Make& make) noexcept {
+  const DefaultFpEnvironment environment; // comparisons would lose tiny deviations
+  return attempt(&Mesh<T>::fault_patch, [&](Mesh<T>& mesh) {
+    std::size_t given = 0;
+    const MeshPlan<T> plan = make(given);
+    mesh.fault_patch = plan.fault_patch;
+    return plan ? fill_mesh(plan, options, given, mesh) : plan.status;
+  });
+}
+
+/// The nets of splines, and how far they may be from them.
+template <typename S>
+class CutSplines {
+public:
+  SplineReport cut(std::span<const SplineSurface<S>> surfaces, const Options& how) {
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+      if (surfaces[k].components != 3) { // of all, before the first of them is cut
+        return {Status::bad_components, k};
+      }
+    }
+    for (std::size_t first = 0, end = 0; first < surfaces.size(); first = end) {
+      for (end = first + 1; end < surfaces.size() && are_alike(surfaces[first], surfaces[end]);) {
+        ++end;
+      }
+      if (SplineReport report = cut_alike(surfaces.subspan(first, end - first), how); !report) {
+        report.surface += first;
+        return report;
+      }
+    }
+    return {};
+  }
+  [[nodiscard]] std::span<const ControlNets<S>> nets() const noexcept { return nets_; }
+  [[nodiscard]] std::span<const double> errors() const noexcept { return errors_; }
+
+private:
+  static bool are_alike(const SplineSurface<S>& a, const SplineSurface<S>& b) noexcept {
+    return a.degree_u == b.degree_u && a.degree_v == b.degree_v &&
+           (a.weights == Weights::none) == (b.weights == Weights::none);
+  }
+
+  SplineReport cut_alike(std::span<const SplineSurface<S>> surfaces, const Options& how) {
+    std::size_t patches = 0;
+    for (const SplineSurface<S>& surface : surfaces) {
+      patches += span_count(surface).patches(); // none where it is refused
+    }
+    const SplineSurface<S>& like = surfaces.front();
+    MutableNets<S> out = MutableNets<S>::packed(
+        nullptr, patches, like.degree_u, like.degree_v, 3,
+        like.weights == Weights::none ? Weights::none : Weights::homogeneous);
+    values_.emplace_back(patches * static_cast<std::size_t>(std::max<std::ptrdiff_t>(
+                                       out.patch_stride, 0))); // of degrees that are refused
+    out.points = values_.back().data();
+    if (const SplineReport report = to_bezier(surfaces, out, {}, how); !report) {
+      return report;
+    }
+    nets_.push_back(out);
+    for (const SplineSurface<S>& surface : surfaces) {
+      errors_.insert(errors_.end(), span_count(surface).patches(), extraction_error(surface));
+    }
+    return {};
+  }
+
+  std::vector<std::vector<S>> values_;
+  std::vector<ControlNets<S>> nets_;
+  std::vector<double> errors_;
+};
+
+/// given: the number of patches that the splines have.
+template <typename T, typename S>
+MeshPlan<T> planned_splines(std::span<const SplineSurface<S>> surfaces, const MeshOptions& options,
+                            SplineReport* report, std::size_t& given) noexcept {
+  SplineReport unasked;
+  SplineReport& found = report == nullptr ? unasked : *report;
+  found = {};
+  return planned<T>([&](MeshPlan<T>& plan) -> Status {
+    CutSplines<S> splines;
+    found = splines.cut(surfaces, {.threads = options.threads, .isa = options.isa});
+    given = splines.errors().size();
+    return found ? MeshPlanner<T, S>(splines.nets(), splines.errors(), options, plan).run()
+                 : found.status;
+  });
+}
+
 } // namespace
 } // namespace detail
 
 template <typename T, typename S>
 MeshPlan<T> plan_mesh(std::span<const ControlNets<S>> nets, const MeshOptions& options) noexcept {
-  const detail::DefaultFpEnvironment environment;
-  return detail::attempt(&MeshPlan<T>::fault_patch, [&](MeshPlan<T>& plan) {
-    return detail::MeshPlanner<T, S>(nets, options, plan).run();
-  });
+  return detail::planned<T>(
+      [&](MeshPlan<T>& plan) { return detail::MeshPlanner<T, S>(nets, {}, options, plan).run(); });
 }
 
 template <typename T, typename S>
 Mesh<T> tessellate(std::span<const ControlNets<S>> nets, const MeshOptions& options) noexcept {
-  const detail::DefaultFpEnvironment environment; // comparisons would lose tiny deviations
-  return detail::attempt(&Mesh<T>::fault_patch, [&](Mesh<T>& mesh) {
-    const MeshPlan<T> plan = plan_mesh<T>(nets, options);
-    mesh.fault_patch = plan.fault_patch;
-    return plan ? detail::fill_mesh(plan, options, detail::patches_of(nets), mesh) : plan.status;
+  return detail::tessellated<T>(options, [&](std::size_t& given) {
+    given = detail::patches_of(nets);
+    return plan_mesh<T>(nets, options);
+  });
+}
+
+template <typename T, typename S>
+MeshPlan<T> plan_mesh(std::span<const SplineSurface<S>> surfaces, const MeshOptions& options,
+                      SplineReport* report) noexcept {
+  std::size_t given = 0;
+  return detail::planned_splines<T, S>(surfaces, options, report, given);
+}
+
+template <typename T, typename S>
+Mesh<T> tessellate(std::span<const SplineSurface<S>> surfaces, const MeshOptions& options,
+                   SplineReport* report) noexcept {
+  return detail::tessellated<T>(options, [&](std::size_t& given) {
+    return detail::planned_splines<T, S>(surfaces, options, report, given);
   });
 }
 
@@ -108,7 +210,11 @@ Mesh<T> tessellate(std::span<const ControlNets<S>> nets, const MeshOptions& opti
   template SIMDBEZIER_API MeshPlan<T> plan_mesh<T, S>(std::span<const ControlNets<S>>,             \
                                                       const MeshOptions&) noexcept;                \
   template SIMDBEZIER_API Mesh<T> tessellate<T, S>(std::span<const ControlNets<S>>,                \
-                                                   const MeshOptions&) noexcept;
+                                                   const MeshOptions&) noexcept;                   \
+  template SIMDBEZIER_API MeshPlan<T> plan_mesh<T, S>(std::span<const SplineSurface<S>>,           \
+                                                      const MeshOptions&, SplineReport*) noexcept; \
+  template SIMDBEZIER_API Mesh<T> tessellate<T, S>(std::span<const SplineSurface<S>>,              \
+                                                   const MeshOptions&, SplineReport*) noexcept;
 SIMDBEZIER_INSTANTIATE(float, float)
 SIMDBEZIER_INSTANTIATE(float, double)
 SIMDBEZIER_INSTANTIATE(double, float)

@@ -10,25 +10,17 @@ template <typename T>
 class CModel : public ::testing::Test {
 protected:
   void SetUp() override {
-    auto mesh = sized<simdbezier_spline_mesh>();
-    mesh.points = mesh_points_.data();
-    mesh.length = mesh_points_.size();
-    mesh.rows = 4;
-    mesh.columns = 5;
-    mesh.row_stride = 15;
-    mesh.point_stride = 3;
-    mesh.component_stride = 1;
-    mesh.components = 3;
-    mesh.scalar = kCScalar<T>;
-    mesh.periodic_u = mesh.periodic_v = 1;
+    auto surface = simdbezier_packed_spline_surface_of(mesh_points_.data(), mesh_points_.size(), 4,
+                                                       5, 3, 3, 3, 0, kCScalar<T>);
+    surface.periodic_u = surface.periodic_v = 1;
     values_.resize(20 * 48);
     const simdbezier_mutable_nets room = c_room(values_, 3, 3);
-    ASSERT_EQ(simdbezier_spline_to_bezier(&mesh, &room, nullptr), SIMDBEZIER_OK)
+    ASSERT_EQ(simdbezier_spline_to_bezier(&surface, 1, &room, nullptr, 0, nullptr), SIMDBEZIER_OK)
         << simdbezier_last_message();
     std::vector<T> expected(values_.size());
-    ASSERT_TRUE(spline_to_bezier(
-        SplineMesh<T>{mesh_points_.data(), 4, 5, 15, 3, 1, 3, Weights::none, true, true},
-        MutableNets<T>::packed(std::span(expected), 20, 3, 3)));
+    SplineSurface<T> same{mesh_points_.data(), 4, 5, 15};
+    same.periodic_u = same.periodic_v = true;
+    ASSERT_TRUE(to_bezier(same, MutableNets<T>::packed(std::span(expected), 20, 3, 3)));
     expect_same_bits(values_, expected, "pieces of a spline");
     c_nets_ = c_nets(values_, 3, 3);
     ASSERT_EQ(simdbezier_find_topology(&c_nets_, 1, nullptr, &c_topology_), SIMDBEZIER_OK);

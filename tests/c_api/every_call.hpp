@@ -27,17 +27,17 @@ struct EveryArgument : MeshWorld {
     curve_grids.n_length = 8;
     curve_samples.curve = patch;
     curve_samples.t = parameters;
+    spline.knots_u = spline_curve.knots = knots;
+    spline.knots_u_length = spline_curve.knots_length = 9;
     curve_samples.curve_length = curve_samples.t_length = 2;
     flatten_options.tolerance = 0.01;
-    spline.points = values.data();
-    spline.length = values.size();
-    spline.rows = 4;
-    spline.columns = 5;
-    spline.row_stride = 15;
-    spline.point_stride = 3;
-    spline.component_stride = 1;
-    spline.components = 3;
-    spline.scalar = curve_samples.scalar = SIMDBEZIER_F32;
+    curve_samples.scalar = SIMDBEZIER_F32;
+    places.length = 2;
+    places.patch = counted;
+    places.u = &doubles[0];
+    places.v = &doubles[2];
+    places.length_u = &doubles[4];
+    places.length_v = &doubles[6];
     for (std::size_t k = 0; k < 4; ++k) {
       quarters[k] = simdbezier_packed_mutable_nets_f32(&room[96 * k], 96, 3, 3, 3, 0);
     }
@@ -84,7 +84,21 @@ struct EveryArgument : MeshWorld {
   simdbezier_curve_grids curve_grids = sized<simdbezier_curve_grids>();
   simdbezier_curve_samples curve_samples = sized<simdbezier_curve_samples>();
   simdbezier_flatten_options flatten_options = sized<simdbezier_flatten_options>();
-  simdbezier_spline_mesh spline = sized<simdbezier_spline_mesh>();
+  simdbezier_spline_surface spline =
+      simdbezier_packed_spline_surface_f32(values.data(), values.size(), 4, 5, 3, 3, 3, 0);
+  simdbezier_spline_curve spline_curve =
+      simdbezier_packed_spline_curve_f32(values.data(), values.size(), 5, 3, 3, 0);
+  double knots[9] = {0, 0, 0, 0, 1, 2, 2, 2, 2};
+  double spline_u[2] = {0.25, 1.0};
+  double spline_v[2] = {0.5, 0.75};
+  std::size_t spline_length = 2;
+  simdbezier_patch_interval intervals[2] = {};
+  simdbezier_interval curve_intervals[2] = {};
+  std::size_t intervals_length = 2;
+  std::size_t spans_u = 0;
+  std::size_t spans_v = 0;
+  simdbezier_spline_places places = sized<simdbezier_spline_places>();
+  simdbezier_values pieces = simdbezier_values_f32(&room[0], 24);
   simdbezier_mutable_nets quarters[4];
   simdbezier_mutable_nets slope_u = simdbezier_packed_mutable_nets_f32(&room[0], 72, 2, 3, 3, 0);
   simdbezier_mutable_nets slope_v = simdbezier_packed_mutable_nets_f32(&room[0], 72, 3, 2, 3, 0);
@@ -197,7 +211,28 @@ inline const CCall kEveryCall[] = {
     SIMDBEZIER_C_CALL(transpose, w.at(w.nets), w.at(w.low), w.at(w.options)),
     SIMDBEZIER_C_CALL(to_bezier, w.basis, w.at(w.nets), w.at(w.low), w.at(w.options)),
     SIMDBEZIER_C_CALL(from_bezier, w.basis, w.at(w.nets), w.at(w.low), w.at(w.options)),
-    SIMDBEZIER_C_CALL(spline_to_bezier, w.at(w.spline), w.at(w.low), w.at(w.options)),
+    SIMDBEZIER_C_CALL(spline_to_bezier, w.at(w.spline), w.views, w.at(w.low), w.at(w.intervals[0]),
+                      w.intervals_length, w.at(w.options)),
+    SIMDBEZIER_C_CALL(spline_pack, w.at(w.spline), w.views, w.scalar, w.at(w.intervals[0]),
+                      w.intervals_length, w.at(w.pack_options), w.place(w.made)),
+    SIMDBEZIER_C_CALL(spline_span_count, w.at(w.spline), w.at(w.spans_u), w.at(w.spans_v)),
+    SIMDBEZIER_C_CALL(spline_locate, w.at(w.spline), w.at(w.spline_u[0]), w.spline_length,
+                      w.at(w.spline_v[0]), w.spline_length, w.at(w.places)),
+    SIMDBEZIER_C_CALL(spline_evaluate_grid, w.patches(), w.at(w.spline), w.at(w.spline_u[0]),
+                      w.spline_length, w.at(w.spline_v[0]), w.spline_length, w.at(w.out),
+                      w.at(w.options), w.first_patch),
+    SIMDBEZIER_C_CALL(spline_evaluate_samples, w.patches(), w.at(w.spline), w.at(w.spline_u[0]),
+                      w.spline_length, w.at(w.spline_v[0]), w.spline_length, w.at(w.out),
+                      w.at(w.options), w.first_patch),
+    SIMDBEZIER_C_CALL(spline_tessellate, w.at(w.spline), w.views, w.scalar, w.at(w.mesh_options),
+                      w.place(w.made_mesh)),
+    SIMDBEZIER_C_CALL(spline_plan_mesh, w.at(w.spline), w.views, w.scalar, w.at(w.mesh_options),
+                      w.place(w.made_plan)),
+    SIMDBEZIER_C_CALL(spline_curve_span_count, w.at(w.spline_curve), w.at(w.spans_u)),
+    SIMDBEZIER_C_CALL(spline_curve_to_bezier, w.at(w.spline_curve), w.pieces,
+                      w.at(w.curve_intervals[0]), w.intervals_length, w.at(w.options)),
+    SIMDBEZIER_C_CALL(spline_curve_locate, w.at(w.spline_curve), w.at(w.spline_u[0]),
+                      w.spline_length, w.at(w.places)),
     SIMDBEZIER_C_CALL(control_boxes, w.at(w.nets), w.low_corners, w.high_corners, w.at(w.options)),
     SIMDBEZIER_C_CALL(tight_boxes, w.at(w.nets), w.levels, w.low_corners, w.high_corners,
                       w.at(w.options)),

@@ -21,6 +21,7 @@ int main(void) {
   SIZE(simdbezier_formatted_output);
   SIZE(simdbezier_formatted_outputs);
   SIZE(simdbezier_grid);
+  SIZE(simdbezier_interval);
   SIZE(simdbezier_mesh_arrays);
   SIZE(simdbezier_mesh_options);
   SIZE(simdbezier_mesh_outputs);
@@ -33,6 +34,7 @@ int main(void) {
   SIZE(simdbezier_parameter);
   SIZE(simdbezier_partial_derivative);
   SIZE(simdbezier_patch_grids);
+  SIZE(simdbezier_patch_interval);
   SIZE(simdbezier_patch_shape);
   SIZE(simdbezier_polyline_arrays);
   SIZE(simdbezier_primitive_options);
@@ -40,7 +42,9 @@ int main(void) {
   SIZE(simdbezier_rate_options);
   SIZE(simdbezier_rates);
   SIZE(simdbezier_samples);
-  SIZE(simdbezier_spline_mesh);
+  SIZE(simdbezier_spline_curve);
+  SIZE(simdbezier_spline_places);
+  SIZE(simdbezier_spline_surface);
   SIZE(simdbezier_tile);
   SIZE(simdbezier_tile_format);
   SIZE(simdbezier_topology_counts);

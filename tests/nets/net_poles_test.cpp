@@ -160,14 +160,14 @@ TYPED_TEST(NetPoles, of_splines) {
         }
       }
     }
-    SplineMesh<T> view;
+    SplineSurface<T> view;
     view.points = mesh.values.data();
     view.rows = view.columns = 4;
     view.row_stride = 16;
     view.point_stride = 4;
     view.weights = shape.form;
     PoleNet<T> net = this->room(mesh);
-    ASSERT_TRUE(spline_to_bezier<T>(view, this->out(net)));
+    ASSERT_TRUE(to_bezier<T>(view, this->out(net)));
     ASSERT_TRUE(this->is_pole(net));
     PatchSet<T> set;
     ASSERT_TRUE(pack(net.nets(), set));

@@ -88,37 +88,6 @@ SplineSurface<double> view_of(const FileSpline& spline) {
   return surface;
 }
 
-/// How far a point of the patches may be from one of the surface. Every homogeneous coordinate is
-/// off by `relative` times the largest one of its kind at most; of a rational surface S = N / W,
-///     N'/W' - N/W = ((N' - N) - S (W' - W)) / W',
-/// where S is no farther away than the farthest control point.
-double extraction_error(const FileSpline& spline) {
-  const bool rational = spline.weights != Weights::none;
-  const std::size_t channels = rational ? 4 : 3;
-  double largest[3] = {};
-  double farthest = 0;
-  double heaviest = 1;
-  double lightest = 1;
-  for (std::size_t k = 0; k < spline.points.size(); k += channels) {
-    const double weight = rational ? spline.points[k + 3] : 1;
-    heaviest = k == 0 ? weight : std::max(heaviest, weight);
-    lightest = k == 0 ? weight : std::min(lightest, weight);
-    double square = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double value = spline.points[k + c];
-      const double point = spline.weights == Weights::homogeneous ? value / weight : value;
-      largest[c] = std::max(largest[c], std::abs(point * weight));
-      square += point * point;
-    }
-    farthest = std::max(farthest, std::sqrt(square));
-  }
-  const double relative = spline_error(spline.u.degree, spline.v.degree, spline.weights);
-  const double moved = relative * std::hypot(largest[0], largest[1], largest[2]);
-  const double weighted = rational ? relative * heaviest * farthest : 0;
-  constexpr double kRounding = 1 + 0x1p-40; // of this computation, and of W'
-  return (moved + weighted) / lightest * kRounding;
-}
-
 } // namespace
 
 void PatchFile::close_spline(const FileSpline& spline) {
@@ -166,7 +135,7 @@ void PatchFile::close_spline(const FileSpline& spline) {
   run.u = {order_u, order_u, 1};
   run.v = {order_v * spans.patches(), order_v, spans.patches()};
   add(run);
-  cut_error = std::max(cut_error, extraction_error(spline));
+  cut_error = std::max(cut_error, extraction_error(surface));
 }
 
 } // namespace simdbezier::tools

@@ -88,27 +88,6 @@ SIMDBEZIER_API simdbezier_status simdbezier_from_bezier(simdbezier_basis basis,
                                                         const simdbezier_mutable_nets* out,
                                                         const simdbezier_options* options);
 
-// SplineMesh: rows x columns control points of a uniform bicubic B-spline surface.
-typedef struct simdbezier_spline_mesh {
-  size_t struct_size;
-  const void* points;
-  size_t length; // elements behind `points`; all values lie within
-  size_t rows;
-  size_t columns;
-  ptrdiff_t row_stride; // strides are positive here
-  ptrdiff_t point_stride;
-  ptrdiff_t component_stride;
-  int32_t components;
-  simdbezier_weights weights;
-  simdbezier_scalar scalar;
-  int32_t periodic_u;
-  int32_t periodic_v;
-} simdbezier_spline_mesh;
-// spline_to_bezier(): (columns - 3) * (rows - 3) nets, or columns and rows where periodic.
-SIMDBEZIER_API simdbezier_status simdbezier_spline_to_bezier(const simdbezier_spline_mesh* mesh,
-                                                             const simdbezier_mutable_nets* out,
-                                                             const simdbezier_options* options);
-
 enum { SIMDBEZIER_MOST_BOX_LEVELS = 6 }; // kMostBoxLevels
 // control_boxes(), tight_boxes(): net p has [p * components + c] in low and high; levels from 0 to
 // SIMDBEZIER_MOST_BOX_LEVELS. flatness(): one value a net.

@@ -48,6 +48,8 @@ enum {
   SIMDBEZIER_EXTRA_Y,
   SIMDBEZIER_EXTRA_Z,
   SIMDBEZIER_SNAP_TOO_LARGE,
+  SIMDBEZIER_BAD_KNOTS,
+  SIMDBEZIER_BAD_RANGE,
   SIMDBEZIER_BAD_STRUCT_SIZE = 100, // a wrong struct_size, or unknown members that are not zero
   SIMDBEZIER_BAD_SCALAR,            // neither float nor double, or not what the others are
   SIMDBEZIER_BAD_VALUE,             // a number that stands for no name of its enumeration
@@ -61,7 +63,8 @@ SIMDBEZIER_API const char* simdbezier_status_text(simdbezier_status status);
 typedef struct simdbezier_fault {
   size_t struct_size;
   simdbezier_status status;
-  int32_t point;        // control point at fault, j*(degree_u+1)+i; -1: none, or not known
+  int32_t point;        // control point at fault, j*(degree_u+1)+i; -1: none, or not known; of
+                        // splines see c/splines.h
   int32_t component;    // its component; the number of components for a weight
   size_t patch;         // the patch or curve at fault, where control points are
   const char* function; // "simdbezier_pack"

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes the C++ of documents into files that can be compiled.
+"""Writes the C++ and C of documents into files that can be compiled.
 
     extract_code.py OUT DOCUMENT…
 
 Prints the names of the files, separated by semicolons. A block ```cpp with a main() becomes
-NAME_K.cpp, a program as it stands there. All other blocks of a document become NAME_fragments.cpp:
+NAME_K.cpp, a program as it stands there, and one of ```c NAME_K.c. All other blocks of a document become NAME_fragments.cpp:
 its main() runs them one after the other, each in a scope of its own behind what prelude.hpp
 declares.
 """
@@ -28,10 +28,10 @@ def main():
         document = pathlib.Path(argument)
         name = document.stem.lower()
         fragments = ''
-        for number, code in enumerate(re.findall(r'^```(?:cpp|c\+\+)\n(.*?)^```$',
-                                                 document.read_text(), re.M | re.S)):
+        for number, (language, code) in enumerate(re.findall(r'^```(cpp|c\+\+|c)\n(.*?)^```$',
+                                                             document.read_text(), re.M | re.S)):
             if 'int main(' in code:
-                names.append(write(out / f'{name}_{number}.cpp', code))
+                names.append(write(out / f'{name}_{number}.{"c" if language == "c" else "cpp"}', code))
             else:
                 fragments += f'  if (const int failed = [&]() -> int {{\n{code}return 0; }}(); failed) {{\n' \
                              f'    return failed;\n  }}\n'

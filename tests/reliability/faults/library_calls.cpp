@@ -54,6 +54,17 @@ const Inputs& inputs() {
   return all;
 }
 
+/// A periodic B-spline surface.
+SplineSurface<float> torus(const Inputs& in) {
+  SplineSurface<float> surface;
+  surface.points = in.values.data();
+  surface.rows = 5;
+  surface.columns = 6;
+  surface.row_stride = 18;
+  surface.periodic_u = surface.periodic_v = true;
+  return surface;
+}
+
 PackOptions pack_options(const Options& options) { return {.threads = options.threads}; }
 
 std::vector<Call> packing() {
@@ -179,11 +190,20 @@ std::vector<Call> nets() {
        [&](Results& r, const Options& o) {
          return from_bezier(Basis::centred_power, in.cubic, r.nets(in.cubic), o).status;
        }},
-      {"spline_to_bezier, periodic", true,
+      {"to_bezier, of a spline", true,
        [&](Results& r, const Options& o) {
-         SplineMesh<float> mesh{in.values.data(), 5, 6, 18};
-         mesh.periodic_u = mesh.periodic_v = true;
-         return spline_to_bezier(mesh, MutableNets<float>::packed(r.at(0), 30, 3, 3), o).status;
+         return to_bezier(torus(in), MutableNets<float>::packed(r.at(0), 30, 3, 3), {}, o).status;
+       }},
+      {"pack, of a spline", true,
+       [&](Results& r, const Options& o) {
+         return pack(torus(in), r.set, {}, pack_options(o)).status;
+       }},
+      {"evaluate_grid, of a spline", true,
+       [&](Results& r, const Options& o) {
+         const double at[] = {0, 0.5, 1.5, 3.25, 4};
+         Outputs<float> out;
+         out.position = {r.at(0), r.at(0) + 25, r.at(0) + 50};
+         return evaluate_grid(torus(in), at, at, out, o).status;
        }},
       {"control_boxes", true,
        [&](Results& r, const Options& o) {

@@ -1,5 +1,5 @@
-// Meshes of B-splines: equal bits on all instruction sets and for any strides, the control points
-// of the textbook.
+// Spline surfaces with any knots: equal bits on all instruction sets and for any strides, control
+// points inside of the hull of the spline's own, and those of the textbook where knots are uniform.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -24,66 +24,121 @@ class SplineCase {
 public:
   explicit SplineCase(ByteSource& bytes) : bytes_(bytes) {
     const std::uint8_t choice = bytes.byte();
-    mesh_.periodic_u = (choice & 1) != 0;
-    mesh_.periodic_v = (choice & 2) != 0;
-    mesh_.components = components(bytes);
-    mesh_.rows = (mesh_.periodic_v ? 3 : 4) + bytes.below(5);
-    mesh_.columns = (mesh_.periodic_u ? 3 : 4) + bytes.below(20);
-    values_ = nets_of<T>(bytes, static_cast<int>(mesh_.columns) - 1,
-                         static_cast<int>(mesh_.rows) - 1, mesh_.components, Weights::none, 1);
-    const auto c = static_cast<std::ptrdiff_t>(mesh_.components);
-    mesh_.points = values_.values.data();
-    mesh_.point_stride = c;
-    mesh_.row_stride = c * static_cast<std::ptrdiff_t>(mesh_.columns);
+    surface_.periodic_u = (choice & 1) != 0;
+    surface_.periodic_v = (choice & 2) != 0;
+    uniform_ = (choice & 4) != 0;
+    surface_.components = components(bytes);
+    if (!uniform_) {
+      surface_.degree_u = bytes.between(1, (choice & 8) != 0 ? kMostDegree : 3);
+      surface_.degree_v = bytes.between(1, 4);
+    }
+    surface_.rows = points(surface_.degree_v, surface_.periodic_v, 5);
+    surface_.columns = points(surface_.degree_u, surface_.periodic_u, 20);
+    if (!uniform_) {
+      surface_.knots_u = knots(surface_.columns, surface_.degree_u, surface_.periodic_u, knots_u_);
+      surface_.knots_v = knots(surface_.rows, surface_.degree_v, surface_.periodic_v, knots_v_);
+      surface_.knot_tolerance = (choice & 16) != 0 ? bytes.raw<double>() : 0;
+      if ((choice & 32) != 0) {
+        surface_.u_range = {bytes.raw<double>(), bytes.raw<double>()};
+      }
+    }
+    values_ =
+        nets_of<T>(bytes, static_cast<int>(surface_.columns) - 1,
+                   static_cast<int>(surface_.rows) - 1, surface_.components, Weights::none, 1);
+    const auto c = static_cast<std::ptrdiff_t>(surface_.components);
+    surface_.points = values_.values.data();
+    surface_.point_stride = c;
+    surface_.row_stride = c * static_cast<std::ptrdiff_t>(surface_.columns);
   }
 
   void run() {
-    Nets<T> expected{
-        3, 3, mesh_.components, Weights::none, mesh_.patches_u() * mesh_.patches_v(), true, {}};
+    const SpanCounts spans = span_count(surface_);
+    if (spans.patches() == 0) {
+      const auto none = MutableNets<T>::packed(nullptr, 0, surface_.degree_u, surface_.degree_v,
+                                               surface_.components);
+      require(!to_bezier(surface_, none), "a spline without spans");
+      return;
+    }
+    Nets<T> expected{surface_.degree_u,
+                     surface_.degree_v,
+                     surface_.components,
+                     Weights::none,
+                     spans.patches(),
+                     true,
+                     {}};
     expected.values.assign(expected.count * expected.values_per_patch(), T(0));
     std::optional<Status> first;
     for (const Isa isa : available_isas()) {
       const Arrangement arrangement(bytes_);
       StridedNets<T> memory(expected, arrangement, placement(bytes_));
       const Status status =
-          spline_to_bezier(mesh_, memory.view(), with({}, isa, isa == Isa::avx2 ? 2 : 1)).status;
+          to_bezier(surface_, memory.view(), {}, with({}, isa, isa == Isa::avx2 ? 2 : 1)).status;
       memory.check_surroundings();
-      require_status(status, {Status::ok, Status::non_finite_input}, "spline_to_bezier");
-      require(!first || *first == status, "spline_to_bezier has another status");
+      require_status(status,
+                     {Status::ok, Status::non_finite_input, Status::bad_knots, Status::bad_range,
+                      Status::bad_tolerance},
+                     "to_bezier");
+      require(!first || *first == status, "to_bezier has another status");
       if (status == Status::ok) {
         const std::vector<T> values = memory.values();
         if (first) {
-          require_equal(values, expected.values, named("spline_to_bezier gives other bits", isa));
+          require_equal(values, expected.values, named("to_bezier gives other bits", isa));
         }
         expected.values = values;
       }
       first = status;
     }
     if (*first == Status::ok && values_.moderate) {
-      judge(expected);
+      judge(expected, spans);
     }
   }
 
 private:
+  std::size_t points(int degree, bool periodic, std::size_t more) {
+    return static_cast<std::size_t>(degree) + (periodic ? 0 : 1) + bytes_.below(more);
+  }
+
+  /// Ascending ones mostly, which may be equal; now and then any bits.
+  std::span<const double> knots(std::size_t count, int degree, bool periodic,
+                                std::vector<double>& memory) {
+    const std::size_t all = count + (periodic ? 1 : static_cast<std::size_t>(degree) + 1);
+    double knot = 0;
+    for (std::size_t k = 0; k < all; ++k) {
+      const std::uint8_t step = bytes_.byte();
+      knot = step == 255 ? bytes_.raw<double>() : knot + (step % 3 == 0 ? 0 : 1.0 / step);
+      memory.push_back(knot);
+    }
+    return memory;
+  }
+
   /// Control point k of the piece between knots: weights of the mesh's points 0 to 3 in sixths.
   static constexpr int kSixths[4][4] = {{1, 4, 1, 0}, {0, 4, 2, 0}, {0, 2, 4, 0}, {0, 1, 4, 1}};
 
-  void judge(const Nets<T>& made) const {
+  void judge(const Nets<T>& made, const SpanCounts& spans) const {
+    const auto [low, high] = std::minmax_element(values_.values.begin(), values_.values.end());
+    const T slack = 64 * std::numeric_limits<T>::epsilon() * std::max(-*low, *high) +
+                    std::numeric_limits<T>::min();
     for (std::size_t p = 0; p < made.count; ++p) {
-      for (int k = 0; k < 16; ++k) {
-        for (int c = 0; c < mesh_.components; ++c) {
-          judge_value(made.point(p, k / 4, k % 4)[c], p, k, c);
+      for (int k = 0; k < static_cast<int>(made.points()); ++k) {
+        const int columns = made.degree_u + 1;
+        for (int c = 0; c < made.components; ++c) {
+          const T value = made.point(p, k / columns, k % columns)[c];
+          require(*low - slack <= value && value <= *high + slack,
+                  "a piece of a B-spline leaves the hull");
+          if (uniform_) {
+            judge_value(value, p, k, c, spans);
+          }
         }
       }
     }
   }
 
-  void judge_value(T value, std::size_t patch, int point, int c) const {
+  void judge_value(T value, std::size_t patch, int point, int c, const SpanCounts& spans) const {
     Real exact = 0;
     Real size = 0;
     for (std::size_t k = 0; k < 16; ++k) {
-      const std::size_t row = (patch / mesh_.patches_u() + k / 4) % mesh_.rows;
-      const std::size_t column = (patch % mesh_.patches_u() + k % 4) % mesh_.columns;
+      const std::size_t row = (patch / spans.u + k / 4) % surface_.rows;
+      const std::size_t column = (patch % spans.u + k % 4) % surface_.columns;
       const auto at =
           static_cast<Real>(values_.point(0, static_cast<int>(row), static_cast<int>(column))[c]);
       exact += kSixths[point / 4][k / 4] * kSixths[point % 4][k % 4] * at / 36;
@@ -95,7 +150,10 @@ private:
   }
 
   ByteSource& bytes_;
-  SplineMesh<T> mesh_;
+  SplineSurface<T> surface_;
+  bool uniform_ = false;
+  std::vector<double> knots_u_;
+  std::vector<double> knots_v_;
   Nets<T> values_;
 };
 

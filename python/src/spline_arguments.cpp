@@ -1,0 +1,270 @@
+// See py_splines.hpp.
+#include "python/src/py_splines.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <simdbezier/derivatives.hpp>
+
+namespace simdbezier::python {
+namespace {
+
+std::string text_of(double value) { return py::str(py::float_(value)).cast<std::string>(); }
+
+Interval range_of(const py::object& range, const std::string& argument) {
+  if (range.is_none()) {
+    return {};
+  }
+  const py::array_t<double> ends = parameters<double>(range, argument);
+  if (ends.size() != 2) {
+    throw_value_error(argument, "expected two numbers, found " + std::to_string(ends.size()));
+  }
+  if (!(ends.data()[0] < ends.data()[1])) { // an empty one would stand for the whole domain
+    throw_value_error(argument, "expected ascending numbers, found " + text_of(ends.data()[0]) +
+                                    " and " + text_of(ends.data()[1]));
+  }
+  return {ends.data()[0], ends.data()[1]};
+}
+
+/// What is wrong with knots.
+[[noreturn]] void throw_knots(const SplineDirection& direction, std::size_t points,
+                              std::size_t knot) {
+  const std::vector<double>& knots = direction.knots;
+  const std::size_t expected = direction.expected_knots(points);
+  if (knots.size() != expected) {
+    const bool shortened = !direction.periodic && knots.size() + 2 == expected;
+    throw_value_error(direction.knots_name,
+                      "expected " + std::to_string(expected) + " knots for " +
+                          plural(points, "point", "points") + " of degree " +
+                          std::to_string(direction.degree) + ", found " +
+                          std::to_string(knots.size()) +
+                          (shortened ? "; openNURBS leaves the first and the last one out: repeat "
+                                       "them"
+                                     : ""));
+  }
+  const std::string number = "number " + std::to_string(knot) + ", " + text_of(knots[knot]);
+  if (!(std::abs(knots[knot]) <= 0x1p1000)) {
+    throw_value_error(direction.knots_name, number + ", is no finite number of moderate size");
+  }
+  if (knot > 0 && knots[knot] < knots[knot - 1]) {
+    throw_value_error(direction.knots_name,
+                      number + ", is below the one before it, " + text_of(knots[knot - 1]));
+  }
+  const Interval domain = direction.domain(points);
+  if (!(domain.begin < domain.end)) {
+    throw_value_error(direction.knots_name, "the domain begins and ends at " + text_of(domain.end));
+  }
+  throw_value_error(direction.knots_name, number + ", occurs more than " +
+                                              std::to_string(direction.degree + 1) + " times");
+}
+
+int order_of(const py::object& value, const std::string& argument) {
+  const std::size_t order = integer(value, 0, argument);
+  if (order > std::size_t{kMostDerivativeOrder}) {
+    throw_value_error(argument, "expected orders of at most " +
+                                    std::to_string(kMostDerivativeOrder) + ", found " +
+                                    std::to_string(order));
+  }
+  return static_cast<int>(order);
+}
+
+template <typename T>
+void divide(py::array_t<T>& array, int components, const FoundPlaces& places,
+            const WantedDerivative& orders) {
+  T* value = array.mutable_data();
+  for (std::size_t k = 0; k < places.patch.size(); ++k) {
+    const T divisor = derivative_divisor<T>(places, k, orders.u, orders.v);
+    for (int c = 0; c < components; ++c, ++value) {
+      *value /= divisor;
+    }
+  }
+}
+
+template <typename T>
+void add_derivatives_of(const PatchSet<T>& set, const FoundPlaces& places,
+                        const std::vector<WantedDerivative>& wanted, std::vector<py::ssize_t> shape,
+                        const Options& options, py::dict& result) {
+  const int components = set.components();
+  shape.push_back(components);
+  std::vector<py::array_t<T>> arrays;
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    arrays.emplace_back(shape);
+  }
+  std::vector<T> x;
+  std::vector<T> y;
+  for (std::size_t k = 0; k < places.patch.size(); ++k) {
+    x.push_back(static_cast<T>(std::fma(2.0, places.u[k], -1.0)));
+    y.push_back(static_cast<T>(std::fma(2.0, places.v[k], -1.0)));
+  }
+  const Samples<T> samples{places.patch, x, y, Parameters::centred};
+  Status status;
+  for (int first = 0; status && first < components; first += 3) {
+    const int count = std::min(3, components - first);
+    std::vector<PartialDerivative<T>> out;
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      T* const to = arrays[k].mutable_data() + first;
+      out.push_back({wanted[k].u,
+                     wanted[k].v,
+                     {to, count > 1 ? to + 1 : nullptr, count > 2 ? to + 2 : nullptr, components}});
+    }
+    const py::gil_scoped_release release;
+    status = evaluate_derivatives(set, samples, {out, first}, options);
+  }
+  require_ok(status, "derivatives");
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    divide(arrays[k], components, places, wanted[k]);
+    result[wanted[k].key] = arrays[k];
+  }
+}
+
+} // namespace
+
+Interval SplineDirection::domain(std::size_t points) const {
+  if (!range.empty()) {
+    return range;
+  }
+  const std::size_t before = periodic ? 0 : static_cast<std::size_t>(degree);
+  return knots.empty() ? Interval{0, static_cast<double>(points - before)}
+                       : Interval{knots[before], knots[points]};
+}
+
+py::object element_of_pair(const py::object& pair, std::size_t k, const char* argument) {
+  if (pair.is_none()) {
+    return pair;
+  }
+  if (!py::isinstance<py::sequence>(pair) || py::isinstance<py::str>(pair) || py::len(pair) != 2) {
+    throw_value_error(argument, "expected a pair: of u, along a row, and of v");
+  }
+  return pair[py::int_(k)];
+}
+
+SplineDirection spline_direction(const py::object& degree, const py::object& knots,
+                                 const py::object& range, const py::object& periodic,
+                                 const std::string& index) {
+  SplineDirection direction;
+  const std::string degree_name = index.empty() ? "degree" : "degrees" + index;
+  const std::size_t given = integer(degree, 1, degree_name);
+  if (given > std::size_t{kMostDegree}) {
+    throw_value_error(degree_name, "expected 1 to " + std::to_string(kMostDegree) + ", found " +
+                                       std::to_string(given));
+  }
+  direction.degree = static_cast<int>(given);
+  direction.knots_name = "knots" + index;
+  direction.range_name = index.empty() ? "range" : "ranges" + index;
+  if (!knots.is_none()) {
+    const py::array_t<double> array = parameters<double>(knots, direction.knots_name);
+    direction.knots.assign(array.data(), array.data() + array.size());
+    if (direction.knots.empty()) { // which would stand for uniform ones
+      throw_value_error(direction.knots_name, "expected numbers, or None for uniform knots");
+    }
+  }
+  direction.range = range_of(range, direction.range_name);
+  direction.periodic = flag(periodic, ("periodic" + index).c_str());
+  return direction;
+}
+
+void require_knots(const SplineReport& report, const GivenSpline& spline) {
+  const bool is_v = report.component == 1;
+  const SplineDirection& direction = is_v ? spline.v : spline.u;
+  const std::size_t points = is_v ? spline.rows() : spline.columns();
+  switch (report.status.code()) {
+  case Status::bad_knots:
+    throw_knots(direction, points, report.point);
+  case Status::bad_grid:
+    throw_value_error(
+        "points", "expected " + std::to_string(direction.degree + (direction.periodic ? 0 : 1)) +
+                      (is_v ? " rows" : " columns") + " or more for degree " +
+                      std::to_string(direction.degree) + ", found " + std::to_string(points));
+  case Status::bad_range: {
+    const double begin = direction.range.begin;
+    const double end = direction.range.end;
+    SplineDirection whole = direction;
+    whole.range = {};
+    const Interval domain = whole.domain(points);
+    throw_value_error(direction.range_name, "expected a part of " + text_of(domain.begin) + " to " +
+                                                text_of(domain.end) + ", found " + text_of(begin) +
+                                                " to " + text_of(end));
+  }
+  case Status::bad_tolerance:
+    throw_value_error("knot_tolerance", "expected a number of 0 or more");
+  default:
+    require_ok(report.status, "points");
+  }
+}
+
+void require_points(const SplineReport& report, const GivenSpline& spline) {
+  if (report.status == Status::non_finite_input || report.status == Status::bad_weight) {
+    const bool is_weight = report.status == Status::bad_weight;
+    const bool beside = is_weight && spline.points.weights == Weights::cartesian;
+    const std::size_t columns = std::max<std::size_t>(spline.columns(), 1);
+    throw_value_error(
+        beside ? "weights" : "points",
+        std::string(to_string(report.status)) + " (row " + std::to_string(report.point / columns) +
+            ", column " + std::to_string(report.point % columns) +
+            (is_weight ? "" : ", component " + std::to_string(report.component)) + ")");
+  }
+  require_ok(report.status, "points");
+}
+
+void require_parameters(const SplineReport& report, const GivenSpline& spline,
+                        const std::vector<std::pair<const char*, const double*>>& parameters) {
+  if (report.status == Status::bad_range || report.status == Status::non_finite_input) {
+    const bool is_v = report.component == 1;
+    const auto& [name, values] = parameters[is_v ? 1 : 0];
+    const Interval domain =
+        is_v ? spline.v.domain(spline.rows()) : spline.u.domain(spline.columns());
+    throw_value_error(name, "number " + std::to_string(report.point) + ", " +
+                                text_of(values[report.point]) + ", is outside of " +
+                                text_of(domain.begin) + " to " + text_of(domain.end));
+  }
+}
+
+std::vector<WantedDerivative> wanted_derivatives(const py::object& derivatives, bool of_curve) {
+  std::vector<WantedDerivative> wanted;
+  if (derivatives.is_none()) {
+    return wanted;
+  }
+  const char* const expected = of_curve ? "expected orders, such as (1, 3)"
+                                        : "expected pairs of orders, such as [(1, 0), (2, 1)]";
+  if (!py::isinstance<py::iterable>(derivatives) || py::isinstance<py::str>(derivatives)) {
+    throw_type_error("derivatives", expected);
+  }
+  for (const py::handle one : derivatives) {
+    const auto object = py::reinterpret_borrow<py::object>(one);
+    if (of_curve) {
+      const int order = order_of(object, "derivatives");
+      wanted.push_back({order, 0, py::int_(order)});
+      continue;
+    }
+    if (!py::isinstance<py::sequence>(one) || py::isinstance<py::str>(one) || py::len(one) != 2) {
+      throw_value_error("derivatives", expected);
+    }
+    const int u = order_of(object[py::int_(0)], "derivatives");
+    const int v = order_of(object[py::int_(1)], "derivatives");
+    wanted.push_back({u, v, py::make_tuple(u, v)});
+  }
+  return wanted;
+}
+
+void add_derivatives(const AnyPatchSet& set, const FoundPlaces& places,
+                     const std::vector<WantedDerivative>& wanted,
+                     const std::vector<py::ssize_t>& samples, const py::object& threads,
+                     py::dict& result) {
+  Options options;
+  options.threads = thread_count(threads);
+  if (!wanted.empty()) {
+    std::visit(
+        [&](const auto& of) { add_derivatives_of(of, places, wanted, samples, options, result); },
+        set);
+  }
+}
+
+bool only_derivatives(const std::vector<WantedDerivative>& wanted, const py::object& outputs,
+                      const py::object& out) {
+  const bool none =
+      outputs.is_none() || (py::isinstance<py::sequence>(outputs) &&
+                            !py::isinstance<py::str>(outputs) && py::len(outputs) == 0);
+  return !wanted.empty() && none && out.is_none();
+}
+
+} // namespace simdbezier::python

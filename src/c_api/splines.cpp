@@ -1,0 +1,269 @@
+// Splines of simdbezier.h: their patches, places and samples.
+#include <cmath>
+
+#include <simdbezier/splines.hpp>
+
+#include "src/c_api/evaluate_set.hpp"
+#include "src/c_api/outputs.hpp"
+#include "src/c_api/spline_views.hpp"
+
+namespace simdbezier::c_api {
+namespace {
+
+static_assert(sizeof(simdbezier_patch_interval) == sizeof(PatchInterval));
+static_assert(sizeof(simdbezier_interval) == sizeof(Interval));
+
+std::span<PatchInterval> intervals_at(simdbezier_patch_interval* first, std::size_t length) {
+  const auto given = span_of(first, length, {"intervals"});
+  return {reinterpret_cast<PatchInterval*>(given.data()), given.size()};
+}
+
+/// What a call is refused for where the surfaces are sound: what they are to become. Surfaces
+/// behind the first may differ from it.
+Path blamed_result(const SplineReport& report, const Path& out) {
+  const Path surface{"surfaces", report.surface};
+  switch (report.status.code()) {
+  case Status::unequal_lengths:
+    return {"intervals_length"};
+  case Status::bad_degree:
+    return report.surface > 0 ? surface / "degree_u or degree_v" : blamed_nets(report.status, out);
+  case Status::bad_components:
+    return (report.surface > 0 ? surface : out) / "components or weights";
+  case Status::non_finite_input:
+    return kOptions / "relative_to";
+  case Status::coefficient_overflow:
+    return surface / "points";
+  default:
+    return blamed_nets(report.status, out);
+  }
+}
+
+/// locate() where only knots are looked at.
+SplineReport look_at_knots(const SplineSurface<double>& surface) {
+  return locate(surface, 0, nullptr, nullptr, {});
+}
+SplineReport look_at_knots(const SplineCurve<double>& curve) {
+  return locate(curve, 0, nullptr, {});
+}
+
+/// Refuses a call for a parameter that is at fault, which is called names[direction].
+void require_parameters(const SplineReport& report, const char* const (&names)[2]) {
+  const bool about_parameters =
+      report.status == Status::bad_range || report.status == Status::non_finite_input;
+  if (about_parameters) {
+    refuse(report, {names[report.component == 1 ? 1 : 0]}, true);
+  }
+}
+
+/// Parameters of a spline.
+std::span<const double> spline_parameters(const double* first, std::size_t length,
+                                          const char* name) {
+  return span_of(numbers_at<double>(first, {name}), length, {name});
+}
+
+SplinePlaces places_of(const simdbezier_spline_places* given, std::size_t count, bool is_curve) {
+  const Path path{"places"};
+  require(given != nullptr, SIMDBEZIER_NULL_OUTPUT, path);
+  const simdbezier_spline_places known = read(given, path);
+  require(known.length >= count, SIMDBEZIER_OUTPUT_TOO_SMALL, path / "length");
+  SplinePlaces places;
+  places.patch = numbers_at<std::uint32_t>(known.patch, path / "patch");
+  places.u = numbers_at<double>(known.u, path / "u");
+  places.length_u = numbers_at<double>(known.length_u, path / "length_u");
+  if (!is_curve) {
+    places.v = numbers_at<double>(known.v, path / "v");
+    places.length_v = numbers_at<double>(known.length_v, path / "length_v");
+  }
+  return places;
+}
+
+/// evaluate_grid() or evaluate_samples(): call(set, surface, u, v, out, options) with the C++
+/// objects. samples: how many there are of so many u and v.
+template <typename Count, typename Call>
+simdbezier_status evaluate_spline(const char* function, const simdbezier_patch_set* set,
+                                  const simdbezier_spline_surface* surface, const double* u,
+                                  std::size_t u_length, const double* v, std::size_t v_length,
+                                  const simdbezier_outputs* out, const simdbezier_options* options,
+                                  Count samples, Call call) noexcept {
+  return answer(function, [&] {
+    const SplineSurface<double> axes = axes_of(read(surface, kSurface), kSurface);
+    const auto us = spline_parameters(u, u_length, "u");
+    const auto vs = spline_parameters(v, v_length, "v");
+    with_object(set, {"set"}, [&]<typename T>(const PatchSet<T>& patches) {
+      const Outputs<T> to = outputs_of<T>(out);
+      const CallOptions how(options);
+      const SplineReport report = call(patches, axes, us, vs, to, *how);
+      if (report) {
+        return;
+      }
+      require_spline(look_at_knots(axes), kSurface, kSurfaceNames);
+      require_parameters(report, {"u", "v"});
+      require_ok(report.status, [&](Status status) -> Path {
+        if (status == Status::unequal_lengths) {
+          return {"v_length"};
+        }
+        const Path blamed = blamed_in_call(status, {"first_patch"});
+        return blamed.is_of(kSplineOut) && blamed.member == nullptr
+                   ? blamed_output(to, status, samples(us.size(), vs.size()),
+                                   std::int64_t{patches.components()} - to.first_component)
+                   : blamed;
+      });
+    });
+  });
+}
+
+} // namespace
+} // namespace simdbezier::c_api
+
+using namespace simdbezier;
+using namespace simdbezier::c_api;
+
+simdbezier_status simdbezier_spline_span_count(const simdbezier_spline_surface* surface,
+                                               size_t* spans_u, size_t* spans_v) {
+  return answer(__func__, [&] {
+    const SplineSurface<double> axes = axes_of(read(surface, kSurface), kSurface);
+    require(spans_u != nullptr, SIMDBEZIER_NULL_OUTPUT, {"spans_u"});
+    require(spans_v != nullptr, SIMDBEZIER_NULL_OUTPUT, {"spans_v"});
+    require_spline(look_at_knots(axes), kSurface, kSurfaceNames);
+    const SpanCounts counts = span_count(axes);
+    *spans_u = counts.u;
+    *spans_v = counts.v;
+  });
+}
+
+simdbezier_status simdbezier_spline_curve_span_count(const simdbezier_spline_curve* curve,
+                                                     size_t* spans) {
+  return answer(__func__, [&] {
+    const SplineCurve<double> axis = axes_of(read(curve, kCurve), kCurve);
+    require(spans != nullptr, SIMDBEZIER_NULL_OUTPUT, {"spans"});
+    require_spline(look_at_knots(axis), kCurve, kCurveNames);
+    *spans = span_count(axis).u;
+  });
+}
+
+simdbezier_status simdbezier_spline_to_bezier(const simdbezier_spline_surface* surfaces,
+                                              size_t length, const simdbezier_mutable_nets* out,
+                                              simdbezier_patch_interval* intervals,
+                                              size_t intervals_length,
+                                              const simdbezier_options* options) {
+  return answer(__func__, [&] {
+    require(out != nullptr, SIMDBEZIER_NULL_OUTPUT, kSplineOut);
+    const std::span<PatchInterval> places = intervals_at(intervals, intervals_length);
+    const CallOptions how(options);
+    with_surface_array(surfaces, length, [&]<typename S>(std::span<const SplineSurface<S>> views) {
+      const MutableNets<S> nets = nets_of<S>(read(out, kSplineOut), kSplineOut);
+      const SplineReport report = to_bezier(views, nets, places, *how);
+      if (!report) {
+        require_surfaces(views);
+        refuse(report, blamed_result(report, kSplineOut), false);
+      }
+    });
+  });
+}
+
+simdbezier_status simdbezier_spline_curve_to_bezier(const simdbezier_spline_curve* curve,
+                                                    simdbezier_values points,
+                                                    simdbezier_interval* intervals,
+                                                    size_t intervals_length,
+                                                    const simdbezier_options* options) {
+  return answer(__func__, [&] {
+    const simdbezier_spline_curve given = read(curve, kCurve);
+    const auto to = span_of(intervals, intervals_length, {"intervals"});
+    const CallOptions how(options);
+    with_scalar(given.scalar, kCurve / "scalar", [&]<typename S>() {
+      const SplineCurve<S> view = spline_of<S>(given, kCurve);
+      const Values<S> out = values_of<S>(points, {"points"});
+      const SplineReport report =
+          to_bezier(view, out, {reinterpret_cast<Interval*>(to.data()), to.size()}, *how);
+      if (!report) {
+        require_spline(detail::SplineList<S>().prepare(view), kCurve, kCurveNames);
+        const Path path{"points"};
+        const bool of_points = report.status == Status::null_output ||
+                               report.status == Status::output_too_small ||
+                               report.status == Status::overlapping_outputs;
+        refuse(report, of_points ? path : blamed_result(report, path), false);
+      }
+    });
+  });
+}
+
+simdbezier_status simdbezier_spline_pack(const simdbezier_spline_surface* surfaces, size_t length,
+                                         simdbezier_scalar scalar,
+                                         simdbezier_patch_interval* intervals,
+                                         size_t intervals_length,
+                                         const simdbezier_pack_options* options,
+                                         simdbezier_patch_set** set) {
+  return answer(__func__, [&] {
+    require_place(set, {"set"});
+    const std::span<PatchInterval> places = intervals_at(intervals, intervals_length);
+    const PackOptions how = pack_options_of(options);
+    with_surface_array(surfaces, length, [&]<typename S>(std::span<const SplineSurface<S>> views) {
+      with_scalar(scalar, {"scalar"}, [&]<typename T>() {
+        PatchSet<T> packed;
+        const SplineReport report = pack(views, packed, places, how);
+        if (!report) {
+          require_surfaces(views);
+          refuse(report, blamed_result(report, {"surfaces", report.surface}), false);
+        }
+        give(set, std::move(packed));
+      });
+    });
+  });
+}
+
+simdbezier_status simdbezier_spline_locate(const simdbezier_spline_surface* surface,
+                                           const double* u, size_t u_length, const double* v,
+                                           size_t v_length,
+                                           const simdbezier_spline_places* places) {
+  return answer(__func__, [&] {
+    const SplineSurface<double> axes = axes_of(read(surface, kSurface), kSurface);
+    const auto us = spline_parameters(u, u_length, "u");
+    const auto vs = spline_parameters(v, v_length, "v");
+    require(us.size() == vs.size(), SIMDBEZIER_UNEQUAL_LENGTHS, {"v_length"});
+    const SplineReport report =
+        locate(axes, us.size(), us.data(), vs.data(), places_of(places, us.size(), false));
+    if (!report) {
+      require_spline(look_at_knots(axes), kSurface, kSurfaceNames);
+      require_parameters(report, {"u", "v"});
+      refuse(report, {}, false);
+    }
+  });
+}
+
+simdbezier_status simdbezier_spline_curve_locate(const simdbezier_spline_curve* curve,
+                                                 const double* t, size_t t_length,
+                                                 const simdbezier_spline_places* places) {
+  return answer(__func__, [&] {
+    const SplineCurve<double> axis = axes_of(read(curve, kCurve), kCurve);
+    const auto ts = spline_parameters(t, t_length, "t");
+    const SplineReport report =
+        locate(axis, ts.size(), ts.data(), places_of(places, ts.size(), true));
+    if (!report) {
+      require_spline(look_at_knots(axis), kCurve, kCurveNames);
+      require_parameters(report, {"t", "t"});
+      refuse(report, {}, false);
+    }
+  });
+}
+
+simdbezier_status simdbezier_spline_evaluate_grid(const simdbezier_patch_set* set,
+                                                  const simdbezier_spline_surface* surface,
+                                                  const double* u, size_t u_length, const double* v,
+                                                  size_t v_length, const simdbezier_outputs* out,
+                                                  const simdbezier_options* options,
+                                                  size_t first_patch) {
+  return evaluate_spline(
+      __func__, set, surface, u, u_length, v, v_length, out, options,
+      [](std::size_t us, std::size_t vs) { return us * vs; },
+      [&](const auto&... arguments) { return evaluate_grid(arguments..., first_patch); });
+}
+
+simdbezier_status simdbezier_spline_evaluate_samples(
+    const simdbezier_patch_set* set, const simdbezier_spline_surface* surface, const double* u,
+    size_t u_length, const double* v, size_t v_length, const simdbezier_outputs* out,
+    const simdbezier_options* options, size_t first_patch) {
+  return evaluate_spline(
+      __func__, set, surface, u, u_length, v, v_length, out, options,
+      [](std::size_t us, std::size_t /*vs*/) { return us; },
+      [&](const auto&... arguments) { return evaluate_samples(arguments..., first_patch); });
+}
