@@ -4,9 +4,9 @@
     extract_code.py OUT DOCUMENT…
 
 Prints the names of the files, separated by semicolons. A block ```cpp with a main() becomes
-NAME_K.cpp, a program as it stands there, and one of ```c NAME_K.c. All other blocks of a document become NAME_fragments.cpp:
-its main() runs them one after the other, each in a scope of its own behind what prelude.hpp
-declares.
+NAME_K.cpp, a program as it stands there, and one of ```c NAME_K.c. All other blocks of C++ become
+NAME_fragments.cpp: its main() runs them one after the other, each in a scope of its own behind what
+prelude.hpp declares.
 """
 import pathlib
 import re
@@ -31,8 +31,9 @@ def main():
         for number, (language, code) in enumerate(re.findall(r'^```(cpp|c\+\+|c)\n(.*?)^```$',
                                                              document.read_text(), re.M | re.S)):
             if 'int main(' in code:
-                names.append(write(out / f'{name}_{number}.{"c" if language == "c" else "cpp"}', code))
-            else:
+                ending = 'c' if language == 'c' else 'cpp'
+                names.append(write(out / f'{name}_{number}.{ending}', code))
+            elif language != 'c':
                 fragments += f'  if (const int failed = [&]() -> int {{\n{code}return 0; }}(); failed) {{\n' \
                              f'    return failed;\n  }}\n'
         if fragments:
