@@ -1,0 +1,179 @@
+// See src/splines/spline_list.hpp.
+#include "src/splines/spline_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/nets/net_call.hpp"
+#include "src/nets/net_places.hpp"
+#include "src/splines/spline_axes.hpp"
+#include "src/storage/one_point.hpp"
+
+namespace simdbezier::detail {
+namespace {
+
+/// Whether the points can be read: degrees and numbers are sound.
+template <typename S>
+Status check_points(const SplineSurface<S>& surface) noexcept {
+  if (surface.points == nullptr) {
+    return Status::null_input;
+  }
+  if (surface.components < 1 || surface.components > kMostComponents ||
+      surface.weights > Weights::homogeneous) {
+    return Status::bad_components;
+  }
+  const bool one_row = surface.rows == 1;
+  if ((surface.row_stride == 0 && !one_row) || surface.point_stride == 0 ||
+      surface.component_stride == 0) {
+    return Status::bad_stride;
+  }
+  Lattice lattice;
+  const ControlNets<S> net = one_net(surface);
+  if (!lattice_of(net, lattice)) {
+    return Status::size_overflow;
+  }
+  return lies_in(lattice, 1, surface.memory) ? Status::ok : Status::input_too_small;
+}
+
+/// Looks at every control value, and whether neighbours are one point.
+template <typename S>
+SplineReport inspect(PreparedSpline<S>& spline) noexcept {
+  const SplineSurface<S>& surface = spline.surface;
+  const auto components = static_cast<std::size_t>(surface.components);
+  const bool rational = surface.weights != Weights::none;
+  for (std::size_t row = 0; row < surface.rows; ++row) {
+    for (std::size_t column = 0; column < surface.columns; ++column) {
+      const S* const point = spline.point(row, column);
+      for (std::size_t c = 0; c < spline.channels(); ++c) {
+        const S value = point[static_cast<std::ptrdiff_t>(c) * surface.component_stride];
+        const bool is_weight = c == components;
+        if (!std::isfinite(value) || (is_weight && !(value > 0))) {
+          return {is_weight ? Status::bad_weight : Status::non_finite_input, 0,
+                  row * surface.columns + column, static_cast<int>(c)};
+        }
+      }
+      const S* const neighbours[] = {column > 0 ? spline.point(row, column - 1) : nullptr,
+                                     row > 0 ? spline.point(row - 1, column) : nullptr};
+      for (const S* const other : neighbours) {
+        spline.has_poles =
+            spline.has_poles || (rational && other != nullptr &&
+                                 are_one_point<S>(point, other - point, 2, components,
+                                                  surface.component_stride, surface.weights));
+      }
+    }
+  }
+  return {};
+}
+
+bool are_same(const SplineAxis& a, const SplineAxis& b) noexcept {
+  return a.degree == b.degree && a.points == b.points && a.periodic == b.periodic &&
+         a.range == b.range && a.tolerance == b.tolerance && std::ranges::equal(a.knots, b.knots);
+}
+
+} // namespace
+
+template <typename S>
+SplineReport SplineList<S>::add(const SplineSurface<S>& surface) {
+  PreparedSpline<S> spline{surface, {}, {}, 0, 0, false};
+  for (int direction = 0; direction < 2; ++direction) {
+    const SplineAxis axis = axis_of(surface, direction);
+    auto& factors = direction == 0 ? spline.u : spline.v;
+    // Surfaces of one model mostly have the same knots as those before.
+    if (!splines_.empty()) {
+      const PreparedSpline<S>& last = splines_.back();
+      if (are_same(axis, axis_of(last.surface, 0))) {
+        factors = last.u;
+      } else if (are_same(axis, axis_of(last.surface, 1))) {
+        factors = last.v;
+      }
+    }
+    if (factors == nullptr) {
+      const auto built = std::make_shared<SplineFactors>();
+      std::size_t knot = 0;
+      if (const Status status = built->build(axis, knot); !status) {
+        return {status, 0, knot, direction};
+      }
+      factors = built;
+    }
+  }
+  return finish(spline);
+}
+
+template <typename S>
+SplineReport SplineList<S>::finish(PreparedSpline<S> spline) {
+  if (const Status status = check_points(spline.surface); !status) {
+    return {status};
+  }
+  if (const SplineReport report = inspect(spline); !report) {
+    return report;
+  }
+  spline.first_patch = patches_;
+  spline.first_row = rows_;
+  rows_ += spline.v->spans(); // below 2^31 each, of vectors that are in memory
+  std::size_t patches = 0;
+  if (__builtin_mul_overflow(spline.u->spans(), spline.v->spans(), &patches) ||
+      __builtin_add_overflow(patches_, patches, &patches_)) {
+    return {Status::size_overflow};
+  }
+  splines_.push_back(std::move(spline));
+  return {};
+}
+
+template <typename S>
+SplineReport SplineList<S>::prepare(std::span<const SplineSurface<S>> surfaces) {
+  splines_.reserve(surfaces.size());
+  for (std::size_t k = 0; k < surfaces.size(); ++k) {
+    if (SplineReport report = add(surfaces[k]); !report) {
+      report.surface = k;
+      return report;
+    }
+  }
+  return {};
+}
+
+template <typename S>
+SplineReport SplineList<S>::prepare(const SplineCurve<S>& curve) {
+  const SplineSurface<S> surface = as_surface(curve);
+  const auto u = std::make_shared<SplineFactors>();
+  std::size_t knot = 0;
+  if (const Status status = u->build(axis_of(surface, 0), knot); !status) {
+    return {status, 0, knot, 0};
+  }
+  const auto v = std::make_shared<SplineFactors>();
+  v->build_point();
+  return finish({surface, u, v, 0, 0, false});
+}
+
+template <typename S>
+const PreparedSpline<S>& SplineList<S>::spline_of(std::size_t row) const noexcept {
+  const auto after = std::upper_bound(
+      splines_.begin(), splines_.end(), row,
+      [](std::size_t at, const PreparedSpline<S>& spline) { return at < spline.first_row; });
+  return *std::prev(after);
+}
+
+template <typename S>
+void SplineList<S>::write_intervals(std::span<PatchInterval> intervals) const noexcept {
+  for (std::size_t k = 0; k < splines_.size() && !intervals.empty(); ++k) {
+    const PreparedSpline<S>& spline = splines_[k];
+    for (std::size_t patch = 0; patch < spline.patches(); ++patch) {
+      intervals[spline.first_patch + patch] = {spline.u->interval(patch % spline.u->spans()),
+                                               spline.v->interval(patch / spline.u->spans())};
+    }
+  }
+}
+
+template <typename S>
+std::size_t SplineList<S>::scratch_bytes() const noexcept {
+  std::size_t most = 0;
+  for (const PreparedSpline<S>& spline : splines_) {
+    const std::size_t row = spline.surface.columns * spline.channels();
+    most = std::max(most, row + (spline.v->order() + 1) * spline.line_values());
+  }
+  return most * sizeof(double);
+}
+
+template class SplineList<float>;
+template class SplineList<double>;
+
+} // namespace simdbezier::detail
