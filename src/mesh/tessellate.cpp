@@ -166,6 +166,10 @@ MeshPlan<T> planned_splines(std::span<const SplineSurface<S>> surfaces, const Me
   SplineReport& found = report == nullptr ? unasked : *report;
   found = {};
   return planned<T>([&](MeshPlan<T>& plan) -> Status {
+    if (surfaces.data() == nullptr && !surfaces.empty()) {
+      found = {Status::null_input};
+      return found.status;
+    }
     CutSplines<S> splines;
     found = splines.cut(surfaces, {.threads = options.threads, .isa = options.isa});
     given = splines.errors().size();
@@ -186,8 +190,9 @@ MeshPlan<T> plan_mesh(std::span<const ControlNets<S>> nets, const MeshOptions& o
 template <typename T, typename S>
 Mesh<T> tessellate(std::span<const ControlNets<S>> nets, const MeshOptions& options) noexcept {
   return detail::tessellated<T>(options, [&](std::size_t& given) {
-    given = detail::patches_of(nets);
-    return plan_mesh<T>(nets, options);
+    MeshPlan<T> plan = plan_mesh<T>(nets, options);
+    given = plan ? detail::patches_of(nets) : 0;
+    return plan;
   });
 }
 

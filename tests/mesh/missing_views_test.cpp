@@ -42,6 +42,12 @@ TEST(MissingViews, are_refused) {
   EXPECT_EQ(plan_mesh<float>(null, mesh).status, Status::null_input);
   EXPECT_EQ(tessellate<float>(null, mesh).status, Status::null_input);
   EXPECT_EQ(topology.counts().patches, 1U);
+  const std::span<const SplineSurface<double>> splines(
+      static_cast<const SplineSurface<double>*>(nullptr), 2);
+  EXPECT_EQ(to_bezier(splines, MutableNets<double>()).status, Status::null_input);
+  EXPECT_EQ(pack(splines, set).status, Status::null_input);
+  EXPECT_EQ(plan_mesh<float>(splines, mesh).status, Status::null_input);
+  EXPECT_EQ(tessellate<float>(splines, mesh).status, Status::null_input);
 }
 
 } // namespace

@@ -1,10 +1,13 @@
 // simdbezier info: what a file holds and what this machine would do with it.
 #include <tools/commands/commands.hpp>
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -33,17 +36,19 @@ struct Summary {
   std::size_t patches = 0;
   std::size_t rational = 0;
   std::size_t ignored_trims = 0;
+  std::vector<SplineRecord> splines;
   MeshBox box;
   std::map<Shape, std::size_t> shapes; ///< how many patches there are of each
   TopologyCounts joined;
   Isa chosen = Isa::automatic;
 };
 
-Summary summarise(const PatchFile& file, Isa chosen) {
+Summary summarise(PatchFile file, Isa chosen) {
   Summary summary;
   summary.name = file.name;
   summary.patches = file.count;
   summary.ignored_trims = file.ignored_trims;
+  summary.splines = std::move(file.splines);
   summary.chosen = chosen;
   for (const PatchRun& run : file.runs) {
     summary.shapes[{run.degree_u, run.degree_v, run.rational()}] += run.count;
@@ -82,6 +87,43 @@ std::string describe(const std::map<Shape, std::size_t>& shapes) {
   return text;
 }
 
+std::vector<double> different(std::vector<double> knots) {
+  knots.erase(std::ranges::unique(knots).begin(), knots.end());
+  return knots;
+}
+
+// Prints one line for each spline, or for as many as can be looked through; all are in JSON.
+std::string describe(const std::vector<SplineRecord>& splines) {
+  constexpr std::size_t kMost = 16;
+  const auto both = [](std::size_t u, std::size_t v) {
+    return std::to_string(u) + " x " + std::to_string(v);
+  };
+  std::string text;
+  for (std::size_t k = 0; k < std::min(splines.size(), kMost); ++k) {
+    const SplineRecord& spline = splines[k];
+    text += k == 0 ? "splines            " : "                   ";
+    text +=
+        "line " + std::to_string(spline.line) + ": degrees " +
+        both(static_cast<std::size_t>(spline.u.degree), static_cast<std::size_t>(spline.v.degree)) +
+        (spline.rational ? " (rational), " : ", ") + both(spline.u.points, spline.v.points) +
+        " points, " + both(spline.spans.u, spline.spans.v) + " patches, " +
+        both(different(spline.u.knots).size(), different(spline.v.knots).size()) +
+        " different knots\n";
+  }
+  if (splines.size() > kMost) {
+    text += "                   and " + std::to_string(splines.size() - kMost) + " more\n";
+  }
+  return text;
+}
+
+nlohmann::ordered_json as_json(const SplineDirection& direction, std::size_t patches) {
+  return {{"degree", direction.degree},
+          {"points", direction.points},
+          {"periodic", direction.periodic},
+          {"patches", patches},
+          {"knots", direction.knots}};
+}
+
 std::string as_text(const Summary& summary) {
   const EdgeCounts edges(summary.joined);
   const std::string kinds = std::to_string(edges.shared) + " shared, " +
@@ -91,6 +133,7 @@ std::string as_text(const Summary& summary) {
   std::string text;
   text += "patches            " + std::to_string(summary.patches) + "\n";
   text += describe(summary.shapes);
+  text += describe(summary.splines);
   if (summary.ignored_trims > 0) {
     text += "ignored trims      " + std::to_string(summary.ignored_trims) + "\n";
   }
@@ -127,6 +170,16 @@ std::string as_json(const Summary& summary) {
                               {"degree_v", shape.degree_v},
                               {"rational", shape.rational},
                               {"patches", count}});
+  }
+  if (!summary.splines.empty()) {
+    json["splines"] = nlohmann::ordered_json::array();
+  }
+  for (const SplineRecord& spline : summary.splines) {
+    json["splines"].push_back({{"line", spline.line},
+                               {"first_patch", spline.first_patch},
+                               {"rational", spline.rational},
+                               {"u", as_json(spline.u, spline.spans.u)},
+                               {"v", as_json(spline.v, spline.spans.v)}});
   }
   json["control_point_box"] = {{"min", summary.box.low}, {"max", summary.box.high}};
   const EdgeCounts edges(summary.joined);

@@ -119,7 +119,7 @@ public:
         reach.include(add_point(i, j), each_);
       }
     }
-    file_.close_patch(mesh_.basis_u.degree(), mesh_.basis_v.degree(), mesh_.weights, mesh_.pads);
+    file_.close_patch(mesh_.basis_u.degree(), mesh_.basis_v.degree(), mesh_.weights);
     return distance(reach);
   }
 
@@ -207,9 +207,6 @@ private:
     for (std::size_t c = 0; c < each_; ++c) {
       point[c] /= divisor;
       file_.points.push_back(point[c]);
-    }
-    if (each_ == 3 && mesh_.pads) {
-      file_.points.push_back(1);
     }
     file_.add_line(line_);
     const double weight = each_ == 4 ? point[3] : 1;

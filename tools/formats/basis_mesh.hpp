@@ -56,7 +56,6 @@ struct BasisMesh {
   Weights weights = Weights::none;      ///< none or homogeneous
   std::span<const double> points;       ///< x y z or wx wy wz w, u fastest
   std::span<const std::uint32_t> lines; ///< of every point
-  bool pads = false;                    ///< as of FileSpline
 };
 
 /// Adds the patches of a mesh to a file, one by one, u fastest, each with the line of its first

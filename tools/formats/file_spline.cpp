@@ -96,7 +96,7 @@ void PatchFile::close_spline(const FileSpline& spline) {
   const SplineSurface<double> surface = view_of(spline);
   const SpanCounts spans = span_count(surface);
   const bool rational = spline.weights != Weights::none;
-  const std::size_t stride = rational || spline.pads ? 4 : 3;
+  const std::size_t stride = rational ? 4 : 3;
   const std::size_t order_u = static_cast<std::size_t>(spline.u.degree) + 1;
   const std::size_t order_v = static_cast<std::size_t>(spline.v.degree) + 1;
   const std::size_t each = order_u * order_v;
@@ -121,9 +121,6 @@ void PatchFile::close_spline(const FileSpline& spline) {
         bad_input_at(name, spline.line, "coordinates whose products with weights are finite",
                      shortest(points[k + c]) + " / " + shortest(weight));
       }
-    }
-    if (!rational && spline.pads) {
-      points[k + 3] = 1;
     }
   }
   splines.push_back({spline.line, spline.u, spline.v, rational, count, spans});

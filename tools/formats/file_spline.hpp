@@ -24,10 +24,6 @@ struct FileSpline {
   SplineDirection v;
   Weights weights = Weights::none;
   std::vector<double> points; ///< x y z or x y z w, u fastest, u.points * v.points of them
-  /// Its patches are added with four values a point, as the file's other points have them. Points
-  /// of patches then stand among those that the file names by numbers, and readers of such files
-  /// have to count these themselves.
-  bool pads = false;
 };
 
 /// What is left of it when its patches have been added.

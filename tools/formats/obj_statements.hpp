@@ -11,9 +11,13 @@ namespace simdbezier::tools {
 
 // These statements do not change the shape of a surface.
 inline constexpr std::string_view kObjPassedOver[] = {
-    "vt",    "vn",       "vp",       "g",          "s",         "mg",     "o",
-    "bevel", "c_interp", "lod",      "usemtl",     "mtllib",    "usemap", "maplib",
-    "ctech", "stech",    "d_interp", "shadow_obj", "trace_obj", "step",   "bmat"};
+    "vt",     "vn",       "g",     "s",        "mg",         "o",
+    "bevel",  "c_interp", "lod",   "usemtl",   "mtllib",     "usemap",
+    "maplib", "ctech",    "stech", "d_interp", "shadow_obj", "trace_obj"};
+
+// These stand between surf and end. Special curves and points say where a mesh is to have vertices;
+// they do not change the surface.
+inline constexpr std::string_view kObjInSurfaces[] = {"trim", "hole", "scrv", "sp"};
 
 struct ObjOther {
   std::string_view keyword;
@@ -23,11 +27,6 @@ inline constexpr ObjOther kObjOthers[] = {{"p", "points"},
                                           {"l", "lines"},
                                           {"f", "polygons"},
                                           {"curv", "a curve"},
-                                          {"curv2", "a curve"},
-                                          {"trim", "a trimming curve"},
-                                          {"hole", "a trimming curve"},
-                                          {"scrv", "a special curve"},
-                                          {"sp", "special points"},
                                           {"con", "connectivity"},
                                           {"call", "another file"},
                                           {"csh", "a shell command"},

@@ -27,14 +27,23 @@ constexpr Format kFormats[] = {SIMDBEZIER_EACH_PATCH_FORMAT(SIMDBEZIER_PATCH_FOR
 #undef SIMDBEZIER_PATCH_FORMAT_ROW
 
 // Later releases will read these; until then the answer names the format as not supported yet.
-constexpr std::string_view kLaterFormats[] = {"iges", "igs", "step", "stp", "pov"};
+constexpr std::string_view kLaterFormats[] = {"step", "stp", "pov"};
+constexpr const char* kInsteadOfStep =
+    ", because faces of STEP files are nearly always trimmed: export untrimmed surfaces as IGES "
+    "(entity 128)";
+
+// Other extensions of these formats.
+constexpr std::string_view without_alias(std::string_view name) {
+  return name == "igs" ? "iges" : name;
+}
 
 // subject: what names the format, for the message.
 const Format* find_format(const std::string& subject, const std::string& name) {
-  const auto* const found = std::ranges::find(kFormats, name, &Format::name);
+  const auto* const found = std::ranges::find(kFormats, without_alias(name), &Format::name);
   if (found == std::end(kFormats) &&
       std::ranges::find(kLaterFormats, name) != std::end(kLaterFormats)) {
-    bad_usage(subject + ": reading ." + name + " files is not supported yet");
+    bad_usage(subject + ": reading ." + name + " files is not supported yet" +
+              (name == "pov" ? "" : kInsteadOfStep));
   }
   return found == std::end(kFormats) ? nullptr : found;
 }
@@ -86,16 +95,16 @@ void PatchFile::check_quotients() const {
   }
 }
 
-void PatchFile::close_patch(int degree_u, int degree_v, Weights weights, bool pads) {
+void PatchFile::close_patch(int degree_u, int degree_v, Weights weights) {
   const auto columns = static_cast<std::size_t>(degree_u) + 1;
   const auto rows = static_cast<std::size_t>(degree_v) + 1;
-  close_mesh(degree_u, degree_v, weights, {columns, columns, 1}, {rows, rows, 1}, pads);
+  close_mesh(degree_u, degree_v, weights, {columns, columns, 1}, {rows, rows, 1});
 }
 
 void PatchFile::close_mesh(int degree_u, int degree_v, Weights weights, const MeshDirection& u,
-                           const MeshDirection& v, bool pads) {
+                           const MeshDirection& v) {
   PatchRun run{degree_u, degree_v, weights};
-  run.stride = pads ? 4 : run.values_per_point();
+  run.stride = run.values_per_point();
   run.first_value = points.size() - u.points * v.points * run.stride;
   run.first_point = lines.empty() ? 0 : lines.size() - u.points * v.points;
   run.u = u;

@@ -89,11 +89,10 @@ struct PatchFile {
   /// … and, where that is homogeneous, whether it can be divided by its weight, …
   void check_quotients() const;
   /// … and close a patch after its last point, …
-  void close_patch(int degree_u, int degree_v, Weights weights, bool pads = false);
-  /// … or a mesh, of all the points that have been appended for it, which have four values each
-  /// where the file's other points have them (FileSpline::pads), …
+  void close_patch(int degree_u, int degree_v, Weights weights);
+  /// … or a mesh, of all the points that have been appended for it, …
   void close_mesh(int degree_u, int degree_v, Weights weights, const MeshDirection& u,
-                  const MeshDirection& v, bool pads = false);
+                  const MeshDirection& v);
   /// … or one of the u.points * v.points points that `vertices` ends with. Then all points have
   /// four values, of which the last one counts only if there are weights.
   void close_indexed_mesh(int degree_u, int degree_v, Weights weights, const MeshDirection& u,
@@ -137,14 +136,16 @@ private:
 };
 
 /// The formats that can be read. Each row has a name, which is also the extension of files, and
-/// says what the reader in read_NAME.cpp takes. Help and messages list these rows.
+/// says what the reader in read_NAME.cpp takes. Help and messages list these rows. Files of iges
+/// may be called .igs as well.
 // clang-format off
 #define SIMDBEZIER_EACH_PATCH_FORMAT(X)                                                            \
   X(bez) /* Berkeley: a count, then 48 coordinates a patch */                                      \
   X(bpt) /* Holmes3D: a count, then per patch two degrees and its coordinates */                   \
   X(bv)  /* BezierView: kinds 4 and 5, and 8 with homogeneous weights */                           \
+  X(iges) /* IGES 5.3: entities 128 and 114, untrimmed, with Cartesian weights */                  \
   X(itd) /* IRIT: SURFACE BEZIER of point types E3, and P3 with homogeneous weights */             \
-  X(obj) /* Wavefront: cstype bezier, and rat bezier with Cartesian weights */                     \
+  X(obj) /* Wavefront: surfaces of every cstype, and rat with Cartesian weights */                 \
   X(rib) /* RenderMan: Patch, PatchMesh and NuPatch, with "P" or homogeneous "Pw" */
 // clang-format on
 

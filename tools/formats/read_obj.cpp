@@ -1,21 +1,23 @@
-// Wavefront .obj: free-form surfaces of cstype bezier. Points are vertices v x y z [w], w being a
+// Wavefront .obj: free-form surfaces of every cstype. Points are vertices v x y z [w], w being a
 // Cartesian weight, which counts where the type is rational. A surface may consist of several
-// patches that share rows and columns: k + 1 values of parm make k patches in that direction.
+// patches: k + 1 values of parm make k patches in that direction, and those of bspline are knots.
 #include <tools/formats/lexer.hpp>
 #include <tools/formats/patch_file.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include <tools/formats/obj_state.hpp>
 #include <tools/formats/obj_statements.hpp>
+#include <tools/formats/obj_surface.hpp>
+#include <tools/formats/obj_trims.hpp>
 #include <tools/process/failure.hpp>
 #include <tools/process/output_file.hpp>
 
@@ -23,32 +25,10 @@ namespace simdbezier::tools {
 
 namespace {
 
-/// One direction of a surface as its statements give it.
-struct ParameterRange {
-  double first = 0;
-  double last = 0;
-  std::vector<double> parameters; // those of the parm statement; empty before it
-};
-
-struct Surface {
-  std::size_t line = 0;
-  int degree_u = 0;
-  int degree_v = 0;
-  bool rational = false;
-  ParameterRange u;
-  ParameterRange v;
-  std::size_t first_vertex = 0; // where the ones that it names begin in PatchFile::vertices
-};
-
-/// One direction of a surface, which has to have as many points as the statements say.
-struct Direction {
-  MeshDirection mesh;
-  Count points;
-};
-
 class ObjReader {
 public:
-  explicit ObjReader(TextInput& input) : lexer_(input, {.comments = true, .lines = true}) {
+  ObjReader(TextInput& input, const ReadOptions& options)
+      : options_(options), lexer_(input, {.comments = true, .lines = true}) {
     file_.name = input.name();
   }
 
@@ -58,8 +38,11 @@ public:
         statement();
       }
     }
-    if (surface_) {
-      lexer_.fail(end_of_surface());
+    if (surface_ || curves_.in_curve()) {
+      lexer_.fail(end_of_element());
+    }
+    for (const ObjSurface& surface : waiting_) {
+      close_obj_surface(file_, surface);
     }
     if (file_.count == 0) {
       lexer_.fail("a surface (surf)");
@@ -69,50 +52,56 @@ public:
 
 private:
   void statement() {
-    const auto* const other = std::ranges::find(kObjOthers, lexer_.text(), &ObjOther::keyword);
+    const std::string_view word = lexer_.text();
+    const auto* const other = std::ranges::find(kObjOthers, word, &ObjOther::keyword);
     if (other != std::end(kObjOthers)) {
-      lexer_.fail("a Bézier surface and what belongs to it",
+      lexer_.fail("a free-form surface and what belongs to it",
                   lexer_.described() + " (" + std::string(other->what) + ")");
     }
-    if (lexer_.at_word("parm")) {
+    const bool inside = surface_ || curves_.in_curve();
+    if (word == "parm") {
       parm();
-    } else if (lexer_.at_word("end")) {
+    } else if (word == "end") {
       end();
-    } else if (surface_) {
-      lexer_.fail("parm or " + end_of_surface());
-    } else if (lexer_.at_word("v")) {
-      vertex();
-    } else if (lexer_.at_word("cstype")) {
-      cstype();
-    } else if (lexer_.at_word("deg")) {
-      deg();
-    } else if (lexer_.at_word("surf")) {
-      surf();
-    } else if (std::ranges::find(kObjPassedOver, lexer_.text()) != std::end(kObjPassedOver)) {
+    } else if (surface_ && (word == "trim" || word == "hole")) {
+      curves_.read_trim(lexer_, trims_);
+    } else if (std::ranges::find(kObjInSurfaces, word) != std::end(kObjInSurfaces)) {
+      inside ? pass_over() : lexer_.fail("surf before " + std::string(word));
+    } else if (inside) {
+      lexer_.fail("parm or " + end_of_element());
+    } else if (!vertex_or_state(word)) {
+      if (std::ranges::find(kObjPassedOver, word) == std::end(kObjPassedOver)) {
+        lexer_.fail("a statement of .obj files");
+      }
       pass_over();
-    } else {
-      lexer_.fail("a statement of .obj files");
     }
   }
 
-  [[nodiscard]] std::string end_of_surface() const {
-    return "the end of the surface in line " + std::to_string(surface_->line);
+  /// Reads a statement that stands before surfaces, or begins one; false where it is none.
+  bool vertex_or_state(std::string_view word) {
+    if (word == "v") {
+      vertex();
+    } else if (word == "vp") {
+      curves_.read_point(lexer_);
+    } else if (word == "surf") {
+      surf();
+    } else if (word == "curv2") {
+      element_line_ = lexer_.line();
+      curves_.begin_curve(lexer_, state_);
+    } else {
+      return state_.read(lexer_);
+    }
+    return true;
   }
 
-  [[nodiscard]] bool at_line_end() const {
-    return lexer_.at(TokenKind::line_end) || lexer_.at(TokenKind::end);
+  [[nodiscard]] std::string end_of_element() const {
+    return std::string("the end of the ") + (surface_ ? "surface" : "curve") + " in line " +
+           std::to_string(element_line_);
   }
 
   void pass_over() {
-    while (!at_line_end()) {
+    while (!ends_statement(lexer_)) {
       lexer_.next();
-    }
-  }
-
-  void expect_line_end() {
-    lexer_.next();
-    if (!at_line_end()) {
-      lexer_.fail("the end of the line");
     }
   }
 
@@ -121,7 +110,7 @@ private:
     const std::size_t line = lexer_.line();
     std::array<double, 4> value = {0, 0, 0, 1};
     std::size_t count = 0;
-    for (lexer_.next(); !at_line_end(); lexer_.next(), ++count) {
+    for (lexer_.next(); !ends_statement(lexer_); lexer_.next(), ++count) {
       const double number = lexer_.number();
       if (count < value.size()) {
         value[count] = number;
@@ -140,153 +129,89 @@ private:
     file_.add_line(line);
   }
 
-  void cstype() {
-    rational_ = lexer_.next().at_word("rat");
-    if (rational_) {
-      lexer_.next();
-    }
-    if (!lexer_.at_word("bezier")) {
-      lexer_.fail("cstype bezier or rat bezier");
-    }
-    has_type_ = true;
-    expect_line_end();
-  }
-
-  void deg() {
-    degree_u_ = lexer_.next().degree("in u");
-    degree_v_ = lexer_.next().degree("in v");
-    expect_line_end();
-  }
-
   void surf() {
-    if (!has_type_ || degree_u_ == 0) {
-      lexer_.fail(has_type_ ? "deg before surf" : "cstype before surf");
+    surface_ = state_.surface(lexer_);
+    element_line_ = surface_->line;
+    trims_ = {};
+    for (Interval* const range : {&surface_->u.range, &surface_->v.range}) {
+      range->begin = lexer_.next().number();
+      range->end = lexer_.next().number();
     }
-    surface_ =
-        Surface{lexer_.line(), degree_u_, degree_v_, rational_, {}, {}, file_.vertices.size()};
-    for (double* const bound :
-         {&surface_->u.first, &surface_->u.last, &surface_->v.first, &surface_->v.last}) {
-      *bound = lexer_.next().number();
+    for (lexer_.next(); !ends_statement(lexer_); lexer_.next()) {
+      if (file_.lines.empty()) {
+        lexer_.fail("vertices (v) before the surface");
+      }
+      surface_->vertices.push_back(obj_index(lexer_, file_.lines.size(), "vertex"));
     }
-    for (lexer_.next(); !at_line_end(); lexer_.next()) {
-      file_.vertices.push_back(vertex_number());
-    }
-  }
-
-  /// Reads the number of a vertex, and counts it from 0.
-  [[nodiscard]] std::uint32_t vertex_number() const {
-    const std::size_t vertices = file_.lines.size();
-    if (vertices == 0) {
-      lexer_.fail("vertices (v) before the surface");
-    }
-    const auto reference = parse_obj_reference(lexer_.text());
-    if (!reference || reference->number > vertices) {
-      lexer_.fail("the number of a vertex, 1 to " + std::to_string(vertices) + " or -1 to -" +
-                  std::to_string(vertices));
-    }
-    return static_cast<std::uint32_t>(reference->from_end ? vertices - reference->number
-                                                          : reference->number - 1);
   }
 
   void parm() {
-    if (!surface_) {
+    if (!surface_ && !curves_.in_curve()) {
       lexer_.fail("surf before parm");
     }
     const bool is_u = lexer_.next().at_word("u");
-    if (!is_u && !lexer_.at_word("v")) {
-      lexer_.fail("parm u or parm v");
+    if (!is_u && !(surface_ && lexer_.at_word("v"))) {
+      lexer_.fail(surface_ ? "parm u or parm v" : "parm u");
     }
-    std::vector<double>& parameters = (is_u ? surface_->u : surface_->v).parameters;
-    if (!parameters.empty()) {
-      lexer_.fail("one parm of each direction");
-    }
-    for (lexer_.next(); !at_line_end(); lexer_.next()) {
+    std::vector<double> parameters;
+    const bool are_knots = state_.type() == ObjType::bspline;
+    for (lexer_.next(); !ends_statement(lexer_); lexer_.next()) {
       const double parameter = lexer_.number();
-      if (!parameters.empty() && parameter <= parameters.back()) {
-        lexer_.fail("a parameter above " + shortest(parameters.back()));
+      if (!parameters.empty() &&
+          (are_knots ? parameter < parameters.back() : parameter <= parameters.back())) {
+        lexer_.fail((are_knots ? "a knot of at least " : "a parameter above ") +
+                    shortest(parameters.back()));
       }
       parameters.push_back(parameter);
     }
-    if (parameters.size() < 2) {
-      lexer_.fail("2 parameters or more");
+    const int degree = surface_ ? (is_u ? surface_->u : surface_->v).degree : 0;
+    const std::size_t least = surface_ && are_knots ? 2 * static_cast<std::size_t>(degree) + 2 : 2;
+    if (parameters.size() < least) {
+      lexer_.fail(std::to_string(least) + (are_knots ? " knots or more" : " parameters or more"));
     }
-  }
-
-  /// Finds the patches of one direction. A range that cuts out a part of the surface would make
-  /// another surface of it, so ranges have to be whole.
-  [[nodiscard]] Direction direction(const ParameterRange& range, int degree,
-                                    const std::string& name) const {
-    const std::vector<double>& parameters = range.parameters;
-    if (parameters.empty()) {
-      lexer_.fail("parm " + name + " before the end of the surface in line " +
-                  std::to_string(surface_->line));
+    if (!surface_) {
+      return curves_.set_parameters(std::move(parameters));
     }
-    if (range.first != parameters.front() || range.last != parameters.back()) {
-      bad_input_at(lexer_.name(), surface_->line,
-                   "the whole range " + shortest(parameters.front()) + " " +
-                       shortest(parameters.back()) + " of parm " + name,
-                   shortest(range.first) + " " + shortest(range.last));
+    std::vector<double>& place = (is_u ? surface_->u : surface_->v).parameters;
+    if (!place.empty()) {
+      lexer_.fail("one parm of each direction", is_u ? "'u'" : "'v'");
     }
-    const auto step = static_cast<std::size_t>(degree);
-    const std::size_t patches = parameters.size() - 1;
-    const Count points = Count(patches) * step + 1;
-    return {{points.value().value_or(0), step, patches}, points};
+    place = std::move(parameters);
   }
 
   void end() {
-    if (!surface_) {
+    if (curves_.in_curve()) {
+      curves_.end_curve();
+    } else if (surface_) {
+      finish_obj_surface(lexer_, file_, *surface_, trims_, options_.ignore_trims);
+      // Vertices come first among points, so what makes new points waits for the last vertex.
+      if (waiting_.empty() && surface_->has_bezier_points()) {
+        close_obj_surface(file_, *surface_);
+      } else {
+        waiting_.push_back(std::move(*surface_));
+      }
+      surface_.reset();
+    } else {
       lexer_.fail("surf before end");
     }
-    const Direction u = direction(surface_->u, surface_->degree_u, "u");
-    const Direction v = direction(surface_->v, surface_->degree_v, "v");
-    const Count expected = u.points * v.points;
-    const std::size_t found = file_.vertices.size() - surface_->first_vertex;
-    if (expected.value() != found) {
-      bad_input_at(lexer_.name(), surface_->line,
-                   to_string(expected) + " points (" + to_string(u.points) + " x " +
-                       to_string(v.points) + ")",
-                   std::to_string(found));
-    }
-    if (surface_->rational) {
-      check_weights();
-    }
-    file_.close_indexed_mesh(surface_->degree_u, surface_->degree_v,
-                             surface_->rational ? Weights::cartesian : Weights::none, u.mesh,
-                             v.mesh);
-    surface_.reset();
-    expect_line_end();
+    expect_statement_end(lexer_);
   }
 
-  void check_weights() const {
-    for (std::size_t k = surface_->first_vertex; k < file_.vertices.size(); ++k) {
-      const std::size_t vertex = file_.vertices[k];
-      const std::span<const double> point = std::span(file_.points).subspan(4 * vertex, 4);
-      if (point[3] <= 0) {
-        bad_input_at(lexer_.name(), file_.lines[vertex], "a weight above 0", shortest(point[3]));
-      }
-      for (const double coordinate : point.first(3)) {
-        if (!std::isfinite(coordinate * point[3])) {
-          bad_input_at(lexer_.name(), file_.lines[vertex],
-                       "coordinates that are finite when multiplied by their weight",
-                       shortest(coordinate) + " * " + shortest(point[3]));
-        }
-      }
-    }
-  }
-
+  const ReadOptions& options_;
   Lexer lexer_;
   PatchFile file_;
-  bool has_type_ = false;
-  bool rational_ = false;
-  int degree_u_ = 0; // 0 until it is given
-  int degree_v_ = 0;
-  std::optional<Surface> surface_;
+  ObjState state_;
+  ObjCurves curves_;
+  std::optional<ObjSurface> surface_; // the one that is being read
+  ObjTrims trims_;                    // its own
+  std::size_t element_line_ = 0;      // where it, or the curve that is being read, begins
+  std::vector<ObjSurface> waiting_;   // with all that followed them
 };
 
 } // namespace
 
-PatchFile read_obj(TextInput& input, const ReadOptions& /*options*/) {
-  return ObjReader(input).read();
+PatchFile read_obj(TextInput& input, const ReadOptions& options) {
+  return ObjReader(input, options).read();
 }
 
 } // namespace simdbezier::tools

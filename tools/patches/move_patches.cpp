@@ -54,7 +54,7 @@ void move_patches(PatchFile& file, const std::array<double, 3>& origin) {
   for (const PatchRun& run : file.runs) {
     if (!run.first_vertex) {
       if (named != file.runs.end()) {
-        move(behind, (run.first_value - behind) / run.stride, *named);
+        move(behind, (run.first_value - behind) / named->stride, *named);
       }
       behind = run.first_value + run.u.points * run.v.points * run.stride;
       move(run.first_value, run.u.points * run.v.points, run);

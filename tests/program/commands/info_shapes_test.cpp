@@ -50,6 +50,24 @@ TEST(InfoShapes, NamesTheDegreesThatAllPatchesHave) {
             std::string::npos);
 }
 
+TEST(InfoShapes, HasTheSplinesThatPatchesCameFrom) {
+  const std::string text = info(sample_path("iges"), false);
+  EXPECT_NE(
+      text.find("splines            line 14: degrees 3 x 2, 4 x 3 points, 1 x 1 patches, 2 x 2 "
+                "different knots\n"
+                "                   line 19: degrees 1 x 2 (rational), 2 x 3 points, 1 x 1 "
+                "patches, 2 x 2 different knots\n"),
+      std::string::npos)
+      << text;
+  const std::string json = info(sample_path("iges"), true);
+  EXPECT_NE(json.find("\"splines\":[{\"line\":14,\"first_patch\":0,\"rational\":false,\"u\":{"
+                      "\"degree\":3,\"points\":4,\"periodic\":false,\"patches\":1,"
+                      "\"knots\":[0.0,0.0,0.0,0.0,1.0,1.0,1.0,1.0]},\"v\":{"),
+            std::string::npos)
+      << json;
+  EXPECT_EQ(info(sample_path("obj"), true).find("splines"), std::string::npos);
+}
+
 TEST(InfoShapes, BoxHoldsCartesianPoints) {
   for (const char* const format : {"bv", "itd", "obj"}) {
     const std::string text = info(sample_path(format), false);

@@ -56,7 +56,7 @@ std::vector<BadUsage> bad_usages() {
        "-o: expected a name that ends in .csv, or - for standard output, found the end of the"},
       {"FormatWithoutName",
        {"info", "builtin:teapot", "--format"},
-       "--format: expected bez, bpt, bv, itd, obj or rib, found the end of the command line"},
+       "--format: expected bez, bpt, bv, iges, itd, obj or rib, found the end of the command line"},
       {"GridWithoutValue", tessellate_obj({"--grid"}),
        "--grid: expected N or NUxNV, each from 2 to "
        "1048576, found the end of the command line"},
@@ -102,7 +102,7 @@ std::vector<BadUsage> bad_usages() {
       {"StandardInputWithoutFormat", {"info", "-"}, "--format"},
       {"UnknownFormat",
        {"info", "-", "--format", "xyz"},
-       "--format: expected bez, bpt, bv, itd, obj or rib, found 'xyz'"},
+       "--format: expected bez, bpt, bv, iges, itd, obj or rib, found 'xyz'"},
       {"EmptyFormat", {"info", "-", "--format", ""}, "--format"},
       {"LaterFormat",
        {"info", "-", "--format", "step"},
@@ -178,7 +178,7 @@ TEST(Usage, InputsOfUnknownOrLaterFormats) {
   const TemporaryFolder folder;
   expect_failure(run({"info", folder.write("in.xyz", "1\n")}), 2,
                  ".itd, .obj or .rib, or --format");
-  for (const std::string later : {"iges", "igs", "step", "stp", "pov"}) {
+  for (const std::string later : {"step", "stp", "pov"}) {
     const std::string name = folder.write("in." + later, "1\n");
     expect_failure(run({"info", name}), 2,
                    name + ": reading ." + later + " files is not supported yet");

@@ -54,7 +54,7 @@ struct ExpectedPatch {
   return std::string(SIMDBEZIER_TEST_DATA) + "/sample." + name;
 }
 
-inline constexpr const char* kSampleFormats[] = {"bpt", "bv", "itd", "obj", "rib"};
+inline constexpr const char* kSampleFormats[] = {"bpt", "bv", "iges", "itd", "obj", "rib"};
 
 /// The control points that a file's nets describe, Cartesian: row after row, patch by patch.
 [[nodiscard]] std::vector<WeightedPoint> patch_points(const tools::PatchFile& file,

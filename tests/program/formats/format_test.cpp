@@ -95,11 +95,12 @@ TEST(Formats, KeepTheLineOfEveryPoint) {
     std::size_t patch, point;
     const char* line;
   };
-  const Case cases[] = {{"bpt", 0, 0, ":3"},   {"bpt", 1, 0, ":16"}, {"bpt", 2, 3, ":26"},
-                        {"bv", 0, 11, ":15"},  {"bv", 1, 0, ":19"},  {"bv", 2, 0, ":27"},
-                        {"itd", 0, 5, ":11"},  {"itd", 1, 0, ":22"}, {"itd", 2, 1, ":30"},
-                        {"obj", 0, 11, ":15"}, {"obj", 1, 0, ":26"}, {"obj", 2, 3, ":41"},
-                        {"rib", 0, 4, ":16"},  {"rib", 1, 0, ":15"}, {"rib", 2, 0, ":20"}};
+  const Case cases[] = {{"bpt", 0, 0, ":3"},   {"bpt", 1, 0, ":16"},  {"bpt", 2, 3, ":26"},
+                        {"bv", 0, 11, ":15"},  {"bv", 1, 0, ":19"},   {"bv", 2, 0, ":27"},
+                        {"iges", 0, 5, ":14"}, {"iges", 1, 0, ":19"}, {"iges", 2, 3, ":23"},
+                        {"itd", 0, 5, ":11"},  {"itd", 1, 0, ":22"},  {"itd", 2, 1, ":30"},
+                        {"obj", 0, 11, ":15"}, {"obj", 1, 0, ":26"},  {"obj", 2, 3, ":41"},
+                        {"rib", 0, 4, ":16"},  {"rib", 1, 0, ":15"},  {"rib", 2, 0, ":20"}};
   for (const Case& item : cases) {
     const std::string path = sample_path(item.format);
     const tools::PatchFile file = tools::read_patches(path, tools::PatchFormat::by_name);

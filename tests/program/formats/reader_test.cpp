@@ -220,12 +220,16 @@ TEST(Reader, TakesNumbersTooSmallForADoubleAsZero) {
   EXPECT_EQ(parse_csv(outcome.out).rows.at(0).at(3), 0);
 }
 
-// As many digits as one likes are a number, in all formats and in files of samples.
+// As many digits as one likes are a number, in all formats that have room for them and in files of
+// samples.
 TEST(Reader, TakesNumbersOfAnyLength) {
   for (const std::size_t length : {511U, 512U, 513U, 1024U, 5000U, 100000U}) {
     const std::string five = std::string(length - 1, '0') + "5";
     const std::string third = "0." + std::string(length - 2, '3');
-    for (const char* const format : kSampleFormats) {
+    for (const std::string format : kSampleFormats) {
+      if (format == "iges") {
+        continue; // its lines have 80 columns
+      }
       std::string text = read_file(sample_path(format));
       const std::size_t at = text.find("-7");
       ASSERT_NE(at, std::string::npos) << format;

@@ -198,6 +198,15 @@ std::vector<Call> nets() {
        [&](Results& r, const Options& o) {
          return pack(torus(in), r.set, {}, pack_options(o)).status;
        }},
+      {"tessellate, of a spline", false,
+       [&](Results&, const Options& o) {
+         const SplineSurface<float> surface = torus(in);
+         MeshOptions options;
+         options.tolerance = 0.1;
+         options.threads = o.threads;
+         return tessellate<float>(std::span<const SplineSurface<float>>(&surface, 1), options)
+             .status;
+       }},
       {"evaluate_grid, of a spline", true,
        [&](Results& r, const Options& o) {
          const double at[] = {0, 0.5, 1.5, 3.25, 4};

@@ -52,9 +52,15 @@ void require_direction(const tools::MeshDirection& direction, int degree) {
 }
 
 /// Follows the runs through the file: their points or vertices follow each other without a gap.
+/// Points that are named by numbers come before all others.
 class RunsInSequence {
 public:
-  explicit RunsInSequence(const PatchFile& file) : file_(file) {}
+  RunsInSequence(const PatchFile& file, bool may_name) : file_(file), named_(file.lines.size()) {
+    for (const PatchRun& run : file.runs) {
+      named_ -= run.first_vertex ? 0 : run.u.points * run.v.points;
+    }
+    require(may_name || named_ == 0, "there are points of no patch");
+  }
 
   void require_next(const PatchRun& run) {
     require_direction(run.u, run.degree_u);
@@ -70,7 +76,7 @@ public:
               "vertices of runs do not follow each other");
       vertices_ += mesh;
     } else {
-      require(run.first_point == points_ && run.first_value == values_ &&
+      require(run.first_point == named_ + points_ && run.first_value == 4 * named_ + values_ &&
                   run.stride == run.values_per_point(),
               "points of runs do not follow each other");
       points_ += mesh;
@@ -80,28 +86,26 @@ public:
 
   /// Points that vertices name need not be named; they have four values each.
   void require_end() const {
-    const bool indexed = vertices_ > 0;
     require(patches_ == file_.count && vertices_ == file_.vertices.size(),
             "patches and runs do not belong together");
-    require(indexed ? points_ == 0 && file_.points.size() == 4 * file_.lines.size()
-                    : points_ == file_.lines.size() && values_ == file_.points.size(),
+    require(named_ + points_ == file_.lines.size() && 4 * named_ + values_ == file_.points.size(),
             "points and lines do not belong together");
-    require(std::ranges::all_of(file_.vertices,
-                                [&](std::uint32_t k) { return k < file_.lines.size(); }),
+    require(std::ranges::all_of(file_.vertices, [&](std::uint32_t k) { return k < named_; }),
             "a vertex is not in the file");
   }
 
 private:
   const PatchFile& file_;
+  std::size_t named_;
   std::size_t patches_ = 0;
   std::size_t points_ = 0;
   std::size_t values_ = 0;
   std::size_t vertices_ = 0;
 };
 
-void require_consistent(const PatchFile& file) {
+void require_consistent(const PatchFile& file, PatchFormat format) {
   require(file.count > 0 && !file.runs.empty(), "a file without patches is taken");
-  RunsInSequence runs(file);
+  RunsInSequence runs(file, format == PatchFormat::obj);
   for (const PatchRun& run : file.runs) {
     runs.require_next(run);
   }
@@ -263,7 +267,7 @@ void check_patch_file(std::span<const std::uint8_t> bytes, PatchFormat format) {
   if (!patches) {
     return;
   }
-  require_consistent(*patches);
+  require_consistent(*patches, format);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   require(patches->count >= promised_patches(text, format), "geometry of the file is lost");
   if (patches->count <= kMostPatches) {
