@@ -198,7 +198,7 @@ std::vector<Call> nets() {
        [&](Results& r, const Options& o) {
          return pack(torus(in), r.set, {}, pack_options(o)).status;
        }},
-      {"tessellate, of a spline", false,
+      {"tessellate, of a spline", true,
        [&](Results&, const Options& o) {
          const SplineSurface<float> surface = torus(in);
          MeshOptions options;
