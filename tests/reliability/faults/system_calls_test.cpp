@@ -89,7 +89,7 @@ TEST_P(SystemCalls, FailOnce) {
   for (const Trouble& trouble : troubles()) {
     try_all(trouble);
   }
-  EXPECT_GE(tried_, 10) << "hardly anything was made to fail"; // info makes so many calls
+  EXPECT_GE(tried_, 8) << "hardly anything was made to fail"; // info makes some calls more
 }
 
 // Signals at random times rarely meet the moments between two system calls that matter.
