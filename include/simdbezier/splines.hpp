@@ -33,7 +33,8 @@
 //               knots along an edge on which both are clamped, whichever of u and v they call it
 //               and also where one runs the other way with exactly mirrored knots. Results depend
 //               neither on the instruction set nor on threads, nor on what else is in the call.
-//   Weights     must be above 0; products w P are rounded once to double before anything else.
+//   Weights     must be above 0; products w P are rounded once to double before anything else, and
+//               those that S cannot hold are coefficient_overflow.
 //   Faults      control values must be finite; the first surface and point at fault is named, and
 //               nothing has been written.
 //   Source      L. Ramshaw, Blossoming: A Connect-the-Dots Approach to Splines, 1987; G. Farin,
@@ -90,7 +91,8 @@ struct SplineSurface {
   std::span<const double> knots_v = {};
   Interval u_range = {}; ///< empty: the whole domain
   Interval v_range = {};
-  /// Neighbouring knots that are no further apart, all of them together, count as equal.
+  /// Neighbouring knots that are no further apart, all of them together, count as equal: as the
+  /// first of them, and at the end as the last one.
   double knot_tolerance = 0;
   std::span<const S> memory = {}; ///< as in ControlNets
 };

@@ -165,6 +165,7 @@ SplineDirection spline_direction(const py::object& degree, const py::object& kno
 
 void require_knots(const SplineReport& report, const GivenSpline& spline) {
   const bool is_v = report.component == 1;
+  const bool is_curve = spline.points.array && spline.points.array.ndim() == 2;
   const SplineDirection& direction = is_v ? spline.v : spline.u;
   const std::size_t points = is_v ? spline.rows() : spline.columns();
   switch (report.status.code()) {
@@ -173,8 +174,11 @@ void require_knots(const SplineReport& report, const GivenSpline& spline) {
   case Status::bad_grid:
     throw_value_error(
         "points", "expected " + std::to_string(direction.degree + (direction.periodic ? 0 : 1)) +
-                      (is_v ? " rows" : " columns") + " or more for degree " +
-                      std::to_string(direction.degree) + ", found " + std::to_string(points));
+                      (is_curve ? ""
+                       : is_v   ? " rows"
+                                : " columns") +
+                      " or more for degree " + std::to_string(direction.degree) + ", found " +
+                      std::to_string(points));
   case Status::bad_range: {
     const double begin = direction.range.begin;
     const double end = direction.range.end;
@@ -197,11 +201,14 @@ void require_points(const SplineReport& report, const GivenSpline& spline) {
     const bool is_weight = report.status == Status::bad_weight;
     const bool beside = is_weight && spline.points.weights == Weights::cartesian;
     const std::size_t columns = std::max<std::size_t>(spline.columns(), 1);
-    throw_value_error(
-        beside ? "weights" : "points",
-        std::string(to_string(report.status)) + " (row " + std::to_string(report.point / columns) +
-            ", column " + std::to_string(report.point % columns) +
-            (is_weight ? "" : ", component " + std::to_string(report.component)) + ")");
+    const bool is_curve = spline.points.array && spline.points.array.ndim() == 2;
+    throw_value_error(beside ? "weights" : "points",
+                      std::string(to_string(report.status)) +
+                          (is_curve ? " (point " + std::to_string(report.point)
+                                    : " (row " + std::to_string(report.point / columns) +
+                                          ", column " + std::to_string(report.point % columns)) +
+                          (is_weight ? "" : ", component " + std::to_string(report.component)) +
+                          ")");
   }
   require_ok(report.status, "points");
 }

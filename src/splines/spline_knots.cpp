@@ -52,6 +52,8 @@ Status SplineKnots::take_knots(const SplineAxis& axis, std::size_t& knot) {
     begin = same ? begin : knots_[k];
     knots_[k] = begin;
   }
+  // Those at the end become the last one, so that the spline ends where its knots do.
+  std::replace(knots_.begin(), knots_.end(), begin, axis.knots.back());
   return Status::ok;
 }
 

@@ -47,9 +47,18 @@ SplineReport inspect(PreparedSpline<S>& spline) noexcept {
       for (std::size_t c = 0; c < spline.channels(); ++c) {
         const S value = point[static_cast<std::ptrdiff_t>(c) * surface.component_stride];
         const bool is_weight = c == components;
+        const std::size_t number = row * surface.columns + column;
         if (!std::isfinite(value) || (is_weight && !(value > 0))) {
-          return {is_weight ? Status::bad_weight : Status::non_finite_input, 0,
-                  row * surface.columns + column, static_cast<int>(c)};
+          return {is_weight ? Status::bad_weight : Status::non_finite_input, 0, number,
+                  static_cast<int>(c)};
+        }
+        if (surface.weights == Weights::cartesian && !is_weight) {
+          const double weight = static_cast<double>(
+              point[static_cast<std::ptrdiff_t>(components) * surface.component_stride]);
+          if (std::isfinite(weight) &&
+              !std::isfinite(static_cast<S>(static_cast<double>(value) * weight))) {
+            return {Status::coefficient_overflow, 0, number, static_cast<int>(c)};
+          }
         }
       }
       const S* const neighbours[] = {column > 0 ? spline.point(row, column - 1) : nullptr,

@@ -285,7 +285,7 @@ CASES = [
     (ValueError, 'points', '5 rows or more for degree 4, found 4', lambda: surface(degrees=(3, 4))),
     (ValueError, 'points', '(row 2, column 3, component 1)',
      lambda: len(simdbezier.SplineSurface(spoiled((2, 3, 1), np.nan)).patch_set)),
-    (ValueError, 'points', '(row 0, column 3, component 1)',
+    (ValueError, 'points', '(point 3, component 1)',
      lambda: simdbezier.SplineCurve(spoiled((0, 3, 1), np.inf)[0]).evaluate([0.5])),
     (ValueError, 'weights', '(row 1, column 0)',
      lambda: surface(weights=1.0 * (np.arange(20).reshape(4, 5) != 5)).to_bezier()),

@@ -112,6 +112,13 @@ const std::vector<BadInput>& bad_inputs() {
        Status::input_too_small},
       {"NotFinite", [](Given& g) { g.points[4 * 7 + 1] = kNan; }, Status::non_finite_input, 7, 1},
       {"WeightZero", [](Given& g) { g.points[4 * 9 + 3] = 0; }, Status::bad_weight, 9, 3},
+      {"ProductOverflows",
+       [](Given& g) {
+         g.surface.weights = g.out.weights = Weights::cartesian;
+         g.points[4 * 8 + 2] = 1e200;
+         g.points[4 * 8 + 3] = 1e200;
+       },
+       Status::coefficient_overflow, 8, 2},
       {"NoOutput", [](Given& g) { g.out.points = nullptr; }, Status::null_output},
       {"OtherCount", [](Given& g) { g.out.count = 7; }, Status::bad_patch_range},
       {"ShortOutput", [](Given& g) { g.out.memory = std::span(g.values).first(383); },
@@ -218,6 +225,12 @@ TEST(SplineArguments, KnotsWithinTheToleranceAreOne) {
   EXPECT_EQ(span_count(given.surface).u, 4U);
   given.surface.knot_tolerance = 1e-9;
   EXPECT_EQ(span_count(given.surface).u, 3U);
+  ASSERT_TRUE(to_bezier(given.surface,
+                        MutableNets<double>::packed(std::span(given.values).first(6 * 48), 6, 2, 3,
+                                                    3, Weights::homogeneous),
+                        std::span(given.intervals).first(6)));
+  EXPECT_EQ(given.intervals[0].u.begin, 0); // the ends are those of the knots
+  EXPECT_EQ(given.intervals[2].u.end, 4);
 }
 
 } // namespace

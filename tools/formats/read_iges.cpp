@@ -41,7 +41,8 @@ public:
       }
     }
     if (file_.count == 0) {
-      bad_input(records_.name + ": expected a surface (entity 128 or 114), found none");
+      bad_input_at(records_.name, records_.directory_line,
+                   "a directory with a surface to be shown (entity 128 or 114)", "none");
     }
     return std::move(file_);
   }

@@ -146,7 +146,7 @@ std::vector<Fault> entity_faults() {
   const std::string patch = iges_bilinear("0.,0.,0.,1.,0.,0.,0.,1.,0.,1.,1.,0.");
   return {
       {"NoSurface", "", only(110, "110,0.,0.,0.,1.,1.,1.;"),
-       ": expected a surface (entity 128 or 114), found none"},
+       ":3: expected a directory with a surface to be shown (entity 128 or 114), found none"},
       {"Plane", "", only(108, "108,0.,0.,1.,0.,1,0.,0.,0.,0.;", 1),
        surfaces + "entity 108 (a plane)"},
       {"Revolution", "", only(120, "120,1,3,0.,1.;"), surfaces + "entity 120 (a surface of revolu"},
