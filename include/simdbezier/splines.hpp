@@ -156,7 +156,8 @@ template <typename S>
 ///             not that of `out`) | bad_components (likewise) | bad_weight | bad_stride | bad_grid
 ///             (too few points) | bad_knots | bad_range | bad_tolerance | bad_patch_range (`out`
 ///             has another number of nets) | unequal_lengths (`intervals`) | overlapping_outputs |
-///             non_finite_input | size_overflow | unknown_isa | unsupported_isa | out_of_memory.
+///             non_finite_input | coefficient_overflow (a product w P) | size_overflow |
+///             unknown_isa | unsupported_isa | out_of_memory.
 /// Cost:       about (degree_u + 1) (degree_v + 1) (degree_v + 1) products and sums a channel and
 ///             patch.
 template <typename T>

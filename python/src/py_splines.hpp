@@ -1,6 +1,7 @@
 // Splines as the module's objects have them: points and knots of their own, checked.
 #pragma once
 
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -97,6 +98,35 @@ struct GivenSpline {
   }
 };
 
+/// Throws where a report about control points is not ok.
+void require_points(const SplineReport& report, const GivenSpline& spline);
+
+/// A set that whoever asks first packs, while others wait.
+template <typename Set>
+class PackedOnce {
+public:
+  /// pack(set) returns a SplineReport, without Python's lock.
+  template <typename Pack>
+  const Set& get(const GivenSpline& spline, const Pack& pack) {
+    SplineReport report;
+    {
+      const py::gil_scoped_release release;
+      const std::scoped_lock lock(packing_);
+      if (!packed_) {
+        report = pack(set_);
+        packed_ = static_cast<bool>(report);
+      }
+    }
+    require_points(report, spline);
+    return set_;
+  }
+
+private:
+  std::mutex packing_;
+  bool packed_ = false;
+  Set set_;
+};
+
 /// One degree; knots, a range and a period of one direction, each None where there is none.
 [[nodiscard]] SplineDirection spline_direction(const py::object& degree, const py::object& knots,
                                                const py::object& range, const py::object& periodic,
@@ -107,8 +137,6 @@ struct GivenSpline {
 
 /// Throws where a report about knots, ranges and numbers of points is not ok.
 void require_knots(const SplineReport& report, const GivenSpline& spline);
-/// Throws where a report about control points is not ok.
-void require_points(const SplineReport& report, const GivenSpline& spline);
 /// Throws where a report of locate() and evaluations is about a parameter, which are called so.
 void require_parameters(const SplineReport& report, const GivenSpline& spline,
                         const std::vector<std::pair<const char*, const double*>>& parameters);

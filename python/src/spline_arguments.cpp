@@ -93,8 +93,8 @@ void add_derivatives_of(const PatchSet<T>& set, const FoundPlaces& places,
   std::vector<T> x;
   std::vector<T> y;
   for (std::size_t k = 0; k < places.patch.size(); ++k) {
-    x.push_back(static_cast<T>(std::fma(2.0, places.u[k], -1.0)));
-    y.push_back(static_cast<T>(std::fma(2.0, places.v[k], -1.0)));
+    x.push_back(to_centred<T>(places.u[k]));
+    y.push_back(to_centred<T>(places.v[k]));
   }
   const Samples<T> samples{places.patch, x, y, Parameters::centred};
   Status status;

@@ -1,6 +1,5 @@
 // SplineCurve: B-spline and NURBS curves in their own parameter.
 #include <algorithm>
-#include <mutex>
 
 #include "python/src/py_set.hpp"
 #include "python/src/py_splines.hpp"
@@ -38,17 +37,9 @@ public:
   }
 
   [[nodiscard]] const AnyCurveSet& set() const {
-    SplineReport report;
-    {
-      const py::gil_scoped_release release;
-      const std::scoped_lock lock(packing_);
-      if (!packed_) {
-        report = given_.points_are_float() ? pack_as<float>() : pack_as<double>();
-        packed_ = static_cast<bool>(report);
-      }
-    }
-    require_points(report, given_);
-    return set_;
+    return packed_.get(given_, [this](AnyCurveSet& set) {
+      return given_.points_are_float() ? pack_as<float>(set) : pack_as<double>(set);
+    });
   }
   [[nodiscard]] py::array_t<double> intervals() const {
     static_cast<void>(set());
@@ -114,7 +105,7 @@ private:
   }
 
   template <typename S>
-  SplineReport pack_as() const {
+  SplineReport pack_as(AnyCurveSet& packed) const {
     intervals_.resize(spans());
     std::vector<S> values(intervals_.size() *
                           static_cast<std::size_t>((degree() + 1) * given_.values()));
@@ -126,7 +117,7 @@ private:
     const auto pack_to = [&]<typename T>(std::type_identity<T>) -> SplineReport {
       CurveSet<T> set;
       const PackReport report = pack(curves, set);
-      set_ = std::move(set);
+      packed = std::move(set);
       return {report.status};
     };
     return given_.results_are_float ? pack_to(std::type_identity<float>())
@@ -159,7 +150,7 @@ private:
                                        const py::object& out, const py::object& threads) const {
     std::vector<T> centred;
     for (const double local : places.u) {
-      centred.push_back(static_cast<T>(std::fma(2.0, local, -1.0)));
+      centred.push_back(to_centred<T>(local));
     }
     const CurveSamples<T> samples{places.patch, centred, Parameters::centred};
     return evaluate_outputs<Curves, T>(
@@ -203,9 +194,7 @@ private:
   }
 
   GivenSpline given_;
-  mutable std::mutex packing_;
-  mutable bool packed_ = false;
-  mutable AnyCurveSet set_;
+  mutable PackedOnce<AnyCurveSet> packed_;
   mutable std::vector<Interval> intervals_;
 };
 

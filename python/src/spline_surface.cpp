@@ -1,6 +1,5 @@
 // SplineSurface: B-spline and NURBS surfaces in their own parameters.
 #include <algorithm>
-#include <mutex>
 
 #include "python/src/py_set.hpp"
 #include "python/src/py_splines.hpp"
@@ -65,17 +64,9 @@ public:
 
   /// The patches, packed by whoever asks first.
   [[nodiscard]] const AnyPatchSet& set() const {
-    SplineReport report;
-    {
-      const py::gil_scoped_release release;
-      const std::scoped_lock lock(packing_);
-      if (!packed_) {
-        report = given_.points_are_float() ? pack_as<float>() : pack_as<double>();
-        packed_ = static_cast<bool>(report);
-      }
-    }
-    require_points(report, given_);
-    return set_;
+    return packed_.get(given_, [this](AnyPatchSet& set) {
+      return given_.points_are_float() ? pack_as<float>(set) : pack_as<double>(set);
+    });
   }
   [[nodiscard]] py::array_t<double> intervals() const {
     static_cast<void>(set());
@@ -140,13 +131,13 @@ private:
   }
 
   template <typename S>
-  SplineReport pack_as() const {
+  SplineReport pack_as(AnyPatchSet& packed) const {
     const SplineSurface<S> surface = given_.surface<S>(given_.points.array);
     intervals_.resize(span_count(surface).patches());
     const auto pack_to = [&]<typename T>(std::type_identity<T>) {
       PatchSet<T> set;
       const SplineReport report = pack(surface, set, intervals_);
-      set_ = std::move(set);
+      packed = std::move(set);
       return report;
     };
     return given_.results_are_float ? pack_to(std::type_identity<float>())
@@ -218,9 +209,7 @@ private:
   }
 
   GivenSpline given_;
-  mutable std::mutex packing_;
-  mutable bool packed_ = false;
-  mutable AnyPatchSet set_;
+  mutable PackedOnce<AnyPatchSet> packed_;
   mutable std::vector<PatchInterval> intervals_;
 };
 

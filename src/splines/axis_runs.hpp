@@ -1,7 +1,6 @@
 // The parameters of a spline's grid by the spans that they lie in.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -55,8 +54,7 @@ struct AxisRuns {
         runs.push_back({finder.span(), k, 0, parameters.size(), finder.length()});
       }
       ++runs.back().count;
-      const auto centred = static_cast<T>(std::fma(2.0, finder.local(), -1.0));
-      parameters.push_back(half_centred(centred, Parameters::centred));
+      parameters.push_back(half_centred(to_centred<T>(finder.local()), Parameters::centred));
     }
     end_run();
     return {};

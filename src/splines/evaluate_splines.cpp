@@ -2,7 +2,6 @@
 #include <simdbezier/splines.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "src/splines/spline_grid_work.hpp"
@@ -99,8 +98,8 @@ SplineReport evaluate_at_places(const PatchSet<T>& set, const SplineSurface<S>& 
   std::vector<T> y(U.size());
   for (std::size_t k = 0; k < U.size(); ++k) {
     patch[k] += static_cast<std::uint32_t>(first_patch);
-    x[k] = static_cast<T>(std::fma(2.0, u[k], -1.0));
-    y[k] = static_cast<T>(std::fma(2.0, v[k], -1.0));
+    x[k] = to_centred<T>(u[k]);
+    y[k] = to_centred<T>(v[k]);
   }
   const Samples<T> samples{patch, x, y, Parameters::centred};
   const Status status = evaluate(set, samples, out, options);

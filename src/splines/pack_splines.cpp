@@ -72,12 +72,13 @@ public:
     S* const nets = reinterpret_cast<S*>(scratch + whole_lines(list_.scratch_bytes()));
     PackReport report;
     for (std::size_t row = begin; row < end && report;) {
-      const std::size_t first = patch_of(row);
+      const std::size_t first = list_.patch_of(row);
       const PackRun& run = run_of(first);
       ControlNets<S> block = views_[run.entry];
       block.points = nets;
       block.count = 0;
-      for (; row < end && block.count < kPatchesTogether && patch_of(row) < run.number + run.count;
+      for (; row < end && block.count < kPatchesTogether &&
+             list_.patch_of(row) < run.number + run.count;
            ++row) {
         MutableNets<S> to = MutableNets<S>::packed(nets, 0, block.degree_u, block.degree_v,
                                                    block.components, block.weights);
@@ -94,10 +95,6 @@ public:
   }
 
 private:
-  [[nodiscard]] std::size_t patch_of(std::size_t row) const noexcept {
-    const PreparedSpline<S>& spline = list_.spline_of(row);
-    return spline.first_patch + (row - spline.first_row) * spline.u->spans();
-  }
   [[nodiscard]] const PackRun& run_of(std::size_t patch) const noexcept {
     const auto after =
         std::upper_bound(runs_.begin(), runs_.end(), patch,

@@ -72,6 +72,11 @@ public:
   [[nodiscard]] std::size_t rows() const noexcept { return rows_; }
   /// The spline that a row of spans, numbered through, is part of.
   [[nodiscard]] const PreparedSpline<S>& spline_of(std::size_t row) const noexcept;
+  /// The first patch of such a row.
+  [[nodiscard]] std::size_t patch_of(std::size_t row) const noexcept {
+    const PreparedSpline<S>& spline = spline_of(row);
+    return spline.first_patch + (row - spline.first_row) * spline.u->spans();
+  }
   /// Writes the interval of each patch, where there is room: for none, or for all.
   void write_intervals(std::span<PatchInterval> intervals) const noexcept;
   /// What a thread needs besides.

@@ -51,10 +51,8 @@ Status cut_all(const SplineList<T>& list, const NetView<T>& out, const Options& 
   const auto work = [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
     SplineCutter<T> cutter(list, mean, scratch);
     for (std::size_t row = begin; row < end; ++row) {
-      const PreparedSpline<T>& spline = list.spline_of(row);
       NetView<T> to = out;
-      const std::size_t patch = spline.first_patch + (row - spline.first_row) * spline.u->spans();
-      to.points += static_cast<std::ptrdiff_t>(patch) * out.patch_stride;
+      to.points += static_cast<std::ptrdiff_t>(list.patch_of(row)) * out.patch_stride;
       cutter.cut(row, to);
     }
     return isa;
