@@ -67,11 +67,7 @@ private:
   SIMDBEZIER_INLINE Wide value_at(std::size_t point, std::size_t channel) const {
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(point) * task_.curves.point_stride +
                               static_cast<std::ptrdiff_t>(channel) * task_.curves.component_stride;
-    alignas(64) double lanes[kWideLanes];
-    for (std::size_t p = 0; p < kWideLanes; ++p) {
-      lanes[p] = static_cast<double>(polygon_[p][at]);
-    }
-    return load_vector<Wide>(lanes);
+    return load_each(polygon_, at);
   }
 
   /// Stores a value, rounded, at place `at` of every curve's `stride` values; -0 becomes +0.

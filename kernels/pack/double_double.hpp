@@ -1,6 +1,10 @@
 // Sums and products carried in two doubles, for packing double control points; lanes are
 // independent. There is only what packing needs. Nothing is fused, so that the bits are the same on
-// every instruction set. Source: T. J. Dekker, "A floating-point technique for extending the
+// every instruction set.
+//
+// The second double collects errors and is never brought below half a unit of the first one: the
+// value is their sum, whose error stays below 2^-104 of the largest number on the way for each
+// operation, and only the last rounding counts. That saves a quarter of the operations. Source: T. J. Dekker, "A floating-point technique for extending the
 // available precision", Numerische Mathematik 18 (1971); two_sum after D. E. Knuth, TAOCP vol. 2,
 // 4.2.2.
 #pragma once
@@ -27,14 +31,8 @@ SIMDBEZIER_INLINE DoubleDouble two_difference(Wide a, Wide b) {
   const Wide part = sum - a;
   return {sum, (a - (sum - part)) - (b + part)};
 }
-SIMDBEZIER_INLINE DoubleDouble renormalised(DoubleDouble high, Wide low) {
-  const Wide tail = high.low + low;
-  const Wide rounded = high.high + tail;
-  return {rounded, tail - (rounded - high.high)};
-}
 
-// The first argument is of the type that a sum is carried in. Values that are single doubles (low
-// parts zero) need no renormalisation: the sum is already the rounded one.
+// The first argument is of the type that a sum is carried in.
 template <typename W>
 SIMDBEZIER_INLINE W sum_of(Wide a, Wide b) {
   if constexpr (sizeof(W) == sizeof(Wide)) {
@@ -53,11 +51,13 @@ SIMDBEZIER_INLINE W difference_of(Wide a, Wide b) {
 }
 template <typename W>
 SIMDBEZIER_INLINE W sum_of(DoubleDouble a, DoubleDouble b) {
-  return renormalised(two_sum(a.high, b.high), a.low + b.low);
+  const DoubleDouble sum = two_sum(a.high, b.high);
+  return {sum.high, sum.low + (a.low + b.low)};
 }
 template <typename W>
 SIMDBEZIER_INLINE W difference_of(DoubleDouble a, DoubleDouble b) {
-  return renormalised(two_difference(a.high, b.high), a.low - b.low);
+  const DoubleDouble difference = two_difference(a.high, b.high);
+  return {difference.high, difference.low + (a.low - b.low)};
 }
 
 /// Returns a times a power of two.
@@ -91,7 +91,18 @@ SIMDBEZIER_INLINE DoubleDouble two_product(Wide a, Wide b) {
 /// Returns a * b where b is a single double.
 SIMDBEZIER_INLINE Wide product(Wide a, Wide b) { return a * b; }
 SIMDBEZIER_INLINE DoubleDouble product(DoubleDouble a, Wide b) {
-  return renormalised(two_product(a.high, b), a.low * b);
+  const DoubleDouble rounded = two_product(a.high, b);
+  return {rounded.high, rounded.low + a.low * b};
+}
+
+/// Returns a times an integer of up to 26 bits.
+SIMDBEZIER_INLINE Wide times_integer(Wide a, double integer) { return a * Wide(integer); }
+SIMDBEZIER_INLINE DoubleDouble times_integer(DoubleDouble a, double integer) {
+  const Wide factor(integer);
+  const Wide leading = leading_bits(a.high);
+  const Wide rounded = a.high * factor;
+  const Wide rest = (leading * factor - rounded) + (a.high - leading) * factor;
+  return {rounded, rest + a.low * factor};
 }
 
 /// Returns a single double as W carries it.

@@ -3,11 +3,14 @@
 //
 // With E the shift to the next control value, a polynomial is ((1-t) + t E)^n b_0, and for
 // X = t - 1/2 that is
-//     ((1 + E)/2 + X (E - 1))^n b_0 = sum_k X^k C(n,k) (E - 1)^k ((1 + E)/2)^(n-k) b_0:
-// coefficients are k-fold differences of (n-k)-fold sums of neighbours, times C(n,k) 2^(k-n). Both
-// are symmetric or antisymmetric under reversal, operation by operation, which is what shared edges
-// need; there is no product before the last one. Degree 3 uses centred_cubic() everywhere, so that
-// an edge gets the same bits from every patch that it bounds.
+//     ((1 + E)/2 + X (E - 1))^n b_0 = sum_k X^k C(n,k) 2^(k-n) (E - 1)^k (1 + E)^(n-k) b_0.
+// The factors of b_i in (E - 1)^k (1 + E)^(n-k) b_0 are integers of 13 bits, symmetric in i for
+// even k and antisymmetric for odd k, and their sum is zero for all k but 0. So coefficients are
+// formed from sums of the values that mirror each other (k = 0), from differences of these sums
+// (even k), or from differences of the values (odd k). Reversal keeps or turns these, operation by
+// operation, which is what shared edges need; and of equal values, all coefficients but the
+// constant one are exactly zero, which is what edges need that are a point. Degree 3 uses
+// centred_cubic() everywhere, so that an edge gets the same bits from every patch that it bounds.
 #pragma once
 
 #include "kernels/pack/pack_formulas.hpp"
@@ -17,19 +20,30 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::kMostOrder;
 
-/// The factors C(n,k) 2^(k-n), which are exact.
+/// The integers of centring.
 struct CentringFactors {
-  double at[kMostOrder][kMostOrder] = {};
+  /// [n][k][i]: of b_{n-i} in (E - 1)^k (1 + E)^(n-k), half of it where that is the middle one; for
+  /// even k from 2 on the sum of those up to i, of which the last one is zero.
+  short pair[kMostOrder][kMostOrder][kMostOrder / 2 + 1] = {};
+  short binomial[kMostOrder][kMostOrder] = {}; ///< [n][k]
 
   constexpr CentringFactors() {
     for (std::size_t n = 0; n < kMostOrder; ++n) {
-      double binomial = 1;
       for (std::size_t k = 0; k <= n; ++k) {
-        at[n][k] = binomial;
-        for (std::size_t m = k; m < n; ++m) {
-          at[n][k] *= 0.5;
+        int powers[kMostOrder + 1] = {1}; // of E, the highest first
+        for (std::size_t factor = 0; factor < n; ++factor) {
+          for (std::size_t i = factor + 1; i > 0; --i) {
+            powers[i] += factor < k ? -powers[i - 1] : powers[i - 1];
+          }
         }
-        binomial = binomial * static_cast<double>(n - k) / static_cast<double>(k + 1);
+        int sum = 0;
+        for (std::size_t i = 0; 2 * i <= n; ++i) {
+          const int own = 2 * i == n ? powers[i] / 2 : powers[i];
+          sum += own;
+          pair[n][k][i] = static_cast<short>(k > 0 && k % 2 == 0 ? sum : own);
+        }
+        binomial[n][k] = static_cast<short>(
+            k == 0 ? 1 : binomial[n][k - 1] * static_cast<int>(n - k + 1) / static_cast<int>(k));
       }
     }
   }
@@ -49,40 +63,46 @@ SIMDBEZIER_INLINE detail::PackDoubt pack_groups(Group& group, std::size_t begin,
   return {end, end};
 }
 
-/// Replaces control values by the half-centred power coefficients of the polynomial. `degree` is a
-/// constant where the caller knows it.
+/// Replaces control values values[i * step], 0 <= i <= degree, by the half-centred power
+/// coefficients of the polynomial. `degree` is a constant where the caller knows it.
 template <typename W>
-SIMDBEZIER_INLINE void centre_by_pyramid(W* values, std::size_t step, std::size_t degree) {
-  W sums[kMostOrder];
-  for (std::size_t i = 0; i <= degree; ++i) {
-    sums[i] = values[i * step];
+SIMDBEZIER_INLINE void centre_by_pairs(W* values, std::size_t step, std::size_t degree) {
+  W sums[kMostOrder / 2 + 1];
+  W steps[kMostOrder / 2 + 1];
+  W differences[kMostOrder / 2];
+  const std::size_t pairs = (degree + 1) / 2;
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const W first = values[i * step];
+    const W last = values[(degree - i) * step];
+    sums[i] = sum_of<W>(first, last);
+    differences[i] = difference_of<W>(last, first);
   }
-  for (std::size_t k = degree + 1; k-- > 0;) { // sums[0..k]: (1 + E)^(degree - k) b
-    W differences[kMostOrder];
-    for (std::size_t i = 0; i <= k; ++i) {
-      differences[i] = sums[i];
+  if (degree % 2 == 0) {
+    sums[pairs] = scaled(values[pairs * step], 2);
+  }
+  for (std::size_t i = 0; i < degree / 2; ++i) {
+    steps[i] = difference_of<W>(sums[i], sums[i + 1]);
+  }
+  double power = 1; // 2^(k - degree)
+  for (std::size_t k = degree + 1; k-- > 0; power /= 2) {
+    const bool odd = k % 2 != 0;
+    const W* const of = k == 0 ? sums : odd ? differences : steps;
+    const std::size_t count = k == 0 ? degree / 2 + 1 : odd ? pairs : degree / 2;
+    W sum = of[0];
+    for (std::size_t i = 1; i < count; ++i) {
+      sum = sum_of<W>(sum, times_integer(of[i], kCentring.pair[degree][k][i]));
     }
-    for (std::size_t left = k; left > 0; --left) {
-      for (std::size_t i = 0; i < left; ++i) {
-        differences[i] = difference_of<W>(differences[i + 1], differences[i]);
-      }
-    }
-    values[k * step] = product(differences[0], Wide(kCentring.at[degree][k]));
-    for (std::size_t i = 0; i < k; ++i) {
-      sums[i] = sum_of<W>(sums[i], sums[i + 1]);
-    }
+    values[k * step] = scaled(times_integer(sum, kCentring.binomial[degree][k]), power);
   }
 }
 
-/// Replaces control values values[i * step], 0 <= i <= degree, by the half-centred power
-/// coefficients of the polynomial.
 template <typename W>
 void centre(W* values, std::size_t step, std::size_t degree) {
   switch (degree) {
   case 1:
-    return centre_by_pyramid(values, step, 1);
+    return centre_by_pairs(values, step, 1);
   case 2:
-    return centre_by_pyramid(values, step, 2);
+    return centre_by_pairs(values, step, 2);
   case 3: {
     W c[detail::kOrder];
     centred_cubic<W>(values[0], values[step], values[2 * step], values[3 * step], c);
@@ -91,8 +111,12 @@ void centre(W* values, std::size_t step, std::size_t degree) {
     }
     return;
   }
+  case 4:
+    return centre_by_pairs(values, step, 4);
+  case 5:
+    return centre_by_pairs(values, step, 5);
   default:
-    return centre_by_pyramid(values, step, degree);
+    return centre_by_pairs(values, step, degree);
   }
 }
 

@@ -7,6 +7,8 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
+inline constexpr std::size_t kMostPoints = kMostOrder * kMostOrder;
+
 /// The nets of a group.
 template <typename T, typename S>
 class NetReader {
@@ -30,11 +32,7 @@ public:
       std::ptrdiff_t at = static_cast<std::ptrdiff_t>(channel) * task_.nets.component_stride +
                           static_cast<std::ptrdiff_t>(j) * task_.nets.row_stride;
       for (std::size_t i = 0; i < order_u_; ++i, at += task_.nets.point_stride) {
-        alignas(64) double lanes[kWideLanes];
-        for (std::size_t p = 0; p < kWideLanes; ++p) {
-          lanes[p] = static_cast<double>(net_[p][at]);
-        }
-        *values++ = load_vector<Wide>(lanes);
+        *values++ = load_each(net_, at);
       }
     }
   }
@@ -79,7 +77,12 @@ public:
 
 private:
   static void copy_packed(const S* from, std::size_t count, S* to) {
-    for (std::size_t k = 0; k < count; ++k) {
+    constexpr std::size_t kStep = kLanes<vec<S>>;
+    std::size_t k = 0;
+    for (; k + kStep <= count; k += kStep) {
+      store_vector<vec<S>>(to + k, load_vector<vec<S>>(from + k) + vec<S>(S(0)));
+    }
+    for (; k < count; ++k) {
       to[k] = from[k] + S(0);
     }
   }
@@ -101,49 +104,66 @@ private:
   const S* net_[kWideLanes] = {}; ///< every lane's first control point
 };
 
-/// Writes values, a register each, to consecutive places of every lane's block.
+/// Stores kTransposed values of each of the first `count` lanes.
+template <typename T>
+SIMDBEZIER_INLINE void store_lanes(const Wide* values, T* to, std::ptrdiff_t stride,
+                                   std::size_t count) {
+  if (count == kWideLanes) {
+    return store_transposed(values, to, stride);
+  }
+  alignas(64) T lanes[kWideLanes * kTransposed];
+  store_transposed(values, lanes, static_cast<std::ptrdiff_t>(kTransposed));
+  for (std::size_t p = 0; p < count; ++p) {
+    copy_values(lanes + p * kTransposed, kTransposed, to + static_cast<std::ptrdiff_t>(p) * stride);
+  }
+}
+
+/// Writes values, a register each, to consecutive places of every lane's block: those of a channel
+/// at a time, of which what does not fill a block waits for the next channel's.
 template <typename T>
 class BlockWriter {
 public:
-  SIMDBEZIER_INLINE BlockWriter(T* to, std::size_t stride, std::size_t count)
-      : to_(to), stride_(static_cast<std::ptrdiff_t>(stride)), count_(count) {}
-
-  SIMDBEZIER_INLINE void put(Wide value) {
-    values_[filled_++] = value;
-    if (filled_ == kTransposed) {
-      flush();
+  /// Begins with the first place of every lane, `stride` values apart; the first `count` lanes are
+  /// written.
+  SIMDBEZIER_INLINE void begin(T* to, std::size_t stride, std::size_t count) {
+    to_ = to;
+    stride_ = static_cast<std::ptrdiff_t>(stride);
+    count_ = count;
+    waiting_ = 0;
+    blocks_ = 0;
+  }
+  /// Where the next values go, up to kMostPoints of them.
+  [[nodiscard]] SIMDBEZIER_INLINE Wide* next() { return values_ + waiting_; }
+  /// The next `count` values are there.
+  SIMDBEZIER_INLINE void add(std::size_t count) {
+    const Wide* from = values_;
+    for (waiting_ += count; waiting_ >= kTransposed; waiting_ -= kTransposed) {
+      store_lanes(from, to_, stride_, count_);
+      from += kTransposed;
+      to_ += kTransposed;
+      ++blocks_;
+    }
+    for (std::size_t k = 0; k < waiting_ && from != values_; ++k) {
+      values_[k] = from[k];
     }
   }
-  /// Puts zeros up to a whole cache line of floats.
+  /// Adds zeros up to a whole cache line of floats.
   SIMDBEZIER_INLINE void finish() {
-    while (filled_ != 0 || blocks_ % 2 != 0) {
-      put(Wide(0.0));
+    const std::size_t zeros = (blocks_ + (waiting_ > 0 ? 1 : 0)) % 2 * kTransposed +
+                              (waiting_ > 0 ? kTransposed - waiting_ : 0);
+    for (std::size_t k = 0; k < zeros; ++k) {
+      values_[waiting_ + k] = Wide(0.0);
     }
+    add(zeros);
   }
 
 private:
-  SIMDBEZIER_INLINE void flush() {
-    if (count_ == kWideLanes) {
-      store_transposed(values_, to_, stride_);
-    } else {
-      alignas(64) T lanes[kWideLanes * kTransposed];
-      store_transposed(values_, lanes, static_cast<std::ptrdiff_t>(kTransposed));
-      for (std::size_t p = 0; p < count_; ++p) {
-        T* const to = to_ + static_cast<std::ptrdiff_t>(p) * stride_;
-        copy_values(lanes + p * kTransposed, kTransposed, to);
-      }
-    }
-    to_ += kTransposed;
-    ++blocks_;
-    filled_ = 0;
-  }
-
-  T* to_;
-  std::ptrdiff_t stride_;
-  std::size_t count_; ///< of the lanes, the first so many are written
-  std::size_t filled_ = 0;
+  T* to_ = nullptr;
+  std::ptrdiff_t stride_ = 0;
+  std::size_t count_ = 0;
+  std::size_t waiting_ = 0;
   std::size_t blocks_ = 0;
-  Wide values_[kTransposed];
+  Wide values_[kMostPoints + 2 * kTransposed];
 };
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

@@ -15,8 +15,6 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 using detail::kMostChannels;
 
-inline constexpr std::size_t kMostPoints = kMostOrder * kMostOrder;
-
 /// Squares of control values up to which nothing can overflow: a coefficient is at most 2^43 times
 /// its control values (C(15,k) 2^k < 2^22 in each direction), sums on the way 2^30 times, and with
 /// weights, control values are products of two such numbers.
@@ -47,12 +45,13 @@ public:
       reader_.read(components_, weights_);
     }
     collapsed_.find(first, count);
-    const bool safe = pack_points();
+    PointSizes sizes(shape_, task_.origins != nullptr, weights_);
     for (std::size_t cell = 0; cell < shape_.cells(); ++cell) {
-      pack_cell(cell);
+      pack_cell(cell, cell == 0 ? &sizes : nullptr);
     }
     collapsed_.pack();
-    return safe;
+    store_floors(sizes.floor);
+    return all_of<Wide>(sizes.positive & (sizes.squares <= Wide(kSafeShapeSquares<T>)));
   }
 
 private:
@@ -64,26 +63,31 @@ private:
     reader_.move(c, shape_.rational ? weights_ : nullptr, points_, values_);
   }
 
-  /// Finds the normal floor, and whether all values are of a size that cannot do harm.
-  bool pack_points() {
-    const std::size_t points = shape_.points();
-    Wide squares(0.0);
+  /// What is asked of all control points: the normal floor, and whether all values are of a size
+  /// that cannot do harm.
+  struct PointSizes {
+    ShapeFloor<T> floor;
+    Wide squares = Wide(0.0);
     MaskOf<Wide> positive = squares <= squares;
-    ShapeFloor<T> floor(shape_, task_.origins != nullptr, weights_);
-    if (shape_.rational) {
-      for (std::size_t k = 0; k < points; ++k) {
-        squares = squares + weights_[k] * weights_[k];
-        positive = positive & (weights_[k] >= Wide(kSafeWeight<T>));
+
+    PointSizes(const detail::NetShape& shape, bool origins, const Wide* weights)
+        : floor(shape, origins, weights) {
+      for (std::size_t k = 0; shape.rational && k < shape.points(); ++k) {
+        squares = squares + weights[k] * weights[k];
+        positive = positive & (weights[k] >= Wide(kSafeWeight<T>));
       }
     }
-    for (std::size_t c = 0; c < components_; ++c) {
-      read_component(c);
-      for (std::size_t k = 0; k < points; ++k) {
-        const Wide value = to_wide(values_[k]);
-        squares = squares + value * value + points_[k] * points_[k];
+    /// Adds one component: control values, and Cartesian points.
+    void add(const W* values, const Wide* points, std::size_t count) {
+      for (std::size_t k = 0; k < count; ++k) {
+        const Wide value = to_wide(values[k]);
+        squares = squares + value * value + points[k] * points[k];
       }
-      floor.add(points_);
+      floor.add(points);
     }
+  };
+
+  void store_floors(ShapeFloor<T>& floor) const {
     Wide floors[2];
     floor.finish(floors);
     for (std::size_t f = 0; f < shape_.floors(); ++f) {
@@ -93,7 +97,6 @@ private:
         task_.normal_floor[(first_ + p) * shape_.floors() + f] = static_cast<T>(lanes[p]);
       }
     }
-    return all_of<Wide>(positive & (squares <= Wide(kSafeShapeSquares<T>)));
   }
 
   // Cells ----------------------------------------------------------------------------------------
@@ -112,13 +115,13 @@ private:
     }
   }
 
-  void pack_cell(std::size_t cell) {
+  /// sizes: null, or what looks at the control points that are read.
+  void pack_cell(std::size_t cell, PointSizes* sizes) {
     const std::size_t patch_stride = shape_.coefficients();
-    BlockWriter<T> matrices(task_.coefficients + first_ * patch_stride +
-                                cell * shape_.cell_coefficients(),
-                            patch_stride, count_);
+    matrices_.begin(task_.coefficients + first_ * patch_stride + cell * shape_.cell_coefficients(),
+                    patch_stride, count_);
     T* const edge_blocks = task_.edges + first_ * shape_.edges() + cell * shape_.cell_edges();
-    BlockWriter<T> edges(edge_blocks, shape_.edges(), count_);
+    edge_blocks_.begin(edge_blocks, shape_.edges(), count_);
     Wide corners[kMostChannels * 4];
     tiny_ = {};
     if (shape_.rational) {
@@ -134,27 +137,29 @@ private:
       form_channel(shape_, cell_weights_, edge_weights_);
     }
     for (std::size_t c = 0; c < components_; ++c) {
-      read_cell_component(cell, c, corners);
+      read_cell_component(cell, c, corners, sizes);
       side_values_[0] = values_[0];
       side_values_[1] = values_[order_u_ - 1];
       form_channel(shape_, values_, edges_);
       if (task_.origins != nullptr) {
         split_origins(cell, c);
       }
-      write_channel(values_, edges_, matrices, edges);
+      write_channel(values_, edges_);
     }
     if (shape_.rational) {
-      write_channel(cell_weights_, edge_weights_, matrices, edges);
+      write_channel(cell_weights_, edge_weights_);
       if (task_.origins != nullptr) {
         Origins none;
         store_origins(cell, components_, none);
       }
     }
+    Wide* const ends = edge_blocks_.next();
     for (std::size_t k = 0; k < shape_.channels() * 4; ++k) {
-      edges.put(k < components_ * 4 ? corners[k] : Wide(0.0));
+      ends[k] = k < components_ * 4 ? corners[k] : Wide(0.0);
     }
-    matrices.finish();
-    edges.finish();
+    edge_blocks_.add(shape_.channels() * 4);
+    matrices_.finish();
+    edge_blocks_.finish();
     if (tiny_.any()) {
       keep_edges_from_zero(shape_, edge_blocks, count_);
     }
@@ -174,8 +179,11 @@ private:
   }
 
   /// Reads one component's control values of a cell, and its corners, which are points.
-  void read_cell_component(std::size_t cell, std::size_t c, Wide* corners) {
+  void read_cell_component(std::size_t cell, std::size_t c, Wide* corners, PointSizes* sizes) {
     read_component(c);
+    if (sizes != nullptr) {
+      sizes->add(values_, points_, shape_.points());
+    }
     take_cell(values_, cell);
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const std::size_t at = corner_point(corner);
@@ -247,25 +255,26 @@ private:
   }
 
   void store_origins(std::size_t cell, std::size_t channel, const Origins& origins) const {
-    BlockWriter<T> to(task_.origins + first_ * shape_.origins() + cell * shape_.cell_origins() +
-                          channel * detail::kOriginsPerComponent,
-                      shape_.origins(), count_);
-    for (const Wide& origin : origins.at) {
-      to.put(origin);
-    }
+    T* const to = task_.origins + first_ * shape_.origins() + cell * shape_.cell_origins() +
+                  channel * detail::kOriginsPerComponent;
+    store_lanes(origins.at, to, static_cast<std::ptrdiff_t>(shape_.origins()), count_);
   }
 
-  void write_channel(const W* values, const W* edges, BlockWriter<T>& matrices,
-                     BlockWriter<T>& edge_blocks) {
+  void write_channel(const W* values, const W* edges) {
     tiny_.look_at_edges(shape_, edges);
+    Wide* matrix = matrices_.next();
     for (std::size_t k = 0; k < order_u_; ++k) {
       for (std::size_t l = 0; l < order_v_; ++l) {
-        matrices.put(to_wide(values[l * order_u_ + k]));
+        *matrix++ = to_wide(values[l * order_u_ + k]);
       }
     }
-    for (std::size_t e = 0; e < shape_.edge_powers() * detail::kEdges; ++e) {
-      edge_blocks.put(to_wide(edges[e]));
+    matrices_.add(shape_.matrix());
+    const std::size_t along = shape_.edge_powers() * detail::kEdges;
+    Wide* const to = edge_blocks_.next();
+    for (std::size_t e = 0; e < along; ++e) {
+      to[e] = to_wide(edges[e]);
     }
+    edge_blocks_.add(along);
   }
 
   const detail::NetPackTask<T, S>& task_;
@@ -278,6 +287,8 @@ private:
   std::size_t first_ = 0;
   std::size_t count_ = 0;
   TinyEvenCoefficients<T> tiny_; ///< of a cell
+  BlockWriter<T> matrices_;
+  BlockWriter<T> edge_blocks_;
   // These take about 150 KiB on the stack where registers have eight doubles.
   Wide weights_[kMostPoints];
   Wide points_[kMostPoints];    ///< of one component

@@ -88,6 +88,29 @@ SIMDBEZIER_INLINE void turn_4x4(__m256d m[4]) {
 }
 #endif
 
+/// Loads from[p][at] to lane p. Lanes do not pass through memory where there are instructions that
+/// join them: a register that is loaded from parts which have just been stored waits for all of
+/// them.
+template <typename T>
+SIMDBEZIER_INLINE Wide load_each(const T* const from[kWideLanes], std::ptrdiff_t at) {
+  const auto value = [&](std::size_t p)
+                         SIMDBEZIER_INLINE_LAMBDA { return static_cast<double>(from[p][at]); };
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  return Wide(_mm512_set_pd(value(7), value(6), value(5), value(4), value(3), value(2), value(1),
+                            value(0)));
+#elif defined(SIMDBEZIER_KERNELS_AVX2)
+  return Wide(_mm256_set_pd(value(3), value(2), value(1), value(0)));
+#elif defined(SIMDBEZIER_KERNELS_SSE2)
+  return Wide(_mm_set_pd(value(1), value(0)));
+#else
+  alignas(64) double lanes[kWideLanes];
+  for (std::size_t p = 0; p < kWideLanes; ++p) {
+    lanes[p] = value(p);
+  }
+  return load_vector<Wide>(lanes);
+#endif
+}
+
 /// This is load_transposed() for any instruction set, by way of memory.
 template <typename T>
 SIMDBEZIER_INLINE void load_lanes_transposed(const T* from, std::ptrdiff_t stride,
