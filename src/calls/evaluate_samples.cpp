@@ -4,6 +4,7 @@
 #include <simdbezier/evaluate.hpp>
 
 #include "src/calls/call.hpp"
+#include "src/calls/few_samples.hpp"
 #include "src/calls/sample_evaluator.hpp"
 #include "src/output/delivery.hpp"
 
@@ -96,6 +97,10 @@ private:
 template <typename T>
 Status evaluate(const PatchSet<T>& set, const Samples<T>& samples, const Outputs<T>& out,
                 const Options& options) noexcept {
+  if (samples.patch.size() <= detail::FewSamples<T>::kMost &&
+      detail::FewSamples<T>(set, samples, out, options).run()) {
+    return Status::ok;
+  }
   return detail::make_call(detail::SamplesCall<T>(set, samples, out, options), options);
 }
 

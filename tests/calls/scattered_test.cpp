@@ -1,4 +1,5 @@
 // Scattered samples among others: a call for many gives each the bits of a call for it alone.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -232,6 +233,59 @@ protected:
         << "patch " << large << " is " << scale << " times larger";
   }
 
+  /// Calls of few samples without statuses, in each layout, have the bits of one call for all.
+  void check_few() {
+    make_sets();
+    constexpr std::size_t kCount = 200;
+    constexpr std::size_t kAfter = 4; // values that must stay as they are
+    const SampleArrays<T> samples = make_samples<T>(kCount, kPatterns[1], kAll);
+    const Samples<T> all = samples.view(Parameters::unit);
+    for (const PatchSet<T>* set : {&plain_, &origins_}) {
+      for (const unsigned groups : kGroupSets) {
+        Results<T> together(kCount);
+        scattered(*set, all, together.outputs(groups));
+        for (std::size_t few = 1; few <= 17; ++few) {
+          for (const std::size_t stride : {std::size_t{0}, std::size_t{3}, std::size_t{7}}) {
+            const std::size_t first = few * 10;
+            const std::size_t values = stride == 0 ? 3 * few : (few - 1) * stride + 3;
+            std::vector<T> memory(kGroups * (values + kAfter), Results<T>::kUntouched);
+            Outputs<T> out = together.outputs(groups); // which ones; their places are replaced
+            out.status = {};
+            T* at = memory.data();
+            for (std::size_t g = 0; g < kGroups; ++g, at += values + kAfter) {
+              Vectors<T>& to = out[static_cast<Output>(g)];
+              if (to.wanted()) {
+                to = stride == 0
+                         ? Vectors<T>::planes(at, at + few, at + 2 * few)
+                         : Vectors<T>{at, at + 1, at + 2, static_cast<std::ptrdiff_t>(stride), few};
+              }
+            }
+            Isa executed = Isa::automatic;
+            Options options;
+            options.isa = this->isa();
+            options.executed = &executed;
+            ASSERT_EQ(evaluate(*set,
+                               Samples<T>{all.patch.subspan(first, few), all.u.subspan(first, few),
+                                          all.v.subspan(first, few), all.parameters},
+                               out, options),
+                      Status::ok);
+            EXPECT_EQ(executed, this->isa());
+            at = memory.data();
+            for (std::size_t g = 0; g < kGroups; ++g, at += values + kAfter) {
+              std::vector<T> expected(values + kAfter, Results<T>::kUntouched);
+              for (std::size_t k = 0; (groups >> g & 1U) != 0 && k < 3 * few; ++k) {
+                const std::size_t place = stride == 0 ? k : k % few * stride + k / few;
+                expected[place] = together.plane(3 * g + k / few)[first + k % few];
+              }
+              EXPECT_TRUE(std::equal(expected.begin(), expected.end(), at, same_bits<T>))
+                  << few << " samples, stride " << stride << ", groups " << groups << ", " << g;
+            }
+          }
+        }
+      }
+    }
+  }
+
   void check_companies() {
     for (const std::size_t large : {std::size_t{0}, std::size_t{15}, kPatches - 1}) {
       check_company_of(large, 2);    // one floor for all
@@ -250,6 +304,8 @@ INSTANTIATE_FOR_EVERY_ISA(ScatteredF64);
 
 TEST_P(ScatteredF32, samples_do_not_depend_on_their_company) { check_all(); }
 TEST_P(ScatteredF64, samples_do_not_depend_on_their_company) { check_all(); }
+TEST_P(ScatteredF32, few_samples_are_those_of_many) { check_few(); }
+TEST_P(ScatteredF64, few_samples_are_those_of_many) { check_few(); }
 TEST_P(ScatteredF32, normals_do_not_depend_on_other_patches) { check_companies(); }
 TEST_P(ScatteredF64, normals_do_not_depend_on_other_patches) { check_companies(); }
 
