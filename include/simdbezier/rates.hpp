@@ -40,8 +40,8 @@ struct RateOptions {
   Isa isa = Isa::automatic;                    ///< see resolve_isa()
 };
 
-/// A pinhole camera: a point that is one unit away along the direction and x units off that axis
-/// is seen x focal_length pixels from the middle of the picture.
+/// A pinhole camera, unless it is orthographic: a point that is one unit away along the direction
+/// and x units off that axis is seen x focal_length pixels from the middle of the picture.
 struct Camera {
   std::array<double, 3> eye = {0, 0, 0};
   std::array<double, 3> direction = {0, 0, -1}; ///< of any length but zero
@@ -49,6 +49,14 @@ struct Camera {
   double width = 1920;                          ///< the width of the picture, in pixels
   double height = 1080;
   double nearest = 1e-3; ///< nothing closer than this along the direction is drawn
+  /// Parallel projection: focal_length is the number of pixels a unit, at any depth.
+  bool orthographic = false;
+  /// Patches that certainly lie outside of the circle around the picture's corners count as not
+  /// seen.
+  bool skip_outside = false;
+  /// Likewise patches without weights whose du x dv certainly points away from the eye everywhere:
+  /// for closed models, of which these are the far side.
+  bool skip_back = false;
 };
 
 /// Where choosing rates stopped.
@@ -80,8 +88,10 @@ template <typename T>
 ///
 /// Formula:  pixels * depth / (focal_length * f), depth being that of the nearest control point, at
 ///           least Camera::nearest, and f the secant of the angle between the axis and the corners
-///           of the picture. Patches that lie in front of Camera::nearest altogether, and are not
-///           seen, get the diagonal of their control points' box, at least Camera::nearest.
+///           of the picture; pixels / focal_length where the camera is orthographic. Patches that
+///           are not seen get the diagonal of their control points' box, at least Camera::nearest:
+///           those that lie in front of Camera::nearest altogether, and those that the camera
+///           skips. Meshes have as few cells there as their edges allow, and stay closed.
 /// out:      one value a patch, in the order of all views.
 /// Returns:  ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
 ///           size_overflow | bad_tolerance (pixels, or a member of the camera, that is not above
@@ -120,10 +130,10 @@ template <typename S>
 ///           size_overflow | non_finite_input | bad_weight | unknown_isa | unsupported_isa |
 ///           bad_rates (spans that are not one value a patch) | bad_tolerance (not above zero, or
 ///           not above the patch's error, or an error below 0 or nan, or more than most_segments
-///           would be needed; the report names the patch) | snap_too_large (likewise, where the
-///           topology's snapping has taken more than half of a tolerance) | out_of_memory. Outputs
-///           are undefined on an error. The topology has to be that of these nets: their numbers of
-///           patches are all that is compared.
+///           would be needed; the report names the patch) | bad_topology (the topology is that of
+///           other nets, see fits(); the report names the patch) | snap_too_large (likewise, where
+///           the topology's snapping has taken more than half of a tolerance) | out_of_memory.
+///           Outputs are undefined on an error.
 /// Cost:     on AVX-512, 0.25 to 0.4 us a bicubic float patch and 0.65 us in double, certificate
 ///           included. With weights, of another degree or with a forced diagonal: 1 to 4 us up to
 ///           degree 5, 15 us of degree 15, 35 us of that with weights (AVX2); with weights that are

@@ -46,7 +46,8 @@ public:
     extra_z,          ///< an output has a z plane, and the points no third component for it
     snap_too_large,   ///< snapping moves a patch by more than half of its tolerance
     bad_knots,        ///< knots of a spline are too few or many, descend, or one counts too often
-    bad_range         ///< a range or parameter of a spline is not inside of its domain
+    bad_range,        ///< a range or parameter of a spline is not inside of its domain
+    bad_topology      ///< sides that the topology joins are apart in these control nets
   };
 
   constexpr Status() noexcept = default;

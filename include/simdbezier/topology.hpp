@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <simdbezier/control_nets.hpp>
+#include <simdbezier/options.hpp>
 #include <simdbezier/patch_edge.hpp>
 #include <simdbezier/status.hpp>
 
@@ -128,5 +129,26 @@ template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status find_distinct_nets(std::span<const ControlNets<S>> nets,
                                                        const Topology& topology,
                                                        DistinctNets<S>& distinct) noexcept;
+
+/// Whether nets have all joints of a topology that was found for others of the same shapes, such as
+/// an earlier frame of a model that moves: sides that it joins still have equal control points (or
+/// are still within TopologyOptions::snap of each other), and sides that it takes for points are
+/// points (within point_size). Meshes of such nets have no gap there. Sides that have become equal
+/// since then are not looked for. choose_rates() and certify_rates() refuse nets that do not fit.
+///
+/// options:    threads count, the other members have no meaning. Allocation: some bytes a view.
+///             Determinism: a function of the topology and the control points. Cost: some 40 ns a
+///             patch; 1 us where the topology has been snapped.
+/// Returns:    false also where find_topology() would refuse the nets.
+template <typename S>
+[[nodiscard]] SIMDBEZIER_API bool fits(const Topology& topology,
+                                       std::span<const ControlNets<S>> nets,
+                                       const Options& options = {}) noexcept;
+
+template <typename S>
+[[nodiscard]] bool fits(const Topology& topology, const ControlNets<S>& nets,
+                        const Options& options = {}) noexcept {
+  return fits(topology, std::span<const ControlNets<S>>(&nets, 1), options);
+}
 
 } // namespace simdbezier

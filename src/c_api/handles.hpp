@@ -102,6 +102,9 @@ inline Camera camera_of(const simdbezier_camera* given, const Path& path) {
   set(camera.width, known.width);
   set(camera.height, known.height);
   set(camera.nearest, known.nearest);
+  camera.orthographic = known.orthographic != 0;
+  camera.skip_outside = known.skip_outside != 0;
+  camera.skip_back = known.skip_back != 0;
   return camera;
 }
 

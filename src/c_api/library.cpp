@@ -13,6 +13,7 @@ namespace {
 static_assert(static_cast<int>(SIMDBEZIER_SNAP_TOO_LARGE) == Status::snap_too_large);
 static_assert(static_cast<int>(SIMDBEZIER_BAD_KNOTS) == Status::bad_knots);
 static_assert(static_cast<int>(SIMDBEZIER_BAD_RANGE) == Status::bad_range);
+static_assert(static_cast<int>(SIMDBEZIER_BAD_TOPOLOGY) == Status::bad_topology);
 static_assert(static_cast<int>(SIMDBEZIER_OUT_OF_MEMORY) == Status::out_of_memory);
 #define SIMDBEZIER_INSTRUCTION_SET(name, upper, fuses, runs_here)                                  \
   static_assert(SIMDBEZIER_ISA_##upper == static_cast<int>(Isa::name));                            \

@@ -65,6 +65,18 @@ simdbezier_status simdbezier_find_topology(const simdbezier_nets* nets, size_t l
   });
 }
 
+simdbezier_status simdbezier_topology_fits(const simdbezier_topology* topology,
+                                           const simdbezier_nets* nets, size_t length,
+                                           int32_t threads, int32_t* fits) {
+  return answer(__func__, [&] {
+    const Topology& joined = object_of(topology, kTopology);
+    require(fits != nullptr, SIMDBEZIER_NULL_OUTPUT, {"fits"});
+    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+      *fits = simdbezier::fits(joined, views, only_threads(threads)) ? 1 : 0;
+    });
+  });
+}
+
 void simdbezier_topology_free(simdbezier_topology* topology) { delete topology; }
 
 simdbezier_status simdbezier_topology_count(const simdbezier_topology* topology,

@@ -98,6 +98,7 @@ void require_rates(const RateReport& report, std::span<const ControlNets<S>> net
     case Status::bad_rates:
       return blamed(report.status);
     case Status::snap_too_large:
+    case Status::bad_topology:
       return kTopology;
     case Status::unsupported_isa:
       return kOptions / "isa";

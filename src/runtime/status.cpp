@@ -56,6 +56,8 @@ std::string_view to_string(Status status) noexcept {
            "times";
   case Status::bad_range:
     return "a range or a parameter of a spline is not inside of its domain";
+  case Status::bad_topology:
+    return "sides that the topology joins are apart in these control nets";
   case Status::bad_patch_range:
     return "patches or curves outside of the set were asked for";
   case Status::bad_patch_index:

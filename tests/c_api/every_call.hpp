@@ -132,6 +132,7 @@ struct EveryArgument : MeshWorld {
   std::size_t sizes_length = sizes.size();
   std::vector<simdbezier_cluster> clusters = std::vector<simdbezier_cluster>(64);
   std::size_t clusters_length = 64;
+  std::int32_t fits = 0;
   simdbezier_topology_counts topology_counts = sized<simdbezier_topology_counts>();
   simdbezier_patch_shape shape = sized<simdbezier_patch_shape>();
   simdbezier_error_bounds_of_patch patch_bounds = sized<simdbezier_error_bounds_of_patch>();
@@ -242,6 +243,7 @@ inline const CCall kEveryCall[] = {
     SIMDBEZIER_C_CALL(find_topology, w.at(w.nets), w.views, w.at(w.topology_options),
                       w.place(w.made_topology)),
     SIMDBEZIER_C_CALL(topology_count, w.handle(w.topology), w.at(w.topology_counts)),
+    SIMDBEZIER_C_CALL(topology_fits, w.handle(w.topology), w.at(w.nets), w.views, 1, w.at(w.fits)),
     SIMDBEZIER_C_CALL(choose_rates, w.at(w.nets), w.views, w.handle(w.topology),
                       w.at(w.rate_options), w.at(w.rates)),
     SIMDBEZIER_C_CALL(certify_rates, w.at(w.nets), w.views, w.handle(w.topology),

@@ -174,7 +174,7 @@ Spoils make_spoils() {
       AT(grid), AT(grids), AT(samples), AT(out), AT(curve_grid), AT(curve_grids), AT(curve_samples),
       AT(curve_out), AT(derivative), AT(format), AT(edge), AT(flatten_options), AT(rates),
       AT(rate_options), AT(topology_options), AT(mesh_options), AT(camera), AT(formatted),
-      AT(mesh_out), AT(mesh_out.position), AT(primitives), AT(topology_counts), AT(shape),
+      AT(mesh_out), AT(mesh_out.position), AT(primitives), AT(topology_counts), AT(fits), AT(shape),
       AT(patch_bounds), AT(curve_bounds), AT(mesh_arrays), AT(plan_parts), AT(polyline_arrays),
       AT(bound), AT(doubles[0]), AT(isa_found), AT(isa_name[0]), AT(which), AT(counted[0]),
       AT(links[0]), AT(numbers[0]), AT(deviation[0]), AT(indices[0]), AT(short_indices[0]),

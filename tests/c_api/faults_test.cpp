@@ -64,7 +64,7 @@ TEST(CStatuses, AreThoseOfCppAndFourMore) {
     EXPECT_EQ(simdbezier_status_text(codes), to_string(static_cast<Status::Code>(codes)));
     ++codes;
   }
-  EXPECT_EQ(codes, SIMDBEZIER_BAD_RANGE + 1);
+  EXPECT_EQ(codes, SIMDBEZIER_BAD_TOPOLOGY + 1);
   for (const simdbezier_status status : {SIMDBEZIER_BAD_STRUCT_SIZE, SIMDBEZIER_BAD_SCALAR,
                                          SIMDBEZIER_BAD_VALUE, SIMDBEZIER_BAD_ALIGNMENT}) {
     EXPECT_STRNE(simdbezier_status_text(status), "unknown status");

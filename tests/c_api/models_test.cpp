@@ -27,6 +27,11 @@ TYPED_TEST(CModel, HasEdges) {
   EXPECT_EQ(c_counts.corners, counts.corners);
   EXPECT_EQ(c_counts.open_edges, 0U);
   EXPECT_EQ(c_counts.orientable, 1);
+  std::int32_t fits = 0;
+  EXPECT_C_OK(simdbezier_topology_fits(this->c_topology_, &this->c_nets_, 1, 0, &fits));
+  EXPECT_EQ(fits, 1);
+  EXPECT_EQ(simdbezier_topology_fits(this->c_topology_, &this->c_nets_, 1, 0, nullptr),
+            SIMDBEZIER_NULL_OUTPUT);
   EXPECT_EQ(simdbezier_topology_is_turned(this->c_topology_, 3), 0);
   EXPECT_EQ(simdbezier_topology_is_repeated(this->c_topology_, 99), 0);
 }

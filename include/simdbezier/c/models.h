@@ -60,6 +60,11 @@ typedef struct simdbezier_topology_counts {
 SIMDBEZIER_API simdbezier_status simdbezier_find_topology(
     const simdbezier_nets* nets, size_t length, const simdbezier_topology_options* options,
     simdbezier_topology** topology);
+// fits(): 1 or 0.
+SIMDBEZIER_API simdbezier_status simdbezier_topology_fits(const simdbezier_topology* topology,
+                                                          const simdbezier_nets* nets,
+                                                          size_t length, int32_t threads,
+                                                          int32_t* fits);
 SIMDBEZIER_API void simdbezier_topology_free(simdbezier_topology* topology);
 SIMDBEZIER_API simdbezier_status simdbezier_topology_count(const simdbezier_topology* topology,
                                                            simdbezier_topology_counts* counts);
@@ -96,6 +101,9 @@ typedef struct simdbezier_camera {
   double width;        // 0: 1920
   double height;       // 0: 1080
   double nearest;      // 0: 0.001
+  int32_t orthographic;
+  int32_t skip_outside;
+  int32_t skip_back;
 } simdbezier_camera;
 // pixel_tolerances(): one value a patch.
 SIMDBEZIER_API simdbezier_status simdbezier_pixel_tolerances(const simdbezier_nets* nets,

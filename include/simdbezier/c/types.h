@@ -50,6 +50,7 @@ enum {
   SIMDBEZIER_SNAP_TOO_LARGE,
   SIMDBEZIER_BAD_KNOTS,
   SIMDBEZIER_BAD_RANGE,
+  SIMDBEZIER_BAD_TOPOLOGY,
   SIMDBEZIER_BAD_STRUCT_SIZE = 100, // a wrong struct_size, or unknown members that are not zero
   SIMDBEZIER_BAD_SCALAR,            // neither float nor double, or not what the others are
   SIMDBEZIER_BAD_VALUE,             // a number that stands for no name of its enumeration

@@ -1,5 +1,6 @@
 // See rates.hpp: tolerances from what a camera sees.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <simdbezier/rates.hpp>
@@ -14,6 +15,36 @@ namespace {
 
 bool is_positive(double value) { return value > 0 && std::isfinite(value); }
 
+/// The control points of a patch, as far as a camera asks.
+struct SeenPatch {
+  PointBox box;
+  double nearest = HUGE_VAL; ///< the depths of points, times the length of the camera's direction
+  double farthest = -HUGE_VAL;
+};
+
+/// Values between two.
+struct Interval {
+  double low;
+  double high;
+
+  friend Interval operator-(const Interval& a, const Interval& b) {
+    return {a.low - b.high, a.high - b.low};
+  }
+  friend Interval operator+(const Interval& a, const Interval& b) {
+    return {a.low + b.low, a.high + b.high};
+  }
+  friend Interval operator*(const Interval& a, const Interval& b) {
+    const double products[] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
+    return {*std::min_element(products, products + 4), *std::max_element(products, products + 4)};
+  }
+  [[nodiscard]] double size() const { return std::max(std::fabs(low), std::fabs(high)); }
+};
+using IntervalVector = std::array<Interval, 3>;
+
+IntervalVector intervals_of(const PointBox& box) {
+  return {Interval{box.low(0), box.high(0)}, {box.low(1), box.high(1)}, {box.low(2), box.high(2)}};
+}
+
 /// The camera's axis, and the size in pixels at which distances are seen.
 class View {
 public:
@@ -22,44 +53,103 @@ public:
     axis_ =
         scaled_to_one({{camera.direction[0], camera.direction[1], camera.direction[2]}}, exponent);
     length_ = length(axis_);
-    const double corner = std::hypot(camera.width, camera.height) / 2 / camera.focal_length;
-    pixels_per_unit_ = camera.focal_length * std::sqrt(1 + corner * corner);
+    const double radius = std::hypot(camera.width, camera.height) / 2 / camera.focal_length;
+    radius_ = radius;
+    secant_ = std::sqrt(1 + radius * radius);
+    pixels_per_unit_ = camera.focal_length * (camera.orthographic ? 1 : secant_);
   }
   [[nodiscard]] bool is_sound() const {
     const auto& eye = camera_.eye;
-    return is_positive(length_) && is_positive(pixels_per_unit_) &&
+    return is_positive(length_) && is_positive(pixels_per_unit_) && is_positive(secant_) &&
            is_positive(camera_.focal_length) && is_positive(camera_.width) &&
            is_positive(camera_.height) && is_positive(camera_.nearest) &&
            is_finite({{eye[0], eye[1], eye[2]}});
   }
-  [[nodiscard]] double depth(const Point3& point) const {
+  template <typename S>
+  [[nodiscard]] double tolerance(const ControlNets<S>& nets, std::size_t patch,
+                                 double pixels) const {
+    SeenPatch seen;
+    for_points(nets, patch, [&](const Point3& point) {
+      const double depth = along_axis(point);
+      seen.nearest = std::min(seen.nearest, depth);
+      seen.farthest = std::max(seen.farthest, depth);
+      seen.box.include(point);
+    });
+    if (seen.farthest / length_ < camera_.nearest || (camera_.skip_outside && is_outside(seen)) ||
+        (camera_.skip_back && is_back(nets, patch, seen))) {
+      return std::max(seen.box.diagonal(), camera_.nearest);
+    }
+    const double depth = std::max(seen.nearest / length_, camera_.nearest);
+    return pixels * (camera_.orthographic ? 1 : depth) / pixels_per_unit_;
+  }
+
+private:
+  [[nodiscard]] double along_axis(const Point3& point) const {
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       sum += (point.x[c] - camera_.eye[c]) * axis_.x[c];
     }
-    return sum / length_;
-  }
-  template <typename S>
-  [[nodiscard]] double tolerance(const ControlNets<S>& nets, std::size_t patch,
-                                 double pixels) const {
-    double nearest = HUGE_VAL;
-    double farthest = -HUGE_VAL;
-    PointBox box;
-    for_points(nets, patch, [&](const Point3& point) {
-      nearest = std::min(nearest, depth(point));
-      farthest = std::max(farthest, depth(point));
-      box.include(point);
-    });
-    if (farthest < camera_.nearest) {
-      return std::max(box.diagonal(), camera_.nearest);
-    }
-    return pixels * std::max(nearest, camera_.nearest) / pixels_per_unit_;
+    return sum;
   }
 
-private:
+  /// Whether the sphere around a patch's box is outside of the cone (or cylinder) whose section is
+  /// the circle around the picture.
+  [[nodiscard]] bool is_outside(const SeenPatch& seen) const {
+    const Point3 from_eye = {{seen.box.middle(0) - camera_.eye[0],
+                              seen.box.middle(1) - camera_.eye[1],
+                              seen.box.middle(2) - camera_.eye[2]}};
+    const double depth = dot(from_eye, axis_) / length_;
+    const double off_axis = length(cross(from_eye, axis_)) / length_;
+    const double beside =
+        camera_.orthographic ? off_axis - radius_ : (off_axis - depth * radius_) / secant_;
+    const double rounding = kMargin * (length(from_eye) + seen.box.diagonal());
+    return beside > seen.box.diagonal() / 2 + rounding; // false where something is not finite
+  }
+  /// Whether du x dv points away from the eye wherever the derivatives are between the differences
+  /// of control points, and the surface is between these.
+  template <typename S>
+  [[nodiscard]] bool is_back(const ControlNets<S>& nets, std::size_t patch,
+                             const SeenPatch& seen) const {
+    if (nets.weights != Weights::none) {
+      return false;
+    }
+    PointBox box_u;
+    PointBox box_v;
+    for (std::ptrdiff_t j = 0; j <= nets.degree_v; ++j) {
+      for (std::ptrdiff_t i = 0; i <= nets.degree_u; ++i) {
+        const Point3 point = point_at(nets, patch, i, j);
+        if (i < nets.degree_u) {
+          box_u.include(point_at(nets, patch, i + 1, j) - point);
+        }
+        if (j < nets.degree_v) {
+          box_v.include(point_at(nets, patch, i, j + 1) - point);
+        }
+      }
+    }
+    const IntervalVector du = intervals_of(box_u);
+    const IntervalVector dv = intervals_of(box_v);
+    IntervalVector sight = intervals_of(seen.box);
+    Interval facing = {0, 0};
+    double size = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t a = (c + 1) % 3;
+      const std::size_t b = (c + 2) % 3;
+      sight[c] = camera_.orthographic ? Interval{axis_.x[c], axis_.x[c]}
+                                      : sight[c] - Interval{camera_.eye[c], camera_.eye[c]};
+      const Interval normal = du[a] * dv[b] - du[b] * dv[a];
+      facing = facing + normal * sight[c];
+      size += (du[a].size() * dv[b].size() + du[b].size() * dv[a].size()) *
+              (sight[c].size() + std::fabs(camera_.eye[c]));
+    }
+    return facing.low > kMargin * size;
+  }
+
+  static constexpr double kMargin = 1e-12; ///< more than all roundings of a test
   const Camera& camera_;
   Point3 axis_;
   double length_;
+  double radius_; ///< of the circle around the picture, in units, at a depth of one
+  double secant_; ///< of the angle between the axis and that circle
   double pixels_per_unit_;
 };
 

@@ -10,6 +10,7 @@
 #include <simdbezier/rates.hpp>
 
 #include "src/mesh/rates/patch_groups.hpp"
+#include "src/mesh/topology/snapping.hpp"
 #include "src/mesh/topology/topology_data.hpp"
 #include "src/nets/net_call.hpp"
 #include "src/tables/rate_task.hpp"
@@ -34,9 +35,10 @@ public:
   RateCall(std::span<const ControlNets<S>> nets, const Topology& topology,
            const RateOptions& options, Isa isa, const CertifiedRates& out)
       : nets_(nets), flags_(topology.data()->flags), options_(options), isa_(isa),
-        displacement_(topology.data()->displacement), errors_(options.errors), out_(out),
+        errors_(options.errors), out_(out),
         most_(std::clamp(options.most_segments, 1U, kMostSegments)) {
-    if (!displacement_.empty()) {
+    if (!topology.data()->displacement.empty()) { // of these nets, which may have moved since then
+      displacement_ = find_displacements(NetCorners<S>(nets), *topology.data());
       own_errors_ = displacement_;
       for (std::size_t patch = 0; patch < errors_.size(); ++patch) {
         own_errors_[patch] += errors_[patch];
@@ -261,8 +263,8 @@ private:
   const std::vector<std::uint8_t>& flags_;
   const RateOptions& options_;
   Isa isa_;
-  const std::vector<double>& displacement_; ///< by snapping; may be empty
-  std::span<const double> errors_;          ///< of vertices, by rounding and by snapping
+  std::vector<double> displacement_; ///< by snapping; may be empty
+  std::span<const double> errors_;   ///< of vertices, by rounding and by snapping
   std::vector<double> own_errors_;
   const CertifiedRates& out_;
   std::uint32_t most_;

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "src/mesh/rates/rate_call.hpp"
+#include "src/mesh/topology/fit.hpp"
 #include "src/runtime/fp_environment.hpp"
 
 namespace simdbezier {
@@ -13,7 +14,7 @@ namespace {
 
 template <typename S>
 RateReport check(std::span<const ControlNets<S>> nets, const Topology& topology,
-                 std::span<const double> errors, const CertifiedRates& out) noexcept {
+                 std::span<const double> errors, const CertifiedRates& out, int threads) {
   if (is_missing(nets)) {
     return {Status::null_input};
   }
@@ -36,7 +37,8 @@ RateReport check(std::span<const ControlNets<S>> nets, const Topology& topology,
       return {Status::bad_tolerance, patch};
     }
   }
-  return {};
+  const std::size_t misfit = patches == 0 ? 0 : first_misfit(*topology.data(), nets, threads);
+  return misfit < patches ? RateReport{Status::bad_topology, misfit} : RateReport{};
 }
 
 } // namespace
@@ -47,7 +49,7 @@ RateReport certify_rates(std::span<const ControlNets<S>> nets, const Topology& t
                          std::span<const double> errors, const CertifiedRates& rates,
                          const Options& options) noexcept try {
   const detail::DefaultFpEnvironment environment;
-  const RateReport checked = detail::check(nets, topology, errors, rates);
+  const RateReport checked = detail::check(nets, topology, errors, rates, options.threads);
   if (!checked || rates.nu.empty()) {
     return checked;
   }
@@ -68,7 +70,7 @@ template <typename S>
 RateReport choose_rates(std::span<const ControlNets<S>> nets, const Topology& topology,
                         const RateOptions& options, const CertifiedRates& out) noexcept try {
   const detail::DefaultFpEnvironment environment;
-  const RateReport checked = detail::check(nets, topology, options.errors, out);
+  const RateReport checked = detail::check(nets, topology, options.errors, out, options.threads);
   if (!checked || out.nu.empty()) {
     return checked;
   }

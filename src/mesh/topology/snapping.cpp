@@ -210,12 +210,12 @@ std::size_t snap_sides(const NetCorners<S>& nets, double distance,
 }
 
 template <typename S>
-void find_displacements(const NetCorners<S>& nets, TopologyData& topology) {
-  topology.displacement.assign(topology.patches(), 0);
+double find_displacement(const NetCorners<S>& nets, const TopologyData& topology,
+                         std::size_t patch) {
+  double displacement = 0;
   SideNet own;
   SideNet first;
-  for (std::size_t side = 0; side < topology.sides.size(); ++side) {
-    double& displacement = topology.displacement[side / kPatchEdges];
+  for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
     nets.read_side(side, own);
     for (std::size_t end = 0; end < 2; ++end) {
       const Point3 vertex = nets.corner_point(topology.corner_of(side, end));
@@ -231,11 +231,23 @@ void find_displacements(const NetCorners<S>& nets, TopologyData& topology) {
       displacement = std::max(displacement, moved);
     }
   }
+  return displacement;
+}
+
+template <typename S>
+std::vector<double> find_displacements(const NetCorners<S>& nets, const TopologyData& topology) {
+  std::vector<double> displacements(topology.patches());
+  for (std::size_t patch = 0; patch < displacements.size(); ++patch) {
+    displacements[patch] = find_displacement(nets, topology, patch);
+  }
+  return displacements;
 }
 
 template std::size_t snap_sides(const NetCorners<float>&, double, EdgeRings<std::uint32_t>&);
 template std::size_t snap_sides(const NetCorners<double>&, double, EdgeRings<std::uint32_t>&);
-template void find_displacements(const NetCorners<float>&, TopologyData&);
-template void find_displacements(const NetCorners<double>&, TopologyData&);
+template double find_displacement(const NetCorners<float>&, const TopologyData&, std::size_t);
+template double find_displacement(const NetCorners<double>&, const TopologyData&, std::size_t);
+template std::vector<double> find_displacements(const NetCorners<float>&, const TopologyData&);
+template std::vector<double> find_displacements(const NetCorners<double>&, const TopologyData&);
 
 } // namespace simdbezier::detail

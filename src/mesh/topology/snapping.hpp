@@ -18,8 +18,12 @@ namespace simdbezier::detail {
 template <typename S>
 std::size_t snap_sides(const NetCorners<S>& nets, double distance, EdgeRings<std::uint32_t>& rings);
 
-/// How far the vertices of each patch may lie from where its own corners and edges would put them.
+/// How far the vertices of a patch may lie from where its own corners and edges would put them.
 template <typename S>
-void find_displacements(const NetCorners<S>& nets, TopologyData& topology);
+double find_displacement(const NetCorners<S>& nets, const TopologyData& topology,
+                         std::size_t patch);
+/// The same of all patches.
+template <typename S>
+std::vector<double> find_displacements(const NetCorners<S>& nets, const TopologyData& topology);
 
 } // namespace simdbezier::detail

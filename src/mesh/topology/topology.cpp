@@ -66,7 +66,8 @@ Status build(std::span<const ControlNets<S>> nets, const TopologyOptions& option
     CornerJoiner(shares, topology).run();
   }
   if (options.snap > 0 || options.point_size > 0 || has_rounded_points(corners, topology)) {
-    find_displacements(corners, topology);
+    topology.joined_within = std::max(options.snap, options.point_size);
+    topology.displacement = find_displacements(corners, topology);
   }
   const std::vector<std::uint32_t> candidates = entanglement_candidates(topology, options.threads);
   mark_repeated(corners, candidates, topology);

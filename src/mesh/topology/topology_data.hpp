@@ -102,6 +102,7 @@ struct TopologyData {
   std::vector<std::uint8_t> apart;
   /// How far a patch's vertices may lie from its own corners and edges, by snapping; or empty.
   std::vector<double> displacement;
+  double joined_within = 0; ///< TopologyOptions::snap or point_size, the larger one
   TopologyCounts counts;
 
   [[nodiscard]] std::size_t patches() const noexcept { return flags.size(); }
@@ -124,6 +125,9 @@ struct TopologyData {
   /// The corner where a side begins (end 0) or ends (1).
   [[nodiscard]] std::uint32_t corner_of(std::size_t side, std::size_t end) const noexcept {
     return corners[corner_at(side, end)];
+  }
+  [[nodiscard]] double displacement_of(std::size_t patch) const noexcept {
+    return displacement.empty() ? 0 : displacement[patch];
   }
   /// The sides of a corner, 1 << PatchEdge, that count as points though their control points may
   /// not be one.

@@ -1,0 +1,102 @@
+// See fit.hpp, and fits() in topology.hpp.
+#include "src/mesh/topology/fit.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+#include <simdbezier/topology.hpp>
+
+#include "src/mesh/topology/snapping.hpp"
+#include "src/nets/edge_values.hpp"
+#include "src/nets/net_call.hpp"
+#include "src/runtime/batch.hpp"
+#include "src/runtime/fp_environment.hpp"
+
+namespace simdbezier {
+namespace detail {
+namespace {
+
+template <typename S>
+class Fit {
+public:
+  Fit(const TopologyData& topology, std::span<const ControlNets<S>> nets)
+      : topology_(topology), edges_(nets), corners_(nets) {}
+
+  /// Whether a patch's sides are joined.
+  [[nodiscard]] bool holds(std::size_t patch) const {
+    bool joined = true;
+    for (std::size_t side = kPatchEdges * patch; side < kPatchEdges * (patch + 1); ++side) {
+      joined = joined && is_joined(side);
+    }
+    return joined || is_near(patch);
+  }
+
+private:
+  [[nodiscard]] bool is_joined(std::size_t side) const {
+    const Side& own = topology_.sides[side];
+    if (own.collapsed()) {
+      return edges_[side].collapsed();
+    }
+    const std::size_t first = topology_.sides_of(own.edge())[0];
+    return first == side || edges_[side].turned(own.reversed()) == edges_[first];
+  }
+  /// Whether sides that were snapped, or were short enough to be points, still are. A model that
+  /// moves as a whole rounds its points anew.
+  [[nodiscard]] bool is_near(std::size_t patch) const {
+    constexpr double kMoved = 1 + 0x1p-10;
+    const double most = std::max(topology_.joined_within, topology_.displacement_of(patch));
+    return topology_.joined_within > 0 &&
+           find_displacement(corners_, topology_, patch) <= kMoved * most;
+  }
+
+  const TopologyData& topology_;
+  AllEdges<S> edges_;
+  NetCorners<S> corners_;
+};
+
+} // namespace
+
+template <typename S>
+std::size_t first_misfit(const TopologyData& topology, std::span<const ControlNets<S>> nets,
+                         int threads) {
+  const Fit<S> fit(topology, nets);
+  std::atomic<std::size_t> lowest = topology.patches();
+  auto body = [&](int, std::size_t begin, std::size_t end) {
+    for (std::size_t patch = begin; patch < end; ++patch) {
+      if (!fit.holds(patch)) {
+        lower(lowest, patch);
+        return;
+      }
+    }
+  };
+  divide_work(topology.patches(), 40, threads, body);
+  return lowest;
+}
+
+template std::size_t first_misfit(const TopologyData&, std::span<const ControlNets<float>>, int);
+template std::size_t first_misfit(const TopologyData&, std::span<const ControlNets<double>>, int);
+
+} // namespace detail
+
+template <typename S>
+bool fits(const Topology& topology, std::span<const ControlNets<S>> nets,
+          const Options& options) noexcept try {
+  const detail::DefaultFpEnvironment environment;
+  if (detail::is_missing(nets) || !detail::check_views(nets) ||
+      std::any_of(nets.begin(), nets.end(),
+                  [](const ControlNets<S>& view) { return view.components != 3; })) {
+    return false;
+  }
+  const std::size_t patches = detail::patches_of(nets);
+  return topology.counts().patches == patches &&
+         (patches == 0 || detail::first_misfit(*topology.data(), nets, options.threads) == patches);
+} catch (const std::bad_alloc&) {
+  return false;
+}
+
+template SIMDBEZIER_API bool fits(const Topology&, std::span<const ControlNets<float>>,
+                                  const Options&) noexcept;
+template SIMDBEZIER_API bool fits(const Topology&, std::span<const ControlNets<double>>,
+                                  const Options&) noexcept;
+
+} // namespace simdbezier

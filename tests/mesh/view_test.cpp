@@ -1,0 +1,174 @@
+// What cameras do not see: patches beside the picture and those that face away.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <simdbezier/evaluate.hpp>
+#include <simdbezier/rates.hpp>
+#include <simdbezier/splines.hpp>
+
+#include "tests/support/random.hpp"
+
+namespace simdbezier::tests::view_test {
+namespace {
+
+using Point = std::array<double, 3>;
+
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// A torus of 24 x 16 bicubic patches whose normals point outwards, and 9 x 9 points of each with
+/// their normals.
+struct Torus {
+  static constexpr std::size_t kColumns = 24;
+  static constexpr std::size_t kRows = 16;
+  static constexpr std::size_t kSamples = 81;
+
+  std::vector<double> values = std::vector<double>(kColumns * kRows * 48);
+  std::vector<Point> positions;
+  std::vector<Point> normals;
+
+  Torus() {
+    std::vector<double> mesh;
+    for (std::size_t k = 0; k < kColumns * kRows; ++k) {
+      const double u = 2 * std::numbers::pi * static_cast<double>(k % kColumns) / kColumns;
+      const double v = 2 * std::numbers::pi * static_cast<double>(k / kColumns) / kRows;
+      const double r = 3 + std::cos(v);
+      mesh.insert(mesh.end(), {r * std::cos(u), r * std::sin(u), std::sin(v)});
+    }
+    SplineSurface<double> surface;
+    surface.points = mesh.data();
+    surface.rows = kRows;
+    surface.columns = kColumns;
+    surface.row_stride = 3 * kColumns;
+    surface.periodic_u = surface.periodic_v = true;
+    EXPECT_TRUE(to_bezier(surface, MutableNets<double>::packed(values.data(), patches(), 3, 3)));
+    PatchSet<double> set;
+    EXPECT_TRUE(pack(nets(), set));
+    positions.resize(patches() * kSamples);
+    normals.resize(patches() * kSamples);
+    Outputs<double> out;
+    out.position = Vectors<double>::xyz(std::span(positions));
+    out.normal = Vectors<double>::xyz(std::span(normals));
+    EXPECT_TRUE(evaluate(set, Grid<double>::uniform(9, 9), out));
+  }
+  [[nodiscard]] static std::size_t patches() { return kColumns * kRows; }
+  [[nodiscard]] ControlNets<double> nets() const {
+    return ControlNets<double>::packed(values.data(), patches(), 3, 3);
+  }
+  [[nodiscard]] std::vector<double> tolerances(const Camera& camera) const {
+    std::vector<double> tolerances(patches());
+    EXPECT_TRUE(pixel_tolerances(nets(), camera, 1, std::span(tolerances)));
+    return tolerances;
+  }
+};
+
+Camera random_camera(Random& random) {
+  Camera camera;
+  for (std::size_t c = 0; c < 3; ++c) {
+    camera.eye[c] = random.between(-7, 7);
+    camera.direction[c] = random.between(-3, 3) - camera.eye[c];
+  }
+  camera.focal_length = random.between(300, 3000);
+  camera.orthographic = random.below(2) == 0;
+  camera.focal_length *= camera.orthographic ? 0.2 : 1;
+  return camera;
+}
+
+/// Whether a point is in the circle around the picture, and where it is no nearer than allowed.
+bool is_in_picture(const Camera& camera, const Point& point) {
+  const Point from = minus(point, camera.eye);
+  const double size = std::sqrt(dot(camera.direction, camera.direction));
+  const double depth = dot(from, camera.direction) / size;
+  const Point across = cross(from, camera.direction);
+  const double off = std::sqrt(dot(across, across)) / size;
+  const double radius = std::hypot(camera.width, camera.height) / 2 / camera.focal_length;
+  return depth >= camera.nearest && off <= radius * (camera.orthographic ? 1 : depth);
+}
+bool faces_away(const Camera& camera, const Point& point, const Point& normal) {
+  return dot(normal, camera.orthographic ? camera.direction : minus(point, camera.eye)) > 0;
+}
+
+template <typename Is>
+bool all_samples(std::size_t patch, const Is& is) {
+  for (std::size_t k = patch * Torus::kSamples; k < (patch + 1) * Torus::kSamples; ++k) {
+    if (!is(k)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// The oracle is what dense samples say. Where all of a patch is unseen, most patches are skipped.
+TEST(View, skips_what_is_beside_the_picture_or_faces_away) {
+  const Torus torus;
+  Random random(5);
+  std::size_t unseen[2] = {};
+  std::size_t skipped[2] = {};
+  for (int round = 0; round < 200; ++round) {
+    Camera camera = random_camera(random);
+    const std::vector<double> all = torus.tolerances(camera);
+    for (std::size_t kind = 0; kind < 2; ++kind) {
+      Camera some = camera;
+      (kind == 0 ? some.skip_outside : some.skip_back) = true;
+      const std::vector<double> tolerances = torus.tolerances(some);
+      for (std::size_t p = 0; p < Torus::patches(); ++p) {
+        const bool is_unseen = all_samples(p, [&](std::size_t k) {
+          return kind == 0 ? !is_in_picture(camera, torus.positions[k])
+                           : faces_away(camera, torus.positions[k], torus.normals[k]);
+        });
+        const bool skips = tolerances[p] != all[p];
+        EXPECT_TRUE(is_unseen || !skips) << "round " << round << ", kind " << kind << ", " << p;
+        EXPECT_TRUE(!skips || tolerances[p] > 0.3) << "as large as the patch";
+        unseen[kind] += is_unseen ? 1 : 0;
+        skipped[kind] += skips ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(skipped[0], unseen[0] * 7 / 10);
+  EXPECT_GT(skipped[1], unseen[1] * 7 / 10);
+}
+
+TEST(View, has_pixels_of_one_size_where_it_is_parallel) {
+  const Torus torus;
+  Camera camera;
+  camera.eye = {0, 0, 9};
+  camera.focal_length = 400;
+  camera.orthographic = true;
+  for (const double tolerance : torus.tolerances(camera)) {
+    EXPECT_EQ(tolerance, 1.0 / 400);
+  }
+  camera.direction = {0, 0, 1}; // the torus lies behind the eye
+  for (const double tolerance : torus.tolerances(camera)) {
+    EXPECT_GT(tolerance, 0.3);
+  }
+}
+
+/// Turned and mirrored models: what faces away is what du x dv says, and rational patches stay.
+TEST(View, keeps_rational_patches_that_face_away) {
+  const Torus torus;
+  std::vector<double> weighted;
+  for (std::size_t k = 0; k < torus.values.size(); k += 3) {
+    weighted.insert(weighted.end(), {torus.values[k], torus.values[k + 1], torus.values[k + 2], 1});
+  }
+  Camera camera;
+  camera.eye = {0, 0, 9};
+  camera.skip_back = true;
+  const auto nets =
+      ControlNets<double>::packed(weighted.data(), Torus::patches(), 3, 3, 3, Weights::cartesian);
+  std::vector<double> tolerances(Torus::patches());
+  ASSERT_TRUE(pixel_tolerances(nets, camera, 1, std::span(tolerances)));
+  EXPECT_LT(*std::ranges::max_element(tolerances), 0.1);
+  EXPECT_GT(std::ranges::max(torus.tolerances(camera)), 0.3);
+}
+
+} // namespace
+} // namespace simdbezier::tests::view_test
