@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "src/mesh/vertices/boundary_parameters.hpp"
 #include "src/mesh/vertices/boundary_samples.hpp"
 #include "src/mesh/vertices/merged_normals.hpp"
 #include "src/mesh/vertices/vertex_target.hpp"
@@ -179,19 +180,10 @@ private:
         const std::uint32_t place = members_[m].place;
         const std::size_t at = vertex - to.parameters_first;
         if (entry.corner) {
-          // A side that is a point has all parameters from 0 to 1, whose middle is near to all.
-          const std::size_t patch = place / kPatchCorners;
-          const Side* const sides = &topology_.sides[kPatchEdges * patch];
-          const T u = sides[place % 4 / 2].collapsed() ? T(0.5) : T(place % 2);
-          const T v = sides[2 + place % 2].collapsed() ? T(0.5) : T(place % 4 / 2);
-          to.parameters.put(at, static_cast<std::uint32_t>(patch), u, v);
-          return;
+          put_corner_parameters(topology_, place, at, to.parameters);
+        } else {
+          put_side_parameters(topology_, place, numerator, denominator, at, to.parameters);
         }
-        const std::uint32_t along =
-            topology_.sides[place].reversed() ? denominator - numerator : numerator;
-        const T t = static_cast<T>(along) / static_cast<T>(denominator);
-        const T end = T(place % 2);
-        to.parameters.put(at, place / 4, runs_in_u(place) ? t : end, runs_in_u(place) ? end : t);
       });
     };
     if (entry.corner) {

@@ -8,6 +8,8 @@
 #include <cstdint>
 
 #include "src/mesh/layout/mesh_data.hpp"
+#include "src/mesh/vertices/boundary_parameters.hpp"
+#include "src/mesh/vertices/boundary_samples.hpp"
 #include "src/mesh/vertices/corner_cache.hpp"
 #include "src/mesh/vertices/parameter_lines.hpp"
 #include "src/mesh/vertices/patch_runner.hpp"
@@ -27,8 +29,12 @@ public:
   /// Writes the vertex of some joined corners. lowest: the first of them. False where nothing is
   /// written, because it is none of the plain ones.
   bool put_corner(std::uint32_t lowest, const VertexTarget<T>& to) noexcept {
-    if (!mesh_.side_first.empty() || to.parameters.wanted()) {
+    if (!mesh_.side_first.empty()) {
       return false;
+    }
+    if (to.parameters.wanted()) {
+      put_corner_parameters(topology_, lowest, mesh_.corners[lowest] - to.parameters_first,
+                            to.parameters);
     }
     const std::size_t place = mesh_.corners[lowest] - to.first;
     const CornerValues<T>& own = corners_.at(lowest);
@@ -63,7 +69,7 @@ public:
     const std::uint32_t high = std::max(rate, other);
     const bool united = high <= UnionLines<T>::kMost; // equal rates as well
     const std::uint32_t bucket = runner_.edge_bucket(sides.front() / kPatchEdges);
-    if (sides.size() > 2 || mesh_.is_split(sides.front()) || to.parameters.wanted() ||
+    if (sides.size() > 2 || mesh_.is_split(sides.front()) ||
         !(united || (segments == high && ParameterLines<T>::is_kept(high))) ||
         bucket == PatchRunner<T>::kNoEdges ||
         bucket != runner_.edge_bucket(sides.back() / kPatchEdges)) {
@@ -73,6 +79,9 @@ public:
       run(to);
     }
     bucket_ = bucket;
+    if (to.parameters.wanted()) {
+      put_parameters(edge, sides.front(), to);
+    }
     EdgeJob<T>& job = jobs_[count_++];
     job.along = united ? unions_.line(low, high) : lines_.line(high);
     job.points = segments - 1;
@@ -98,6 +107,18 @@ public:
 
 private:
   static constexpr std::size_t kMost = 64;
+
+  /// Those of the points between an edge's ends, on its first side.
+  void put_parameters(std::uint32_t edge, std::uint32_t side,
+                      const VertexTarget<T>& to) const noexcept {
+    std::uint32_t scratch[4]; // of two sides
+    std::size_t at = mesh_.edge_first[edge] - to.parameters_first;
+    for_edge_points(mesh_, edge, scratch,
+                    [&](std::uint32_t, std::uint32_t numerator, std::uint32_t denominator) {
+                      put_side_parameters(topology_, side, numerator, denominator, at++,
+                                          to.parameters);
+                    });
+  }
 
   static void put(const T (&values)[3], const Planes<T>& to, std::size_t place,
                   std::size_t step) noexcept {
