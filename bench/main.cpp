@@ -86,6 +86,8 @@ int main(int argc, char** argv) {
   register_net_rows();
   register_tessellate_rows();
   register_tolerance_rows();
+  register_frame_rows();
+  register_call_rows();
   register_pack_rows();
   register_spline_rows();
   register_curve_rows();

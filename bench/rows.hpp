@@ -12,8 +12,10 @@
 
 namespace simdbezier_bench {
 
+void register_call_rows();
 void register_curve_rows();
 void register_derivative_rows();
+void register_frame_rows();
 void register_grid_rows();
 void register_shape_rows();
 void register_tile_rows();
