@@ -224,6 +224,21 @@ template <typename S>
                                                  const double* U,
                                                  const SplinePlaces& places) noexcept;
 
+/// What derivatives of these orders by u and v of a patch are to be divided by, to be those by U
+/// and V: length_u^order_u length_v^order_v, one product after the other, as evaluations below
+/// divide.
+[[nodiscard]] constexpr double derivative_divisor(int order_u, int order_v, double length_u,
+                                                  double length_v) noexcept {
+  double divisor = 1;
+  for (int k = 0; k < order_u; ++k) {
+    divisor *= length_u;
+  }
+  for (int k = 0; k < order_v; ++k) {
+    divisor *= length_v;
+  }
+  return divisor;
+}
+
 /// Evaluates a spline surface on the grid of all (U[i], V[j]) in its own parameters: sample (i, j)
 /// has the index j * U.size() + i.
 ///

@@ -20,8 +20,10 @@ struct SplitOptions {
   /// it. Roundings are allowed in any case: 64 (n + 1) u of the largest coordinate of all control
   /// points, n being the largest degree and u = 2^-24 (float) or 2^-53 (double).
   double snap = 0;
-  std::size_t most_pieces = 8; ///< as many times the patches given; no cut leads beyond that
-  int threads = 0;             ///< as in Options
+  /// No cut leads beyond so many patches and pieces. 0: eight times the patches given, or 512 where
+  /// that is more.
+  std::size_t most_pieces = 0;
+  int threads = 0; ///< as in Options
 };
 
 /// Where a piece of a patch comes from.
@@ -32,6 +34,15 @@ struct PatchPiece {
   double v0 = 0;
   double v1 = 1;
   double error = 0; ///< how far cutting may have moved any of its points, by roundings
+
+  /// The parameters of the patch where the piece has u or v.
+  [[nodiscard]] constexpr double whole_u(double u) const noexcept { return between(u0, u1, u); }
+  [[nodiscard]] constexpr double whole_v(double v) const noexcept { return between(v0, v1, v); }
+
+private:
+  static constexpr double between(double from, double to, double place) noexcept {
+    return place == 1 ? to : from + (to - from) * place;
+  }
 };
 
 /// What came of short edges along a part of a longer one.

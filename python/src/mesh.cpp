@@ -120,7 +120,19 @@ void add_mesh(py::module_& module) {
                                    static_cast<py::ssize_t>(mesh.deviations.size()),
                                    mesh.deviations.data(), self);
                              }),
-                             "The same for single patches: (patches,)");
+                             "The same for single patches: (patches,)")
+      .def_property_readonly("split_edges", property([](const auto& mesh, const py::object&) {
+                               return py::int_(mesh.splits.splits);
+                             }),
+                             "How many edges patches were cut for (split_edges=True).")
+      .def_property_readonly("unjoined_edges", property([](const auto& mesh, const py::object&) {
+                               return py::int_(mesh.splits.unjoined);
+                             }),
+                             "How many edges along parts of others stayed open.")
+      .def_property_readonly("largest_gap", property([](const auto& mesh, const py::object&) {
+                               return py::float_(mesh.splits.largest_gap);
+                             }),
+                             "At least the largest distance of one of these from that part.");
   define(type, "save", &PyMesh::save, py::arg("path"), py::arg("point_data") = py::none(),
          ("Writes a file of the format that its name ends in: " + tools::mesh_format_names(".") +
           ". point_data: a dict of arrays (vertices,) or (vertices, k) to be written as well (" +

@@ -157,19 +157,11 @@ struct FoundPlaces {
   std::vector<double> length_v;
 };
 
-/// What turns derivatives of these orders by local parameters into some by the spline's own, as
-/// evaluations of splines divide.
+/// What derivatives of these orders are divided by at sample k.
 template <typename T>
-[[nodiscard]] T derivative_divisor(const FoundPlaces& places, std::size_t k, int order_u,
-                                   int order_v) {
-  double divisor = 1;
-  for (int times = 0; times < order_u; ++times) {
-    divisor *= places.length_u[k];
-  }
-  for (int times = 0; times < order_v; ++times) {
-    divisor *= places.length_v[k];
-  }
-  return static_cast<T>(divisor);
+[[nodiscard]] T divisor_at(const FoundPlaces& places, std::size_t k, int order_u, int order_v) {
+  return static_cast<T>(
+      derivative_divisor(order_u, order_v, places.length_u[k], places.length_v[k]));
 }
 
 /// Orders of partial derivatives, and the key of each in the results.

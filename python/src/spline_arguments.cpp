@@ -68,12 +68,25 @@ int order_of(const py::object& value, const std::string& argument) {
   return static_cast<int>(order);
 }
 
+/// Whether it is the product of a point and its weight that overflows, rather than a patch made of
+/// sound ones. Of such a patch, reports have no point.
+template <typename S>
+bool product_overflows(const SplineReport& report, const OwnPoints& points, std::ptrdiff_t values) {
+  if (points.weights != Weights::cartesian || report.component >= points.components) {
+    return false;
+  }
+  const S* const point = static_cast<const S*>(points.array.data()) +
+                         static_cast<std::ptrdiff_t>(report.point) * values;
+  return !std::isfinite(static_cast<S>(static_cast<double>(point[report.component]) *
+                                       static_cast<double>(point[points.components])));
+}
+
 template <typename T>
 void divide(py::array_t<T>& array, int components, const FoundPlaces& places,
             const WantedDerivative& orders) {
   T* value = array.mutable_data();
   for (std::size_t k = 0; k < places.patch.size(); ++k) {
-    const T divisor = derivative_divisor<T>(places, k, orders.u, orders.v);
+    const T divisor = divisor_at<T>(places, k, orders.u, orders.v);
     for (int c = 0; c < components; ++c, ++value) {
       *value /= divisor;
     }
@@ -197,7 +210,12 @@ void require_knots(const SplineReport& report, const GivenSpline& spline) {
 }
 
 void require_points(const SplineReport& report, const GivenSpline& spline) {
-  if (report.status == Status::non_finite_input || report.status == Status::bad_weight) {
+  const bool is_product = report.status == Status::coefficient_overflow &&
+                          (spline.points_are_float()
+                               ? product_overflows<float>(report, spline.points, spline.values())
+                               : product_overflows<double>(report, spline.points, spline.values()));
+  if (is_product || report.status == Status::non_finite_input ||
+      report.status == Status::bad_weight) {
     const bool is_weight = report.status == Status::bad_weight;
     const bool beside = is_weight && spline.points.weights == Weights::cartesian;
     const std::size_t columns = std::max<std::size_t>(spline.columns(), 1);

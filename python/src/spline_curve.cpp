@@ -171,7 +171,7 @@ private:
     for (T* const component : {vectors.x, vectors.y, vectors.z}) {
       for (std::size_t k = 0; component != nullptr && k < places.patch.size(); ++k) {
         component[static_cast<std::ptrdiff_t>(k) * vectors.stride] /=
-            derivative_divisor<T>(places, k, times, 0);
+            divisor_at<T>(places, k, times, 0);
       }
     }
   }

@@ -1,5 +1,6 @@
 // Meshes in one call, and plans of them, of simdbezier.h.
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include <simdbezier/mesh.hpp>
@@ -10,6 +11,15 @@
 
 namespace simdbezier::c_api {
 namespace {
+
+// Pieces are handed out in place.
+static_assert(sizeof(simdbezier_patch_piece) == sizeof(PatchPiece) &&
+              offsetof(simdbezier_patch_piece, patch) == offsetof(PatchPiece, patch) &&
+              offsetof(simdbezier_patch_piece, u0) == offsetof(PatchPiece, u0) &&
+              offsetof(simdbezier_patch_piece, u1) == offsetof(PatchPiece, u1) &&
+              offsetof(simdbezier_patch_piece, v0) == offsetof(PatchPiece, v0) &&
+              offsetof(simdbezier_patch_piece, v1) == offsetof(PatchPiece, v1) &&
+              offsetof(simdbezier_patch_piece, error) == offsetof(PatchPiece, error));
 
 /// Zero stands for no limit.
 double limit_of(double value) {
@@ -78,6 +88,13 @@ Path blamed_in_tessellation(Status status, const MeshOptions& options, BlamedPoi
   }
 }
 
+template <typename Known>
+void put_splits(Known& known, const SplitCounts& of) noexcept {
+  known.splits = of.splits;
+  known.unjoined = of.unjoined;
+  known.largest_gap = of.largest_gap;
+}
+
 template <typename T>
 simdbezier_mesh_arrays arrays_of(const Mesh<T>& mesh) noexcept {
   simdbezier_mesh_arrays known{};
@@ -93,6 +110,7 @@ simdbezier_mesh_arrays arrays_of(const Mesh<T>& mesh) noexcept {
   known.deviations = first_of(mesh.deviations);
   known.patches_given = mesh.deviations.size();
   known.deviation = mesh.deviation;
+  put_splits(known, mesh.splits);
   return known;
 }
 
@@ -110,6 +128,10 @@ simdbezier_mesh_plan_parts parts_of(const simdbezier_mesh_plan& plan) noexcept {
         known.deviations = first_of(of.deviations);
         known.deviation = of.deviation;
         known.diagonal = of.diagonal;
+        known.pieces = of.pieces.empty()
+                           ? nullptr
+                           : reinterpret_cast<const simdbezier_patch_piece*>(of.pieces.data());
+        put_splits(known, of.splits);
       },
       plan.of);
   return known;

@@ -4,6 +4,7 @@
 
 #include "src/c_api/handles.hpp"
 #include "src/c_api/views.hpp"
+#include "src/mesh/topology/fit.hpp"
 
 namespace simdbezier::c_api {
 namespace {
@@ -72,6 +73,8 @@ simdbezier_status simdbezier_topology_fits(const simdbezier_topology* topology,
     const Topology& joined = object_of(topology, kTopology);
     require(fits != nullptr, SIMDBEZIER_NULL_OUTPUT, {"fits"});
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+      require_ok(detail::check_model(views),
+                 [](Status status) { return blamed_nets(status, {"nets"}); });
       *fits = simdbezier::fits(joined, views, only_threads(threads)) ? 1 : 0;
     });
   });

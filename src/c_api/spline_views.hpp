@@ -163,9 +163,9 @@ inline Path blamed_spline(Status status, int component, const Path& spline,
 /// Refuses a call for what a report says of a spline that is at fault itself.
 inline void require_spline(const SplineReport& own, const Path& spline, const SplineNames& names) {
   if (!own) {
-    const bool numbered = own.status == Status::bad_knots ||
-                          own.status == Status::non_finite_input ||
-                          own.status == Status::bad_weight;
+    const bool numbered =
+        own.status == Status::bad_knots || own.status == Status::non_finite_input ||
+        own.status == Status::coefficient_overflow || own.status == Status::bad_weight;
     refuse(own, blamed_spline(own.status, own.component, spline, names), numbered);
   }
 }

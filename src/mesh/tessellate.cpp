@@ -41,10 +41,9 @@ Status evaluate_vertices(const MeshPlan<T>& plan, const MeshOptions& options, Me
   const Status status = evaluate_mesh(plan.set, plan.layout, out, how);
   for (std::size_t k = 0; k < mesh.patches.size() && !plan.pieces.empty(); ++k) {
     const PatchPiece& piece = plan.pieces[mesh.patches[k]];
-    const double u = static_cast<double>(mesh.parameters[k][0]);
-    const double v = static_cast<double>(mesh.parameters[k][1]);
-    mesh.parameters[k] = {static_cast<T>(piece.u0 + (piece.u1 - piece.u0) * u),
-                          static_cast<T>(piece.v0 + (piece.v1 - piece.v0) * v)};
+    const auto [u, v] = mesh.parameters[k];
+    mesh.parameters[k] = {static_cast<T>(piece.whole_u(static_cast<double>(u))),
+                          static_cast<T>(piece.whole_v(static_cast<double>(v)))};
   }
   if (!plan.patches.empty()) {
     for (std::uint32_t& patch : mesh.patches) {

@@ -42,14 +42,7 @@ constexpr Orders orders_of(std::size_t vector) noexcept {
 
 template <typename T>
 T divisor_of(Orders orders, double length_u, double length_v) noexcept {
-  double divisor = 1;
-  for (int k = 0; k < orders.u; ++k) {
-    divisor *= length_u;
-  }
-  for (int k = 0; k < orders.v; ++k) {
-    divisor *= length_v;
-  }
-  return static_cast<T>(divisor);
+  return static_cast<T>(derivative_divisor(orders.u, orders.v, length_u, length_v));
 }
 
 /// Units are runs of V: a thread has all samples of some rows. Kernels put the small grids of

@@ -168,20 +168,51 @@ TEST(CMeshOptions, AreThoseOfCpp) {
   }
 }
 
-/// Two patches above each other, beside one that is as high as both.
+/// Two patches above each other, beside one that is as high as both, which they touch or do not
+/// touch.
 TEST(CMeshOptions, SplitEdges) {
-  const std::vector<double> values = {0,  0, 0, 1, 0, 0, 0,  2, 0, 1, 2, 0, -1, 0, 0, 0, 0, 0,
-                                      -1, 1, 0, 0, 1, 0, -1, 1, 0, 0, 1, 0, -1, 2, 0, 0, 2, 0};
-  const simdbezier_nets nets = c_nets(values, 1, 1);
-  auto options = sized<simdbezier_mesh_options>();
-  options.nu = options.nv = 2;
-  for (const bool splits : {false, true}) {
-    options.split_edges = splits ? 1 : 0;
+  const struct {
+    bool splits;
+    double gap;
+    std::size_t vertices;
+    std::size_t joined;
+    std::size_t unjoined;
+  } cases[] = {{false, 0, 10, 0, 0}, {true, 0, 9, 2, 0}, {true, 0.015625, 10, 0, 2}};
+  for (const auto& one : cases) {
+    const double x = -one.gap;
+    const std::vector<double> values = {0,  0, 0, 1, 0, 0, 0,  2, 0, 1, 2, 0, -1, 0, 0, x, 0, 0,
+                                        -1, 1, 0, x, 1, 0, -1, 1, 0, x, 1, 0, -1, 2, 0, x, 2, 0};
+    const simdbezier_nets nets = c_nets(values, 1, 1);
+    auto options = sized<simdbezier_mesh_options>();
+    options.nu = options.nv = 2;
+    options.split_edges = one.splits ? 1 : 0;
     simdbezier_mesh* mesh = nullptr;
     EXPECT_C_OK(simdbezier_tessellate(&nets, 1, SIMDBEZIER_F64, &options, &mesh));
     auto arrays = sized<simdbezier_mesh_arrays>();
     EXPECT_C_OK(simdbezier_mesh_look(mesh, &arrays));
-    EXPECT_EQ(arrays.vertices, splits ? 9U : 10U);
+    simdbezier_mesh_plan* plan = nullptr;
+    EXPECT_C_OK(simdbezier_plan_mesh(&nets, 1, SIMDBEZIER_F64, &options, &plan));
+    auto parts = sized<simdbezier_mesh_plan_parts>();
+    EXPECT_C_OK(simdbezier_mesh_plan_look(plan, &parts));
+    EXPECT_EQ(arrays.vertices, one.vertices);
+    EXPECT_EQ(arrays.splits, one.joined);
+    EXPECT_EQ(arrays.unjoined, one.unjoined);
+    EXPECT_NEAR(arrays.largest_gap, one.gap, 1e-15);
+    EXPECT_EQ(parts.splits, one.joined);
+    EXPECT_EQ(parts.unjoined, one.unjoined);
+    EXPECT_EQ(parts.largest_gap, arrays.largest_gap);
+    ASSERT_EQ(parts.pieces != nullptr, one.splits);
+    ASSERT_EQ(parts.patch_count, one.joined > 0 ? 4U : 3U);
+    if (one.joined > 0) {
+      const simdbezier_patch_piece& second = parts.pieces[1];
+      EXPECT_EQ(second.patch, 0U);
+      EXPECT_EQ((std::array{second.u0, second.u1, second.v0, second.v1}),
+                (std::array{0.0, 1.0, 0.5, 1.0}));
+      EXPECT_GT(second.error, 0);
+      EXPECT_LT(second.error, 1e-14);
+      EXPECT_EQ(parts.pieces[3].patch, 2U);
+    }
+    simdbezier_mesh_plan_free(plan);
     simdbezier_mesh_free(mesh);
   }
 }

@@ -442,6 +442,14 @@ TEST(CSplineBadInput, HasNumbers) {
        5, 0, "(knot 5)"},
       {[](World& w) { return w.values[22] = kNan, w.cut(); }, 0, 7, 1,
        "(spline 0, point 7, component 1)"},
+      {[](World& w) {
+         for (auto& surface : w.surfaces) {
+           surface.weights = SIMDBEZIER_CARTESIAN;
+           surface.components = 2;
+         }
+         return w.values[22] = w.values[23] = 1e200, w.pack();
+       },
+       0, 7, 1, "(spline 0, point 7, component 1)"},
       {[](World& w) { return w.v[1] = 2.5, w.locate(); }, 0, 1, 1, "(parameter 1)"},
       {[](World& w) { return w.surfaces[2].u_end = 9, w.cut(); }, 2, -1, 0, "its domain"},
   };

@@ -35,6 +35,7 @@ int main(void) {
   SIZE(simdbezier_partial_derivative);
   SIZE(simdbezier_patch_grids);
   SIZE(simdbezier_patch_interval);
+  SIZE(simdbezier_patch_piece);
   SIZE(simdbezier_patch_shape);
   SIZE(simdbezier_polyline_arrays);
   SIZE(simdbezier_primitive_options);

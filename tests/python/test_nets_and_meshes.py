@@ -175,6 +175,26 @@ def test_parameters_are_each_patchs_own(dtype, options):
         np.testing.assert_allclose(mesh.positions[mesh.patches == patch], expected, atol=1e-6)
 
 
+def test_split_edges_are_counted():
+    # A square of 2 x 2 beside two of 1 x 1, which touch it or are a little away.
+    def square(x, y, size):
+        return [[[x + i * size, y + j * size, 0] for i in (0, 1)] for j in (0, 1)]
+
+    def halves(gap, **options):
+        points = np.array([square(0, 0, 2), square(-1 - gap, 0, 1), square(-1 - gap, 1, 1)], float)
+        return simdbezier.tessellate(points, grid=2, **options)
+
+    mesh = halves(0)
+    assert (mesh.split_edges, mesh.unjoined_edges, mesh.largest_gap, len(mesh.positions)) == (0, 0, 0, 10)
+    mesh = halves(0, split_edges=True)
+    assert (mesh.split_edges, mesh.unjoined_edges, mesh.largest_gap, len(mesh.positions)) == (2, 0, 0, 9)
+    mesh = halves(0.015625, split_edges=True)
+    assert (mesh.split_edges, mesh.unjoined_edges, len(mesh.positions)) == (0, 2, 10)
+    assert abs(mesh.largest_gap - 0.015625) < 1e-15
+    mesh = halves(0.015625, split_edges=True, snap=0.04)
+    assert (mesh.split_edges, mesh.unjoined_edges, len(mesh.positions)) == (2, 0, 9)
+
+
 def test_parameters_of_a_tube_do_not_run_back():
     angle = 2 * math.pi * np.arange(9) / 8
     ring = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=-1)

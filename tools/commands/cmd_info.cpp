@@ -88,7 +88,7 @@ std::string describe(const std::map<Shape, std::size_t>& shapes) {
 }
 
 std::vector<double> different(std::vector<double> knots) {
-  knots.erase(std::ranges::unique(knots).begin(), knots.end());
+  knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
   return knots;
 }
 

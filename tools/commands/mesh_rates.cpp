@@ -61,29 +61,12 @@ bool asks_too_small_an_angle(const RatedPatches<T>& patches, RateOptions how,
   return !is_too_fine(report.status) || report.patch != patch;
 }
 
-// Whether the patch would have its rates if no edges were moved together.
-template <typename T>
-bool is_moved_too_far(const RatedPatches<T>& patches, const MeshArguments& mesh,
-                      const RateOptions& how, const CertifiedRates& rates, std::size_t patch) {
-  Topology topology;
-  TopologyOptions options;
-  options.orient = mesh.orient;
-  options.flip = mesh.flip;
-  options.threads = how.threads;
-  if (std::max(mesh.snap, mesh.point_size) == 0 ||
-      !find_topology(patches.nets, topology, options)) {
-    return false;
-  }
-  const RateReport report = choose_rates<T>(patches.nets, topology, how, rates);
-  return !is_too_fine(report.status) || report.patch != patch;
-}
-
 // Throws a Failure that says why the patch cannot keep its distance: rounding, edges that are moved
 // together, or too many cells.
 template <typename T>
 [[noreturn]] void refuse_distance(const RatedPatches<T>& patches, const MeshArguments& mesh,
-                                  const Tolerances& tolerances, const RateOptions& how,
-                                  const CertifiedRates& rates, std::size_t patch) {
+                                  const Tolerances& tolerances, const RateReport& report) {
+  const std::size_t patch = report.patch;
   const std::string name = patches.describe(patch);
   const double found = tolerances.of(patch);
   if (found == kUnlimited) {
@@ -98,7 +81,7 @@ template <typename T>
         (patches.far && mesh.origin == std::nullopt ? " (--origin auto makes it smaller)" : "") +
         ", found " + shortest(found) + " for " + name);
   }
-  if (is_moved_too_far(patches, mesh, how, rates, patch)) {
+  if (report.status == Status::snap_too_large) {
     const bool snapped = mesh.snap >= mesh.point_size;
     bad_input((snapped ? "--snap" : "--point-size") +
               (": expected a distance that leaves room within " + option) + ", " + shortest(found) +
@@ -150,13 +133,12 @@ void choose_adaptive(const RatedPatches<T>& patches, const Arguments& arguments,
     report = choose(patches.storage_error);
   }
   if (is_too_fine(report.status)) {
-    const std::size_t patch = report.patch;
-    const std::string name = patches.describe(patch);
-    if (mesh.angle && asks_too_small_an_angle(patches, how, rates, patch)) {
+    if (mesh.angle && asks_too_small_an_angle(patches, how, rates, report.patch)) {
       bad_input("--angle: expected degrees that " + std::to_string(kMostSegments) +
-                " cells a direction can keep, found " + shortest(*mesh.angle) + " for " + name);
+                " cells a direction can keep, found " + shortest(*mesh.angle) + " for " +
+                patches.describe(report.patch));
     }
-    refuse_distance(patches, mesh, tolerances, how, rates, patch);
+    refuse_distance(patches, mesh, tolerances, report);
   }
   check(report.status);
 }

@@ -91,13 +91,10 @@ void VertexPlaces<T>::find_curvatures(const PatchSet<T>& set, const Topology& to
 template <typename T>
 void VertexPlaces<T>::find_in_file(std::span<const PatchPiece> pieces,
                                    std::span<const std::uint32_t> numbers) {
-  const auto on_whole = [](double from, double to, T place) {
-    return static_cast<T>(from + (to - from) * static_cast<double>(place));
-  };
   for (std::size_t k = 0; k < patch_.size() && !pieces.empty(); ++k) {
     const PatchPiece& piece = pieces[patch_[k]];
-    u_[k] = on_whole(piece.u0, piece.u1, u_[k]);
-    v_[k] = on_whole(piece.v0, piece.v1, v_[k]);
+    u_[k] = static_cast<T>(piece.whole_u(static_cast<double>(u_[k])));
+    v_[k] = static_cast<T>(piece.whole_v(static_cast<double>(v_[k])));
   }
   for (std::size_t k = 0; k < patch_.size() && !numbers.empty(); ++k) {
     patch_[k] = numbers[patch_[k]];

@@ -24,20 +24,6 @@ namespace {
 constexpr std::size_t kSharedBytes = std::size_t{256} << 20; // only what is used of them is there
 constexpr int kPatience = 120'000;                           // milliseconds for one call
 
-/// A task whose arrays are places in the shared memory.
-struct PluginRequest {
-  bool is_single, is_grid;
-  PluginLayout layout;
-  int degree_u, degree_v;
-  std::size_t n; // samples, or patches
-  std::size_t nu, nv;
-  struct { // in bytes from its start; 0 stands for null
-    std::size_t net, weights, u, v;
-    std::array<std::array<std::size_t, 3>, kPluginVectors> out;
-  } at;
-  int answer;
-};
-
 // The functions that the child found.
 struct Loaded {
   EvaluatorFunctions<float> f32;
@@ -48,7 +34,21 @@ struct Loaded {
 } // namespace
 
 struct EvaluatorProcess::Shared {
-  PluginRequest request;
+  /// A task whose arrays are places in the shared memory.
+  struct Request {
+    bool is_single, is_grid;
+    PluginLayout layout;
+    int degree_u, degree_v;
+    std::size_t n; // samples, or patches
+    std::size_t nu, nv;
+    struct { // in bytes from its start; 0 stands for null
+      std::size_t net, weights, u, v;
+      std::array<std::array<std::size_t, 3>, kPluginVectors> out;
+    } at;
+    int answer;
+  };
+
+  Request request;
   EvaluatorForms f32;
   EvaluatorForms f64;
   char name[64];
@@ -67,7 +67,7 @@ using Shared = EvaluatorProcess::Shared;
 
 template <typename T>
 int run_request(const EvaluatorFunctions<T>& functions, Shared& shared) {
-  const PluginRequest& task = shared.request;
+  const Shared::Request& task = shared.request;
   const auto array = [&](std::size_t place, std::size_t count) {
     T* const values = shared.at<T>(place);
     return std::span<const T>(values, values == nullptr ? 0 : count);
@@ -259,7 +259,7 @@ void EvaluatorProcess::place(EvaluatorArrays& arrays, const PluginOutputs<T>& ou
 template <typename T>
 int EvaluatorProcess::evaluate(const PluginPatchTask<T>& task) {
   EvaluatorArrays arrays({shared_->base(), kSharedBytes}, sizeof(Shared));
-  PluginRequest& request = shared_->request = {};
+  Shared::Request& request = shared_->request = {};
   request.is_single = std::is_same_v<T, float>;
   request.degree_u = task.degree_u;
   request.degree_v = task.degree_v;
@@ -275,7 +275,7 @@ int EvaluatorProcess::evaluate(const PluginPatchTask<T>& task) {
 template <typename T>
 int EvaluatorProcess::evaluate(const PluginGridTask<T>& task) {
   EvaluatorArrays arrays({shared_->base(), kSharedBytes}, sizeof(Shared));
-  PluginRequest& request = shared_->request = {};
+  Shared::Request& request = shared_->request = {};
   request.is_single = std::is_same_v<T, float>;
   request.is_grid = true;
   request.n = task.patches;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <tools/formats/patch_file.hpp>
 #include <tools/patches/library_status.hpp>
@@ -14,58 +15,53 @@ namespace simdbezier::tools {
 
 namespace {
 
-/// Says what is wrong with one direction where something is.
-class DirectionCheck {
-public:
-  DirectionCheck(const std::string& file, std::size_t line, const SplineDirection& direction,
-                 const char* name)
-      : file_(file), line_(line), direction_(direction), name_(name) {}
-
-  void run() const {
-    const auto order = static_cast<std::size_t>(direction_.degree) + 1;
-    const std::vector<double>& knots = direction_.knots;
-    const std::size_t least = order - (direction_.periodic ? 1 : 0);
-    if (direction_.points < least) {
-      fail(quantity(least, "point", "points") + " or more in ", std::to_string(direction_.points));
-    }
-    const std::size_t expected = direction_.points + (direction_.periodic ? 1 : order);
-    if (knots.size() != expected) {
-      fail(quantity(expected, "knot", "knots") + " in ", std::to_string(knots.size()));
-    }
-    std::size_t equal = 0;
-    for (std::size_t k = 0; k < knots.size(); ++k) {
-      if (k > 0 && knots[k] < knots[k - 1]) {
-        fail("ascending knots in ", shortest(knots[k]) + " behind " + shortest(knots[k - 1]));
-      }
-      equal = k > 0 && knots[k] == knots[k - 1] ? equal + 1 : 1;
-      if (equal > order) {
-        fail("every knot at most " + std::to_string(order) + " times in ",
-             shortest(knots[k]) + " once more");
-      }
-    }
-    check_range(knots[direction_.periodic ? 0 : order - 1], knots[direction_.points]);
+/// What is expected of a direction that the library refuses, and what is found.
+std::pair<std::string, std::string> complaint(const SplineDirection& direction,
+                                              const SplineReport& report) {
+  const std::vector<double>& knots = direction.knots;
+  const auto order = static_cast<std::size_t>(direction.degree) + 1;
+  if (report.status == Status::bad_grid) {
+    return {quantity(order - (direction.periodic ? 1 : 0), "point", "points") + " or more",
+            std::to_string(direction.points)};
   }
-
-private:
-  void check_range(double begin, double end) const {
-    const Interval& range = direction_.range;
-    if (!(begin < end)) {
-      fail("a domain from one knot to a larger one in ", shortest(begin) + " to " + shortest(end));
-    }
-    if (!range.empty() && !(begin <= range.begin && range.begin < range.end && range.end <= end)) {
-      fail("a range inside of " + shortest(begin) + " to " + shortest(end) + " in ",
-           shortest(range.begin) + " to " + shortest(range.end));
-    }
+  const std::size_t count = direction.points + (direction.periodic ? 1 : order);
+  if (knots.size() != count) {
+    return {quantity(count, "knot", "knots"), std::to_string(knots.size())};
   }
-  [[noreturn]] void fail(const std::string& expected, const std::string& found) const {
-    bad_input_at(file_, line_, expected + name_, found);
+  const double begin = knots[direction.periodic ? 0 : order - 1];
+  const double end = knots[direction.points];
+  if (report.status == Status::bad_range) {
+    return {"a range inside of " + shortest(begin) + " to " + shortest(end),
+            shortest(direction.range.begin) + " to " + shortest(direction.range.end)};
   }
+  const double knot = knots[report.point];
+  if (std::fabs(knot) > 0x1p1000) {
+    return {"knots of 2^1000 at most", shortest(knot)};
+  }
+  if (report.point > 0 && knot < knots[report.point - 1]) {
+    return {"ascending knots", shortest(knot) + " behind " + shortest(knots[report.point - 1])};
+  }
+  if (!(begin < end)) {
+    return {"a domain from one knot to a larger one", shortest(begin) + " to " + shortest(end)};
+  }
+  return {"every knot at most " + std::to_string(order) + " times", shortest(knot) + " once more"};
+}
 
-  const std::string& file_;
-  std::size_t line_;
-  const SplineDirection& direction_;
-  const char* name_;
-};
+/// Refuses knots that the library refuses, and none, which it would take for uniform ones.
+void require_knots(const std::string& file, const FileSpline& spline,
+                   const SplineSurface<double>& surface) {
+  const bool lacks_u = spline.u.knots.empty();
+  const SplineReport report = lacks_u || spline.v.knots.empty()
+                                  ? SplineReport{Status::bad_knots, 0, 0, lacks_u ? 0 : 1}
+                                  : locate(surface, 0, nullptr, nullptr, {});
+  if (report.status == Status::bad_grid || report.status == Status::bad_knots ||
+      report.status == Status::bad_range) {
+    const bool is_v = report.component == 1;
+    const auto [expected, found] = complaint(is_v ? spline.v : spline.u, report);
+    bad_input_at(file, spline.line, expected + (is_v ? " in v" : " in u"), found);
+  }
+  check(report.status);
+}
 
 SplineSurface<double> view_of(const FileSpline& spline) {
   SplineSurface<double> surface;
@@ -91,9 +87,8 @@ SplineSurface<double> view_of(const FileSpline& spline) {
 } // namespace
 
 void PatchFile::close_spline(const FileSpline& spline) {
-  DirectionCheck(name, spline.line, spline.u, "u").run();
-  DirectionCheck(name, spline.line, spline.v, "v").run();
   const SplineSurface<double> surface = view_of(spline);
+  require_knots(name, spline, surface);
   const SpanCounts spans = span_count(surface);
   const bool rational = spline.weights != Weights::none;
   const std::size_t stride = rational ? 4 : 3;

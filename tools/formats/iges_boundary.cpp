@@ -140,6 +140,38 @@ IgesTrimmed read_trimmed(IgesRecords& records, std::size_t entity) {
   return result;
 }
 
+/// Reads the curves in the plane of parameters of a boundary's sides, each of which has `before`
+/// numbers in front of their count and `each` in front of every one.
+void read_sides(IgesParameters& sides, std::size_t before, std::size_t each, IgesTrimmed& to) {
+  const std::size_t count = sides.integer("the number of curves", 1, kMostIndex);
+  for (std::size_t k = 0; k < count; ++k) {
+    sides.skip(before, "a curve and its direction");
+    const std::size_t parts = sides.integer("the number of parameter curves", 0, kMostIndex);
+    to.known = to.known && parts > 0;
+    for (std::size_t part = 0; part < parts; ++part) {
+      sides.skip(each, "a flag of a parameter curve");
+      if (const auto curve = sides.pointer("the number of a parameter curve")) {
+        to.curves.push_back(*curve);
+      }
+    }
+  }
+}
+
+IgesTrimmed read_face(IgesRecords& records, std::size_t entity) {
+  IgesParameters parameters(records, entity);
+  IgesTrimmed result;
+  result.surface = surface_pointer(parameters);
+  const bool one = parameters.integer("the number of loops", 1, kMostIndex) == 1;
+  parameters.skip(1, "a flag of the outer loop");
+  const auto loop = parameters.pointer("the number of a loop (entity 508)");
+  result.known = one && is(records, loop, iges_loop);
+  if (result.known) {
+    IgesParameters edges(records, *loop);
+    read_sides(edges, 4, 1, result);
+  }
+  return result;
+}
+
 IgesTrimmed read_bounded(IgesRecords& records, std::size_t entity) {
   IgesParameters parameters(records, entity);
   IgesTrimmed result;
@@ -153,25 +185,21 @@ IgesTrimmed read_bounded(IgesRecords& records, std::size_t entity) {
   }
   IgesParameters curves(records, *boundary);
   curves.skip(3, "the boundary's surface");
-  const std::size_t sides = curves.integer("the number of curves", 1, kMostIndex);
-  for (std::size_t k = 0; k < sides; ++k) {
-    curves.skip(2, "a curve and its direction");
-    const std::size_t parts = curves.integer("the number of parameter curves", 0, kMostIndex);
-    result.known = result.known && parts > 0;
-    for (std::size_t part = 0; part < parts; ++part) {
-      if (const auto curve = curves.pointer("the number of a parameter curve")) {
-        result.curves.push_back(*curve);
-      }
-    }
-  }
+  read_sides(curves, 2, 0, result);
   return result;
 }
 
 } // namespace
 
 IgesTrimmed read_iges_trimmed(IgesRecords& records, std::size_t entity) {
-  return records.entities[entity].type == iges_trimmed_surface ? read_trimmed(records, entity)
-                                                               : read_bounded(records, entity);
+  switch (records.entities[entity].type) {
+  case iges_trimmed_surface:
+    return read_trimmed(records, entity);
+  case iges_face:
+    return read_face(records, entity);
+  default:
+    return read_bounded(records, entity);
+  }
 }
 
 std::optional<PatchInterval> iges_rectangle(IgesRecords& records,

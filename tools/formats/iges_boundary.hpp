@@ -17,7 +17,7 @@ struct IgesTrimmed {
   std::vector<std::size_t> curves; ///< none: that of the whole surface
 };
 
-/// Reads entity 143, a bounded surface, or 144, a trimmed one.
+/// Reads entity 143, a bounded surface, 144, a trimmed one, or 510, a face of a solid.
 [[nodiscard]] IgesTrimmed read_iges_trimmed(IgesRecords& records, std::size_t entity);
 
 /// Returns the rectangle around which these curves run once, one after the other, along u and

@@ -22,16 +22,20 @@ enum IgesType : std::uint32_t {
   iges_curve_on_surface = 142,
   iges_bounded_surface = 143,
   iges_trimmed_surface = 144,
+  iges_solid = 186,
   iges_subfigure = 308,
   iges_group = 402,
-  iges_instance = 408
+  iges_instance = 408,
+  iges_loop = 508,
+  iges_face = 510,
+  iges_shell = 514
 };
 
 /// These are no surfaces: points, curves, annotations, definitions and properties.
 inline constexpr std::uint32_t kIgesPassedOver[] = {
-    0,   100, 102, 104, 106, 110, 112, 116, 123, 124, 125, 126, 130, 132, 141,
-    142, 202, 204, 206, 208, 210, 212, 213, 214, 216, 218, 220, 222, 228, 230,
-    302, 304, 308, 310, 312, 314, 316, 320, 322, 402, 404, 406, 410, 422};
+    0,   100, 102, 104, 106, 110, 112, 116, 123, 124, 125, 126, 130, 132, 141, 142,
+    202, 204, 206, 208, 210, 212, 213, 214, 216, 218, 220, 222, 228, 230, 302, 304,
+    308, 310, 312, 314, 316, 320, 322, 402, 404, 406, 410, 422, 502, 504, 508};
 
 /// These are surfaces and solids, or bring some in.
 struct IgesOther {
@@ -59,7 +63,7 @@ inline constexpr IgesOther kIgesOthers[] = {{108, "a plane"},
                                             {180, "a Boolean tree"},
                                             {182, "a selected component"},
                                             {184, "an assembly of solids"},
-                                            {186, "a solid, whose faces are trimmed"},
+                                            {186, "a solid"},
                                             {190, "a plane"},
                                             {192, "a cylinder"},
                                             {194, "a cone"},
@@ -70,11 +74,8 @@ inline constexpr IgesOther kIgesOthers[] = {{108, "a plane"},
                                             {416, "another file"},
                                             {420, "a network"},
                                             {430, "a solid"},
-                                            {502, "vertices of a solid"},
-                                            {504, "edges of a solid"},
-                                            {508, "a loop of a solid"},
-                                            {510, "a face of a solid, which is trimmed"},
-                                            {514, "a shell of a solid, whose faces are trimmed"}};
+                                            {510, "a face of a solid"},
+                                            {514, "a shell of a solid"}};
 
 /// Returns "entity 118 (a ruled surface)".
 [[nodiscard]] inline std::string describe_iges_type(std::uint32_t type) {

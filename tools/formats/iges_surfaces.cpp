@@ -229,22 +229,22 @@ AffineMap iges_map(IgesRecords& records, std::size_t entity) {
   return map;
 }
 
-void move_surface(IgesSurface& surface, const AffineMap& map, const std::string& name) {
+void move_surface(IgesSurface& surface, const AffineMap& map, bool turned,
+                  const std::string& name) {
   FileSpline& spline = surface.spline;
   const std::size_t each = spline.weights == Weights::none ? 3 : 4;
-  if (map.is_identity()) {
-    return;
-  }
   double most = 0;
-  for (std::size_t k = 0; k < spline.points.size(); k += each) {
+  for (std::size_t k = 0; k < spline.points.size() && !map.is_identity(); k += each) {
     std::array<double, 4> point = {0, 0, 0, each == 4 ? spline.points[k + 3] : 1};
     std::copy_n(spline.points.begin() + static_cast<std::ptrdiff_t>(k), 3, point.begin());
     most = std::max(most, map.move(point.data(), 1));
     check_cartesian_point(name, spline.line, point);
     std::copy_n(point.begin(), 3, spline.points.begin() + static_cast<std::ptrdiff_t>(k));
   }
-  surface.error = (surface.error * map.stretch() + most) * (1 + 0x1p-40);
-  if (map.mirrors()) {
+  if (!map.is_identity()) {
+    surface.error = (surface.error * map.stretch() + most) * (1 + 0x1p-40);
+  }
+  if (map.mirrors() != turned) {
     exchange_directions(spline);
   }
 }

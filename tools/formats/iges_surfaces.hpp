@@ -22,8 +22,9 @@ struct IgesSurface {
 /// Returns where the entity's transformation puts its coordinates: that may have one itself.
 [[nodiscard]] AffineMap iges_map(IgesRecords& records, std::size_t entity);
 
-/// Moves a surface. Where that mirrors space, u and v are exchanged, so that normals point to the
-/// same side of the surface. Throws Failure where a point is not finite then.
-void move_surface(IgesSurface& surface, const AffineMap& map, const std::string& name);
+/// Moves a surface, and turns it around where `turned` says so. Where one of both mirrors it, u and
+/// v are exchanged, so that normals point to the side that the file means. Throws Failure where a
+/// point is not finite then.
+void move_surface(IgesSurface& surface, const AffineMap& map, bool turned, const std::string& name);
 
 } // namespace simdbezier::tools

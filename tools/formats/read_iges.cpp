@@ -1,6 +1,6 @@
 // IGES: spline surfaces (128), parametric surfaces (114), their transformations (124), subfigures
 // (308, 408), and surfaces whose boundary leaves all of the surface or a rectangle of it (143,
-// 144).
+// 144), also as faces of solids (186, 514, 510).
 #include <tools/formats/patch_file.hpp>
 
 #include <algorithm>
@@ -54,7 +54,14 @@ private:
     switch (records_.entities[index].type) {
     case iges_trimmed_surface:
     case iges_bounded_surface:
+    case iges_face:
       part_[read_iges_trimmed(records_, index).surface] = true;
+      break;
+    case iges_solid:
+    case iges_shell:
+      for (const SolidPart& part : solid_parts(index)) {
+        part_[part.index] = true;
+      }
       break;
     case iges_subfigure:
       for (const std::size_t member : members(index)) {
@@ -109,8 +116,39 @@ private:
     return found;
   }
 
-  /// Shows an entity where the map puts it.
-  void show(std::size_t index, const AffineMap& outer, std::size_t depth) {
+  /// A shell of a solid or a face of a shell.
+  struct SolidPart {
+    std::size_t index;
+    bool turned; ///< its normals are to point to the other side
+  };
+
+  std::vector<SolidPart> solid_parts(std::size_t index) {
+    const bool is_solid = records_.entities[index].type == iges_solid;
+    const char* const what =
+        is_solid ? "the number of a shell (entity 514)" : "the number of a face (entity 510)";
+    IgesParameters parameters(records_, index);
+    std::vector<SolidPart> found;
+    const auto add = [&] {
+      const auto part = parameters.pointer(what);
+      if (!part || records_.entities[*part].type != (is_solid ? iges_shell : iges_face)) {
+        parameters.fail(what);
+      }
+      found.push_back({*part, parameters.integer("a flag of the side, 0 or 1", 0, 1) == 0});
+    };
+    if (is_solid) {
+      add();
+    }
+    const std::size_t count =
+        parameters.integer(is_solid ? "the number of shells inside" : "the number of faces",
+                           is_solid ? 0 : 1, kMostIndex);
+    for (std::size_t k = 0; k < count; ++k) {
+      add();
+    }
+    return found;
+  }
+
+  /// Shows an entity where the map puts it, turned around or not.
+  void show(std::size_t index, const AffineMap& outer, std::size_t depth, bool turned = false) {
     const IgesEntity& entity = records_.entities[index];
     if (entity.blanked()) {
       return;
@@ -121,10 +159,17 @@ private:
     switch (entity.type) {
     case iges_spline_surface:
     case iges_parametric_surface:
-      return add(read_iges_surface(records_, index), index, outer);
+      return add(read_iges_surface(records_, index), index, outer, turned);
     case iges_trimmed_surface:
     case iges_bounded_surface:
-      return add_trimmed(index, read_iges_trimmed(records_, index), outer);
+    case iges_face:
+      return add_trimmed(index, read_iges_trimmed(records_, index), outer, turned);
+    case iges_solid:
+    case iges_shell:
+      for (const SolidPart& part : solid_parts(index)) {
+        show(part.index, iges_map(records_, index) * outer, depth + 1, part.turned != turned);
+      }
+      return;
     case iges_instance:
       return show_instance(index, outer, depth);
     case iges_group:
@@ -168,7 +213,8 @@ private:
                  depth);
   }
 
-  void add_trimmed(std::size_t index, const IgesTrimmed& trimmed, const AffineMap& outer) {
+  void add_trimmed(std::size_t index, const IgesTrimmed& trimmed, const AffineMap& outer,
+                   bool turned) {
     const std::uint32_t type = records_.entities[trimmed.surface].type;
     if (type != iges_spline_surface && type != iges_parametric_surface) {
       records_.fail(trimmed.surface, "surfaces of entities 128 and 114, untrimmed",
@@ -189,11 +235,11 @@ private:
       }
       file_.ignored_trims += is_part ? 0 : 1;
     }
-    add(std::move(surface), trimmed.surface, iges_map(records_, index) * outer);
+    add(std::move(surface), trimmed.surface, iges_map(records_, index) * outer, turned);
   }
 
-  void add(IgesSurface surface, std::size_t index, const AffineMap& outer) {
-    move_surface(surface, iges_map(records_, index) * outer, records_.name);
+  void add(IgesSurface surface, std::size_t index, const AffineMap& outer, bool turned) {
+    move_surface(surface, iges_map(records_, index) * outer, turned, records_.name);
     file_.close_spline(surface.spline);
     file_.moved_error = std::max(file_.moved_error, surface.error);
   }

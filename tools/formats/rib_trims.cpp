@@ -155,7 +155,7 @@ std::optional<RibRectangle> rectangle_of(const std::vector<Corner>& corners) {
   }
   places.pop_back();
   const auto rises = [&] { // from its least place on
-    std::ranges::rotate(places, std::ranges::min_element(places));
+    std::rotate(places.begin(), std::ranges::min_element(places), places.end());
     return std::ranges::is_sorted(places, std::less_equal<>());
   };
   const bool is_once_around = rises() || (std::ranges::reverse(places), rises());

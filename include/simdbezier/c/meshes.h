@@ -145,6 +145,9 @@ typedef struct simdbezier_mesh_arrays {
   const double* deviations;      // 1 a patch
   size_t patches_given;
   double deviation;
+  size_t splits; // SplitCounts, as for the two below: what came of `split_edges`
+  size_t unjoined;
+  double largest_gap;
 } simdbezier_mesh_arrays;
 
 // tessellate(): a mesh whose vertices have the type `scalar`. mesh: written on ok only.
@@ -161,6 +164,16 @@ SIMDBEZIER_API simdbezier_status simdbezier_mesh_count(const simdbezier_mesh* me
 
 typedef struct simdbezier_mesh_plan simdbezier_mesh_plan;
 
+// PatchPiece: which part of a patch given a patch of the set is.
+typedef struct simdbezier_patch_piece {
+  uint32_t patch;
+  double u0;
+  double u1;
+  double v0;
+  double v1;
+  double error;
+} simdbezier_patch_piece;
+
 // MeshPlan. Handles and arrays belong to the plan, and end with it.
 typedef struct simdbezier_mesh_plan_parts {
   size_t struct_size;
@@ -174,6 +187,10 @@ typedef struct simdbezier_mesh_plan_parts {
   const double* deviations;
   double deviation;
   double diagonal;
+  const simdbezier_patch_piece* pieces; // null without `split_edges`
+  size_t splits;                        // as in simdbezier_mesh_arrays
+  size_t unjoined;
+  double largest_gap;
 } simdbezier_mesh_plan_parts;
 
 // plan_mesh(): what simdbezier_tessellate() evaluates. plan: written on ok only.

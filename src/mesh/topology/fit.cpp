@@ -57,6 +57,28 @@ private:
 } // namespace
 
 template <typename S>
+Status check_model(std::span<const ControlNets<S>> nets) noexcept {
+  constexpr std::size_t kMostPatches = std::size_t{1} << 29;
+  if (is_missing(nets)) {
+    return Status::null_input;
+  }
+  std::size_t patches = 0;
+  for (const ControlNets<S>& view : nets) {
+    if (view.components != 3) {
+      return Status::bad_components;
+    }
+    if (view.count >= kMostPatches - patches) {
+      return Status::size_overflow;
+    }
+    patches += view.count;
+  }
+  return check_views(nets);
+}
+
+template Status check_model(std::span<const ControlNets<float>>) noexcept;
+template Status check_model(std::span<const ControlNets<double>>) noexcept;
+
+template <typename S>
 std::size_t first_misfit(const TopologyData& topology, std::span<const ControlNets<S>> nets,
                          int threads) {
   const Fit<S> fit(topology, nets);
@@ -82,9 +104,7 @@ template <typename S>
 bool fits(const Topology& topology, std::span<const ControlNets<S>> nets,
           const Options& options) noexcept try {
   const detail::DefaultFpEnvironment environment;
-  if (detail::is_missing(nets) || !detail::check_views(nets) ||
-      std::any_of(nets.begin(), nets.end(),
-                  [](const ControlNets<S>& view) { return view.components != 3; })) {
+  if (!detail::check_model(nets)) {
     return false;
   }
   const std::size_t patches = detail::patches_of(nets);

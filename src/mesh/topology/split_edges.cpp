@@ -120,7 +120,6 @@ Status cut_patch(const ControlNets<S>& one, const PatchPiece& from, const std::v
   const std::size_t count = (u.size() - 1) * (v.size() - 1);
   auto values = std::make_shared<std::vector<S>>(count * size);
   const double error = from.error + cutting_error(one, 0);
-  const auto between = [](double a, double b, double t) { return t == 1 ? b : a + (b - a) * t; };
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = k % (u.size() - 1);
     const std::size_t j = k / (u.size() - 1);
@@ -133,9 +132,8 @@ Status cut_patch(const ControlNets<S>& one, const PatchPiece& from, const std::v
     if (!cut) {
       return cut.status;
     }
-    to.pieces.push_back({from.patch, between(from.u0, from.u1, u[i]),
-                         between(from.u0, from.u1, u[i + 1]), between(from.v0, from.v1, v[j]),
-                         between(from.v0, from.v1, v[j + 1]), error});
+    to.pieces.push_back({from.patch, from.whole_u(u[i]), from.whole_u(u[i + 1]), from.whole_v(v[j]),
+                         from.whole_v(v[j + 1]), error});
   }
   to.nets.push_back(
       ControlNets<S>::packed(values->data(), count, one.degree_u, one.degree_v, 3, one.weights));
@@ -233,7 +231,9 @@ Status split_edges(std::span<const ControlNets<S>> nets, SplitNets<S>& split,
     }
   }
   found.snap = std::max(options.snap, 64 * (degree + 1) * detail::kRoundoff<S> * largest);
-  const std::size_t most = options.most_pieces * found.pieces.size();
+  constexpr std::size_t kMost = 512; // of few patches, all of which may lie around one another
+  const std::size_t most =
+      options.most_pieces != 0 ? options.most_pieces : std::max(8 * found.pieces.size(), kMost);
   for (bool again = topology.counts().open_edges > 0; again;) {
     if (const Status status = detail::split_once(options, most, found, again); !status) {
       return status;

@@ -7,6 +7,7 @@
 #include "src/mesh/topology/corner_joiner.hpp"
 #include "src/mesh/topology/edge_numbers.hpp"
 #include "src/mesh/topology/entanglement.hpp"
+#include "src/mesh/topology/fit.hpp"
 #include "src/mesh/topology/forced_diagonals.hpp"
 #include "src/mesh/topology/net_corners.hpp"
 #include "src/mesh/topology/orientation.hpp"
@@ -19,8 +20,6 @@
 namespace simdbezier {
 namespace detail {
 namespace {
-
-constexpr std::size_t kMostPatches = std::size_t{1} << 29;
 
 /// Collapsed sides beyond those that are points exactly, with all that share their edges: those as
 /// short as point_size or `snap`. Open ones would match their neighbours either way round, so that
@@ -87,20 +86,7 @@ Status check(std::span<const ControlNets<S>> nets, const TopologyOptions& option
   if (!(options.point_size >= 0) || !(options.snap >= 0)) {
     return Status::bad_tolerance;
   }
-  if (is_missing(nets)) {
-    return Status::null_input;
-  }
-  std::size_t patches = 0;
-  for (const ControlNets<S>& view : nets) {
-    if (view.components != 3) {
-      return Status::bad_components;
-    }
-    if (view.count >= kMostPatches - patches) {
-      return Status::size_overflow;
-    }
-    patches += view.count;
-  }
-  return check_views(nets);
+  return check_model(nets);
 }
 
 } // namespace

@@ -29,6 +29,7 @@ struct Case {
   std::vector<std::vector<double>> corners;
   bool ignore_trims = false;
   std::size_t ignored = 0;
+  const char* refused = "entity 144 (a trimmed surface)"; ///< where trims are not ignored
 };
 void PrintTo(const Case& item, std::ostream* out) { *out << item.name; }
 
@@ -54,6 +55,53 @@ Entities box(const std::string& u0, const std::string& u1, const std::string& v0
           line(u0 + "," + v1, u1 + "," + v1),
           line(u1 + "," + v1, u1 + "," + v0),
           line(u1 + "," + v0, u0 + "," + v0)};
+}
+
+/// A solid of one face, with the flags that say whether its shell and its face keep their side.
+Entities solid(const std::string& shell, const std::string& face, const Entities& curves,
+               int matrix = 0) {
+  Entities all = {{186, "186,3," + shell + ",0;"},
+                  {514, "514,1,5," + face + ";", matrix, "00010000", 1},
+                  {510, "510,17,1,1,19;", 0, "00010000", 1}};
+  all.insert(all.end(), curves.begin(), curves.end());
+  const Entities rest = {{128, kPatch, 0, "00010000"},
+                         {508,
+                          "508,4,0,21,1,0,1,0,9,0,21,2,1,1,0,11,0,21,3,1,1,0,13,0,21,4,0,1,0,15;",
+                          0, "00010000", 1},
+                         {504, "504,1,23,25,1,25,2;", 0, "00010001", 1},
+                         {110, kAround, 0, "00010000"},
+                         {502, "502,2,0.,0.,0.,0.,1.,0.;", 0, "00010000", 1},
+                         {124, kTurn}};
+  all.insert(all.end(), rest.begin(), rest.end());
+  return all;
+}
+
+std::vector<Case> solids() {
+  const std::vector<double> turned = {0, 0, 0, 0, 1, 0, 1, 0, 0, 2, 3, 4};
+  const Entities whole = box("0.", "1.", "0.", "1.");
+  const char* const refused = "entity 510 (a face of a solid)";
+  Entities two_loops = solid("1", "1", whole);
+  two_loops[2].parameters = "510,17,2,1,19,19;";
+  Entities in_space = solid("1", "1", whole);
+  in_space[9].parameters = "508,2,0,21,1,0,0,0,21,1,1,0;";
+  Entities face = solid("1", "1", whole);
+  face[0] = {110, kAround};
+  face[1] = {110, kAround};
+  Entities inside = solid("1", "1", whole);
+  inside[0].parameters = "186,3,1,1,3,0;";
+  return {{"Solid", solid("1", "1", whole), {kPlain}},
+          {"SolidTurned", solid("0", "1", whole), {turned}},
+          {"SolidWithAFaceTurned", solid("1", "0", whole), {turned}},
+          {"SolidTurnedTwice", solid("0", "0", whole), {kPlain}},
+          {"SolidMoved", solid("1", "1", whole, 27), {kTurned}},
+          {"SolidWithAShellInside", inside, {kPlain, turned}},
+          {"FaceAlone", face, {kPlain}},
+          {"FaceOfAPart",
+           solid("1", "1", box("0.25", "0.5", "0.", "0.25")),
+           {{0.25, 0, 0, 0.5, 0, 0, 0.3125, 0.375, 0.25, 0.625, 0.5, 0.5}}},
+          {"FaceOutside", solid("1", "0", box("0.", "2.", "0.", "1.")), {turned}, true, 1, refused},
+          {"FaceWithAHole", two_loops, {kPlain}, true, 1, refused},
+          {"FaceInSpace", in_space, {kPlain}, true, 1, refused}};
 }
 
 std::vector<Case> placed() {
@@ -155,15 +203,17 @@ TEST_P(IgesTest, HasThesePatches) {
   if (item.ignored > 0) {
     EXPECT_NE(refusal("igs", iges_text(item.entities))
                   .find("a surface without trimming curves (--ignore-trims reads all of it), "
-                        "found entity 144 (a trimmed surface)"),
+                        "found " +
+                        std::string(item.refused)),
               std::string::npos);
   }
 }
 
 std::vector<Case> all_cases() {
   std::vector<Case> all = placed();
-  const std::vector<Case> more = bounded();
-  all.insert(all.end(), more.begin(), more.end());
+  for (const std::vector<Case>& more : {bounded(), solids()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
   return all;
 }
 

@@ -98,6 +98,7 @@ constexpr SplineFault kFaults[] = {
     {"KnotTooMany", "0 0 1 1]", "0 0 1 1 1]", "4 knots for 2 points of order 2 in v, found 5"},
     {"KnotDecreases", "0 1 2 2 2]", "3 1 2 2 2]", "ascending knots in u, found 1 behind 3"},
     {"KnotTooOften", "1 2 2 2]", "2 2 2 2]", "every knot at most 3 times in u, found 2 once more"},
+    {"KnotHuge", "[0 0 0", "[-1e302 0 0", "knots of 2^1000 at most in u, found -1e+302"},
     {"KnotNan", "[0 0 0", "[0 nan 0", "a knot in u, or ']' for the array in line 2, found 'nan'"},
     {"KnotsOpen", "2 2] 0 2", "2 2 0 2", "a knot in u, or ']' for the array in line 2, found '['"},
     {"RangeEmpty", "] 0 2 2", "] 1 1 2", "a largest parameter in u above 1, found '1'"},

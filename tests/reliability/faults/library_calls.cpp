@@ -207,6 +207,18 @@ std::vector<Call> nets() {
          return tessellate<float>(std::span<const SplineSurface<float>>(&surface, 1), options)
              .status;
        }},
+      {"tessellate, of an edge and its halves", true,
+       [&](Results&, const Options& o) {
+         static constexpr float kSquares[] = {0,  0, 0, 2, 0, 0, 0,  2, 0, 2, 2, 0,
+                                              -1, 0, 0, 0, 0, 0, -1, 1, 0, 0, 1, 0,
+                                              -1, 1, 0, 0, 1, 0, -1, 2, 0, 0, 2, 0};
+         MeshOptions options;
+         options.nu = options.nv = 2;
+         options.split_edges = true;
+         options.threads = o.threads;
+         return tessellate<float>(ControlNets<float>::packed(&kSquares[0], 3, 1, 1), options)
+             .status;
+       }},
       {"evaluate_grid, of a spline", true,
        [&](Results& r, const Options& o) {
          const double at[] = {0, 0.5, 1.5, 3.25, 4};
