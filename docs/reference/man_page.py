@@ -8,7 +8,7 @@ import re
 import subprocess
 import sys
 
-COMMANDS = ('tessellate', 'evaluate', 'info')
+COMMANDS = ('tessellate', 'evaluate', 'info', 'convert', 'plan', 'join')
 
 
 def help_of(program, *command):

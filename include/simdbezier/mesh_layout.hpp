@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <simdbezier/options.hpp>
+#include <simdbezier/patch_edge.hpp>
 #include <simdbezier/status.hpp>
 #include <simdbezier/topology.hpp>
 
@@ -40,6 +41,9 @@ struct MeshSize {
   std::size_t triangles = 0;
 };
 
+/// Stands for a vertex that there is none of.
+inline constexpr std::uint32_t kNoLayoutVertex = 0xffffffff;
+
 /// The numbering of a mesh's vertices. Immutable; copies share it.
 class MeshLayout {
 public:
@@ -51,6 +55,22 @@ public:
   /// The number of the first vertex that is a patch's own; size().vertices for the patch behind the
   /// last one.
   [[nodiscard]] SIMDBEZIER_API std::size_t first_vertex(std::size_t patch) const noexcept;
+
+  // Single vertices as a patch has them; kNoLayoutVertex where it has no such corner, edge or
+  // point.
+  /// The vertex of a corner, numbered 2 v + u.
+  [[nodiscard]] SIMDBEZIER_API std::uint32_t corner(std::size_t patch,
+                                                    std::size_t corner) const noexcept;
+  /// The number of segments of the mesh along an edge: the union of those of all patches that have
+  /// it; 0 where it is a point.
+  [[nodiscard]] SIMDBEZIER_API std::uint32_t segments(std::size_t patch,
+                                                      PatchEdge edge) const noexcept;
+  /// The vertex at point k, 0 to segments(), in the direction of the patch's own parameter.
+  [[nodiscard]] SIMDBEZIER_API std::uint32_t along(std::size_t patch, PatchEdge edge,
+                                                   std::uint32_t k) const noexcept;
+  /// The vertex at (i / nu, j / nv) inside of a patch: 0 < i < nu, 0 < j < nv.
+  [[nodiscard]] SIMDBEZIER_API std::uint32_t inner(std::size_t patch, std::uint32_t i,
+                                                   std::uint32_t j) const noexcept;
 
   /// This is for the library's own use.
   [[nodiscard]] const detail::MeshData* data() const noexcept { return data_.get(); }

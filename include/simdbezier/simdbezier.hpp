@@ -20,6 +20,7 @@
 #include <simdbezier/iso_curves.hpp>      // IWYU pragma: export
 #include <simdbezier/mesh.hpp>            // IWYU pragma: export
 #include <simdbezier/mesh_layout.hpp>     // IWYU pragma: export
+#include <simdbezier/mesh_parts.hpp>      // IWYU pragma: export
 #include <simdbezier/mesh_primitives.hpp> // IWYU pragma: export
 #include <simdbezier/nets.hpp>            // IWYU pragma: export
 #include <simdbezier/options.hpp>         // IWYU pragma: export

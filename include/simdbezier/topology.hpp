@@ -11,6 +11,7 @@
 #include <simdbezier/control_nets.hpp>
 #include <simdbezier/options.hpp>
 #include <simdbezier/patch_edge.hpp>
+#include <simdbezier/samples.hpp>
 #include <simdbezier/status.hpp>
 
 namespace simdbezier {
@@ -65,10 +66,17 @@ public:
   Topology() noexcept = default;
 
   [[nodiscard]] SIMDBEZIER_API TopologyCounts counts() const noexcept;
+  /// The same of some patches: edges and corners count for the lowest patch that has them, so that
+  /// sums over all parts of a model are the model's. snapped_sides and `orientable` are those of
+  /// all patches. Zeros where there are no such patches.
+  [[nodiscard]] SIMDBEZIER_API TopologyCounts counts(SetRange patches) const noexcept;
   /// Whether a patch is turned (TopologyOptions::orient, flip).
   [[nodiscard]] SIMDBEZIER_API bool is_turned(std::size_t patch) const noexcept;
   /// Whether a patch has all control points of an earlier one.
   [[nodiscard]] SIMDBEZIER_API bool is_repeated(std::size_t patch) const noexcept;
+  /// Whether a patch shares corners with another patch, or with itself, that no common edge
+  /// explains: separate_vertices() may have to raise its rates, which depends on its neighbours.
+  [[nodiscard]] SIMDBEZIER_API bool is_entangled(std::size_t patch) const noexcept;
 
   /// This is for the library's own use.
   [[nodiscard]] const detail::TopologyData* data() const noexcept { return data_.get(); }

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <optional>
 #include <string_view>
 
 #include <tools/mesh_files/mesh_file.hpp>
+#include <tools/patches/write_patches.hpp>
 #include <tools/process/counts.hpp>
 #include <tools/process/failure.hpp>
+#include <tools/process/output_file.hpp>
 
 namespace simdbezier::tools {
 
@@ -82,7 +85,7 @@ std::vector<Output> parse_outputs(const std::string& option) {
 
 void understand_evaluation(const Words& words, Arguments& arguments) {
   arguments.out = *words.value("-o");
-  if (words.command == Command::tessellate) {
+  if (words.command != Command::evaluate) {
     arguments.mesh = parse_mesh_arguments(words);
   } else if (extension_of(arguments.out) != "csv" && !is_written_directly(arguments.out)) {
     bad_usage("-o: expected " + find_option("-o", command_name(words.command))->expected +
@@ -101,7 +104,105 @@ void understand_evaluation(const Words& words, Arguments& arguments) {
   }
 }
 
+std::size_t parse_shards(const std::string& option, const char* name) {
+  const auto shards = parse_integer(option);
+  if (!shards || *shards < 1) {
+    refuse(name, in_quotes(option));
+  }
+  return *shards;
+}
+
+// I/N, where I may be what Slurm says.
+Shard parse_shard(const std::string& option) {
+  const std::size_t slash = std::min(option.find('/'), option.size());
+  std::string number = option.substr(0, slash);
+  if (number == "slurm") {
+    const char* const task = std::getenv("SLURM_ARRAY_TASK_ID");
+    if (task == nullptr) {
+      bad_usage("--shard: expected SLURM_ARRAY_TASK_ID in the environment, found none");
+    }
+    number = task;
+  }
+  const auto shard = parse_integer(number);
+  const auto all = parse_integer(option.substr(std::min(slash + 1, option.size())));
+  if (!shard || !all || *shard < 1 || *shard > *all) {
+    refuse("--shard", in_quotes(slash == option.size() ? option : number + option.substr(slash)));
+  }
+  return {*shard - 1, *all};
+}
+
+// What decides the mesh beside the model. A value is joined to its option.
+std::string words_of_mesh(const Words& words) {
+  std::string text;
+  for (const auto& [name, value] : words.values) {
+    const bool elsewhere = name == "IN" || name == "-o" || name == "--shard" ||
+                           name == "--shards" || name == "--stats" || name == "--threads" ||
+                           name == "--shard-patches";
+    if (!elsewhere) {
+      text += " " + name + (value.empty() ? "" : "=" + for_shell(value));
+    }
+  }
+  return text;
+}
+
+void understand_parts(const Words& words, Arguments& arguments) {
+  if (const auto shard = words.value("--shard")) {
+    arguments.shard = parse_shard(*shard);
+  }
+  if (const auto patches = words.value("--shard-patches")) {
+    arguments.shard_patches = parse_shards(*patches, "--shard-patches");
+  }
+  arguments.words = words_of_mesh(words);
+  if (arguments.shard || words.command == Command::plan) {
+    expect_local_options(arguments);
+    if (arguments.mesh.format == MeshFormat::obj) {
+      bad_usage("-o: expected a mesh in ply, stl, glb or vtu for parts, found obj");
+    }
+  }
+}
+
+void understand_conversion(const Words& words, Arguments& arguments) {
+  arguments.out = *words.value("-o");
+  arguments.sort = words.has("--sort");
+  const auto to = words.value("--to");
+  arguments.written =
+      written_patch_format(to ? "--to" : "-o", to.value_or(extension_of(arguments.out)));
+}
+
 } // namespace
+
+std::string for_shell(const std::string& word) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("-_./,:=+@%").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::ranges::all_of(word, is_plain)) {
+    return word;
+  }
+  std::string quoted = "'";
+  for (const char c : word) {
+    quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  }
+  return quoted + "'";
+}
+
+void expect_local_options(const Arguments& arguments) {
+  const MeshArguments& mesh = arguments.mesh;
+  const auto refuse_if = [](bool found, const char* option) {
+    if (found) {
+      bad_usage(std::string(option) + ": expected without parts of the mesh, found both");
+    }
+  };
+  refuse_if(mesh.snap > 0, "--snap");
+  refuse_if(mesh.split_edges, "--split-edges");
+  refuse_if(mesh.point_size > 0, "--point-size");
+  refuse_if(mesh.orient, "--orient");
+  refuse_if(mesh.drop_repeated, "--drop-repeated");
+  refuse_if(mesh.bezier_cells, "--cells bezier");
+  if (is_written_directly(arguments.out)) {
+    bad_usage("-o: expected a file for parts of a mesh, found " + arguments.out);
+  }
+}
 
 std::vector<std::string> inputs_of(const Arguments& arguments) {
   std::vector<std::string> inputs;
@@ -133,8 +234,8 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
   }
   Arguments arguments;
   arguments.command = words->command;
-  arguments.in = *words->value("IN");
-  if (arguments.in.empty()) {
+  arguments.in = words->value("IN").value_or("");
+  if (arguments.in.empty() && words->command != Command::join) {
     refuse("IN", "''");
   }
   if (const auto format = words->value("--format")) {
@@ -145,8 +246,25 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
   }
   arguments.reading.ignore_trims = words->has("--ignore-trims");
   arguments.json = words->has("--json");
-  if (words->command != Command::info) {
+  if (const auto shards = words->value("--shards")) {
+    arguments.shards = parse_shards(*shards, "--shards");
+  }
+  arguments.remove_parts = words->has("--remove-parts");
+  switch (words->command) {
+  case Command::info:
+    break;
+  case Command::convert:
+    understand_conversion(*words, arguments);
+    break;
+  case Command::join:
+    arguments.out = *words->value("-o");
+    arguments.mesh = parse_mesh_arguments(*words);
+    break;
+  case Command::tessellate:
+  case Command::evaluate:
+  case Command::plan:
     understand_evaluation(*words, arguments);
+    understand_parts(*words, arguments);
   }
   return arguments;
 }

@@ -9,11 +9,11 @@
 
 #include <tools/commands/bezier_cells.hpp>
 #include <tools/commands/grid_mesh.hpp>
+#include <tools/commands/part_work.hpp>
 #include <tools/commands/welded_mesh.hpp>
 #include <tools/mesh_files/mesh_formats.hpp>
+#include <tools/parts/part_file.hpp>
 #include <tools/patches/library_status.hpp>
-#include <tools/patches/move_patches.hpp>
-#include <tools/patches/patch_box.hpp>
 #include <tools/process/failure.hpp>
 #include <tools/process/output_file.hpp>
 
@@ -59,12 +59,21 @@ void write_file(Writer& writer, const Write& write, const Arguments& arguments, 
   }
 }
 
+PartHeader of_part(PartHeader header, MeshContents contents) {
+  header.contents = std::move(contents);
+  return header;
+}
+
+// header: of a part; without it, the mesh is a whole one.
 template <typename T>
-void write_mesh(MeshSource<T>& mesh, const Arguments& arguments, MeshStats& stats) {
+void write_mesh(MeshSource<T>& mesh, const Arguments& arguments,
+                const std::optional<PartHeader>& header, MeshStats& stats) {
   std::unique_ptr<MeshWriter<T>> writer;
   {
     const Stopwatch watch(stats.seconds.write);
-    writer = make_mesh_writer<T>(arguments.out, arguments.mesh.format, mesh.contents());
+    writer =
+        header ? make_part_writer<T>(arguments.out, of_part(*header, mesh.contents()), mesh.links())
+               : make_mesh_writer<T>(arguments.out, arguments.mesh.format, mesh.contents());
   }
   const auto write = [&](Progress& progress) { mesh.write(*writer, stats.seconds, progress); };
   write_file(*writer, write, arguments, stats);
@@ -81,38 +90,50 @@ void write_bezier_cells(const PatchFile& patches, const Arguments& arguments, Me
   write_file(cells, write, arguments, stats);
 }
 
-// Lets the file's points count from the origin that is asked for, and the camera's place as well.
-void move_to_origin(PatchFile& patches, MeshArguments& mesh, MeshStats& stats) {
-  if (mesh.own_origin) {
-    mesh.origin = own_origin(box_of(patches));
-  }
-  if (!mesh.origin || *mesh.origin == std::array<double, 3>{}) {
-    mesh.origin.reset();
-    return;
-  }
-  stats.origin = mesh.origin;
-  move_patches(patches, *mesh.origin);
-  for (std::size_t c = 0; c < 3; ++c) {
-    mesh.camera.eye[c] -= (*mesh.origin)[c];
-  }
-}
-
 template <typename T>
-void tessellate(const Arguments& arguments, PatchFile patches, MeshStats& stats) {
+void tessellate(const Arguments& arguments, ModelPart part, const std::optional<PartHeader>& header,
+                MeshStats& stats) {
   if (arguments.mesh.weld) {
-    WeldedMesh<T> mesh(std::move(patches), arguments, stats);
-    return write_mesh(mesh, arguments, stats);
+    WeldedMesh<T> mesh(std::move(part), arguments, stats);
+    return write_mesh(mesh, arguments, header, stats);
   }
   const std::size_t values =
       3 + (arguments.mesh.normals ? 3 : 0) + (arguments.mesh.parameters ? 2 : 0);
   const std::uint64_t vertices =
-      checked_sample_count(patches.count, arguments.grid, values * sizeof(T));
+      checked_sample_count(part.patches, arguments.grid, values * sizeof(T));
   if (vertices > kMostMeshVertices) {
     bad_usage("--grid: expected at most " + std::to_string(kMostMeshVertices) +
               " vertices, found " + std::to_string(vertices));
   }
-  GridMesh<T> mesh(patches, arguments, stats);
-  write_mesh(mesh, arguments, stats);
+  GridMesh<T> mesh(part, arguments, stats);
+  write_mesh(mesh, arguments, header, stats);
+}
+
+// Makes one part of the mesh, unless it is there already.
+template <typename T>
+void tessellate_shard(Arguments& arguments, const PatchSource& source, MeshStats& stats) {
+  const Shard& shard = *arguments.shard;
+  expect_shards(source, shard.all, "--shard");
+  expect_exact_storage<T>(source, arguments, "--shard");
+  PartHeader header;
+  header.fingerprint = part_fingerprint(source, arguments);
+  header.shard = shard.number;
+  header.shards = shard.all;
+  header.doubles = sizeof(T) > sizeof(float);
+  header.format = arguments.mesh.format;
+  arguments.out = part_path(arguments.out, shard.number, shard.all);
+  const auto done = PartReader::header_of(arguments.out);
+  if (done && done->fingerprint == header.fingerprint && done->format == header.format &&
+      done->shard == header.shard && done->shards == header.shards) {
+    std::fputs(("simdbezier: " + arguments.out + " is there already\n").c_str(), stderr);
+    return;
+  }
+  ModelPart part;
+  {
+    const Stopwatch watch(stats.seconds.read);
+    part = find_part<T>(source, arguments, shard_range(source.patches(), shard.number, shard.all));
+  }
+  tessellate<T>(arguments, std::move(part), header, stats);
 }
 
 } // namespace
@@ -120,12 +141,21 @@ void tessellate(const Arguments& arguments, PatchFile patches, MeshStats& stats)
 void run_tessellate(const Arguments& asked) {
   Arguments arguments = asked;
   chosen_isa();
+  if (arguments.shard_patches) {
+    bad_usage("--shard-patches: expected with simdbezier-mpi, found with simdbezier");
+  }
   const std::vector<std::string> inputs = inputs_of(arguments);
   refuse_input_as_output(arguments.out, inputs);
   if (arguments.mesh.stats == StatsForm::json) {
     refuse_input_as_output("-", inputs);
   }
   MeshStats stats;
+  const bool f32 = arguments.precision == Precision::f32;
+  if (arguments.shard) {
+    const auto source = open_moved_source(arguments, stats);
+    return f32 ? tessellate_shard<float>(arguments, *source, stats)
+               : tessellate_shard<double>(arguments, *source, stats);
+  }
   PatchFile patches;
   {
     const Stopwatch watch(stats.seconds.read);
@@ -133,13 +163,13 @@ void run_tessellate(const Arguments& asked) {
     stats.ignored_trims = patches.ignored_trims;
     move_to_origin(patches, arguments.mesh, stats);
   }
-  const bool f32 = arguments.precision == Precision::f32;
   if (arguments.mesh.bezier_cells) {
     return f32 || arguments.mesh.floats ? write_bezier_cells<float>(patches, arguments, stats)
                                         : write_bezier_cells<double>(patches, arguments, stats);
   }
-  f32 ? tessellate<float>(arguments, std::move(patches), stats)
-      : tessellate<double>(arguments, std::move(patches), stats);
+  ModelPart whole = whole_model(std::move(patches));
+  f32 ? tessellate<float>(arguments, std::move(whole), std::nullopt, stats)
+      : tessellate<double>(arguments, std::move(whole), std::nullopt, stats);
 }
 
 } // namespace simdbezier::tools

@@ -17,7 +17,8 @@ namespace simdbezier::tools {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> kCommands = {"tessellate", "evaluate", "info"};
+constexpr std::array<std::string_view, 6> kCommands = {"tessellate", "evaluate", "info",
+                                                       "convert",    "plan",     "join"};
 
 struct Parser {
   CLI::App app{"", "simdbezier"};
@@ -157,7 +158,7 @@ Words collect(const Parser& parser, Command command) {
     words.values[entry.name] = text;
   }
   check_rest(parser.app, name, words.value("IN"));
-  for (const char* const required : {"IN", "-o"}) {
+  for (const char* const required : {"IN", "-o", "--shards"}) {
     const OptionEntry* const entry = find_option(required, name);
     if (entry != nullptr && !words.has(required)) {
       refuse_missing(*entry, "nothing");
@@ -217,7 +218,7 @@ std::optional<Words> split_command_line(int argc, const char* const* argv) {
     }
   }
   const std::vector<std::string> rest = parser->app.remaining(true);
-  bad_usage("expected tessellate, evaluate, info or --help, found " +
+  bad_usage("expected tessellate, evaluate, info, convert, plan, join or --help, found " +
             (rest.empty() ? "nothing" : in_quotes(rest.front())));
 }
 

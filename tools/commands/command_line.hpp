@@ -10,7 +10,7 @@
 
 namespace simdbezier::tools {
 
-enum class Command : std::uint8_t { tessellate, evaluate, info };
+enum class Command : std::uint8_t { tessellate, evaluate, info, convert, plan, join };
 
 /// An argument of some of the commands. What is parsed, what messages expect and what help lists
 /// are the same entries.

@@ -8,21 +8,21 @@
 #include <tools/patches/edge_counts.hpp>
 #include <tools/patches/library_status.hpp>
 #include <tools/patches/pack_patches.hpp>
-#include <tools/patches/patch_box.hpp>
 #include <tools/patches/patch_rounding.hpp>
 
 namespace simdbezier::tools {
 
 template <typename T>
-GridMesh<T>::GridMesh(const PatchFile& file, const Arguments& arguments, MeshStats& stats)
-    : arguments_(arguments), patches_(file.count), grid_(arguments.grid), box_(box_of(file)),
-      evaluator_(file, arguments.grid, arguments.threads) {
+GridMesh<T>::GridMesh(const ModelPart& part, const Arguments& arguments, MeshStats& stats)
+    : arguments_(arguments), patches_(part.file.count), first_patch_(part.first_patch()),
+      numbered_(part.patches), grid_(arguments.grid), box_(part.box),
+      evaluator_(part.file, arguments.grid, arguments.threads) {
   const MeshContents mesh = contents();
   stats.patches = patches_;
   stats.vertices = stats.samples = mesh.vertices;
   stats.triangles = mesh.faces * (mesh.corners - 2);
   if (arguments_.mesh.stats != StatsForm::none) {
-    measure(file, stats);
+    measure(part.file, stats);
   }
 }
 
@@ -59,7 +59,7 @@ MeshContents GridMesh<T>::contents() const {
   contents.uv = arguments_.mesh.parameters;
   contents.storage = arguments_.mesh.storage;
   contents.floats = arguments_.mesh.floats;
-  describe_vertices<T>(arguments_.mesh, patches_, contents);
+  describe_vertices<T>(arguments_.mesh, numbered_, contents);
   contents.origin = arguments_.mesh.origin;
   contents.box = box_;
   // Positions may leave the control points' box by rounding, which is less than this part of the
@@ -145,8 +145,9 @@ void GridMesh<T>::put_parameters(const GridBlock& block, std::size_t stride) {
   patch_.clear();
   for (std::size_t row = 0; row < block.patch_count * block.row_count; ++row) {
     const std::size_t j = block.first_row + row % block.row_count;
-    patch_.insert(patch_.end(), grid_.nu,
-                  static_cast<std::uint32_t>(block.first_patch + row / block.row_count));
+    patch_.insert(
+        patch_.end(), grid_.nu,
+        static_cast<std::uint32_t>(first_patch_ + block.first_patch + row / block.row_count));
     for (std::size_t i = 0; i < grid_.nu; ++i, to += stride) {
       to[0] = static_cast<T>(i) / static_cast<T>(grid_.nu - 1);
       to[1] = static_cast<T>(j) / static_cast<T>(grid_.nv - 1);
@@ -176,6 +177,7 @@ void GridMesh<T>::write_faces(std::size_t first, std::size_t count, MeshWriter<T
 
 template <typename T>
 void GridMesh<T>::append_cell(std::uint32_t a) {
+  a += first_vertex_;
   const std::uint32_t b = a + 1;
   const std::uint32_t d = a + static_cast<std::uint32_t>(grid_.nu);
   const std::uint32_t c = d + 1;

@@ -9,11 +9,13 @@
 #include <tools/commands/arguments.hpp>
 #include <tools/commands/mesh_source.hpp>
 #include <tools/commands/vertex_places.hpp>
+#include <tools/parts/model_part.hpp>
 #include <tools/patches/grid_blocks.hpp>
 
 namespace simdbezier::tools {
 
-/// Every patch is a grid of vertices of its own, in grid order:
+/// The patches of a part, which may be a whole model, without ghosts. Every patch is a grid of
+/// vertices of its own, in grid order:
 ///
 ///     d --- c      a = (i, j), b = (i+1, j): u runs along a row, v across the rows.
 ///     |   / |      Triangles a b c and a c d are counter-clockwise about du x dv.
@@ -22,12 +24,14 @@ namespace simdbezier::tools {
 template <typename T>
 class GridMesh final : public MeshSource<T> {
 public:
-  /// The file has to outlive it. Throws Failure where there are too many vertices, or where T
+  /// The part has to outlive it. Throws Failure where there are too many vertices, or where T
   /// cannot hold a patch.
-  GridMesh(const PatchFile& file, const Arguments& arguments, MeshStats& stats);
+  GridMesh(const ModelPart& part, const Arguments& arguments, MeshStats& stats);
 
   [[nodiscard]] MeshContents contents() const override;
   void write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& progress) override;
+  /// Says the number of the part's first vertex in the numbers that faces are to have.
+  void place(std::uint32_t first_vertex) { first_vertex_ = first_vertex; }
 
 private:
   /// Measures what takes time and is wanted for statistics only.
@@ -43,6 +47,9 @@ private:
 
   const Arguments& arguments_;
   std::size_t patches_;
+  std::size_t first_patch_; // in the model
+  std::size_t numbered_;    // patches in the model
+  std::uint32_t first_vertex_ = 0;
   GridSize grid_;
   MeshBox box_;
   GridEvaluator<T> evaluator_;

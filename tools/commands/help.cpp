@@ -32,7 +32,19 @@ constexpr CommandText kCommandTexts[] = {
     {"info", "IN [options]",
      "Says what patches a file has, how they meet, and what this machine would run.",
      "simdbezier info builtin:teapot\n"
-     "simdbezier info model.rib --json\n"}};
+     "simdbezier info model.rib --json\n"},
+    {"convert", "IN -o OUT [options]",
+     "Writes patches in another format: .sbp is binary, and read piece by piece.",
+     "simdbezier convert builtin:teapot --sort -o teapot.sbp\n"
+     "simdbezier convert model.iges -o model.obj\n"},
+    {"plan", "IN -o OUT --shards N [options]",
+     "Prints the commands that make a mesh in parts, and the one that joins them.",
+     "simdbezier plan builtin:teapot --relative 1e-4 --shards 4 -o teapot.ply\n"
+     "simdbezier plan model.sbp --shards 64 -o model.ply > plan.txt\n"
+     "head -n -1 plan.txt | parallel && tail -n 1 plan.txt | sh\n"},
+    {"join", "-o OUT --shards N [options]",
+     "Makes the mesh of parts that tessellate --shard has made.",
+     "simdbezier join -o model.ply --shards 64 --remove-parts\n"}};
 
 constexpr std::string_view kExitCodes =
     "Exit codes: 0 done, 1 bad input, bad number or failed write, 2 other bad usage.\n";

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <tools/commands/commands.hpp>
+#include <tools/commands/report.hpp>
 #include <tools/process/failure.hpp>
 #include <tools/process/interruption.hpp>
 
@@ -24,23 +25,13 @@ void run(const Arguments& arguments) {
     return run_evaluate(arguments);
   case Command::info:
     return run_info(arguments);
+  case Command::convert:
+    return run_convert(arguments);
+  case Command::plan:
+    return run_plan(arguments);
+  case Command::join:
+    return run_join(arguments);
   }
-}
-
-// Prints one line, whatever a file name contains. It takes no memory, because the message may be
-// that there is none.
-int report(std::string_view message, int exit_code) {
-  static char line[BUFSIZ];
-  std::setvbuf(stderr, line, _IOFBF, sizeof line);
-  std::fputs("simdbezier: ", stderr);
-  for (const char c : message) {
-    const auto byte = static_cast<unsigned char>(c); // char has a sign on some machines alone
-    const bool control = byte < 0x20 || byte == 0x7f;
-    std::putc(control ? ' ' : c, stderr);
-  }
-  std::putc('\n', stderr);
-  std::fflush(stderr);
-  return exit_code;
 }
 
 // The parsers that we use allocate where they must not throw, for instance in destructors. Where

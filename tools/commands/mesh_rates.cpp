@@ -187,7 +187,8 @@ MeshRates choose_mesh_rates(const RatedPatches<T>& patches, const Arguments& arg
   arguments.mesh.adaptive() ? choose_adaptive(patches, arguments, rates)
                             : choose_uniform(patches, arguments, rates);
   // Nothing is claimed to be exact, even if no rounding can be found.
-  chosen.deviation = std::max(std::ranges::max(deviations), std::numeric_limits<double>::min());
+  const auto own = std::span(deviations).subspan(patches.own.first, patches.own.count);
+  chosen.deviation = std::max(std::ranges::max(own), std::numeric_limits<double>::min());
   return chosen;
 }
 

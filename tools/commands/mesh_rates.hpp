@@ -25,6 +25,7 @@ struct RatedPatches {
   std::span<const ControlNets<T>> nets;
   const Topology& topology;
   std::span<const double> errors;         ///< what rounding adds, for each patch
+  SetRange own;                           ///< those whose deviation counts
   double diagonal;                        ///< the diagonal of the box of all control points
   double storage_error;                   ///< what the file's format adds
   bool far;                               ///< whether an origin of their own would be better

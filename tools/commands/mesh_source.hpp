@@ -3,6 +3,7 @@
 
 #include <tools/commands/mesh_stats.hpp>
 #include <tools/mesh_files/mesh_file.hpp>
+#include <tools/parts/part_links.hpp>
 #include <tools/process/progress.hpp>
 
 namespace simdbezier::tools {
@@ -17,6 +18,11 @@ public:
   MeshSource& operator=(const MeshSource&) = delete;
 
   [[nodiscard]] virtual MeshContents contents() const = 0;
+  /// What joins it with other parts of a model.
+  [[nodiscard]] virtual const PartLinks& links() const {
+    static const PartLinks none;
+    return none;
+  }
   /// Hands all vertices and faces to the writer, adds to `seconds`, and moves the bar.
   virtual void write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& progress) = 0;
 };

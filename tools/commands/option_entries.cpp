@@ -6,6 +6,7 @@
 #include <tools/formats/patch_file.hpp>
 #include <tools/mesh_files/mesh_file.hpp>
 #include <tools/patches/grid_blocks.hpp>
+#include <tools/patches/write_patches.hpp>
 
 namespace simdbezier::tools {
 
@@ -15,7 +16,7 @@ using Entries = std::vector<OptionEntry>;
 
 // Adds the options that say how fine a mesh is.
 void add_resolution(Entries& entries) {
-  const std::string command = " tessellate ";
+  const std::string command = " tessellate plan ";
   const std::string distance = "a distance above 0";
   entries.insert(
       entries.end(),
@@ -39,7 +40,7 @@ void add_resolution(Entries& entries) {
 
 // Adds the options that say what a mesh consists of.
 void add_mesh(Entries& entries) {
-  const std::string command = " tessellate ";
+  const std::string command = " tessellate plan ";
   entries.insert(
       entries.end(),
       {{"--weld", "", "", "One mesh without gaps, as is usual", command},
@@ -97,27 +98,46 @@ void add_mesh(Entries& entries) {
        {"--stats", "FORM", "text or json",
         "What was written, how long it took, and its certified deviation: text on stderr (the "
         "default) or JSON on standard output",
-        command, "", false}});
+        " tessellate ", "", false}});
 }
 
 Entries make_entries() {
-  const std::string all = " tessellate evaluate info ";
-  const std::string both = " tessellate evaluate ";
+  const std::string all = " tessellate evaluate info convert plan ";
+  const std::string both = " tessellate evaluate plan ";
   const std::string sides = "N or NUxNV, each from 2 to " + std::to_string(kMostPerDirection);
   Entries entries = {
       {"IN", "IN", "builtin:teapot, the name of a file or - for standard input",
        "Patches (" + patch_format_names(".") + ", compressed by gzip or not)", all},
       {"-o", "OUT", "a name that ends in " + mesh_format_names(".") + ", or - with --to",
-       "Output, required; a device or pipe needs --to", " tessellate "},
+       "Output, required; a device or pipe needs --to", " tessellate plan join "},
       {"--to", "NAME", mesh_format_names(""), "Format of OUT, otherwise told by its name",
+       " tessellate plan join "},
+      {"-o", "OUT", "a name that ends in " + written_patch_formats(".") + ", or - with --to",
+       "Output, required; a device or pipe needs --to", " convert "},
+      {"--to", "NAME", written_patch_formats(""), "Format of OUT, otherwise told by its name",
+       " convert "},
+      {"--sort", "", "",
+       "Brings patches into an order in which neighbours are near each other, so that shards meet "
+       "in few patches",
+       " convert "},
+      {"--shards", "N", "1 or more, and at most as many as there are patches",
+       "Into how many parts the patches are cut", " plan join "},
+      {"--shard", "I/N", "I/N, I from 1 to N, or slurm/N for the number in SLURM_ARRAY_TASK_ID",
+       "Makes the I-th of N parts of the mesh, in a file beside OUT, for join; a part that is "
+       "there "
+       "already is not made again",
        " tessellate "},
+      {"--shard-patches", "N", "1 or more",
+       "For simdbezier-mpi: how many patches a process works on at a time (default 65536)",
+       " tessellate "},
+      {"--remove-parts", "", "", "Removes the parts when the mesh is in its place", " join "},
       {"-o", "OUT", "a name that ends in .csv, or - for standard output",
        "Output, required; may be a device or pipe", " evaluate "},
       {"--format", "NAME", patch_format_names(""), "Format of IN, otherwise told by its name", all},
       {"--ignore-trims", "", "", "Reads surfaces as a whole of which curves cut out a part", all},
       {"--grid", "N|NUxNV", sides,
        "Samples of every patch (default 16); at most 4097 a direction in one mesh without gaps",
-       " tessellate "},
+       " tessellate plan "},
       {"--grid", "N|NUxNV", sides, "Samples of every patch (default 16)", " evaluate "}};
   add_resolution(entries);
   add_mesh(entries);
@@ -136,7 +156,8 @@ Entries make_entries() {
        "Threads to compute with (default 0)", both},
       {"--json", "", "", "One JSON object, for machines", " info "},
       {"--version", "", "", "Print the version", " simdbezier "},
-      {"--help", "", "", "Print this text", " simdbezier tessellate evaluate info ", "-h"}};
+      {"--help", "", "", "Print this text",
+       " simdbezier tessellate evaluate info convert plan join ", "-h"}};
   entries.insert(entries.end(), rest.begin(), rest.end());
   return entries;
 }

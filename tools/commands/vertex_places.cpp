@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include <tools/mesh_files/little_endian.hpp>
 #include <tools/patches/library_status.hpp>
+#include <tools/process/little_endian.hpp>
 
 namespace simdbezier::tools {
 

@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <tools/commands/mesh_links.hpp>
 #include <tools/patches/library_status.hpp>
 #include <tools/patches/pack_patches.hpp>
 #include <tools/patches/patch_box.hpp>
@@ -31,13 +32,14 @@ void set_free(T& object) {
 } // namespace
 
 template <typename T>
-WeldedMesh<T>::WeldedMesh(PatchFile file, const Arguments& arguments, MeshStats& stats)
-    : arguments_(arguments), stats_(stats), patches_(file.count), name_(file.name),
-      numbered_(file.count), places_(arguments.mesh) {
-  stats_.patches = patches_;
+WeldedMesh<T>::WeldedMesh(ModelPart part, const Arguments& arguments, MeshStats& stats)
+    : arguments_(arguments), stats_(stats), patches_(part.file.count), own_(part.own),
+      name_(part.file.name), box_(part.box), numbers_(std::move(part.numbers)),
+      numbered_(part.patches), places_(arguments.mesh) {
+  stats_.patches = own_.count;
   {
     const Stopwatch watch(stats_.seconds.pack);
-    take_points(std::move(file));
+    take_points(std::move(part.file));
   }
   {
     const Stopwatch watch(stats_.seconds.topology);
@@ -65,6 +67,13 @@ WeldedMesh<T>::WeldedMesh(PatchFile file, const Arguments& arguments, MeshStats&
   if (arguments_.mesh.parameters) {
     check(split_parameters(layout_, layout_));
   }
+  const std::size_t end = own_.first + own_.count;
+  if (own_.first > 0 || end < patches_) {
+    MeshLinks found = find_mesh_links(layout_, own_, numbers_, part.lent);
+    links_ = std::move(found.links);
+    before_ = std::move(found.before);
+    shift_ = 0U - static_cast<std::uint32_t>(before_.size());
+  }
   count_faces();
   const MeshContents mesh = contents();
   stats_.vertices = stats_.samples = mesh.vertices;
@@ -76,7 +85,6 @@ WeldedMesh<T>::WeldedMesh(PatchFile file, const Arguments& arguments, MeshStats&
 // rounding does to every patch is found as well.
 template <typename T>
 void WeldedMesh<T>::take_points(PatchFile file) {
-  box_ = box_of(file);
   stats_.diagonal = diagonal_of(box_);
   errors_.resize(patches_);
   for (std::size_t first = 0; first < patches_; first += kBlockPatches) {
@@ -108,7 +116,7 @@ void WeldedMesh<T>::join() {
   if (!mesh.drop_repeated || repeated > 0 || mesh.orient || mesh.split_edges) {
     find_edges(mesh.orient);
   }
-  stats_.joined = topology_.counts();
+  stats_.joined = topology_.counts(own_);
   stats_.joined->repeated_patches += repeated;
   stats_.open_edges = stats_.joined->open_edges;
   stats_.non_manifold_edges = stats_.joined->non_manifold_edges;
@@ -121,7 +129,7 @@ void WeldedMesh<T>::split() {
   how.threads = arguments_.threads;
   check(split_edges(views(nets_), pieces_, how));
   nets_.nets = pieces_.nets;
-  patches_ = pieces_.pieces.size();
+  patches_ = own_.count = pieces_.pieces.size(); // of a whole model
   stats_.splits = pieces_.counts;
   std::vector<double> errors;
   std::vector<std::uint32_t> numbers;
@@ -139,7 +147,7 @@ void WeldedMesh<T>::leave_out_repeated() {
   check(find_distinct_nets(views(nets_), topology_, distinct));
   nets_.nets = std::move(distinct.nets);
   numbers_ = std::move(distinct.patches);
-  patches_ = stats_.patches = numbers_.size();
+  patches_ = own_.count = stats_.patches = numbers_.size(); // of a whole model
   std::ranges::transform(numbers_, errors_.begin(), [&](std::uint32_t n) { return errors_[n]; });
   errors_.resize(patches_);
 }
@@ -163,7 +171,7 @@ void WeldedMesh<T>::find_edges(bool orient) {
 
 template <typename T>
 void WeldedMesh<T>::choose_cells() {
-  rates_ = choose_mesh_rates<T>({views(nets_), topology_, errors_, stats_.diagonal,
+  rates_ = choose_mesh_rates<T>({views(nets_), topology_, errors_, own_, stats_.diagonal,
                                  storage_error<T>(arguments_.mesh.format, contents()), is_far(box_),
                                  name_, numbers_},
                                 arguments_);
@@ -192,11 +200,37 @@ void WeldedMesh<T>::pack_all() {
 }
 
 template <typename T>
+void WeldedMesh<T>::place(std::uint32_t first_vertex, std::span<const std::uint32_t> foreign) {
+  std::size_t next = 0;
+  for (std::uint32_t& vertex : before_) {
+    vertex = vertex == kNoVertex ? kNoVertex : foreign[next++];
+  }
+  shift_ += first_vertex;
+}
+
+template <typename T>
+std::vector<T> WeldedMesh<T>::foreign_values() {
+  const std::size_t stride = contents().stride();
+  std::vector<T> values;
+  StageSeconds ignored;
+  if (own_.first > 0) {
+    evaluate({0, own_.first}, stride, ignored);
+  }
+  for (std::size_t vertex = 0; vertex < before_.size(); ++vertex) {
+    if (before_[vertex] != kNoVertex) {
+      const auto at = values_.begin() + static_cast<std::ptrdiff_t>(vertex * stride);
+      values.insert(values.end(), at, at + static_cast<std::ptrdiff_t>(stride));
+    }
+  }
+  return values;
+}
+
+template <typename T>
 void WeldedMesh<T>::count_faces() {
-  faces_ = layout_.size().triangles;
+  faces_ = layout_.first_triangle(own_.first + own_.count) - layout_.first_triangle(own_.first);
   if (arguments_.mesh.quads) {
     PolygonSize size;
-    check(polygon_size(layout_, size, {.threads = arguments_.threads}));
+    check(polygon_size(layout_, size, {.threads = arguments_.threads}, own_));
     faces_ = size.polygons;
     among_quads_ = 4 * size.polygons - size.indices;
   }
@@ -206,7 +240,8 @@ template <typename T>
 MeshContents WeldedMesh<T>::contents() const {
   const MeshArguments& mesh = arguments_.mesh;
   MeshContents contents;
-  contents.vertices = layout_.size().vertices;
+  contents.vertices =
+      layout_.first_vertex(own_.first + own_.count) - layout_.first_vertex(own_.first);
   contents.faces = faces_;
   contents.corners = mesh.quads ? 4 : 3;
   contents.among_quads = among_quads_;
@@ -223,7 +258,8 @@ MeshContents WeldedMesh<T>::contents() const {
   // box. What no longer fits a float is judged by the control points.
   const double largest = largest_coordinate(box_);
   const double most = std::max<double>(std::numeric_limits<float>::max(), largest);
-  const double margin = std::min(std::ranges::max(errors_), largest);
+  const auto own_errors = std::span(errors_).subspan(own_.first, own_.count);
+  const double margin = std::min(std::ranges::max(own_errors), largest);
   contents.box = box_;
   for (std::size_t c = 0; c < 3; ++c) {
     contents.box->low[c] = std::max(box_.low[c] - margin, -most);
@@ -240,8 +276,9 @@ typename WeldedMesh<T>::Block WeldedMesh<T>::block_from(std::size_t patch) const
     return layout_.first_vertex(end) - layout_.first_vertex(patch) +
            (layout_.first_triangle(end) - layout_.first_triangle(patch)) / 2;
   };
-  std::size_t end = std::min(patch + 1, patches_);
-  while (end < patches_ && end - patch < kBlockPatches && size(end + 1) <= kBlockSamples) {
+  const std::size_t last = own_.first + own_.count;
+  std::size_t end = std::min(patch + 1, last);
+  while (end < last && end - patch < kBlockPatches && size(end + 1) <= kBlockSamples) {
     ++end;
   }
   return {patch, end - patch};
@@ -250,7 +287,7 @@ typename WeldedMesh<T>::Block WeldedMesh<T>::block_from(std::size_t patch) const
 template <typename T>
 void WeldedMesh<T>::write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& progress) {
   const auto for_blocks = [&](auto&& visit) {
-    for (Block block = block_from(0); block.count > 0;
+    for (Block block = block_from(own_.first); block.count > 0;
          block = block_from(block.first + block.count)) {
       visit(block);
     }
@@ -270,9 +307,16 @@ void WeldedMesh<T>::write(MeshWriter<T>& writer, StageSeconds& seconds, Progress
 template <typename T>
 void WeldedMesh<T>::write_vertices(const Block& block, MeshWriter<T>& writer,
                                    StageSeconds& seconds) {
+  const std::size_t stride = contents().stride();
+  evaluate(block, stride, seconds);
+  const Stopwatch watch(seconds.write);
+  writer.vertices(places_.block(values_, stride));
+}
+
+template <typename T>
+void WeldedMesh<T>::evaluate(const Block& block, std::size_t stride, StageSeconds& seconds) {
   const std::size_t vertices =
       layout_.first_vertex(block.first + block.count) - layout_.first_vertex(block.first);
-  const std::size_t stride = contents().stride();
   values_.resize(vertices * stride);
   MeshOutputs<T> out;
   out.position = Vectors<T>::xyz(values_.data(), static_cast<std::ptrdiff_t>(stride));
@@ -287,8 +331,6 @@ void WeldedMesh<T>::write_vertices(const Block& block, MeshWriter<T>& writer,
     places_.find_curvatures(set_, topology_, options);
     places_.find_in_file(pieces_.pieces, numbers_);
   }
-  const Stopwatch watch(seconds.write);
-  writer.vertices(places_.block(values_, stride));
 }
 
 template <typename T>
@@ -297,6 +339,12 @@ void WeldedMesh<T>::write_faces(const Block& block, MeshWriter<T>& writer, Stage
   {
     const Stopwatch watch(seconds.topology);
     corners = arguments_.mesh.quads ? quads(block) : faces(block);
+    for (std::size_t k = 0; k < corners_.size() && (shift_ != 0 || !before_.empty()); ++k) {
+      std::uint32_t& vertex = corners_[k];
+      vertex = vertex < before_.size() ? before_[vertex]
+               : vertex != kNoVertex   ? vertex + shift_
+                                       : kNoVertex;
+    }
   }
   const Stopwatch watch(seconds.write);
   writer.faces(corners);

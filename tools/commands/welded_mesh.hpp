@@ -11,19 +11,31 @@
 #include <tools/commands/mesh_source.hpp>
 #include <tools/commands/vertex_places.hpp>
 #include <tools/formats/patch_file.hpp>
+#include <tools/parts/model_part.hpp>
+#include <tools/parts/part_links.hpp>
 
 namespace simdbezier::tools {
 
 /// Joins, chooses and numbers when it is made; vertices are computed when they are written. Takes
-/// the file, because its points are freed as soon as they are packed.
+/// the part, because its points are freed as soon as they are packed.
+///
+/// Of a part that is not the whole model, only own patches count and are written. Vertices that
+/// earlier parts own are named by foreign(): until place() says their numbers, faces have the
+/// numbers behind the part's own vertices, which begin at 0.
 template <typename T>
 class WeldedMesh final : public MeshSource<T> {
 public:
   /// Throws Failure that names the place in the file or the argument at fault.
-  WeldedMesh(PatchFile file, const Arguments& arguments, MeshStats& stats);
+  WeldedMesh(ModelPart part, const Arguments& arguments, MeshStats& stats);
 
   [[nodiscard]] MeshContents contents() const override;
+  [[nodiscard]] const PartLinks& links() const override { return links_; }
   void write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& progress) override;
+
+  /// Says the numbers of the part's first vertex, and of the foreign ones.
+  void place(std::uint32_t first_vertex, std::span<const std::uint32_t> foreign);
+  /// Returns the values of the foreign vertices, MeshContents::stride() each.
+  [[nodiscard]] std::vector<T> foreign_values();
 
 private:
   struct Block {
@@ -32,6 +44,7 @@ private:
   };
 
   void take_points(PatchFile file);
+  void evaluate(const Block& block, std::size_t stride, StageSeconds& seconds);
   void join();
   void split();
   void find_edges(bool orient);
@@ -51,20 +64,25 @@ private:
 
   const Arguments& arguments_;
   MeshStats& stats_;
-  std::size_t patches_ = 0;
-  std::string name_; // the file's, for messages
-  MeshBox box_;
+  std::size_t patches_ = 0; // with ghosts
+  SetRange own_;
+  std::string name_;                // the file's, for messages
+  MeshBox box_;                     // the model's
   double deviation_ = 0;            // certified
   std::unique_ptr<PatchFile> file_; // whose memory nets_ may refer to
   PatchNets<T> nets_;
-  std::vector<double> errors_;         // what rounding adds, for each patch
-  std::vector<std::uint32_t> numbers_; // of patches in the file, where some are left out or cut
-  SplitNets<T> pieces_;                // of patches that are cut, in whose memory nets_ are then
-  std::size_t numbered_ = 0;           // patches in the file
+  std::vector<double> errors_; // what rounding adds, for each patch
+  std::vector<std::uint32_t>
+      numbers_;              // of patches in the model, where these are not all of its own
+  SplitNets<T> pieces_;      // of patches that are cut, in whose memory nets_ are then
+  std::size_t numbered_ = 0; // patches in the model
   MeshRates rates_;
   Topology topology_;
   MeshLayout layout_;
   PatchSet<T> set_;
+  PartLinks links_;
+  std::vector<std::uint32_t> before_; // numbers of the vertices before the own ones
+  std::uint32_t shift_ = 0;           // from the layout's numbers to those of faces
   std::uint64_t faces_ = 0;
   std::uint64_t among_quads_ = 0;
   std::vector<T> values_;

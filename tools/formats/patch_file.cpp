@@ -129,10 +129,10 @@ void PatchFile::add(PatchRun run) {
     bad_input(name + ": expected at most " + std::to_string(kMost) + " patches, found more");
   }
   const auto rows = static_cast<std::size_t>(run.degree_v) + 1;
-  if (run.is_patch() && !runs.empty() && runs.back().is_column_like(run)) {
-    runs.back().v.points += rows;
-    ++runs.back().v.patches;
-    ++runs.back().count;
+  if ((run.is_patch() || run.is_column()) && !runs.empty() && runs.back().is_column_like(run)) {
+    runs.back().v.points += run.v.points;
+    runs.back().v.patches += run.v.patches;
+    runs.back().count += patches;
   } else {
     run.v.step = run.is_patch() ? rows : run.v.step; // another patch may follow
     run.first_patch = count;
@@ -257,6 +257,22 @@ PatchNets<S> PatchFile::nets(std::size_t first, std::size_t patches) const {
 template <typename S>
 PatchNets<S> PatchFile::nets(std::span<const std::uint32_t> patches) const {
   return gather<S>(patches.size(), [&](std::size_t k) { return patches[k]; });
+}
+
+PatchFile PatchFile::of(std::span<const std::uint32_t> patches) const {
+  PatchFile some;
+  some.name = name;
+  some.moved_error = moved_error;
+  some.cut_error = cut_error;
+  for (const std::uint32_t patch : patches) {
+    const PatchRun& run = run_of(patch);
+    append(run, patch - run.first_patch, some.points);
+    for (std::size_t k = 0; k < run.points_per_patch() && !lines.empty(); ++k) {
+      some.lines.push_back(lines[run.first_point + find(patch, k).index]);
+    }
+    some.close_patch(run.degree_u, run.degree_v, run.weights);
+  }
+  return some;
 }
 
 template PatchNets<float> PatchFile::nets<float>(std::size_t, std::size_t) const;

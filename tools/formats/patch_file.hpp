@@ -111,9 +111,11 @@ struct PatchFile {
   /// do not depend on which ones.
   template <typename S>
   [[nodiscard]] PatchNets<S> nets(std::size_t first = 0, std::size_t patches = kAll) const;
-  /// The same for any of them, in ascending order.
+  /// The same for any of them, in any order.
   template <typename S>
   [[nodiscard]] PatchNets<S> nets(std::span<const std::uint32_t> patches) const;
+  /// Returns a file of these patches alone, in this order, with all that is known of them.
+  [[nodiscard]] PatchFile of(std::span<const std::uint32_t> patches) const;
 
 private:
   struct RunPoint {
@@ -146,7 +148,8 @@ private:
   X(iges) /* IGES 5.3: entities 128 and 114, untrimmed, with Cartesian weights */                  \
   X(itd) /* IRIT: SURFACE BEZIER of point types E3, and P3 with homogeneous weights */             \
   X(obj) /* Wavefront: surfaces of every cstype, and rat with Cartesian weights */                 \
-  X(rib) /* RenderMan: Patch, PatchMesh and NuPatch, with "P" or homogeneous "Pw" */
+  X(rib) /* RenderMan: Patch, PatchMesh and NuPatch, with "P" or homogeneous "Pw" */               \
+  X(sbp) /* binary patches of any shapes, which tessellate can read piece by piece */
 // clang-format on
 
 #define SIMDBEZIER_DECLARE_PATCH_FORMAT(NAME) NAME,

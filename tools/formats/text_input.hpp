@@ -31,6 +31,8 @@ public:
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] std::uint64_t stored_size() const { return source_.stored_size(); }
   void show(Progress& progress) noexcept { source_.show(progress); }
+  /// Returns the bytes as they are, for a format that is no text and reads nothing else.
+  [[nodiscard]] ByteSource& bytes() noexcept { return source_; }
   /// Returns the line of the character that get() returned last; at the end, the last line there
   /// is.
   [[nodiscard]] std::size_t line() const noexcept { return line_; }

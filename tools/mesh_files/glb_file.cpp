@@ -5,7 +5,7 @@
 #include <cassert>
 #include <vector>
 
-#include <tools/mesh_files/little_endian.hpp>
+#include <tools/process/little_endian.hpp>
 
 namespace simdbezier::tools {
 

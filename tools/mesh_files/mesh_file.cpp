@@ -188,7 +188,8 @@ void MeshWriter<T>::faces(std::span<const std::uint32_t> corners) {
   assert(corners.size() % contents_.corners == 0);
   assert(takes_faces_early() || vertices_done_ == contents_.vertices);
   assert(std::ranges::all_of(corners, [&](std::uint32_t corner) {
-    return corner < vertices_done_ || (corner == kNoVertex && contents_.corners == 4);
+    return corner < vertices_done_ + foreign_vertices() ||
+           (corner == kNoVertex && contents_.corners == 4);
   }));
   faces_done_ += corners.size() / contents_.corners;
   assert(faces_done_ <= contents_.faces);
@@ -211,13 +212,20 @@ void MeshWriter<T>::finish() {
 }
 
 template <typename T>
-std::unique_ptr<MeshWriter<T>> make_mesh_writer(const std::string& path, MeshFormat format,
-                                                const MeshContents& contents) {
+MeshContents stated_contents(const std::string& path, MeshFormat format,
+                             const MeshContents& contents) {
   check_contents<T>(path, format, contents);
   MeshContents stated = contents;
   if (contents.deviation) {
     stated.deviation = stated_deviation<T>(format, contents);
   }
+  return stated;
+}
+
+template <typename T>
+std::unique_ptr<MeshWriter<T>> make_mesh_writer(const std::string& path, MeshFormat format,
+                                                const MeshContents& contents) {
+  const MeshContents stated = stated_contents<T>(path, format, contents);
 #define SIMDBEZIER_MESH_WRITER(NAME, ...) make_##NAME##_writer<T>,
   constexpr std::unique_ptr<MeshWriter<T>> (*kWriters[])(const std::string&,
                                                          const MeshContents&) = {
@@ -234,6 +242,8 @@ template std::unique_ptr<MeshWriter<float>> make_mesh_writer(const std::string&,
                                                              const MeshContents&);
 template std::unique_ptr<MeshWriter<double>> make_mesh_writer(const std::string&, MeshFormat,
                                                               const MeshContents&);
+template MeshContents stated_contents<float>(const std::string&, MeshFormat, const MeshContents&);
+template MeshContents stated_contents<double>(const std::string&, MeshFormat, const MeshContents&);
 template double storage_error<float>(MeshFormat, const MeshContents&);
 template double storage_error<double>(MeshFormat, const MeshContents&);
 template double stated_deviation<float>(MeshFormat, const MeshContents&);

@@ -174,6 +174,8 @@ public:
 
   /// Whether faces may come before the last vertex.
   [[nodiscard]] virtual bool takes_faces_early() const noexcept { return false; }
+  /// How many numbers behind those of its vertices faces may have, for vertices of another file.
+  [[nodiscard]] virtual std::uint64_t foreign_vertices() const noexcept { return 0; }
   /// Whether people see what is written while it is.
   [[nodiscard]] virtual bool is_terminal() const { return false; }
 
@@ -204,6 +206,12 @@ private:
 template <typename T>
 [[nodiscard]] std::unique_ptr<MeshWriter<T>>
 make_mesh_writer(const std::string& path, MeshFormat format, const MeshContents& contents);
+
+/// Returns the contents as a file states them: with the deviation that storing adds to. Throws
+/// Failure where the format cannot hold such a mesh.
+template <typename T>
+[[nodiscard]] MeshContents stated_contents(const std::string& path, MeshFormat format,
+                                           const MeshContents& contents);
 
 /// Returns a bound on the distance by which storing moves a vertex. Of the contents it needs the
 /// box, the origin and the kind of numbers.

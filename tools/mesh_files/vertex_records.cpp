@@ -6,9 +6,9 @@
 #include <type_traits>
 #include <utility>
 
-#include <tools/mesh_files/little_endian.hpp>
 #include <tools/mesh_files/mesh_formats.hpp>
 #include <tools/process/failure.hpp>
+#include <tools/process/little_endian.hpp>
 
 namespace simdbezier::tools {
 

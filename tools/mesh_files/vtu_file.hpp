@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include <tools/mesh_files/little_endian.hpp>
 #include <tools/mesh_files/mesh_file.hpp>
+#include <tools/process/little_endian.hpp>
 #include <tools/process/output_file.hpp>
 
 namespace simdbezier::tools {

@@ -4,8 +4,9 @@
 
 #include <cmath>
 
-#include <tools/mesh_files/little_endian.hpp>
+#include <tools/mesh_files/mesh_bytes.hpp>
 #include <tools/mesh_files/vertex_records.hpp>
+#include <tools/process/little_endian.hpp>
 #include <tools/process/output_file.hpp>
 #include <tools/process/spill_file.hpp>
 
@@ -14,9 +15,7 @@ namespace simdbezier::tools {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 80;
-constexpr std::size_t kFacetBytes = 50;
-
-using Position = std::array<float, 3>;
+using Position = StlPosition;
 
 // It must not begin with "solid", as the text form does. An origin stands in it whole or not at
 // all.
@@ -55,11 +54,8 @@ public:
   StlWriter(const std::string& path, const MeshContents& mesh)
       : MeshWriter<T>(path, mesh), packer_(path, mesh, float_positions()), positions_(path),
         file_(path) {
-    file_.expect_room(kHeaderBytes + 4 + mesh.faces * kFacetBytes);
-    file_.text(header(mesh));
-    std::array<std::byte, 4> count;
-    store_little(count.data(), static_cast<std::uint32_t>(mesh.faces));
-    file_.bytes(count.data(), count.size());
+    file_.expect_room(kHeaderBytes + 4 + mesh.faces * kStlFacetBytes);
+    file_.text(stl_head(mesh));
   }
 
   [[nodiscard]] bool is_terminal() const override { return file_.is_terminal(); }
@@ -72,7 +68,10 @@ private:
 
   void take_faces(std::span<const std::uint32_t> corners) override {
     for (std::size_t k = 0; k < corners.size(); k += 3) {
-      facet({position(corners[k]), position(corners[k + 1]), position(corners[k + 2])});
+      facets_.clear();
+      append_stl_facet({position(corners[k]), position(corners[k + 1]), position(corners[k + 2])},
+                       facets_);
+      file_.bytes(facets_.data(), facets_.size());
     }
   }
 
@@ -83,27 +82,33 @@ private:
             load_little<float>(&record[8])};
   }
 
-  void facet(const std::array<Position, 3>& corners) {
-    std::array<std::byte, kFacetBytes> bytes = {}; // the last two are the attribute, 0
-    std::byte* at = bytes.data();
-    for (const Position& vector : {facet_normal(corners), corners[0], corners[1], corners[2]}) {
-      for (const float value : vector) {
-        store_little(at, value);
-        at += sizeof value;
-      }
-    }
-    file_.bytes(bytes.data(), bytes.size());
-  }
-
   void put_on_disk() override { file_.complete(); }
   void put_in_place() override { file_.commit(); }
 
   RecordPacker<T> packer_;
   SpillFile positions_;
   OutputFile file_;
+  std::vector<std::byte> facets_;
 };
 
 } // namespace
+
+std::string stl_head(const MeshContents& mesh) {
+  std::array<char, 4> count;
+  store_little(count.data(), static_cast<std::uint32_t>(mesh.faces));
+  return header(mesh) + std::string(count.data(), count.size());
+}
+
+void append_stl_facet(const std::array<StlPosition, 3>& corners, std::vector<std::byte>& to) {
+  std::size_t at = to.size();
+  to.resize(at + kStlFacetBytes); // the last two are the attribute, 0
+  for (const Position& vector : {facet_normal(corners), corners[0], corners[1], corners[2]}) {
+    for (const float value : vector) {
+      store_little(&to[at], value);
+      at += sizeof value;
+    }
+  }
+}
 
 template <typename T>
 std::unique_ptr<MeshWriter<T>> make_stl_writer(const std::string& path,

@@ -25,13 +25,14 @@ void extend(const ControlNets<double>& nets, MeshBox& box) {
 
 } // namespace
 
-MeshBox box_of(const PatchFile& file) {
+MeshBox box_of(const PatchFile& file, std::size_t first, std::size_t patches) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   MeshBox box;
   box.low.fill(kInfinity);
   box.high.fill(-kInfinity);
-  for (std::size_t first = 0; first < file.count; first += kBlockPatches) {
-    const PatchNets<double> block = file.nets<double>(first, kBlockPatches);
+  const std::size_t end = first + std::min(patches, file.count - first);
+  for (; first < end; first += kBlockPatches) {
+    const PatchNets<double> block = file.nets<double>(first, std::min(kBlockPatches, end - first));
     for (const ControlNets<double>& nets : block.nets) {
       extend(nets, box);
     }

@@ -119,12 +119,56 @@ TopologyCounts Topology::counts() const noexcept {
   return data_ == nullptr ? TopologyCounts{} : data_->counts;
 }
 
+TopologyCounts Topology::counts(SetRange patches) const noexcept {
+  TopologyCounts counts;
+  if (data_ == nullptr || patches.first > data_->patches()) {
+    return counts;
+  }
+  patches.count = std::min(patches.count, patches.count == SetRange::kToTheEnd
+                                              ? data_->patches() - patches.first
+                                              : patches.count);
+  if (patches.count > data_->patches() - patches.first) {
+    return counts;
+  }
+  counts.patches = patches.count;
+  counts.snapped_sides = data_->counts.snapped_sides;
+  counts.orientable = data_->counts.orientable;
+  for (std::size_t p = patches.first; p < patches.first + patches.count; ++p) {
+    counts.repeated_patches += data_->is_repeated(p) ? 1 : 0;
+    for (std::size_t side = kPatchEdges * p; side < kPatchEdges * (p + 1); ++side) {
+      counts.collapsed_sides += data_->sides[side].collapsed() ? 1 : 0;
+    }
+    data_->for_owned(
+        p, [&](std::uint32_t) { ++counts.corners; },
+        [&](std::uint32_t edge) {
+          const auto sides = data_->sides_of(edge);
+          ++counts.edges;
+          counts.open_edges += sides.size() == 1 ? 1 : 0;
+          counts.non_manifold_edges += sides.size() > 2 ? 1 : 0;
+          // As the patches are given, whichever have been turned.
+          const auto given = [&](std::uint32_t side) {
+            return data_->is_turned(side / kPatchEdges);
+          };
+          counts.turned_edges += sides.size() == 2 && data_->disagree(sides[0], sides[1]) !=
+                                                          (given(sides[0]) != given(sides[1]))
+                                     ? 1
+                                     : 0;
+        });
+  }
+  return counts;
+}
+
 bool Topology::is_turned(std::size_t patch) const noexcept {
   return data_ != nullptr && patch < data_->patches() && data_->is_turned(patch);
 }
 
 bool Topology::is_repeated(std::size_t patch) const noexcept {
   return data_ != nullptr && patch < data_->patches() && data_->is_repeated(patch);
+}
+
+bool Topology::is_entangled(std::size_t patch) const noexcept {
+  return data_ != nullptr && patch < data_->patches() &&
+         (data_->flags[patch] & detail::kEntangled) != 0;
 }
 
 } // namespace simdbezier

@@ -8,7 +8,7 @@
 namespace simdbezier::tests::help_test {
 namespace {
 
-const std::vector<std::string> kCommands = {"tessellate", "evaluate", "info"};
+const std::vector<std::string> kCommands = {"tessellate", "evaluate", "info", "convert", "plan"};
 
 std::string help_of(const std::string& command) {
   const Outcome outcome = run({command, "--help"});
@@ -42,7 +42,7 @@ TEST(Help, HasExamplesRangesDefaultsAndExitCodes) {
        {"position, du, dv, duu, duv, dvv, normal, curvature", "(default position)",
         "they come in the order named here", "patch,x,y with x = 2u-1",
         "Samples of every patch (default 16): N or", "may be a device or pipe"}},
-      {"info", {"--json", "bez, bpt, bv, iges, itd, obj or rib"}}};
+      {"info", {"--json", "bez, bpt, bv, iges, itd, obj, rib or sbp"}}};
   for (const auto& [command, parts] : cases) {
     std::string help = help_of(command);
     EXPECT_NE(help.find("Examples:\n  simdbezier " + command), std::string::npos) << help;

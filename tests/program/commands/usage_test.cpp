@@ -33,7 +33,8 @@ std::vector<std::string> evaluate(std::vector<std::string> rest) {
 }
 
 std::vector<BadUsage> bad_usages() {
-  const std::string command = "expected tessellate, evaluate, info or --help, found ";
+  const std::string command =
+      "expected tessellate, evaluate, info, convert, plan, join or --help, found ";
   const std::string grid = "--grid: expected N or NUxNV, each from 2 to 1048576, found '";
   return {
       {"Nothing", {}, command + "nothing"},
@@ -56,7 +57,8 @@ std::vector<BadUsage> bad_usages() {
        "-o: expected a name that ends in .csv, or - for standard output, found the end of the"},
       {"FormatWithoutName",
        {"info", "builtin:teapot", "--format"},
-       "--format: expected bez, bpt, bv, iges, itd, obj or rib, found the end of the command line"},
+       "--format: expected bez, bpt, bv, iges, itd, obj, rib or sbp, found the end of the command "
+       "line"},
       {"GridWithoutValue", tessellate_obj({"--grid"}),
        "--grid: expected N or NUxNV, each from 2 to "
        "1048576, found the end of the command line"},
@@ -102,7 +104,7 @@ std::vector<BadUsage> bad_usages() {
       {"StandardInputWithoutFormat", {"info", "-"}, "--format"},
       {"UnknownFormat",
        {"info", "-", "--format", "xyz"},
-       "--format: expected bez, bpt, bv, iges, itd, obj or rib, found 'xyz'"},
+       "--format: expected bez, bpt, bv, iges, itd, obj, rib or sbp, found 'xyz'"},
       {"EmptyFormat", {"info", "-", "--format", ""}, "--format"},
       {"LaterFormat",
        {"info", "-", "--format", "step"},
@@ -177,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(All, BadUsageTest, ::testing::ValuesIn(bad_usages()),
 TEST(Usage, InputsOfUnknownOrLaterFormats) {
   const TemporaryFolder folder;
   expect_failure(run({"info", folder.write("in.xyz", "1\n")}), 2,
-                 ".itd, .obj or .rib, or --format");
+                 ".obj, .rib or .sbp, or --format");
   for (const std::string later : {"step", "stp", "pov"}) {
     const std::string name = folder.write("in." + later, "1\n");
     expect_failure(run({"info", name}), 2,

@@ -57,7 +57,7 @@ class RunsInSequence {
 public:
   RunsInSequence(const PatchFile& file, bool may_name) : file_(file), named_(file.lines.size()) {
     for (const PatchRun& run : file.runs) {
-      named_ -= run.first_vertex ? 0 : run.u.points * run.v.points;
+      named_ -= run.first_vertex || file.lines.empty() ? 0 : run.u.points * run.v.points;
     }
     require(may_name || named_ == 0, "there are points of no patch");
   }
@@ -76,8 +76,9 @@ public:
               "vertices of runs do not follow each other");
       vertices_ += mesh;
     } else {
-      require(run.first_point == named_ + points_ && run.first_value == 4 * named_ + values_ &&
-                  run.stride == run.values_per_point(),
+      const bool has_lines = !file_.lines.empty(); // binary files have none
+      require((!has_lines || run.first_point == named_ + points_) &&
+                  run.first_value == 4 * named_ + values_ && run.stride == run.values_per_point(),
               "points of runs do not follow each other");
       points_ += mesh;
       values_ += mesh * run.stride;
@@ -88,7 +89,9 @@ public:
   void require_end() const {
     require(patches_ == file_.count && vertices_ == file_.vertices.size(),
             "patches and runs do not belong together");
-    require(named_ + points_ == file_.lines.size() && 4 * named_ + values_ == file_.points.size(),
+    const bool has_lines = !file_.lines.empty();
+    require((!has_lines || named_ + points_ == file_.lines.size()) &&
+                4 * named_ + values_ == file_.points.size(),
             "points and lines do not belong together");
     require(std::ranges::all_of(file_.vertices, [&](std::uint32_t k) { return k < named_; }),
             "a vertex is not in the file");

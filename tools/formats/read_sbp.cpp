@@ -1,0 +1,51 @@
+// Binary patches, from the first byte to the last, so that pipes and compressed files will do.
+#include <tools/formats/sbp_index.hpp>
+
+#include <tools/process/failure.hpp>
+
+namespace simdbezier::tools {
+
+PatchFile read_sbp(TextInput& input, const ReadOptions& /*options*/) try {
+  const auto read = [&](std::span<std::byte> to) {
+    std::size_t found = 0;
+    while (found < to.size()) {
+      const std::size_t more =
+          input.bytes().read(reinterpret_cast<char*>(to.data()) + found, to.size() - found);
+      if (more == 0) {
+        break;
+      }
+      found += more;
+    }
+    return found;
+  };
+  PatchFile file;
+  file.name = input.name();
+  const SbpIndex index = read_sbp_index(file.name, read);
+  file.cut_error = index.moved_error;
+  if (input.stored_size() >= index.size) { // and otherwise there may be less than it promises
+    std::size_t values = 0;
+    for (const SbpBlock& block : index.blocks) {
+      values += block.bytes / block.number_bytes;
+    }
+    file.points.reserve(values);
+  }
+  std::vector<std::byte> bytes;
+  for (const SbpBlock& block : index.blocks) {
+    bytes.resize(block.bytes);
+    if (read(bytes) != bytes.size()) {
+      refuse_cut_sbp(file.name, "its patches");
+    }
+    expect_intact(file.name, index, block, bytes);
+    append_sbp_values(file, block, bytes);
+  }
+  std::byte behind = {};
+  if (read(std::span(&behind, 1)) != 0) {
+    bad_input(file.name + ": expected " + std::to_string(index.size) +
+              " bytes of binary patches, found more");
+  }
+  return file;
+} catch (const DamagedInput& damage) {
+  bad_input(input.name() + ": expected " + damage.expected + ", found " + damage.found);
+}
+
+} // namespace simdbezier::tools

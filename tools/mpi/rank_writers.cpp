@@ -1,0 +1,160 @@
+#include <tools/mpi/rank_writers.hpp>
+
+#include <vector>
+
+#include <tools/mesh_files/mesh_bytes.hpp>
+#include <tools/mesh_files/mesh_formats.hpp>
+#include <tools/mesh_files/vertex_records.hpp>
+#include <tools/process/little_endian.hpp>
+
+namespace simdbezier::tools {
+
+namespace {
+
+constexpr std::size_t kBufferBytes = std::size_t{1} << 22;
+
+// Bytes on their way to consecutive places.
+class PlacedBytes {
+public:
+  PlacedBytes(RankFile& file, std::uint64_t at) : file_(file), at_(at) {}
+  [[nodiscard]] std::vector<std::byte>& bytes() noexcept { return bytes_; }
+  void flush_when_full() {
+    if (bytes_.size() >= kBufferBytes) {
+      flush();
+    }
+  }
+  void flush() {
+    file_.write(at_, bytes_);
+    at_ += bytes_.size();
+    bytes_.clear();
+  }
+
+private:
+  RankFile& file_;
+  std::uint64_t at_;
+  std::vector<std::byte> bytes_;
+};
+
+template <typename T>
+std::uint64_t ply_faces_at(const MeshContents& whole) {
+  return ply_head<T>(whole).size() + whole.vertices * exact_records<T>(whole, true).size;
+}
+
+template <typename T>
+class PlyShardWriter final : public MeshWriter<T> {
+public:
+  PlyShardWriter(RankFile& file, const MeshContents& whole, const MeshContents& shard,
+                 const ShardPlace& place)
+      : MeshWriter<T>("", shard), whole_(whole.vertices),
+        packer_("", shard, exact_records<T>(whole, true)),
+        vertices_(file, ply_head<T>(whole).size() +
+                            place.first_vertex * exact_records<T>(whole, true).size),
+        faces_(file, ply_faces_at<T>(whole) +
+                         ply_face_bytes(whole.corners, place.first_face, place.quads_before)) {}
+  [[nodiscard]] std::uint64_t foreign_vertices() const noexcept override { return whole_; }
+
+private:
+  void take_vertices(const VertexBlock<T>& block) override {
+    const std::span<const std::byte> records = packer_.pack(block);
+    vertices_.bytes().insert(vertices_.bytes().end(), records.begin(), records.end());
+    vertices_.flush_when_full();
+  }
+  void take_faces(std::span<const std::uint32_t> corners) override {
+    append_ply_faces(corners, this->contents().corners, faces_.bytes());
+    faces_.flush_when_full();
+  }
+  void put_on_disk() override {
+    vertices_.flush();
+    faces_.flush();
+  }
+  void put_in_place() override {}
+
+  std::uint64_t whole_;
+  RecordPacker<T> packer_;
+  PlacedBytes vertices_;
+  PlacedBytes faces_;
+};
+
+// Positions of a shard's vertices stay in memory, since facets repeat them.
+template <typename T>
+class StlShardWriter final : public MeshWriter<T> {
+public:
+  StlShardWriter(RankFile& file, const MeshContents& whole, const MeshContents& shard,
+                 const ShardPlace& place, std::span<const T> foreign)
+      : MeshWriter<T>("", shard), foreign_(foreign), packer_("", shard, float_positions()),
+        facets_(file, stl_head(whole).size() + place.first_face * kStlFacetBytes) {}
+  [[nodiscard]] std::uint64_t foreign_vertices() const noexcept override {
+    return foreign_.size() / this->contents().stride();
+  }
+
+private:
+  void keep(std::span<const T> values) {
+    const std::span<const std::byte> records = packer_.pack({values});
+    for (std::size_t at = 0; at < records.size(); at += sizeof(StlPosition)) {
+      positions_.push_back({load_little<float>(&records[at]), load_little<float>(&records[at + 4]),
+                            load_little<float>(&records[at + 8])});
+    }
+  }
+  void take_vertices(const VertexBlock<T>& block) override { keep(block.values); }
+  void take_faces(std::span<const std::uint32_t> corners) override {
+    if (!foreign_.empty()) { // they stand behind all others
+      keep(foreign_);
+      foreign_ = {};
+    }
+    for (std::size_t k = 0; k < corners.size(); k += 3) {
+      append_stl_facet(
+          {positions_[corners[k]], positions_[corners[k + 1]], positions_[corners[k + 2]]},
+          facets_.bytes());
+      facets_.flush_when_full();
+    }
+  }
+  void put_on_disk() override { facets_.flush(); }
+  void put_in_place() override {}
+
+  std::span<const T> foreign_;
+  RecordPacker<T> packer_;
+  std::vector<StlPosition> positions_;
+  PlacedBytes facets_;
+};
+
+} // namespace
+
+bool is_written_by_ranks(MeshFormat format) {
+  return format == MeshFormat::ply || format == MeshFormat::stl;
+}
+
+template <typename T>
+std::uint64_t ranked_bytes(MeshFormat format, const MeshContents& whole) {
+  return format == MeshFormat::stl
+             ? stl_head(whole).size() + whole.faces * kStlFacetBytes
+             : ply_faces_at<T>(whole) +
+                   ply_face_bytes(whole.corners, whole.faces, whole.among_quads);
+}
+
+template <typename T>
+void write_head(RankFile& file, MeshFormat format, const MeshContents& whole) {
+  const std::string head = format == MeshFormat::stl ? stl_head(whole) : ply_head<T>(whole);
+  file.write(0, std::as_bytes(std::span(head)));
+}
+
+template <typename T>
+std::unique_ptr<MeshWriter<T>>
+make_rank_writer(RankFile& file, MeshFormat format, const MeshContents& whole,
+                 const MeshContents& shard, const ShardPlace& place, std::span<const T> foreign) {
+  if (format == MeshFormat::stl) {
+    return std::make_unique<StlShardWriter<T>>(file, whole, shard, place, foreign);
+  }
+  return std::make_unique<PlyShardWriter<T>>(file, whole, shard, place);
+}
+
+#define SIMDBEZIER_RANK_WRITERS(T)                                                                 \
+  template std::uint64_t ranked_bytes<T>(MeshFormat, const MeshContents&);                         \
+  template void write_head<T>(RankFile&, MeshFormat, const MeshContents&);                         \
+  template std::unique_ptr<MeshWriter<T>> make_rank_writer(                                        \
+      RankFile&, MeshFormat, const MeshContents&, const MeshContents&, const ShardPlace&,          \
+      std::span<const T>);
+SIMDBEZIER_RANK_WRITERS(float)
+SIMDBEZIER_RANK_WRITERS(double)
+#undef SIMDBEZIER_RANK_WRITERS
+
+} // namespace simdbezier::tools
