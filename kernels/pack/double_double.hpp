@@ -4,9 +4,9 @@
 //
 // The second double collects errors and is never brought below half a unit of the first one: the
 // value is their sum, whose error stays below 2^-104 of the largest number on the way for each
-// operation, and only the last rounding counts. That saves a quarter of the operations. Source: T. J. Dekker, "A floating-point technique for extending the
-// available precision", Numerische Mathematik 18 (1971); two_sum after D. E. Knuth, TAOCP vol. 2,
-// 4.2.2.
+// operation, and only the last rounding counts. That saves a quarter of the operations. Source: T.
+// J. Dekker, "A floating-point technique for extending the available precision", Numerische
+// Mathematik 18 (1971); two_sum after D. E. Knuth, TAOCP vol. 2, 4.2.2.
 #pragma once
 
 #include "kernels/simd/transpose.hpp"
