@@ -66,7 +66,8 @@ private:
         samples_.u.size() != count() || samples_.v.size() != count() ||
         samples_.patch.data() == nullptr || samples_.u.data() == nullptr ||
         samples_.v.data() == nullptr || storage_->buckets[0].shape.components != 3 ||
-        out_.first_component != 0 || out_.status.wanted() || out_.curvature.wanted()) {
+        out_.first_component != 0 || out_.status.wanted() || out_.curvature.wanted() ||
+        options_.destination == Destination::memory) { // which is to stream, however little
       return false;
     }
     std::uint32_t highest = 0;
