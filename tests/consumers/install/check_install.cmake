@@ -78,7 +78,7 @@ endif()
 # The installed programs find the installed library; they are all that is installed to be run.
 file(GLOB programs RELATIVE ${prefix}/bin ${prefix}/bin/*)
 foreach(program IN LISTS programs)
-  if(NOT program MATCHES "^simdbezier(_accuracy)?$")
+  if(NOT program MATCHES "^simdbezier(_accuracy|-mpi)?$")
     message(FATAL_ERROR "bin/${program} was installed")
   endif()
   run(${prefix}/bin/${program} --help)
