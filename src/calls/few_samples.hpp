@@ -45,7 +45,7 @@ public:
   }
 
 private:
-  /// One vector that is wanted, and the bytes that it takes.
+  /// One vector that is wanted.
   struct Group {
     std::size_t number;
     const Vectors<T>* vectors;

@@ -152,7 +152,7 @@ TEST(View, has_pixels_of_one_size_where_it_is_parallel) {
   }
 }
 
-/// Turned and mirrored models: what faces away is what du x dv says, and rational patches stay.
+/// The test of what faces away is one of polynomial patches.
 TEST(View, keeps_rational_patches_that_face_away) {
   const Torus torus;
   std::vector<double> weighted;
