@@ -104,8 +104,8 @@ template <typename S>
 
 /// Finds few cells of every patch (the fewest near the proportion of rows and columns that the
 /// bound on the whole patch suggests), and their diagonals, with which its triangles are within its
-/// tolerance. A patch's rates depend on its own control points and tolerance, and on where its
-/// topology forces a diagonal; rates of 1 are raised where the mesh would be degenerate
+/// tolerance. A patch's rates depend on its own control points and tolerance, on which of its sides
+/// are shared and which diagonals forced; rates of 1 are raised where the mesh would be degenerate
 /// (separate_vertices()).
 ///
 /// Bound:    of a triangle with edges p_i - p_j in parameters, max |S - T| <= the largest value of
@@ -117,8 +117,8 @@ template <typename S>
 ///           middle and R half of the diagonal of the box of the control points, and the bound is
 ///           divided by the smallest weight. Where weights are products of a factor a column and
 ///           one a row (cylinders, spheres, tori), the bound by derivatives in space counts if it
-///           is smaller. Where weights are more than 4.5-fold apart, so does the distance of point
-///           sets, for which pieces of the surface are halved until it is known.
+///           is smaller. So does the distance of point sets where parameters run unevenly or
+///           weights are more than 4.5-fold apart: pieces are halved until it is known.
 /// Source:   D. Filip, R. Magedson, R. Markot, "Surface Algorithms Using Bounds on Derivatives",
 ///           CAGD 3 (1986), whose bound has the triangle inequality instead of the diagonal's own
 ///           derivative.
@@ -137,8 +137,8 @@ template <typename S>
 /// Cost:     on AVX-512, 0.25 to 0.4 us a bicubic float patch and 0.65 us in double, certificate
 ///           included. With weights, of another degree or with a forced diagonal: 1 to 4 us up to
 ///           degree 5, 15 us of degree 15, 35 us of that with weights (AVX2); with weights that are
-///           products 2 to 4 us more up to degree 3, 100 us more of degree 15. With weights that
-///           are far apart, some 5 us a cell of a bicubic patch more, up to a second.
+///           products 2 to 4 us more up to degree 3, 100 us more of degree 15. With uneven
+///           parameters, some 5 us a cell of a bicubic patch more, up to a second.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<S>> nets,
                                                      const Topology& topology,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernels/nets/cell_candidates.hpp"
+#include "kernels/nets/normal_bends.hpp"
 #include "kernels/simd/operands.hpp"
 #include "src/tables/rate_task.hpp"
 
@@ -51,6 +52,24 @@ struct CertifiedCells {
   LaneCells<V> cells;
   V bound;
   V diagonals;
+
+  /// Which lanes' triangles may be far closer than that, of those with so many cells.
+  [[nodiscard]] SIMDBEZIER_INLINE MaskOf<V>
+  is_coarse(const RateScratch<V>& scratch, const RateGroup<V>& group, std::uint32_t fewest) const {
+    using T = ScalarOf<V>;
+    const V count = cells.nu * cells.nv;
+    const MaskOf<V> many = count >= broadcast<V>(static_cast<T>(fewest));
+    if (!any_of<V>(many)) {
+      return many;
+    }
+    const V worth = broadcast<V>(T(detail::kWorthLooking));
+    const NormalBends<V> bends = bends_of<V>(scratch, CellSteps<V>(cells, group.doubt));
+    const V few = worth * count;
+    const V square = few * few * bound;
+    return many & ((bends.distance <= worth * bound) |
+                   ((bends.fewest <= few * bound) & (bends.steps[0] <= square) &
+                    (bends.steps[1] <= square)));
+  }
 };
 
 /// Returns the fewest cells near those that the bound of an even pair of rates, in proportion to
@@ -147,18 +166,23 @@ struct RateLanes {
   alignas(64) T nv[kLanes<V>];
   alignas(64) T bound[kLanes<V>];
   alignas(64) T diagonals[kLanes<V>];
+  alignas(64) T coarse[kLanes<V>]; ///< 1 where others may have a far smaller bound
 
-  SIMDBEZIER_INLINE void store(const CertifiedCells<V>& of) {
+  SIMDBEZIER_INLINE void store(const CertifiedCells<V>& of, MaskOf<V> is_coarse) {
     store_vector<V>(nu, of.cells.nu);
     store_vector<V>(nv, of.cells.nv);
     store_vector<V>(bound, of.bound);
     store_vector<V>(diagonals, of.diagonals);
+    store_vector<V>(coarse, select_where<V>(is_coarse, broadcast<V>(T(1)), broadcast<V>(T(0))));
+  }
+  [[nodiscard]] SIMDBEZIER_INLINE bool is_decided(std::size_t p) const {
+    return is_usual_size(size[p]) && coarse[p] == 0;
   }
   /// Writes the certificates of patches [first, first + count).
   SIMDBEZIER_INLINE void put_bounds(const detail::RateTask<T>& task, std::size_t first,
                                     std::size_t count) const {
     for (std::size_t p = 0; p < count; ++p) {
-      const bool known = is_usual_size(size[p]);
+      const bool known = is_decided(p);
       const double error = task.errors == nullptr ? 0 : task.errors[first + p];
       task.diagonals[first + p] =
           known ? static_cast<std::uint16_t>(diagonals[p]) : std::uint16_t{0};
@@ -182,9 +206,11 @@ SIMDBEZIER_INLINE void choose_group(const detail::RateTask<T>& task, std::size_t
     t[p] = scaled > 1e30 ? T(1e30) : scaled > 1e-30 ? static_cast<T>(scaled) : T(1e-30);
   }
   const T most = static_cast<T>(task.most);
-  lanes.store(choose_cells<V>(scratch, group, load_vector<V>(t), broadcast<V>(most)));
+  const CertifiedCells<V> chosen =
+      choose_cells<V>(scratch, group, load_vector<V>(t), broadcast<V>(most));
+  lanes.store(chosen, chosen.is_coarse(scratch, group, task.fewest_looked));
   for (std::size_t p = 0; p < count; ++p) {
-    const bool holds = is_usual_size(lanes.size[p]) && tolerance_of(task, first + p) > 0 &&
+    const bool holds = lanes.is_decided(p) && tolerance_of(task, first + p) > 0 &&
                        lanes.bound[p] <= t[p] && lanes.nu[p] <= most && lanes.nv[p] <= most;
     task.nu[first + p] = holds ? static_cast<std::uint32_t>(lanes.nu[p]) : detail::kUndecided;
     task.nv[first + p] = holds ? static_cast<std::uint32_t>(lanes.nv[p]) : detail::kUndecided;
@@ -208,7 +234,7 @@ SIMDBEZIER_INLINE void certify_group(const detail::RateTask<T>& task, std::size_
   certified.cells = {load_vector<V>(lanes.nu), load_vector<V>(lanes.nv)};
   certified.bound =
       bound_of_cells<V>(scratch.nets, certified.cells, group.doubt, certified.diagonals);
-  lanes.store(certified);
+  lanes.store(certified, certified.is_coarse(scratch, group, task.fewest_looked));
   lanes.put_bounds(task, first, count);
 }
 

@@ -14,8 +14,15 @@ inline constexpr double kStepRounding = 4 * 0x1p-24;
 /// directions then, and no slivers.
 inline constexpr double kMixedShare = 1.0 / 64;
 
+/// A bound on point sets takes as long as hundreds of vertices: it is asked for where second
+/// derivatives along the normal tell that at most this share of a distance, or of the cells, may be
+/// enough, and for rates where there are at least so many cells.
+inline constexpr double kWorthLooking = 1.0 / 8;
+inline constexpr std::uint32_t kFewestLooked = 32;
+
 /// Rates of a patch that the kernel leaves to GroupBound: its numbers are too large or too small,
-/// no tolerance is left, or the kernel has found no cells that keep it.
+/// no tolerance is left, the kernel has found no cells that keep it, or its bound may be far above
+/// the distance.
 inline constexpr std::uint32_t kUndecided = 0xffffffff;
 
 /// Certifies rates, given ones or those that the kernel chooses, for bicubic polynomial nets of
@@ -24,6 +31,7 @@ template <typename T>
 struct RateTask {
   NetView<const T> in;
   bool choose;
+  std::uint32_t fewest_looked; ///< cells of which a bound that may be far too large is no decision
   double tolerance;         ///< of all patches …
   const double* tolerances; ///< … or one value a patch; null: none
   const double* errors; ///< to be taken from the tolerance, and added to deviations; may be null

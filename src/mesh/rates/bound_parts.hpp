@@ -29,6 +29,12 @@ struct CellCounts {
   [[nodiscard]] double product() const { return static_cast<double>(nu) * nv; }
 };
 
+/// What a topology says of a patch: PatchFlag, and which sides belong to no other one, so that no
+/// neighbour has vertices on them: 256 << PatchEdge.
+using RateFlags = std::uint16_t;
+inline constexpr RateFlags kOpenSide = 256;
+inline constexpr RateFlags kAllOpen = 15 * kOpenSide;
+
 /// Cells, how far their triangles are from the patch at most, and the diagonals for which that
 /// holds.
 struct CertifiedCells {

@@ -236,10 +236,13 @@ GroupBound::Lanes<CertifiedCells> GroupBound::raise(const Lanes<CellCounts>& cel
   Lanes<CertifiedCells> raised = Search(*this, t, false).run(trials);
   for (std::size_t lane = 0; lane < count_; ++lane) {
     CellCounts fewer = cells[lane];
-    while (spaces_[lane] != nullptr && std::max(fewer.nu, fewer.nv) <= most &&
-           fewer.product() < raised[lane].cells.product()) {
+    while (std::max(fewer.nu, fewer.nv) <= most && fewer.product() < raised[lane].cells.product()) {
       const double stop = in_patch(lane, t[lane]);
-      take_if_close(lane, spaces_[lane]->certify(fewer, stop, stop), raised[lane]);
+      SpaceBound* const space = space_of(lane, raised[lane]);
+      if (space == nullptr) {
+        break;
+      }
+      take_if_close(lane, space->certify(fewer, stop, stop / 2), raised[lane]);
       fewer = {fewer.nu + 1, fewer.nv + 1};
     }
   }
@@ -263,7 +266,7 @@ GroupBound::Lanes<CertifiedCells> GroupBound::choose(const Lanes<double>& t,
     }
     even[lane] = {even_below(best[lane].nu), even_below(best[lane].nv)};
   }
-  const Lanes<CertifiedCells> at_most = beyond != 0 ? certify(best) : Lanes<CertifiedCells>{};
+  const Lanes<CertifiedCells> at_most = beyond != 0 ? certify(best, t) : Lanes<CertifiedCells>{};
   const LaneSegments pairs = segments_of(even);
   CellBounds bounds;
   kernels_.lead(group_, pairs, bounds); // even rates have no other zones
@@ -281,8 +284,9 @@ GroupBound::Lanes<CertifiedCells> GroupBound::choose(const Lanes<double>& t,
   }
   Lanes<CertifiedCells> chosen = Search(*this, t, true).run(trials);
   for (std::size_t lane = 0; lane < count_; ++lane) {
-    if (spaces_[lane] != nullptr) {
-      take_if_close(lane, spaces_[lane]->choose(chosen[lane].cells, in_patch(lane, t[lane]), most),
+    SpaceBound* const space = space_of(lane, chosen[lane], kFewestLooked);
+    if (space != nullptr) {
+      take_if_close(lane, space->choose(chosen[lane].cells, in_patch(lane, t[lane]), most),
                     chosen[lane]);
     }
   }

@@ -21,10 +21,12 @@ RateReport certify(const ControlNets<S>& nets, const CellCounts& cells, std::spa
   if (const NetReport checked = find_fault(nets, threads); !checked) {
     return {checked.status, checked.patch};
   }
-  return visit_groups(nets, PatchList(nets.count), {}, isa, threads, [&](const PatchGroup& group) {
+  const auto all_open = [](std::size_t) { return kAllOpen; };
+  const auto visit = [&](const PatchGroup& group) {
     const auto bounds = group.bound().rising_bounds(cells);
     group.for_lanes([&](std::size_t lane, std::size_t patch) { deviation[patch] += bounds[lane]; });
-  });
+  };
+  return visit_groups(nets, PatchList(nets.count), all_open, isa, threads, visit);
 }
 
 } // namespace

@@ -16,12 +16,11 @@ double CurveCells::bound_segment(std::uint32_t i, std::uint32_t n, double enough
             static_cast<double>(i + 1) / n);
   const auto step = static_cast<std::ptrdiff_t>(channels);
   const double rounding = kStepRounding / 2 * n;
-  const NetCorner first{segment_.point(0, 0), points, 1, {step, 0}, curve_.components};
-  const NetCorner last{segment_.point(0, curve_.degree), points, 1, {-step, 0}, curve_.components};
+  const NetCorner first{segment_.point(0), points, 1, {step, 0}, curve_.components};
+  const NetCorner last{segment_.point(curve_.degree), points, 1, {-step, 0}, curve_.components};
   const double moved =
       std::max(i == 0 ? 0 : first.motion(rounding, 0), i + 1 == n ? 0 : last.motion(rounding, 0));
-  const double far =
-      distance_.bound(segment_, FlatSimplex(segment_), std::max(enough, doubt_), stop);
+  const double far = distance_.bound(segment_, Chord(segment_), std::max(enough, doubt_), stop);
   return far + moved + doubt_;
 }
 

@@ -3,14 +3,14 @@
 
 #include <cstdint>
 
-#include "src/mesh/rates/simplex_distance.hpp"
+#include "src/mesh/rates/chord_distance.hpp"
 
 namespace simdbezier::detail {
 
 class CurveCells {
 public:
   /// doubt: what all roundings together may be.
-  CurveCells(SimplexNet curve, double doubt) : curve_(std::move(curve)), doubt_(doubt) {}
+  CurveCells(CurveNet curve, double doubt) : curve_(std::move(curve)), doubt_(doubt) {}
 
   /// Few segments whose bound is at most `stop`, which becomes the bound; `usual` where fewer ones
   /// do not hold.
@@ -19,10 +19,10 @@ public:
 private:
   double bound_segment(std::uint32_t i, std::uint32_t n, double enough, double stop);
 
-  SimplexNet curve_;
+  CurveNet curve_;
   double doubt_;
-  SimplexNet segment_;
-  SimplexDistance distance_;
+  CurveNet segment_;
+  ChordDistance distance_;
 };
 
 } // namespace simdbezier::detail

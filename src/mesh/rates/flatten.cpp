@@ -62,13 +62,13 @@ public:
   }
   /// Fewer segments than `usual`, for which t becomes the bound; or `usual`.
   [[nodiscard]] std::uint32_t fewer_segments(std::uint32_t usual, double& t) const {
-    SimplexNet net;
-    net.resize(points_ - 1, components_, false);
+    CurveNet net;
+    net.resize(points_ - 1, components_);
     for (std::size_t i = 0; i < points_; ++i) {
       for (std::size_t c = 0; c < components_; ++c) {
-        net.point(0, i)[c] = weighted(i, c);
+        net.point(i)[c] = weighted(i, c);
       }
-      net.point(0, i)[components_] = weight_[i];
+      net.point(i)[components_] = weight_[i];
     }
     double bound = t * scale_.inverse() / (kRoundedUp * kRoundedUp);
     const std::uint32_t n =

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/mesh/rates/chord_distance.hpp"
 #include "src/mesh/topology/topology_data.hpp"
 #include "src/runtime/dispatch.hpp"
 #include "src/tables/net_table.hpp"
+#include "src/tables/rate_task.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -14,12 +16,15 @@ namespace {
 /// Roundings of a second difference and of what it is formed from, in units of the largest value.
 constexpr double kDifferenceError = 64 * 0x1p-53;
 
+/// More cells than about these are not looked for: they would take far longer than their vertices.
+constexpr double kMostLooked = 64;
+
 } // namespace
 
 GroupBound::GroupBound(Isa isa) noexcept : kernels_(kernel_table<double>(isa).nets->bounds) {}
 
 template <typename S>
-bool GroupBound::read(const ControlNets<S>& nets, std::size_t patch, std::uint8_t flags) {
+bool GroupBound::read(const ControlNets<S>& nets, std::size_t patch, RateFlags flags) {
   const std::size_t lane = count_++;
   flags_[lane] = flags;
   const bool readable = patches_[lane].read(nets, patch);
@@ -28,8 +33,8 @@ bool GroupBound::read(const ControlNets<S>& nets, std::size_t patch, std::uint8_
   }
   return readable;
 }
-template bool GroupBound::read(const ControlNets<float>&, std::size_t, std::uint8_t);
-template bool GroupBound::read(const ControlNets<double>&, std::size_t, std::uint8_t);
+template bool GroupBound::read(const ControlNets<float>&, std::size_t, RateFlags);
+template bool GroupBound::read(const ControlNets<double>&, std::size_t, RateFlags);
 
 void GroupBound::form() {
   const VectorPatch& first = patches_[0];
@@ -58,9 +63,11 @@ void GroupBound::form() {
   }
   for (std::size_t lane = 0; lane < count_; ++lane) {
     separable_[lane] = bound_separable(patches_[lane]);
-    spaces_[lane] = has_spread_weights(patches_[lane])
-                        ? std::make_unique<SpaceBound>(patches_[lane], flags_[lane])
-                        : nullptr;
+    bends_[lane].reset();
+    spaces_[lane].reset();
+  }
+  if (!samples_.suits(first.net)) {
+    samples_ = BendSamples(3, first.net.columns, first.net.rows);
   }
   kernels_.form(group_, whole_);
 }
@@ -94,19 +101,41 @@ void GroupBound::include_corners(LaneSet lanes, const LaneSegments& segments,
   }
 }
 
-CertifiedCells GroupBound::smaller_as_sets(std::size_t lane, const CertifiedCells& certified,
-                                           bool may_fall) const {
+SpaceBound* GroupBound::space_of(std::size_t lane, const CertifiedCells& usual,
+                                 double least) const {
+  const VectorPatch& patch = patches_[lane];
+  if (!bends_[lane]) {
+    bends_[lane].emplace(samples_, patch);
+  }
+  const double bound = usual.bound * patch.scale.inverse();
+  const double fewest = bends_[lane]->fewest(bound);
+  const bool pays = usual.cells.product() >= least && fewest <= kMostLooked &&
+                    (fewest <= kWorthLooking * usual.cells.product() ||
+                     bends_[lane]->at(usual.cells, 1) <= kWorthLooking * bound);
+  const double spread = weight_spread(patch);
+  if (!(pays || spread > kLeastSpread) || !(spread < kMostSpread)) {
+    return nullptr;
+  }
   if (spaces_[lane] == nullptr) {
+    spaces_[lane] = std::make_unique<SpaceBound>(patch, flags_[lane]);
+  }
+  return spaces_[lane].get();
+}
+
+CertifiedCells GroupBound::smaller_as_sets(std::size_t lane, const CertifiedCells& certified,
+                                           bool may_fall, double enough) const {
+  CertifiedCells least = certified;
+  SpaceBound* const space = certified.bound <= enough ? nullptr : space_of(lane, certified);
+  if (space == nullptr) {
     return certified;
   }
-  CertifiedCells least = certified;
-  take_if_close(
-      lane, spaces_[lane]->certify(certified.cells, in_patch(lane, certified.bound), 0, may_fall),
-      least);
+  take_if_close(lane, space->certify(certified.cells, in_patch(lane, certified.bound), 0, may_fall),
+                least);
   return least;
 }
 
-GroupBound::Lanes<CertifiedCells> GroupBound::certify(const Lanes<CellCounts>& cells) const {
+GroupBound::Lanes<CertifiedCells> GroupBound::certify(const Lanes<CellCounts>& cells,
+                                                      const Lanes<double>& enough) const {
   const LaneSegments segments = segments_of(cells);
   CellBounds bounds;
   kernels_.bound(group_, segments, kAllZones, bounds);
@@ -117,7 +146,7 @@ GroupBound::Lanes<CertifiedCells> GroupBound::certify(const Lanes<CellCounts>& c
         smaller_as_sets(lane,
                         {cells[lane], smaller_in_space(lane, cells[lane], bounds.bound[lane]),
                          static_cast<std::uint16_t>(bounds.falling[lane])},
-                        true);
+                        true, enough[lane]);
   }
   return certified;
 }
@@ -130,7 +159,7 @@ GroupBound::Lanes<double> GroupBound::rising_bounds(const CellCounts& cells) con
   Lanes<double> rising{};
   for (std::size_t lane = 0; lane < count_; ++lane) {
     const CertifiedCells usual{cells, smaller_in_space(lane, cells, bounds.rising[lane]), 0};
-    rising[lane] = smaller_as_sets(lane, usual, false).bound;
+    rising[lane] = smaller_as_sets(lane, usual, false, 0).bound;
   }
   return rising;
 }

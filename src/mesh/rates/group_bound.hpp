@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <simdbezier/isa.hpp>
@@ -36,12 +37,14 @@ public:
   /// Reads the next patch, of the same shape as those before it: false where a control point is not
   /// finite or a weight not positive. Bounds of such a patch have no meaning.
   template <typename S>
-  [[nodiscard]] bool read(const ControlNets<S>& nets, std::size_t patch, std::uint8_t flags);
+  [[nodiscard]] bool read(const ControlNets<S>& nets, std::size_t patch, RateFlags flags);
   /// Ends a group: makes the bounds of its patches known.
   void form();
 
-  /// The certificates of cells, one number of cells a lane.
-  [[nodiscard]] Lanes<CertifiedCells> certify(const Lanes<CellCounts>& cells) const;
+  /// The certificates of cells, one number of cells a lane. Where one is at most `enough`, no
+  /// closer one is looked for.
+  [[nodiscard]] Lanes<CertifiedCells> certify(const Lanes<CellCounts>& cells,
+                                              const Lanes<double>& enough) const;
   /// The bounds where all diagonals run from (0,0) to (1,1), even if others would be better.
   [[nodiscard]] Lanes<double> rising_bounds(const CellCounts& cells) const;
   /// The fewest cells whose bound is at most t > 0, one value a lane; more than `most` in a
@@ -80,9 +83,14 @@ private:
     const double other = separable_[lane].at(cells);
     return in_space(lane, other < bound ? other : bound);
   }
-  /// A certificate with the bound of point sets, if there is one for the lane and it is smaller.
+  /// The bound of point sets, where it may be far below another one of these cells, and there are
+  /// at least so many; or null.
+  [[nodiscard]] SpaceBound* space_of(std::size_t lane, const CertifiedCells& usual,
+                                     double least = 0) const;
+  /// A certificate with the bound of point sets, if that is smaller and the other one
+  /// above `enough`.
   [[nodiscard]] CertifiedCells smaller_as_sets(std::size_t lane, const CertifiedCells& certified,
-                                               bool may_fall) const;
+                                               bool may_fall, double enough) const;
   /// A tolerance in the scale of a lane's patch.
   [[nodiscard]] double in_patch(std::size_t lane, double t) const {
     return t * patches_[lane].scale.inverse() / (kRounding * kRounding);
@@ -101,8 +109,10 @@ private:
   WholePatches whole_{};
   Lanes<VectorPatch> patches_;
   Lanes<SeparableBound> separable_{};
-  Lanes<std::unique_ptr<SpaceBound>> spaces_; ///< of patches whose weights are far apart
-  Lanes<std::uint8_t> flags_{};
+  BendSamples samples_;
+  mutable Lanes<std::optional<NormalBends>> bends_; ///< these two where they have been asked for
+  mutable Lanes<std::unique_ptr<SpaceBound>> spaces_;
+  Lanes<RateFlags> flags_{};
   std::size_t count_ = 0;
   std::vector<LaneValues> memory_; ///< kept from one group to the next
 };

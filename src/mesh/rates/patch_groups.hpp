@@ -65,12 +65,10 @@ private:
 };
 
 /// Calls visit(group) for patches of a view, some at a time, in parallel; the report names the
-/// first of them at fault. flags: of all patches of the view, see TopologyData; none where no
-/// diagonal is forced.
-template <typename S, typename Visit>
+/// first of them at fault. flags_of(patch): its RateFlags.
+template <typename S, typename FlagsOf, typename Visit>
 RateReport visit_groups(const ControlNets<S>& nets, const PatchList& patches,
-                        std::span<const std::uint8_t> flags, Isa isa, int threads,
-                        const Visit& visit) {
+                        const FlagsOf& flags_of, Isa isa, int threads, const Visit& visit) {
   constexpr std::size_t kNanoseconds = 2000; // a patch
   std::vector<Status> found(patches.size(), Status::ok);
   auto body = [&](int, std::size_t begin, std::size_t end) noexcept {
@@ -82,9 +80,8 @@ RateReport visit_groups(const ControlNets<S>& nets, const PatchList& patches,
         for (std::size_t lane = 0; lane < count; ++lane) {
           const std::size_t patch = patches[k + lane];
           // A quotient of values without faults may be out of range.
-          found[k + lane] = bound.read(nets, patch, flags.empty() ? std::uint8_t{0} : flags[patch])
-                                ? Status::ok
-                                : Status::non_finite_input;
+          found[k + lane] =
+              bound.read(nets, patch, flags_of(patch)) ? Status::ok : Status::non_finite_input;
         }
         bound.form();
         visit(PatchGroup(bound, patches, k, std::span(found).subspan(k, count)));

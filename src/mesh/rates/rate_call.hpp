@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <simdbezier/rates.hpp>
@@ -34,11 +35,11 @@ public:
   /// isa: one that is there, for options.isa.
   RateCall(std::span<const ControlNets<S>> nets, const Topology& topology,
            const RateOptions& options, Isa isa, const CertifiedRates& out)
-      : nets_(nets), flags_(topology.data()->flags), options_(options), isa_(isa),
+      : nets_(nets), topology_(*topology.data()), options_(options), isa_(isa),
         errors_(options.errors), out_(out),
         most_(std::clamp(options.most_segments, 1U, kMostSegments)) {
-    if (!topology.data()->displacement.empty()) { // of these nets, which may have moved since then
-      displacement_ = find_displacements(NetCorners<S>(nets), *topology.data());
+    if (!topology_.displacement.empty()) { // of these nets, which may have moved since then
+      displacement_ = find_displacements(NetCorners<S>(nets), topology_);
       own_errors_ = displacement_;
       for (std::size_t patch = 0; patch < errors_.size(); ++patch) {
         own_errors_[patch] += errors_[patch];
@@ -65,7 +66,7 @@ public:
     if (const RateReport checked = find_faults(); !checked) {
       return checked;
     }
-    const RateReport ran = run_kernels(true);
+    const RateReport ran = run_kernels(true, kFewestLooked);
     if (!ran) {
       return ran;
     }
@@ -131,13 +132,15 @@ public:
       }
     }
     const RateReport checked = find_faults();
-    return checked ? certify() : checked;
+    return checked ? certify(true) : checked;
   }
 
   /// Forms the certificate of the rates that are there: the kernel's, and where that one is coarser
   /// than the tolerance by which GroupBound may have chosen them, GroupBound's.
-  RateReport certify() {
-    const RateReport ran = run_kernels(false);
+  /// closest: whether closer bounds are looked for where those do.
+  RateReport certify(bool closest = false) {
+    constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
+    const RateReport ran = run_kernels(false, closest ? 0 : kNever);
     if (!ran) {
       return ran;
     }
@@ -146,7 +149,11 @@ public:
              !(deviations_[patch] <= wanted(patch));
     };
     return for_groups(is_open, [&](const PatchGroup& open) {
-      const Lanes<CertifiedCells> certified = open.bound().certify(rates(open));
+      Lanes<double> enough{};
+      open.for_lanes([&](std::size_t lane, std::size_t patch) {
+        enough[lane] = closest ? 0 : tolerance(patch);
+      });
+      const Lanes<CertifiedCells> certified = open.bound().certify(rates(open), enough);
       open.for_lanes([&](std::size_t lane, std::size_t patch) { put(patch, certified[lane]); });
     });
   }
@@ -159,7 +166,16 @@ private:
     return nets.degree_u == 3 && nets.degree_v == 3 && nets.weights == Weights::none;
   }
   [[nodiscard]] bool has_corner(std::size_t patch) const {
-    return has_forced_diagonal(flags_[patch]);
+    return has_forced_diagonal(topology_.flags[patch]);
+  }
+  [[nodiscard]] RateFlags flags_of(std::size_t patch) const {
+    RateFlags flags = topology_.flags[patch];
+    for (std::size_t side = 0; side < kPatchEdges; ++side) {
+      const Side at = topology_.sides[kPatchEdges * patch + side];
+      const bool open = !at.collapsed() && topology_.sides_of(at.edge()).size() == 1;
+      flags = static_cast<RateFlags>(flags | (open ? kOpenSide << side : 0));
+    }
+    return flags;
   }
   [[nodiscard]] double error(std::size_t patch) const {
     return errors_.empty() ? 0 : errors_[patch];
@@ -207,7 +223,7 @@ private:
     return {};
   }
 
-  RateReport run_kernels(bool choose) {
+  RateReport run_kernels(bool choose, std::uint32_t fewest_looked) {
     std::size_t first = 0;
     Options run;
     run.threads = options_.threads;
@@ -217,6 +233,7 @@ private:
         RateTask<S> task{};
         task.in = view_of(nets);
         task.choose = choose;
+        task.fewest_looked = fewest_looked;
         task.tolerance = options_.tolerance;
         task.tolerances = options_.tolerances.empty() ? nullptr : &options_.tolerances[first];
         task.errors = errors_.empty() ? nullptr : &errors_[first];
@@ -249,8 +266,8 @@ private:
         }
       }
       const RateReport report = visit_groups(
-          nets, PatchList(open), std::span(flags_).subspan(first), isa_, options_.threads,
-          [&](const PatchGroup& group) { visit(group.shifted(first)); });
+          nets, PatchList(open), [&](std::size_t patch) { return flags_of(first + patch); }, isa_,
+          options_.threads, [&](const PatchGroup& group) { visit(group.shifted(first)); });
       if (!report) {
         return {report.status, first + report.patch};
       }
@@ -260,7 +277,7 @@ private:
   }
 
   std::span<const ControlNets<S>> nets_;
-  const std::vector<std::uint8_t>& flags_;
+  const TopologyData& topology_;
   const RateOptions& options_;
   Isa isa_;
   std::vector<double> displacement_; ///< by snapping; may be empty

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "src/mesh/rates/chord_distance.hpp"
 #include "src/mesh/topology/topology_data.hpp"
 #include "src/tables/rate_task.hpp"
 
@@ -12,103 +13,78 @@ namespace simdbezier::detail {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kChannels = 4;
-
-/// Halvings of sides at the patch's ends, whose bounds are to be the same for turned patches.
-constexpr std::size_t kEndLevels = 4;
 
 /// A vertex is off by so much of the parameter's range.
 constexpr double kVertexRounding = kStepRounding / 2;
+/// A bound may be above what points of the surface ask for by this factor.
+constexpr double kCloseEnough = 1.125;
+/// What sides add may be above that by this share of what is enough for the cell.
+constexpr double kSideShare = 1.0 / 16;
+/// Of one cell; what is left then is bounded by its control points.
+constexpr std::size_t kMostHalvings = 2000;
+constexpr std::size_t kMostSideHalvings = 200;
 
-double binomial(std::size_t n, std::size_t k) {
-  double product = 1;
-  for (std::size_t i = 0; i < k; ++i) {
-    product = product * static_cast<double>(n - i) / static_cast<double>(i + 1);
-  }
-  return product;
-}
+/// In each direction.
+constexpr std::size_t kBendSamples = 9;
 
-/// The quotient t / (1 - t) where a curve passes the middle between its ends; 0 where these are one
-/// point. Points are `step` values apart.
-double middle_of(const double* points, std::size_t count, std::size_t step) {
-  const double* const last = points + (count - 1) * step;
-  double ahead[kMostDegree + 1] = {}; // of the middle: a polynomial in the quotient
-  for (std::size_t c = 0; c + 1 < kChannels; ++c) {
-    const double from = points[c] / points[kChannels - 1];
-    const double to = last[c] / last[kChannels - 1];
-    for (std::size_t k = 0; k < count; ++k) {
-      const double* const point = points + k * step;
-      ahead[k] += (point[c] / point[kChannels - 1] - (from + to) / 2) * (to - from);
+/// The largest second difference of some rows in channels [begin, end).
+double largest_bend(const double* points, std::size_t count, std::size_t step, std::size_t lines,
+                    std::size_t line_step, std::size_t begin, std::size_t end) {
+  double most = 0;
+  for (std::size_t line = 0; line < lines; ++line) {
+    for (std::size_t k = 0; k + 2 < count; ++k) {
+      const double* const at = points + line * line_step + k * step;
+      for (std::size_t c = begin; c < end; ++c) {
+        most = std::max(most, std::fabs(at[c] - 2 * at[c + step] + at[c + 2 * step]));
+      }
     }
   }
-  if (!(ahead[0] < 0)) {
-    return 0;
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    ahead[k] *= binomial(count - 1, k) * points[k * step + kChannels - 1];
-  }
-  double low = 0x1p-60;
-  double high = 0x1p60;
-  for (int halvings = 0; halvings < 40; ++halvings) {
-    const double middle = std::sqrt(low * high);
-    double sum = 0;
-    for (std::size_t k = count; k-- > 0;) {
-      sum = sum * middle + ahead[k];
-    }
-    (sum < 0 ? low : high) = middle;
-  }
-  return std::sqrt(low * high);
+  return most;
 }
 
-/// A mean of the two, without those that are 0.
-double common(double a, double b) {
-  return a == 0 && b == 0 ? 1 : a == 0 ? b : b == 0 ? a : std::sqrt(a * b);
+/// Lets the next corner be one with another one if they are so close, and returns how close:
+/// quadrangles with a side that is hardly more than a point need not be convex.
+double join_corners(std::array<const double*, 4>& corners, double close) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double* const a = corners[k];
+    const double*& b = corners[(k + 1) % 4];
+    double square = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double d = a[c] / a[3] - b[c] / b[3];
+      square += d * d;
+    }
+    if (square > 0 && square <= close * close) {
+      b = a;
+      return std::sqrt(square);
+    }
+  }
+  return 0;
 }
 
 } // namespace
 
-bool has_spread_weights(const VectorPatch& patch) {
+double weight_spread(const VectorPatch& patch) {
   if (!patch.rational) {
-    return false;
+    return 1;
   }
-  double low = kInfinity;
-  double high = 0;
-  for (const ControlVector& v : patch.net.at) {
-    low = std::min(low, v.x[3]);
-    high = std::max(high, v.x[3]);
-  }
-  return high > kLeastSpread * low && high < kMostSpread * low;
+  const auto [low, high] =
+      std::minmax_element(patch.net.at.begin(), patch.net.at.end(),
+                          [](const auto& a, const auto& b) { return a.x[3] < b.x[3]; });
+  return high->x[3] / low->x[3];
 }
 
-SpaceBound::SpaceBound(const VectorPatch& patch, std::uint8_t flags)
-    : columns_(patch.net.columns), rows_(patch.net.rows), flags_(flags),
-      work_(static_cast<double>(columns_ * columns_ * rows_ * rows_)) {
+SpaceBound::SpaceBound(const VectorPatch& patch, RateFlags flags, const PatchTurn& turn)
+    : turn_(turn), columns_(patch.net.columns), rows_(patch.net.rows), flags_(flags),
+      work_(static_cast<double>(columns_ * columns_ * rows_ * rows_)),
+      spread_(weight_spread(patch) > kLeastSpread),
+      bends_(BendSamples(kBendSamples, columns_, rows_), patch) {
   double heaviest = 0;
   for (const ControlVector& v : patch.net.at) {
     net_.insert(net_.end(), v.x, v.x + kChannels);
     heaviest = std::max(heaviest, v.x[3]);
   }
   doubt_ = kPointSetDoubt * patch.largest / heaviest;
-  // The triangle of (0,0), (1,1) and (1,0), whose points take i, j and k of their arguments from
-  // these: the patch's polar form has `a` of i, `b` of j and `c` of k in u, and the others in v.
-  const std::size_t m = columns_ - 1;
-  const std::size_t n = rows_ - 1;
-  raised_.assign((m + n + 1) * (m + n + 2) / 2 * columns_ * rows_, 0);
-  double* to = raised_.data();
-  for (std::size_t k = 0; k <= m + n; ++k) {
-    for (std::size_t j = 0; j + k <= m + n; ++j, to += columns_ * rows_) {
-      const std::size_t i = m + n - j - k;
-      for (std::size_t b = 0; b <= std::min(j, m); ++b) {
-        for (std::size_t c = 0; c <= std::min(k, m - b); ++c) {
-          const std::size_t a = m - b - c;
-          if (a <= i) {
-            to[(j - b) * columns_ + b + c] +=
-                binomial(i, a) * binomial(j, b) * binomial(k, c) / binomial(m + n, m);
-          }
-        }
-      }
-    }
-  }
+  pieces_.resize((kDeepest + 1) * net_.size());
 }
 
 void SpaceBound::take_row(std::uint32_t j, std::uint32_t nv) {
@@ -124,27 +100,6 @@ void SpaceBound::take_cell(std::uint32_t i, std::uint32_t nu) {
   for (std::size_t j = 0; j < rows_; ++j) {
     cut_curve(cell_.data() + j * columns_ * kChannels, columns_, kChannels, kChannels,
               static_cast<double>(i) / nu, static_cast<double>(i + 1) / nu);
-  }
-}
-
-/// Lets both directions of a cell run evenly, by weights that move no point of its surface: the
-/// factors x^k of control points move parameters alone. Halves of a cell are compared with
-/// triangles where they are close to them, then.
-void SpaceBound::even_out() {
-  const std::size_t row = columns_ * kChannels;
-  const double* const cell = cell_.data();
-  const double x[2] = {
-      common(middle_of(cell, columns_, kChannels),
-             middle_of(cell + (rows_ - 1) * row, columns_, kChannels)),
-      common(middle_of(cell, rows_, row), middle_of(cell + row - kChannels, rows_, row))};
-  double across = 1;
-  for (std::size_t j = 0; j < rows_; ++j, across *= x[1]) {
-    double factor = across;
-    for (std::size_t i = 0; i < columns_; ++i, factor *= x[0]) {
-      for (std::size_t c = 0; c < kChannels; ++c) {
-        cell_[j * row + i * kChannels + c] *= factor;
-      }
-    }
   }
 }
 
@@ -170,91 +125,174 @@ double SpaceBound::motion(std::uint32_t i, std::uint32_t j, const CellCounts& ce
   return most;
 }
 
-/// Takes the triangle of a cell with the corners (0,0), (1,1) and (1,0), where u (flip 1) and v
-/// (flip 2) are counted from the other end.
-void SpaceBound::take_half(unsigned flip, SimplexNet& half) const {
-  const bool flip_u = (flip & 1) != 0;
-  const bool flip_v = (flip & 2) != 0;
-  half.resize(columns_ + rows_ - 2, kChannels - 1, true);
-  const double* factor = raised_.data();
-  for (double* to = half.at.data(); to != half.at.data() + half.at.size(); to += kChannels) {
-    std::fill_n(to, kChannels, 0.0);
-    for (std::size_t row = 0; row < rows_; ++row) {
-      for (std::size_t column = 0; column < columns_; ++column, ++factor) {
-        const double* const from = cell_.data() + ((flip_v ? rows_ - 1 - row : row) * columns_ +
-                                                   (flip_u ? columns_ - 1 - column : column)) *
-                                                      kChannels;
-        for (std::size_t c = 0; c < kChannels; ++c) {
-          to[c] += *factor * from[c];
-        }
-      }
+/// What the distances of a piece come to: docs/tessellation.md has the cases.
+double SpaceBound::Look::total(const GraphDistance& piece) const {
+  const double shift = std::max(cut.outside, cut.inside);
+  const double across = std::max({piece.outside + cut.inside, inside + shift, shift});
+  const double along = std::max(piece.above + cut.below, piece.below + cut.above);
+  const double steep = along + graph.slope() * (std::max(piece.outside, inside) + shift);
+  return std::sqrt(steep * steep + across * across);
+}
+
+/// Whether halves along u are flatter than those along v.
+bool SpaceBound::halve_along_u(const double* net, bool across) const {
+  const std::size_t row = columns_ * kChannels;
+  const std::size_t begin = across ? 0 : 2;
+  const std::size_t end = across ? 2 : 3;
+  const double u = largest_bend(net, columns_, kChannels, rows_, row, begin, end);
+  const double v = largest_bend(net, rows_, row, columns_, kChannels, begin, end);
+  const double* const corner[4] = {net, net + row - kChannels, net + (rows_ - 1) * row,
+                                   net + rows_ * row - kChannels};
+  double twist = 0;
+  double length[2] = {0, 0};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double along_u = corner[1][c] - corner[0][c];
+    const double along_v = corner[2][c] - corner[0][c];
+    twist += c >= begin && c < end ? std::fabs(corner[3][c] - corner[2][c] - along_u) : 0;
+    length[0] += std::fabs(along_u) + std::fabs(corner[3][c] - corner[2][c]);
+    length[1] += std::fabs(along_v) + std::fabs(corner[3][c] - corner[1][c]);
+  }
+  return std::max(u, v) > twist ? u > v : length[0] > length[1];
+}
+
+/// Of the piece in a level's place, whose later half takes that place.
+double SpaceBound::bound_piece(Look& look, std::size_t level, std::size_t depth) {
+  ++looked_at_;
+  double* const net = piece(level);
+  const GraphDistance measured = look.graph.of_hull(net, columns_ * rows_);
+  const double total = look.total(measured);
+  if (total <= look.enough) {
+    return total;
+  }
+  for (const std::size_t corner :
+       {std::size_t{0}, columns_ - 1, columns_ * (rows_ - 1), columns_ * rows_ - 1}) {
+    look.found = std::max(look.found, look.total(look.graph.of_hull(net + corner * kChannels, 1)));
+  }
+  if (look.found > look.stop) {
+    return kInfinity;
+  }
+  if (total <= kCloseEnough * look.found || depth == kDeepest || look.halvings == kMostHalvings) {
+    look.enough = std::max(look.enough, total);
+    return total;
+  }
+  ++look.halvings;
+  const std::size_t row = columns_ * kChannels;
+  if (halve_along_u(net, measured.outside > std::max(measured.above, measured.below))) {
+    for (std::size_t j = 0; j < rows_; ++j) {
+      halve_rows(net + j * row, piece(level + 1) + j * row, columns_, kChannels, kChannels);
+    }
+  } else {
+    halve_rows(net, piece(level + 1), rows_, row, row);
+  }
+  const double most = bound_piece(look, level + 1, depth + 1);
+  return most <= look.stop ? std::max(most, bound_piece(look, level, depth + 1)) : most;
+}
+
+/// Of a piece of a side.
+GraphDistance SpaceBound::bound_side(const Look& look, SideLook& side, std::size_t level,
+                                     std::size_t depth) {
+  double* const points = piece(level);
+  const GraphDistance measured = look.graph.from_side(side.side, points, side.points);
+  side.found.include(look.graph.from_side(side.side, points, 1));
+  const double enough = look.enough * kSideShare;
+  const auto is_close = [&](double bound, double found) {
+    return bound <= std::max(enough, kCloseEnough * found);
+  };
+  const bool close = is_close(measured.inside, side.found.inside) &&
+                     (!side.is_cut || (is_close(measured.outside, side.found.outside) &&
+                                       is_close(measured.above, side.found.above) &&
+                                       is_close(measured.below, side.found.below)));
+  if (close || depth == kDeepest || side.halvings == kMostSideHalvings) {
+    return measured;
+  }
+  ++side.halvings;
+  halve_rows(points, piece(level + 1), side.points, kChannels, kChannels);
+  GraphDistance most = bound_side(look, side, level + 1, depth + 1);
+  most.include(bound_side(look, side, level, depth + 1));
+  return most;
+}
+
+/// All sides of the cell in the first level's place.
+void SpaceBound::bound_sides(const bool (&is_cut)[4], bool falling, Look& look) {
+  const std::size_t row = columns_ * kChannels;
+  const double* const net = piece(0);
+  const double* const first[4] = {net, net + row - kChannels, net + (rows_ - 1) * row, net};
+  for (std::size_t k = 0; k < 4; ++k) { // at v = 0, u = 1, v = 1, u = 0
+    const bool along_u = k % 2 == 0;
+    SideLook side{(falling ? k + 3 : k) % 4, along_u ? columns_ : rows_, is_cut[k]};
+    for (std::size_t i = 0; i < side.points; ++i) {
+      std::copy_n(first[k] + i * (along_u ? kChannels : row), kChannels, piece(1) + i * kChannels);
+    }
+    const GraphDistance found = bound_side(look, side, 1, 1);
+    look.inside = std::max(look.inside, found.inside);
+    if (is_cut[k]) {
+      look.cut.include(found);
     }
   }
 }
 
-/// A side of a triangle: 0 and 1 along u and v, 2 the diagonal.
-void SpaceBound::take_side(const SimplexNet& half, std::size_t side) {
-  const std::size_t degree = half.degree;
-  side_.resize(degree, kChannels - 1, false);
-  for (std::size_t k = 0; k <= degree; ++k) {
-    const double* const from = side == 2   ? half.point(0, k)
-                               : side == 0 ? half.point(k, 0)
-                                           : half.point(k, degree - k);
-    std::copy_n(from, kChannels, side_.point(0, k));
-  }
+/// The middle of the cell in the first level's place.
+const double* SpaceBound::turned_middle() {
+  const std::size_t row = columns_ * kChannels;
+  std::copy_n(piece(0), net_.size(), piece(1));
+  halve_rows(piece(1), piece(2), rows_, row, row);
+  halve_rows(piece(1), piece(2), columns_, kChannels, kChannels);
+  return piece(1);
 }
 
 /// The two triangles of a cell.
-double SpaceBound::bound_halves(std::uint32_t i, std::uint32_t j, const CellCounts& cells,
-                                bool falling, double enough, double stop) {
-  const unsigned flips[2] = {falling ? 1U : 0U, falling ? 2U : 3U};
-  double leg[2] = {kInfinity, kInfinity}; // the shorter one of each triangle
-  double sides = 0;
-  double cut = 0; // what vertices of neighbours may be off
-  for (std::size_t k = 0; k < 2; ++k) {
-    take_half(flips[k], halves_[k]);
-    const bool flip_u = (flips[k] & 1) != 0;
-    const bool flip_v = (flips[k] & 2) != 0;
-    const bool at_end[2] = {flip_v ? j + 1 == cells.nv : j == 0,
-                            flip_u ? i == 0 : i + 1 == cells.nu};
-    for (std::size_t side = 0; side < 2; ++side) {
-      take_side(halves_[k], side);
-      const FlatSimplex segment(side_);
-      leg[k] = std::min(leg[k], segment.length());
-      const double found = at_end[side]
-                               ? distance_.bound(side_, segment, doubt_, kInfinity, kEndLevels)
-                               : distance_.bound(side_, segment, enough, stop);
-      sides = std::max(sides, found);
-      cut = at_end[side] ? std::max(cut, found) : cut;
+double SpaceBound::bound_triangles(std::uint32_t i, std::uint32_t j, const CellCounts& cells,
+                                   bool falling, double enough, double stop) {
+  const std::size_t row = columns_ * kChannels;
+  const double* const net = cell_.data();
+  const double* const around[4] = {net, net + row - kChannels, net + rows_ * row - kChannels,
+                                   net + (rows_ - 1) * row};
+  std::array<const double*, 4> corners;
+  for (std::size_t k = 0; k < 4; ++k) {
+    corners[k] = around[(k + (falling ? 1 : 0)) % 4];
+  }
+  Look look{{}, enough, stop};
+  double moved = 0;
+  if (!look.graph.set(corners, doubt_)) {
+    moved = join_corners(corners, enough * kSideShare);
+    look.stop -= moved;
+    if (moved == 0 || !look.graph.set(corners, doubt_)) {
+      return kInfinity;
     }
   }
-  if (!(sides + cut <= stop)) {
+  for (std::size_t k = 0; k < net_.size(); k += kChannels) {
+    look.graph.turn(net + k, piece(0) + k);
+  }
+  look.found = look.total(look.graph.of_hull(turned_middle(), 1));
+  if (look.found > look.stop) {
     return kInfinity;
   }
-  const FlatSimplex triangles[2] = {FlatSimplex(halves_[0]), FlatSimplex(halves_[1])};
-  const auto both = [&](std::size_t first, std::size_t second, double least, double limit) {
-    double most = least;
-    for (std::size_t k = 0; k < 2 && most + cut <= limit; ++k) {
-      most = std::max(most, distance_.bound(halves_[k], triangles[k == 0 ? first : second],
-                                            std::max(enough - cut, doubt_), limit - cut));
-    }
-    return most + cut <= limit ? most + cut : kInfinity;
+  const auto is_cut = [&](PatchEdge side, bool at_end) {
+    return at_end && (flags_ & kOpenSide << static_cast<unsigned>(side)) == 0;
   };
-  take_side(halves_[0], 2);
-  double least =
-      both(0, 1, std::max(sides, distance_.bound(side_, FlatSimplex(side_), enough, stop)), stop);
-  for (std::size_t k = 0; k < 2; ++k) { // a triangle that is nearly a side of the other one
-    const double limit = std::min(stop, least);
-    if (sides + leg[k] + cut < limit) {
-      least = std::min(least, both(1 - k, 1 - k, sides + leg[k], limit));
+  bound_sides({is_cut(PatchEdge::v0, j == 0), is_cut(PatchEdge::u1, i + 1 == cells.nu),
+               is_cut(PatchEdge::v1, j + 1 == cells.nv), is_cut(PatchEdge::u0, i == 0)},
+              falling, look);
+  return bound_piece(look, 0, 0) + moved;
+}
+
+/// How far no point is from a corner, which the surface and all triangles have in common.
+double SpaceBound::radius() const {
+  const double* const net = cell_.data();
+  double most = 0;
+  for (const double* point = net; point != net + net_.size(); point += kChannels) {
+    double square = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double d = point[c] / point[3] - net[c] / net[3];
+      square += d * d;
     }
+    most = std::max(most, square);
   }
-  return least;
+  return std::sqrt(most);
 }
 
 double SpaceBound::bound_cell(std::uint32_t i, std::uint32_t j, const CellCounts& cells,
                               bool falling, double enough, double stop) {
-  ++looked_at_;
   bool ways[2] = {!falling, falling};
   if (has_forced_diagonal(flags_)) {
     bool forced[2] = {false, false};
@@ -267,17 +305,22 @@ double SpaceBound::bound_cell(std::uint32_t i, std::uint32_t j, const CellCounts
       std::copy_n(forced, 2, ways);
     }
   }
+  const double small = radius();
+  if (small <= enough) {
+    return small;
+  }
   double most = 0;
   for (unsigned way = 0; way < 2; ++way) {
     if (ways[way] && most <= stop) {
-      most = std::max(most, bound_halves(i, j, cells, way == 1, std::max(enough, doubt_), stop));
+      most = std::max(most, bound_triangles(i, j, cells, way == 1, std::max(enough, doubt_), stop));
     }
   }
-  return most;
+  return std::min(most, small);
 }
 
 double SpaceBound::bound_range(const Range& u, const Range& v, const CellCounts& cells,
-                               bool falling, double enough, double stop) {
+                               bool falling, double enough, double stop,
+                               std::array<double, 2>& miss) {
   double most = 0;
   double moved = 0;
   for (std::uint32_t j = v.begin; j < v.end; ++j) {
@@ -285,10 +328,9 @@ double SpaceBound::bound_range(const Range& u, const Range& v, const CellCounts&
     for (std::uint32_t i = u.begin; i < u.end; ++i) {
       take_cell(i, cells.nu);
       moved = std::max(moved, motion(i, j, cells));
-      even_out();
       most = std::max(most, bound_cell(i, j, cells, falling, std::max(enough, most), stop));
-      if (!(most + moved <= stop)) {
-        misses_[falling ? 1 : 0] = {(i + 0.5) / cells.nu, (j + 0.5) / cells.nv};
+      if (!(most + moved <= stop && looked_at_ <= most_looks_)) {
+        miss = {(i + 0.5) / cells.nu, (j + 0.5) / cells.nv};
         return kInfinity;
       }
     }

@@ -1,6 +1,5 @@
 // See space_bound.hpp: all cells of a patch, and the fewest that hold.
 #include <algorithm>
-#include <bit>
 #include <limits>
 
 #include <simdbezier/mesh_layout.hpp>
@@ -11,8 +10,14 @@
 namespace simdbezier::detail {
 namespace {
 
-/// Cells, in units of an operation for each pair of control points: of which some take 0.5 s.
-constexpr double kMostWork = 0x1p24;
+/// Pieces, in units of an operation for each pair of control points: of which some take 0.1 s.
+constexpr double kMostWork = 0x1p26;
+/// Pieces may be looked at so many times for each cell that is expected, and at first.
+constexpr double kLooksForEach = 8;
+constexpr double kFirstLooks = 512;
+/// Triangles may be closer than second derivatives at samples tell by this factor, where cells are
+/// small.
+constexpr double kBendSlack = 1.05;
 
 /// Of Zone, by the number of a cell among n.
 unsigned place_of(std::uint32_t i, std::uint32_t n) {
@@ -31,10 +36,21 @@ SpaceBound::Range SpaceBound::range_of(unsigned place, std::uint32_t n) {
 
 CertifiedCells SpaceBound::certify(const CellCounts& cells, double stop, double enough,
                                    bool may_fall) {
-  if (!(cells.product() * work_ <= kMostWork)) {
+  looked_at_ = 0;
+  most_looks_ = kMostWork / work_;
+  CertifiedCells found = look_at(turn_.turned(cells), stop, enough, may_fall);
+  found.cells = cells;
+  return found;
+}
+
+/// Cells of the turned patch, with the diagonals of the patch itself.
+CertifiedCells SpaceBound::look_at(const CellCounts& cells, double stop, double enough,
+                                   bool may_fall) {
+  if (!(cells.product() <= most_looks_)) {
     return uncertified(cells);
   }
   CertifiedCells all{cells, 0, 0};
+  const bool first = !may_fall && turn_.exchanges_diagonals(); // whether it falls
   for (unsigned zone = 0; zone < kZoneCount; ++zone) {
     const Range u = range_of(zone % 3, cells.nu);
     const Range v = range_of(zone / 3, cells.nv);
@@ -42,14 +58,18 @@ CertifiedCells SpaceBound::certify(const CellCounts& cells, double stop, double 
       continue;
     }
     const double least = std::max(enough, all.bound);
-    const double rising = bound_range(u, v, cells, false, least, stop);
-    const double falling = may_fall && rising > least
-                               ? bound_range(u, v, cells, true, least, std::min(stop, rising))
-                               : std::numeric_limits<double>::infinity();
+    Miss miss{};
+    const double one = bound_range(u, v, cells, first, least, stop, miss[0]);
+    const double other = may_fall && one > least
+                             ? bound_range(u, v, cells, !first, least, std::min(stop, one), miss[1])
+                             : std::numeric_limits<double>::infinity();
+    const bool falls = (other < one ? !first : first) != turn_.exchanges_diagonals();
     all.diagonals =
-        static_cast<std::uint16_t>(all.diagonals | (falling < rising ? 1U << zone : 0U));
-    all.bound = std::max(all.bound, std::min(rising, falling));
+        static_cast<std::uint16_t>(all.diagonals | (falls ? 1U << turn_.zone_of(zone) : 0U));
+    all.bound = std::max(all.bound, std::min(one, other));
     if (!(all.bound <= stop)) {
+      misses_.insert(misses_.begin(), miss);
+      misses_.resize(std::min(misses_.size(), kMostMisses));
       return uncertified(cells);
     }
   }
@@ -57,64 +77,78 @@ CertifiedCells SpaceBound::certify(const CellCounts& cells, double stop, double 
   return all;
 }
 
-/// Whether the cells where others have not held do not hold either.
+/// Whether cells do not hold where others have not held.
 bool SpaceBound::misses(const CellCounts& cells, double stop) {
-  std::uint32_t at[2][2];
-  for (std::size_t way = 0; way < 2; ++way) {
-    at[way][0] = static_cast<std::uint32_t>(misses_[way][0] * cells.nu);
-    at[way][1] = static_cast<std::uint32_t>(misses_[way][1] * cells.nv);
-  }
-  if (place_of(at[0][0], cells.nu) != place_of(at[1][0], cells.nu) ||
-      place_of(at[0][1], cells.nv) != place_of(at[1][1], cells.nv)) {
-    return false; // these may have different diagonals
-  }
-  for (std::size_t way = 0; way < 2; ++way) {
-    take_row(at[way][1], cells.nv);
-    take_cell(at[way][0], cells.nu);
-    even_out();
-    if (bound_cell(at[way][0], at[way][1], cells, way == 1, stop, stop) <= stop) {
-      return false;
+  const auto fails = [&](const Miss& miss) {
+    std::uint32_t at[2][2];
+    for (std::size_t way = 0; way < 2; ++way) {
+      at[way][0] = static_cast<std::uint32_t>(miss[way][0] * cells.nu);
+      at[way][1] = static_cast<std::uint32_t>(miss[way][1] * cells.nv);
     }
+    if (place_of(at[0][0], cells.nu) != place_of(at[1][0], cells.nu) ||
+        place_of(at[0][1], cells.nv) != place_of(at[1][1], cells.nv)) {
+      return false; // these may have different diagonals
+    }
+    bool all = true;
+    for (std::size_t way = 0; all && way < 2; ++way) {
+      take_row(at[way][1], cells.nv);
+      take_cell(at[way][0], cells.nu);
+      all = !(bound_cell(at[way][0], at[way][1], cells, way == 1, stop, stop) <= stop);
+    }
+    return all;
+  };
+  const auto first = std::find_if(misses_.begin(), misses_.end(), fails);
+  const bool found = first != misses_.end();
+  if (found) {
+    std::rotate(misses_.begin(), first, first + 1);
   }
-  return true;
+  return found;
+}
+
+/// Whether second derivatives tell that cells are too few.
+bool SpaceBound::are_too_few(const CellCounts& cells, double stop) const {
+  const std::uint32_t few = static_cast<std::uint32_t>(std::max(columns_, rows_)) + 1;
+  return !spread_ && bends_.at(cells, few) > kBendSlack * stop;
 }
 
 CertifiedCells SpaceBound::choose(const CellCounts& usual, double stop, std::uint32_t most) {
-  std::vector<CellCounts> candidates;
-  const auto count = [](std::uint32_t k) { return k < 4 ? k : (4 + k % 4) << (k / 4 - 1); };
-  for (std::uint32_t u = 1; count(u) <= most; ++u) {
-    for (std::uint32_t v = 1; count(v) <= most; ++v) {
-      const CellCounts cells{count(u), count(v)};
-      if (cells.product() < usual.product() && cells.product() * work_ <= kMostWork) {
-        candidates.push_back(cells);
-      }
-    }
-  }
-  std::sort(candidates.begin(), candidates.end(), [](const CellCounts& a, const CellCounts& b) {
-    return a.product() < b.product() || (a.product() == b.product() && a.nu < b.nu);
-  });
+  const auto count = [](std::uint32_t k) { return k < 8 ? k : (8 + k % 8) << (k / 8 - 1); };
   looked_at_ = 0;
-  CertifiedCells best = uncertified(usual);
-  for (const bool powers :
-       {true, false}) { // at first those of two, which are at most 4-fold too many
-    const double least = powers ? 0 : best.cells.product() / 4;
-    for (const CellCounts& cells : candidates) {
-      if (cells.product() >= best.cells.product() || looked_at_ * work_ > kMostWork) {
-        break;
-      }
-      const bool counts = powers ? std::has_single_bit(cells.nu) && std::has_single_bit(cells.nv)
-                                 : cells.product() > least;
-      if (counts && !misses(cells, stop)) {
-        const CertifiedCells found = certify(cells, stop, stop);
-        best = found.bound <= stop ? found : best;
+  const double expected = spread_ ? usual.product() : 4 * bends_.fewest(stop) + 1;
+  most_looks_ = std::min(kMostWork / work_,
+                         kLooksForEach * std::min(usual.product(), expected) + kFirstLooks);
+  const double all = std::min(usual.product(), most_looks_);
+  misses_.assign(1, {{{0.5, 0.5}, {0.5, 0.5}}});
+  std::vector<CellCounts> candidates;
+  for (double least = 1; least < all; least *= 2) {
+    candidates.clear();
+    for (std::uint32_t u = 1; count(u) <= std::min<double>(most, 2 * least); ++u) {
+      for (std::uint32_t v = 1; count(v) <= most; ++v) {
+        const CellCounts cells{count(u), count(v)};
+        if (cells.product() >= std::min(all, 2 * least)) {
+          break;
+        }
+        if (cells.product() >= least && !are_too_few(cells, stop)) {
+          candidates.push_back(cells);
+        }
       }
     }
-    if (!(best.bound <= stop)) {
-      return best;
+    std::sort(candidates.begin(), candidates.end(), [](const CellCounts& a, const CellCounts& b) {
+      return a.product() < b.product() || (a.product() == b.product() && a.nu < b.nu);
+    });
+    for (const CellCounts& cells : candidates) {
+      if (looked_at_ > most_looks_) {
+        return uncertified(usual);
+      }
+      if (!misses(cells, stop)) {
+        const CertifiedCells found = look_at(cells, stop, stop / 2, true);
+        if (found.bound <= stop) {
+          return {turn_.turned(cells), found.bound, found.diagonals};
+        }
+      }
     }
   }
-  const CertifiedCells closer = certify(best.cells, best.bound);
-  return closer.bound < best.bound ? closer : best;
+  return uncertified(usual);
 }
 
 } // namespace simdbezier::detail

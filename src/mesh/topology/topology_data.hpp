@@ -74,10 +74,10 @@ enum PatchFlag : std::uint8_t {
   kEntangled = 64
 };
 
-constexpr bool is_forced_through(std::uint8_t flags, std::size_t corner) noexcept {
+constexpr bool is_forced_through(unsigned flags, std::size_t corner) noexcept {
   return (flags >> corner & kThroughCorner) != 0;
 }
-constexpr bool has_forced_diagonal(std::uint8_t flags) noexcept {
+constexpr bool has_forced_diagonal(unsigned flags) noexcept {
   return flags % (kThroughCorner << kPatchCorners) != 0;
 }
 

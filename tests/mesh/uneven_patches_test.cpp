@@ -1,0 +1,270 @@
+// Rates and certificates of patches whose parameters run unevenly, against dense samples by sums of
+// the tests' own: triangles can be close to their surface though points of equal parameters are
+// not.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <simdbezier/mesh.hpp>
+
+#include "tests/mesh/dense_deviation.hpp"
+#include "tests/mesh/sampled_patch.hpp"
+#include "tests/support/long_form.hpp"
+
+namespace simdbezier::tests::uneven_patches_test {
+namespace {
+
+constexpr double kDoubled[] = {0, 0, 1, 1};
+constexpr double kPower[] = {0, 0, 0, 1};
+constexpr double kEven[] = {0, 1 / 3.0, 2 / 3.0, 1};
+constexpr double kArc[3][2] = {{1, 0}, {1, 1}, {0, 1}};
+
+/// A net of formulas: point(i, j) has x, y, z and, where `weights` says so, w.
+template <typename PointAt>
+TestPatch net_of(std::string name, int degree_u, int degree_v, Weights weights,
+                 const PointAt& point) {
+  TestPatch patch{std::move(name), degree_u, degree_v, weights, {}};
+  for (int j = 0; j <= degree_v; ++j) {
+    for (int i = 0; i <= degree_u; ++i) {
+      const std::array<double, 4> p = point(i, j);
+      patch.values.insert(patch.values.end(), p.begin(), p.begin() + patch.channels());
+    }
+  }
+  return patch;
+}
+
+TestPatch cone(double top, double weight) {
+  return net_of("cone", 2, 1, Weights::cartesian, [&](int i, int j) {
+    const double r = j == 0 ? 1 : top;
+    return std::array{r * kArc[i][0], r * kArc[i][1], 1.0 * j, i == 1 ? weight : 1};
+  });
+}
+TestPatch octant(double u, double v) {
+  return net_of("octant", 2, 2, Weights::cartesian, [&](int i, int j) {
+    return std::array{kArc[i][0] * kArc[j][0], kArc[i][1] * kArc[j][0], kArc[j][1],
+                      (i == 1 ? u : 1) * (j == 1 ? v : 1)};
+  });
+}
+TestPatch bicubic_cone() {
+  constexpr double kCubic[4][2] = {{1, 0}, {1, 0.5523}, {0.5523, 1}, {0, 1}};
+  return net_of("bicubic cone", 3, 3, Weights::none, [&](int i, int j) {
+    const double r = 1 - j / 3.0;
+    return std::array{r * kCubic[i][0], r * kCubic[i][1], j / 3.0, 1.0};
+  });
+}
+/// A part of a hull through sections whose outermost points stand double, or nearly.
+TestPatch hull() {
+  return net_of("hull", 3, 3, Weights::none, [](int i, int j) {
+    constexpr double kAlong[] = {0, 0.05, 0.9, 1.4};
+    constexpr double kWide[] = {0, 0.02, 0.25, 0.3};
+    return std::array{kAlong[i], kWide[i] * (j > 0 ? 1.0 : 0.3), 0.2 * kDoubled[j] * j, 1.0};
+  });
+}
+TestPatch bend(const double (&along)[4], const double (&across)[4]) {
+  return net_of(&across[0] == &kDoubled[0] && &along[0] == &kEven[0] ? "bend" : "other bend", 3, 3,
+                Weights::none, [&](int i, int j) {
+                  return std::array{along[i], across[j], i == 1 || i == 2 ? 0.2 : 0.0, 1.0};
+                });
+}
+TestPatch flat(const double (&along)[4]) {
+  return net_of("flat square", 3, 3, Weights::none, [&](int i, int j) {
+    return std::array{along[i], along[j], 0.0, 1.0};
+  });
+}
+
+const double kRoot = std::sqrt(0.5);
+
+std::vector<TestPatch> patches() {
+  return {flat(kDoubled),
+          flat(kPower),
+          cone(0.3, kRoot),
+          cone(0, kRoot),
+          cone(0, 1e3),
+          bicubic_cone(),
+          octant(kRoot, kRoot),
+          octant(3, 3),
+          octant(10, kRoot),
+          octant(1e3, 1e3),
+          bend(kEven, kDoubled),
+          bend(kPower, kEven),
+          hull(),
+          bend(kDoubled, kPower)};
+}
+
+/// A bicubic patch over uneven rows and columns, or one with weights.
+TestPatch random_patch(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  double along[4] = {0, uniform(random), uniform(random), 1};
+  double across[4] = {0, uniform(random), uniform(random), 1};
+  std::sort(along, along + 4);
+  std::sort(across, across + 4);
+  return net_of("random patch " + std::to_string(seed), 3, 3,
+                seed % 3 == 0 ? Weights::cartesian : Weights::none, [&](int i, int j) {
+                  const double w = std::pow(10, seed % 2 * 3 * uniform(random));
+                  const double skew = 0.1 * uniform(random);
+                  return std::array{along[i] + skew, across[j] - skew, 0.3 * uniform(random), w};
+                });
+}
+
+Choice choose(const TestPatch& patch, double tolerance) {
+  Choice choice;
+  RateOptions options;
+  options.tolerance = tolerance;
+  EXPECT_EQ(choose_rates(patch.nets(), topology_of(patch), options, choice.out()).status,
+            Status::ok)
+      << patch.name;
+  return choice;
+}
+
+/// Whether samples of each cell are within a distance of its two triangles, for either diagonal.
+bool may_hold(const TestPatch& patch, std::uint32_t nu, std::uint32_t nv, double distance) {
+  const auto cell_holds = [&](std::uint32_t i, std::uint32_t j) {
+    const auto at = [&](double u, double v) { return patch.at((i + u) / nu, (j + v) / nv); };
+    const Point p[] = {at(0, 0), at(1, 0), at(0, 1), at(1, 1)};
+    for (const std::size_t last : {std::size_t{3}, std::size_t{2}}) {
+      const std::array<Point, 3> halves[] = {{p[0], p[1], p[last]}, {p[3 - last], p[3], p[2]}};
+      double farthest = 0;
+      for (int k = 0; k <= 64 && farthest <= distance * distance; ++k) {
+        const Point x = at(k % 8 / 8.0 + 0.125 * (k / 64), k / 8 / 8.0);
+        farthest = std::max(
+            farthest, std::min(squared_distance(x, halves[0]), squared_distance(x, halves[1])));
+      }
+      if (farthest <= distance * distance) {
+        return true;
+      }
+    }
+    return false;
+  };
+  for (std::uint32_t k = 0; k < nu * nv; ++k) {
+    if (!cell_holds(k % nu, k / nu)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void expect_few_cells(const TestPatch& patch, double tolerance) {
+  SCOPED_TRACE(patch.name + ", tolerance " + std::to_string(tolerance));
+  const Choice choice = choose(patch, tolerance);
+  const std::uint32_t chosen = choice.nu[0] * choice.nv[0];
+  EXPECT_LE(choice.deviation[0], tolerance);
+  for (std::uint32_t nu = 1; 1.6 * nu < chosen; ++nu) {
+    for (std::uint32_t nv = 1; 1.6 * nu * nv < chosen; ++nv) {
+      EXPECT_FALSE(may_hold(patch, nu, nv, tolerance))
+          << chosen << " chosen, " << nu << " x " << nv;
+    }
+  }
+}
+
+TEST(UnevenPatches, have_few_more_cells_than_they_need) {
+  for (const TestPatch& patch :
+       {flat(kDoubled), flat(kPower), cone(0.3, kRoot), cone(0, kRoot), cone(0, 1e3),
+        bicubic_cone(), octant(3, 3), octant(10, kRoot), octant(1e3, 1e3), bend(kEven, kDoubled)}) {
+    expect_few_cells(patch, 2e-3);
+  }
+}
+
+/// The mesh of copies of a patch that need not be where it is, and how far samples of the first one
+/// are from its triangles.
+struct Sampled {
+  MeshPlan<double> plan;
+  double found = 0;
+
+  Sampled(const TestPatch& patch, const std::vector<double>& values, const MeshOptions& options) {
+    const auto nets =
+        ControlNets<double>::packed(values.data(), values.size() / patch.values.size(),
+                                    patch.degree_u, patch.degree_v, 3, patch.weights);
+    plan = plan_mesh<double>(nets, options);
+    EXPECT_EQ(plan.status, Status::ok);
+    const Mesh<double> mesh = tessellate<double>(nets, options);
+    EXPECT_EQ(mesh.status, Status::ok);
+    if (plan.status == Status::ok && plan.nu[0] * plan.nv[0] <= 150) {
+      const auto surface = [&](double u, double v) { return patch.at(u, v); };
+      found = farthest_sample(plan, mesh, surface, 0, 4);
+    }
+  }
+};
+
+TEST(UnevenPatches, are_as_close_as_certified) {
+  std::vector<TestPatch> all = patches();
+  for (unsigned seed = 0; seed < by_form(40U, 400U); ++seed) {
+    all.push_back(random_patch(seed));
+  }
+  for (const TestPatch& patch : all) {
+    SCOPED_TRACE(patch.name);
+    for (const double tolerance : {0.1, 0.02}) {
+      MeshOptions options;
+      options.tolerance = tolerance;
+      options.normals = false;
+      const Sampled sampled(patch, patch.values, options);
+      ASSERT_EQ(sampled.plan.deviations.size(), 1U);
+      EXPECT_LE(sampled.found, sampled.plan.deviations[0]);
+      EXPECT_LE(sampled.plan.deviations[0], tolerance);
+    }
+  }
+}
+
+/// Two patches with a common edge at v = 1: `patch`, and its image behind that.
+std::vector<double> with_neighbour(const TestPatch& patch) {
+  std::vector<double> values = patch.values;
+  const std::size_t row = patch.channels() * (static_cast<std::size_t>(patch.degree_u) + 1);
+  for (std::size_t j = static_cast<std::size_t>(patch.degree_v) + 1; j-- > 0;) {
+    for (std::size_t k = 0; k < row; ++k) {
+      const bool moves = k % patch.channels() == 2 && j < static_cast<std::size_t>(patch.degree_v);
+      values.push_back(patch.values[j * row + k] + (moves ? 3.0 : 0.0));
+    }
+  }
+  return values;
+}
+
+// A neighbour's vertices on an edge cut triangles there.
+TEST(UnevenPatches, are_as_close_as_certified_whatever_their_neighbours) {
+  std::vector<TestPatch> all = patches();
+  for (unsigned seed = 0; seed < by_form(30U, 300U); ++seed) {
+    all.push_back(random_patch(seed));
+  }
+  for (const TestPatch& patch : all) {
+    SCOPED_TRACE(patch.name);
+    const std::vector<double> values = with_neighbour(patch);
+    const std::array<double, 2> tolerances = {0.1, 0.005};
+    MeshOptions options;
+    options.tolerances = tolerances;
+    options.normals = false;
+    const Sampled sampled(patch, values, options);
+    ASSERT_EQ(sampled.plan.deviations.size(), 2U);
+    EXPECT_LE(sampled.found, sampled.plan.deviations[0]);
+    EXPECT_LE(sampled.plan.deviations[0], 0.1);
+  }
+}
+
+template <typename T>
+void expect_two_triangles(const double (&along)[4]) {
+  const TestPatch patch = flat(along);
+  const std::vector<T> values(patch.values.begin(), patch.values.end());
+  for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
+    MeshOptions options;
+    options.tolerance = tolerance;
+    const Mesh<T> mesh = tessellate<T>(ControlNets<T>::packed(std::span<const T>(values)), options);
+    ASSERT_EQ(mesh.status, Status::ok);
+    EXPECT_EQ(mesh.triangles.size(), 2U);
+    EXPECT_LE(mesh.deviation, 1e-6);
+  }
+}
+
+TEST(UnevenPatches, flat_squares_have_two_triangles) {
+  expect_two_triangles<float>(kDoubled);
+  expect_two_triangles<double>(kDoubled);
+  expect_two_triangles<float>(kPower);
+  expect_two_triangles<double>(kPower);
+}
+
+} // namespace
+} // namespace simdbezier::tests::uneven_patches_test
