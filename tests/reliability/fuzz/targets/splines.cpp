@@ -1,5 +1,6 @@
-// Spline surfaces with any knots: equal bits on all instruction sets and for any strides, control
-// points inside of the hull of the spline's own, and those of the textbook where knots are uniform.
+// Spline surfaces with any knots and weights: equal bits on all instruction sets and for any
+// strides, control points inside of the hull of the spline's own, and those of the textbook where
+// knots are uniform.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -28,6 +29,7 @@ public:
     surface_.periodic_v = (choice & 2) != 0;
     uniform_ = (choice & 4) != 0;
     surface_.components = components(bytes);
+    surface_.weights = (choice & 64) != 0 ? weights(bytes) : Weights::none;
     if (!uniform_) {
       surface_.degree_u = bytes.between(1, (choice & 8) != 0 ? kMostDegree : 3);
       surface_.degree_v = bytes.between(1, 4);
@@ -44,8 +46,8 @@ public:
     }
     values_ =
         nets_of<T>(bytes, static_cast<int>(surface_.columns) - 1,
-                   static_cast<int>(surface_.rows) - 1, surface_.components, Weights::none, 1);
-    const auto c = static_cast<std::ptrdiff_t>(surface_.components);
+                   static_cast<int>(surface_.rows) - 1, surface_.components, surface_.weights, 1);
+    const auto c = static_cast<std::ptrdiff_t>(values_.channels());
     surface_.points = values_.values.data();
     surface_.point_stride = c;
     surface_.row_stride = c * static_cast<std::ptrdiff_t>(surface_.columns);
@@ -55,14 +57,14 @@ public:
     const SpanCounts spans = span_count(surface_);
     if (spans.patches() == 0) {
       const auto none = MutableNets<T>::packed(nullptr, 0, surface_.degree_u, surface_.degree_v,
-                                               surface_.components);
+                                               surface_.components, surface_.weights);
       require(!to_bezier(surface_, none), "a spline without spans");
       return;
     }
     Nets<T> expected{surface_.degree_u,
                      surface_.degree_v,
                      surface_.components,
-                     Weights::none,
+                     surface_.weights,
                      spans.patches(),
                      true,
                      {}};
@@ -76,7 +78,7 @@ public:
       memory.check_surroundings();
       require_status(status,
                      {Status::ok, Status::non_finite_input, Status::bad_knots, Status::bad_range,
-                      Status::bad_tolerance},
+                      Status::bad_tolerance, Status::bad_weight, Status::coefficient_overflow},
                      "to_bezier");
       require(!first || *first == status, "to_bezier has another status");
       if (status == Status::ok) {
@@ -125,7 +127,7 @@ private:
           const T value = made.point(p, k / columns, k % columns)[c];
           require(*low - slack <= value && value <= *high + slack,
                   "a piece of a B-spline leaves the hull");
-          if (uniform_) {
+          if (uniform_ && !made.rational()) {
             judge_value(value, p, k, c, spans);
           }
         }
