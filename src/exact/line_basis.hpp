@@ -14,6 +14,11 @@ struct LineParameter {
   double d;
   Quantity kind;
 
+  /// From a sample to the patch's middle; from the middle itself, in the direction (1,1).
+  [[nodiscard]] static LineParameter to_middle(double x, double other, Quantity kind) {
+    return {x, x == 0 && other == 0 ? 0.5 : -x, kind};
+  }
+
   void include_in(DigitRange& range) const {
     range.include(0.5);
     range.include(x);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "src/exact/normal_series.hpp"
+#include "src/exact/normal_start.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -39,7 +40,16 @@ public:
       weights_ = net.all->weights;
       std::memcpy(values_, net.values, bytes);
       known_ = Known::nothing;
+      is_scaled_ = false;
     }
+  }
+  /// The control points of the patch, which has no weights.
+  [[nodiscard]] const ScaledNet& scaled(const GivenNet& net) {
+    if (!is_scaled_) {
+      scaled_.read(net, shape_.order_u(), shape_.order_v());
+      is_scaled_ = true;
+    }
+    return scaled_;
   }
   void learn(const NormalQuestion& question) {
     if (known_ == Known::nothing) {
@@ -55,7 +65,9 @@ private:
   bool in_double_ = false;
   Weights weights_ = Weights::none;
   Known known_ = Known::nothing;
+  bool is_scaled_ = false;
   unsigned char values_[kMostOrder * kMostOrder * 4 * sizeof(double)] = {};
+  ScaledNet scaled_{};
 };
 
 thread_local LastPatch last_patch;
@@ -85,6 +97,18 @@ private:
   bool remembered_;
 };
 
+/// The direction of a coefficient.
+template <typename T>
+SampleStatus put_direction(const LeadingTerm& term, int sign, T normal[3]) {
+  const double* const n = term.vector;
+  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  const double inverse = sign / length;
+  for (int c = 0; c < 3; ++c) {
+    normal[c] = static_cast<T>(n[c] * inverse) + T(0);
+  }
+  return term.order == 0 ? SampleStatus::regular : SampleStatus::limit;
+}
+
 } // namespace
 
 template <typename T>
@@ -106,6 +130,16 @@ SampleStatus resolve_corner_normal(const NormalQuery<T>& query, unsigned sides,
   if (sides == 0 && last_patch.is_zero()) {
     return SampleStatus::degenerate;
   }
+  if (sides == 0 && !query.shape->rational) {
+    NormalStart start(last_patch.scaled(query.net), static_cast<std::size_t>(query.shape->degree_u),
+                      static_cast<std::size_t>(query.shape->degree_v),
+                      LineParameter::to_middle(x, y, kParameterU),
+                      LineParameter::to_middle(y, x, kParameterV));
+    LeadingTerm term;
+    if (start.find(kLimitTolerance<T>, term)) {
+      return put_direction(term, 1, normal);
+    }
+  }
   const SampleQuestion question(query.net, *query.shape, x, y, sides);
   // Which homogeneous points are one depends on the sample in the last digits: asked before
   // anything else, the answer is the same whichever sample comes first.
@@ -125,13 +159,7 @@ SampleStatus resolve_corner_normal(const NormalQuery<T>& query, unsigned sides,
   if (sign == 0) {
     return SampleStatus::degenerate;
   }
-  const double* const n = term.vector;
-  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  const double inverse = sign / length;
-  for (int c = 0; c < 3; ++c) {
-    normal[c] = static_cast<T>(n[c] * inverse) + T(0);
-  }
-  return term.order == 0 ? SampleStatus::regular : SampleStatus::limit;
+  return put_direction(term, sign, normal);
 }
 
 template SampleStatus resolve_normal(const NormalQuery<float>&, float[3]) noexcept;

@@ -14,15 +14,14 @@
 
 namespace simdbezier::detail {
 
-/// A patch in space and the line from a sample to the patch's middle; from the middle itself, in
-/// the direction (1,1).
+/// A patch in space and the line from a sample to the patch's middle.
 class NormalQuestion {
 public:
   NormalQuestion(const GivenNet& net, std::size_t degree_u, std::size_t degree_v, double x,
                  double y)
-      : points_(net, (degree_u + 1) * (degree_v + 1), 3), degree_u_(degree_u),
-        degree_v_(degree_v), u_{x, x == 0 && y == 0 ? 0.5 : -x, kParameterU},
-        v_{y, x == 0 && y == 0 ? 0.5 : -y, kParameterV} {}
+      : points_(net, (degree_u + 1) * (degree_v + 1), 3), degree_u_(degree_u), degree_v_(degree_v),
+        u_(LineParameter::to_middle(x, y, kParameterU)),
+        v_(LineParameter::to_middle(y, x, kParameterV)) {}
 
   /// Makes the control points of a side one point, which the sample is nearest to.
   void merge_side(PatchEdge side) {

@@ -32,8 +32,8 @@ struct RateTask {
   NetView<const T> in;
   bool choose;
   std::uint32_t fewest_looked; ///< cells of which a bound that may be far too large is no decision
-  double tolerance;         ///< of all patches …
-  const double* tolerances; ///< … or one value a patch; null: none
+  double tolerance;            ///< of all patches …
+  const double* tolerances;    ///< … or one value a patch; null: none
   const double* errors; ///< to be taken from the tolerance, and added to deviations; may be null
   std::uint32_t most;   ///< segments
   std::uint32_t* nu;    ///< from 1 to `most`, or kUndecided

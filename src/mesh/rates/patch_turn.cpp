@@ -55,19 +55,19 @@ RateFlags PatchTurn::turned(RateFlags flags) const {
   unsigned result = flags & ~(15U | kAllOpen);
   // Of the side at which u, or v, is low or high, as PatchEdge numbers them.
   const auto side_bit = [](bool of_v, unsigned high) {
-    return kOpenSide << ((of_v ? 0U : 2U) + high);
+    return unsigned{kOpenSide} << ((of_v ? 0U : 2U) + high);
   };
   for (unsigned u = 0; u < 2; ++u) {
     for (unsigned v = 0; v < 2; ++v) {
       const unsigned turned_u = u ^ (reversed_u ? 1U : 0U);
       const unsigned turned_v = v ^ (reversed_v ? 1U : 0U);
       const unsigned corner = transposed ? turned_v + 2 * turned_u : turned_u + 2 * turned_v;
-      result |= is_forced_through(flags, u + 2 * v) ? kThroughCorner << corner : 0U;
+      result |= is_forced_through(flags, u + 2 * v) ? unsigned{kThroughCorner} << corner : 0U;
     }
     const unsigned turned_u = u ^ (reversed_u ? 1U : 0U);
     const unsigned turned_v = u ^ (reversed_v ? 1U : 0U);
-    result |= (flags & side_bit(false, u)) != 0 ? side_bit(transposed, turned_u) : 0;
-    result |= (flags & side_bit(true, u)) != 0 ? side_bit(!transposed, turned_v) : 0;
+    result |= (flags & side_bit(false, u)) != 0 ? side_bit(transposed, turned_u) : 0U;
+    result |= (flags & side_bit(true, u)) != 0 ? side_bit(!transposed, turned_v) : 0U;
   }
   return static_cast<RateFlags>(result);
 }
