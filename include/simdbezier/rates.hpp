@@ -36,8 +36,13 @@ struct RateOptions {
   /// point to the next: the total turn of the control net's normals over the number of segments.
   double normal_angle = kUnlimited;
   std::uint32_t most_segments = kMostSegments; ///< 1 or more; larger numbers count as this one
-  int threads = 0;                             ///< as in Options
-  Isa isa = Isa::automatic;                    ///< see resolve_isa()
+  /// For views and models that move: CertifiedRates::nu and nv hold the rates of the frame before,
+  /// or 0 where there are none. Patches keep these where they hold and have at most so many times
+  /// the cells that would be chosen, so that rates, and layouts and triangles with them, change
+  /// seldom. Below 1, or nan: none are kept, nor read.
+  double keep = 0;
+  int threads = 0;          ///< as in Options
+  Isa isa = Isa::automatic; ///< see resolve_isa()
 };
 
 /// A pinhole camera, unless it is orthographic: a point that is one unit away along the direction
@@ -122,8 +127,8 @@ template <typename S>
 /// Source:   D. Filip, R. Magedson, R. Markot, "Surface Algorithms Using Bounds on Derivatives",
 ///           CAGD 3 (1986), whose bound has the triangle inequality instead of the diagonal's own
 ///           derivative.
-/// Determinism: a function of the control points, the same for all instruction sets that fuse
-///           multiply-adds, and for all others.
+/// Determinism: a function of the control points, and of rates that are kept; the same for all
+///           instruction sets that fuse multiply-adds, and for all others.
 /// Threads:  RateOptions::threads; rates do not depend on them. Allocation: some bytes a patch, and
 ///           scratch per thread. Outputs may not overlap the inputs, which is not checked.
 /// Returns:  ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |

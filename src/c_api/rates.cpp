@@ -54,6 +54,7 @@ RateOptions rate_options_of(const simdbezier_rate_options* given) {
   }
   options.threads = known.threads;
   options.isa = isa_of(known.isa, kOptions / "isa");
+  options.keep = known.keep;
   return options;
 }
 

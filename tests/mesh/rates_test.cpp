@@ -143,6 +143,52 @@ TEST(Rates, turned_patches_have_turned_rates) {
   }
 }
 
+/// Frames whose tolerance rises and falls: rates change seldom, hold, and are never far too many.
+TEST(Rates, of_the_frame_before_are_kept_while_they_suffice) {
+  constexpr double kKeep = 1.5;
+  int changes[2] = {0, 0};
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const TestPatch patch = random_patch(seed);
+    SCOPED_TRACE(patch.name);
+    const Topology topology = topology_of(patch);
+    const ControlNets<double> nets = patch.nets();
+    const std::span<const ControlNets<double>> sets(&nets, 1);
+    Choice fresh;
+    Choice kept;
+    kept.nu[0] = seed % 3 == 0 ? 0 : kMostSegments + 1; // none yet
+    for (int frame = 0; frame < 12; ++frame) {
+      RateOptions options;
+      options.tolerance = 0.1 * (1 + 0.15 * std::sin(1.7 * frame));
+      options.longest_edge = seed % 5 == 0 ? 1.0 : kUnlimited;
+      const Choice before[2] = {fresh, kept};
+      ASSERT_EQ(choose_rates(sets, topology, options, fresh.out()).status, Status::ok);
+      options.keep = kKeep;
+      ASSERT_EQ(choose_rates(sets, topology, options, kept.out()).status, Status::ok);
+      const auto cells = [](const Choice& choice) { return choice.nu[0] * choice.nv[0]; };
+      EXPECT_LE(kept.deviation[0], options.tolerance);
+      EXPECT_GE(cells(kept), cells(fresh));
+      EXPECT_LE(cells(kept), kKeep * cells(fresh));
+      if (seed % 5 == 0) {
+        EXPECT_GE(kept.nu[0], fresh.nu[0]);
+        EXPECT_GE(kept.nv[0], fresh.nv[0]);
+      }
+      if (frame == 0) {
+        EXPECT_EQ(kept.nu, fresh.nu);
+        EXPECT_EQ(kept.nv, fresh.nv);
+        EXPECT_EQ(kept.diagonals, fresh.diagonals);
+      } else {
+        changes[0] += fresh.nu != before[0].nu || fresh.nv != before[0].nv ? 1 : 0;
+        changes[1] += kept.nu != before[1].nu || kept.nv != before[1].nv ? 1 : 0;
+      }
+      if (frame % 4 == 1 && cells(kept) <= 60) {
+        EXPECT_LE(found_deviation(patch, topology, kept), kept.deviation[0]);
+      }
+    }
+  }
+  EXPECT_GT(changes[0], 150);
+  EXPECT_LT(3 * changes[1], changes[0]);
+}
+
 TEST(Rates, bad_input_is_a_status) {
   const TestPatch patch = random_patch(0);
   const Topology topology = topology_of(patch);

@@ -90,6 +90,7 @@ typedef struct simdbezier_rate_options {
   uint32_t most_segments; // 0: SIMDBEZIER_MOST_SEGMENTS
   int32_t threads;
   simdbezier_isa isa;
+  double keep; // rates hold those of the frame before; below 1: none is kept
 } simdbezier_rate_options;
 
 // Camera. Zeros: its usual values.

@@ -61,6 +61,43 @@ public:
     return snapped ? RateReport{Status::snap_too_large, report.patch} : report;
   }
 
+  /// The rates of the frame before, if they may be kept.
+  [[nodiscard]] std::vector<CellCounts> rates_before() const {
+    std::vector<CellCounts> before(options_.keep >= 1 ? out_.nu.size() : 0);
+    for (std::size_t patch = 0; patch < before.size(); ++patch) {
+      before[patch] = {out_.nu[patch], out_.nv[patch]};
+    }
+    return before;
+  }
+
+  /// Rates of the frame before take the place of chosen ones that have few cells less, if they
+  /// hold. Those with fewer cells hardly ever do.
+  RateReport keep(const std::vector<CellCounts>& before) {
+    const auto is_open = [&](std::size_t patch, bool) {
+      const CellCounts& old = before[patch];
+      const CellCounts now{out_.nu[patch], out_.nv[patch]};
+      const bool covers = old.nu >= now.nu && old.nv >= now.nv;
+      return old.nu <= most_ && old.nv <= most_ && (old.nu != now.nu || old.nv != now.nv) &&
+             old.product() >= now.product() && old.product() <= options_.keep * now.product() &&
+             (covers || !measures());
+    };
+    return for_groups(is_open, [&](const PatchGroup& open) {
+      Lanes<CellCounts> cells;
+      cells.fill({1, 1});
+      Lanes<double> enough{};
+      open.for_lanes([&](std::size_t lane, std::size_t patch) {
+        cells[lane] = before[patch];
+        enough[lane] = tolerance(patch);
+      });
+      const Lanes<CertifiedCells> certified = open.bound().certify(cells, enough);
+      open.for_lanes([&](std::size_t lane, std::size_t patch) {
+        if (certified[lane].bound + error(patch) <= wanted(patch)) {
+          put(patch, certified[lane]);
+        }
+      });
+    });
+  }
+
   /// Chooses rates, with their certificates.
   RateReport choose() {
     if (const RateReport checked = find_faults(); !checked) {
@@ -70,10 +107,8 @@ public:
     if (!ran) {
       return ran;
     }
-    const bool measures =
-        std::isfinite(options_.longest_edge) || std::isfinite(options_.normal_angle);
     const auto is_open = [&](std::size_t patch, bool kernel) {
-      return !kernel || measures || has_corner(patch) || out_.nu[patch] == kUndecided;
+      return !kernel || measures() || has_corner(patch) || out_.nu[patch] == kUndecided;
     };
     const RateReport report = for_groups(is_open, [&](const PatchGroup& open) {
       Lanes<double> t;
@@ -86,7 +121,7 @@ public:
         }
       });
       Lanes<CertifiedCells> chosen = open.bound().choose(t, most_);
-      if (measures) {
+      if (measures()) {
         Lanes<CellCounts> cells;
         cells.fill({1, 1});
         open.for_lanes([&](std::size_t lane, std::size_t) {
@@ -99,7 +134,7 @@ public:
       }
       put_chosen(open, chosen);
     });
-    return report && measures ? certify() : report;
+    return report && measures() ? certify() : report;
   }
 
   /// Looks at the bound again where rates have been raised, since it does not fall with every step.
@@ -176,6 +211,10 @@ private:
       flags = static_cast<RateFlags>(flags | (open ? kOpenSide << side : 0));
     }
     return flags;
+  }
+  /// Whether more is asked for than a distance.
+  [[nodiscard]] bool measures() const {
+    return std::isfinite(options_.longest_edge) || std::isfinite(options_.normal_angle);
   }
   [[nodiscard]] double error(std::size_t patch) const {
     return errors_.empty() ? 0 : errors_[patch];

@@ -85,7 +85,11 @@ RateReport choose_rates(std::span<const ControlNets<S>> nets, const Topology& to
     return {runs};
   }
   detail::RateCall<S> call(nets, topology, options, isa, out);
+  const auto before = call.rates_before();
   RateReport report = call.choose();
+  if (report && !before.empty()) {
+    report = call.keep(before);
+  }
   // Raising the rates of one patch can make its edges coincide with others, or raise its bound.
   bool settled = true;
   for (bool changed = true; report && changed;) {
