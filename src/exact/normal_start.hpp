@@ -1,5 +1,5 @@
 // The first two coefficients of NormalSeries for polynomial patches, in plain doubles: nearly all
-// samples that need a second look are decided by one of them, in a tenth of the time.
+// samples that need a second look are decided by one of them, in a quarter of the time.
 //
 // Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, chapter 3.
 #pragma once
