@@ -3,20 +3,26 @@
 # name | processors | xsimd architecture tag | fuses | compact | compiler flags
 #   fuses: a multiplication and an addition have one rounding. xsimd's fma() for the tag has to be
 #     one instruction then.
-#   compact: hardly any machine depends on the set (kCompact in kernels/simd/vector.hpp).
+#   compact: 1: hardly any machine depends on the set; 2: only bicubic patches have kernels of their own, for code
+#     that goes over a network (kCompact and kCompactShapes in kernels/simd/vector.hpp).
 #   flags: those of the form -mNAME name what a machine must have, in the compilers' words. Tuned for
 #     generic machines, g++ 12 spills addresses to vector registers, where they queue behind the
 #     arithmetic: 18 % of the derivatives' speed on AVX-512.
 set(simdbezier_isa_rows
     "scalar|any|void|0|1|"
     "sse2|x86_64|xsimd::sse2|0|1|-msse2"
+    "simd128|wasm32|xsimd::sse2|0|2|-msimd128 -D__SSE__ -D__SSE2__"
     "avx2|x86_64|xsimd::fma3<xsimd::avx2>|1|0|-mavx2 -mfma -mtune=haswell"
     "avx512|x86_64|xsimd::avx512bw|1|0|-mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mavx2 -mfma -mtune=haswell"
     "neon64|aarch64|xsimd::neon64|1|0|")
+set(simdbezier_pic ON)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   set(simdbezier_processors x86_64)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
   set(simdbezier_processors aarch64)
+elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL "wasm32")
+  set(simdbezier_processors wasm32)
+  set(simdbezier_pic OFF) # it would be code for modules that are linked at run time
 else()
   set(simdbezier_processors other)
 endif()
@@ -108,7 +114,11 @@ endif()
 # (Zen 5).
 set(simdbezier_call_flags -mmemset-strategy=unrolled_loop:1024:noalign,libcall:-1:noalign)
 check_cxx_compiler_flag(${simdbezier_call_flags} SIMDBEZIER_HAS_MEMSET_STRATEGY)
-if(NOT SIMDBEZIER_HAS_MEMSET_STRATEGY)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "wasm32")
+  # Exceptions are WebAssembly's own (web/runtime/), and what is loaded over a network is to be small. libc++ and
+  # sizes of 32 bits bring warnings that no other build has: they are shown, but stop no build.
+  set(simdbezier_call_flags -O2 -msimd128 -fwasm-exceptions -Wno-error=shorten-64-to-32 -Wno-error=shadow)
+elseif(NOT SIMDBEZIER_HAS_MEMSET_STRATEGY)
   set(simdbezier_call_flags "")
 endif()
 
@@ -138,7 +148,7 @@ endfunction()
 # g++ 12 warns about its own _mm512_undefined_ps (GCC bug 105593).
 function(simdbezier_kernel_options object compact)
   set(level -O3)
-  if(compact)
+  if(compact EQUAL 1)
     set(level -O2)
   endif()
   target_compile_options(
@@ -177,7 +187,7 @@ function(simdbezier_add_kernel_objects row)
   target_compile_options(${object} PRIVATE ${flags})
   simdbezier_kernel_options(${object} ${row_compact})
   target_link_libraries(${object} PRIVATE simdbezier_private_flags simdbezier_xsimd)
-  set_target_properties(${object} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${object} PROPERTIES POSITION_INDEPENDENT_CODE ${simdbezier_pic})
 endfunction()
 
 # Writes the table as C++ source: SIMDBEZIER_INSTRUCTION_SET(name, NAME, fuses, runs_here), one a

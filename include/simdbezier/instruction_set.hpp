@@ -6,7 +6,7 @@
 namespace simdbezier {
 
 /// The instruction sets that kernels are compiled for. Results are bit-equal inside a class:
-/// avx2, avx512 and neon64 fuse multiply and add; scalar and sse2 round after each operation.
+/// avx2, avx512 and neon64 fuse multiply and add; scalar, sse2, simd128 round after each one.
 enum class Isa : std::uint8_t {
   automatic, ///< SIMDBEZIER_ISA where it is set, otherwise the widest that the machine has, or the
              ///< next one for grids where that is faster: see resolve_isa()
@@ -14,7 +14,8 @@ enum class Isa : std::uint8_t {
   sse2,
   avx2,   ///< AVX2 and FMA
   avx512, ///< AVX-512 F, CD, DQ, BW, VL
-  neon64  ///< the aarch64 baseline
+  neon64, ///< the aarch64 baseline
+  simd128 ///< WebAssembly's vectors of 128 bits
 };
 
 } // namespace simdbezier

@@ -20,7 +20,7 @@ class ShapeColumns {
   /// it usual: 16 of them are two registers or one.
   template <bool kMixed>
   static constexpr bool kAnyNumber =
-      kDepth == 0 && !P::kWeighted && !kCompact && (!kMixed || kLanes<V> == 16);
+      kDepth == 0 && !P::kWeighted && !kCompactShapes && (!kMixed || kLanes<V> == 16);
 
 public:
   using Edges = ShapeEdges<P, V>;

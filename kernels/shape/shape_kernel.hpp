@@ -84,20 +84,20 @@ SIMDBEZIER_INLINE void with_grid_plan(const Task& task, const Run& run) {
   const NetShape& shape = *task.shape;
   const bool in_space = shape.components == 3 && task.first_component == 0;
   [[maybe_unused]] constexpr unsigned kSpace = detail::kSpaceOutputs.bits();
-  if constexpr (!kCompact && kDepth == 0 && !kRational) {
+  if constexpr (!kCompactShapes && kDepth == 0 && !kRational) {
     if (in_space && with_common_degrees(shape, run)) {
       return;
     }
   }
-  if constexpr (!kCompact && (kDepth == 1 || (kDepth == 0 && kRational))) {
+  if constexpr (!kCompactShapes && (kDepth == 1 || (kDepth == 0 && kRational))) {
     if (in_space && (kRational || (wanted_outputs(task) & kSpace) != 0)) {
       return with_order_v<kDepth, kRational, 3>(shape, run);
     }
   }
-  if constexpr (!kCompact && kDepth < 2 && !kRational) {
+  if constexpr (!kCompactShapes && kDepth < 2 && !kRational) {
     return with_order_v<kDepth, kRational, 1>(shape, run);
   }
-  if constexpr (!kCompact && kDepth == 2) {
+  if constexpr (!kCompactShapes && kDepth == 2) {
     if (in_space && shape.cells() == 1 && shape.degree_v == 3) {
       return run.template operator()<ShapePlan<kDepth, kRational, 3, 0, 4>>();
     }
@@ -108,7 +108,7 @@ SIMDBEZIER_INLINE void with_grid_plan(const Task& task, const Run& run) {
 /// Calls run.operator()<kDepth, kRational>().
 template <typename Task, typename Run>
 SIMDBEZIER_INLINE void with_depth(const Task& task, const Run& run) {
-  constexpr std::size_t kFirst = kCompact ? 2 : 1; // depth for first derivatives
+  constexpr std::size_t kFirst = kCompactShapes ? 2 : 1; // depth for first derivatives
   const auto with_weights = [&]<std::size_t kDepth>() SIMDBEZIER_INLINE_LAMBDA {
     task.shape->rational ? run.template operator()<kDepth, true>()
                          : run.template operator()<kDepth, false>();

@@ -12,6 +12,10 @@
 
 #include <cstddef>
 
+// Headers that toolchains for WebAssembly bring along write SSE2's intrinsics as those of simd128.
+#if defined(SIMDBEZIER_KERNELS_SIMD128)
+#define SIMDBEZIER_KERNELS_SSE2
+#endif
 #if !defined(SIMDBEZIER_KERNELS_SCALAR)
 #include <xsimd/xsimd.hpp>
 #endif
@@ -52,7 +56,10 @@ inline constexpr bool kFused = SIMDBEZIER_FUSES != 0;
 /// Whether this is one of the instruction sets that hardly any machine depends on. They are there
 /// to be right everywhere, and get one kernel for each purpose: no special code for a size, a
 /// degree or an arrangement that another kernel can handle as well.
-inline constexpr bool kCompact = SIMDBEZIER_COMPACT != 0;
+inline constexpr bool kCompact = SIMDBEZIER_COMPACT == 1;
+
+/// Whether that holds for curves, and for patches that are not bicubic or not points in space.
+inline constexpr bool kCompactShapes = SIMDBEZIER_COMPACT != 0;
 
 // Which V holds what -----------------------------------------------------------------------------
 

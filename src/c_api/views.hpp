@@ -21,7 +21,7 @@
 namespace simdbezier::c_api {
 
 inline constexpr Path kOptions{"options"};
-inline constexpr Isa kLastIsa = Isa::neon64;
+inline constexpr Isa kLastIsa = Isa::simd128;
 
 inline Isa isa_of(simdbezier_isa isa, const Path& path) { return choice(isa, kLastIsa, path); }
 

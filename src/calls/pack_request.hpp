@@ -2,8 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <type_traits>
 
 #include <simdbezier/patch_set.hpp>
@@ -80,17 +80,19 @@ class LowestFault {
 public:
   void add(const PackReport& report) {
     if (!report) {
-      const std::lock_guard<std::mutex> lock(guard_);
+      while (guard_.test_and_set(std::memory_order_acquire)) { // faults are few, and this is short
+      }
       if (lowest_ || report.patch < lowest_.patch) {
         lowest_ = report;
       }
+      guard_.clear(std::memory_order_release);
     }
   }
   /// The lowest fault, to be asked for when all threads have finished.
   [[nodiscard]] const PackReport& report() const noexcept { return lowest_; }
 
 private:
-  std::mutex guard_;
+  std::atomic_flag guard_;
   PackReport lowest_;
 };
 

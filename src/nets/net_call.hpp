@@ -105,7 +105,7 @@ Status run_net_kernel(NetKernel<Task> NetTable<T>::*kernel, const Task& task, st
   if (runs != Status::ok) {
     return runs;
   }
-  const NetKernel<Task> run = kernel_table<T>(isa).nets->*kernel;
+  const NetKernel<Task> run = net_table<T>(isa).*kernel;
   return run_blocks(lane_groups(count), duration_of(count, 100), options, values * kLineBytes,
                     [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
                       const std::size_t last = end * kMaxLanes < count ? end * kMaxLanes : count;

@@ -8,11 +8,15 @@ namespace simdbezier::detail {
 namespace {
 
 Destination read_environment() noexcept {
+#if defined(__wasm__)
+  return Destination::cache; // nothing stores past the caches
+#else
   const char* const word = std::getenv("SIMDBEZIER_DESTINATION");
   const std::string_view wish = word == nullptr ? "" : word;
   return wish == "cache"    ? Destination::cache
          : wish == "memory" ? Destination::memory
                             : Destination::automatic;
+#endif
 }
 
 } // namespace

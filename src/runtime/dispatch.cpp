@@ -3,6 +3,7 @@
 // first.
 #include "src/runtime/dispatch.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <iterator>
@@ -16,31 +17,50 @@ namespace simdbezier {
   namespace isa_##isa {                                                                            \
     extern const detail::KernelTable<float> table_f32;                                             \
     extern const detail::KernelTable<double> table_f64;                                            \
+    extern const detail::NetTable<float> net_table_f32;                                            \
+    extern const detail::NetTable<double> net_table_f64;                                           \
   }
 #include "isa_list.inc"
 #undef SIMDBEZIER_ISA_ENTRY
 
 namespace {
 
-struct Tables {
-  const detail::KernelTable<float>* f32;
-  const detail::KernelTable<double>* f64;
+// A list for each kind of table, so that a static program is linked without the kernels of types in
+// which it does not evaluate, though it may change nets in them.
+#define SIMDBEZIER_ISA_ENTRY(isa) Isa::isa,
+constexpr Isa kIsas[] = {
+#include "isa_list.inc"
 };
-
-#define SIMDBEZIER_ISA_ENTRY(isa) {&isa_##isa::table_f32, &isa_##isa::table_f64},
-constexpr Tables kTables[] = {
+#undef SIMDBEZIER_ISA_ENTRY
+#define SIMDBEZIER_ISA_ENTRY(isa) &isa_##isa::table_f32,
+constexpr const detail::KernelTable<float>* kFloatTables[] = {
+#include "isa_list.inc"
+};
+#undef SIMDBEZIER_ISA_ENTRY
+#define SIMDBEZIER_ISA_ENTRY(isa) &isa_##isa::table_f64,
+constexpr const detail::KernelTable<double>* kDoubleTables[] = {
+#include "isa_list.inc"
+};
+#undef SIMDBEZIER_ISA_ENTRY
+#define SIMDBEZIER_ISA_ENTRY(isa) &isa_##isa::net_table_f32,
+constexpr const detail::NetTable<float>* kFloatNetTables[] = {
+#include "isa_list.inc"
+};
+#undef SIMDBEZIER_ISA_ENTRY
+#define SIMDBEZIER_ISA_ENTRY(isa) &isa_##isa::net_table_f64,
+constexpr const detail::NetTable<double>* kDoubleNetTables[] = {
 #include "isa_list.inc"
 };
 #undef SIMDBEZIER_ISA_ENTRY
 
 struct AvailableIsas {
-  std::array<Isa, std::size(kTables)> list{};
+  std::array<Isa, std::size(kIsas)> list{};
   std::size_t count = 0;
 
   AvailableIsas() noexcept {
-    for (const Tables& tables : kTables) {
-      if (detail::cpu_supports(tables.f32->isa)) {
-        list[count++] = tables.f32->isa;
+    for (const Isa isa : kIsas) {
+      if (detail::cpu_supports(isa)) {
+        list[count++] = isa;
       }
     }
   }
@@ -120,24 +140,33 @@ Isa narrower_choice(Isa requested) noexcept {
 
 namespace {
 
-const Tables& tables_of(Isa isa) noexcept {
-  const Tables* found = kTables;
-  for (const Tables& tables : kTables) {
-    found = tables.f32->isa == isa ? &tables : found;
-  }
-  return *found;
+/// Returns the table of the instruction set, or the first one.
+template <typename Table>
+const Table& table_of(Isa isa, const Table* const (&tables)[std::size(kIsas)]) noexcept {
+  const Isa* const found = std::find(std::begin(kIsas), std::end(kIsas), isa);
+  return *tables[found == std::end(kIsas) ? 0 : found - kIsas];
 }
 
 } // namespace
 
 template <>
 const KernelTable<float>& kernel_table<float>(Isa isa) noexcept {
-  return *tables_of(isa).f32;
+  return table_of(isa, kFloatTables);
 }
 
 template <>
 const KernelTable<double>& kernel_table<double>(Isa isa) noexcept {
-  return *tables_of(isa).f64;
+  return table_of(isa, kDoubleTables);
+}
+
+template <>
+const NetTable<float>& net_table<float>(Isa isa) noexcept {
+  return table_of(isa, kFloatNetTables);
+}
+
+template <>
+const NetTable<double>& net_table<double>(Isa isa) noexcept {
+  return table_of(isa, kDoubleNetTables);
 }
 
 } // namespace detail

@@ -4,7 +4,7 @@
 
 #if defined(__x86_64__)
 #include <immintrin.h>
-#else
+#elif !defined(__wasm__)
 #include <cfenv>
 #endif
 
@@ -26,6 +26,15 @@ inline void restore_fp_state(FpState state) noexcept {
 }
 /// Whether all but the flags of exceptions are the library's.
 inline bool is_default(FpState state) noexcept { return (state & 0xffc0) == kDefaultFpState; }
+#elif defined(__wasm__)
+// There is one environment: round to nearest, denormals kept, no flags.
+struct FpState {};
+
+inline FpState fp_state() noexcept { return {}; }
+inline void set_fp_state(FpState) noexcept {}
+inline void set_default_fp_state() noexcept {}
+inline void restore_fp_state(FpState) noexcept {}
+inline bool is_default(FpState) noexcept { return true; }
 #else
 using FpState = std::fenv_t;
 

@@ -9,7 +9,11 @@ namespace {
 
 // The compiler's built-in honours what the operating system saves (XCR0), which xsimd 8.1's own
 // probe does not.
+#if defined(__wasm__)
+#define SIMDBEZIER_CPU_HAS(feature) true // or the module would have been refused
+#else
 #define SIMDBEZIER_CPU_HAS(feature) (__builtin_cpu_supports(feature) != 0)
+#endif
 
 using Probe = bool (*)() noexcept;
 

@@ -47,7 +47,7 @@ Status cut_all(const SplineList<T>& list, const NetView<T>& out, const Options& 
   if (const Status status = resolve_isa(options.isa, isa); !status) {
     return status;
   }
-  const MeanKernel mean = kernel_table<double>(isa).nets->mean;
+  const MeanKernel mean = net_table<float>(isa).mean;
   const auto work = [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
     SplineCutter<T> cutter(list, mean, scratch);
     for (std::size_t row = begin; row < end; ++row) {

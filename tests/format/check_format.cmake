@@ -9,7 +9,7 @@ if(NOT version MATCHES "version 14\\.")
   return()
 endif()
 set(files)
-foreach(folder include kernels src tools bench examples python tests)
+foreach(folder include kernels src tools web bench examples python tests)
   file(GLOB_RECURSE more RELATIVE ${SOURCE} ${SOURCE}/${folder}/*.cpp ${SOURCE}/${folder}/*.hpp
        ${SOURCE}/${folder}/*.c ${SOURCE}/${folder}/*.h)
   list(APPEND files ${more})

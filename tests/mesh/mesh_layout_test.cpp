@@ -274,7 +274,8 @@ TEST(MeshLayout, bad_input_is_a_status) {
             static_cast<std::ptrdiff_t>(triangles.size()));
   EXPECT_EQ(write_triangles(layout, std::span<std::uint32_t>()), Status::null_output);
   triangles.resize(3 * layout.size().triangles);
-  for (const Isa wanted : {Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512, Isa::neon64}) {
+  for (const Isa wanted :
+       {Isa::scalar, Isa::sse2, Isa::avx2, Isa::avx512, Isa::neon64, Isa::simd128}) {
     Isa executed = Isa::automatic;
     const bool runs = std::ranges::count(available_isas(), wanted) > 0;
     EXPECT_EQ(write_triangles(layout, std::span(triangles), {.isa = wanted, .executed = &executed}),

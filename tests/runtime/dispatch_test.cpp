@@ -56,6 +56,7 @@ TEST(Dispatch, what_is_not_available_is_refused_and_nothing_is_chosen) {
 TEST(Dispatch, classes) {
   EXPECT_FALSE(fuses_multiply_add(Isa::scalar));
   EXPECT_FALSE(fuses_multiply_add(Isa::sse2));
+  EXPECT_FALSE(fuses_multiply_add(Isa::simd128));
   EXPECT_TRUE(fuses_multiply_add(Isa::avx2));
   EXPECT_TRUE(fuses_multiply_add(Isa::avx512));
   EXPECT_TRUE(fuses_multiply_add(Isa::neon64));

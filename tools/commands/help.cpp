@@ -49,10 +49,10 @@ constexpr CommandText kCommandTexts[] = {
 constexpr std::string_view kExitCodes =
     "Exit codes: 0 done, 1 bad input, bad number or failed write, 2 other bad usage.\n";
 constexpr std::string_view kEnvironment =
-    " in the environment overrides the\n"
-    "choice of instruction set, SIMDBEZIER_DESTINATION=memory|cache whether large\n"
-    "results go past the caches, SIMDBEZIER_SPLIT_STORES=slow|fast what is measured\n"
-    "otherwise; OMP_NUM_THREADS limits what --threads 0 takes.\n"
+    " in the environment\n"
+    "overrides the choice of instruction set, SIMDBEZIER_DESTINATION=memory|cache\n"
+    "whether large results go past the caches, SIMDBEZIER_SPLIT_STORES=slow|fast\n"
+    "what is measured otherwise; OMP_NUM_THREADS limits what --threads 0 takes.\n"
     "TMPDIR names the folder of temporary files where the output is a pipe.\n";
 
 // What the environment may say, whichever instruction sets this machine has.

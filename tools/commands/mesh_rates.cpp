@@ -182,12 +182,12 @@ MeshRates choose_mesh_rates(const RatedPatches<T>& patches, const Arguments& arg
   chosen.nu.resize(count);
   chosen.nv.resize(count);
   chosen.diagonals.resize(count);
-  std::vector<double> deviations(count);
-  const CertifiedRates rates{chosen.nu, chosen.nv, chosen.diagonals, deviations};
+  chosen.deviations.resize(count);
+  const CertifiedRates rates{chosen.nu, chosen.nv, chosen.diagonals, chosen.deviations};
   arguments.mesh.adaptive() ? choose_adaptive(patches, arguments, rates)
                             : choose_uniform(patches, arguments, rates);
   // Nothing is claimed to be exact, even if no rounding can be found.
-  const auto own = std::span(deviations).subspan(patches.own.first, patches.own.count);
+  const auto own = std::span(chosen.deviations).subspan(patches.own.first, patches.own.count);
   chosen.deviation = std::max(std::ranges::max(own), std::numeric_limits<double>::min());
   return chosen;
 }

@@ -16,6 +16,7 @@ struct MeshRates {
   std::vector<std::uint32_t> nu;
   std::vector<std::uint32_t> nv;
   std::vector<std::uint16_t> diagonals;
+  std::vector<double> deviations;
   double deviation = 0;
 };
 

@@ -1,55 +1,43 @@
 #include <tools/formats/byte_source.hpp>
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
+#include <algorithm>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
-#include <sys/stat.h>
-
 #include <tools/formats/gunzip.hpp>
-#include <tools/formats/text_input.hpp>
-#include <tools/process/failure.hpp>
 #include <tools/process/progress.hpp>
 
 namespace simdbezier::tools {
 
-void ByteSource::Close::operator()(std::FILE* file) const noexcept {
-  if (file != stdin) {
-    std::fclose(file);
-  }
-}
+namespace {
 
-ByteSource::ByteSource(const std::string& path) {
-  if (path == "-") {
-    file_.reset(stdin);
-    return;
+class BytesInMemory final : public StoredBytes {
+public:
+  explicit BytesInMemory(std::span<const char> bytes) : rest_(bytes), size_(bytes.size()) {}
+
+  [[nodiscard]] std::size_t read(char* data, std::size_t size) override {
+    const std::span<const char> next = rest_.first(std::min(size, rest_.size()));
+    std::ranges::copy(next, data);
+    rest_ = rest_.subspan(next.size());
+    return next.size();
   }
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    bad_input(path + ": expected a file, found a directory");
-  }
-  file_.reset(std::fopen(path.c_str(), "rb"));
-  if (!file_) {
-    bad_input(path + ": expected a readable file, found " + in_quotes(std::strerror(errno)));
-  }
-}
+  [[nodiscard]] std::uint64_t size() const override { return size_; }
+
+private:
+  std::span<const char> rest_;
+  std::size_t size_;
+};
+
+} // namespace
+
+ByteSource::ByteSource(const std::string& path) : stored_(open_file(path)) {}
+ByteSource::ByteSource(std::span<const char> memory)
+    : stored_(std::make_unique<BytesInMemory>(memory)) {}
 
 ByteSource::~ByteSource() = default;
 
-std::uint64_t ByteSource::stored_size() const {
-  struct stat status = {};
-  const bool known = fstat(fileno(file_.get()), &status) == 0 && S_ISREG(status.st_mode);
-  return known ? static_cast<std::uint64_t>(status.st_size) : 0;
-}
-
 std::size_t ByteSource::read_stored(char* data, std::size_t size) {
-  const std::size_t read = std::fread(data, 1, size, file_.get());
-  if (read == 0 && std::ferror(file_.get()) != 0) {
-    throw DamagedInput{"readable text", in_quotes(std::strerror(errno))};
-  }
+  const std::size_t read = stored_->read(data, size);
   if (progress_ != nullptr) {
     progress_->advance(read);
   }

@@ -1,10 +1,11 @@
-// The bytes of an input: of a file or standard input, unpacked where they are compressed by gzip.
+// The bytes of an input: of a file, standard input or memory, unpacked where they are compressed by
+// gzip.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
+#include <span>
 #include <string>
 
 namespace simdbezier::tools {
@@ -18,11 +19,31 @@ struct DamagedInput {
   std::string found;
 };
 
+/// The bytes as they are stored.
+class StoredBytes {
+public:
+  StoredBytes() = default;
+  virtual ~StoredBytes() = default;
+  StoredBytes(const StoredBytes&) = delete;
+  StoredBytes& operator=(const StoredBytes&) = delete;
+
+  /// Returns how many bytes there were; 0 at the end only. Throws DamagedInput.
+  [[nodiscard]] virtual std::size_t read(char* data, std::size_t size) = 0;
+  /// Returns how many there are in all; 0 where that is unknown, as for pipes.
+  [[nodiscard]] virtual std::uint64_t size() const = 0;
+};
+
+/// Opens a file, or standard input ("-"). Throws Failure when it cannot be read: missing, a
+/// directory, no permission.
+[[nodiscard]] std::unique_ptr<StoredBytes> open_file(const std::string& path);
+
 /// Reads an input. Whether it is compressed is decided by its first bytes, never by its name.
 class ByteSource {
 public:
-  /// Throws Failure when the input cannot be read: missing, a directory, no permission.
+  /// Throws Failure where open_file() does.
   explicit ByteSource(const std::string& path);
+  /// Takes bytes that are in memory, and stay there as long as this.
+  explicit ByteSource(std::span<const char> memory);
   ~ByteSource();
   ByteSource(const ByteSource&) = delete;
   ByteSource& operator=(const ByteSource&) = delete;
@@ -31,17 +52,14 @@ public:
   [[nodiscard]] std::size_t read(char* data, std::size_t size);
 
   /// Returns the size as it is stored, in bytes; 0 where that is unknown, as for pipes.
-  [[nodiscard]] std::uint64_t stored_size() const;
+  [[nodiscard]] std::uint64_t stored_size() const { return stored_->size(); }
   /// Shows from now on how much of what is stored has been read.
   void show(Progress& progress) noexcept { progress_ = &progress; }
 
 private:
-  struct Close {
-    void operator()(std::FILE* file) const noexcept;
-  };
   [[nodiscard]] std::size_t read_stored(char* data, std::size_t size);
 
-  std::unique_ptr<std::FILE, Close> file_;
+  std::unique_ptr<StoredBytes> stored_;
   Progress* progress_ = nullptr;
   bool at_start_ = true;
   std::unique_ptr<Gunzip> gunzip_; // where the input is compressed

@@ -3,10 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string_view>
 #include <vector>
 
-#include <zlib.h>
+struct z_stream_s; // zlib's
 
 namespace simdbezier::tools {
 
@@ -43,7 +44,7 @@ private:
   void check_limit() const;
 
   std::vector<char> packed_;
-  z_stream stream_ = {};
+  std::unique_ptr<z_stream_s> stream_;
   std::uint64_t bytes_in_ = 0;
   std::uint64_t bytes_out_ = 0;
   bool is_complete_ = false; // the bytes so far are one or more whole files

@@ -6,7 +6,9 @@
 #include <new>
 #include <vector>
 
+#if defined(__linux__)
 #include <sys/mman.h>
+#endif
 
 namespace simdbezier::tools {
 

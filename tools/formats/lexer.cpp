@@ -1,10 +1,10 @@
 #include <tools/formats/lexer.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <simdbezier/control_nets.hpp>
+#include <tools/formats/from_chars.hpp>
 #include <tools/process/failure.hpp>
 
 namespace simdbezier::tools {
@@ -92,7 +92,7 @@ bool Lexer::is_in_memory() {
 }
 
 inline const char* Lexer::number_end(const char* begin, const char* last, double& value) const {
-  const auto [end, error] = std::from_chars(begin, last, value);
+  const auto [end, error] = from_chars(begin, last, value);
   const bool is_word = error == std::errc() && end != last && ends_word(*end);
   return is_word && std::isfinite(value) ? end : nullptr;
 }

@@ -59,6 +59,10 @@ PatchFormat format_of(const std::string& name) {
   bad_usage(name + ": expected a name that ends in " + patch_format_names(".") + ", or --format");
 }
 
+PatchFile read_as(PatchFormat format, TextInput& input, const ReadOptions& options) {
+  return std::ranges::find(kFormats, format, &Format::format)->read(input, options);
+}
+
 PatchFile read_builtin(const std::string& name) {
   if (name != "builtin:teapot") {
     bad_usage(name + ": expected builtin:teapot, found an unknown built-in");
@@ -308,7 +312,13 @@ PatchFile read_patches(const std::string& in, PatchFormat format, const ReadOpti
   const PatchFormat found = format == PatchFormat::by_name ? format_of(in) : format;
   Progress progress("reading", "bytes", input.stored_size());
   input.show(progress);
-  return std::ranges::find(kFormats, found, &Format::format)->read(input, options);
+  return read_as(found, input, options);
+}
+
+PatchFile read_patches(const std::string& name, std::span<const char> bytes,
+                       const ReadOptions& options) {
+  TextInput input(name, bytes);
+  return read_as(format_of(name), input, options);
 }
 
 } // namespace simdbezier::tools

@@ -179,5 +179,8 @@ SIMDBEZIER_EACH_PATCH_FORMAT(SIMDBEZIER_DECLARE_PATCH_READER)
 /// Throws Failure: exit code 2 where the name or format is not one of ours, otherwise 1.
 [[nodiscard]] PatchFile read_patches(const std::string& in, PatchFormat format,
                                      const ReadOptions& options = {});
+/// Reads the bytes of a file of that name, whose extension says the format.
+[[nodiscard]] PatchFile read_patches(const std::string& name, std::span<const char> bytes,
+                                     const ReadOptions& options = {});
 
 } // namespace simdbezier::tools

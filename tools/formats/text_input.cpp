@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include <tools/formats/from_chars.hpp>
 #include <tools/process/failure.hpp>
 
 namespace simdbezier::tools {
@@ -28,7 +29,7 @@ struct ParsedNumber {
 ParsedNumber parse_number(std::string_view word) {
   word = without_plus(word);
   double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || error == std::errc::invalid_argument) {
     return {};
   }
@@ -43,6 +44,9 @@ ParsedNumber parse_number(std::string_view word) {
 
 TextInput::TextInput(const std::string& path)
     : name_(path == "-" ? "standard input" : path), source_(path), buffer_(kBufferSize) {}
+
+TextInput::TextInput(std::string name, std::span<const char> memory)
+    : name_(std::move(name)), source_(memory), buffer_(kBufferSize) {}
 
 bool TextInput::fill() {
   do {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,15 +18,17 @@ namespace simdbezier::tools {
   return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v';
 }
 
-/// A file or standard input ("-"), one character at a time or as far as it is in memory. All
-/// formats have in common that a UTF-8 byte-order mark is passed over and that LF, CR LF and CR are
-/// line ends, which come as \n, and that the input may be compressed (ByteSource).
+/// A file, standard input ("-") or bytes in memory, one character at a time or as far as it is in
+/// memory. All formats have in common that a UTF-8 byte-order mark is passed over and that LF, CR
+/// LF and CR are line ends, which come as \n, and that the input may be compressed (ByteSource).
 class TextInput {
 public:
   static constexpr int kEnd = -1;
 
   /// Throws Failure where ByteSource does.
   explicit TextInput(const std::string& path);
+  /// Takes bytes that are in memory, as ByteSource does, and a name for messages.
+  TextInput(std::string name, std::span<const char> memory);
 
   /// Returns the name for messages.
   [[nodiscard]] const std::string& name() const noexcept { return name_; }

@@ -3,6 +3,7 @@
 
 #include <tools/mesh_files/glb_file.hpp>
 #include <tools/mesh_files/split_glb.hpp>
+#include <tools/process/failure.hpp>
 
 namespace simdbezier::tools {
 
@@ -62,7 +63,11 @@ std::unique_ptr<MeshWriter<T>> make_split_glb_writer(const std::string& path,
   if (bytes.within(most_bytes)) {
     return std::make_unique<GlbWriter<T>>(path, contents);
   }
-  return std::make_unique<SplitGlbWriter<T>>(path, contents, most_bytes);
+  if constexpr (sizeof(std::size_t) > sizeof(std::uint32_t)) {
+    return std::make_unique<SplitGlbWriter<T>>(path, contents, most_bytes);
+  } else { // memory ends before the format does
+    bad_input(path + ": expected a file of less than 4 GiB, found a larger one");
+  }
 }
 
 template std::unique_ptr<MeshWriter<float>> make_glb_writer(const std::string&,

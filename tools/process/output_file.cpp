@@ -1,233 +1,142 @@
 #include <tools/process/output_file.hpp>
 
+#include <algorithm>
 #include <array>
-#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <utility>
 
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/stat.h>
-#include <sys/statvfs.h>
-#include <unistd.h>
-
-#include <tools/process/counts.hpp>
 #include <tools/process/failure.hpp>
 
 namespace simdbezier::tools {
 
-namespace fs = std::filesystem;
-
 namespace {
 
-std::string error_text(int error) { return in_quotes(std::strerror(error)); }
+thread_local OutputInMemory* innermost = nullptr;
 
-// These names lead to whatever the program was started with. If there is a file behind them, the
-// shell has opened and truncated it.
-bool names_open_descriptor(const fs::path& path) {
-  const std::string& name = path.native();
-  return name == "/dev/stdout" || name == "/dev/stderr" || name.starts_with("/dev/fd/") ||
-         name.starts_with("/proc/");
-}
+class MemoryTarget final : public OutputTarget {
+public:
+  explicit MemoryTarget(std::vector<char>& bytes) : bytes_(bytes) { bytes_.clear(); }
 
-// The file at the end of a chain of links, which need not exist. A chain without an end stays a
-// link, which the system refuses to open.
-fs::path follow_links(fs::path path) {
-  constexpr int kMostLinks = 40; // the system's own limit
-  std::error_code error;
-  for (int i = 0; i < kMostLinks && !names_open_descriptor(path) && fs::is_symlink(path, error);
-       ++i) {
-    path = path.parent_path() / fs::read_symlink(path, error);
+  [[nodiscard]] bool is_terminal() const override { return false; }
+  void expect_room(std::uintmax_t bytes) const override {
+    if (bytes <= bytes_.max_size()) { // and otherwise append() fails
+      bytes_.reserve(static_cast<std::size_t>(bytes));
+    }
   }
-  return path;
-}
+  [[nodiscard]] bool can_rewrite() const noexcept override { return true; }
+  void rewrite(std::uint64_t at, std::string_view text) override {
+    std::ranges::copy(text, bytes_.begin() + static_cast<std::ptrdiff_t>(at));
+  }
+  void complete() override {}
+  void commit() override {}
+  void append(const char* data, std::size_t size) override {
+    bytes_.insert(bytes_.end(), data, data + size);
+  }
 
-// What a name stands for, if there is such a file.
-std::optional<struct stat> file_of(const std::string& name, int standard) {
-  struct stat status = {};
-  const bool exists =
-      name == "-" ? fstat(standard, &status) == 0 : stat(name.c_str(), &status) == 0;
-  return exists ? std::optional(status) : std::nullopt;
-}
+private:
+  std::vector<char>& bytes_;
+};
 
-bool are_one(const std::optional<struct stat>& a, const std::optional<struct stat>& b) {
-  return a && b && a->st_dev == b->st_dev && a->st_ino == b->st_ino;
+std::unique_ptr<OutputTarget> target_of(const std::string& path) {
+  return innermost != nullptr && innermost->path() == path
+             ? std::make_unique<MemoryTarget>(innermost->bytes)
+             : open_target(path);
 }
 
 } // namespace
 
-OutputFile::OutputFile(std::string path) : path_(std::move(path)), buffer_(kBufferSize) {
-  if (path_ == "-") {
-    descriptor_ = STDOUT_FILENO;
-    return;
-  }
-  const fs::path target = follow_links(path_);
-  std::error_code ignored;
-  if (fs::is_directory(target, ignored)) {
-    fail("a file", "a directory");
-  }
-  if (fs::is_symlink(target, ignored) && !names_open_descriptor(target)) {
-    fail("a writable file", error_text(ELOOP));
-  }
-  if (is_written_directly(path_)) {
-    open_directly(target.native());
-    return;
-  }
-  try {
-    temporary_.emplace(target.native());
-  } catch (const FolderRefuses& error) {
-    fail("a folder where a temporary file can stand beside it", error_text(error.code().value()));
-  } catch (const std::system_error& error) {
-    fail("a writable file", error_text(error.code().value()));
-  }
-  descriptor_ = temporary_->descriptor();
-}
+OutputInMemory::OutputInMemory(std::string path)
+    : path_(std::move(path)), outer_(std::exchange(innermost, this)) {}
 
-void OutputFile::open_directly(const std::string& target) {
-  // It is opened for appending, so that what a shell's >> has kept stays.
-  direct_ =
-      Descriptor(open(target.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY, 0666));
-  if (!direct_.is_open()) {
-    fail("a writable file", error_text(errno));
-  }
-  descriptor_ = direct_.number();
-}
+OutputInMemory::~OutputInMemory() { innermost = outer_; }
 
-void OutputFile::fail(const std::string& what, const std::string& found) const {
-  bad_input((path_ == "-" ? "standard output" : path_) + ": expected " + what + ", found " + found);
-}
-
-bool OutputFile::is_terminal() const { return isatty(descriptor_) != 0; }
-
-void OutputFile::expect_room(std::uintmax_t bytes) const {
-  struct statvfs space = {};
-  if (!temporary_ || fstatvfs(descriptor_, &space) != 0) {
-    return;
-  }
-  const Count available = Count(space.f_bavail) * space.f_frsize;
-  if (available.within(bytes) && available.value() != bytes) {
-    fail("room for " + std::to_string(bytes) + " bytes or more",
-         to_string(available) + " bytes free");
-  }
-}
+OutputFile::OutputFile(const std::string& path) : target_(target_of(path)), buffer_(kBufferSize) {}
 
 void OutputFile::bytes(const void* data, std::size_t size) {
   if (size > kBufferSize - used_) {
     flush();
   }
   if (size > kBufferSize) {
-    return write_all(static_cast<const char*>(data), size);
+    return target_->append(static_cast<const char*>(data), size);
   }
   std::memcpy(buffer_.data() + used_, data, size);
   used_ += size;
 }
 
-void OutputFile::flush() { write_all(buffer_.data(), std::exchange(used_, 0)); }
-
-// Pipes and full disks sometimes take a part only, and pipes of others may be set not to wait.
-void OutputFile::write_all(const char* data, std::size_t size) {
-  while (size > 0) {
-    const ssize_t written = write(descriptor_, data, size);
-    if (written > 0) {
-      data += written;
-      size -= static_cast<std::size_t>(written);
-    } else if (written < 0 && errno == EAGAIN) {
-      pollfd wait = {descriptor_, POLLOUT, 0};
-      poll(&wait, 1, -1);
-    } else if (written == 0 || errno != EINTR) {
-      fail("room to write", error_text(written == 0 ? ENOSPC : errno));
-    }
-  }
-}
+void OutputFile::flush() { target_->append(buffer_.data(), std::exchange(used_, 0)); }
 
 void OutputFile::rewrite(std::uint64_t at, std::string_view text) {
   flush();
-  while (!text.empty()) {
-    const ssize_t written = pwrite(descriptor_, text.data(), text.size(), static_cast<off_t>(at));
-    if (written > 0) {
-      at += static_cast<std::uint64_t>(written);
-      text.remove_prefix(static_cast<std::size_t>(written));
-    } else if (written == 0 || errno != EINTR) {
-      fail("room to write", error_text(written == 0 ? ENOSPC : errno));
-    }
-  }
+  target_->rewrite(at, text);
 }
 
 void OutputFile::complete() {
   flush();
-  descriptor_ = -1;
-  try {
-    if (temporary_) {
-      temporary_->complete();
-    } else if (const std::error_code error = direct_.close()) {
-      throw std::system_error(error);
-    }
-  } catch (const std::system_error& error) {
-    fail("room to write", error_text(error.code().value()));
-  }
+  target_->complete();
+  is_complete_ = true;
 }
 
 void OutputFile::commit() {
-  if (descriptor_ >= 0) {
+  if (!is_complete_) {
     complete();
   }
-  if (!temporary_) {
-    return;
-  }
-  try {
-    temporary_->replace_target();
-  } catch (const std::system_error& error) {
-    fail("a place that the finished file can be moved to", error_text(error.code().value()));
-  }
-}
-
-void refuse_input_as_output(const std::string& out, std::span<const std::string> inputs) {
-  const auto written = file_of(out, STDOUT_FILENO);
-  for (const std::string& input : inputs) {
-    const auto read = file_of(input, STDIN_FILENO);
-    // Devices, terminals and the like may well be both.
-    if (are_one(written, read) && S_ISREG(written->st_mode)) {
-      bad_input((out == "-" ? "standard output" : out) +
-                ": expected an output that is no input, found the file that " +
-                (input == "-" ? "standard input" : input) + " is read from");
-    }
-  }
-}
-
-bool mixes_with_standard_output(const std::string& path) {
-  const auto standard = file_of("-", STDOUT_FILENO);
-  return path == "-" || (are_one(file_of(path, STDOUT_FILENO), standard) &&
-                         !are_one(file_of("/dev/null", STDOUT_FILENO), standard));
-}
-
-bool is_written_directly(const std::string& path) {
-  const fs::path target = follow_links(path);
-  std::error_code ignored;
-  const fs::file_status status = fs::status(target, ignored);
-  return path == "-" || names_open_descriptor(target) || fs::is_other(status);
-}
-
-std::string folder_of(const std::string& output) {
-  const std::string folder = follow_links(output).parent_path().string();
-  return folder.empty() ? "." : folder;
+  target_->commit();
 }
 
 std::string extension_of(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  if (!extension.empty()) {
-    extension.erase(0, 1);
+  const std::string name = path.substr(path.rfind('/') + 1);
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string::npos || dot == 0 || name == "..") { // a hidden file, or a folder
+    return "";
   }
+  std::string extension = name.substr(dot + 1);
   for (char& c : extension) {
     c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   }
   return extension;
 }
 
+#if defined(__wasm__)
+// As std::to_chars() has it, whose tables would be a tenth of a module: the fewest digits that read
+// back, as 0.001 or 1e-05, whichever is shorter.
+std::string shortest(double value) {
+  std::array<char, 40> text;
+  int digits = 0;
+  do {
+    std::snprintf(text.data(), text.size(), "%.*e", digits, value);
+  } while (++digits < 17 && std::strtod(text.data(), nullptr) != value);
+  const std::string scientific = text.data();
+  const std::size_t e = scientific.find('e');
+  if (e == std::string::npos) { // inf, nan
+    return scientific;
+  }
+  const std::string sign = value < 0 || scientific[0] == '-' ? "-" : "";
+  std::string figures;
+  std::ranges::copy_if(scientific.substr(sign.size(), e - sign.size()), std::back_inserter(figures),
+                       [](char c) { return c != '.'; });
+  const int exponent = std::atoi(scientific.c_str() + e + 1);
+  const int last = static_cast<int>(figures.size()) - 1;
+  std::string fixed;
+  if (exponent < 0) {
+    fixed = "0." + std::string(static_cast<std::size_t>(-exponent - 1), '0') + figures;
+  } else if (exponent > 22) { // longer than any scientific form
+    return scientific;
+  } else if (exponent >= last) { // digits that are not needed stay those of the value
+    std::snprintf(text.data(), text.size(), "%.0f", value < 0 ? -value : value);
+    fixed = text.data();
+  } else {
+    fixed = figures.insert(static_cast<std::size_t>(exponent) + 1, ".");
+  }
+  return sign.size() + fixed.size() <= scientific.size() ? sign + fixed : scientific;
+}
+#else
 std::string shortest(double value) {
   std::array<char, 32> digits;
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
   return {digits.data(), end};
 }
+#endif
 
 } // namespace simdbezier::tools

@@ -4,37 +4,71 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <tools/process/temporary_file.hpp>
-
 namespace simdbezier::tools {
+
+/// Where written bytes go. Every failure throws Failure.
+class OutputTarget {
+public:
+  OutputTarget() = default;
+  virtual ~OutputTarget() = default;
+  OutputTarget(const OutputTarget&) = delete;
+  OutputTarget& operator=(const OutputTarget&) = delete;
+
+  /// These do what OutputFile's members of their names do.
+  [[nodiscard]] virtual bool is_terminal() const = 0;
+  virtual void expect_room(std::uintmax_t bytes) const = 0;
+  [[nodiscard]] virtual bool can_rewrite() const noexcept = 0;
+  virtual void rewrite(std::uint64_t at, std::string_view text) = 0;
+  virtual void complete() = 0;
+  virtual void commit() = 0;
+
+  virtual void append(const char* data, std::size_t size) = 0;
+};
+
+/// Begins a file on a disk, or opens what "-", a device or a pipe stands for.
+[[nodiscard]] std::unique_ptr<OutputTarget> open_target(const std::string& path);
+
+/// While it lives, what its thread writes to a file of this name is here instead.
+class OutputInMemory {
+public:
+  explicit OutputInMemory(std::string path);
+  ~OutputInMemory();
+  OutputInMemory(const OutputInMemory&) = delete;
+  OutputInMemory& operator=(const OutputInMemory&) = delete;
+
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  std::vector<char> bytes; ///< all of the file when it has been completed
+
+private:
+  std::string path_;
+  OutputInMemory* outer_;
+};
 
 /// Writes to a temporary file beside `path`. commit() puts it there, on the disk, with the owner,
 /// group and mode of the file that it replaces. Without commit() the temporary file is removed, and
 /// an existing file stays as it was. Links are followed. "-", devices and pipes have no name that
-/// could be replaced and are written as they are. Every failure throws Failure.
+/// could be replaced and are written as they are. A name that an OutputInMemory has goes there.
+/// Every failure throws Failure.
 class OutputFile {
 public:
-  explicit OutputFile(std::string path);
-  ~OutputFile() = default;
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
+  explicit OutputFile(const std::string& path);
 
   /// Whether people can see the output while it is written.
-  [[nodiscard]] bool is_terminal() const;
+  [[nodiscard]] bool is_terminal() const { return target_->is_terminal(); }
   /// Fails at once where the file system has no room for that much.
-  void expect_room(std::uintmax_t bytes) const;
+  void expect_room(std::uintmax_t bytes) const { target_->expect_room(bytes); }
 
   void text(std::string_view text) { bytes(text.data(), text.size()); }
   void character(char c) { *room(1) = c, ++used_; }
   void bytes(const void* data, std::size_t size);
   /// Whether what has been written can be replaced: not in devices and pipes.
-  [[nodiscard]] bool can_rewrite() const noexcept { return temporary_.has_value(); }
+  [[nodiscard]] bool can_rewrite() const noexcept { return target_->can_rewrite(); }
   /// Replaces bytes that have been written.
   void rewrite(std::uint64_t at, std::string_view text);
 
@@ -56,10 +90,7 @@ private:
   static constexpr std::size_t kLongestNumber = 32;
   static constexpr std::size_t kBufferSize = std::size_t{1} << 18;
 
-  [[noreturn]] void fail(const std::string& what, const std::string& found) const;
-  void open_directly(const std::string& target);
   void flush();
-  void write_all(const char* data, std::size_t size);
   char* room(std::size_t size) {
     if (kBufferSize - used_ < size) {
       flush();
@@ -67,12 +98,10 @@ private:
     return buffer_.data() + used_;
   }
 
-  std::string path_;
-  std::optional<TemporaryFile> temporary_;
-  Descriptor direct_;   // a device's or pipe's
-  int descriptor_ = -1; // either one's; none when the file is complete
+  std::unique_ptr<OutputTarget> target_;
   std::vector<char> buffer_;
   std::size_t used_ = 0;
+  bool is_complete_ = false;
 };
 
 /// Throws Failure where the output would go to the file that an input is read from, by whatever

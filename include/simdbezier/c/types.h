@@ -101,7 +101,8 @@ enum {
   SIMDBEZIER_ISA_SSE2,
   SIMDBEZIER_ISA_AVX2,
   SIMDBEZIER_ISA_AVX512,
-  SIMDBEZIER_ISA_NEON64
+  SIMDBEZIER_ISA_NEON64,
+  SIMDBEZIER_ISA_SIMD128
 };
 // to_string(Isa), isa_from_name(), available_isas(), fuses_multiply_add(), resolve_isa().
 SIMDBEZIER_API const char* simdbezier_isa_name(simdbezier_isa isa); // "unknown" for other numbers

@@ -148,7 +148,9 @@ Status lay_out_mesh(const Topology& topology, const PatchRates& rates, MeshLayou
 }
 
 MeshSize MeshLayout::size() const noexcept {
-  return data_ == nullptr ? MeshSize{} : MeshSize{data_->vertices, data_->triangles.back()};
+  return data_ == nullptr ? MeshSize{}
+                          : MeshSize{std::size_t{data_->vertices},
+                                     static_cast<std::size_t>(data_->triangles.back())};
 }
 
 std::size_t MeshLayout::first_triangle(std::size_t patch) const noexcept {

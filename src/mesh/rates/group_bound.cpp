@@ -21,7 +21,8 @@ constexpr double kMostLooked = 64;
 
 } // namespace
 
-GroupBound::GroupBound(Isa isa) noexcept : kernels_(kernel_table<double>(isa).nets->bounds) {}
+// Both tables have the same bounds. A program that knows floats alone has one of them.
+GroupBound::GroupBound(Isa isa) noexcept : kernels_(net_table<float>(isa).bounds) {}
 
 template <typename S>
 bool GroupBound::read(const ControlNets<S>& nets, std::size_t patch, RateFlags flags) {

@@ -19,6 +19,10 @@
 namespace simdbezier::tests {
 
 /// The whole file as text, unpacked by gzip where its name ends in .gz; empty where absent.
+#if defined(__wasm__)
+// A WebAssembly module has no files.
+[[nodiscard]] inline std::string data_text(const std::string& /*name*/) { return {}; }
+#else
 [[nodiscard]] inline std::string data_text(const std::string& name) {
   const std::string path = std::string(SIMDBEZIER_SHARED_DATA) + "/" + name;
   std::ifstream file(path, std::ios::binary);
@@ -40,6 +44,7 @@ namespace simdbezier::tests {
   pclose(pipe);
   return text;
 }
+#endif
 
 /// All complete bicubic nets of a `.bez` or `.bpt` file; empty where the file is absent.
 [[nodiscard]] inline std::vector<Net> data_nets(const std::string& name) {

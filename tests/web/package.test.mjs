@@ -1,0 +1,272 @@
+// The package as somebody has it who installed it: this file runs in a project of its own (tests/web/run.sh), where
+// `simdbezier` is what npm pack made. Native programs and data are named by the environment.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { createHash } from 'node:crypto';
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { Worker } from 'node:worker_threads';
+import { brotliCompressSync, constants } from 'node:zlib';
+import { load } from 'simdbezier';
+import { load as loadCore } from 'simdbezier/core';
+import { load as loadDoubles } from 'simdbezier/f64';
+
+const { SIMDBEZIER_PROGRAM: program, SIMDBEZIER_SOURCE: source, SIMDBEZIER_SHARED_DATA: data } = process.env;
+const md5 = (bytes) => createHash('md5').update(bytes).digest('hex');
+const bezier = await load();
+const modules = { f32: bezier, f64: await loadDoubles() };
+const teapot = (options) => modules[options?.precision ?? 'f32'].read('builtin:teapot', undefined, options);
+const flat = [...Array(16).keys()].flatMap((k) => [k % 4, Math.floor(k / 4), 0]); // (3u, 3v, 0)
+
+const MODULES = [['simdbezier.wasm', 400], ['simdbezier-f64.wasm', 560], ['simdbezier-core.wasm', 300]];
+for (const [name, most] of MODULES) test(`${name} is small`, () => {
+  const wasm = readFileSync(createRequire(import.meta.url).resolve(`simdbezier/${name}`));
+  const bytes = brotliCompressSync(wasm, { params: { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_SIZE_HINT]: wasm.length } }).length;
+  console.log(`${wasm.length} bytes, ${bytes} by brotli`);
+  assert.ok(bytes <= most * 1024, `expected at most ${most} KiB by brotli, found ${bytes} bytes`);
+});
+
+test('a set has the right values', () => {
+  for (const precision of ['f32', 'f64']) {
+    using_(modules[precision].patches(flat, { precision }), (set) => {
+      assert.equal(set.size, 1);
+      assert.equal(set.precision, precision);
+      assert.deepEqual(set.box, { low: [0, 0, 0], high: [3, 3, 0] });
+      const grid = set.grid(3, 2, { outputs: ['position', 'du', 'normal', 'status'] });
+      assert.equal(grid.count, 6);
+      assert.deepEqual([...grid.position], [0, 0, 0, 1.5, 0, 0, 3, 0, 0, 0, 3, 0, 1.5, 3, 0, 3, 3, 0]);
+      assert.deepEqual([...grid.du.slice(0, 3)], [3, 0, 0]);
+      assert.deepEqual([...grid.normal.slice(3, 6)], [0, 0, 1]);
+      assert.deepEqual([...grid.status], [0, 0, 0, 0, 0, 0]);
+      const planes = set.grid(3, 2, { layout: 'planes' });
+      assert.deepEqual([...planes.position], [0, 1.5, 3, 0, 1.5, 3, 0, 0, 0, 3, 3, 3, 0, 0, 0, 0, 0, 0]);
+      const records = set.grid(2, 2, { layout: 'interleaved', outputs: ['normal', 'position', 'curvature'] });
+      assert.deepEqual([...records.records.slice(0, 12)], [0, 0, 0, 0, 0, 1, 3, 0, 0, 0, 0, 1]);
+      assert.deepEqual([...records.maximum].map(Math.abs), [0, 0, 0, 0]);
+      const samples = set.samples([0, 0], [0.25, 1], [0.5, 0.5]);
+      assert.deepEqual([...samples.position], [0.75, 1.5, 0, 3, 1.5, 0]);
+      const mesh = set.tessellate({ grid: [2, 3], parameters: true, normals: false });
+      assert.equal(mesh.stride, 5);
+      assert.deepEqual([mesh.vertexCount, mesh.triangleCount], [6, 4]);
+    });
+  }
+});
+
+test('samples are those of the grid', () => using_(teapot(), (set) => {
+  const grid = set.grid(5, 5, { outputs: ['position', 'normal'], copy: true });
+  const numbers = [...Array(32 * 25).keys()];
+  const samples = set.samples(numbers.map((k) => Math.floor(k / 25)), numbers.map((k) => (k % 5) / 4),
+    numbers.map((k) => Math.floor(k / 5) % 5 / 4), { outputs: ['position', 'normal'] });
+  assert.deepEqual(samples.position, grid.position);
+  assert.deepEqual(samples.normal, grid.normal);
+}));
+
+test('meshes are within the tolerance and without gaps', () => using_(teapot(), (set) => {
+  const fine = set.tessellate({ relative: 1e-3, copy: true });
+  assert.ok(fine.deviation > 0 && fine.deviation <= 1e-3 * set.diagonal);
+  assert.equal(Math.max(...fine.deviations), fine.deviation);
+  assert.equal(fine.firstTriangles.at(-1), fine.triangleCount);
+  assert.equal(fine.indices.length, 3 * fine.triangleCount);
+  assert.ok(fine.indices.every((k) => k < fine.vertexCount));
+  const coarse = set.tessellate({ tolerance: 0.01 * set.diagonal, copy: true });
+  assert.ok(coarse.triangleCount < fine.triangleCount);
+  const apart = set.tessellate({ relative: 1e-3, weld: false, copy: true });
+  assert.equal(apart.triangleCount, fine.triangleCount);
+  assert.ok(apart.vertexCount > fine.vertexCount);
+}));
+
+test('creases keep two normals', () => {
+  const wedge = [0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, /* and */ 1, 0, 0, 1, 0, 1, 1, 1, 0, 1, 1, 1];
+  using_(bezier.patches(wedge, { degreeU: 1, degreeV: 1 }), (set) => {
+    for (const [options, vertices] of [[{}, 6], [{ crease: 30 }, 8], [{ crease: 120 }, 6], [{ weld: false }, 8]]) {
+      assert.equal(set.tessellate({ grid: 2, ...options }).vertexCount, vertices, JSON.stringify(options));
+    }
+  });
+});
+
+
+// Each set of options in both languages.
+const OPTIONS = [
+  [{ relative: 1e-2 }, ['--relative', '1e-2']],
+  [{ relative: 1e-3 }, ['--relative', '1e-3']],
+  [{ relative: 1e-4 }, ['--relative', '1e-4']],
+];
+const MORE_OPTIONS = [
+  [{ tolerance: 0.01, relative: 2e-3 }, ['--tolerance', '0.01', '--relative', '2e-3']],
+  [{ grid: [7, 5] }, ['--grid', '7x5']],
+  [{ relative: 1e-3, crease: 30, parameters: true }, ['--relative', '1e-3', '--crease', '30', '--parameters']],
+  [{ relative: 1e-3, normals: false, orient: true, flip: true, snap: 1e-3 },
+    ['--relative', '1e-3', '--no-normals', '--orient', '--flip', '--snap', '1e-3']],
+];
+const readable = ['bpt', 'bv', 'iges', 'itd', 'obj', 'rib'].map((format) => join(source ?? '', 'tests/data', `sample.${format}`));
+const models = ['teapot.bpt', 'teapot28.bez', 'teacup.bez', 'teaspoon.bez', 'gumbo.bez', 'bigguy.bez.gz', 'pawn2.bez.gz', 'car4.bez.gz'].map((name) => join(data ?? '', name));
+const cases = [['builtin:teapot', [...OPTIONS, ...MORE_OPTIONS], ['f32', 'f64']],
+  ...readable.map((path) => [path, OPTIONS.slice(1, 2), ['f32', 'f64']]),
+  ...models.map((path) => [path, OPTIONS, ['f32']])];
+for (const [path, options, precisions] of cases) {
+  const builtin = path.startsWith('builtin:');
+  const absent = !program ? 'no program to compare with' : builtin || existsSync(path) ? false : `${path} is not there`;
+  test(`files of ${builtin ? path : path.replace(/.*\//, '')} are the program's`, { skip: absent }, async () => {
+    const folder = mkdtempSync(join(tmpdir(), 'simdbezier-web-'));
+    for (const precision of precisions) {
+      const set = builtin ? teapot({ precision }) : await modules[precision].open(path, readFileSync(path), { precision });
+      for (const format of ['glb', 'ply']) {
+        for (const [wish, words] of options) {
+          const out = join(folder, `mesh.${format}`);
+          execFileSync(program, ['tessellate', path, ...words, '--precision', precision, '-o', out],
+            { env: { ...process.env, SIMDBEZIER_ISA: 'sse2' } });
+          assert.equal(md5(set.file(format, wish)), md5(readFileSync(out)), `${format} ${precision} ${words.join(' ')}`);
+        }
+      }
+      set.free();
+    }
+    rmSync(folder, { recursive: true });
+  });
+}
+
+test('the core has the meshes, and no files', async () => {
+  const core = (await loadCore()).read('builtin:teapot');
+  using_(teapot(), (set) => assert.deepEqual(core.tessellate({ relative: 1e-3 }).vertices, set.tessellate({ relative: 1e-3 }).vertices));
+  assert.throws(() => core.file('glb', { relative: 1e-3 }), /expected no files/);
+  assert.throws(() => modules.f32.read('a.bez', new Uint8Array()) && 0, /a\.bez:1/);
+});
+
+test('the mesh in memory is that of the file', () => using_(teapot(), (set) => {
+  const mesh = set.tessellate({ relative: 1e-3, copy: true });
+  const glb = set.file('glb', { relative: 1e-3 });
+  const body = 20 + new DataView(glb.buffer).getUint32(12, true) + 8;
+  assert.deepEqual(new Float32Array(glb.slice(body, body + mesh.vertices.byteLength).buffer), mesh.vertices);
+}));
+
+test('errors are those of the program', () => {
+  const bytes = (text) => new TextEncoder().encode(text);
+  for (const [act, message] of [
+    [() => bezier.read('model.bez', bytes('1\n0 0 z')), "model.bez:2: expected a finite number, found 'z'"],
+    [() => bezier.read('model.xyz', bytes('1')), /^model\.xyz: expected a name that ends in \.bez/],
+    [() => bezier.read('m.rib', bytes('Patch "bicubic" "P" [0 0')), /^m\.rib:1: expected /],
+    [() => bezier.read('m.bez', new Uint8Array([0x1f, 0x8b, 8, 0])), /^m\.bez:1: expected bytes that are unpacked/],
+    [() => bezier.read('builtin:kettle'), /^builtin:kettle: expected a name/],
+    [() => bezier.read('builtin:teapot', undefined, { precision: 'f64' }), /simdbezier\/f64/],
+    [() => bezier.patches([1, 2, 3]), /expected a multiple of 48 values, found 3/],
+    [() => bezier.patches(flat.map(() => NaN)), /./],
+    [() => bezier.patches(flat, { degreeU: 16 }), /degreeU: expected an integer, 1 or more and at most 15, found 16/],
+    [() => bezier.patches(flat, { degree: 3 }), /found degree/],
+    [() => teapot().tessellate({}), /expected either a grid or some of tolerance/],
+    [() => teapot().tessellate({ relative: -1 }), /relative: expected a number/],
+    [() => teapot().tessellate({ relative: 1e-12 }), /--relative: expected /],
+    [() => teapot().tessellate({ tolerence: 1 }), /found tolerence/],
+    [() => teapot().grid(0), /nu: expected an integer/],
+    [() => teapot().grid(100000, 100000), 'not enough memory'],
+    [() => teapot().samples([0], [0.5], []), /1 patches, 1 u and 0 v/],
+    [() => teapot().samples([32], [0.5], [0.5]), /patch/],
+    [() => teapot().file('stl', { relative: 1e-3 }), /format: expected one of glb, ply, found stl/],
+  ]) {
+    assert.throws(act, (error) => error instanceof Error
+      && (typeof message === 'string' ? error.message === message : message.test(error.message) || assert.fail(error.message)));
+  }
+  using_(teapot(), (set) => assert.equal(set.size, 32)); // the instance goes on
+});
+
+test('views are guarded', async () => {
+  const own = await load();
+  const set = own.read('builtin:teapot');
+  const mesh = set.tessellate({ relative: 1e-2 });
+  const kept = mesh.vertices;
+  const first = kept[0];
+  const pages = own.memoryBytes;
+  set.grid(300, 300);
+  assert.ok(own.memoryBytes > pages);
+  assert.equal(kept.length, 0); // the memory has grown
+  assert.equal(mesh.vertices[0], first);
+  const copy = mesh.copy();
+  set.tessellate({ relative: 1e-3 });
+  assert.throws(() => mesh.vertices, /replaced by a later call/);
+  assert.equal(copy.vertices[0], first);
+  set.free();
+  set.free();
+  assert.throws(() => set.tessellate({ relative: 1e-3 }), /has been freed/);
+  assert.throws(() => set.grid(2), /has been freed/);
+  if (Symbol.dispose) set[Symbol.dispose]();
+});
+
+test('memory does not grow over many meshes', async () => {
+  const own = await loadDoubles();
+  const round = (k) => {
+    const set = own.read('builtin:teapot', undefined, { precision: k % 2 ? 'f32' : 'f64' });
+    set.tessellate({ relative: 10 ** (-1.5 - (k % 7) / 8), crease: k % 3 ? undefined : 40 });
+    if (k % 10 === 0) set.file('glb', { relative: 1e-2 });
+    try { own.read('m.bez', new Uint8Array([49])); } catch { /* is part of a round */ }
+    set.free();
+  };
+  for (let k = 0; k < 210; k++) round(k);
+  const bytes = own.memoryBytes;
+  const rounds = process.env.SIMDBEZIER_LONG_TESTS ? 10000 : 1000;
+  for (let k = 0; k < rounds; k++) round(k);
+  assert.equal(own.memoryBytes, bytes);
+});
+
+test('a worker takes the compiled module', async () => {
+  const worker = new Worker(`
+    import('simdbezier/instantiate').then(({ instantiate }) => require('node:worker_threads').parentPort.once('message', async (module) => {
+      const set = (await instantiate(module)).read('builtin:teapot');
+      const { vertices } = set.tessellate({ relative: 1e-3, copy: true });
+      require('node:worker_threads').parentPort.postMessage(vertices, [vertices.buffer]);
+    }));`, { eval: true });
+  worker.postMessage(bezier.module);
+  const vertices = await new Promise((resolve, reject) => worker.once('message', resolve).once('error', reject));
+  await worker.terminate();
+  using_(teapot(), (set) => assert.deepEqual(vertices, set.tessellate({ relative: 1e-3 }).vertices));
+});
+
+test('tsc --strict accepts an example, and refuses a wrong one', () => {
+  const check = (text) => {
+    writeFileSync('example.ts', text);
+    return execFileSync('node_modules/.bin/tsc', ['--noEmit', '--strict', '--module', 'nodenext', '--target', 'es2022', '--lib', 'es2022,dom,esnext.disposable', '--types', '', 'example.ts'], { encoding: 'utf8' });
+  };
+  const good = `import { load, type PatchSet } from 'simdbezier';
+    const bezier = await load();
+    using set: PatchSet = bezier.read('builtin:teapot');
+    const { vertices, indices, deviation } = set.tessellate({ relative: 1e-3, crease: 30 });
+    const numbers: number[] = [vertices.length, indices.length, deviation, set.box.low[0]];
+    const file: Uint8Array<ArrayBuffer> = set.file('glb', { relative: 1e-3 });
+    const samples = set.grid(16, 16, { outputs: ['position', 'normal'], layout: 'interleaved' });
+    export { numbers, file, samples };`;
+  check(good);
+  assert.throws(() => check(good.replace('relative:', 'relativ:')));
+  rmSync('example.ts');
+});
+
+const ENTRY = `import { load } from 'simdbezier';
+globalThis.vertices = load().then((bezier) => bezier.read('builtin:teapot').tessellate({ relative: 1e-3, copy: true }).vertexCount);`;
+
+test('esbuild bundles it', async () => {
+  writeFileSync('entry.js', ENTRY);
+  execFileSync('node_modules/.bin/esbuild', ['entry.js', '--bundle', '--format=esm', '--platform=browser', '--outfile=bundle/entry.mjs']);
+  const bundle = readFileSync('bundle/entry.mjs', 'utf8');
+  assert.match(bundle, /simdbezier\.wasm/);
+  assert.doesNotMatch(bundle, /node:/);
+  execFileSync('node_modules/.bin/esbuild', ['entry.js', '--bundle', '--format=esm', '--platform=node', '--outfile=bundle/node.mjs']);
+  writeFileSync('bundle/simdbezier.wasm', readFileSync(createRequire(import.meta.url).resolve('simdbezier/simdbezier.wasm')));
+  await import(join(process.cwd(), 'bundle/node.mjs'));
+  assert.ok(await globalThis.vertices > 0);
+});
+
+test('vite bundles it, with the module', () => {
+  writeFileSync('entry.js', ENTRY);
+  writeFileSync('index.html', '<script type="module" src="entry.js"></script>');
+  execFileSync('node_modules/.bin/vite', ['build', '--outDir', 'bundle/vite', '--logLevel', 'error']);
+  const files = execFileSync('find', ['bundle/vite', '-name', '*.wasm'], { encoding: 'utf8' }).trim().split('\n');
+  assert.equal(files.length, 1);
+  assert.equal(statSync(files[0]).size, statSync(createRequire(import.meta.url).resolve('simdbezier/simdbezier.wasm')).size);
+});
+
+function using_(set, use) {
+  try {
+    return use(set);
+  } finally {
+    set.free();
+  }
+}

@@ -1,0 +1,3 @@
+import { instantiate } from './library.js';
+export { instantiate };
+export const load = async (url = new URL('./simdbezier.wasm', import.meta.url)) => instantiate(fetch(url));

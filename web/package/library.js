@@ -1,0 +1,312 @@
+// simdbezier for JavaScript: Bézier patches, samples and meshes of them, in the memory of one WebAssembly
+// instance. This file knows neither Node nor a browser.
+
+const RESULTS = ['patches', 'diagonal', 'lowX', 'lowY', 'lowZ', 'highX', 'highY', 'highZ', 'edges', 'openEdges',
+  'nonManifoldEdges', 'ignoredTrims', 'vertices', 'triangles', 'deviation', 'stride', 'indexBytes', 'vertexData',
+  'indexData', 'deviationData', 'firstTriangleData', 'samples', 'sampleData', 'statusData', 'fileData', 'fileBytes'];
+const MESH_OPTIONS = ['tolerance', 'relative', 'angle', 'crease', 'snap', 'nu', 'nv', 'normals', 'parameters', 'orient',
+  'flip', 'bits'];
+const OUTPUTS = ['position', 'du', 'dv', 'duu', 'duv', 'dvv', 'normal', 'curvature', 'status'];
+const CURVATURES = ['gaussian', 'mean', 'minimum', 'maximum'];
+const WEIGHTS = ['none', 'cartesian', 'homogeneous'];
+const LAYOUTS = ['triples', 'planes', 'interleaved'];
+const FORMATS = ['glb', 'ply'];
+const PRECISIONS = ['f32', 'f64'];
+
+// What the C library of the module imports for standard output, which nothing writes to: the answer is ENOSYS.
+const imports = { wasi_snapshot_preview1: new Proxy({}, { get: () => () => 52 }) };
+
+function fail(text) {
+  throw new Error(`simdbezier: ${text}`);
+}
+
+function choice(name, value, list) {
+  const found = list.indexOf(value);
+  if (found < 0) fail(`${name}: expected one of ${list.join(', ')}, found ${String(value)}`);
+  return found;
+}
+
+function number(name, value, { least = 0, most = Infinity, whole = false } = {}) {
+  if (typeof value !== 'number' || !(value >= least) || value > most || (whole && !Number.isInteger(value))) {
+    fail(`${name}: expected ${whole ? 'an integer' : 'a number'}, ${least} or more${most < Infinity ? ` and at most ${most}` : ''}, found ${String(value)}`);
+  }
+  return value;
+}
+
+function expectKnown(options, known) {
+  for (const name of Object.keys(options)) {
+    if (!known.includes(name)) fail(`expected options among ${known.join(', ')}, found ${name}`);
+  }
+}
+
+/** Compiles and starts an instance. source: bytes, a WebAssembly.Module, or a Response, or a promise of one. */
+export async function instantiate(source) {
+  source = await source;
+  let module = source;
+  if (!(module instanceof WebAssembly.Module)) {
+    const response = typeof Response !== 'undefined' && source instanceof Response;
+    if (response && !source.ok) fail(`${source.url}: expected an answer, found status ${source.status}`);
+    // A server that names another type is refused by compileStreaming().
+    const streams = response && (source.headers.get('content-type') ?? '').startsWith('application/wasm');
+    module = streams ? await WebAssembly.compileStreaming(source)
+      : await WebAssembly.compile(response ? await source.arrayBuffer() : source);
+  }
+  const wasm = (await WebAssembly.instantiate(module, imports)).exports;
+  wasm._initialize();
+  return new Simdbezier(wasm, module);
+}
+
+/** One instance: its memory, and what is made in it. */
+class Simdbezier {
+  #wasm;
+  constructor(wasm, module) {
+    this.#wasm = wasm;
+    this.module = module;
+  }
+
+  get memoryBytes() { return this.#wasm.memory.buffer.byteLength; }
+
+  read(name, bytes = new Uint8Array(), { precision = 'f32', ignoreTrims = false, ...rest } = {}) {
+    expectKnown(rest, []);
+    const flags = choice('precision', precision, PRECISIONS) + (ignoreTrims ? 2 : 0);
+    const text = new TextEncoder().encode(name);
+    const data = bytes instanceof Uint8Array ? bytes : new Uint8Array(bytes);
+    return this.#made(text.length + data.length, flags, (at, heap) => {
+      heap.set(data, at);
+      heap.set(text, at + data.length);
+      return this.#wasm.read_model(at + data.length, text.length, at, data.length, flags);
+    });
+  }
+
+  async open(name, source, options) {
+    let body = source instanceof Uint8Array || source instanceof ArrayBuffer ? new Response(source).body
+      : source instanceof Blob ? source.stream() : source.body ?? source;
+    if (/\.gz$/i.test(name)) {
+      body = body.pipeThrough(new DecompressionStream('gzip'));
+      name = name.slice(0, -3);
+    }
+    let bytes;
+    try {
+      bytes = new Uint8Array(await new Response(body).arrayBuffer());
+    } catch (error) {
+      throw new Error(`${name}: expected data that can be read and unpacked`, { cause: error });
+    }
+    return this.read(name, bytes, options);
+  }
+
+  patches(points, { degreeU = 3, degreeV = 3, weights = 'none', precision = 'f32', ...rest } = {}) {
+    expectKnown(rest, []);
+    number('degreeU', degreeU, { least: 1, most: 15, whole: true });
+    number('degreeV', degreeV, { least: 1, most: 15, whole: true });
+    const form = choice('weights', weights, WEIGHTS);
+    const flags = choice('precision', precision, PRECISIONS);
+    const each = (degreeU + 1) * (degreeV + 1) * (form === 0 ? 3 : 4);
+    if (points.length === 0 || points.length % each !== 0) {
+      fail(`points: expected a multiple of ${each} values, found ${points.length}`);
+    }
+    return this.#made(8 * points.length, flags, (at) => {
+      new Float64Array(this.#wasm.memory.buffer, at, points.length).set(points);
+      return this.#wasm.make_model(at, points.length / each, degreeU, degreeV, form, flags);
+    });
+  }
+
+  #made(bytes, flags, make) {
+    const handle = withMemory(this.#wasm, bytes, make) >>> 0;
+    if (handle === 0) throw new Error(message(this.#wasm));
+    return new PatchSet(this.#wasm, handle, (flags & 1) !== 0);
+  }
+}
+
+/** Lends memory of the instance to use(address, bytes of all of it). */
+function withMemory(wasm, bytes, use) {
+  const at = wasm.allocate(bytes + 8) >>> 0; // addresses above 2 GiB come as negative numbers
+  if (at === 0) fail('not enough memory');
+  try {
+    return use(at, new Uint8Array(wasm.memory.buffer));
+  } finally {
+    wasm.release(at);
+  }
+}
+
+function message(wasm) {
+  const at = wasm.message() >>> 0;
+  return new TextDecoder().decode(new Uint8Array(wasm.memory.buffer, at, wasm.message_bytes() >>> 0).slice());
+}
+
+// A net for sets that nobody frees, and no promise.
+const forgotten = typeof FinalizationRegistry === 'undefined' ? undefined
+  : new FinalizationRegistry(({ wasm, handle }) => wasm.free_model(handle));
+
+class PatchSet {
+  #wasm; #handle; #doubles; #about; #call = { mesh: 0, samples: 0 };
+
+  constructor(wasm, handle, doubles) {
+    this.#wasm = wasm;
+    this.#handle = handle;
+    this.#doubles = doubles;
+    forgotten?.register(this, { wasm, handle }, this);
+    this.#about = this.#results();
+  }
+
+  get size() { return this.#about.patches; }
+  get diagonal() { return this.#about.diagonal; }
+  get box() {
+    const { lowX, lowY, lowZ, highX, highY, highZ } = this.#about;
+    return { low: [lowX, lowY, lowZ], high: [highX, highY, highZ] };
+  }
+  get edges() { return this.#about.edges; }
+  get openEdges() { return this.#about.openEdges; }
+  get nonManifoldEdges() { return this.#about.nonManifoldEdges; }
+  get ignoredTrims() { return this.#about.ignoredTrims; }
+  get precision() { return PRECISIONS[this.#doubles ? 1 : 0]; }
+
+  tessellate({ copy = false, ...options } = {}) {
+    this.#call.mesh++;
+    this.#wish(options, (at) => this.#wasm.tessellate(this.#use(), at));
+    const mesh = new Mesh(this.#views('mesh'), this.#results());
+    return copy ? mesh.copy() : mesh;
+  }
+
+  file(format, options = {}) {
+    const number = choice('format', format, FORMATS);
+    this.#wish(options, (at) => this.#wasm.write_file(this.#use(), number, at));
+    const { fileData, fileBytes } = this.#results();
+    return new Uint8Array(this.#wasm.memory.buffer, fileData, fileBytes).slice();
+  }
+
+  grid(nu, nv = nu, options = {}) {
+    for (const [name, value] of [['nu', nu], ['nv', nv]]) number(name, value, { least: 1, most: 2 ** 20, whole: true });
+    return this.#evaluated(options, (...how) => this.#wasm.grid(this.#use(), nu, nv, ...how));
+  }
+
+  samples(patches, u, v, options = {}) {
+    const count = patches.length;
+    if (u.length !== count || v.length !== count) {
+      fail(`expected as many u and v as patches, found ${count} patches, ${u.length} u and ${v.length} v`);
+    }
+    const Values = this.#doubles ? Float64Array : Float32Array;
+    const each = Values.BYTES_PER_ELEMENT;
+    return this.#evaluated(options, (...how) => withMemory(this.#wasm, (4 + 2 * each) * count, (at) => {
+      const buffer = this.#wasm.memory.buffer;
+      new Values(buffer, at, count).set(u);
+      new Values(buffer, at + each * count, count).set(v);
+      new Uint32Array(buffer, at + 2 * each * count, count).set(patches);
+      return this.#wasm.samples(this.#use(), at + 2 * each * count, at, at + each * count, count, ...how);
+    }));
+  }
+
+  free() {
+    if (this.#handle !== 0) this.#wasm.free_model(this.#handle);
+    forgotten?.unregister(this);
+    this.#handle = 0;
+  }
+  [Symbol.dispose ?? Symbol('dispose')]() { this.free(); }
+
+  #use() {
+    if (this.#handle === 0) fail('the set has been freed');
+    return this.#handle;
+  }
+  #results() {
+    const values = new Float64Array(this.#wasm.memory.buffer, this.#wasm.results(this.#use()) >>> 0, RESULTS.length);
+    return Object.fromEntries(RESULTS.map((name, k) => [name, values[k]]));
+  }
+  #expect(done) {
+    if (!done) throw new Error(message(this.#wasm));
+  }
+
+  #wish({ grid, weld = true, crease, normals = true, ...options }, call) {
+    expectKnown(options, MESH_OPTIONS);
+    const wish = { ...options, normals, crease: weld ? crease : 0 };
+    if (grid !== undefined) [wish.nu, wish.nv] = typeof grid === 'number' ? [grid, grid] : grid;
+    for (const name of ['tolerance', 'relative', 'angle']) {
+      if (wish[name] !== undefined) number(name, wish[name], { least: Number.MIN_VALUE });
+    }
+    for (const name of ['nu', 'nv']) if (wish[name] !== undefined) number('grid', wish[name], { least: 2, most: 2 ** 16 + 1, whole: true });
+    for (const name of ['crease', 'snap']) if (wish[name] !== undefined) number(name, wish[name]);
+    if (wish.bits !== undefined) choice('bits', wish.bits, [8, 16]);
+    const adaptive = wish.tolerance ?? wish.relative ?? wish.angle;
+    if ((adaptive === undefined) === (wish.nu === undefined)) {
+      fail('expected either a grid or some of tolerance, relative and angle');
+    }
+    const flags = ['parameters', 'orient', 'flip', 'normals'];
+    this.#expect(withMemory(this.#wasm, 8 * MESH_OPTIONS.length, (at) => {
+      new Float64Array(this.#wasm.memory.buffer, at, MESH_OPTIONS.length)
+        .set(MESH_OPTIONS.map((name) => flags.includes(name) ? (wish[name] ? 1 : 0) : wish[name] ?? NaN));
+      return call(at);
+    }));
+  }
+
+  #evaluated({ outputs = ['position'], layout = 'triples', watertight = true, copy = false, ...rest }, call) {
+    expectKnown(rest, []);
+    const wanted = OUTPUTS.filter((name) => outputs.includes(name));
+    for (const name of outputs) choice('outputs', name, OUTPUTS);
+    this.#call.samples++;
+    this.#expect(call(wanted.reduce((bits, name) => bits | 1 << OUTPUTS.indexOf(name), 0),
+      choice('layout', layout, LAYOUTS), watertight ? 1 : 0));
+    const samples = new SampleArrays(this.#views('samples'), this.#results(), wanted, layout);
+    return copy ? samples.copy() : samples;
+  }
+
+  /** Returns what makes views of the last results of a kind, as long as they are the last ones. */
+  #views(kind) {
+    const call = this.#call[kind];
+    const Values = this.#doubles ? Float64Array : Float32Array;
+    return (address, count, Type = Values) => {
+      if (call !== this.#call[kind]) fail(`these results were replaced by a later call: keep them with copy()`);
+      this.#use();
+      return new Type(this.#wasm.memory.buffer, address, count);
+    };
+  }
+}
+
+/** Arrays of the instance's memory, made anew each time that they are asked for; see index.d.ts. */
+class Mesh {
+  #view; #about;
+  constructor(view, about) {
+    this.#view = view;
+    this.#about = about;
+  }
+  get vertexCount() { return this.#about.vertices; }
+  get triangleCount() { return this.#about.triangles; }
+  get deviation() { return this.#about.deviation; }
+  get stride() { return this.#about.stride; }
+  get vertices() { return this.#view(this.#about.vertexData, this.stride * this.vertexCount); }
+  get indices() {
+    return this.#view(this.#about.indexData, 3 * this.triangleCount, this.#about.indexBytes === 2 ? Uint16Array : Uint32Array);
+  }
+  get deviations() { return this.#view(this.#about.deviationData, this.#about.patches, Float64Array); }
+  get firstTriangles() { return this.#view(this.#about.firstTriangleData, this.#about.patches + 1, Uint32Array); }
+  copy() { return copied(this, ['vertices', 'indices', 'deviations', 'firstTriangles'], ['vertexCount', 'triangleCount', 'deviation', 'stride']); }
+}
+
+class SampleArrays {
+  #view; #about; #wanted; #layout;
+  constructor(view, about, wanted, layout) {
+    this.#view = view;
+    this.#about = about;
+    this.#wanted = wanted;
+    this.#layout = layout;
+    const vectors = wanted.filter((name) => name !== 'curvature' && name !== 'status');
+    const samples = this.count, at = about.sampleData;
+    const part = (first, size) => () => {
+      const all = this.#view(at, 0);
+      return this.#view(at + all.BYTES_PER_ELEMENT * first, size);
+    };
+    const define = (name, get) => Object.defineProperty(this, name, { get, enumerable: true });
+    if (layout === 'interleaved') define('records', part(0, 3 * vectors.length * samples));
+    else vectors.forEach((name, k) => define(name, part(3 * k * samples, 3 * samples)));
+    if (wanted.includes('curvature')) {
+      CURVATURES.forEach((name, k) => define(name, part((3 * vectors.length + k) * samples, samples)));
+    }
+    if (wanted.includes('status')) define('status', () => this.#view(this.#about.statusData, samples, Uint8Array));
+  }
+  get count() { return this.#about.samples; }
+  copy() { return copied(this, Object.keys(this), ['count']); }
+}
+
+function copied(results, arrays, values) {
+  const copy = Object.fromEntries(values.map((name) => [name, results[name]]));
+  for (const name of arrays) copy[name] = results[name].slice();
+  copy.copy = () => copy;
+  return copy;
+}
