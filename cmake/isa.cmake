@@ -3,14 +3,14 @@
 # name | processors | xsimd architecture tag | fuses | compact | compiler flags
 #   fuses: a multiplication and an addition have one rounding. xsimd's fma() for the tag has to be
 #     one instruction then.
-#   compact: 1: hardly any machine depends on the set; 2: only bicubic patches have kernels of their own, for code
-#     that goes over a network (kCompact and kCompactShapes in kernels/simd/vector.hpp).
+#   compact: 1: no machine depends on the set; 2: only bicubic patches have kernels of their own, for few machines
+#     and for code that goes over a network (kCompact and kCompactShapes in kernels/simd/vector.hpp).
 #   flags: those of the form -mNAME name what a machine must have, in the compilers' words. Tuned for
 #     generic machines, g++ 12 spills addresses to vector registers, where they queue behind the
 #     arithmetic: 18 % of the derivatives' speed on AVX-512.
 set(simdbezier_isa_rows
     "scalar|any|void|0|1|"
-    "sse2|x86_64|xsimd::sse2|0|1|-msse2"
+    "sse2|x86_64|xsimd::sse2|0|2|-msse2"
     "simd128|wasm32|xsimd::sse2|0|2|-msimd128 -D__SSE__ -D__SSE2__"
     "avx2|x86_64|xsimd::fma3<xsimd::avx2>|1|0|-mavx2 -mfma -mtune=haswell"
     "avx512|x86_64|xsimd::avx512bw|1|0|-mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mavx2 -mfma -mtune=haswell"
