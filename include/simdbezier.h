@@ -37,6 +37,7 @@
 
 #include <simdbezier/c/curves.h>         // IWYU pragma: export
 #include <simdbezier/c/evaluate.h>       // IWYU pragma: export
+#include <simdbezier/c/mesh_parts.h>     // IWYU pragma: export
 #include <simdbezier/c/meshes.h>         // IWYU pragma: export
 #include <simdbezier/c/models.h>         // IWYU pragma: export
 #include <simdbezier/c/nets.h>           // IWYU pragma: export

@@ -127,6 +127,13 @@ struct EveryArgument : MeshWorld {
   simdbezier_vertex_format as = SIMDBEZIER_FORMAT_UNORM16;
   simdbezier_edge_link links[8] = {};
   std::size_t links_length = 8;
+  simdbezier_patch_keys keys[2] = {};
+  std::size_t keys_length = 2;
+  simdbezier_patch_vertices owned[2] = {};
+  std::size_t owned_length = 1;
+  std::size_t own_first = 1;
+  std::size_t own_count = 1;
+  std::vector<std::uint64_t> part_numbers = std::vector<std::uint64_t>(4096);
   std::vector<std::uint16_t> short_indices = std::vector<std::uint16_t>(6 * 4096);
   std::size_t indices_length = indices.size();
   std::size_t sizes_length = sizes.size();
@@ -240,6 +247,13 @@ inline const CCall kEveryCall[] = {
     SIMDBEZIER_C_CALL(flatness, w.at(w.nets), w.low_corners, w.at(w.options)),
     SIMDBEZIER_C_CALL(find_adjacency, w.at(w.nets), w.views, w.at(w.links[0]), w.links_length,
                       w.at(w.options)),
+    SIMDBEZIER_C_CALL(find_patch_keys, w.at(w.nets), w.views, w.at(w.keys[0]), w.keys_length,
+                      w.at(w.options)),
+    SIMDBEZIER_C_CALL(owned_vertices, w.handle(w.layout), w.own_first, w.own_count, 0,
+                      w.at(w.owned[0]), w.owned_length),
+    SIMDBEZIER_C_CALL(number_part, w.handle(w.layout), w.own_first, w.own_count, 0,
+                      w.at(w.owned[0]), w.owned_length, w.at(w.part_numbers[0]),
+                      w.part_numbers.size()),
     SIMDBEZIER_C_CALL(find_topology, w.at(w.nets), w.views, w.at(w.topology_options),
                       w.place(w.made_topology)),
     SIMDBEZIER_C_CALL(topology_count, w.handle(w.topology), w.at(w.topology_counts)),

@@ -116,8 +116,9 @@ Spoils make_spoils() {
              IN(out.status_length), IN(curve_out.position.capacity), IN(curve_out.curvature.length),
              IN(curve_out.status_length), IN(derivative.out.capacity), IN(low_corners.length),
              IN(high_corners.length), IN(doubles_length), IN(links_length), IN(numbers_length),
-             IN(indices_length), IN(sizes_length), IN(clusters_length), IN(rates.nu_length),
-             IN(rates.nv_length), IN(rates.diagonals_length), IN(rates.deviation_length),
+             IN(keys_length), IN(owned_length), IN(indices_length), IN(sizes_length),
+             IN(clusters_length), IN(rates.nu_length), IN(rates.nv_length),
+             IN(rates.diagonals_length), IN(rates.deviation_length),
              IN(rate_options.tolerances_length), IN(rate_options.errors_length),
              IN(flatten_options.tolerances_length), IN(flatten_options.errors_length),
              IN(mesh_options.tolerances_length), IN(mesh_out.position.capacity),
@@ -126,7 +127,8 @@ Spoils make_spoils() {
              IN(spline.rows), IN(spline.columns), IN(spline_curve.count), IN(grid.first_patch),
              IN(grid.patch_count), IN(grids.first_patch), IN(curve_grid.first_curve),
              IN(curve_grid.curve_count), IN(curve_grids.first_curve), IN(first_patch),
-             IN(patch_count), IN(primitives.first_patch), IN(primitives.patch_count), IN(which));
+             IN(patch_count), IN(primitives.first_patch), IN(primitives.patch_count), IN(which),
+             IN(own_first), IN(own_count));
   spoils.add("a long array", std::vector<std::size_t>{kBit(46), kBit(62), SIZE_MAX}, IN(views));
   spoils.add("samples", samples, IN(grid.nu), IN(grid.nv), IN(curve_grid.n), IN(format.samples));
   spoils.add("cells", cells, IN(counts[0]), IN(eight[3]), IN(patch[1]), IN(nu[0]), IN(nv[1]),
@@ -177,10 +179,11 @@ Spoils make_spoils() {
       AT(mesh_out), AT(mesh_out.position), AT(primitives), AT(topology_counts), AT(fits), AT(shape),
       AT(patch_bounds), AT(curve_bounds), AT(mesh_arrays), AT(plan_parts), AT(polyline_arrays),
       AT(bound), AT(doubles[0]), AT(isa_found), AT(isa_name[0]), AT(which), AT(counted[0]),
-      AT(links[0]), AT(numbers[0]), AT(deviation[0]), AT(indices[0]), AT(short_indices[0]),
-      AT(sizes[0]), AT(clusters[0]), AT(polygons), AT(corners), AT(vertices_found), AT(box),
-      AT(made), AT(made_curves), AT(made_topology), AT(made_layout), AT(made_mesh), AT(made_plan),
-      AT(made_polylines), [](World& w) { return static_cast<const void*>(w.set.get()); },
+      AT(links[0]), AT(keys[0]), AT(owned[0]), AT(part_numbers[0]), AT(numbers[0]),
+      AT(deviation[0]), AT(indices[0]), AT(short_indices[0]), AT(sizes[0]), AT(clusters[0]),
+      AT(polygons), AT(corners), AT(vertices_found), AT(box), AT(made), AT(made_curves),
+      AT(made_topology), AT(made_layout), AT(made_mesh), AT(made_plan), AT(made_polylines),
+      [](World& w) { return static_cast<const void*>(w.set.get()); },
       [](World& w) { return static_cast<const void*>(w.curve_set.get()); },
       [](World& w) { return static_cast<const void*>(w.topology); },
       [](World& w) { return static_cast<const void*>(w.layout); },
@@ -223,6 +226,7 @@ TEST(EveryCCall, IsInTheTable) {
                                  "simdbezier_status_text",
                                  "simdbezier_to_centred_f32",
                                  "simdbezier_to_centred_f64",
+                                 "simdbezier_topology_is_entangled",
                                  "simdbezier_topology_is_repeated",
                                  "simdbezier_topology_is_turned",
                                  "simdbezier_version"}; // they return no status of their own

@@ -35,8 +35,10 @@ int main(void) {
   SIZE(simdbezier_partial_derivative);
   SIZE(simdbezier_patch_grids);
   SIZE(simdbezier_patch_interval);
+  SIZE(simdbezier_patch_keys);
   SIZE(simdbezier_patch_piece);
   SIZE(simdbezier_patch_shape);
+  SIZE(simdbezier_patch_vertices);
   SIZE(simdbezier_polyline_arrays);
   SIZE(simdbezier_primitive_options);
   SIZE(simdbezier_quantisation_box);

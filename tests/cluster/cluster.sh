@@ -3,6 +3,7 @@
 # Slurm, whose three nodes this machine plays. As root. docs/guide/clusters.md has the same scripts.
 set -euo pipefail
 here=$(dirname "$(realpath "$0")")
+examples=$(realpath "$here/../../examples/cluster")
 export PATH
 PATH=$(realpath "$1"):$PATH
 folder=$(realpath -m "$2")
@@ -34,11 +35,14 @@ wait_for() { # SECONDS COMMAND…
 }
 is_over() { [[ -z $(squeue -h -j "$1" 2>/dev/null) ]]; }
 
-# A sheet of 64 x 64 patches, scattered in the file and then sorted.
-awk 'BEGIN { n = 64; print n * n
-  for (k = 0; k < n * n; ++k) { at = k * 2531 % (n * n)
-    for (p = 0; p < 16; ++p) { x = 3 * (at % n) + p % 4; y = 3 * int(at / n) + int(p / 4)
-      print x, y, (x * 37 + y * 101) % 64 / 16 } } }' >model.bez
+# A sheet of N x N patches, scattered in the file, higher with each frame.
+sheet() { # N FRAME
+  awk -v n="$1" -v frame="$2" 'BEGIN { print n * n
+    for (k = 0; k < n * n; ++k) { at = k * 2531 % (n * n)
+      for (p = 0; p < 16; ++p) { x = 3 * (at % n) + p % 4; y = 3 * int(at / n) + int(p / 4)
+        print x, y, frame * (x * 37 + y * 101) % 64 / 16 } } }'
+}
+sheet 64 1 >model.bez
 simdbezier convert model.bez --sort -o model.sbp
 options=(--relative 1e-5 --crease 30)
 simdbezier tessellate model.sbp "${options[@]}" -o whole.ply
@@ -60,6 +64,33 @@ array() { # OUT
 job=$(array array.ply)
 check "an array of shards ends" wait_for 90 is_over "$job"
 check "an array of shards makes the program's bytes" cmp whole.ply array.ply
+
+# A sequence of frames; of those that are there, none is made again.
+mkdir frames
+for k in 1 2 3 4; do sheet 16 "$k" >"frames/000$k.bez"; done
+job=$(sbatch --parsable "$examples/frames.sh" --grid 5)
+check "an array of frames ends" wait_for 120 is_over "$job"
+for k in 1 2 3 4; do
+  simdbezier tessellate "frames/000$k.bez" --grid 5 -o frame.ply
+  check "frame $k has the program's bytes" cmp frame.ply "meshes/000$k.ply"
+done
+rm meshes/0002.ply
+stat -c '%n %y' meshes/* >before
+job=$(sbatch --parsable "$examples/frames.sh" --grid 5)
+check "the array of frames ends again" wait_for 120 is_over "$job"
+check "the frame that was missing is there" test -s meshes/0002.ply
+check "no other frame was made again" diff before <(stat -c '%n %y' meshes/000[134].ply)
+
+# A job whose time is nearly over is queued again, and goes on where it was.
+job=$(sbatch --parsable "$examples/requeue.sh" model.sbp requeued.ply 12 --grid 40)
+check "the first part is there" wait_for 120 test -e requeued.ply.shard-1-of-12
+scancel --signal=USR1 --batch "$job"
+check "a job that was queued again ends" wait_for 300 is_over "$job"
+check "it was queued again" test "$(grep -c '^starts' requeue.log)" -eq 2
+check "it did not make a part twice" grep -q 'shard-1-of-12 is there already' requeue.log
+simdbezier tessellate model.sbp --grid 40 -o once.ply
+check "it makes the program's bytes" cmp once.ply requeued.ply
+check "and leaves no parts" test -z "$(find . -name '*requeued.ply.*')"
 
 # Ranks of mpirun within an allocation, and of srun where Slurm and Open MPI know PMIx.
 cat >ranks.sh <<'SCRIPT'
@@ -102,6 +133,20 @@ if [[ ! -e lost.ply ]]; then # shards that Slurm took for failed rather than los
   done <before
 fi
 check "the mesh is whole after a node was lost" cmp whole.ply lost.ply
+
+# A shard is killed while it writes: the next run removes what it left.
+shard=(simdbezier tessellate model.sbp --grid 60 --shard 1/2 -o part.ply)
+left() { [[ -n $(find . -maxdepth 1 -name '.part.ply.shard-1-of-2.simdbezier-*.tmp' -size +1M) ]]; }
+"${shard[@]}" &
+check "a shard writes" wait_for 60 left
+kill -KILL $!
+wait $! 2>/dev/null || true
+check "a killed shard leaves no part" absent part.ply.shard-1-of-2
+check "a killed shard leaves what it wrote" left
+check "the shard again" "${shard[@]}"
+check "the shard is there" test -s part.ply.shard-1-of-2
+check "nothing else is left of it" test -z "$(find . -name '.part.ply*')"
+rm part.ply.shard-1-of-2
 
 # A rank is killed while it writes: there is no mesh, and the next run removes what it left.
 ranks=(mpirun --oversubscribe --bind-to none -n 3 simdbezier-mpi tessellate model.sbp --grid 60)

@@ -40,7 +40,7 @@ SlurmctldHost=$host(127.0.0.1)
 SlurmctldPort=16917
 CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
 AuthType=auth/munge
-AuthInfo=socket=$folder/run/munge.socket
+AuthInfo=socket=$folder/run/munge.socket,cred_expire=30
 CredType=cred/munge
 SlurmUser=root
 StateSaveLocation=$folder/state

@@ -77,9 +77,15 @@ MeshLinks find_mesh_links(const MeshLayout& layout, SetRange own,
     }
     const auto at = std::ranges::lower_bound(numbers, each.patch) - numbers.begin();
     const SetRange one{static_cast<std::size_t>(at), 1};
-    links.lent.push_back({each.patch, {}});
+    PatchVertices vertices;
     const std::uint64_t before = layout.first_vertex(one.first) - first;
-    check(owned_vertices(layout, one, before, std::span(&links.lent.back().vertices, 1)));
+    check(owned_vertices(layout, one, before, std::span(&vertices, 1)));
+    LentVertices& lends = links.lent.emplace_back(LentVertices{each.patch});
+    for (std::size_t slot = 0; slot < lends.begins.size(); ++slot) {
+      // kUnknownVertex becomes kNoVertex.
+      lends.begins[slot] =
+          static_cast<std::uint32_t>(slot < 4 ? vertices.corners[slot] : vertices.edges[slot - 4]);
+    }
   }
   return found;
 }

@@ -35,7 +35,7 @@ template <typename T>
 WeldedMesh<T>::WeldedMesh(ModelPart part, const Arguments& arguments, MeshStats& stats)
     : arguments_(arguments), stats_(stats), patches_(part.file.count), own_(part.own),
       name_(part.file.name), box_(part.box), numbers_(std::move(part.numbers)),
-      numbered_(part.patches), places_(arguments.mesh) {
+      numbered_(part.patches), faces_(arguments), places_(arguments.mesh) {
   stats_.patches = own_.count;
   {
     const Stopwatch watch(stats_.seconds.pack);
@@ -71,10 +71,9 @@ WeldedMesh<T>::WeldedMesh(ModelPart part, const Arguments& arguments, MeshStats&
   if (own_.first > 0 || end < patches_) {
     MeshLinks found = find_mesh_links(layout_, own_, numbers_, part.lent);
     links_ = std::move(found.links);
-    before_ = std::move(found.before);
-    shift_ = 0U - static_cast<std::uint32_t>(before_.size());
+    faces_.name_before(std::move(found.before));
   }
-  count_faces();
+  faces_.count(layout_, own_);
   const MeshContents mesh = contents();
   stats_.vertices = stats_.samples = mesh.vertices;
   stats_.triangles = 2 * mesh.faces - (mesh.corners == 3 ? mesh.faces : mesh.among_quads);
@@ -200,15 +199,6 @@ void WeldedMesh<T>::pack_all() {
 }
 
 template <typename T>
-void WeldedMesh<T>::place(std::uint32_t first_vertex, std::span<const std::uint32_t> foreign) {
-  std::size_t next = 0;
-  for (std::uint32_t& vertex : before_) {
-    vertex = vertex == kNoVertex ? kNoVertex : foreign[next++];
-  }
-  shift_ += first_vertex;
-}
-
-template <typename T>
 std::vector<T> WeldedMesh<T>::foreign_values() {
   const std::size_t stride = contents().stride();
   std::vector<T> values;
@@ -216,8 +206,9 @@ std::vector<T> WeldedMesh<T>::foreign_values() {
   if (own_.first > 0) {
     evaluate({0, own_.first}, stride, ignored);
   }
-  for (std::size_t vertex = 0; vertex < before_.size(); ++vertex) {
-    if (before_[vertex] != kNoVertex) {
+  const std::vector<std::uint32_t>& before = faces_.before();
+  for (std::size_t vertex = 0; vertex < before.size(); ++vertex) {
+    if (before[vertex] != kNoVertex) {
       const auto at = values_.begin() + static_cast<std::ptrdiff_t>(vertex * stride);
       values.insert(values.end(), at, at + static_cast<std::ptrdiff_t>(stride));
     }
@@ -226,25 +217,14 @@ std::vector<T> WeldedMesh<T>::foreign_values() {
 }
 
 template <typename T>
-void WeldedMesh<T>::count_faces() {
-  faces_ = layout_.first_triangle(own_.first + own_.count) - layout_.first_triangle(own_.first);
-  if (arguments_.mesh.quads) {
-    PolygonSize size;
-    check(polygon_size(layout_, size, {.threads = arguments_.threads}, own_));
-    faces_ = size.polygons;
-    among_quads_ = 4 * size.polygons - size.indices;
-  }
-}
-
-template <typename T>
 MeshContents WeldedMesh<T>::contents() const {
   const MeshArguments& mesh = arguments_.mesh;
   MeshContents contents;
   contents.vertices =
       layout_.first_vertex(own_.first + own_.count) - layout_.first_vertex(own_.first);
-  contents.faces = faces_;
+  contents.faces = faces_.count();
   contents.corners = mesh.quads ? 4 : 3;
-  contents.among_quads = among_quads_;
+  contents.among_quads = faces_.among_quads();
   contents.normals = mesh.normals;
   contents.uv = mesh.parameters;
   contents.storage = mesh.storage;
@@ -271,7 +251,7 @@ MeshContents WeldedMesh<T>::contents() const {
 // Returns a block of one patch at least, and of as many as have a moderate number of vertices and
 // triangles.
 template <typename T>
-typename WeldedMesh<T>::Block WeldedMesh<T>::block_from(std::size_t patch) const {
+SetRange WeldedMesh<T>::block_from(std::size_t patch) const {
   const auto size = [&](std::size_t end) {
     return layout_.first_vertex(end) - layout_.first_vertex(patch) +
            (layout_.first_triangle(end) - layout_.first_triangle(patch)) / 2;
@@ -287,12 +267,12 @@ typename WeldedMesh<T>::Block WeldedMesh<T>::block_from(std::size_t patch) const
 template <typename T>
 void WeldedMesh<T>::write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& progress) {
   const auto for_blocks = [&](auto&& visit) {
-    for (Block block = block_from(own_.first); block.count > 0;
+    for (SetRange block = block_from(own_.first); block.count > 0;
          block = block_from(block.first + block.count)) {
       visit(block);
     }
   };
-  for_blocks([&](const Block& block) {
+  for_blocks([&](SetRange block) {
     write_vertices(block, writer, seconds);
     if (writer.takes_faces_early()) {
       write_faces(block, writer, seconds);
@@ -300,13 +280,12 @@ void WeldedMesh<T>::write(MeshWriter<T>& writer, StageSeconds& seconds, Progress
     progress.advance(block.count);
   });
   if (!writer.takes_faces_early()) {
-    for_blocks([&](const Block& block) { write_faces(block, writer, seconds); });
+    for_blocks([&](SetRange block) { write_faces(block, writer, seconds); });
   }
 }
 
 template <typename T>
-void WeldedMesh<T>::write_vertices(const Block& block, MeshWriter<T>& writer,
-                                   StageSeconds& seconds) {
+void WeldedMesh<T>::write_vertices(SetRange block, MeshWriter<T>& writer, StageSeconds& seconds) {
   const std::size_t stride = contents().stride();
   evaluate(block, stride, seconds);
   const Stopwatch watch(seconds.write);
@@ -314,7 +293,7 @@ void WeldedMesh<T>::write_vertices(const Block& block, MeshWriter<T>& writer,
 }
 
 template <typename T>
-void WeldedMesh<T>::evaluate(const Block& block, std::size_t stride, StageSeconds& seconds) {
+void WeldedMesh<T>::evaluate(SetRange block, std::size_t stride, StageSeconds& seconds) {
   const std::size_t vertices =
       layout_.first_vertex(block.first + block.count) - layout_.first_vertex(block.first);
   values_.resize(vertices * stride);
@@ -327,53 +306,21 @@ void WeldedMesh<T>::evaluate(const Block& block, std::size_t stride, StageSecond
   const Options options{.threads = arguments_.threads};
   if (vertices > 0) {
     const Stopwatch watch(seconds.evaluate);
-    check(evaluate_mesh(set_, layout_, out, options, {block.first, block.count}));
+    check(evaluate_mesh(set_, layout_, out, options, block));
     places_.find_curvatures(set_, topology_, options);
     places_.find_in_file(pieces_.pieces, numbers_);
   }
 }
 
 template <typename T>
-void WeldedMesh<T>::write_faces(const Block& block, MeshWriter<T>& writer, StageSeconds& seconds) {
+void WeldedMesh<T>::write_faces(SetRange block, MeshWriter<T>& writer, StageSeconds& seconds) {
   std::span<const std::uint32_t> corners;
   {
     const Stopwatch watch(seconds.topology);
-    corners = arguments_.mesh.quads ? quads(block) : faces(block);
-    for (std::size_t k = 0; k < corners_.size() && (shift_ != 0 || !before_.empty()); ++k) {
-      std::uint32_t& vertex = corners_[k];
-      vertex = vertex < before_.size() ? before_[vertex]
-               : vertex != kNoVertex   ? vertex + shift_
-                                       : kNoVertex;
-    }
+    corners = faces_.corners(layout_, block);
   }
   const Stopwatch watch(seconds.write);
   writer.faces(corners);
-}
-
-template <typename T>
-std::span<const std::uint32_t> WeldedMesh<T>::faces(const Block& block) {
-  corners_.resize(3 * (layout_.first_triangle(block.first + block.count) -
-                       layout_.first_triangle(block.first)));
-  check(write_triangles<std::uint32_t>(layout_, corners_, {.threads = arguments_.threads},
-                                       {block.first, block.count}));
-  return corners_;
-}
-
-template <typename T>
-std::span<const std::uint32_t> WeldedMesh<T>::quads(const Block& block) {
-  const SetRange range{block.first, block.count};
-  PolygonSize size;
-  check(polygon_size(layout_, size, {.threads = arguments_.threads}, range));
-  polygons_.resize(size.indices);
-  sizes_.resize(size.polygons);
-  check(write_polygons<std::uint32_t>(layout_, polygons_, sizes_, {.threads = arguments_.threads},
-                                      range));
-  corners_.assign(4 * size.polygons, kNoVertex);
-  auto next = polygons_.begin();
-  for (std::size_t k = 0; k < sizes_.size(); next += sizes_[k++]) {
-    std::copy_n(next, sizes_[k], &corners_[4 * k]);
-  }
-  return corners_;
 }
 
 template class WeldedMesh<float>;

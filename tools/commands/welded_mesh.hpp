@@ -7,6 +7,7 @@
 
 #include <simdbezier/simdbezier.hpp>
 #include <tools/commands/arguments.hpp>
+#include <tools/commands/mesh_faces.hpp>
 #include <tools/commands/mesh_rates.hpp>
 #include <tools/commands/mesh_source.hpp>
 #include <tools/commands/vertex_places.hpp>
@@ -33,18 +34,15 @@ public:
   void write(MeshWriter<T>& writer, StageSeconds& seconds, Progress& progress) override;
 
   /// Says the numbers of the part's first vertex, and of the foreign ones.
-  void place(std::uint32_t first_vertex, std::span<const std::uint32_t> foreign);
+  void place(std::uint32_t first_vertex, std::span<const std::uint32_t> foreign) {
+    faces_.place(first_vertex, foreign);
+  }
   /// Returns the values of the foreign vertices, MeshContents::stride() each.
   [[nodiscard]] std::vector<T> foreign_values();
 
 private:
-  struct Block {
-    std::size_t first;
-    std::size_t count;
-  };
-
   void take_points(PatchFile file);
-  void evaluate(const Block& block, std::size_t stride, StageSeconds& seconds);
+  void evaluate(SetRange block, std::size_t stride, StageSeconds& seconds);
   void join();
   void split();
   void find_edges(bool orient);
@@ -52,15 +50,10 @@ private:
   void choose_cells();
   void lay_out();
   void pack_all();
-  void count_faces();
 
-  [[nodiscard]] Block block_from(std::size_t patch) const;
-  void write_vertices(const Block& block, MeshWriter<T>& writer, StageSeconds& seconds);
-  void write_faces(const Block& block, MeshWriter<T>& writer, StageSeconds& seconds);
-  /// Returns the corners of the block's faces, as MeshWriter takes them; they are valid until the
-  /// next call.
-  [[nodiscard]] std::span<const std::uint32_t> faces(const Block& block);
-  [[nodiscard]] std::span<const std::uint32_t> quads(const Block& block);
+  [[nodiscard]] SetRange block_from(std::size_t patch) const;
+  void write_vertices(SetRange block, MeshWriter<T>& writer, StageSeconds& seconds);
+  void write_faces(SetRange block, MeshWriter<T>& writer, StageSeconds& seconds);
 
   const Arguments& arguments_;
   MeshStats& stats_;
@@ -81,15 +74,9 @@ private:
   MeshLayout layout_;
   PatchSet<T> set_;
   PartLinks links_;
-  std::vector<std::uint32_t> before_; // numbers of the vertices before the own ones
-  std::uint32_t shift_ = 0;           // from the layout's numbers to those of faces
-  std::uint64_t faces_ = 0;
-  std::uint64_t among_quads_ = 0;
+  MeshFaces faces_;
   std::vector<T> values_;
   VertexPlaces<T> places_;
-  std::vector<std::uint32_t> corners_;
-  std::vector<std::uint32_t> polygons_;
-  std::vector<std::uint8_t> sizes_;
 };
 
 } // namespace simdbezier::tools

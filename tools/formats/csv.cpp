@@ -158,18 +158,16 @@ void SampleReader::fail(const std::string& expected, const std::string& found) c
   bad_input_at(input_.name(), input_.line(), expected, found);
 }
 
-ResultWriter::ResultWriter(OutputFile& file, bool centred, std::span<const Output> outputs)
-    : file_(file) {
+std::string result_header(bool centred, std::span<const Output> outputs) {
   const Names& names = centred ? kCentredResult : kUnit;
-  file_.text(names[0]);
+  std::string line(names[0]);
   for (const std::string_view name : std::span(names).subspan(1)) {
-    file_.character(',');
-    file_.text(name);
+    line.append(",").append(name);
   }
   for (const Output output : outputs) {
-    file_.text(columns_of(output));
+    line += columns_of(output);
   }
-  file_.character('\n');
+  return line + "\n";
 }
 
 } // namespace simdbezier::tools

@@ -55,10 +55,15 @@ inline constexpr auto kColumnOutputs = static_cast<std::size_t>(Output::status);
 /// Counts the columns: vectors have three, and the curvatures of a sample have four.
 [[nodiscard]] std::size_t column_count(std::span<const Output> outputs);
 
-/// Writes the header and one line a sample, with numbers that read back to the same bits.
+/// Returns the line that names the columns, with its end.
+[[nodiscard]] std::string result_header(bool centred, std::span<const Output> outputs);
+
+/// Writes one line a sample, with numbers that read back to the same bits. Out: OutputFile or
+/// something else that takes text, characters and numbers.
+template <typename Out>
 class ResultWriter {
 public:
-  ResultWriter(OutputFile& file, bool centred, std::span<const Output> outputs);
+  explicit ResultWriter(Out& file) : file_(file) {}
 
   template <typename T>
   void line(const CsvSample& sample, std::span<const T> values) {
@@ -82,7 +87,7 @@ private:
     }
   }
 
-  OutputFile& file_;
+  Out& file_;
 };
 
 } // namespace simdbezier::tools

@@ -101,17 +101,25 @@ bool is_sound(const SbpBlock& block, std::uint64_t first_patch, std::uint64_t of
          block.bytes <= kMostSbpBlockBytes && (Count(offset) + block.bytes).value().has_value();
 }
 
+// Returns whether all values are finite, which is judged before they are wider. Bytes begin where
+// numbers may.
 template <typename Stored>
-void append_as(PatchFile& file, std::span<const std::byte> bytes) {
-  std::vector<Stored> values(bytes.size() / sizeof(Stored));
-  if constexpr (std::endian::native == std::endian::little) {
-    std::memcpy(values.data(), bytes.data(), bytes.size());
-  } else {
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      values[k] = load_little<Stored>(&bytes[k * sizeof(Stored)]);
+bool append_as(PatchFile& file, std::span<const std::byte> bytes) {
+  const auto* values = reinterpret_cast<const Stored*>(bytes.data());
+  const std::size_t count = bytes.size() / sizeof(Stored);
+  std::vector<Stored> turned;
+  if constexpr (std::endian::native != std::endian::little) {
+    for (std::size_t k = 0; k < count; ++k) {
+      turned.push_back(load_little<Stored>(&bytes[k * sizeof(Stored)]));
     }
+    values = turned.data();
   }
-  file.points.insert(file.points.end(), values.begin(), values.end());
+  file.points.insert(file.points.end(), values, values + count);
+  bool finite = true; // without a branch, so that a register of values takes one step
+  for (std::size_t k = 0; k < count; ++k) {
+    finite &= std::abs(values[k]) <= std::numeric_limits<Stored>::max();
+  }
+  return finite;
 }
 
 } // namespace
@@ -210,6 +218,7 @@ SbpIndex parse_sbp(const std::string& name, std::span<const std::byte> both) {
   std::uint64_t offset = index.data_offset;
   bool sound = index.moved_error >= 0 && std::isfinite(index.moved_error) &&
                offset >= both.size() && offset - both.size() < kSbpAlignment && blocks > 0;
+  index.blocks.reserve(blocks);
   for (std::uint64_t k = 0; k < blocks && sound; ++k) {
     index.blocks.push_back(get_entry(bytes.data() + kSbpHeaderBytes + kSbpEntryBytes * k));
     sound = is_sound(index.blocks.back(), patches, offset);
@@ -241,13 +250,9 @@ void expect_intact(const std::string& name, const SbpIndex& index, const SbpBloc
 
 void append_sbp_values(PatchFile& file, const SbpBlock& block, std::span<const std::byte> bytes) {
   const std::size_t before = file.points.size();
-  block.number_bytes == 4 ? append_as<float>(file, bytes) : append_as<double>(file, bytes);
-  // The loop has no branch, so that a register of values takes one step.
+  bool finite =
+      block.number_bytes == 4 ? append_as<float>(file, bytes) : append_as<double>(file, bytes);
   const std::span<const double> values = std::span(file.points).subspan(before);
-  bool finite = true;
-  for (const double value : values) {
-    finite &= std::abs(value) <= std::numeric_limits<double>::max();
-  }
   bool weighted = true;
   for (std::size_t k = 3; block.weights != Weights::none && k < values.size(); k += 4) {
     const double w = values[k];

@@ -10,6 +10,7 @@
 
 #include <tools/commands/arguments.hpp>
 #include <tools/commands/report.hpp>
+#include <tools/mpi/mpi_evaluate.hpp>
 #include <tools/mpi/mpi_tessellate.hpp>
 #include <tools/process/interruption.hpp>
 
@@ -28,18 +29,20 @@ int run(int argc, char** argv) {
     std::optional<Arguments> arguments;
     ranks.together([&] {
       arguments = parse_arguments(argc, argv);
-      if (arguments && arguments->command != Command::tessellate) {
-        bad_usage("expected tessellate, found another command, which simdbezier has");
+      if (arguments && arguments->command != Command::tessellate &&
+          arguments->command != Command::evaluate) {
+        bad_usage("expected tessellate or evaluate, found another command, which simdbezier has");
       }
       if (arguments && arguments->shard) {
         bad_usage("--shard: expected with simdbezier, found with simdbezier-mpi");
       }
-      if (arguments) {
+      if (arguments && arguments->command == Command::tessellate) {
         expect_local_options(*arguments);
       }
     });
     if (arguments) {
-      run_mpi_tessellate(ranks, *arguments);
+      arguments->command == Command::evaluate ? run_mpi_evaluate(ranks, *arguments)
+                                              : run_mpi_tessellate(ranks, *arguments);
     }
     return 0;
   } catch (const Failure& failure) {

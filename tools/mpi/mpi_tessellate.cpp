@@ -3,21 +3,16 @@
 #include <tools/mpi/mpi_tessellate.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include <sys/resource.h>
-
-#include <nlohmann/json.hpp>
-
 #include <tools/commands/grid_mesh.hpp>
 #include <tools/commands/part_work.hpp>
 #include <tools/commands/welded_mesh.hpp>
+#include <tools/mpi/rank_stats.hpp>
 #include <tools/mpi/rank_writers.hpp>
 #include <tools/parts/joined_contents.hpp>
 #include <tools/patches/library_status.hpp>
@@ -47,8 +42,8 @@ struct KnownShard {
   bool known = false;
   std::vector<std::uint32_t> ghosts;
   MeshContents contents;
-  PartLinks links;
-  std::vector<ModelPart::Lent> lent;
+  std::vector<ModelPart::Lent> lenders; // `to` is the rank that has the patch
+  std::vector<LentVertices> lent;       // empty when other ranks know it
   ShardPlace place;
   std::optional<ShardMesh<T>> mesh; // where a rank has a single shard
 };
@@ -93,6 +88,17 @@ private:
     return low;
   }
 
+  // A shard's links are small beside its patches, but a rank has those of all of its shards.
+  [[nodiscard]] std::vector<ModelPart::Lent> lenders_of(const ModelPart& part) const {
+    std::vector<ModelPart::Lent> found = part.lent;
+    for (ModelPart::Lent& each : found) {
+      each.to = static_cast<std::uint32_t>(rank_of_patch(each.to));
+    }
+    found.erase(std::unique(found.begin(), found.end()), found.end()); // ranks ascend with patches
+    found.shrink_to_fit();
+    return found;
+  }
+
   ShardMesh<T> make_mesh(KnownShard<T>& shard, MeshStats& stats) {
     ShardMesh<T> mesh;
     ModelPart part;
@@ -102,8 +108,8 @@ private:
                          : find_part<T>(source_, arguments_, shard.own);
     }
     if (!std::exchange(shard.known, true)) {
-      shard.lent = part.lent;
       shard.ghosts = part.ghosts();
+      shard.lenders = lenders_of(part);
     }
     if (arguments_.mesh.weld) {
       mesh.welded = std::make_unique<WeldedMesh<T>>(std::move(part), arguments_, stats);
@@ -123,7 +129,7 @@ private:
       ShardMesh<T> mesh = make_mesh(shard, found);
       add(found);
       shard.contents = mesh.source().contents();
-      shard.links = mesh.source().links();
+      shard.lent = mesh.source().links().lent;
       if (first_of(rank) + 1 == first_of(rank + 1)) {
         shard.mesh = std::move(mesh);
       }
@@ -197,17 +203,16 @@ private:
   // Tells other ranks where the vertices begin that they share.
   void tell() {
     std::vector<std::vector<LentVertices>> to(static_cast<std::size_t>(ranks_.count()));
-    for (const KnownShard<T>& shard : own_) {
+    for (KnownShard<T>& shard : own_) {
       VertexDirectory directory;
-      directory.add(shard.links.lent, shard.place.first_vertex);
-      for (const ModelPart::Lent& each : shard.lent) {
-        auto& told = to[rank_of_patch(each.to)];
-        if (told.empty() || told.back().patch != each.patch) {
-          told.push_back(directory.of(each.patch));
-        }
+      directory.add(shard.lent, shard.place.first_vertex);
+      for (const ModelPart::Lent& each : shard.lenders) {
+        to[each.to].push_back(directory.of(each.patch));
       }
+      shard.lenders = {};
+      shard.lent = {};
     }
-    std::vector<LentVertices> told = ranks_.exchange(to);
+    std::vector<LentVertices> told = ranks_.exchange(std::move(to));
     std::ranges::sort(told, {}, &LentVertices::patch);
     directory_.add(told, 0);
   }
@@ -247,7 +252,7 @@ private:
       foreign = mesh.welded ? mesh.welded->foreign_values() : std::vector<T>();
     } else {
       const auto first = static_cast<std::uint32_t>(shard.place.first_vertex);
-      const std::vector<std::uint32_t> numbers = directory_.numbers(shard.links.foreign);
+      const std::vector<std::uint32_t> numbers = directory_.numbers(mesh.source().links().foreign);
       mesh.welded ? mesh.welded->place(first, numbers) : mesh.loose->place(first);
     }
     const auto writer = make_rank_writer<T>(file, format, whole, shard.contents, shard.place,
@@ -271,69 +276,6 @@ private:
   std::uint64_t written_ = 0;
 };
 
-double peak_bytes() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-
-// What all ranks together have done, and each of them.
-void print_stats(const Ranks& ranks, const Arguments& arguments, MeshStats stats,
-                 std::uint64_t written) {
-  const StageSeconds& s = stats.seconds;
-  const std::vector<double> own = {s.read,
-                                   s.pack,
-                                   s.rates,
-                                   s.topology,
-                                   s.evaluate,
-                                   s.write,
-                                   peak_bytes(),
-                                   static_cast<double>(ranks.sent()),
-                                   static_cast<double>(written)};
-  const std::vector<double> all = ranks.gather(own);
-  for (std::uint64_t* const count : {&stats.vertices, &stats.triangles, &stats.samples}) {
-    *count = ranks.sum(*count);
-  }
-  std::size_t joined[2] = {stats.joined ? stats.joined->turned_edges : 0,
-                           stats.joined ? stats.joined->repeated_patches : 0};
-  for (std::size_t* const count :
-       {&stats.patches, &stats.open_edges, &stats.non_manifold_edges, &joined[0], &joined[1]}) {
-    *count = ranks.sum(*count);
-  }
-  stats.deviation = ranks.most(stats.deviation);
-  stats.diagonal = ranks.most(stats.diagonal);
-  if (!ranks.is_first() || arguments.mesh.stats == StatsForm::none) {
-    return;
-  }
-  if (stats.joined) {
-    stats.joined->turned_edges = joined[0];
-    stats.joined->repeated_patches = joined[1];
-  }
-  if (arguments.mesh.stats == StatsForm::text) {
-    std::fputs(stats_as_text(stats).c_str(), stderr);
-    return;
-  }
-  auto json = nlohmann::ordered_json::parse(stats_as_json(stats));
-  json.erase("orientable"); // which no rank knows
-  json["ranks"] = nlohmann::ordered_json::array();
-  for (std::size_t at = 0; at < all.size(); at += own.size()) {
-    const double* const v = &all[at];
-    json["ranks"].push_back({{"seconds",
-                              {{"read", v[0]},
-                               {"pack", v[1]},
-                               {"rates", v[2]},
-                               {"topology", v[3]},
-                               {"evaluate", v[4]},
-                               {"write", v[5]}}},
-                             {"memory", v[6]},
-                             {"sent", v[7]},
-                             {"written", v[8]}});
-  }
-  OutputFile out("-");
-  out.text(json.dump(2) + "\n");
-  out.commit();
-}
-
 template <typename T>
 void tessellate(Ranks& ranks, const Arguments& arguments, const PatchSource& source,
                 MeshStats& stats) {
@@ -341,7 +283,7 @@ void tessellate(Ranks& ranks, const Arguments& arguments, const PatchSource& sou
   stats.diagonal = diagonal_of(source.box());
   MpiTessellation<T> work(ranks, arguments, source, stats);
   work.run();
-  print_stats(ranks, arguments, stats, work.written());
+  print_rank_stats(ranks, arguments, stats, work.written());
 }
 
 } // namespace

@@ -36,7 +36,7 @@ public:
   [[nodiscard]] std::vector<double> gather(const std::vector<double>& values) const;
   /// Sends values to each rank, and returns what came from all of them.
   template <typename Value>
-  [[nodiscard]] std::vector<Value> exchange(const std::vector<std::vector<Value>>& to);
+  [[nodiscard]] std::vector<Value> exchange(std::vector<std::vector<Value>> to);
 
 private:
   MPI_Comm communicator_;
@@ -46,7 +46,7 @@ private:
 };
 
 template <typename Value>
-std::vector<Value> Ranks::exchange(const std::vector<std::vector<Value>>& to) {
+std::vector<Value> Ranks::exchange(std::vector<std::vector<Value>> to) {
   const auto ranks = static_cast<std::size_t>(count_);
   std::vector<int> sends(ranks);
   std::vector<int> receives(ranks);
@@ -67,6 +67,7 @@ std::vector<Value> Ranks::exchange(const std::vector<std::vector<Value>>& to) {
     sends[r] = static_cast<int>(to[r].size());
     out.insert(out.end(), to[r].begin(), to[r].end());
     sent_ += r == static_cast<std::size_t>(rank_) ? 0 : to[r].size() * sizeof(Value);
+    to[r] = {};
   }
   MPI_Alltoall(sends.data(), 1, MPI_INT, receives.data(), 1, MPI_INT, communicator_);
   int received = 0;

@@ -47,33 +47,30 @@ public:
   /// Parts are added in their order, or all that one part needs, ascending. first: the number of
   /// the first vertex of the part that lends.
   void add(std::span<const LentVertices> lent, std::uint64_t first) {
-    for (LentVertices each : lent) {
-      for (std::size_t k = 0; k < 8; ++k) {
-        std::uint64_t& number = (k < 4 ? each.vertices.corners : each.vertices.edges)[k % 4];
-        number += number == kUnknownVertex ? 0 : first;
+    const std::size_t before = lent_.size();
+    lent_.insert(lent_.end(), lent.begin(), lent.end());
+    for (LentVertices& each : std::span(lent_).subspan(before)) {
+      for (std::uint32_t& number : each.begins) {
+        number += number == kNoVertex ? 0 : static_cast<std::uint32_t>(first);
       }
-      lent_.push_back(each);
     }
   }
   /// Returns what is known of a patch that lends.
   [[nodiscard]] const LentVertices& of(std::uint32_t patch) const {
-    return *std::ranges::lower_bound(lent_, std::uint64_t{patch}, {}, &LentVertices::patch);
+    return *std::ranges::lower_bound(lent_, patch, {}, &LentVertices::patch);
   }
   /// Throws Failure where nobody tells a vertex.
   [[nodiscard]] std::vector<std::uint32_t> numbers(std::span<const ForeignVertex> foreign) const {
     std::vector<std::uint32_t> numbers;
     for (const ForeignVertex& vertex : foreign) {
-      const auto at =
-          std::ranges::lower_bound(lent_, std::uint64_t{vertex.patch}, {}, &LentVertices::patch);
+      const auto at = std::ranges::lower_bound(lent_, vertex.patch, {}, &LentVertices::patch);
       const bool known = at != lent_.end() && at->patch == vertex.patch;
-      const std::uint64_t begin = !known            ? kUnknownVertex
-                                  : vertex.slot < 4 ? at->vertices.corners[vertex.slot]
-                                                    : at->vertices.edges[vertex.slot - 4];
-      if (begin == kUnknownVertex) {
+      const std::uint32_t begin = known ? at->begins[vertex.slot] : kNoVertex;
+      if (begin == kNoVertex) {
         bad_input("expected parts that agree on what they share, found a vertex of patch " +
                   std::to_string(vertex.patch) + " that it does not own");
       }
-      numbers.push_back(static_cast<std::uint32_t>(begin + vertex.offset));
+      numbers.push_back(begin + vertex.offset);
     }
     return numbers;
   }

@@ -88,8 +88,8 @@ public:
   /// where these were rounded differently.
   void find() {
     for (bool more = true; more;) {
-      for (const PatchSource::Block& block : source_.blocks()) {
-        if (overlap(box_, block.box)) {
+      for (const SbpBlock& block : source_.blocks()) {
+        if (overlap(box_, {block.low, block.high})) {
           find_in(block);
         }
       }
@@ -183,15 +183,15 @@ private:
       box_.high[c] = std::max(box_.high[c], box.high[c]);
     }
   }
-  void find_in(const PatchSource::Block& block) {
+  void find_in(const SbpBlock& block) {
     const std::size_t own_end = own_.first + own_.count;
-    if (block.first >= own_.first && block.first + block.count <= own_end) {
+    if (block.first_patch >= own_.first && block.first_patch + block.count <= own_end) {
       return;
     }
-    const PatchFile file = source_.read(block.first, block.count);
+    const PatchFile file = source_.read(block.first_patch, block.count);
     const std::vector<PatchKeys> keys = keys_of<T>(file);
     for (std::size_t k = 0; k < block.count; ++k) {
-      const auto patch = static_cast<std::uint32_t>(block.first + k);
+      const auto patch = static_cast<std::uint32_t>(block.first_patch + k);
       if (!is_own(patch) &&
           std::any_of(std::begin(keys[k].corners), std::end(keys[k].corners),
                       [&](std::uint64_t corner) { return places_.contains(corner); }) &&

@@ -44,7 +44,12 @@ PatchSource::PatchSource(PatchFile file)
     : name_(file.name), patches_(file.count), whole_(std::move(file)) {
   for (std::size_t first = 0; first < patches_; first += kPatchesPerBlock) {
     const std::size_t count = std::min(kPatchesPerBlock, patches_ - first);
-    blocks_.push_back({first, count, box_of(whole_, first, count)});
+    const MeshBox box = box_of(whole_, first, count);
+    SbpBlock& block = index_.blocks.emplace_back();
+    block.first_patch = first;
+    block.count = count;
+    block.low = box.low;
+    block.high = box.high;
   }
   find_box();
   SbpCheck check = check_of(std::as_bytes(std::span(whole_.points)));
@@ -84,9 +89,6 @@ std::unique_ptr<PatchSource> PatchSource::open(const std::string& path) {
   source->patches_ = index.patches;
   const SbpCheck check = check_of(sbp_bytes(index)); // which has the sums of all blocks
   source->fingerprint_ = check.sum + 3 * check.sum_of_sums;
-  for (const SbpBlock& block : index.blocks) {
-    source->blocks_.push_back({block.first_patch, block.count, {block.low, block.high}});
-  }
   source->find_box();
   return source;
 }
@@ -94,10 +96,10 @@ std::unique_ptr<PatchSource> PatchSource::open(const std::string& path) {
 void PatchSource::find_box() {
   box_.low.fill(std::numeric_limits<double>::infinity());
   box_.high.fill(-std::numeric_limits<double>::infinity());
-  for (const Block& block : blocks_) {
+  for (const SbpBlock& block : blocks()) {
     for (std::size_t c = 0; c < 3; ++c) {
-      box_.low[c] = std::min(box_.low[c], block.box.low[c]);
-      box_.high[c] = std::max(box_.high[c], block.box.high[c]);
+      box_.low[c] = std::min(box_.low[c], block.low[c]);
+      box_.high[c] = std::max(box_.high[c], block.high[c]);
     }
   }
 }

@@ -19,13 +19,6 @@ namespace simdbezier::tools {
 /// the index is in memory; all other formats are read once. Every failure throws Failure.
 class PatchSource {
 public:
-  /// Consecutive patches and the box of their control points.
-  struct Block {
-    std::size_t first = 0;
-    std::size_t count = 0;
-    MeshBox box;
-  };
-
   /// Takes a file that has been read.
   explicit PatchSource(PatchFile file);
   /// Opens a file of binary patches; null where it is none, or cannot be read piece by piece.
@@ -34,8 +27,9 @@ public:
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] std::size_t patches() const noexcept { return patches_; }
   [[nodiscard]] const MeshBox& box() const noexcept { return box_; }
-  /// Cover all patches in their order.
-  [[nodiscard]] std::span<const Block> blocks() const noexcept { return blocks_; }
+  /// Cover all patches in their order, and have a box. Where patches are in memory, nothing else of
+  /// a block has a meaning.
+  [[nodiscard]] std::span<const SbpBlock> blocks() const noexcept { return index_.blocks; }
   /// Differs where the patches differ.
   [[nodiscard]] std::uint64_t fingerprint() const noexcept { return fingerprint_; }
   [[nodiscard]] std::size_t ignored_trims() const noexcept { return whole_.ignored_trims; }
@@ -54,7 +48,6 @@ private:
   std::string name_;
   std::size_t patches_ = 0;
   MeshBox box_;
-  std::vector<Block> blocks_;
   std::uint64_t fingerprint_ = 0;
   PatchFile whole_; // empty where patches stay in their file
   Descriptor file_; // of binary patches

@@ -2,9 +2,12 @@
 
 #include <cerrno>
 #include <cstdint>
+#include <string_view>
 #include <utility>
 
+#include <dirent.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/random.h>
 #include <unistd.h>
 
@@ -29,18 +32,60 @@ Descriptor open_folder(const std::string& path) {
   return folder;
 }
 
+constexpr std::string_view kSuffix = ".tmp";
+constexpr std::size_t kRandomDigits = 13;
+
+// Of names of temporary files for a target. Of long names a part will do.
+std::string prefix_for(std::string target) {
+  constexpr std::string_view kMark = ".simdbezier-";
+  constexpr std::size_t kMost = 255 - 1 - kMark.size() - kRandomDigits - kSuffix.size();
+  if (target.size() > kMost) {
+    std::size_t end = kMost;
+    while (end > 0 && (static_cast<unsigned char>(target[end]) & 0xC0U) == 0x80U) {
+      --end; // not within a character of UTF-8
+    }
+    target.resize(end);
+  }
+  return "." + target + std::string(kMark);
+}
+
 // No other process has this name, not even one with the same number in a container of its own.
-std::string random_name() {
+std::string random_name(const std::string& prefix) {
   constexpr const char* kDigits = "0123456789abcdefghijklmnopqrstuv";
   std::uint64_t bits = 0;
   if (getrandom(&bits, sizeof bits, 0) != static_cast<ssize_t>(sizeof bits)) {
     fail(errno);
   }
-  std::string name = ".simdbezier-";
-  for (int k = 0; k < 13; ++k, bits >>= 5) {
+  std::string name = prefix;
+  for (std::size_t k = 0; k < kRandomDigits; ++k, bits >>= 5) {
     name += kDigits[bits & 31];
   }
-  return name + ".tmp";
+  return name.append(kSuffix);
+}
+
+// Files that nobody writes any more. A failure means that they stay.
+void remove_left(int folder, std::string_view prefix) {
+  Descriptor again(openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  DIR* const names = again.is_open() ? fdopendir(again.number()) : nullptr;
+  if (names == nullptr) {
+    return;
+  }
+  again.release(); // closedir() closes it
+  while (const dirent* const entry = readdir(names)) {
+    const std::string_view name = entry->d_name;
+    if (name.size() != prefix.size() + kRandomDigits + kSuffix.size() ||
+        !name.starts_with(prefix) || !name.ends_with(kSuffix)) {
+      continue;
+    }
+    const Descriptor left(
+        openat(folder, entry->d_name, O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    struct stat status = {};
+    if (left.is_open() && fstat(left.number(), &status) == 0 && S_ISREG(status.st_mode) &&
+        flock(left.number(), LOCK_EX | LOCK_NB) == 0) {
+      unlinkat(folder, entry->d_name, 0);
+    }
+  }
+  closedir(names);
 }
 
 // Some file systems have nothing to wait for, which is no failure.
@@ -77,9 +122,11 @@ TemporaryFile::TemporaryFile(const std::string& target) {
   if (replaces && faccessat(folder_.number(), target_.c_str(), W_OK, AT_EACCESS) != 0) {
     fail(errno);
   }
+  const std::string prefix = prefix_for(target_);
+  remove_left(folder_.number(), prefix);
   // A file that replaces another may be secret and gets its mode later; others have the usual one.
   try {
-    create(replaces ? 0600 : 0666);
+    create(replaces ? 0600 : 0666, prefix);
   } catch (const std::system_error& error) {
     if (replaces) {
       throw FolderRefuses(error.code());
@@ -88,10 +135,10 @@ TemporaryFile::TemporaryFile(const std::string& target) {
   }
 }
 
-void TemporaryFile::create(mode_t mode) {
+void TemporaryFile::create(mode_t mode, const std::string& prefix) {
   do {
     forget_temporary(name_);
-    name_ = random_name();
+    name_ = random_name(prefix);
     begin_creation();
     if (!remember_temporary(folder_.number(), name_)) {
       end_creation();
@@ -103,13 +150,27 @@ void TemporaryFile::create(mode_t mode) {
     const int error = errno;
     end_creation();
     errno = error;
-  } while (!file_.is_open() && errno == EEXIST);
+  } while (file_.is_open() ? !lock() : errno == EEXIST);
   if (!file_.is_open()) {
     const int error = errno;
     forget_temporary(name_);
     name_.clear();
     fail(error);
   }
+}
+
+// Returns false where another process has taken the new file for one that was left. Where files
+// cannot be locked, no process removes any.
+bool TemporaryFile::lock() {
+  const int file = file_.number();
+  struct stat status = {};
+  if ((flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) ||
+      (fstat(file, &status) == 0 && status.st_nlink == 0)) {
+    return false;
+  }
+  // A lock ends with the last descriptor of an open file.
+  lock_ = Descriptor(fcntl(file, F_DUPFD_CLOEXEC, 0));
+  return true;
 }
 
 TemporaryFile::~TemporaryFile() {
@@ -149,6 +210,7 @@ void TemporaryFile::replace_target() {
   }
   forget_temporary(name_);
   name_.clear();
+  static_cast<void>(lock_.close());
   // The file is in its place already. Only the file system knows if its name survives a crash.
   static_cast<void>(!fsync(folder_.number()));
 }

@@ -32,8 +32,10 @@ public:
   using std::system_error::system_error;
 };
 
-/// A temporary file has a random name in the folder of its target. Whatever ends the program
-/// removes it, except SIGKILL and a crash of the system.
+/// A temporary file is `.TARGET.simdbezier-RANDOM.tmp` in the folder of its target. Whatever ends
+/// the program removes it, except SIGKILL and a crash of the system: what these leave is removed
+/// when the next one for the same target is created. Files that somebody still writes are locked,
+/// and stay.
 class TemporaryFile {
 public:
   /// Creates one for `target`, a path without a link at its end. Throws std::system_error,
@@ -51,11 +53,13 @@ public:
   void replace_target();
 
 private:
-  void create(mode_t mode);
+  void create(mode_t mode, const std::string& prefix);
+  [[nodiscard]] bool lock();
   void take_over(const struct stat& target) const;
 
   Descriptor folder_;
   Descriptor file_;
+  Descriptor lock_;    // the same open file, until it has the name of its target
   std::string target_; // its name in the folder
   std::string name_;   // the temporary one; empty where there is none any more
 };

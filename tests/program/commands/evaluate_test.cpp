@@ -286,7 +286,8 @@ TEST(Evaluate, WritesNanWithoutASign) {
   const TemporaryFolder folder;
   {
     tools::OutputFile file(folder.path("out.csv"));
-    tools::ResultWriter writer(file, false, {});
+    file.text(tools::result_header(false, {}));
+    tools::ResultWriter writer(file);
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double values[] = {nan, -nan, -0.0};
     writer.line<double>({7, 0.5, 1}, values);

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include <sys/wait.h>
 
@@ -14,12 +15,23 @@
 namespace simdbezier::tests::mpi_test {
 namespace {
 
-class Mpi : public ::testing::Test {
+/// What starts ranks, and the program that was built for it.
+struct Launcher {
+  const char* mpiexec;
+  const char* program;
+};
+#ifdef SIMDBEZIER_MPI_PROGRAMS
+constexpr Launcher kLaunchers[] = {SIMDBEZIER_MPI_PROGRAMS};
+#else
+constexpr Launcher kLaunchers[] = {{nullptr, nullptr}};
+#endif
+
+class Mpi : public ::testing::TestWithParam<std::size_t> {
 protected:
   void SetUp() override {
-#ifndef SIMDBEZIER_MPI_PROGRAM
-    GTEST_SKIP() << "simdbezier-mpi is not built";
-#endif
+    if (kLaunchers[GetParam()].program == nullptr) {
+      GTEST_SKIP() << "simdbezier-mpi is not built";
+    }
   }
 
   struct Answer {
@@ -29,20 +41,14 @@ protected:
   };
   // Runs so many ranks, which may be more than there are cores.
   Answer run_ranks(int ranks, const std::string& words, int threads = 1) const {
-    std::string command;
-#ifdef SIMDBEZIER_MPI_PROGRAM
-    command = "OMP_NUM_THREADS=" + std::to_string(threads) +
-              " OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"
-              " OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none"
-              " OMPI_MCA_btl_vader_single_copy_mechanism=none TMPDIR=/tmp " SIMDBEZIER_MPIEXEC
-              " -n " +
-              std::to_string(ranks) + " " SIMDBEZIER_MPI_PROGRAM " " + words + " > '" +
-              folder_.path("out") + "' 2> '" + folder_.path("err") + "' < /dev/null";
-#else
-    static_cast<void>(ranks);
-    static_cast<void>(words);
-    static_cast<void>(threads);
-#endif
+    const Launcher& launcher = kLaunchers[GetParam()];
+    const std::string command =
+        "OMP_NUM_THREADS=" + std::to_string(threads) +
+        " OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"
+        " OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none"
+        " OMPI_MCA_btl_vader_single_copy_mechanism=none TMPDIR=/tmp " +
+        launcher.mpiexec + " -n " + std::to_string(ranks) + " " + launcher.program + " " + words +
+        " > '" + folder_.path("out") + "' 2> '" + folder_.path("err") + "' < /dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder_.path("out")),
             read_file(folder_.path("err"))};
@@ -71,10 +77,10 @@ constexpr Case kCases[] = {{"ply", "--relative 1e-2"},
                            {"ply", "--no-weld --grid 3 --flip"},
                            {"stl", "--grid 2 --precision f64"}};
 
-TEST_F(Mpi, any_number_of_ranks_makes_the_same_bytes) {
+TEST_P(Mpi, any_number_of_ranks_makes_the_same_bytes) {
   constexpr int kRanks[] = {1, 2, 3, 5, 7};
   constexpr int kPatches[] = {65536, 9, 2};
-  std::size_t number = 0;
+  std::size_t number = 13 * GetParam();
   for (const PartModel& model : part_models(folder_)) {
     for (const Case& item : kCases) {
       const std::string options = item.options;
@@ -106,7 +112,7 @@ TEST_F(Mpi, any_number_of_ranks_makes_the_same_bytes) {
   }
 }
 
-TEST_F(Mpi, binary_patches_are_read_by_ranges) {
+TEST_P(Mpi, binary_patches_are_read_by_ranges) {
   const std::string in = folder_.write("in.bez", gluings_as_bez(7, 200));
   expect_silent_success(run({"convert", in, "-o", folder_.path("in.sbp")}));
   expect_silent_success(run({"tessellate", in, "-o", folder_.path("whole.ply"), "--grid", "3"}));
@@ -130,7 +136,7 @@ TEST_F(Mpi, binary_patches_are_read_by_ranges) {
   }
 }
 
-TEST_F(Mpi, faults_have_an_exit_code_a_message_and_leave_nothing) {
+TEST_P(Mpi, faults_have_an_exit_code_a_message_and_leave_nothing) {
   struct Fault {
     std::string words;
     int exit_code;
@@ -151,7 +157,11 @@ TEST_F(Mpi, faults_have_an_exit_code_a_message_and_leave_nothing) {
        "no/folder.ply: expected"},
       {"tessellate builtin:teapot -o " + folder_.path("a.glb"), 2, "expected a mesh in ply or stl"},
       {"tessellate builtin:teapot" + out + " --tolerance 1e-9", 1, "expected a distance above"},
-      {"info builtin:teapot", 2, "expected tessellate"}};
+      {"evaluate builtin:teapot -o " + folder_.path("no/folder.csv"), 1, "no/folder.csv: expected"},
+      {"evaluate builtin:teapot -o -", 2, "-o: expected a file that all ranks can write"},
+      {"evaluate " + folder_.path("cut.sbp") + " -o " + folder_.path("a.csv"), 1,
+       "expected block 0"},
+      {"info builtin:teapot", 2, "expected tessellate or evaluate"}};
   for (const Fault& fault : faults) {
     SCOPED_TRACE(fault.words);
     const Answer answer = run_ranks(3, fault.words);
@@ -164,7 +174,7 @@ TEST_F(Mpi, faults_have_an_exit_code_a_message_and_leave_nothing) {
 }
 
 // What a run that was killed has left is removed by the next one.
-TEST_F(Mpi, leftovers_go_with_the_next_run) {
+TEST_P(Mpi, leftovers_go_with_the_next_run) {
   const std::string left = folder_.write(".out.ply.simdbezier-mpi.tmp", std::string(1 << 20, 'x'));
   const Answer answer =
       run_ranks(2, "tessellate builtin:teapot --grid 2 -o " + folder_.path("out.ply"));
@@ -174,6 +184,70 @@ TEST_F(Mpi, leftovers_go_with_the_next_run) {
       run({"tessellate", "builtin:teapot", "--grid", "2", "-o", folder_.path("whole.ply")}));
   EXPECT_TRUE(read_file(folder_.path("out.ply")) == read_file(folder_.path("whole.ply")));
 }
+
+// More samples than a block has, in no order.
+std::string many_samples(std::size_t patches) {
+  std::string text = "patch,u,v\n";
+  for (std::size_t k = 0; k < 50000; ++k) {
+    text += std::to_string(k * 7919 % patches) + "," + std::to_string(k % 101) + "e-2," +
+            std::to_string(static_cast<double>(k % 977) / 977) + "\n";
+  }
+  return text;
+}
+
+TEST_P(Mpi, ranks_evaluate_the_same_lines) {
+  const std::string samples = " --samples " + folder_.write("samples.csv", many_samples(3));
+  const std::string options[] = {" --grid 5", " --grid 600x500 --outputs normal",
+                                 " --grid 3x2 --precision f64 --outputs position,duv,curvature",
+                                 samples, samples + " --precision f64 --outputs du,curvature"};
+  std::size_t number = GetParam();
+  for (const PartModel& model : part_models(folder_)) {
+    const std::string in = folder_.path("in.sbp");
+    expect_silent_success(run({"convert", model.path, "-o", in}));
+    for (const std::string& option : options) {
+      const bool is_fine = option.find("600") != std::string::npos;
+      if (is_fine ? model.name != "mixed shapes" : !in_form(++number, 3)) {
+        continue; // fine grids are for few patches
+      }
+      const std::string from = number % 2 == 0 ? in : model.path;
+      const int ranks = 2 + static_cast<int>(number % 2);
+      SCOPED_TRACE(from + option + ", " + std::to_string(ranks) + " ranks");
+      const std::string whole = folder_.path("whole.csv");
+      const std::string words = "evaluate '" + from + "'" + option + " -o ";
+      ASSERT_EQ(std::system((std::string(SIMDBEZIER_PROGRAM) + " " + words + whole).c_str()), 0);
+      const std::string out = folder_.path("ranks.csv");
+      const Answer answer = run_ranks(ranks, words + out);
+      EXPECT_EQ(answer.exit_code, 0) << answer.err;
+      EXPECT_EQ(answer.out, "");
+      EXPECT_TRUE(read_file(whole) == read_file(out));
+      EXPECT_FALSE(has_leftovers());
+    }
+  }
+}
+
+// Whichever rank meets it, the failure is the program's.
+TEST_P(Mpi, ranks_refuse_what_the_program_refuses) {
+  std::string far = gluings_as_bez(3, 40);
+  far.replace(far.rfind(' ') + 1, std::string::npos, "1e300\n");
+  const std::string in = folder_.write("far.bez", far);
+  const std::string few = folder_.write("few.csv", "patch,u,v\n0,0.5,0.5\n");
+  const std::string bad = folder_.write("bad.csv", many_samples(3) + "0,0.5,x\n");
+  for (const std::string& words :
+       {"evaluate " + in + " --grid 3", "evaluate " + in + " --samples " + few,
+        "evaluate builtin:teapot --samples " + bad}) {
+    SCOPED_TRACE(words);
+    const std::string program = std::string(SIMDBEZIER_PROGRAM) + " " + words + " -o " +
+                                folder_.path("a.csv") + " 2> " + folder_.path("program");
+    const int status = std::system(program.c_str());
+    const Answer answer = run_ranks(3, words + " -o " + folder_.path("a.csv"));
+    EXPECT_EQ(answer.exit_code, WEXITSTATUS(status));
+    EXPECT_NE(answer.err.find(read_file(folder_.path("program"))), std::string::npos) << answer.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_.path("a.csv")));
+    EXPECT_FALSE(has_leftovers());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Mpi, ::testing::Range(std::size_t{0}, std::size(kLaunchers)));
 
 } // namespace
 } // namespace simdbezier::tests::mpi_test

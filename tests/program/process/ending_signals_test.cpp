@@ -73,6 +73,46 @@ TEST_P(EndingSignalTest, LeavesNothingAndIsSeen) {
 INSTANTIATE_TEST_SUITE_P(All, EndingSignalTest, ::testing::ValuesIn(ending_signals()),
                          [](const auto& test) { return "Signal" + std::to_string(test.param); });
 
+// What SIGKILL leaves is removed by the next run for the same output, and only that.
+TEST(Signals, ThatCannotBeCaughtLeaveWhatTheNextRunRemoves) {
+  for (const std::string& name : {std::string("out.csv"), std::string(251, 'n') + ".csv"}) {
+    const TemporaryFolder folder;
+    const std::string out = folder.path(name);
+    {
+      WaitingProgram waiting(out);
+      waiting.await(folder);
+      kill(waiting.program().id(), SIGKILL);
+      EXPECT_EQ(waiting.program().finish().signal, SIGKILL);
+    }
+    ASSERT_EQ(folder.names().size(), 1U);
+    const std::string left = folder.names().front();
+    EXPECT_TRUE(left.starts_with("." + name.substr(0, 225) + ".simdbezier-")) << left;
+    const std::string like_it = folder.write(".out.csv.simdbezier-notes.tmp", "mine");
+    const auto make = [&](const std::string& path) {
+      expect_silent_success(run({"evaluate", "builtin:teapot", "--grid", "2", "-o", path}));
+    };
+    make(folder.path("other.csv"));
+    EXPECT_TRUE(std::filesystem::exists(folder.path(left)));
+    make(out);
+    EXPECT_FALSE(std::filesystem::exists(folder.path(left)));
+    EXPECT_TRUE(std::filesystem::exists(like_it));
+  }
+}
+
+TEST(Signals, OrNoneLeaveAloneWhatAnotherRunStillWrites) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path("out.csv");
+  WaitingProgram waiting(out);
+  waiting.await(folder);
+  const std::string temporary = folder.names().front();
+  expect_silent_success(run({"evaluate", "builtin:teapot", "--grid", "2", "-o", out}));
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{temporary, "out.csv"}));
+  const std::string before = read_file(out);
+  expect_silent_success(waiting.program().finish());
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"out.csv"});
+  EXPECT_NE(read_file(out), before);
+}
+
 TEST(Signals, ThatWereIgnoredStayIgnored) {
   const std::vector<int> numbers = {SIGHUP, SIGINT, SIGQUIT, SIGUSR1, SIGALRM, SIGPIPE};
   const TemporaryFolder folder;

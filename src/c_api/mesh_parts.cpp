@@ -1,0 +1,113 @@
+// Parts of a model, and single vertices, of simdbezier.h.
+#include <simdbezier/mesh_parts.hpp>
+
+#include <cstddef>
+
+#include "src/c_api/handles.hpp"
+#include "src/c_api/views.hpp"
+
+namespace simdbezier::c_api {
+namespace {
+
+constexpr Path kPart{"part"};
+
+// Keys and numbers are read and written in place.
+static_assert(sizeof(simdbezier_patch_keys) == sizeof(PatchKeys) &&
+              offsetof(simdbezier_patch_keys, corners) == offsetof(PatchKeys, corners) &&
+              offsetof(simdbezier_patch_keys, edges) == offsetof(PatchKeys, edges) &&
+              offsetof(simdbezier_patch_keys, points) == offsetof(PatchKeys, points));
+static_assert(sizeof(simdbezier_patch_vertices) == sizeof(PatchVertices) &&
+              offsetof(simdbezier_patch_vertices, corners) == offsetof(PatchVertices, corners) &&
+              offsetof(simdbezier_patch_vertices, edges) == offsetof(PatchVertices, edges));
+static_assert(kUnknownVertex == UINT64_MAX && kNoLayoutVertex == UINT32_MAX);
+
+/// What a status of a call about a part is about.
+auto about(const char* output) {
+  return [output](Status status) -> Path {
+    switch (status.code()) {
+    case Status::bad_patch_range:
+      return {"own_first or own_count"};
+    case Status::unequal_lengths:
+      return {"ghosts_length"};
+    default:
+      return {output};
+    }
+  };
+}
+
+bool is_edge(simdbezier_edge edge) { return edge >= 0 && edge <= SIMDBEZIER_EDGE_U1; }
+
+} // namespace
+} // namespace simdbezier::c_api
+
+using namespace simdbezier;
+using namespace simdbezier::c_api;
+
+simdbezier_status simdbezier_find_patch_keys(const simdbezier_nets* nets, size_t length,
+                                             simdbezier_patch_keys* keys, size_t keys_length,
+                                             const simdbezier_options* options) {
+  return answer(__func__, [&] {
+    const std::span<simdbezier_patch_keys> out = span_of(keys, keys_length, {"keys"});
+    const CallOptions how(options);
+    with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
+      const std::span places(reinterpret_cast<PatchKeys*>(out.data()), out.size());
+      require_ok(find_patch_keys(views, places, *how), [](Status status) {
+        return status == Status::output_too_small ? Path{"keys"} : blamed_nets(status, {"nets"});
+      });
+    });
+  });
+}
+
+simdbezier_status simdbezier_owned_vertices(const simdbezier_mesh_layout* part, size_t own_first,
+                                            size_t own_count, uint64_t first_vertex,
+                                            simdbezier_patch_vertices* out, size_t length) {
+  return answer(__func__, [&] {
+    const std::span<simdbezier_patch_vertices> places = span_of(out, length, {"out"});
+    require_ok(owned_vertices(object_of(part, kPart), {own_first, own_count}, first_vertex,
+                              {reinterpret_cast<PatchVertices*>(places.data()), places.size()}),
+               about("out"));
+  });
+}
+
+simdbezier_status simdbezier_number_part(const simdbezier_mesh_layout* part, size_t own_first,
+                                         size_t own_count, uint64_t first_vertex,
+                                         const simdbezier_patch_vertices* ghosts,
+                                         size_t ghosts_length, uint64_t* numbers,
+                                         size_t numbers_length) {
+  return answer(__func__, [&] {
+    const std::span<const simdbezier_patch_vertices> told =
+        span_of(ghosts, ghosts_length, {"ghosts"});
+    const std::span<std::uint64_t> out = span_of(numbers, numbers_length, {"numbers"});
+    require_ok(number_part(object_of(part, kPart), {own_first, own_count}, first_vertex,
+                           {reinterpret_cast<const PatchVertices*>(told.data()), told.size()}, out),
+               about("numbers"));
+  });
+}
+
+int32_t simdbezier_topology_is_entangled(const simdbezier_topology* topology, size_t patch) {
+  return topology != nullptr && topology->of.is_entangled(patch) ? 1 : 0;
+}
+
+uint32_t simdbezier_mesh_layout_corner(const simdbezier_mesh_layout* layout, size_t patch,
+                                       size_t corner) {
+  return layout == nullptr ? kNoLayoutVertex : layout->of.corner(patch, corner);
+}
+
+uint32_t simdbezier_mesh_layout_segments(const simdbezier_mesh_layout* layout, size_t patch,
+                                         simdbezier_edge edge) {
+  return layout == nullptr || !is_edge(edge)
+             ? 0
+             : layout->of.segments(patch, static_cast<PatchEdge>(edge));
+}
+
+uint32_t simdbezier_mesh_layout_along(const simdbezier_mesh_layout* layout, size_t patch,
+                                      simdbezier_edge edge, uint32_t k) {
+  return layout == nullptr || !is_edge(edge)
+             ? kNoLayoutVertex
+             : layout->of.along(patch, static_cast<PatchEdge>(edge), k);
+}
+
+uint32_t simdbezier_mesh_layout_inner(const simdbezier_mesh_layout* layout, size_t patch,
+                                      uint32_t i, uint32_t j) {
+  return layout == nullptr ? kNoLayoutVertex : layout->of.inner(patch, i, j);
+}
