@@ -20,6 +20,10 @@ extern const detail::KernelTable<float> table_f32;
 extern const detail::KernelTable<double> table_f64;
 const detail::KernelTable<float> table_f32 = foreign_table<float>();
 const detail::KernelTable<double> table_f64 = foreign_table<double>();
+extern const detail::NetTable<float> net_table_f32;
+extern const detail::NetTable<double> net_table_f64;
+const detail::NetTable<float> net_table_f32{};
+const detail::NetTable<double> net_table_f64{};
 } // namespace SIMDBEZIER_FOREIGN_TABLES
 
 namespace {
