@@ -3,7 +3,7 @@
 # name | processors | xsimd architecture tag | fuses | compact | compiler flags
 #   fuses: a multiplication and an addition have one rounding. xsimd's fma() for the tag has to be
 #     one instruction then.
-#   compact: 1: no machine depends on the set; 2: only bicubic patches have kernels of their own, for few machines
+#   compact: 1: no machine depends on the set; 2: only bicubic patches and curves have kernels of their own, for few machines
 #     and for code that goes over a network (kCompact and kCompactShapes in kernels/simd/vector.hpp).
 #   flags: those of the form -mNAME name what a machine must have, in the compilers' words. Tuned for
 #     generic machines, g++ 12 spills addresses to vector registers, where they queue behind the

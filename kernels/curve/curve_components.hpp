@@ -110,7 +110,7 @@ SIMDBEZIER_PART void sweep_one_by_one(const CurveTask<T>& task, const CurveShape
 template <typename V, std::size_t kKnownOrder, bool kHalves, std::size_t kDepth, typename T>
 SIMDBEZIER_PART void sweep_slot(const CurveTask<T>& task, const CurveShape& shape, CurveBlock block,
                                 std::size_t swept, std::size_t slot) {
-  if constexpr (!kCompactShapes && kKnownOrder > 0) {
+  if constexpr (!kCompact && kKnownOrder > 0) {
     if (swept >= kLongCurve * kLanes<V>) {
       return sweep_one_by_one<V, kKnownOrder, kDepth>(task, shape, block, swept, slot);
     }

@@ -43,7 +43,7 @@ SIMDBEZIER_PART void sweep_any_degree(const CurveTask<T>& task) {
 template <bool kRational, typename T>
 SIMDBEZIER_PART void sweep_joint(const CurveTask<T>& task) {
   const std::size_t depth = depth_of(task);
-  if constexpr (kRational && !kCompactShapes) {
+  if constexpr (kRational && !kCompact) {
     if (depth == 0 && task.shape->degree == 1) {
       return sweep_samples<2, false, true, 0>(task);
     }
@@ -54,12 +54,12 @@ SIMDBEZIER_PART void sweep_joint(const CurveTask<T>& task) {
       return sweep_samples<4, false, true, 0>(task);
     }
   }
-  if constexpr (!kRational && !kCompactShapes) {
+  if constexpr (!kRational && !kCompact) {
     if (depth == 1 && task.shape->degree == 3) {
       return sweep_samples<4, false, false, 1>(task);
     }
   }
-  if constexpr (kRational || kCompactShapes) { // others that want positions alone sweep components
+  if constexpr (kRational || kCompact) { // others that want positions alone sweep components
     if (depth == 0) {
       return sweep_any_degree<kRational, 0>(task);
     }
@@ -104,7 +104,7 @@ SIMDBEZIER_KERNEL void curve_grid_kernel(CurveTask<T>& task) {
   if (task.shape->rational) {
     return sweep_joint<true>(task);
   }
-  if constexpr (!kCompactShapes) {
+  if constexpr (!kCompact) {
     if (task.rows) {
       return evaluate_rows(task);
     }

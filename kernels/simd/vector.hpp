@@ -58,7 +58,7 @@ inline constexpr bool kFused = SIMDBEZIER_FUSES != 0;
 /// degree or an arrangement that another kernel can handle as well.
 inline constexpr bool kCompact = SIMDBEZIER_COMPACT == 1;
 
-/// Whether that holds for curves, and for patches that are not bicubic or not points in space.
+/// Whether that holds for patches that are not bicubic or not points in space.
 inline constexpr bool kCompactShapes = SIMDBEZIER_COMPACT != 0;
 
 // Which V holds what -----------------------------------------------------------------------------

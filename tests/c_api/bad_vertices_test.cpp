@@ -183,7 +183,7 @@ const Refusal<MeshWorld> kFormats[] = {
     {SIMDBEZIER_BAD_TOLERANCE, "out->box",
      [](MeshWorld& w) { return w.formatted.box.step = 0, w.format_vertices(); }},
     {SIMDBEZIER_BAD_VALUE, "options->isa",
-     [](MeshWorld& w) { return w.options.isa = 6, w.format_vertices(); }},
+     [](MeshWorld& w) { return w.options.isa = SIMDBEZIER_ISA_SIMD128 + 1, w.format_vertices(); }},
     {SIMDBEZIER_BAD_PATCH_RANGE, "first_patch or patch_count",
      [](MeshWorld& w) { return w.format_vertices(1, 2); }},
     {SIMDBEZIER_BAD_PATCH_RANGE, "first_patch or patch_count",

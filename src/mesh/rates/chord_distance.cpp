@@ -8,8 +8,6 @@
 namespace simdbezier::detail {
 namespace {
 
-/// A bound may be above the largest distance found by this factor.
-constexpr double kCloseEnough = 1.125;
 /// Of one net; what is left then is bounded by its control points.
 constexpr std::size_t kMostHalvings = 64;
 

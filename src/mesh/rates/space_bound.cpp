@@ -16,12 +16,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A vertex is off by so much of the parameter's range.
 constexpr double kVertexRounding = kStepRounding / 2;
-/// A bound may be above what points of the surface ask for by this factor.
-constexpr double kCloseEnough = 1.125;
 /// What sides add may be above that by this share of what is enough for the cell.
 constexpr double kSideShare = 1.0 / 16;
 /// Of one cell; what is left then is bounded by its control points.
-constexpr std::size_t kMostHalvings = 2000;
+constexpr std::size_t kMostCellHalvings = 2000;
 constexpr std::size_t kMostSideHalvings = 200;
 
 /// In each direction.
@@ -171,7 +169,8 @@ double SpaceBound::bound_piece(Look& look, std::size_t level, std::size_t depth)
   if (look.found > look.stop) {
     return kInfinity;
   }
-  if (total <= kCloseEnough * look.found || depth == kDeepest || look.halvings == kMostHalvings) {
+  if (total <= kCloseEnough * look.found || depth == kDeepest ||
+      look.halvings == kMostCellHalvings) {
     look.enough = std::max(look.enough, total);
     return total;
   }
