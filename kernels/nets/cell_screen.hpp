@@ -76,10 +76,6 @@ public:
   }
 
 private:
-  static SIMDBEZIER_INLINE V dot(const SpaceVector<V>& a, const SpaceVector<V>& b) {
-    return madd(a.x, b.x, madd(a.y, b.y, a.z * b.z));
-  }
-
   V factor_[5];
 };
 

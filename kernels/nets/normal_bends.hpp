@@ -23,11 +23,6 @@ SIMDBEZIER_INLINE SpaceVector<V> cubic_tangent(const SpaceVector<V>* p, std::siz
                       : (p[3 * step] - p[0]) + (p[2 * step] - p[step]);
 }
 
-template <typename V>
-SIMDBEZIER_INLINE V dot_of(const SpaceVector<V>& a, const SpaceVector<V>& b) {
-  return madd(a.x, b.x, madd(a.y, b.y, a.z * b.z));
-}
-
 /// What second derivatives along the normal at 3 x 3 samples tell of small cells; samples without a
 /// normal do not count.
 template <typename V>
@@ -63,9 +58,9 @@ SIMDBEZIER_KERNEL NormalBends<V> bends_of(const RateScratch<V>& scratch, const C
           select_where<V>(length > larger_of<V>(least, tiny),
                           divide(broadcast<V>(T(1)), larger_of<V>(length, tiny)), zero);
       const SecondVectors<V>& second = scratch.nets.at[21 * j + 3 * i];
-      V uu = dot_of(normal, second.uu) * inverse;
-      V uv = dot_of(normal, second.uv) * inverse;
-      V vv = dot_of(normal, second.vv) * inverse;
+      V uu = dot(normal, second.uu) * inverse;
+      V uv = dot(normal, second.uv) * inverse;
+      V vv = dot(normal, second.vv) * inverse;
       largest = {larger_of<V>(largest.uu, size_of<V>(uu)), larger_of<V>(largest.uv, size_of<V>(uv)),
                  larger_of<V>(largest.vv, size_of<V>(vv))};
       uu = uu * step.uu;

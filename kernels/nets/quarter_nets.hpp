@@ -23,7 +23,10 @@ struct SpaceVector {
   friend SIMDBEZIER_INLINE SpaceVector operator*(V s, const SpaceVector& a) {
     return {s * a.x, s * a.y, s * a.z};
   }
-  [[nodiscard]] SIMDBEZIER_INLINE V square() const { return madd(x, x, madd(y, y, z * z)); }
+  [[nodiscard]] friend SIMDBEZIER_INLINE V dot(const SpaceVector& a, const SpaceVector& b) {
+    return madd(a.x, b.x, madd(a.y, b.y, a.z * b.z));
+  }
+  [[nodiscard]] SIMDBEZIER_INLINE V square() const { return dot(*this, *this); }
 };
 
 /// One number for each second derivative: S_uu, S_uv, S_vv.

@@ -31,7 +31,7 @@ template <typename T>
 struct RateTask {
   NetView<const T> in;
   bool choose;
-  std::uint32_t fewest_looked; ///< cells of which a bound that may be far too large is no decision
+  std::uint32_t fewest_looked; ///< of so many cells, a bound that may be far too large is undecided
   double tolerance;            ///< of all patches …
   const double* tolerances;    ///< … or one value a patch; null: none
   const double* errors; ///< to be taken from the tolerance, and added to deviations; may be null

@@ -114,6 +114,14 @@ TestPatch random_patch(unsigned seed) {
                 });
 }
 
+std::vector<TestPatch> patches_and_random(unsigned count) {
+  std::vector<TestPatch> all = patches();
+  for (unsigned seed = 0; seed < count; ++seed) {
+    all.push_back(random_patch(seed));
+  }
+  return all;
+}
+
 Choice choose(const TestPatch& patch, double tolerance) {
   Choice choice;
   RateOptions options;
@@ -194,11 +202,7 @@ struct Sampled {
 };
 
 TEST(UnevenPatches, are_as_close_as_certified) {
-  std::vector<TestPatch> all = patches();
-  for (unsigned seed = 0; seed < by_form(40U, 400U); ++seed) {
-    all.push_back(random_patch(seed));
-  }
-  for (const TestPatch& patch : all) {
+  for (const TestPatch& patch : patches_and_random(by_form(40U, 400U))) {
     SCOPED_TRACE(patch.name);
     for (const double tolerance : {0.1, 0.02}) {
       MeshOptions options;
@@ -227,11 +231,7 @@ std::vector<double> with_neighbour(const TestPatch& patch) {
 
 // A neighbour's vertices on an edge cut triangles there.
 TEST(UnevenPatches, are_as_close_as_certified_whatever_their_neighbours) {
-  std::vector<TestPatch> all = patches();
-  for (unsigned seed = 0; seed < by_form(30U, 300U); ++seed) {
-    all.push_back(random_patch(seed));
-  }
-  for (const TestPatch& patch : all) {
+  for (const TestPatch& patch : patches_and_random(by_form(30U, 300U))) {
     SCOPED_TRACE(patch.name);
     const std::vector<double> values = with_neighbour(patch);
     const std::array<double, 2> tolerances = {0.1, 0.005};

@@ -7,20 +7,11 @@
 namespace simdbezier::detail {
 namespace {
 
-using Vector = std::array<double, 3>;
-
 constexpr double kSteepest = 2;
 /// Of the diagonals' sine.
 constexpr double kThinnest = 1e-7;
 
-Vector difference(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector divided(const Vector& a, double by) { return {a[0] / by, a[1] / by, a[2] / by}; }
+Point3 divided(const Point3& a, double by) { return {a.x[0] / by, a.x[1] / by, a.x[2] / by}; }
 
 } // namespace
 
@@ -32,15 +23,15 @@ void GraphDistance::include(const GraphDistance& other) {
 }
 
 bool CellGraph::set(const std::array<const double*, 4>& corners, double doubt) {
-  std::array<Vector, 4> p;
+  std::array<Point3, 4> p;
   for (std::size_t k = 0; k < 4; ++k) {
-    p[k] = divided({corners[k][0], corners[k][1], corners[k][2]}, corners[k][3]);
+    p[k] = divided({{corners[k][0], corners[k][1], corners[k][2]}}, corners[k][3]);
   }
   doubt_ = doubt;
   origin_ = p[0];
-  const Vector diagonal = difference(p[2], p[0]);
-  const Vector other = difference(p[3], p[1]);
-  const Vector normal = cross(diagonal, other);
+  const Point3 diagonal = p[2] - p[0];
+  const Point3 other = p[3] - p[1];
+  const Point3 normal = cross(diagonal, other);
   const double length = std::sqrt(dot(diagonal, diagonal));
   const double area = std::sqrt(dot(normal, normal));
   if (!(area > kThinnest * length * std::sqrt(dot(other, other)))) {
@@ -51,7 +42,7 @@ bool CellGraph::set(const std::array<const double*, 4>& corners, double doubt) {
   axis_[1] = cross(axis_[2], axis_[0]);
   std::array<Place, 4> at;
   for (std::size_t k = 0; k < 4; ++k) {
-    const Vector from = difference(p[k], origin_);
+    const Point3 from = p[k] - origin_;
     at[k] = {dot(axis_[0], from), dot(axis_[1], from)};
   }
   // The other diagonal has to pass between the ends of this one.
@@ -59,7 +50,7 @@ bool CellGraph::set(const std::array<const double*, 4>& corners, double doubt) {
   if (!(passes >= -doubt && passes <= length + doubt)) {
     return false;
   }
-  const double height = dot(axis_[2], difference(p[1], origin_));
+  const double height = dot(axis_[2], p[1] - origin_);
   for (std::size_t k = 0; k < 2; ++k) {
     const double across = k == 0 ? -at[1].y : at[3].y;
     // A triangle two corners of which are one has no plane, and needs none.
@@ -82,8 +73,8 @@ bool CellGraph::set(const std::array<const double*, 4>& corners, double doubt) {
 
 void CellGraph::turn(const double* from, double* to) const {
   const double w = from[3];
-  const Vector moved = {from[0] - origin_[0] * w, from[1] - origin_[1] * w,
-                        from[2] - origin_[2] * w};
+  const Point3 moved = {from[0] - origin_.x[0] * w, from[1] - origin_.x[1] * w,
+                        from[2] - origin_.x[2] * w};
   for (std::size_t c = 0; c < 3; ++c) {
     to[c] = dot(axis_[c], moved);
   }

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 
+#include "src/mesh/net_points.hpp"
+
 namespace simdbezier::detail {
 
 /// Channels of a homogeneous point: x, y, z and the weight.
@@ -55,8 +57,8 @@ private:
   [[nodiscard]] static double from_segment(const Side& side, double x, double y);
   [[nodiscard]] double outside(double x, double y) const;
 
-  std::array<double, 3> origin_;
-  std::array<std::array<double, 3>, 3> axis_;
+  Point3 origin_;
+  std::array<Point3, 3> axis_;
   std::array<Side, 4> side_;
   double rise_[2]; ///< k0 and k1
   double slope_;

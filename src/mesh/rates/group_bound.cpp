@@ -105,16 +105,20 @@ void GroupBound::include_corners(LaneSet lanes, const LaneSegments& segments,
 SpaceBound* GroupBound::space_of(std::size_t lane, const CertifiedCells& usual,
                                  double least) const {
   const VectorPatch& patch = patches_[lane];
-  if (!bends_[lane]) {
-    bends_[lane].emplace(samples_, patch);
-  }
-  const double bound = usual.bound * patch.scale.inverse();
-  const double fewest = bends_[lane]->fewest(bound);
-  const bool pays = usual.cells.product() >= least && fewest <= kMostLooked &&
-                    (fewest <= kWorthLooking * usual.cells.product() ||
-                     bends_[lane]->at(usual.cells, 1) <= kWorthLooking * bound);
+  const auto pays = [&] {
+    if (usual.cells.product() < least) {
+      return false;
+    }
+    if (!bends_[lane]) {
+      bends_[lane].emplace(samples_, patch);
+    }
+    const double bound = usual.bound * patch.scale.inverse();
+    const double fewest = bends_[lane]->fewest(bound);
+    return fewest <= kMostLooked && (fewest <= kWorthLooking * usual.cells.product() ||
+                                     bends_[lane]->at(usual.cells, 1) <= kWorthLooking * bound);
+  };
   const double spread = weight_spread(patch);
-  if (!(pays || spread > kLeastSpread) || !(spread < kMostSpread)) {
+  if (!(spread < kMostSpread) || !(spread > kLeastSpread || pays())) {
     return nullptr;
   }
   if (spaces_[lane] == nullptr) {

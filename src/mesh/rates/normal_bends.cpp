@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/mesh/net_points.hpp"
+
 namespace simdbezier::detail {
 namespace {
 
@@ -44,8 +46,6 @@ ControlVector mean(const double* factors, const ControlVector* from, std::size_t
   return sum;
 }
 
-double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 } // namespace
 
 BendSamples::BendSamples(std::size_t n, std::size_t columns, std::size_t rows)
@@ -77,16 +77,15 @@ NormalBends::NormalBends(const BendSamples& samples, const VectorPatch& patch)
       for (std::size_t c = 0; patch.rational && c < 3; ++c) {
         v.x[c] -= point.x[c] / weight * v.x[3];
       }
-      return v;
+      return Point3{{v.x[0], v.x[1], v.x[2]}};
     };
-    const ControlVector u = around(1, 0);
-    const ControlVector v = around(0, 1);
-    const double normal[3] = {u.x[1] * v.x[2] - u.x[2] * v.x[1], u.x[2] * v.x[0] - u.x[0] * v.x[2],
-                              u.x[0] * v.x[1] - u.x[1] * v.x[0]};
+    const Point3 u = around(1, 0);
+    const Point3 v = around(0, 1);
+    const Point3 normal = cross(u, v);
     const double length = std::sqrt(dot(normal, normal)) * weight;
-    if (length * length > 1e-12 * dot(u.x, u.x) * dot(v.x, v.x) * weight * weight) {
-      at_[k] = {dot(normal, around(2, 0).x) / length, dot(normal, around(1, 1).x) / length,
-                dot(normal, around(0, 2).x) / length};
+    if (length * length > 1e-12 * dot(u, u) * dot(v, v) * weight * weight) {
+      at_[k] = {dot(normal, around(2, 0)) / length, dot(normal, around(1, 1)) / length,
+                dot(normal, around(0, 2)) / length};
     }
   }
 }

@@ -84,12 +84,8 @@ public:
     return for_groups(is_open, [&](const PatchGroup& open) {
       Lanes<CellCounts> cells;
       cells.fill({1, 1});
-      Lanes<double> enough{};
-      open.for_lanes([&](std::size_t lane, std::size_t patch) {
-        cells[lane] = before[patch];
-        enough[lane] = tolerance(patch);
-      });
-      const Lanes<CertifiedCells> certified = open.bound().certify(cells, enough);
+      open.for_lanes([&](std::size_t lane, std::size_t patch) { cells[lane] = before[patch]; });
+      const Lanes<CertifiedCells> certified = open.bound().certify(cells, tolerances(open));
       open.for_lanes([&](std::size_t lane, std::size_t patch) {
         if (certified[lane].bound + error(patch) <= wanted(patch)) {
           put(patch, certified[lane]);
@@ -149,10 +145,7 @@ public:
     };
     const RateReport report = for_groups(exceeds, [&](const PatchGroup& open) {
       any = true;
-      Lanes<double> t;
-      t.fill(1);
-      open.for_lanes([&](std::size_t lane, std::size_t patch) { t[lane] = tolerance(patch); });
-      put_chosen(open, open.bound().raise(rates(open), t, most_));
+      put_chosen(open, open.bound().raise(rates(open), tolerances(open), most_));
     });
     changed = any;
     return report;
@@ -172,7 +165,8 @@ public:
 
   /// Forms the certificate of the rates that are there: the kernel's, and where that one is coarser
   /// than the tolerance by which GroupBound may have chosen them, GroupBound's.
-  /// closest: whether closer bounds are looked for where those do.
+  /// closest: whether a closer bound is looked for also where the first one is within the
+  /// tolerance.
   RateReport certify(bool closest = false) {
     constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
     const RateReport ran = run_kernels(false, closest ? 0 : kNever);
@@ -184,10 +178,7 @@ public:
              !(deviations_[patch] <= wanted(patch));
     };
     return for_groups(is_open, [&](const PatchGroup& open) {
-      Lanes<double> enough{};
-      open.for_lanes([&](std::size_t lane, std::size_t patch) {
-        enough[lane] = closest ? 0 : tolerance(patch);
-      });
+      const Lanes<double> enough = closest ? Lanes<double>{} : tolerances(open);
       const Lanes<CertifiedCells> certified = open.bound().certify(rates(open), enough);
       open.for_lanes([&](std::size_t lane, std::size_t patch) { put(patch, certified[lane]); });
     });
@@ -226,6 +217,12 @@ private:
     return tolerance_less(wanted(patch), error(patch));
   }
 
+  [[nodiscard]] Lanes<double> tolerances(const PatchGroup& open) const {
+    Lanes<double> t;
+    t.fill(1);
+    open.for_lanes([&](std::size_t lane, std::size_t patch) { t[lane] = tolerance(patch); });
+    return t;
+  }
   [[nodiscard]] Lanes<CellCounts> rates(const PatchGroup& open) const {
     Lanes<CellCounts> cells;
     cells.fill({1, 1});
