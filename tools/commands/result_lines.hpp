@@ -64,9 +64,9 @@ inline double grid_parameter(std::size_t i, std::size_t count) {
 }
 
 /// Writes a block of a grid. first_patch: the number of the evaluator's first patch.
-template <typename T, typename Out>
+template <typename T>
 void write_grid_block(GridEvaluator<T>& evaluator, const GridBlock& block, const GridSize& grid,
-                      std::size_t first_patch, ResultTable<T>& table, ResultWriter<Out>& writer) {
+                      std::size_t first_patch, ResultTable<T>& table, ResultWriter& writer) {
   evaluator.evaluate(block, table.resize(block.samples(grid)));
   std::size_t k = 0;
   for (std::size_t p = block.first_patch; p < block.first_patch + block.patch_count; ++p) {
@@ -166,9 +166,9 @@ private:
 };
 
 /// Writes a block of samples.
-template <typename T, typename Out>
+template <typename T>
 void write_sample_block(BlockEvaluator<T>& evaluator, const SampleBlock<T>& block,
-                        ResultTable<T>& table, ResultWriter<Out>& writer) {
+                        ResultTable<T>& table, ResultWriter& writer) {
   evaluator.evaluate(block, table.resize(block.given.size()));
   for (std::size_t k = 0; k < block.given.size(); ++k) {
     writer.line(block.given[k], table.row(k));

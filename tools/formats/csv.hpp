@@ -58,12 +58,10 @@ inline constexpr auto kColumnOutputs = static_cast<std::size_t>(Output::status);
 /// Returns the line that names the columns, with its end.
 [[nodiscard]] std::string result_header(bool centred, std::span<const Output> outputs);
 
-/// Writes one line a sample, with numbers that read back to the same bits. Out: OutputFile or
-/// something else that takes text, characters and numbers.
-template <typename Out>
+/// Writes one line a sample, with numbers that read back to the same bits.
 class ResultWriter {
 public:
-  explicit ResultWriter(Out& file) : file_(file) {}
+  explicit ResultWriter(OutputFile& file) : file_(file) {}
 
   template <typename T>
   void line(const CsvSample& sample, std::span<const T> values) {
@@ -87,7 +85,7 @@ private:
     }
   }
 
-  Out& file_;
+  OutputFile& file_;
 };
 
 } // namespace simdbezier::tools

@@ -3,12 +3,10 @@
 // all tell how long these are, and write them.
 #include <tools/mpi/mpi_evaluate.hpp>
 
-#include <array>
-#include <charconv>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include <tools/commands/part_work.hpp>
 #include <tools/commands/result_lines.hpp>
@@ -19,24 +17,6 @@
 namespace simdbezier::tools {
 
 namespace {
-
-// Takes what OutputFile takes.
-class TextInMemory {
-public:
-  void text(std::string_view text) { text_ += text; }
-  void character(char c) { text_ += c; }
-  template <typename T>
-  void number(T value) {
-    std::array<char, 32> digits;
-    text_.append(digits.data(),
-                 std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
-  }
-  [[nodiscard]] const std::string& value() const noexcept { return text_; }
-  void clear() noexcept { text_.clear(); }
-
-private:
-  std::string text_;
-};
 
 template <typename T>
 class MpiEvaluation {
@@ -97,8 +77,9 @@ public:
         for (int rank = 0; rank < ranks_.count() && more; ++rank) {
           more = block.read(*reader);
           if (more && rank == ranks_.rank()) {
-            ResultWriter writer(lines_);
-            write_sample_block(evaluator, block, table_, writer);
+            add_lines([&](ResultWriter& writer) {
+              write_sample_block(evaluator, block, table_, writer);
+            });
           }
           progress.advance(block.given.size());
         }
@@ -112,21 +93,32 @@ private:
   void begin(std::uint64_t least, bool centred) {
     file_.emplace(ranks_, MPI_COMM_WORLD, arguments_.out, least);
     if (ranks_.is_first()) {
-      lines_.text(result_header(centred, arguments_.outputs));
+      const std::string header = result_header(centred, arguments_.outputs);
+      lines_.assign(header.begin(), header.end());
     }
   }
   void write_block(const GridBlock& block) {
     const PatchFile patches = source_.read(block.first_patch, block.patch_count);
     GridEvaluator<T> evaluator(patches, arguments_.grid, arguments_.threads);
-    ResultWriter writer(lines_);
-    write_grid_block(evaluator, {0, block.patch_count, block.first_row, block.row_count},
-                     arguments_.grid, block.first_patch, table_, writer);
+    add_lines([&](ResultWriter& writer) {
+      write_grid_block(evaluator, {0, block.patch_count, block.first_row, block.row_count},
+                       arguments_.grid, block.first_patch, table_, writer);
+    });
+  }
+  // Puts what write(writer) writes behind the lines that wait.
+  template <typename Write>
+  void add_lines(const Write& write) {
+    OutputInMemory memory(arguments_.out);
+    OutputFile file(memory.path());
+    ResultWriter writer(file);
+    write(writer);
+    file.complete();
+    lines_.insert(lines_.end(), memory.bytes.begin(), memory.bytes.end());
   }
   void write_lines() {
-    const std::uint64_t before = ranks_.sum_before(lines_.value().size());
-    const std::uint64_t all = ranks_.sum(lines_.value().size());
-    ranks_.together(
-        [&] { file_->write(written_ + before, std::as_bytes(std::span(lines_.value()))); });
+    const std::uint64_t before = ranks_.sum_before(lines_.size());
+    const std::uint64_t all = ranks_.sum(lines_.size());
+    ranks_.together([&] { file_->write(written_ + before, std::as_bytes(std::span(lines_))); });
     written_ += all;
     lines_.clear();
   }
@@ -145,7 +137,7 @@ private:
   const Arguments& arguments_;
   const PatchSource& source_;
   ResultTable<T> table_;
-  TextInMemory lines_;
+  std::vector<char> lines_; // of this round
   std::optional<RankFile> file_;
   std::uint64_t written_ = 0; // by all ranks
 };
