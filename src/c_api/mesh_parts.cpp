@@ -50,8 +50,7 @@ simdbezier_status simdbezier_find_patch_keys(const simdbezier_nets* nets, size_t
     const std::span<simdbezier_patch_keys> out = span_of(keys, keys_length, {"keys"});
     const CallOptions how(options);
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      const std::span places(reinterpret_cast<PatchKeys*>(out.data()), out.size());
-      require_ok(find_patch_keys(views, places, *how), [](Status status) {
+      require_ok(find_patch_keys(views, in_place<PatchKeys>(out), *how), [](Status status) {
         return status == Status::output_too_small ? Path{"keys"} : blamed_nets(status, {"nets"});
       });
     });
@@ -64,7 +63,7 @@ simdbezier_status simdbezier_owned_vertices(const simdbezier_mesh_layout* part, 
   return answer(__func__, [&] {
     const std::span<simdbezier_patch_vertices> places = span_of(out, length, {"out"});
     require_ok(owned_vertices(object_of(part, kPart), {own_first, own_count}, first_vertex,
-                              {reinterpret_cast<PatchVertices*>(places.data()), places.size()}),
+                              in_place<PatchVertices>(places)),
                about("out"));
   });
 }
@@ -79,7 +78,7 @@ simdbezier_status simdbezier_number_part(const simdbezier_mesh_layout* part, siz
         span_of(ghosts, ghosts_length, {"ghosts"});
     const std::span<std::uint64_t> out = span_of(numbers, numbers_length, {"numbers"});
     require_ok(number_part(object_of(part, kPart), {own_first, own_count}, first_vertex,
-                           {reinterpret_cast<const PatchVertices*>(told.data()), told.size()}, out),
+                           in_place<const PatchVertices>(told), out),
                about("numbers"));
   });
 }

@@ -32,7 +32,7 @@ simdbezier_status simdbezier_find_adjacency(const simdbezier_nets* nets, size_t 
     const std::span<simdbezier_edge_link> out = span_of(links, link_length, {"links"});
     const CallOptions how(options);
     with_net_array(nets, length, [&]<typename S>(std::span<const ControlNets<S>> views) {
-      const std::span places(reinterpret_cast<EdgeLink*>(out.data()), out.size());
+      const std::span<EdgeLink> places = in_place<EdgeLink>(out);
       require_ok(find_adjacency(views, Values<EdgeLink>(places), *how), [&](Status status) {
         const bool output = status == Status::null_output || status == Status::output_too_small ||
                             status == Status::overlapping_outputs;

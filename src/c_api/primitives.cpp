@@ -177,7 +177,7 @@ simdbezier_status simdbezier_write_clusters(const simdbezier_mesh_layout* layout
                                             int32_t threads) {
   return answer(__func__, [&] {
     const std::span<simdbezier_cluster> to = span_of(clusters, clusters_length, {"clusters"});
-    const ClusterOutputs out{{reinterpret_cast<MeshCluster*>(to.data()), to.size()},
+    const ClusterOutputs out{in_place<MeshCluster>(to),
                              span_of(vertices, vertices_length, {"vertices"}),
                              span_of(corners, corners_length, {"corners"})};
     require_ok(write_clusters(object_of(layout, kLayout), out, only_threads(threads)),

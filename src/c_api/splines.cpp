@@ -10,12 +10,8 @@
 namespace simdbezier::c_api {
 namespace {
 
-static_assert(sizeof(simdbezier_patch_interval) == sizeof(PatchInterval));
-static_assert(sizeof(simdbezier_interval) == sizeof(Interval));
-
 std::span<PatchInterval> intervals_at(simdbezier_patch_interval* first, std::size_t length) {
-  const auto given = span_of(first, length, {"intervals"});
-  return {reinterpret_cast<PatchInterval*>(given.data()), given.size()};
+  return in_place<PatchInterval>(span_of(first, length, {"intervals"}));
 }
 
 /// What a call is refused for where the surfaces are sound: what they are to become. Surfaces
@@ -173,8 +169,7 @@ simdbezier_status simdbezier_spline_curve_to_bezier(const simdbezier_spline_curv
     with_scalar(given.scalar, kCurve / "scalar", [&]<typename S>() {
       const SplineCurve<S> view = spline_of<S>(given, kCurve);
       const Values<S> out = values_of<S>(points, {"points"});
-      const SplineReport report =
-          to_bezier(view, out, {reinterpret_cast<Interval*>(to.data()), to.size()}, *how);
+      const SplineReport report = to_bezier(view, out, in_place<Interval>(to), *how);
       if (!report) {
         require_spline(detail::SplineList<S>().prepare(view), kCurve, kCurveNames);
         const Path path{"points"};

@@ -215,6 +215,13 @@ Values<T> values_of(const simdbezier_values& given, const Path& path) {
   return std::span<T>(numbers_at<T>(given.first, path / "first"), given.length);
 }
 
+/// Structs of the C API as those of C++ that have the same layout, which the caller has asserted.
+template <typename To, typename From>
+std::span<To> in_place(std::span<From> from) {
+  static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From));
+  return {reinterpret_cast<To*>(from.data()), from.size()};
+}
+
 /// SIMDBEZIER_SAMPLE_… and SampleStatus are the same bytes.
 inline Values<SampleStatus> sample_statuses(std::uint8_t* first, std::size_t length,
                                             const Path& path) {

@@ -7,6 +7,19 @@ namespace {
 using Scalars = ::testing::Types<float, double>;
 TYPED_TEST_SUITE(CMesh, Scalars);
 
+TYPED_TEST(CMesh, KeepsRatesOfTheFrameBefore) {
+  auto options = sized<simdbezier_rate_options>();
+  options.tolerance = 1.2e-3; // fewer cells would do
+  const std::vector<std::uint32_t> nu = this->nu_;
+  const std::vector<std::uint32_t> nv = this->nv_;
+  for (const double keep : {2.0, 0.0}) {
+    options.keep = keep;
+    EXPECT_C_OK(
+        simdbezier_choose_rates(&this->c_nets_, 1, this->c_topology_, &options, &this->rates_));
+    EXPECT_EQ(this->nu_ == nu && this->nv_ == nv, keep != 0) << keep;
+  }
+}
+
 TYPED_TEST(CMesh, HasCertifiedRates) {
   using T = TypeParam;
   std::vector<std::uint32_t> nu(20);

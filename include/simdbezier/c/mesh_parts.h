@@ -20,8 +20,7 @@ SIMDBEZIER_API simdbezier_status simdbezier_find_patch_keys(const simdbezier_net
                                                             size_t keys_length,
                                                             const simdbezier_options* options);
 
-// kUnknownVertex is UINT64_MAX.
-// PatchVertices.
+// PatchVertices. kUnknownVertex is UINT64_MAX.
 typedef struct simdbezier_patch_vertices {
   uint64_t corners[4];
   uint64_t edges[4];
