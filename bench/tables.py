@@ -15,7 +15,8 @@ What stands between the two lines is replaced. With --check nothing is written, 
   summary  16 x 16 grids, and how they compare with both baselines; of the second file, a sweep of
            sizes, how they all do
   limits   what machines can do at the most, one column each
-  machine  grids in cache and to memory; tiles, scattered samples and packing
+  machine  grids in cache, one table a measure, and to memory; tiles, scattered samples and
+           packing
 """
 
 import re
@@ -67,10 +68,8 @@ class Results:
         return own / other if own and other else None
 
 
-def cells(*values):
-    """Numbers with their formats, as one cell."""
-    texts = [MISSING if value is None else format(value, form) for value, form in values]
-    return " / ".join(texts) if set(texts) != {MISSING} else MISSING
+def cell(value, form):
+    return MISSING if value is None else format(value, form)
 
 
 def table(header, rows):
@@ -98,54 +97,65 @@ def summary(results, sweep):
                   "to auto-vectorised loops", "the same from 2 × 2 to 65 × 65: median (range)"], rows)
 
 
-# What a row of the limits' table says: its unit, and the limits in it with the size of an item.
+# Rows of the limits' table: what the limit is, its name, its unit, and the size of an item in it.
 GIGABYTES = 12 / 1e9  # an item of a limit of stores stands for 12 bytes
-LIMITS = {
-    "multiply-adds, widest instruction set / the next": (
-        "· 10⁹ lanes/s", 1e-9, ".0f", ("fma/f32/{isa}", "fma/f32/{next_isa}")),
-    "cubics from registers to a cache, likewise": (
-        "· 10⁹ positions/s", 1e-9, ".1f",
-        ("horner_store/f32/{isa}", "horner_store/f32/{next_isa}")),
-    "stores to memory, streaming, 1 / 2 threads": (
-        "GB/s", GIGABYTES, ".1f", ("fill_stream/threads:1", "fill_stream/threads:2")),
-    "stores to memory, plain, 1 / 2 threads": (
-        "GB/s", GIGABYTES, ".1f", ("fill_plain/threads:1", "fill_plain/threads:2")),
-    "stores to the first-level cache / the second-level one / that across lines": (
-        "GB/s", GIGABYTES, ".0f", ("fill_l1", "fill_cache", "fill_cache/align:8")),
-    "instructions that do nothing": ("· 10⁹/s", 1e-9, ".1f", ("issue",)),
-    "samples of random patches in memory": ("· 10⁶/s", 1e-6, ".0f", ("random_lines",)),
-}
+LIMITS = (
+    ("multiply-adds, widest instruction set", "fma/f32/{isa}", "10⁹ lanes/s", 1e-9, ".0f"),
+    ("multiply-adds, the next one", "fma/f32/{next_isa}", "10⁹ lanes/s", 1e-9, ".0f"),
+    ("cubics from registers to a cache, widest instruction set", "horner_store/f32/{isa}",
+     "10⁹ positions/s", 1e-9, ".1f"),
+    ("cubics from registers to a cache, the next one", "horner_store/f32/{next_isa}",
+     "10⁹ positions/s", 1e-9, ".1f"),
+    ("streaming stores to memory, 1 thread", "fill_stream/threads:1", "GB/s", GIGABYTES, ".1f"),
+    ("streaming stores to memory, 2 threads", "fill_stream/threads:2", "GB/s", GIGABYTES, ".1f"),
+    ("plain stores to memory, 1 thread", "fill_plain/threads:1", "GB/s", GIGABYTES, ".1f"),
+    ("plain stores to memory, 2 threads", "fill_plain/threads:2", "GB/s", GIGABYTES, ".1f"),
+    ("stores to the first-level cache", "fill_l1", "GB/s", GIGABYTES, ".0f"),
+    ("stores to the second-level cache", "fill_cache", "GB/s", GIGABYTES, ".0f"),
+    ("stores to it across lines", "fill_cache/align:8", "GB/s", GIGABYTES, ".0f"),
+    ("instructions that do nothing", "issue", "10⁹/s", 1e-9, ".1f"),
+    ("samples of random patches in memory", "random_lines", "10⁶/s", 1e-6, ".0f"),
+)
 
 
 def limits(*machines):
     rows = []
-    for title, (unit, scale, form, names) in LIMITS.items():
-        families = dict.fromkeys(f"`limit/{name.split('/')[0]}`" for name in names)
-        row = [f"{title} ({', '.join(families)})"]
+    for title, name, unit, scale, form in LIMITS:
+        row = [f"{title} (`limit/{name.split('/')[0]}`)", unit]
         for results in machines:
-            rates = [results.rate("limit/" + name.format(**vars(results))) for name in names]
-            cell = cells(*((rate and rate * scale, form) for rate in rates))
-            row.append(cell if cell == MISSING else f"{cell} {unit}")
+            rate = results.rate("limit/" + name.format(**vars(results)))
+            row.append(cell(rate and rate * scale, form))
         rows.append(row)
-    return table(["", *(results.name for results in machines)], rows)
+    return table(["", "unit", *(results.name for results in machines)], rows)
 
 
 def cache(results):
-    rows = []
-    for kind, isa in results.kinds:
-        for outputs, title in OUTPUTS.items():
-            line = [f"{TYPES[kind]}, {isa}: {title}"]
-            for n in SIZES:
-                own = grid(outputs, kind, isa, n)
-                rate = results.rate(own)
-                line.append(cells(
-                    (rate and rate / 1e9, ".2f"),
-                    (results.ratio(own, grid(outputs, kind, "de_casteljau", n)), ".0f"),
-                    (results.ratio(own, grid(outputs, kind, "autovectorised", n)), ".2f"),
-                    (rate and rate / results.limit_in_cache(outputs, kind, isa), ".2f")))
-            rows.append(line)
-    title = "in cache: 10⁹/s / × de Casteljau / × auto-vectorised / share of limit"
-    return table([title, *(f"{n}×{n}" for n in SIZES)], rows)
+    """One table for each measure of the same rows."""
+    def rate(own, _):
+        items = results.rate(own)
+        return items and items / 1e9
+
+    def ratio_to(who):
+        return lambda own, place: results.ratio(own, grid(place[0], place[1], who, place[3]))
+
+    def share(own, place):
+        items = results.rate(own)
+        return items and items / results.limit_in_cache(*place[:3])
+
+    measures = (("10⁹ samples/s", rate, ".2f"),
+                ("ratio to scalar de Casteljau", ratio_to("de_casteljau"), ".0f"),
+                ("ratio to auto-vectorised loops", ratio_to("autovectorised"), ".2f"),
+                ("share of the machine's limit", share, ".2f"))
+    tables = []
+    for measure, value, form in measures:
+        rows = []
+        for kind, isa in results.kinds:
+            for outputs, title in OUTPUTS.items():
+                places = [(outputs, kind, isa, n) for n in SIZES]
+                rows.append([f"{TYPES[kind]}, {isa}: {title}",
+                             *(cell(value(grid(*place), place), form) for place in places)])
+        tables.append(table([f"in cache: {measure}", *(f"{n}×{n}" for n in SIZES)], rows))
+    return "\n".join(tables)
 
 
 def memory(results):
@@ -155,48 +165,47 @@ def memory(results):
         if kind == "f64":  # much like float, in bytes
             continue
         for outputs, title in OUTPUTS.items():
-            layouts = [layout for layout in LAYOUTS
-                       if layout != "/layout:interleaved" or outputs != "position"]
-            line = [f"{TYPES[kind]}, {isa}: {title}, "
-                    + " / ".join(LAYOUTS[layout] for layout in layouts)]
-            for n in sizes:
-                line.append(cells(*((results.share(grid(outputs, kind, isa, n, "memory", layout)),
-                                     ".2f") for layout in layouts)))
-            if set(line[1:]) != {MISSING}:
-                rows.append(line)
+            for layout, layout_title in LAYOUTS.items():
+                line = [f"{TYPES[kind]}, {isa}: {title}, {layout_title}"]
+                for n in sizes:
+                    share = results.share(grid(outputs, kind, isa, n, "memory", layout))
+                    line.append(cell(share, ".2f"))
+                if set(line[1:]) != {MISSING}:
+                    rows.append(line)
     title = "to memory: share of `limit/fill_stream`"
     return table([title, *(f"{n}×{n}" for n in sizes)], rows)
 
 
 def calls(results):
     tail = f"f32/{results.isa}"
-    lines = (("tiles, 16×16, 4 GiB of output, to the grid in cache",
+    lines = (("tiles, 16×16, 4 GiB of output", "ratio to the grid in cache",
               f"tiles/{{}}/{tail}/16x16/cache/threads:1",
               f"grid/{{}}/{tail}/16x16/cache/threads:1"),
-             ("scattered, 64 a patch in order, 2048 patches, to de Casteljau",
+             ("scattered, 64 a patch in order, 2048 patches", "ratio to de Casteljau",
               f"scattered_sorted/{{}}/{tail}/1x1/cache/threads:1/patches:2048",
               "scattered_sorted/{}/f32/de_casteljau/1x1/cache/threads:1/patches:2048"),
-             ("scattered at random, 2048 patches, to de Casteljau",
+             ("scattered at random, 2048 patches", "ratio to de Casteljau",
               f"scattered_random/{{}}/{tail}/1x1/cache/threads:1/patches:2048",
               "scattered_random/{}/f32/de_casteljau/1x1/cache/threads:1/patches:2048"),
-             ("scattered at random, 10⁶ patches, to `limit/random_lines`",
+             ("scattered at random, 10⁶ patches", "share of `limit/random_lines`",
               f"scattered_random/{{}}/{tail}/1x1/memory/threads:1/patches:1000000",
               "limit/random_lines"))
     rows = []
-    for title, name, reference in lines:
-        row = [title]
+    for title, measure, name, reference in lines:
+        rates, ratios = [f"{title}: 10⁶ samples/s"], [f"… {measure}"]
         for outputs in OUTPUTS:
             own, other = name.format(outputs), reference.format(outputs)
             ratio = results.share(own) if other.startswith("limit") else results.ratio(own, other)
-            form = ".1f" if "Casteljau" in title else ".2f"
             rate = results.rate(own)
-            row.append(cells((rate and rate / 1e6, ".0f"), (ratio, form)))
-        rows.append(row)
-    pack = [results.rate(f"pack/position/{kind}/{results.isa}/4x4/cache/threads:1") / 1e6
-            for kind in ("f32", "f64")]
-    rows.append(["pack, sets in L2, float / double", cells(*((rate, ".1f") for rate in pack)),
-                 "", ""])
-    return table([f"float, {results.isa}: 10⁶/s / ratio", *OUTPUTS.values()], rows)
+            rates.append(cell(rate and rate / 1e6, ".0f"))
+            ratios.append(cell(ratio, ".1f" if "Casteljau" in measure else ".2f"))
+        rows += [rates, ratios]
+    packed = []
+    for kind, title in TYPES.items():
+        rate = results.rate(f"pack/position/{kind}/{results.isa}/4x4/cache/threads:1")
+        packed.append([f"{title}, {results.isa}", cell(rate and rate / 1e6, ".1f")])
+    return "\n".join((table([f"float, {results.isa}", *OUTPUTS.values()], rows),
+                      table(["packing, sets in L2", "10⁶ patches/s"], packed)))
 
 
 def machine(results):
