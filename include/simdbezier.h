@@ -13,23 +13,24 @@
 //     }
 //     simdbezier_patch_set_free(set);
 //
-//   Statuses   Every function that can fail returns one. simdbezier_last_fault() then says which
-//              argument was at fault. Nothing prints, aborts or lets an exception through. On an
-//              error nothing has been written, except by functions that choose or certify rates
-//              and polylines, whose outputs are undefined then.
+//   Statuses   Every function that can fail returns one: those of the C++ function, and null_input
+//              | null_output | bad_struct_size | bad_scalar | bad_value | bad_alignment.
+//              simdbezier_last_fault() then says which argument was at fault. Nothing prints,
+//              aborts or lets an exception through. On an error nothing has been written, except to
+//              outputs that the C++ header calls undefined then.
 //   Structs    begin with struct_size, which the caller sets to sizeof. They may grow at their end:
-//              a program that was compiled for a smaller struct goes on working, and so does one
-//              that was compiled for a larger struct, as long as the members that this library
-//              does not know are zero. Zero is every member's usual value: a struct of which only
-//              struct_size is set is complete. Small structs without a struct_size never change.
-//              The elements of an array of structs all have the struct_size of the first.
-//   Pointers   come with the number of elements that they point to, and a call that would go
-//              beyond is refused. A null pointer to options means that all members are zero.
+//              programs that were compiled for a smaller struct go on working, and those for a
+//              larger one do if the members that this library does not know are zero. Zero is every
+//              member's usual value: a struct of which only struct_size is set is complete. Small
+//              structs without a struct_size never change. The elements of an array of structs all
+//              have the struct_size of the first.
+//   Pointers   come with the number of elements that they point to, and a call that would go beyond
+//              is refused. A null pointer to options means that all members are zero.
 //   Strides    count elements, not bytes; those of formatted vertices alone count bytes.
 //   Numbers    are float or double: a struct says which by its `scalar`. The functions ending in
 //              _f32 and _f64 below fill in structs, so that the compiler checks the pointers.
-//   Handles    are made by one function and given back to one …_free(), which accepts null.
-//              They are immutable: any number of threads may use one at once.
+//   Handles    are made by one function and given back to one …_free(), which accepts null. They
+//              are immutable: any number of threads may use one at once.
 //   C++ alone  has results in std::vectors (results.hpp), and what is a line or two in C: nets seen
 //              the other way round (by `first` and strides), meets_tolerance(), iso_u() and iso_v()
 //              from nets to sets (by way of points), and grids of splines without a set.

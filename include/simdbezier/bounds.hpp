@@ -1,13 +1,12 @@
-// Certified boxes and flatness of control nets: what culling, intersection and adaptive subdivision
-// ask for. Each bound holds for the exact surface of the given control points, roundings included.
-//
+// Certified boxes and flatness of control nets, for culling, intersection and adaptive subdivision.
+// Each bound holds for the exact surface of the given control points, roundings included.
 // For every call
-//   Nets        S = float or double, any degrees and components; values finite, weights positive.
-//   Outputs     the caller's packed arrays, one row a patch; they may not overlap the nets or
-//               each other. Component c of patch p stands at [p * components + c].
-//   Bits        equal on all instruction sets, for any number of threads and place in the batch.
-//   Threads     Options::threads, isa and executed are honoured. Allocation: scratch per thread.
-//   Statuses    as in nets.hpp; on an error nothing has been written.
+//   Nets      S = float or double, any degrees and components; values finite, weights positive.
+//   Outputs   the caller's packed arrays, one row a patch; they may not overlap the nets or each
+//             other. Component c of patch p is at [p * components + c].
+//   Bits      equal on all instruction sets, for any number of threads and place in the batch.
+//   Threads   Options::threads, isa and executed are honoured. Allocation: scratch per thread.
+//   Statuses  as in nets.hpp; on an error nothing has been written.
 #pragma once
 
 #include <type_traits>
@@ -24,9 +23,9 @@ struct Boxes {
   Values<T> high;
 };
 
-/// The smallest and largest control values, projected where nets have weights: S lies in the convex
-/// hull of its control points, so also in this box. Exact; homogeneous nets divide, and their boxes
-/// are opened by 4 u of each bound. Cost: about the time of reading the nets.
+/// Finds the smallest and largest control values of each patch, projected if nets have weights. S
+/// lies in the convex hull of its control points, and so in this box. Boxes are exact; those of
+/// homogeneous nets, which divide, are opened by 4 u of each bound. Cost: reading the nets.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport control_boxes(const ControlNets<T>& nets,
                                                      const std::type_identity_t<Boxes<T>>& out,
@@ -35,29 +34,25 @@ template <typename T>
 /// How far tight_boxes() may subdivide.
 inline constexpr int kMostBoxLevels = 6;
 
-/// Boxes that contain the surface and are never larger than the control boxes: the hull of the
-/// control points of 4^levels pieces, opened by a proven bound on what rounding did to them. Every
-/// level cuts the distance to the surface's own box to a quarter.
-///
-/// levels:   0 (control boxes) to kMostBoxLevels, else bad_grid; 2 leaves about 6 % of the excess.
-/// Rounding: docs/accuracy.md has the bound and its proof. Where weights or values come near the
-///           ends of the number range the control box is returned.
-/// Cost:     about 4^levels times that of split().
+/// Finds closer boxes of the surface, never larger than the control boxes: the hull of the control
+/// points of 4^levels pieces, opened by a proven bound on the roundings (docs/accuracy.md). Every
+/// level cuts the distance to the surface's own box to a quarter. If weights or values come near
+/// the ends of the number range, the control box is returned.
+/// levels: 0 (control boxes) to kMostBoxLevels, else bad_grid; 2 leaves about 6 % of the excess.
+/// Cost:   about 4^levels times that of split().
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport tight_boxes(const ControlNets<T>& nets, int levels,
                                                    const std::type_identity_t<Boxes<T>>& out,
                                                    const Options& options = {}) noexcept;
 
-/// An upper bound on max |S(u,v) - L(u,v)| over the patch, Euclidean over all components, where
-/// L is the bilinear patch of the four corner points with the same parameters; one value a patch.
-/// Where it is below a tolerance, two triangles can replace the patch, up to their distance from L.
-///
-/// Formula:  max |P_ij - L(i/m, j/n)|; rational nets likewise at degree (m+1, n+1). The proof, and
-///           how rounding is counted, are in docs/accuracy.md. 0 where all points are equal,
-///           and infinite where the weights come near the ends of the number range or the
-///           differences overflow.
-/// out:      count values.
-/// Cost:     one pass over the control points, some 10 operations a component and point.
+/// An upper bound on max |S(u,v) - L(u,v)| over each patch, Euclidean over all components, L being
+/// the bilinear patch of the four corner points at the same parameters. If it is below a tolerance,
+/// two triangles can replace the patch, up to their distance from L.
+/// Formula: max |P_ij - L(i/m, j/n)|; for rational nets the same at degree (m+1, n+1).
+///          docs/accuracy.md has the proof and counts the roundings. 0 if all points are equal;
+///          infinite if weights come near the ends of the number range or differences overflow.
+/// out:     count values.
+/// Cost:    one pass over the control points, some 10 operations a component and point.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport flatness(const ControlNets<T>& nets,
                                                 const std::type_identity_t<Values<T>>& out,

@@ -8,13 +8,11 @@
 
 namespace simdbezier {
 
-/// Non-owning description of `count` control polygons of equal degree and components.
-///
-/// Component c of point P[i] of curve k is
+/// Describes `count` control polygons of equal degree and components in the caller's memory, which
+/// is read during calls only. Component c of point P[i] of curve k is
 ///     points[k * curve_stride + i * point_stride + c * component_stride]
-/// with all strides in elements of S; the weight stands where component `components` would. The
-/// default describes cubics of x y z triples, packed, curve after curve. The memory is read during
-/// calls only.
+/// with strides in elements of S; the weight is where component `components` would be. The default
+/// describes packed cubics of x y z triples. Refused as ControlNets are.
 template <typename S>
 struct ControlCurves {
   const S* points = nullptr; ///< may be null only when count is 0
@@ -36,8 +34,7 @@ struct ControlCurves {
         (std::ptrdiff_t{degree} + 1) * point; // no int: any degree may come
     return {points, count, degree, curve, point, 1, components, weights, {}};
   }
-  /// Makes as many curves as there are points for. An incomplete one counts, so that calls refuse
-  /// it.
+  /// Makes as many curves as there are points for, an incomplete one included, which calls refuse.
   [[nodiscard]] static constexpr ControlCurves packed(std::span<const S> points, int degree = 3,
                                                       int components = 3,
                                                       Weights weights = Weights::none) noexcept {

@@ -16,12 +16,12 @@ inline constexpr int kMostComponents = 16;
 enum class Weights : std::uint8_t {
   none,      ///< polynomial
   cartesian, ///< x y z w: the point is (x, y, z)
-  /// wx wy wz w: the point is (wx/w, wy/w, wz/w). Points whose quotients differ by 16 units of
-  /// roundoff of S at most, in every component, are one point to all calls.
+  /// wx wy wz w: the point is (wx/w, wy/w, wz/w). If the quotients of two points differ by at most
+  /// 16 units of roundoff of S in every component, all calls take them for one point.
   homogeneous
 };
 
-/// Non-owning description of `count` control nets with equal degrees and components.
+/// Describes `count` control nets of one shape in the caller's memory, read during calls only.
 ///
 ///     v ^  P[3][0] P[3][1] P[3][2] P[3][3]      j numbers rows, in v; i points of a row, in u
 ///       |  P[2][0]    …                         S(u,v) = sum_j sum_i P[j][i] B_i(u) B_j(v)
@@ -31,11 +31,10 @@ enum class Weights : std::uint8_t {
 ///
 /// Component c of point P[j][i] of patch p is
 ///     points[p * patch_stride + j * row_stride + i * point_stride + c * component_stride]
-/// with all strides in elements of S; the weight stands where component `components` would. Strides
-/// may be negative; those of rows, points and components are not 0 (else bad_stride). The
-/// default describes bicubic x y z triples, packed, patch after patch, which is the order of `.bez`
-/// and `.bpt` files; packed() describes other degrees and components. The memory is read during
-/// calls only.
+/// with strides in elements of S; the weight is where component `components` would be. Strides may
+/// be negative; those of rows, points and components must not be 0 (else bad_stride). The default
+/// describes packed bicubic x y z triples, the order of `.bez` and `.bpt` files; packed() describes
+/// other shapes. Status names what calls say of views that they cannot read.
 template <typename S>
 struct ControlNets {
   const S* points = nullptr; ///< may be null only when count is 0
@@ -48,7 +47,7 @@ struct ControlNets {
   std::ptrdiff_t component_stride = 1;
   int components = 3; ///< 1 to kMostComponents, without the weight
   Weights weights = Weights::none;
-  /// The memory that all values must lie in (else input_too_small), where it is known.
+  /// The memory that all values must lie in (else input_too_small), if it is known.
   std::span<const S> memory = {};
 
   /// Points with all of their values side by side, row after row, patch after patch.

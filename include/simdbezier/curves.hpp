@@ -1,15 +1,13 @@
 // Batches of Bézier curves: packed, then evaluated like patches, with the same contracts.
 //
 //     pack(ControlCurves, set);   evaluate(set, where, out, options)
-//
-// where: CurveGrid, CurveGrids or CurveSamples; out: CurveOutputs.
-//
+//     where: CurveGrid, CurveGrids or CurveSamples; out: CurveOutputs
 //     C(t) = sum_i P[i] B_i^n(t), t in [0,1]; with weights, (sum w P B) / (sum w B)
 //
-// What evaluate.hpp says about parameters, outputs, bits, allocation and layouts holds here. Ends
-// are the first and the last control point exactly. A curve that has the control points of a
-// patch's edge gets the bits of that edge at equal parameters, and a reversed curve those of the
-// curve at mirrored uniform ones.
+// The constraints of evaluate.hpp hold here: parameters, outputs, bits, allocation, layouts. Ends
+// are the first and the last control point exactly. A curve with the control points of a patch's
+// edge gets the bits of that edge at equal parameters, and a reversed curve has the bits of the
+// curve at mirrored uniform parameters.
 #pragma once
 
 #include <cstddef>
@@ -29,11 +27,9 @@ template <typename T>
 struct CurveStorage;
 }
 
-/// Curves as centred coefficients, T = float or double. They have one degree and one number of
-/// components, and either all or none of them have weights.
-///
-/// Immutable: any number of threads may evaluate one set at once. Copies share the storage and
-/// cost one reference count. A default-constructed set holds no curves.
+/// Packed curves, ready to be evaluated: centred coefficients of T = float or double. They have one
+/// degree and one number of components, and either all or none of them have weights. Sharing,
+/// threads and the default are as for PatchSet.
 template <typename T>
 class CurveSet {
 public:
@@ -43,8 +39,7 @@ public:
   [[nodiscard]] SIMDBEZIER_API std::size_t size() const noexcept;
   [[nodiscard]] bool empty() const noexcept { return size() == 0; }
 
-  /// What all curves have in common; a default-constructed set has the degree, the components and
-  /// the weights of the default ControlCurves.
+  /// What all curves have in common; a default-constructed set has that of ControlCurves{}.
   [[nodiscard]] SIMDBEZIER_API int degree() const noexcept;
   [[nodiscard]] SIMDBEZIER_API int components() const noexcept;
   [[nodiscard]] SIMDBEZIER_API bool rational() const noexcept;
@@ -61,30 +56,23 @@ private:
   std::shared_ptr<const detail::CurveStorage<T>> storage_;
 };
 
-/// Forms the coefficients of powers of X = t - 1/2 of all curves; from degree 6 on, of both halves
-/// of each curve around their own middles, which keeps them as accurate as de Casteljau's
-/// algorithm.
-///
-/// curves:     S = float or double, see ControlCurves; the memory may be freed after the call.
-/// set:        replaced on ok, left as it was otherwise.
+/// Packs curves into a set, which evaluate() takes.
+/// Formula:    the coefficients of powers of X = t - 1/2; from degree 6 on, of both halves around
+///             their own middles, which are as accurate as de Casteljau's algorithm.
+/// curves:     S = float or double; the memory may be freed after the call.
 /// options:    as for patches; relative_to applies to the first three components. A curve that is
 ///             to match a patch's edge must be packed with the patch's options.
 /// Numerics:   S = T = float: formed in double, else in double-double; rounded once to T. Results
-///             depend neither on the instruction set nor on threads. -0 in the input becomes +0.
+///             depend neither on the instruction set nor on threads. -0 becomes +0.
 /// Allocation: one block; of cubics in space 19 T and 12 S a curve, 18 T of which positions read.
-/// Returns:    ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
-///             bad_weight (also: below the smallest normal T, or infinite as T) | non_finite_input
-///             | coefficient_overflow | size_overflow (also: strides that lead beyond what memory
-///             can address) | unsupported_isa | out_of_memory; PackReport::patch is the curve,
-///             `point` its control point i. A wrong SIMDBEZIER_ISA is ignored here.
+/// Returns:    as pack() of patches; PackReport::patch is the curve, `point` its control point i.
 template <typename T, typename S>
 [[nodiscard]] SIMDBEZIER_API PackReport pack(const ControlCurves<S>& curves, CurveSet<T>& set,
                                              const PackOptions& options = {}) noexcept;
 
-/// n parameters common to all curves of a range; sample (curve, i) has the index
-/// (curve - curves.first) * n + i.
-/// Null t: uniform, ends included, x_i = (2i-N)/N with N = n-1, by one division. Otherwise t holds
-/// n values in any order.
+/// n parameters for all curves of a range; sample (curve, i) has the index (curve - curves.first) *
+/// n + i. If t is null, they are uniform, ends included: x_i = (2i-N)/N with N = n-1, by one
+/// division. Otherwise t holds n values in any order.
 template <typename T>
 struct CurveGrid {
   std::size_t n = 0;
@@ -109,8 +97,7 @@ struct CurveGrids {
   /// Where each curve's samples begin, ascending by n or more (samples in between are not touched).
   /// Empty: packed without gaps.
   std::span<const std::size_t> offset = {};
-  /// The curves, as many as n has values: a count, where one is given, has to be that (else
-  /// unequal_lengths).
+  /// The curves. A count, if given, must be the number of values in n (else unequal_lengths).
   SetRange curves = {};
 };
 
@@ -152,17 +139,17 @@ inline constexpr std::size_t kCurveVectorOutputs =
   return kNames[static_cast<std::size_t>(output)];
 }
 
-/// The outputs of a call; every one is optional, at least one vector or the curvature is required.
+/// The outputs of a call: at least one vector or the curvature.
 ///
-/// The tangent is d1 / |d1|. Where d1 is zero (a cusp, repeated control points) it is the direction
-/// of the first Taylor coefficient of d1 that is not, on the way to the curve's middle (upwards
-/// from t = 1/2): SampleStatus::limit. Where all of them are zero the curve is a point and the
-/// tangent zero: SampleStatus::degenerate. Which one it is, is decided exactly, for the control
+/// The tangent is d1 / |d1|. If d1 is zero (a cusp, repeated control points), the tangent has the
+/// direction of the first Taylor coefficient of d1 that is not zero, on the way to the curve's
+/// middle (upwards from t = 1/2): SampleStatus::limit. If all of them are zero, the curve is a
+/// point and the tangent zero: SampleStatus::degenerate. This is decided exactly, for the control
 /// points as given. The curvature there is its limit on the same way: +infinity at a usual cusp, 0
-/// on a straight line or a point. Neither is ever nan for t in [0,1]. Both exist for sets of two
-/// and three components. There is no bound for curvatures of regular samples: they are made of the
-/// rounded d1 and d2 and divided by |d1|^3, so that near a cusp, and on curves that are straight or
-/// nearly so, they may have no correct digit.
+/// on a straight line or a point. Neither is ever nan for t in [0,1]. Both need 2 or 3 components.
+///
+/// Curvatures of regular samples have no bound: they are computed from the rounded d1 and d2 and
+/// divided by |d1|^3, and may have no correct digit near a cusp or on (nearly) straight curves.
 /// Source: G. Farin, Curves and Surfaces for CAGD, chapters 4, 5, 10 and 13.
 template <typename T>
 struct CurveOutputs {
@@ -190,36 +177,31 @@ private:
   static_assert(std::size(kMembers) == kVectors, "every vector output has a member, in its order");
 };
 
-/// Evaluates every curve of a range on one grid.
-///
-/// Formula:   in X = t - 1/2, like the edges of patches: even and odd parts in degrees 3, 4 and 5,
-///            otherwise Horner's rule and synthetic division, `degree` multiply-adds a component,
-///            sample and derivative; the quotient rule for rational curves.
-/// options:   Options::watertight has no effect, since exact ends cost nothing.
-/// Accuracy:  see error_bounds().
-/// Returns ok | null_output | missing_y | missing_z | extra_y | extra_z | output_too_small |
-/// bad_stride | bad_components | overlapping_outputs | bad_grid | bad_patch_range | size_overflow |
-/// unknown_isa | unsupported_isa | out_of_memory. On an error nothing has been written.
+/// Evaluates every curve of a range on one grid. error_bounds() has the accuracy.
+/// Options::watertight has no effect, since exact ends cost nothing.
+/// Formula: in X = t - 1/2, like the edges of patches: even and odd parts in degrees 3, 4 and 5,
+///          otherwise Horner's rule and synthetic division, `degree` multiply-adds a component,
+///          sample and derivative; the quotient rule for rational curves.
+/// Returns: ok | the statuses of outputs and of running | bad_grid | bad_patch_range.
+///          bad_components: CurveOutputs::first_component is outside of the set's, or a tangent or
+///          a curvature is asked of a set without two or three.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const CurveSet<T>& set, const CurveGrid<T>& grid,
                                              const CurveOutputs<T>& out,
                                              const Options& options = {}) noexcept;
 
 /// Evaluates every curve of a range on its own uniform parameters, with the bits of the call above
-/// on each curve alone. Work is divided between threads by samples. Outputs count as overlapping
-/// where their whole ranges do.
-/// Allocation: 8 bytes a curve and scratch per thread, a call.
-/// Returns, besides the statuses of the call above, unequal_lengths | null_input | bad_offsets.
+/// on each curve alone. Threads share samples. Outputs overlap if their ranges do. Allocation: 8
+/// bytes a curve and scratch per thread. Also returns unequal_lengths | null_input | bad_offsets.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const CurveSet<T>& set, const CurveGrids& grids,
                                              const CurveOutputs<T>& out,
                                              const Options& options = {}) noexcept;
 
-/// Evaluates single samples, in the grid's own order of operations: where the centred parameters
-/// are equal, the bits are. Runs of samples of one curve are fast. Streaming stores are used with
-/// Destination::memory only.
-/// Returns, besides the statuses of the first call (without bad_grid, bad_patch_range),
-/// unequal_lengths | null_input | bad_patch_index.
+/// Evaluates single samples, in the grid's own order of operations: if centred parameters are
+/// equal, the bits are. Runs of samples of one curve are fast. Streaming stores are used with
+/// Destination::memory only. Returns as the first call, with unequal_lengths | null_input |
+/// bad_patch_index instead of bad_grid and bad_patch_range.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate(const CurveSet<T>& set, const CurveSamples<T>& samples,
                                              const CurveOutputs<T>& out,

@@ -1,4 +1,4 @@
-// The names of the instruction sets; isa.hpp has what can be asked about them.
+// The names of the instruction sets; isa.hpp says what can be asked about them.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@ namespace simdbezier {
 /// The instruction sets that kernels are compiled for. Results are bit-equal inside a class:
 /// avx2, avx512 and neon64 fuse multiply and add; scalar, sse2, simd128 round after each one.
 enum class Isa : std::uint8_t {
-  automatic, ///< SIMDBEZIER_ISA where it is set, otherwise the widest that the machine has, or the
-             ///< next one for grids where that is faster: see resolve_isa()
+  automatic, ///< SIMDBEZIER_ISA if it is set, otherwise the widest that the machine can run, or for
+             ///< some grids the next one: see resolve_isa()
   scalar,
   sse2,
   avx2,   ///< AVX2 and FMA

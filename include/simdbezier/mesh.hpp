@@ -3,9 +3,8 @@
 //     const auto mesh = tessellate<float>(nets, {.tolerance = 1e-3});
 //     if (mesh) { use(mesh.positions, mesh.triangles, mesh.deviation); }
 //
-// This is for those who want a mesh and nothing more. plan_mesh() stops before vertices are
-// computed: its layout goes to the calls of evaluate_mesh.hpp and mesh_primitives.hpp, piece by
-// piece where a mesh is larger than memory.
+// plan_mesh() stops before vertices are computed: its layout goes to the calls of evaluate_mesh.hpp
+// and mesh_primitives.hpp, piece by piece if a mesh is larger than memory.
 #pragma once
 
 #include <array>
@@ -28,16 +27,16 @@ namespace simdbezier {
 /// longest edge, by an angle between normals, or by a grid.
 struct MeshOptions {
   /// The largest distance of the surface from the mesh: absolute, or as a share of the diagonal of
-  /// the box of all control points. Where both are given, the smaller one counts.
+  /// the box of all control points. If both are given, the smaller one counts.
   double tolerance = kUnlimited;
   double relative_tolerance = kUnlimited;
-  /// Absolute tolerances, one for each of the patches given, besides those above; or empty.
+  /// Absolute tolerances, one for each patch given, in addition to those above; or empty.
   std::span<const double> tolerances = {};
-  /// The most pixels that the mesh may be off in a picture, besides what is above; needs a camera.
+  /// The most pixels that the mesh may be off in a picture, besides the above; needs a camera.
   double pixels = kUnlimited;
   Camera camera = {};
   double longest_edge = kUnlimited; ///< see RateOptions
-  double normal_angle = kUnlimited; ///< likewise
+  double normal_angle = kUnlimited; ///< see RateOptions
   /// Every patch gets nu x nv samples, 2 or more each, instead of what tolerances ask for.
   std::uint32_t nu = 0;
   std::uint32_t nv = 0;
@@ -46,20 +45,19 @@ struct MeshOptions {
   bool flip = false;
   double point_size = 0;
   double snap = 0;
-  /// Cuts patches where corners of others lie on their open sides, see split_edges(), with `snap`
+  /// Cuts patches at corners of others that lie on their open sides: see split_edges(), with `snap`
   /// and at least the distance given there.
   bool split_edges = false;
   /// Leaves out patches that repeat an earlier one (Topology::is_repeated()).
   bool drop_repeated = false;
-  /// The angle of split_creases(), in radians. Infinity: all normals are merged. 0: patches share
-  /// no vertices.
+  /// The angle of split_creases(), in radians. Infinity: all are merged. 0: no vertices are shared.
   double crease_angle = kUnlimited;
 
   bool normals = true;
   /// u, v and the patch's number for every vertex. Patches then share positions and normals, but no
   /// vertices: see split_parameters().
   bool parameters = false;
-  bool short_indices = false; ///< 16-bit ones, where vertices are few enough
+  bool short_indices = false; ///< 16-bit ones, if vertices are few enough
   bool local_origin = false;  ///< see PackOptions
   int threads = 0;            ///< as in Options
   Isa isa = Isa::automatic;   ///< whose roundings are certified, and whose kernels run
@@ -69,10 +67,10 @@ struct MeshOptions {
 template <typename T>
 struct MeshPlan {
   Status status;
-  /// The patch at fault; 0 where the fault is not that of a single patch.
+  /// The patch at fault; 0 if the fault is not that of a single patch.
   std::size_t fault_patch = 0;
   PatchSet<T> set;
-  /// Counts all patches given, or their pieces, also repeated ones that were left out.
+  /// Counts all patches given, or their pieces, including repeated ones that were left out.
   TopologyCounts counts;
   SplitCounts splits; ///< what came of MeshOptions::split_edges
   Topology topology;  ///< how the patches of the set are connected
@@ -100,12 +98,11 @@ struct Mesh {
   std::vector<std::array<T, 2>> parameters;
   std::vector<std::uint32_t> patches; ///< each vertex's patch, by its number among those given
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// Instead of `triangles`, where they were asked for and numbers fit.
+  /// Instead of `triangles`, if they were asked for and numbers fit.
   std::vector<std::array<std::uint16_t, 3>> short_triangles;
-  /// The distance between mesh and surface is certified to be at most this, rounding included.
+  /// The certified largest distance between mesh and surface, rounding included.
   double deviation = 0;
-  /// The certified distance for each single patch, in the order of those given; 0 for those left
-  /// out.
+  /// The certified distance for each of the patches given; 0 for those left out.
   std::vector<double> deviations;
   TopologyCounts counts;
   SplitCounts splits;
@@ -113,28 +110,24 @@ struct Mesh {
   [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
 };
 
-/// Packs, joins edges, chooses rates, and numbers vertices.
-///
-/// nets:     any views with three components, see find_topology(). They are read only here.
-/// Returns:  in MeshPlan::status, what pack(), find_topology(), choose_rates() or certify_rates(),
-///           lay_out_mesh(), split_creases(), split_parameters() and split_edges() return, among
-///           them snap_too_large where it is MeshOptions::snap that leaves too little of a
-///           tolerance; bad_tolerance also where nothing says how fine the mesh is to be, bad_grid
-///           where a grid has fewer than 2
-///           samples or where tolerances are given as well; out_of_memory.
-/// Memory:   allocates what the plan holds, and working memory for edges and rates. A mesh is
-///           planned whole; vertices and triangles can then be had range by range.
-/// Threads:  MeshOptions::threads.
-/// Cost:     find_topology() and choose_rates(), see there.
+/// Packs patches, joins edges, chooses rates, and numbers vertices; evaluates nothing.
+/// nets:    any views with three components, see find_topology(). They are read only here.
+/// Returns: in MeshPlan::status, what pack(), find_topology(), choose_rates() or certify_rates(),
+///          lay_out_mesh(), split_creases(), split_parameters() and split_edges() return, such as
+///          snap_too_large if MeshOptions::snap leaves too little of a tolerance; bad_tolerance
+///          also if nothing says how fine the mesh is to be; bad_grid if a grid has fewer than 2
+///          samples or tolerances are given as well; out_of_memory.
+/// Memory:  what the plan holds, and working memory for edges and rates. A mesh is planned whole;
+///          vertices and triangles can then be had range by range.
+/// Threads: MeshOptions::threads. Cost: find_topology() and choose_rates(), see there.
 template <typename T, typename S>
 [[nodiscard]] MeshPlan<T> plan_mesh(std::span<const ControlNets<S>> nets,
                                     const MeshOptions& options) noexcept;
 
-/// Plans and evaluates.
-/// Threads: MeshOptions::threads. Neither they nor the instruction set within a class change a bit.
-/// Returns: in Mesh::status, as plan_mesh(); size_overflow also where vertices exceed 2^32 - 1.
-/// Memory:  allocates the plan, which goes at the end, and the mesh.
-/// Cost:    plan_mesh(), evaluate_mesh() and write_triangles(), see there.
+/// Plans and evaluates a mesh. Neither threads nor the instruction set within a class change a bit.
+/// Returns: in Mesh::status, as plan_mesh(); size_overflow also if vertices exceed 2^32 - 1.
+/// Memory:  allocates the plan, which is freed at the end, and the mesh.
+/// Threads: MeshOptions::threads. Cost: plan_mesh(), evaluate_mesh() and write_triangles().
 template <typename T, typename S>
 [[nodiscard]] Mesh<T> tessellate(std::span<const ControlNets<S>> nets,
                                  const MeshOptions& options) noexcept;
@@ -149,8 +142,8 @@ template <typename T, typename S>
   return tessellate<T>(std::span<const ControlNets<S>>(&nets, 1), options);
 }
 
-/// The same where no type is named: tessellate(nets, options) has the number type of the nets. The
-/// integer has no meaning; it keeps these from taking part where a type is named.
+/// The same if no type is named: tessellate(nets, options) has the number type of the nets. The
+/// integer has no meaning; it keeps these from taking part if a type is named.
 template <int = 0, typename S>
 [[nodiscard]] MeshPlan<S> plan_mesh(std::span<const ControlNets<S>> nets,
                                     const MeshOptions& options) noexcept {

@@ -1,20 +1,18 @@
 // The cells of a mesh as triangles, polygons, strips or clusters.
-//
 // For every call
 //   Index        std::uint32_t or std::uint16_t; its largest value is no vertex.
 //   Order        patch after patch in ascending order; within a patch row by row.
 //   Orientation  counter-clockwise about du x dv; the other way round on patches that the topology
 //                turned. Triangles without area, beside a side that is a point, are left out.
-//   Returns      ok | null_output | output_too_small (a span is shorter than the size that the mesh
-//                needs) | size_overflow (more vertices than Index has numbers) | out_of_memory |
-//                unknown_isa and unsupported_isa (of triangles, as resolve_isa()).
+//   Returns      ok | null_output | output_too_small (a span is shorter than the mesh needs) |
+//                size_overflow (more vertices than Index has numbers; clusters of more than 2^32 -
+//                1 vertices or triangles) | out_of_memory (spans are undefined then) | unknown_isa
+//                and unsupported_isa (of triangles, as resolve_isa()).
 //   Options      Options::threads is honoured, by write_triangles() also isa, executed and
 //                destination; the other members have no meaning.
-//   Allocation   scratch per thread, and 8 to 24 bytes a patch where sizes are not known from the
-//                layout.
+//   Allocation   scratch per thread, and 8 to 24 bytes a patch for sizes not in the layout.
 //   Determinism  a function of the layout. Spans may not overlap each other, which is not checked.
-//   Cost         O(cells). A size takes about as long as what it is for, since cells are cut in the
-//                same way to be counted.
+//   Cost         O(cells). A size takes about as long as what it is for.
 #pragma once
 
 #include <cstddef>
@@ -28,12 +26,10 @@
 namespace simdbezier {
 
 /// Writes three numbers a triangle; MeshLayout::size() says how many triangles there are.
-///
-/// options: Destination::automatic streams where the numbers take more than half of the last-level
-///          cache, without a measurement; SIMDBEZIER_DESTINATION counts. Any alignment of Index
-///          will do.
+/// options: Destination::automatic streams numbers that take more than half of the last-level
+///          cache, without a measurement; SIMDBEZIER_DESTINATION counts. Any alignment will do.
 /// patches: all of them, or some: the first number is that of MeshLayout::first_triangle() of the
-///          first patch. Returns bad_patch_range where the layout has no such patches.
+///          first patch. bad_patch_range if the layout has no such patches.
 template <typename Index>
 [[nodiscard]] SIMDBEZIER_API Status write_triangles(const MeshLayout& layout,
                                                     std::span<Index> triangles,
@@ -45,18 +41,14 @@ struct PolygonSize {
   std::size_t polygons = 0;
   std::size_t indices = 0;
 };
-/// Counts the polygons that write_polygons() writes, and their vertices.
-///
-/// patches: all of them, or some, as for write_triangles().
+/// Counts what write_polygons() writes. patches: as for write_triangles().
 [[nodiscard]] SIMDBEZIER_API Status polygon_size(const MeshLayout& layout, PolygonSize& size,
                                                  const Options& options = {},
                                                  SetRange patches = {}) noexcept;
 
 /// Writes a quad for every cell of four vertices, triangles for all others. The certificate holds
-/// if quads are cut from their first to their third vertex.
-///
-/// indices: the vertices of all polygons. sizes: 3 or 4, one value a polygon. patches: all of them,
-///          or some, as for write_triangles().
+/// if quads are cut from their first to their third vertex. patches: as for write_triangles().
+/// indices: the vertices of all polygons. sizes: 3 or 4, one value a polygon.
 template <typename Index>
 [[nodiscard]] SIMDBEZIER_API Status write_polygons(const MeshLayout& layout,
                                                    std::span<Index> indices,

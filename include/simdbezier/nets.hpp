@@ -1,33 +1,27 @@
-// What makes control nets of control nets: subdivision, sub-patches, degree elevation, reversal,
-// transposition, derivatives.
+// Control nets from control nets: cuts, pieces, degree elevation, reversals, derivatives.
 //
 // Constraints that hold for every call
-//   Nets        any degrees from 1 to kMostDegree, any components. With weights the arithmetic is
-//               that of homogeneous coordinates (wx, wy, wz, w); cartesian nets come back
-//               cartesian, homogeneous ones homogeneous.
-//   Outputs     belong to the caller. Count, components and weights are those of the input, the
-//               degrees what the operation says. They may not overlap the inputs or each other, but
-//               may lie between one another (four children of a patch side by side, for instance);
-//               the strides must nest: sorted by size, each exceeds what the smaller ones span.
-//   Faults      control values must be finite and weights positive; the first patch at fault is
-//               named, and nothing has been written. Values so large that the operation overflows
-//               come out infinite or nan.
-//   Bits        equal on all instruction sets (products and sums are rounded one by one, nothing is
-//               fused), for any number of threads and any place in the batch.
-//   Reversal    of the net, with the parameters mirrored, gives the reversed result bit for bit.
-//   Edges       an edge of the result that lies on an edge of the patch depends on that edge's
-//               control points only, so that neighbours with bit-equal edges keep them after equal
-//               operations, in any orientation. Corners of the patch stay exact, as do whole edges
-//               that the operation does not touch. Equal neighbouring values stay equal: a
-//               collapsed edge stays collapsed, whatever its weights.
-//   Zeros       -0 becomes +0.
-//   Threads     Options::threads, isa and executed are honoured; its other members have no meaning.
-//   Allocation  scratch per thread, none per patch. Nothing throws.
-//   Statuses    ok | null_input | input_too_small | null_output | output_too_small | bad_degree |
-//               bad_components | bad_weight | bad_stride | bad_patch_range (counts differ) |
-//               overlapping_outputs | non_finite_input | size_overflow | unknown_isa |
-//               unsupported_isa | out_of_memory.
-//   Source      G. Farin, Curves and Surfaces for CAGD, 5th ed., chapters 4 to 6 and 14.
+//   Nets      any degrees from 1 to kMostDegree, any components. With weights the arithmetic is
+//             that of homogeneous coordinates (wx, wy, wz, w); the form of the nets stays.
+//   Outputs   belong to the caller. Count, components and weights are those of the input, the
+//             degrees what the operation says. They may not overlap the inputs or each other, but
+//             may lie between one another (four children of a patch side by side, for instance);
+//             the strides must nest: sorted by size, each exceeds what the smaller ones span.
+//   Faults    control values must be finite and weights positive; the first patch at fault is
+//             named. Values so large that the operation overflows come out infinite or nan.
+//   Bits      equal on all instruction sets (products and sums are rounded one by one, nothing is
+//             fused), for any number of threads and any place in the batch. The reversed net at
+//             mirrored parameters gives the reversed result bit for bit. -0 becomes +0.
+//   Edges     an edge of the result that lies on an edge of the patch depends on that edge's
+//             control points only: neighbours with bit-equal edges keep them after equal
+//             operations, in any orientation. Corners of the patch stay exact, as do whole edges
+//             that the operation does not touch. Equal neighbouring values stay equal: a collapsed
+//             edge stays collapsed, whatever its weights.
+//   Threads   Options::threads, isa and executed are honoured; its other members have no meaning.
+//             Allocation: scratch per thread, none per patch. Nothing throws.
+//   Statuses  ok, those of views and running (Status) | null_output | output_too_small | bad_weight
+//             | non_finite_input | bad_patch_range (counts differ) | overlapping_outputs.
+//   Source    G. Farin, Curves and Surfaces for CAGD, 5th ed., chapters 4 to 6 and 14.
 #pragma once
 
 #include <array>
@@ -39,13 +33,12 @@
 
 namespace simdbezier {
 
-/// Where an operation stopped: status, patch, control point and component, as in packing. Where
-/// non_finite_input and bad_weight are about a parameter, or about weights that cannot be there at
-/// all, `point` is -1.
+/// Where an operation stopped: status, patch, control point and component, as in packing. `point`
+/// is -1 if non_finite_input is about a parameter, or bad_weight about weights as such.
 using NetReport = PackReport;
 
 /// The caller's memory for control nets. Its members mean what they mean in ControlNets, to which
-/// it converts, so that one operation's output is the next one's input.
+/// it converts, so that one operation's output can be the next one's input.
 template <typename S>
 struct MutableNets {
   S* points = nullptr; ///< may be null only when count is 0
@@ -104,17 +97,16 @@ template <typename T>
 
 } // namespace detail
 
-/// A parameter t together with its complement 1 - t. Both enter into the arithmetic, and whoever
-/// wants mirrored results to have equal bits gives mirrored pairs.
+/// A parameter t together with its complement 1 - t. Both enter into the arithmetic; mirrored pairs
+/// give mirrored results with equal bits.
 template <typename T>
 class UnitParameter {
 public:
-  /// t, and 1 - t, rounded as the caller's arithmetic rounds: exact for 1/2 <= t <= 1 and all
-  /// multiples of 2^-24 (double: 2^-53).
+  /// t and 1 - t, rounded: exact for 1/2 <= t <= 1 and all multiples of 2^-24 (double: 2^-53).
   constexpr UnitParameter(T t) noexcept : t_(t), complement_(one_less(t)) {} // NOLINT: implicit
   /// Counted from the other end: the complement is c, and t = 1 - c rounded.
   [[nodiscard]] static constexpr UnitParameter from_end(T c) noexcept { return {one_less(c), c}; }
-  /// i / n and (n - i) / n, each rounded once where T holds i, n and n - i; n > 0.
+  /// i / n and (n - i) / n, each rounded once if T holds i, n and n - i; n > 0.
   [[nodiscard]] static constexpr UnitParameter fraction(int i, int n) noexcept {
     return {quotient(i, n), quotient(std::int64_t{n} - i, n)};
   }
@@ -145,15 +137,12 @@ using AtParameter = std::type_identity_t<UnitParameter<T>>;
 
 /// Cuts every patch at u: `low` is the part over [0, u], `high` the one over [u, 1], each again
 /// over [0,1], with the degrees of the input.
-///
-/// Formula:    de Casteljau, b = (1-t) a + t b per level (a where a = b); the corner points of its
-///             triangle are the two nets.
-/// Parameters: finite (else non_finite_input); outside of [0,1] they extrapolate, which nets with
-///             weights must not (bad_weight), since a weight could lose its sign.
+/// Formula:    de Casteljau, b = (1-t) a + t b (a if a = b); the triangle's sides are the nets.
+/// Parameters: finite (else non_finite_input); outside of [0,1] they extrapolate, but not nets with
+///             weights (bad_weight), since a weight could lose its sign.
 /// Errors:     at most 3 degree_u u max|P| a component (u = 2^-24 or 2^-53) for parameters in
 ///             [0,1]; with weights, of numerators and weights each. 0, 1/2 and 1 round sums only.
-/// Cost:       about the time of reading and writing the nets in cache; O(degree) times that for
-///             high degrees.
+/// Cost:       reading and writing the nets in cache; O(degree) times that for high degrees.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport split_u(const ControlNets<T>& nets, AtParameter<T> u,
                                                const std::type_identity_t<MutableNets<T>>& low,
@@ -183,70 +172,64 @@ struct SubPatch {
   UnitParameter<T> v1 = T(1);
 };
 
-/// The piece of every patch over [u0, u1] x [v0, v1], over [0,1]^2, with the degrees of the input.
-///
-/// Formula:    control point i is the blossom at u0 (degree - i times) and u1 (i times): the mean
-///             of both orders of inserting them, so that neither end is favoured. Pieces that meet
-///             at one parameter get bit-equal points there, and [0, u] is what split_u() gives. The
-///             exception is u = 1, where a whole direction is copied, while split_u() takes
-///             cartesian points to homogeneous ones and back.
-/// Parameters, errors: as split_u(). Cost: O(degree^2) of split_u(); directions that are taken
-///             whole cost nothing.
+/// Cuts [u0, u1] x [v0, v1] out of every patch, as a patch over [0,1]^2 of the same degrees.
+/// Formula:            control point i is the blossom at u0 (degree - i times) and u1 (i times):
+///                     the mean of both orders of inserting them, so that neither end is favoured.
+///                     Pieces that meet at one parameter get bit-equal points there, and [0, u] is
+///                     what split_u() gives, except for u = 1: a whole direction is copied, while
+///                     split_u() takes cartesian points to homogeneous ones and back.
+/// Parameters, errors: as split_u(). Cost: O(degree^2) of split_u(); whole directions cost nothing.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport segment(const ControlNets<T>& nets,
                                                const std::type_identity_t<SubPatch<T>>& piece,
                                                const std::type_identity_t<MutableNets<T>>& out,
                                                const Options& options = {}) noexcept;
 
-/// The same patches with higher (or equal) degrees: those of `out`; lower ones are bad_degree.
-///
-/// Formula:    q_i = sum_k C(n,k) C(r,i-k) p_k / C(n+r,i) from degree n to n + r, the terms paired
-///             from both ends.
-/// Errors:     float: one rounding (the sums are carried in double). double: at most (n + 2) u
-///             max|P| per direction. Exact wherever these sums and quotients are.
-/// Cost:       O(degree) multiply-adds a value and direction whose degree rises.
+/// Raises the degrees of the same surfaces to those of `out` (lower ones are bad_degree).
+/// Formula: q_i = sum_k C(n,k) C(r,i-k) p_k / C(n+r,i), degree n to n+r, paired from both ends.
+/// Errors:  float: one rounding (the sums are carried in double). double: at most (n + 2) u max|P|
+///          per direction. Exact if these sums and quotients are.
+/// Cost:    O(degree) multiply-adds a value and direction whose degree rises.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport elevate(const ControlNets<T>& nets,
                                                const std::type_identity_t<MutableNets<T>>& out,
                                                const Options& options = {}) noexcept;
 
-/// The derivative patches dS/du: control points degree_u (P[j][i+1] - P[j][i]), degree_u - 1 by
-/// degree_v. A direction of degree 1 keeps it: its two columns are equal, for nets have no degree
-/// 0. Polynomial nets only (bad_weight). Errors: two roundings a value; float: one. Cost: about the
-/// time of reading and writing the nets.
+/// Makes the derivative patches dS/du: control points degree_u (P[j][i+1] - P[j][i]), degree_u - 1
+/// by degree_v. A direction of degree 1 keeps it: its two columns are equal, for nets have no
+/// degree 0. Polynomial nets only (bad_weight). Errors: two roundings a value; float: one. Cost:
+/// about the time of reading and writing the nets.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport hodograph_u(const ControlNets<T>& nets,
                                                    const std::type_identity_t<MutableNets<T>>& out,
                                                    const Options& options = {}) noexcept;
 
-/// The derivative patches dS/dv, in the same way.
+/// Makes the derivative patches dS/dv, in the same way.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport hodograph_v(const ControlNets<T>& nets,
                                                    const std::type_identity_t<MutableNets<T>>& out,
                                                    const Options& options = {}) noexcept;
 
-/// The same surface run through backwards in u: Q[j][i] = P[j][degree_u - i]. A copy: for calls
-/// that only read, a view with a negative stride does (reversed_u below). Cost: about the time of
-/// reading and writing the nets, as for the two below.
+/// Reverses u, on the same surface: Q[j][i] = P[j][degree_u - i]. A copy; for calls that only read,
+/// the view reversed_u() is enough. Cost, as of the two below: reading and writing the nets.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport reverse_u(const ControlNets<T>& nets,
                                                  const std::type_identity_t<MutableNets<T>>& out,
                                                  const Options& options = {}) noexcept;
 
-/// The same surface run through backwards in v: Q[j][i] = P[degree_v - j][i].
+/// Reverses v: Q[j][i] = P[degree_v - j][i].
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport reverse_v(const ControlNets<T>& nets,
                                                  const std::type_identity_t<MutableNets<T>>& out,
                                                  const Options& options = {}) noexcept;
 
-/// The same surface with u and v exchanged: Q[i][j] = P[j][i]; degree_u of `out` is degree_v of the
-/// input.
+/// Exchanges u and v: Q[i][j] = P[j][i]; degree_u of `out` is degree_v of the input.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API NetReport transpose(const ControlNets<T>& nets,
                                                  const std::type_identity_t<MutableNets<T>>& out,
                                                  const Options& options = {}) noexcept;
 
-/// The same nets seen the other way round: no memory is touched. `nets` must be valid.
+/// Views of the same nets the other way round: no memory is touched. `nets` must be valid.
 template <typename S>
 [[nodiscard]] constexpr ControlNets<S> reversed_u(ControlNets<S> nets) noexcept {
   nets.points = nets.count == 0 ? nets.points : nets.points + nets.degree_u * nets.point_stride;

@@ -62,8 +62,8 @@ static_assert(has_traits_of_all(), "every Output has a row here, in the order of
 [[nodiscard]] constexpr const char* output_name(Output output) noexcept {
   return detail::kOutputTraits[static_cast<std::size_t>(output)].name;
 }
-/// The highest order of the derivatives of S that an output is made of. A status has 0, since it
-/// reports what other outputs have found.
+/// The highest order of the derivatives of S from which an output is computed. A status has 0,
+/// since it reports what other outputs have found.
 [[nodiscard]] constexpr int derivative_order(Output output) noexcept {
   return detail::kOutputTraits[static_cast<std::size_t>(output)].derivative_order;
 }
@@ -111,13 +111,13 @@ inline constexpr std::size_t kCurvatureKinds = static_cast<std::size_t>(Curvatur
   return kNames[static_cast<std::size_t>(curvature)];
 }
 
-/// Where the curvatures of a surface go; each may be null: not asked for. They are made of first
-/// and second derivatives, and are nan where the status is not `regular`.
+/// Where the curvatures of a surface go; null means not asked for. They are computed from first and
+/// second derivatives, and are nan if the status is not `regular`.
 ///
-/// There is no bound for them: they divide by |du x dv|^2, and lose digits where that is small
+/// There is no bound for them: they divide by |du x dv|^2 and lose digits where that is small
 /// (docs/accuracy.md has figures; float is of no use closer than 0.001 to a pole). Principal
-/// curvatures are formed from K and H^2: where those leave the range of T, or sink below its
-/// smallest normal number, they are infinite, nan or have lost digits.
+/// curvatures are computed from K and H^2. If those leave the range of T or sink below its smallest
+/// normal number, they are infinite, nan or have lost digits.
 /// Source: M. P. do Carmo, Differential Geometry of Curves and Surfaces, 3.3.
 template <typename T>
 struct Curvatures {
@@ -142,8 +142,8 @@ private:
   static_assert(std::size(kMembers) == kCurvatureKinds);
 };
 
-/// The outputs of a call; every one is optional, at least one vector or curvature is required. They
-/// may share memory only as members of one vertex: equal strides, no common element.
+/// The outputs of a call. Every one is optional, but at least one vector or curvature is required.
+/// They may share memory only as members of one vertex: equal strides, no common element.
 template <typename T>
 struct Outputs {
   Vectors<T> position;
@@ -152,12 +152,11 @@ struct Outputs {
   Vectors<T> duu;
   Vectors<T> duv;
   Vectors<T> dvv;
-  Vectors<T> normal; ///< exists for sets with three components only, as curvatures do
+  Vectors<T> normal; ///< for sets of three components only, as curvatures are
   Values<SampleStatus> status;
   Curvatures<T> curvature;
-  /// The component that comes out as x; the next ones come out as y and z. Sets of up to two
-  /// components have null z (and y) pointers, as do calls for the last components of sets with more
-  /// than three.
+  /// The component that comes out as x; the next ones come out as y and z. The z (and y) pointers
+  /// are null for sets of fewer than three components, and for the last components of larger sets.
   int first_component = 0;
 
   /// How the vectors are numbered, and how many there are.

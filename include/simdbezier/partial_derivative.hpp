@@ -6,12 +6,12 @@
 
 namespace simdbezier {
 
-/// The highest order in each direction: from the degree on, nothing but zeros follows for
-/// polynomials. Derivatives of rational patches do not end there.
+/// The highest order in each direction. Polynomials have nothing but zeros beyond their degree;
+/// derivatives of rational patches do not end there.
 inline constexpr int kMostDerivativeOrder = kMostDegree;
 
-/// d^(a+b) S / du^a dv^b, a = order_u, b = order_v, each from 0 to kMostDerivativeOrder; (0, 0) is
-/// the position.
+/// One derivative that is asked for: d^(a+b) S / du^a dv^b, a = order_u, b = order_v, each from 0
+/// to kMostDerivativeOrder; (0, 0) is the position.
 template <typename T>
 struct PartialDerivative {
   int order_u = 0;

@@ -21,25 +21,23 @@ inline constexpr double kUnlimited = std::bit_cast<double>(std::uint64_t{0x7ff} 
 
 /// How close a mesh is to be.
 struct RateOptions {
-  /// The largest distance of any point of the surface from the mesh, and back; kUnlimited: any, so
-  /// that only what else is asked for counts.
+  /// The largest distance of any point of the surface from the mesh, and back; kUnlimited: any.
   double tolerance = 0;
   /// One value a patch, instead of `tolerance`; or empty.
   std::span<const double> tolerances = {};
   /// How far evaluated vertices may be from the exact ones, one value a patch: position_errors() of
-  /// the set that will be evaluated. Part of the tolerance. Empty: 0.
+  /// the set that will be evaluated. It is a part of the tolerance. Empty: 0.
   std::span<const double> errors = {};
-  /// No row or column of cells has a longer edge than about this: the longest leg of the control
-  /// net times the degree, over the number of segments.
+  /// No row or column of cells has a longer edge than about this (the longest leg of the control
+  /// net times the degree, over the number of segments). Above 0, else bad_tolerance.
   double longest_edge = kUnlimited;
   /// No row or column of cells turns its normal by more than about this angle, in radians, from one
-  /// point to the next: the total turn of the control net's normals over the number of segments.
+  /// point to the next (the total turn of the net's normals over the number of segments). Above 0.
   double normal_angle = kUnlimited;
   std::uint32_t most_segments = kMostSegments; ///< 1 or more; larger numbers count as this one
   /// For views and models that move: CertifiedRates::nu and nv hold the rates of the frame before,
-  /// or 0 where there are none. Patches keep these where they hold and have at most so many times
-  /// the cells that would be chosen, so that rates, and layouts and triangles with them, change
-  /// seldom. Below 1, or nan: none are kept, nor read.
+  /// or 0. Patches keep these if they hold and have at most so many times the cells that would be
+  /// chosen, so that rates and triangles change seldom. Below 1, or nan: none are kept or read.
   double keep = 0;
   int threads = 0;          ///< as in Options
   Isa isa = Isa::automatic; ///< see resolve_isa()
@@ -56,11 +54,10 @@ struct Camera {
   double nearest = 1e-3; ///< nothing closer than this along the direction is drawn
   /// Parallel projection: focal_length is the number of pixels a unit, at any depth.
   bool orthographic = false;
-  /// Patches that certainly lie outside of the circle around the picture's corners count as not
-  /// seen.
+  /// Patches that certainly lie outside of the circle around the picture's corners are not seen.
   bool skip_outside = false;
-  /// Likewise patches without weights whose du x dv certainly points away from the eye everywhere:
-  /// for closed models, of which these are the far side.
+  /// Patches without weights whose du x dv certainly points away from the eye everywhere are not
+  /// seen, either: for closed models, of which these are the far side.
   bool skip_back = false;
 };
 
@@ -80,84 +77,69 @@ struct CertifiedRates {
 };
 
 /// Upper bounds on the distance of evaluated positions of each patch from the exact ones: the norm
-/// of error_bounds(). out: one value a patch.
-/// options: threads and isa count, the other members have no meaning. Allocation: none.
-/// Cost:    some 0.2 us a bicubic patch, 3 us with weights.
-/// Returns: ok | output_too_small | unknown_isa | unsupported_isa.
+/// of error_bounds() over three components. out: one value a patch. Of the options, threads and isa
+/// count. Allocation: none. Cost: some 0.2 us a bicubic patch, 3 us with weights. Returns ok |
+/// output_too_small | unknown_isa | unsupported_isa.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status position_errors(const PatchSet<T>& set, std::span<double> out,
                                                     const Options& options = {}) noexcept;
 
-/// Tolerances for choose_rates() with which no point of a surface is seen more than `pixels` away
-/// from its place on the mesh, from this camera.
-///
-/// Formula:  pixels * depth / (focal_length * f), depth being that of the nearest control point, at
-///           least Camera::nearest, and f the secant of the angle between the axis and the corners
-///           of the picture; pixels / focal_length where the camera is orthographic. Patches that
-///           are not seen get the diagonal of their control points' box, at least Camera::nearest:
-///           those that lie in front of Camera::nearest altogether, and those that the camera
-///           skips. Meshes have as few cells there as their edges allow, and stay closed.
-/// out:      one value a patch, in the order of all views.
-/// Returns:  ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
-///           size_overflow | bad_tolerance (pixels, or a member of the camera, that is not above
-///           zero and finite) | output_too_small. On an error nothing has been written.
-/// Threads:  the caller's alone. Allocation: none. Cost: one pass over the control points.
+/// Finds tolerances for choose_rates() with which no point of a surface is seen more than `pixels`
+/// away from its place on the mesh, from this camera.
+/// Formula: pixels * depth / (focal_length * f), depth being that of the nearest control point, at
+///          least Camera::nearest, and f the secant of the angle between the axis and the corners
+///          of the picture; pixels / focal_length if the camera is orthographic. Patches that are
+///          not seen (wholly nearer than Camera::nearest, or skipped) get the diagonal of their
+///          control points' box, at least Camera::nearest: meshes have as few cells there as their
+///          edges allow, and stay closed.
+/// out:     one value a patch, in the order of all views.
+/// Returns: ok | the statuses of views | bad_tolerance (pixels, or a member of the camera, that is
+///          not above zero and finite) | output_too_small.
+/// Cost:    one pass over the control points, on the caller's thread. Allocation: none.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status pixel_tolerances(std::span<const ControlNets<S>> nets,
                                                      const Camera& camera, double pixels,
                                                      std::span<double> out) noexcept;
 
-/// Finds few cells of every patch (the fewest near the proportion of rows and columns that the
-/// bound on the whole patch suggests), and their diagonals, with which its triangles are within its
-/// tolerance. A patch's rates depend on its own control points and tolerance, on which of its sides
-/// are shared and which diagonals forced; rates of 1 are raised where the mesh would be degenerate
-/// (separate_vertices()).
-///
-/// Bound:    of a triangle with edges p_i - p_j in parameters, max |S - T| <= the largest value of
-///           1/2 sum l_i l_j Q_ij over barycentric coordinates l, Q_ij being the largest second
-///           derivative of S along the edge: the proof is in docs/tessellation.md. Taken over
-///           control vectors of the patch's four quarters; no vertex that a neighbour adds to an
-///           edge can raise it.
-/// Rational: |v| of a derivative vector becomes |v_X - c v_w| + R |v_w|, c being the
-///           middle and R half of the diagonal of the box of the control points, and the bound is
-///           divided by the smallest weight. Where weights are products of a factor a column and
-///           one a row (cylinders, spheres, tori), the bound by derivatives in space counts if it
-///           is smaller. So does the distance of point sets where parameters run unevenly or
-///           weights are more than 4.5-fold apart: pieces are halved until it is known.
-/// Source:   D. Filip, R. Magedson, R. Markot, "Surface Algorithms Using Bounds on Derivatives",
-///           CAGD 3 (1986), whose bound has the triangle inequality instead of the diagonal's own
-///           derivative.
-/// Determinism: a function of the control points, and of rates that are kept; the same for all
-///           instruction sets that fuse multiply-adds, and for all others.
-/// Threads:  RateOptions::threads; rates do not depend on them. Allocation: some bytes a patch, and
-///           scratch per thread. Outputs may not overlap the inputs, which is not checked.
-/// Returns:  ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
-///           size_overflow | non_finite_input | bad_weight | unknown_isa | unsupported_isa |
-///           bad_rates (spans that are not one value a patch) | bad_tolerance (not above zero, or
-///           not above the patch's error, or an error below 0 or nan, or more than most_segments
-///           would be needed; the report names the patch) | bad_topology (the topology is that of
-///           other nets, see fits(); the report names the patch) | snap_too_large (likewise, where
-///           the topology's snapping has taken more than half of a tolerance) | out_of_memory.
-///           Outputs are undefined on an error.
-/// Cost:     on AVX-512, 0.25 to 0.4 us a bicubic float patch and 0.65 us in double, certificate
-///           included. With weights, of another degree or with a forced diagonal: 1 to 4 us up to
-///           degree 5, 15 us of degree 15, 35 us of that with weights (AVX2); with weights that are
-///           products 2 to 4 us more up to degree 3, 100 us more of degree 15. With uneven
-///           parameters, some 5 us a cell of a bicubic patch more, up to a second.
+/// Chooses, for every patch, a small number of rows and columns of cells, and the diagonals of the
+/// cells, so that the triangles stay within the patch's tolerance. Only ratios of rows to columns
+/// near the one that the bound on the whole patch suggests are tried. Rates depend on the patch's
+/// control points and tolerance, on which of its sides are shared, and on forced diagonals; small
+/// rates are raised if the mesh would be degenerate (separate_vertices()).
+/// Bound:       max |S - T| over a triangle is at most the largest value of 1/2 sum l_i l_j Q_ij
+///              over barycentric coordinates l, Q_ij being the largest second derivative of S along
+///              edge ij, taken over control vectors of the patch's quarters. No vertex that a
+///              neighbour adds to an edge can raise it. docs/tessellation.md has the proof, and the
+///              closer bounds of rational patches, of weights that are products (cylinders,
+///              spheres, tori), and of uneven parameters or weights more than 4.5-fold apart.
+/// Source:      Filip, Magedson, Markot, Surface Algorithms Using Bounds on Derivatives, CAGD 3,
+///              1986, whose bound uses the triangle inequality for the diagonal.
+/// Determinism: a function of the control points, and of rates that are kept; the same in each
+///              class of instruction sets (Isa), for any number of threads.
+/// Allocation:  bytes a patch, scratch per thread. Outputs must not overlap inputs (not checked).
+/// Returns:     ok | the statuses of views (bad_components: not three) | non_finite_input |
+///              bad_weight | bad_rates (spans that are not one value a patch) | bad_tolerance (not
+///              above zero or the patch's error, an error below 0 or nan, or more than
+///              most_segments needed) | bad_topology (that of other nets, see fits()) |
+///              snap_too_large (snapping has taken more than half of a tolerance) | the statuses of
+///              running. The report names the patch. Outputs are undefined on an error.
+/// Cost:        on AVX-512, 0.25 to 0.4 us a bicubic float patch and 0.65 us in double, certificate
+///              included. With weights, another degree or a forced diagonal (AVX2): 1 to 4 us up to
+///              degree 5, 15 us for degree 15, 35 us with weights; weights that are products add 2
+///              to 4 us up to degree 3, 100 us for degree 15. Uneven parameters add 5 us a cell of
+///              a bicubic patch, up to a second.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport choose_rates(std::span<const ControlNets<S>> nets,
                                                      const Topology& topology,
                                                      const RateOptions& options,
                                                      const CertifiedRates& out) noexcept;
 
-/// The certificate of given rates: the best diagonals, and the bound that they have.
-///
-/// rates:    nu and nv are read, from 1 to kMostSegments; diagonals and deviation are written.
-/// errors:   one value a patch, or empty.
-/// options:  threads and isa count, the other members have no meaning.
-/// Returns:  as choose_rates(); bad_rates also for rates outside of that range. Outputs are
-///           undefined on an error.
-/// Determinism, allocation, overlaps: as for choose_rates(), which takes longer.
+/// Certifies given rates: finds the best diagonals, and their bound. Determinism, allocation and
+/// overlaps are as for choose_rates(), which takes longer.
+/// rates:   nu and nv are read, from 1 to kMostSegments; diagonals and deviation are written, and
+///          undefined on an error. errors: one value a patch, or empty.
+/// options: threads and isa count, the other members have no meaning.
+/// Returns: as choose_rates(); bad_rates also for rates outside of that range.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport certify_rates(std::span<const ControlNets<S>> nets,
                                                       const Topology& topology,
@@ -167,16 +149,13 @@ template <typename S>
 
 /// The largest number of cells in one direction for certify_grids().
 inline constexpr std::uint32_t kMostGridCells = std::uint32_t{1} << 20;
-/// The certificate of meshes whose patches stay apart: each is a grid of nu x nv cells, as
-/// evaluate() numbers its samples, whose diagonals all run from (0,0) to (1,1).
-///
-/// deviation: one value a patch, `errors` included, which has as many or none.
-/// options:   as for certify_rates().
-/// Returns:   ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
-///            size_overflow | non_finite_input | bad_weight | bad_rates (outside of 1 to
-///            kMostGridCells, or spans that are not one value a patch) | bad_tolerance (an error
-///            below 0 or nan) | unknown_isa | unsupported_isa | out_of_memory. `deviation` is
-///            undefined on an error. Cost: 0.3 to 1.7 us a patch up to degree 5 (AVX2).
+/// Certifies meshes whose patches stay apart: each is a grid of nu x nv cells, as evaluate()
+/// numbers its samples, whose diagonals all run from (0,0) to (1,1).
+/// deviation: one value a patch, including `errors` (as many, or none). Undefined on an error.
+/// options:   as for certify_rates(). Cost: 0.3 to 1.7 us a patch up to degree 5 (AVX2).
+/// Returns:   ok | the statuses of views (bad_components: not three) | non_finite_input |
+///            bad_weight | bad_rates (outside of 1 to kMostGridCells, or spans that are not one
+///            value a patch) | bad_tolerance (an error below 0 or nan) | the statuses of running.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API RateReport certify_grids(std::span<const ControlNets<S>> nets,
                                                       std::uint32_t nu, std::uint32_t nv,

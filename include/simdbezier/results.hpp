@@ -3,8 +3,8 @@
 //     const auto samples = evaluate(set, Grid<float>::uniform(17, 17), {Output::position});
 //     if (samples) { use(samples.position[k][0]); }
 //
-// These are for those who want results and nothing more: they allocate anew every time, which costs
-// more than most evaluations. The calls of evaluate.hpp write to existing memory in any layout.
+// These calls are the short way. They allocate anew every time, which costs more than most
+// evaluations; the calls of evaluate.hpp write to existing memory in any layout.
 #pragma once
 
 #include <array>
@@ -80,8 +80,8 @@ Outputs<T> make_room(SurfaceSamples<T>& samples, const OutputSelection& wanted, 
 
 } // namespace detail
 
-/// evaluate(set, where, out, options) of patches with three components. where: a Grid<T>,
-/// PatchGrids or Samples<T>. Returns the statuses of that call.
+/// Evaluates patches of three components, as evaluate(set, where, out, options) does, and returns
+/// its statuses. where: a Grid<T>, PatchGrids or Samples<T>.
 template <typename T, typename Where>
 [[nodiscard]] SurfaceSamples<T> evaluate(const PatchSet<T>& set, const Where& where,
                                          const OutputSelection& wanted,

@@ -9,29 +9,30 @@
 
 namespace simdbezier {
 
-/// How parameters are given: u in [0,1], or centred x = 2u-1 in [-1,1] (no rounding inside). What
-/// lies outside extrapolates, for |2u-1| below 2^64 (float) and 2^512 (double): beyond them
-/// multiples of the parameter's square are infinite, and directions of degree 3 to 5 give
-/// infinities or nan. Second derivatives by a parameter of degree 5 take its cube, and end at 2^43
-/// and 2^341. Normals are never nan for any finite parameter. Kernels work with x/2, so that an x
-/// of the smallest denormal counts as 0.
+/// How parameters are given: as u in [0,1], or centred as x = 2u-1 in [-1,1], which is used without
+/// a rounding. Kernels work with x/2, so that an x of the smallest denormal counts as 0.
+///
+/// Other values extrapolate, as long as |2u-1| is below 2^64 (float) or 2^512 (double). Beyond
+/// that, multiples of the parameter's square are infinite, and directions of degree 3 to 5 give
+/// infinities or nan. Second derivatives by a parameter of degree 5 contain its cube, so that their
+/// limits are 2^43 and 2^341. Normals are never nan for any finite parameter.
 enum class Parameters : std::uint8_t { unit, centred };
 
 /// The centred parameter 2u-1 of a double u, computed in double and rounded once to T.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API T to_centred(double u) noexcept;
 
-/// Consecutive patches or curves of a set, or patches of a mesh: in all calls on a part of them.
+/// Consecutive patches or curves of a set, or patches of a mesh, for calls on a part of them.
 struct SetRange {
   static constexpr std::size_t kToTheEnd = static_cast<std::size_t>(-1);
   std::size_t first = 0;
   std::size_t count = kToTheEnd;
 };
 
-/// A tensor grid of nu x nv parameters common to all patches of a range. Sample
-/// (patch, iu, iv) has the index (patch - patches.first) * nu * nv + iv * nu + iu.
-/// Null u (v): uniform, ends included, x_i = (2i-N)/N with N = nu-1, by one division.
-/// Otherwise u holds nu values, v holds nv, in any order.
+/// A tensor grid of nu x nv parameters for all patches of a range. Sample (patch, iu, iv) has the
+/// index (patch - patches.first) * nu * nv + iv * nu + iu. If u (v) is null, the parameters are
+/// uniform, ends included: x_i = (2i-N)/N with N = nu-1, by one division. Otherwise u holds nu
+/// values and v holds nv, in any order.
 template <typename T>
 struct Grid {
   std::size_t nu = 0;
@@ -53,7 +54,7 @@ struct Grid {
   }
 };
 
-/// Uniform grids, ends included: one for each patch of a range. Their samples have compressed-row
+/// Uniform grids, ends included, one for each patch of a range. The samples have compressed-row
 /// form: sample (iu, iv) of the k-th of these patches has the index offset[k] + iv * nu[k] + iu.
 struct PatchGrids {
   std::span<const std::uint32_t> nu; ///< 2 or more
@@ -61,8 +62,7 @@ struct PatchGrids {
   /// Where each patch's samples begin, ascending by nu*nv or more (samples in between are not
   /// touched). Empty: packed without gaps.
   std::span<const std::size_t> offset = {};
-  /// The patches, as many as nu and nv have values: a count, where one is given, has to be that
-  /// (else unequal_lengths).
+  /// The patches. A count, if given, must be the size of nu and nv (else unequal_lengths).
   SetRange patches = {};
 };
 
@@ -75,9 +75,8 @@ struct Samples {
   Parameters parameters = Parameters::unit;
 };
 
-/// The number of samples of a call, for which every output needs room. 0 where patches outside of
-/// the set are asked for, or where PatchGrids are refused; the largest std::size_t where there are
-/// more than memory can address.
+/// The number of samples of a call, for which every output needs room. 0 if patches are not in the
+/// set or PatchGrids are refused; the largest std::size_t if memory cannot address them.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API std::size_t sample_count(const PatchSet<T>& set,
                                                       const Grid<T>& grid) noexcept;

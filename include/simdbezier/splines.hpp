@@ -7,38 +7,33 @@
 //
 // A direction of degree p with n control points d_0 … d_(n-1) has the knots t_0 <= … <= t_(n+p).
 // Its domain is [t_p, t_n]; every span [a, b] = [t_i, t_(i+1)] of it with a < b is one Bézier
-// piece, whose control points are values of the spline's blossom f:
-//
-//     b_k = f[a, …, a, b, …, b]        (p - k times a, k times b)
-//
-// These are means of p + 1 neighbouring d at most, with factors that follow from the knots alone.
+// piece. Its control points are values of the spline's blossom f, b_k = f[a, …, a, b, …, b] (p - k
+// times a, k times b): means of at most p + 1 neighbouring d with factors made of the knots.
 //
 // Constraints that hold for every call
-//   Knots       n + p + 1 numbers in ascending order, in double whatever the points are. A knot may
-//               occur up to p + 1 times; t_p < t_n. No knots: uniform ones, t_i = i - p.
-//               openNURBS leaves the first and the last one out.
-//   Periodic    directions have n control points, each of which counts again after the last one,
-//               and n + 1 knots t_0 <= … <= t_n: one period, which is the domain. Span [t_i,
-//               t_(i+1)] is a mean of points i to i + p modulo n. No knots: t_i = i.
-//   Ranges      A part of the domain makes the first and the last piece end at values that need not
-//               be knots. Spans that it does not meet have no pieces.
-//   Patches     are numbered along u first: patch iv * patches_u + iu.
-//   Error       Along one direction a control point is off by no more than (m + 2) u max|d|, where
-//               m = (p + 1) / 2 rounded up and u = 2^-53, because factors are rounded once and m
-//               pairs are summed; both directions add. Results in float are rounded once more.
-//               spline_error() has the bound of a surface; docs/accuracy.md has the proof.
-//   Bits        Factors that are 1 copy points: clamped ends are control points bit for bit, and
-//               equal points give that point. Pieces on both sides of a knot that occurs up to p
-//               times have bit-equal points there, as do splines that have equal control points and
-//               knots along an edge on which both are clamped, whichever of u and v they call it
-//               and also where one runs the other way with exactly mirrored knots. Results depend
-//               neither on the instruction set nor on threads, nor on what else is in the call.
-//   Weights     must be above 0; products w P are rounded once to double before anything else, and
-//               those that S cannot hold are coefficient_overflow.
-//   Faults      control values must be finite; the first surface and point at fault is named, and
-//               nothing has been written.
-//   Source      L. Ramshaw, Blossoming: A Connect-the-Dots Approach to Splines, 1987; G. Farin,
-//               Curves and Surfaces for CAGD, 5th ed., 4.7 and 8.
+//   Knots     n + p + 1 numbers in ascending order, in double whatever the points are. A knot may
+//             occur up to p + 1 times; t_p < t_n. No knots: uniform ones, t_i = i - p. openNURBS
+//             leaves the first and the last one out.
+//   Periodic  directions have n control points, which begin again after the last one, and n + 1
+//             knots t_0 <= … <= t_n: one period, which is the domain. Span [t_i, t_(i+1)] is a mean
+//             of points i to i + p modulo n. No knots: t_i = i.
+//   Ranges    A part of the domain makes the first and the last piece end at values that need not
+//             be knots. Spans outside of it have no pieces.
+//   Patches   are numbered along u first: patch iv * patches_u + iu.
+//   Error     Along one direction a control point is off by at most (m + 2) u max|d|, m = (p + 1) /
+//             2 rounded up and u = 2^-53; both directions add. Results in float are rounded once
+//             more. See docs/accuracy.md.
+//   Bits      Factors that are 1 copy points: clamped ends are control points bit for bit, and
+//             equal points give that point. Pieces on both sides of a knot that occurs up to p
+//             times have bit-equal points there. Two splines with equal control points and knots
+//             along an edge on which both are clamped have bit-equal points along it, whichever of
+//             u and v they call it, also if one runs the other way with exactly mirrored knots.
+//             Results do not depend on the instruction set, threads or other splines.
+//   Weights   must be above 0; products w P are rounded once to double before anything else, and
+//             those that S cannot hold are coefficient_overflow.
+//   Faults    control values must be finite; the first surface and point at fault is named.
+//   Source    L. Ramshaw, Blossoming: A Connect-the-Dots Approach to Splines, 1987; G. Farin,
+//             Curves and Surfaces for CAGD, 5th ed., 4.7 and 8.
 #pragma once
 
 #include <cstddef>
@@ -54,7 +49,7 @@
 
 namespace simdbezier {
 
-/// Parameters from `begin` to `end`. Where both are equal, what it restricts is not restricted.
+/// Parameters from `begin` to `end`. If both are equal, the interval does not restrict anything.
 struct Interval {
   double begin = 0;
   double end = 0;
@@ -70,14 +65,14 @@ struct PatchInterval {
   Interval v;
 };
 
-/// A spline surface: rows x columns control points, the points of a row in u.
-/// Component c of point (row, column) is points[row * row_stride + column * point_stride +
-/// c * component_stride]; a weight stands behind the components.
+/// Describes a spline surface: rows x columns control points, the points of a row in u. Component c
+/// of point (row, column) is points[row * row_stride + column * point_stride + c *
+/// component_stride]; a weight stands behind the components.
 template <typename S>
 struct SplineSurface {
   const S* points = nullptr;
   std::size_t rows = 0;    ///< open: degree_v + 1 or more; periodic: degree_v or more
-  std::size_t columns = 0; ///< likewise, in u
+  std::size_t columns = 0; ///< the same in u
   std::ptrdiff_t row_stride = 0;
   std::ptrdiff_t point_stride = 3;
   std::ptrdiff_t component_stride = 1;
@@ -97,7 +92,7 @@ struct SplineSurface {
   std::span<const S> memory = {}; ///< as in ControlNets
 };
 
-/// A spline curve, likewise.
+/// Describes a spline curve, in the same way.
 template <typename S>
 struct SplineCurve {
   const S* points = nullptr;
@@ -122,8 +117,8 @@ struct SpanCounts {
   [[nodiscard]] constexpr std::size_t patches() const noexcept { return u * v; }
 };
 
-/// Where a call on splines stopped: `surface` (or curve) is the first one at fault. Where its knots
-/// are, `point` is the number of the knot and `component` 0 for u, 1 for v; where a control value
+/// Where a call on splines stopped: `surface` (or curve) is the first one at fault. If its knots
+/// are, `point` is the number of the knot and `component` is 0 for u, 1 for v. If a control value
 /// is, `point` is row * columns + column, and `component` as in PackReport.
 struct SplineReport {
   Status status = Status::ok;
@@ -134,32 +129,28 @@ struct SplineReport {
   [[nodiscard]] explicit operator bool() const noexcept { return static_cast<bool>(status); }
 };
 
-/// The patches of a surface, or the pieces of a curve; 0 where it would be refused.
-/// Cost: that of its knots, not of its points.
+/// The number of patches of a surface, or of pieces of a curve; 0 if it would be refused. Cost:
+/// that of its knots, not of its points.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API SpanCounts span_count(const SplineSurface<S>& surface) noexcept;
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API SpanCounts span_count(const SplineCurve<S>& curve) noexcept;
 
 /// Makes Bézier nets of spline surfaces, those of the first surface first.
-///
-/// surfaces:   equal degrees, components and presence of weights; see SplineSurface.
-/// out:        as many nets as there are patches, of the surfaces' degrees and components. Weights
-///             may be Cartesian or homogeneous, whichever form the surfaces have; may not overlap
-///             the surfaces' points. Rational points that are one point whatever their weights (see
+/// surfaces:   equal degrees, components and presence of weights.
+/// out:        as many nets as there are patches, of the surfaces' degrees and components, apart
+///             from their points. Weights may be Cartesian or homogeneous, whichever form the
+///             surfaces have. Rational points that are one point whatever their weights (see
 ///             Weights::homogeneous) stay one.
-/// intervals:  of each patch; or empty.
-/// options:    Options::threads, isa and executed are honoured.
-/// Allocation: tables of the knots, and for each thread degree_v + 2 lines of a row's Bézier
-/// points. Threads:    rows of spans of all surfaces are divided among them. Returns:    ok |
-/// null_input | input_too_small | null_output | output_too_small | bad_degree (also:
-///             not that of `out`) | bad_components (likewise) | bad_weight | bad_stride | bad_grid
-///             (too few points) | bad_knots | bad_range | bad_tolerance | bad_patch_range (`out`
-///             has another number of nets) | unequal_lengths (`intervals`) | overlapping_outputs |
-///             non_finite_input | coefficient_overflow (a product w P) | size_overflow |
-///             unknown_isa | unsupported_isa | out_of_memory.
-/// Cost:       about (degree_u + 1) (degree_v + 1) (degree_v + 1) products and sums a channel and
-///             patch.
+/// intervals:  of each patch; or empty. Of the options, threads, isa and executed are honoured.
+/// Allocation: tables of the knots, and degree_v + 2 lines of Bézier points a thread.
+/// Threads:    share the rows of spans of all surfaces.
+/// Returns:    ok | the statuses of views | null_output | output_too_small | bad_degree,
+///             bad_components (also: not those of `out`) | bad_weight | bad_grid (too few points) |
+///             bad_knots | bad_range | bad_tolerance | bad_patch_range (`out` has another number of
+///             nets) | unequal_lengths (`intervals`) | overlapping_outputs | non_finite_input |
+///             coefficient_overflow (a product w P) | the statuses of running.
+/// Cost:       about (degree_u + 1) (degree_v + 1)^2 products and sums a channel and patch.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API SplineReport to_bezier(std::span<const SplineSurface<T>> surfaces,
                                                     const std::type_identity_t<MutableNets<T>>& out,
@@ -171,8 +162,8 @@ template <typename T>
                                                     std::span<PatchInterval> intervals = {},
                                                     const Options& options = {}) noexcept;
 
-/// The pieces of a curve, in the same way: control points side by side, piece after piece, as
-/// ControlCurves::packed() has them, with weights in the curve's own form.
+/// Makes the pieces of a curve in the same way: control points side by side, piece after piece, as
+/// in ControlCurves::packed(), with weights in the curve's own form.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API SplineReport to_bezier(const SplineCurve<T>& curve,
                                                     const std::type_identity_t<Values<T>>& points,
@@ -181,11 +172,10 @@ template <typename T>
 
 /// Packs the patches of spline surfaces without nets in between: the set is that of to_bezier() in
 /// S, with homogeneous weights, and pack().
-///
 /// surfaces:   any degrees, with and without weights, of the same components.
 /// intervals:  of each patch, as many as `surfaces` have patches (else unequal_lengths); or empty.
 /// Allocation: the set, what to_bezier() needs, and nets of a few rows of spans for each thread.
-/// Returns:    what to_bezier() and pack() return. On an error the set is as it was.
+/// Returns:    what to_bezier() and pack() return.
 template <typename T, typename S>
 [[nodiscard]] SIMDBEZIER_API SplineReport pack(std::span<const SplineSurface<S>> surfaces,
                                                PatchSet<T>& set,
@@ -206,15 +196,12 @@ struct SplinePlaces {
 };
 
 /// Finds the patch and the local parameters of each (U[k], V[k]).
-///
-/// Knots:      at an inner one the patch behind it is taken, which is the right side; at the end of
-///             the domain (or range) the last one.
-/// Periodic:   parameters outside of the period are moved by whole periods.
-/// U, V:       `count` values each, within the domain or range (else bad_range, and nothing is
-///             written), in any order. V may be null for curves.
-/// Returns:    ok | the statuses of knots | null_input | bad_range | non_finite_input; `point` is
-///             the number of the parameter at fault.
-/// Cost:       a binary search for each parameter that is not in the span of the one before.
+/// Knots:    at an inner one the patch behind it (the right side), at the end the last one.
+/// Periodic: parameters outside of the period are moved by whole periods.
+/// U, V:     `count` values each, in any order, in the domain or range (else bad_range).
+/// Returns:  ok | the statuses of knots (bad_degree | bad_grid | null_input | bad_knots | bad_range
+///           | bad_tolerance) | non_finite_input | out_of_memory; `point`: which parameter.
+/// Cost:     a binary search for each parameter that is not in the span of the one before.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API SplineReport locate(const SplineSurface<S>& surface, std::size_t count,
                                                  const double* U, const double* V,
@@ -224,9 +211,8 @@ template <typename S>
                                                  const double* U,
                                                  const SplinePlaces& places) noexcept;
 
-/// What derivatives of these orders by u and v of a patch are to be divided by, to be those by U
-/// and V: length_u^order_u length_v^order_v, one product after the other, as evaluations below
-/// divide.
+/// The divisor that turns derivatives of these orders by u and v of a patch into those by U and V:
+/// length_u^order_u length_v^order_v, one product after the other, as evaluations below divide.
 [[nodiscard]] constexpr double derivative_divisor(int order_u, int order_v, double length_u,
                                                   double length_v) noexcept {
   double divisor = 1;
@@ -239,22 +225,17 @@ template <typename S>
   return divisor;
 }
 
-/// Evaluates a spline surface on the grid of all (U[i], V[j]) in its own parameters: sample (i, j)
-/// has the index j * U.size() + i.
-///
+/// Evaluates a spline surface on the grid of all (U[i], V[j]): sample (i, j) is j * U.size() + i.
 /// surface:    its knots, degrees and ranges are read, its points are not.
 /// set:        made by pack() or by way of to_bezier(); the surface's patches are those from
 ///             `first_patch` on (else bad_patch_range).
-/// U, V:       within the domain or range (else bad_range), as locate() takes them. Ascending ones
-///             are the fastest: consecutive parameters of one span are evaluated together.
-/// out:        as in evaluate(). Derivatives are those by U and V, which divides what evaluate()
-/// has
-///             by the intervals' lengths: by one rounding of the first derivatives, by two of the
-///             second ones. All else has the bits of evaluate() at the centred parameters of the
-///             places that locate() finds.
-/// Knots:      at an inner one the right side counts, at the end of the domain the left one.
+/// U, V:       as locate() takes them. Ascending ones are the fastest: those of one span are
+///             evaluated together. At knots, the patch that locate() takes counts.
+/// out:        as in evaluate(). Derivatives are by U and V: the results of evaluate(), divided by
+///             powers of the intervals' lengths with one rounding (first derivatives) or two
+///             (second ones). All else has the bits of evaluate() at locate()'s places, centred.
 /// Allocation: a few values for each of U and V.
-/// Returns:    what locate() and evaluate() return; on an error nothing has been written.
+/// Returns:    what locate() and evaluate() return.
 template <typename T, typename S>
 [[nodiscard]] SIMDBEZIER_API SplineReport
 evaluate_grid(const PatchSet<T>& set, const SplineSurface<S>& surface, std::span<const double> U,
@@ -269,8 +250,8 @@ template <typename T, typename S>
                                                         const Outputs<T>& out,
                                                         const Options& options = {}) noexcept;
 
-/// Evaluates it at single parameters (U[k], V[k]), in any order and likewise.
-/// Allocation: 36 bytes a sample. Returns also unequal_lengths.
+/// Evaluates a spline surface at single parameters (U[k], V[k]), in any order, otherwise like
+/// evaluate_grid(). Allocation: 36 bytes and two T a sample. Also returns unequal_lengths.
 template <typename T, typename S>
 [[nodiscard]] SIMDBEZIER_API SplineReport
 evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& surface, std::span<const double> U,
@@ -278,8 +259,8 @@ evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& surface, std::s
                  const Options& options = {}, std::size_t first_patch = 0) noexcept;
 
 /// A bound on the error of a Bézier control point of a surface in double, relative to the largest
-/// |d| of the component (with weights: |w d|, and likewise the weights):
-/// (m_u + m_v + 4 + (1 for Cartesian weights)) u (1 + 2^-40), m = (degree + 1) / 2 rounded up.
+/// |d| of the component (with weights: to |w d|, and for weights to the largest of them): (m_u +
+/// m_v + 4 + (1 for Cartesian weights)) u (1 + 2^-40), m = (degree + 1) / 2 rounded up.
 [[nodiscard]] constexpr double spline_error(int degree_u, int degree_v,
                                             Weights weights = Weights::none) noexcept {
   const int pairs = (degree_u + 2) / 2 + (degree_v + 2) / 2;
@@ -287,24 +268,20 @@ evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& surface, std::s
 }
 
 /// A bound on the distance between a surface and its patches at equal parameters, the patches being
-/// those that to_bezier() makes in S, with homogeneous weights if any. With N the numerator, W the
-/// weight, and N', W' of the patches,
-///     N'/W' - N/W = ((N' - N) - (N/W) (W' - W)) / W',
-/// where N/W is no farther away than the farthest control point.
-/// surface: one that to_bezier() accepts. Infinite where weights are too different for a bound.
-/// Cost:    a look at every control point.
+/// those that to_bezier() makes in S, with homogeneous weights if any; infinite for weights too far
+/// apart.
+/// Formula: with N the numerator, W the weight, and N', W' of the patches, N'/W' - N/W = ((N' - N)
+///          - (N/W) (W' - W)) / W'; N/W is no farther away than the farthest control point.
+/// surface: one that to_bezier() accepts. Cost: a look at every control point.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API double extraction_error(const SplineSurface<S>& surface) noexcept;
 
-/// plan_mesh() and tessellate() of mesh.hpp for the patches of spline surfaces, which are numbered
-/// as those of to_bezier().
-///
-/// surfaces:   of any degrees, with and without weights, of three components.
-/// Deviation:  is certified from the splines: extraction_error() is part of it, and of what has to
-///             stay within the tolerance.
-/// report:     where given, says which surface is at fault, and where; ok where none is.
-/// Returns:    what to_bezier() and the call for nets return.
-/// Memory:     besides, the nets of all patches while the mesh is planned.
+/// Meshes of spline surfaces, whose patches are numbered as those of to_bezier(): see mesh.hpp.
+/// surfaces:  of any degrees, with and without weights, of three components.
+/// Deviation: is certified from the splines, with extraction_error() as a part of the tolerance.
+/// report:    if given, says which surface is at fault, and where; ok if none is.
+/// Returns:   what to_bezier() and the call for nets return.
+/// Memory:    also the nets of all patches while the mesh is planned.
 template <typename T, typename S>
 [[nodiscard]] SIMDBEZIER_API MeshPlan<T> plan_mesh(std::span<const SplineSurface<S>> surfaces,
                                                    const MeshOptions& options,

@@ -1,5 +1,5 @@
-// Patches cut where the corner of a neighbour lies on a side, so that one long edge against several
-// short ones becomes several pairs of edges.
+// Patches cut at corners of neighbours that lie on their sides, so that one long edge against
+// several short ones becomes several pairs of edges.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,7 @@ struct SplitOptions {
   /// it. Roundings are allowed in any case: 64 (n + 1) u of the largest coordinate of all control
   /// points, n being the largest degree and u = 2^-24 (float) or 2^-53 (double).
   double snap = 0;
-  /// No cut leads beyond so many patches and pieces. 0: eight times the patches given, or 512 where
-  /// that is more.
+  /// No cut leads beyond so many patches and pieces. 0: 8 times the patches given, at least 512.
   std::size_t most_pieces = 0;
   int threads = 0; ///< as in Options
 };
@@ -35,7 +34,7 @@ struct PatchPiece {
   double v1 = 1;
   double error = 0; ///< how far cutting may have moved any of its points, by roundings
 
-  /// The parameters of the patch where the piece has u or v.
+  /// The parameters of the patch at u or v of the piece.
   [[nodiscard]] constexpr double whole_u(double u) const noexcept { return between(u0, u1, u); }
   [[nodiscard]] constexpr double whole_v(double v) const noexcept { return between(v0, v1, v); }
 
@@ -62,21 +61,18 @@ struct SplitNets {
   SplitCounts counts;
 };
 
-/// Cuts patches at the corners that lie on their open sides, where the part of the side between two
+/// Cuts patches at the corners that lie on their open sides, if the part of the side between two
 /// corners is the side of another patch. A cut divides the opposite side as well, and so all
-/// patches across it, one after the other, up to an open side, a side that is a point, or the patch
-/// where it began. It is repeated until nothing is found: pieces may be as long as several others.
-///
-/// nets:       as for find_topology().
-/// split:      replaced on ok, left as it was otherwise. Where nothing is cut, nets are those
-/// given. Gap:        short edges count as unjoined within a 32nd of their size of a part of
-/// another, or
-///             where a cut would lead to more pieces than allowed.
-/// Threads:    SplitOptions::threads, for topologies. Allocation: as find_topology(), and the
-///             pieces. Determinism: a function of the control points and options. Cost: a
-///             find_topology() each time, and some microseconds for each open side that lies in the
-///             box of another one.
-/// Returns:    as find_topology(), and the statuses of segment() for patches that are to be cut.
+/// patches across it, up to an open side, a side that is a point, or the patch where it began. This
+/// is repeated until nothing is found: pieces may be as long as several others. If nothing is cut,
+/// SplitNets::nets are those given.
+/// nets:    as for find_topology().
+/// Gap:     short edges count as unjoined within a 32nd of their size of a part of another, or if a
+///          cut would lead to more pieces than allowed.
+/// Threads: SplitOptions::threads, for topologies. Allocation: as find_topology(), and the pieces.
+///          Determinism: a function of the control points and options.
+/// Cost:    a find_topology() each time, and microseconds for each open side in another one's box.
+/// Returns: as find_topology(), and the statuses of segment() for patches that are to be cut.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status split_edges(std::span<const ControlNets<S>> nets,
                                                 SplitNets<S>& split,

@@ -8,11 +8,16 @@
 
 namespace simdbezier {
 
-/// How a call ended. True where it is ok, as are the reports that carry one (PackReport):
+/// How a call ended; true on ok, as are the reports that contain a status (PackReport):
 ///
-///     if (const Status status = evaluate(set, grid, out); !status) {
-///       std::puts(to_string(status).data());
-///     }
+///     if (const Status s = evaluate(set, grid, out); !s) { std::puts(to_string(s).data()); }
+/// On an error a call has written nothing, and what it would have replaced is as it was, unless its
+/// comment says otherwise. Comments name three groups of statuses:
+/// Views:   null_input | input_too_small | bad_degree | bad_components | bad_stride |
+///          size_overflow: control nets or curves, or a list of them, that cannot be read.
+/// Outputs: null_output | missing_y | missing_z | extra_y | extra_z (planes unlike the components)
+///          | bad_components | bad_stride | output_too_small | overlapping_outputs | size_overflow.
+/// Running: unknown_isa | unsupported_isa | out_of_memory.
 class Status {
 public:
   enum Code : std::uint8_t {
@@ -21,7 +26,7 @@ public:
     null_output,    ///< no output was asked for, or the memory of one is null
     bad_degree,     ///< a degree is below 1 or above kMostDegree
     bad_components, ///< components are not 1 to kMostComponents, differ, or an output needs three
-    bad_weight,     ///< a weight is not positive and finite, or there are some where none can be
+    bad_weight,     ///< a weight is not positive and finite, or there are some and none can be
     bad_stride,     ///< the strides let two values share one place
     overlapping_outputs,  ///< two outputs share memory, or an output lies in an input
     bad_offsets,          ///< offsets do not ascend far enough for the samples between them
@@ -54,7 +59,7 @@ public:
   constexpr Status(Code code) noexcept : code_(code) {} // NOLINT: Status::ok is a Status
 
   [[nodiscard]] explicit constexpr operator bool() const noexcept { return code_ == ok; }
-  /// What switch takes.
+  /// The code, for a switch.
   [[nodiscard]] constexpr Code code() const noexcept { return code_; }
   friend constexpr bool operator==(Status, Status) noexcept = default;
 

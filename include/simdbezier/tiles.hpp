@@ -22,15 +22,14 @@ enum class TileLayout : std::uint8_t {
 struct TileFormat {
   OutputSelection outputs = {Output::position}; ///< curvatures are planes in every layout
   TileLayout layout = TileLayout::planes;
-  /// The most samples in one tile; 0: what fits half of a first-level cache. A tile holds
-  /// whole patches where one fits, else whole rows of one patch, at least one row.
+  /// The most samples in one tile; 0: what fits 24 KiB, half of a usual first-level cache. A tile
+  /// holds whole patches if one fits, else whole rows of one patch, at least one.
   std::size_t samples = 0;
   int first_component = 0; ///< as in Outputs
 };
 
-/// Finished samples: rows [first_row, first_row + row_count) of patches
-/// [first_patch, first_patch + patch_count), patch after patch, row after row, u fastest. Several
-/// patches come with all of their rows.
+/// Finished samples: rows [first_row, first_row + row_count) of patches [first_patch, first_patch +
+/// patch_count), patch after patch, row after row, u fastest. If there are several, they are whole.
 template <typename T>
 struct Tile {
   std::size_t first_patch = 0; ///< index in the set
@@ -46,8 +45,7 @@ struct Tile {
 template <typename T>
 class TileFunction;
 
-/// What a TileFunction can be made of. Another TileFunction is no such thing, since a copy of one
-/// borrows what that borrows, and not the TileFunction.
+/// What a TileFunction can borrow. Another TileFunction is copied instead, and borrows the same.
 template <typename F, typename T>
 concept TileCallable =
     !std::same_as<std::remove_cvref_t<F>, TileFunction<T>> && std::invocable<F&, const Tile<T>&>;
@@ -86,19 +84,17 @@ private:
 /// Evaluates every patch of a range on one grid, tile by tile, and hands each tile to `function` on
 /// the thread that made it, so that it is read from that thread's cache. Every sample arrives once;
 /// each worker's tiles ascend, the order between workers is not fixed. Values are those of
-/// evaluate(), bit for bit. Options::destination has no meaning here.
-/// Allocation: one tile and its staging a thread.
-/// Returns ok | null_output (the format wants no vector and no curvature) | bad_components |
-/// bad_grid | bad_patch_range | size_overflow | unknown_isa | unsupported_isa | out_of_memory. On
-/// an error no tile was handed out.
+/// evaluate(), bit for bit. Options::destination has no meaning. Allocation: one tile and its
+/// staging a thread. Returns ok | null_output (the format wants no vector and no curvature) |
+/// bad_components | bad_grid | bad_patch_range | size_overflow | the statuses of running. On an
+/// error no tile was handed out.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API Status evaluate_tiles(const PatchSet<T>& set, const Grid<T>& grid,
                                                    const TileFormat& format,
                                                    std::type_identity_t<TileFunction<T>> function,
                                                    const Options& options = {}) noexcept;
 
-/// The number of samples of the largest tile that evaluate_tiles() will hand out; 0 where it will
-/// refuse its input.
+/// The samples of the largest tile that evaluate_tiles() will hand out; 0 if it will refuse them.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API std::size_t largest_tile(const PatchSet<T>& set, const Grid<T>& grid,
                                                       const TileFormat& format) noexcept;

@@ -20,8 +20,8 @@ namespace detail {
 struct TopologyData;
 }
 
-/// What a model is made of. A side is an edge of one patch; sides with equal control points are one
-/// edge of the model, as find_adjacency() compares them.
+/// What a model is made of. A side is an edge of one patch; sides with equal control points,
+/// compared as by find_adjacency(), are one edge of the model.
 struct TopologyCounts {
   std::size_t patches = 0;
   std::size_t edges = 0;              ///< collapsed ones are not counted
@@ -41,21 +41,19 @@ struct TopologyCounts {
 /// How edges are joined.
 struct TopologyOptions {
   /// A side whose control points all lie within this distance of both of its ends counts as a
-  /// point, and so do all sides that share its edge. 0: where they are one point, as for
-  /// find_adjacency().
+  /// point, as do all sides that share its edge. 0: only if they are one point (find_adjacency()).
   double point_size = 0;
   /// Turns patches so that the normals of neighbours agree: those that disagree with the lowest
-  /// patch of their connected part. Without it, all stay as they are given.
+  /// patch of their connected part. Otherwise all stay as they are given.
   bool orient = false;
-  /// Then turns all patches: triangles run the other way round, and normals point to the other
-  /// side.
+  /// Turns all patches after that: triangles run, and normals point, the other way.
   bool flip = false;
-  /// Pairs of open sides become one edge, in either direction, the closest first, where points of
-  /// equal parameters are certainly within this distance of each other: a mesh has the points of
+  /// Joins pairs of open sides to one edge, in either direction, the closest first, if points of
+  /// equal parameters are certainly within this distance of each other; a mesh has the points of
   /// the lower side there. The bound compares control points and weights after degrees have been
   /// raised to the higher one and weights divided by the largest (docs/tessellation.md). Sides that
-  /// are no longer than this become points, as by point_size, as do open ones that match a point.
-  /// 0: only sides with equal control points are one.
+  /// are no longer than this become points, as by point_size, and open sides that match a point
+  /// become points, too. 0: only sides with equal control points are one.
   double snap = 0;
   int threads = 0; ///< as in Options
 };
@@ -66,16 +64,16 @@ public:
   Topology() noexcept = default;
 
   [[nodiscard]] SIMDBEZIER_API TopologyCounts counts() const noexcept;
-  /// The same of some patches: edges and corners count for the lowest patch that has them, so that
+  /// The same for some patches: edges and corners count for the lowest patch that has them, so that
   /// sums over all parts of a model are the model's. snapped_sides and `orientable` are those of
-  /// all patches. Zeros where there are no such patches.
+  /// all patches. Zeros if there are no such patches.
   [[nodiscard]] SIMDBEZIER_API TopologyCounts counts(SetRange patches) const noexcept;
   /// Whether a patch is turned (TopologyOptions::orient, flip).
   [[nodiscard]] SIMDBEZIER_API bool is_turned(std::size_t patch) const noexcept;
   /// Whether a patch has all control points of an earlier one.
   [[nodiscard]] SIMDBEZIER_API bool is_repeated(std::size_t patch) const noexcept;
   /// Whether a patch shares corners with another patch, or with itself, that no common edge
-  /// explains: separate_vertices() may have to raise its rates, which depends on its neighbours.
+  /// explains: separate_vertices() may have to raise its rates, depending on its neighbours.
   [[nodiscard]] SIMDBEZIER_API bool is_entangled(std::size_t patch) const noexcept;
 
   /// This is for the library's own use.
@@ -87,25 +85,19 @@ private:
   std::shared_ptr<const detail::TopologyData> data_;
 };
 
-/// Joins the edges of all patches with equal control points (find_adjacency()), and their corners.
-///
-/// Corners are joined through edges, not by their positions: corners that touch only in a point
-/// stay apart. An edge may have any number of sides.
-///
-/// nets:       any number of views, with any degrees and three components; patches are numbered
-///             through, view after view.
-/// topology:   replaced on ok, left as it was otherwise.
-/// Threads:    TopologyOptions::threads. Some steps are one thread's work: joining corners of
-///             patches whose numbers are far apart, snapping, and all that concerns repeated
-///             patches and those that meet in more than a corner or an edge.
-/// Allocation: about 60 bytes a side. Determinism: a function of the control points and of the
-///             options other than `threads`. Cost: some 0.2 to 0.7 us a patch; more where
-///             thousands of patches have the same four edges, or values that are nan: these take
-///             the square of their number.
-/// Returns:    ok | null_input | input_too_small | bad_degree | bad_components (not three) |
-///             bad_stride | bad_tolerance (a point_size or snap below 0, or nan) | not_orientable
-///             (where `orient` is asked for) | size_overflow (2^29 patches and more) |
-///             out_of_memory.
+/// Joins the edges of all patches with equal control points (find_adjacency()), and their corners,
+/// as meshes need them. Corners are joined through edges, not by their positions: corners that
+/// touch only in a point stay apart. An edge may have any number of sides.
+/// nets:       any views with three components; patches are numbered through, view after view.
+/// Threads:    TopologyOptions::threads. One alone joins corners of patches with distant numbers,
+///             snaps, and looks at patches that are repeated or share more than a corner or an
+///             edge.
+/// Allocation: about 60 bytes a side. Determinism: a function of the control points and options.
+/// Cost:       some 0.2 to 0.7 us a patch. If thousands of patches have the same four edges, or
+///             values that are nan, these take the square of their number.
+/// Returns:    ok | the statuses of views (bad_components: not three) | bad_tolerance (a point_size
+///             or snap below 0, or nan) | not_orientable (if `orient` is asked for) | size_overflow
+///             (2^29 patches and more) | out_of_memory.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status find_topology(std::span<const ControlNets<S>> nets,
                                                   Topology& topology,
@@ -124,15 +116,11 @@ struct DistinctNets {
   std::vector<std::uint32_t> patches; ///< the number of each patch there
 };
 
-/// Leaves out the patches that Topology::is_repeated() names. What remains is a model of its own:
-/// find_topology() has to be called again, with views that number the patches anew.
-///
-/// nets:       those that `topology` is of. A view ends before each patch that is left out, and
-///             another one begins behind it.
-/// distinct:   replaced on ok, left as it was otherwise.
-/// Threads:    one. Allocation: 4 bytes a patch, and the views. Cost: some nanoseconds a patch.
-/// Returns:    ok | null_input (no list of views) | unequal_lengths (the topology is one of another
-///             number of patches) | out_of_memory.
+/// Leaves out the patches that Topology::is_repeated() names. What remains is a model of its own,
+/// for which find_topology() has to be called again, since its patches have other numbers.
+/// nets:    those of `topology`. Each patch that is left out ends a view.
+/// Threads: one. Allocation: 4 bytes a patch, and the views. Cost: some nanoseconds a patch.
+/// Returns: ok | null_input (no list) | unequal_lengths (other number of patches) | out_of_memory.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status find_distinct_nets(std::span<const ControlNets<S>> nets,
                                                        const Topology& topology,
@@ -140,14 +128,12 @@ template <typename S>
 
 /// Whether nets have all joints of a topology that was found for others of the same shapes, such as
 /// an earlier frame of a model that moves: sides that it joins still have equal control points (or
-/// are still within TopologyOptions::snap of each other), and sides that it takes for points are
-/// points (within point_size). Meshes of such nets have no gap there. Sides that have become equal
-/// since then are not looked for. choose_rates() and certify_rates() refuse nets that do not fit.
-///
-/// options:    threads count, the other members have no meaning. Allocation: some bytes a view.
-///             Determinism: a function of the topology and the control points. Cost: some 40 ns a
-///             patch; 1 us where the topology has been snapped.
-/// Returns:    false also where find_topology() would refuse the nets.
+/// are within TopologyOptions::snap of each other), and sides that it takes for points are points
+/// (within point_size). Meshes of such nets have no gap there. Sides that have become equal since
+/// then are not looked for. choose_rates() and certify_rates() refuse nets that do not fit.
+/// options: only threads counts. Allocation: some bytes a view. Determinism: a function of the
+///          topology and the control points. Cost: some 40 ns a patch; 1 us if snapped.
+/// Returns: false also if find_topology() would refuse the nets, or memory is lacking.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API bool fits(const Topology& topology,
                                        std::span<const ControlNets<S>> nets,

@@ -12,9 +12,9 @@ namespace simdbezier {
 /// The capacity of memory that is given by a pointer alone: the call trusts that it suffices.
 inline constexpr std::size_t kTrusted = static_cast<std::size_t>(-1);
 
-/// Where one vector-valued output goes: component c of sample k is c-th pointer [k * stride],
-/// stride in elements. All three null: not asked for. Made from spans, it knows how many samples it
-/// has room for, and calls that have more return output_too_small.
+/// Where one vector-valued output goes: component c of sample k is c-th pointer [k * stride], with
+/// the stride in elements. All three null: not asked for. If made from spans, it knows its
+/// capacity, and calls with more samples return output_too_small.
 template <typename T>
 struct Vectors {
   T* x = nullptr;
@@ -23,8 +23,8 @@ struct Vectors {
   std::ptrdiff_t stride = 1;
   std::size_t capacity = kTrusted; ///< samples
 
-  /// x y z triples (AoS), `stride` elements from one to the next: 3 when packed, the size of a
-  /// vertex when interleaved. Of a span that begins with the first triple, strides of 3 and more.
+  /// x y z triples (AoS), `stride` elements from one to the next: 3 if packed, the size of a vertex
+  /// if interleaved. A span begins with the first triple and needs a stride of 3 or more.
   [[nodiscard]] static constexpr Vectors xyz(T* first, std::ptrdiff_t stride = 3) noexcept {
     return {first, first + 1, first + 2, stride};
   }

@@ -1,7 +1,5 @@
-// Vertices of a mesh in the formats that graphics processors and glTF read.
-//
-// Every value is formed from evaluate_mesh()'s own, so that vertices of equal bits have equal bits
-// in any format.
+// Vertices of a mesh in the formats that graphics processors and glTF read. Every value is computed
+// from evaluate_mesh()'s own, so that vertices of equal bits have equal bits in any format.
 #pragma once
 
 #include <array>
@@ -13,10 +11,9 @@
 
 namespace simdbezier {
 
-/// How one output of a vertex is stored. Errors are those of storing alone, besides those of the
-/// values themselves.
+/// How one output of a vertex is stored. The errors below are those of storing alone.
 enum class VertexFormat : std::uint8_t {
-  float32, ///< 4 bytes a component; none where values are float
+  float32, ///< 4 bytes a component; none if values are float
   half,    ///< 2 bytes: 2^-11 of the value, 2^-25 below 2^-14; infinite above 65 504
   unorm16, ///< 2 bytes: 0 to 65 535. Positions: low + step q, off by step / 2 at most a component,
            ///< in a box with one step for all axes. Parameters: q / 65 535.
@@ -25,8 +22,7 @@ enum class VertexFormat : std::uint8_t {
   octahedral8   ///< normals alone, two snorm8: 0.95 degrees at most
 };
 
-/// Bytes of one vertex's output of `components` components: 3 for positions and normals, 2 for
-/// parameters.
+/// The bytes of one vertex's output: 3 components for positions and normals, 2 for parameters.
 [[nodiscard]] constexpr std::size_t format_bytes(VertexFormat format,
                                                  std::size_t components) noexcept {
   switch (format) {
@@ -49,18 +45,17 @@ struct FormattedOutput {
   std::size_t capacity = kTrusted; ///< vertices
 };
 
-/// A box and its step, for positions as unorm16 or snorm16: position = low + step q. One step for
-/// all axes, since a scale of its own for each would turn normals; one box for a whole model, so
-/// that edges shared with other meshes of it stay shared.
+/// A box and its step, for positions as unorm16 or snorm16: position = low + step q. All axes have
+/// one step, since different scales would turn normals; a whole model has one box, so that edges
+/// shared with other meshes of it stay shared.
 struct QuantisationBox {
   std::array<double, 3> low = {0, 0, 0};
   double step = 0;
 };
 
-/// The box of all control points, for one of the two formats.
-/// Returns: ok | null_input | input_too_small | bad_degree | bad_components | bad_stride |
-///          size_overflow | non_finite_input | bad_tolerance (another format, or points so close to
-///          each other, or so far apart, that the step is 0 or infinite).
+/// Finds the box of all control points of three components, for one of the two formats.
+/// Returns: ok | the statuses of views | non_finite_input | bad_tolerance (another format, or
+///          points so close to each other, or so far apart, that the step is 0 or infinite).
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API Status quantisation_box(std::span<const ControlNets<S>> nets,
                                                      VertexFormat format,
@@ -72,15 +67,13 @@ struct FormattedOutputs {
   FormattedOutput position;   ///< float32, half, unorm16, snorm16
   FormattedOutput normal;     ///< float32, octahedral16, octahedral8; zero ones become +z
   FormattedOutput parameters; ///< float32, half, unorm16
-  QuantisationBox box;        ///< the box of positions; what lies outside of it comes to its border
+  QuantisationBox box;        ///< the box of positions; what lies outside of it moves to its border
 };
 
 /// Evaluates vertices as evaluate_mesh(set, layout, MeshOutputs, …) does, and formats them.
-///
-/// Octahedral: n / (|x| + |y| + |z|), of which the lower half is folded over the upper one, is a
-///             point (s, t) of a square: rounded to the nearest q / 32 767 or q / 127. Source: Z.
-///             Cigolle et al., "A Survey of Efficient Representations for Independent Unit
-///             Vectors", JCGT 3(2), 2014.
+/// Octahedral: n / (|x| + |y| + |z|), whose lower half is folded over the upper one, is a point (s,
+///             t) of a square: rounded to the nearest q / 32 767 or q / 127. Source: Z. Cigolle et
+///             al., A Survey of Efficient Representations for Independent Unit Vectors, JCGT, 2014.
 /// Returns:    as that call; bad_components also for a format that an output does not have,
 ///             bad_tolerance for a box without a step.
 template <typename T>

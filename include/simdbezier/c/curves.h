@@ -5,14 +5,14 @@
 
 SIMDBEZIER_BEGIN_C
 
-// CurveGrid: n parameters of every curve; sample (curve, i) has the index
-// (curve - first_curve) * n + i.
+// CurveGrid: n parameters of every curve; sample (curve, i) is number (curve - first_curve) * n +
+// i.
 typedef struct simdbezier_curve_grid {
   size_t struct_size;
   size_t n;
   const void* t;            // null: uniform, ends included; else n values
   size_t t_length;          // elements behind t
-  simdbezier_scalar scalar; // of t, where there is any: that of the set
+  simdbezier_scalar scalar; // of t, if there is any: that of the set
   simdbezier_parameters parameters;
   size_t first_curve;
   size_t curve_count; // 0: all from first_curve on
@@ -58,8 +58,7 @@ typedef struct simdbezier_curve_outputs {
   int32_t first_component;
 } simdbezier_curve_outputs;
 
-// evaluate() of curves. They return its statuses and null_input | bad_struct_size | bad_scalar |
-// bad_value | bad_alignment | input_too_small (fewer t than n).
+// evaluate() of curves. input_too_small also for fewer t than n.
 SIMDBEZIER_API simdbezier_status simdbezier_evaluate_curve_grid(const simdbezier_curve_set* set,
                                                                 const simdbezier_curve_grid* grid,
                                                                 const simdbezier_curve_outputs* out,
@@ -82,9 +81,7 @@ typedef int32_t simdbezier_edge;
 enum { SIMDBEZIER_EDGE_V0, SIMDBEZIER_EDGE_V1, SIMDBEZIER_EDGE_U0, SIMDBEZIER_EDGE_U1 };
 
 // boundary_curves(): the control points of one edge of every net, in the memory of the nets.
-// Returns ok | null_input | null_output | bad_struct_size | bad_scalar | bad_value | bad_alignment
-// | bad_degree | bad_components | bad_stride | size_overflow | input_too_small, and writes nothing
-// where it is not ok.
+// Returns the statuses of views, null_output, and what the C form adds.
 SIMDBEZIER_API simdbezier_status simdbezier_boundary_curves(const simdbezier_nets* nets,
                                                             simdbezier_edge edge,
                                                             simdbezier_control_curves* curves);

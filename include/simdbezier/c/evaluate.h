@@ -15,7 +15,7 @@ typedef struct simdbezier_grid {
   size_t u_length; // elements behind u
   const void* v;
   size_t v_length;
-  simdbezier_scalar scalar; // of u and v, where there are any: that of the set
+  simdbezier_scalar scalar; // of u and v, if there are any: that of the set
   simdbezier_parameters parameters;
   size_t first_patch;
   size_t patch_count; // 0: all from first_patch on
@@ -103,9 +103,8 @@ typedef struct simdbezier_outputs {
   int32_t first_component;
 } simdbezier_outputs;
 
-// evaluate() on one grid, on a grid for each patch, and at single samples. Null options: all zero.
-// They return its statuses and null_input | bad_struct_size | bad_scalar | bad_value |
-// bad_alignment | input_too_small (fewer u or v than nu or nv).
+// evaluate() on one grid, on a grid for each patch, and at single samples. input_too_small also for
+// fewer u or v than nu or nv.
 SIMDBEZIER_API simdbezier_status simdbezier_evaluate_grid(const simdbezier_patch_set* set,
                                                           const simdbezier_grid* grid,
                                                           const simdbezier_outputs* out,
@@ -118,8 +117,8 @@ SIMDBEZIER_API simdbezier_status simdbezier_evaluate_samples(const simdbezier_pa
                                                              const simdbezier_outputs* out,
                                                              const simdbezier_options* options);
 
-// sample_count(): the number of samples of a call; 0 where patches outside of the set are asked
-// for, or where grids of patches are refused, which simdbezier_last_fault() then does not explain.
+// sample_count(): the number of samples of a call; 0, which simdbezier_last_fault() does not
+// explain, if patches are not in the set or grids of patches are refused.
 SIMDBEZIER_API size_t simdbezier_grid_sample_count(const simdbezier_patch_set* set,
                                                    const simdbezier_grid* grid);
 SIMDBEZIER_API size_t simdbezier_patch_grids_sample_count(const simdbezier_patch_set* set,

@@ -43,7 +43,7 @@ SIMDBEZIER_API simdbezier_status simdbezier_number_part(const simdbezier_mesh_la
 SIMDBEZIER_API int32_t simdbezier_topology_is_entangled(const simdbezier_topology* topology,
                                                         size_t patch);
 
-// MeshLayout::corner(), segments(), along(), inner(). Where there is no such vertex: UINT32_MAX.
+// MeshLayout::corner(), segments(), along(), inner(); UINT32_MAX if there is no such vertex.
 SIMDBEZIER_API uint32_t simdbezier_mesh_layout_corner(const simdbezier_mesh_layout* layout,
                                                       size_t patch, size_t corner);
 SIMDBEZIER_API uint32_t simdbezier_mesh_layout_segments(const simdbezier_mesh_layout* layout,

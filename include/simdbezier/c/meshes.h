@@ -77,8 +77,7 @@ typedef struct simdbezier_mesh_outputs {
   size_t patch_length;
 } simdbezier_mesh_outputs;
 
-// evaluate_mesh(), evaluate_mesh_attributes(): for patch_count patches from first_patch on, 0 being
-// all of them.
+// evaluate_mesh(), evaluate_mesh_attributes() from first_patch on; patch_count 0: to the end.
 SIMDBEZIER_API simdbezier_status simdbezier_evaluate_mesh(const simdbezier_patch_set* set,
                                                           const simdbezier_mesh_layout* layout,
                                                           const simdbezier_mesh_outputs* out,
@@ -88,13 +87,13 @@ SIMDBEZIER_API simdbezier_status simdbezier_evaluate_mesh_attributes(
     const simdbezier_patch_set* set, const simdbezier_mesh_layout* layout,
     const simdbezier_vectors* out, int32_t first_component, const simdbezier_options* options,
     size_t first_patch, size_t patch_count);
-// split_creases(). split: written on ok only.
+// split_creases().
 SIMDBEZIER_API simdbezier_status simdbezier_split_creases(const simdbezier_patch_set* set,
                                                           const simdbezier_mesh_layout* layout,
                                                           double angle,
                                                           const simdbezier_options* options,
                                                           simdbezier_mesh_layout** split);
-// split_parameters(). split: written on ok only.
+// split_parameters().
 SIMDBEZIER_API simdbezier_status simdbezier_split_parameters(const simdbezier_mesh_layout* layout,
                                                              simdbezier_mesh_layout** split);
 
@@ -125,7 +124,7 @@ typedef struct simdbezier_mesh_options {
   int32_t local_origin;
   int32_t threads;
   simdbezier_isa isa;
-  int32_t split_edges; // not 0: patches are cut where corners of others lie on their open sides
+  int32_t split_edges; // not 0: patches are cut at corners of others on their open sides
 } simdbezier_mesh_options;
 
 typedef struct simdbezier_mesh simdbezier_mesh;
@@ -150,7 +149,7 @@ typedef struct simdbezier_mesh_arrays {
   double largest_gap;
 } simdbezier_mesh_arrays;
 
-// tessellate(): a mesh whose vertices have the type `scalar`. mesh: written on ok only.
+// tessellate(): a mesh whose vertices have the type `scalar`.
 SIMDBEZIER_API simdbezier_status simdbezier_tessellate(const simdbezier_nets* nets, size_t length,
                                                        simdbezier_scalar scalar,
                                                        const simdbezier_mesh_options* options,
@@ -193,7 +192,7 @@ typedef struct simdbezier_mesh_plan_parts {
   double largest_gap;
 } simdbezier_mesh_plan_parts;
 
-// plan_mesh(): what simdbezier_tessellate() evaluates. plan: written on ok only.
+// plan_mesh(): what simdbezier_tessellate() evaluates.
 SIMDBEZIER_API simdbezier_status simdbezier_plan_mesh(const simdbezier_nets* nets, size_t length,
                                                       simdbezier_scalar scalar,
                                                       const simdbezier_mesh_options* options,

@@ -56,7 +56,7 @@ typedef struct simdbezier_topology_counts {
   int32_t orientable;
 } simdbezier_topology_counts;
 
-// find_topology(). topology: written on ok only.
+// find_topology().
 SIMDBEZIER_API simdbezier_status simdbezier_find_topology(
     const simdbezier_nets* nets, size_t length, const simdbezier_topology_options* options,
     simdbezier_topology** topology);
@@ -134,20 +134,19 @@ SIMDBEZIER_API simdbezier_status simdbezier_choose_rates(const simdbezier_nets* 
 SIMDBEZIER_API simdbezier_status simdbezier_certify_rates(
     const simdbezier_nets* nets, size_t length, const simdbezier_topology* topology,
     const double* errors, size_t errors_length, const simdbezier_rates* rates, int32_t threads);
-// certify_grids(): deviation has one value a patch, and so has errors, which may be null.
+// certify_grids(): deviation has one value a patch; errors has as many, or is null.
 SIMDBEZIER_API simdbezier_status simdbezier_certify_grids(const simdbezier_nets* nets,
                                                           size_t length, uint32_t nu, uint32_t nv,
                                                           const double* errors,
                                                           size_t errors_length, double* deviation,
                                                           size_t deviation_length, int32_t threads);
-// separate_vertices(): raises rates of 1; `raised` may be null.
+// separate_vertices(): raises small rates; `raised` may be null.
 SIMDBEZIER_API simdbezier_status simdbezier_separate_vertices(const simdbezier_topology* topology,
                                                               uint32_t* nu, size_t nu_length,
                                                               uint32_t* nv, size_t nv_length,
                                                               size_t* raised);
 
-// lay_out_mesh(): of nu, nv and, where they are not null, diagonals. Of the options, threads count.
-// layout: written on ok only.
+// lay_out_mesh(): of nu, nv and, if not null, diagonals. Of the options, threads count.
 SIMDBEZIER_API simdbezier_status simdbezier_lay_out_mesh(const simdbezier_topology* topology,
                                                          const simdbezier_rates* rates,
                                                          const simdbezier_options* options,

@@ -1,5 +1,4 @@
-// nets.hpp, bases.hpp, bounds.hpp: from control nets to control nets, and bounds of them. All nets
-// of a call have one type.
+// nets.hpp, bases.hpp, bounds.hpp: nets from nets, and bounds. Nets of a call have one type.
 #pragma once
 
 #include <simdbezier/c/sets.h>

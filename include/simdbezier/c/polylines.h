@@ -1,10 +1,8 @@
-// flatten.hpp: curves as polylines that stay within a tolerance of them.
+// flatten.hpp: curves as polylines within a tolerance; simdbezier_flatten() does both steps.
 //
 //     simdbezier_choose_polylines(&curves, &options, points, count, NULL, 0);   sizes first
 //     grids.n = points;                                                         then points
 //     simdbezier_evaluate_curve_grids(set, &grids, &out, NULL);
-//
-// simdbezier_flatten() does both in one call.
 #pragma once
 
 #include <simdbezier/c/sets.h>
@@ -26,8 +24,6 @@ typedef struct simdbezier_flatten_options {
 } simdbezier_flatten_options;
 
 // choose_polylines(): points and deviation have one value a curve, and deviation may be null.
-// Returns its statuses and null_input | null_output | bad_struct_size | bad_scalar | bad_value |
-// bad_alignment.
 SIMDBEZIER_API simdbezier_status simdbezier_choose_polylines(
     const simdbezier_control_curves* curves, const simdbezier_flatten_options* options,
     uint32_t* points, size_t points_length, double* deviation, size_t deviation_length);
@@ -40,12 +36,12 @@ typedef struct simdbezier_polyline_arrays {
   simdbezier_scalar scalar; // of points
   size_t curves;
   size_t vertices;     // of all polylines
-  const void* points;  // 3 a vertex; null where there is none
+  const void* points;  // 3 a vertex; null if there is none
   const size_t* first; // of every curve among the vertices, and the end of the last
   double deviation;
 } simdbezier_polyline_arrays;
 
-// flatten(): polylines whose points have the type `scalar`. polylines: written on ok only.
+// flatten(): polylines whose points have the type `scalar`.
 SIMDBEZIER_API simdbezier_status simdbezier_flatten(const simdbezier_control_curves* curves,
                                                     simdbezier_scalar scalar, double tolerance,
                                                     const simdbezier_options* options,

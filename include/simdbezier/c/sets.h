@@ -1,5 +1,4 @@
-// Packed sets of patches and curves: control_nets.hpp, control_curves.hpp, patch_set.hpp,
-// error_bounds.hpp.
+// Packed sets: control_nets.hpp, control_curves.hpp, patch_set.hpp, error_bounds.hpp.
 #pragma once
 
 #include <simdbezier/c/types.h>
@@ -13,9 +12,9 @@ enum { SIMDBEZIER_MOST_DEGREE = 15, SIMDBEZIER_MOST_COMPONENTS = 16 };
 // j * row_stride + i * point_stride + c * component_stride]; a weight stands behind the components.
 typedef struct simdbezier_nets {
   size_t struct_size;
-  const void* points; // may be null only where count is 0
+  const void* points; // may be null only if count is 0
   size_t length;      // elements behind `points`; all values lie within
-  ptrdiff_t first;    // not 0 where a stride is negative: the net seen from its other end
+  ptrdiff_t first;    // not 0 if a stride is negative: the net seen from its other end
   size_t count;
   ptrdiff_t net_stride;
   ptrdiff_t row_stride;
@@ -63,8 +62,8 @@ typedef struct simdbezier_control_curves {
   simdbezier_scalar scalar;
 } simdbezier_control_curves;
 
-// Nets with all values side by side, u fastest, as many as there are points for. Incomplete ones
-// count, so that calls refuse them.
+// Nets with all values side by side, u fastest, as many as there are points for, incomplete ones
+// included, so that calls refuse them.
 static inline simdbezier_nets simdbezier_packed_nets_of(const void* points, size_t length,
                                                         int32_t degree_u, int32_t degree_v,
                                                         int32_t components,
@@ -180,8 +179,7 @@ typedef struct simdbezier_pack_options {
 typedef struct simdbezier_patch_set simdbezier_patch_set;
 typedef struct simdbezier_curve_set simdbezier_curve_set;
 
-// pack(): forms a set whose results have the type `scalar`, of nets that all have one type, which
-// may be the other one. set: written on ok only.
+// pack(): a set whose results have the type `scalar`; all nets have one type, which may differ.
 SIMDBEZIER_API simdbezier_status simdbezier_pack(const simdbezier_nets* nets, size_t length,
                                                  simdbezier_scalar scalar,
                                                  const simdbezier_pack_options* options,
@@ -220,7 +218,7 @@ SIMDBEZIER_API int32_t simdbezier_curve_set_components(const simdbezier_curve_se
 SIMDBEZIER_API int32_t simdbezier_curve_set_rational(const simdbezier_curve_set* set);
 SIMDBEZIER_API int32_t simdbezier_curve_set_has_local_origins(const simdbezier_curve_set* set);
 
-// ErrorBounds: absolute bounds a component, 0 where there is no such component.
+// ErrorBounds: absolute bounds a component, 0 if there is no such component.
 typedef struct simdbezier_error_bounds_of_patch {
   size_t struct_size;
   double position[SIMDBEZIER_MOST_COMPONENTS];

@@ -8,13 +8,12 @@
 SIMDBEZIER_BEGIN_C
 
 // SplineSurface: component c of control point (row, column) is points[first + row * row_stride +
-// column * point_stride + c * component_stride]; a weight stands behind the components. u runs
-// along a row.
+// column * point_stride + c * component_stride], with a weight behind; u runs along a row.
 typedef struct simdbezier_spline_surface {
   size_t struct_size;
   const void* points;
   size_t length;   // elements behind `points`; all values lie within
-  ptrdiff_t first; // not 0 where a stride is negative
+  ptrdiff_t first; // not 0 if a stride is negative
   size_t rows;     // degree_v + 1 or more; periodic: degree_v or more
   size_t columns;
   ptrdiff_t row_stride;
@@ -38,7 +37,7 @@ typedef struct simdbezier_spline_surface {
   int32_t periodic_v;
 } simdbezier_spline_surface;
 
-// SplineCurve, likewise.
+// SplineCurve, in the same way.
 typedef struct simdbezier_spline_curve {
   size_t struct_size;
   const void* points;
@@ -59,8 +58,7 @@ typedef struct simdbezier_spline_curve {
   int32_t periodic;
 } simdbezier_spline_curve;
 
-// PatchInterval: what a patch stands for, u = (U - u_begin) / (u_end - u_begin); and Interval, the
-// same for a piece of a curve.
+// PatchInterval: u = (U - u_begin) / (u_end - u_begin). Interval: that of a piece of a curve.
 typedef struct simdbezier_patch_interval {
   double u_begin;
   double u_end;
@@ -83,8 +81,7 @@ typedef struct simdbezier_spline_places {
   double* length_v;
 } simdbezier_spline_places;
 
-// Control points with all values side by side, row after row, and uniform knots: knots, ranges and
-// periods can be set afterwards.
+// Control points with all values side by side, row after row, and uniform knots; set others later.
 static inline simdbezier_spline_surface
 simdbezier_packed_spline_surface_of(const void* points, size_t length, size_t rows, size_t columns,
                                     int32_t degree_u, int32_t degree_v, int32_t components,
@@ -147,9 +144,8 @@ simdbezier_packed_spline_curve_f64(const double* points, size_t length, size_t c
                                            SIMDBEZIER_F64);
 }
 
-// Faults of all calls below: simdbezier_fault::patch is the number of the spline at fault, and
-// `point` that of its control point (row * columns + column), its knot, or the parameter, as the
-// argument says.
+// Faults of all calls below: simdbezier_fault::patch is the spline at fault, and `point` its
+// control point (row * columns + column), its knot, or the parameter, as the argument says.
 
 // span_count(): the points are not read.
 SIMDBEZIER_API simdbezier_status simdbezier_spline_span_count(
@@ -157,7 +153,7 @@ SIMDBEZIER_API simdbezier_status simdbezier_spline_span_count(
 SIMDBEZIER_API simdbezier_status
 simdbezier_spline_curve_span_count(const simdbezier_spline_curve* curve, size_t* spans);
 
-// to_bezier(): intervals may be null, where intervals_length is 0.
+// to_bezier(): intervals may be null if intervals_length is 0.
 SIMDBEZIER_API simdbezier_status simdbezier_spline_to_bezier(
     const simdbezier_spline_surface* surfaces, size_t length, const simdbezier_mutable_nets* out,
     simdbezier_patch_interval* intervals, size_t intervals_length,
@@ -167,7 +163,7 @@ SIMDBEZIER_API simdbezier_status simdbezier_spline_curve_to_bezier(
     const simdbezier_spline_curve* curve, simdbezier_values points, simdbezier_interval* intervals,
     size_t intervals_length, const simdbezier_options* options);
 
-// pack(): a set whose results have the type `scalar`. set: written on ok only.
+// pack(): a set whose results have the type `scalar`.
 SIMDBEZIER_API simdbezier_status simdbezier_spline_pack(const simdbezier_spline_surface* surfaces,
                                                         size_t length, simdbezier_scalar scalar,
                                                         simdbezier_patch_interval* intervals,
@@ -175,8 +171,7 @@ SIMDBEZIER_API simdbezier_status simdbezier_spline_pack(const simdbezier_spline_
                                                         const simdbezier_pack_options* options,
                                                         simdbezier_patch_set** set);
 
-// locate(): u and v are parameters of the spline, as many of the one as of the other. The points
-// are not read.
+// locate(): u and v are parameters of the spline, equally many. The points are not read.
 SIMDBEZIER_API simdbezier_status simdbezier_spline_locate(const simdbezier_spline_surface* surface,
                                                           const double* u, size_t u_length,
                                                           const double* v, size_t v_length,
@@ -186,8 +181,7 @@ simdbezier_spline_curve_locate(const simdbezier_spline_curve* curve, const doubl
                                size_t t_length, const simdbezier_spline_places* places);
 
 // evaluate_grid(), evaluate_samples() of splines: the surface's patches are those of the set from
-// first_patch on. u and v are parameters of the spline, and derivatives are by them. The points are
-// not read.
+// first_patch on. u, v and derivatives are in the spline's parameters. The points are not read.
 SIMDBEZIER_API simdbezier_status simdbezier_spline_evaluate_grid(
     const simdbezier_patch_set* set, const simdbezier_spline_surface* surface, const double* u,
     size_t u_length, const double* v, size_t v_length, const simdbezier_outputs* out,
@@ -197,7 +191,7 @@ SIMDBEZIER_API simdbezier_status simdbezier_spline_evaluate_samples(
     size_t u_length, const double* v, size_t v_length, const simdbezier_outputs* out,
     const simdbezier_options* options, size_t first_patch);
 
-// tessellate(), plan_mesh() of splines. mesh, plan: written on ok only.
+// tessellate(), plan_mesh() of splines.
 SIMDBEZIER_API simdbezier_status simdbezier_spline_tessellate(
     const simdbezier_spline_surface* surfaces, size_t length, simdbezier_scalar scalar,
     const simdbezier_mesh_options* options, simdbezier_mesh** mesh);

@@ -60,16 +60,16 @@ enum {
 // One line of English; never null, static lifetime.
 SIMDBEZIER_API const char* simdbezier_status_text(simdbezier_status status);
 
-// What went wrong in the last call of this thread that returned a status; all zero where nothing.
+// What went wrong in the last call of this thread that returned a status; all zero on ok.
 typedef struct simdbezier_fault {
   size_t struct_size;
   simdbezier_status status;
   int32_t point;        // control point at fault, j*(degree_u+1)+i; -1: none, or not known; of
                         // splines see c/splines.h
   int32_t component;    // its component; the number of components for a weight
-  size_t patch;         // the patch or curve at fault, where control points are
+  size_t patch;         // the patch or curve at fault, if control points are
   const char* function; // "simdbezier_pack"
-  const char* argument; // "nets[0].points"; empty where no single one is at fault
+  const char* argument; // "nets[0].points"; empty if no single one is at fault
 } simdbezier_fault;
 
 // The strings live until the thread's next call. Returns ok | null_output | bad_struct_size.
@@ -124,11 +124,11 @@ typedef struct simdbezier_options {
   int32_t not_watertight; // not 0: edges come from the interior's formula
   simdbezier_isa isa;
   simdbezier_destination destination;
-  simdbezier_isa* executed; // where given, the kernel that ran writes its name here
+  simdbezier_isa* executed; // if given, receives the instruction set that ran
 } simdbezier_options;
 
-// Vectors of vectors.hpp: component c of sample k is c-th pointer [k * stride]. All zero: not asked
-// for. Strides are positive here.
+// Vectors of vectors.hpp: component c of sample k is c-th pointer [k * stride], all strides
+// positive. All zero: not asked for.
 typedef struct simdbezier_vectors {
   void* x;
   void* y;

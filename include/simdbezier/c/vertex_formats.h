@@ -33,7 +33,7 @@ typedef struct simdbezier_quantisation_box {
   double step;
 } simdbezier_quantisation_box;
 
-// quantisation_box(): of all control points, for unorm16 or snorm16. box: written on ok only.
+// quantisation_box(): of all control points, for unorm16 or snorm16.
 SIMDBEZIER_API simdbezier_status simdbezier_find_quantisation_box(const simdbezier_nets* nets,
                                                                   size_t length,
                                                                   simdbezier_vertex_format format,
@@ -48,8 +48,7 @@ typedef struct simdbezier_formatted_outputs {
   simdbezier_quantisation_box box; // of positions as unorm16 or snorm16
 } simdbezier_formatted_outputs;
 
-// evaluate_mesh() into formats: for patch_count patches from first_patch on, 0 being all of them.
-// Returns its statuses and null_input | bad_struct_size | bad_value.
+// evaluate_mesh() into formats, from first_patch on; patch_count 0: to the end.
 SIMDBEZIER_API simdbezier_status simdbezier_evaluate_formatted_mesh(
     const simdbezier_patch_set* set, const simdbezier_mesh_layout* layout,
     const simdbezier_formatted_outputs* out, const simdbezier_options* options, size_t first_patch,
