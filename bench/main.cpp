@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "bench/machine.hpp"
 #include "bench/plugin_rows.hpp"
 #include "bench/rows.hpp"
+#include "src/runtime/strategies.hpp"
 
 namespace simdbezier_bench {
 namespace {
@@ -19,9 +21,12 @@ namespace {
 std::atomic<bool> failed{false};
 
 constexpr char kUsage[] =
-    "usage: simdbezier_bench [--evaluator FILE.so]... [Google Benchmark's flags]\n"
+    "usage: simdbezier_bench [--evaluator FILE.so]... [--without STRATEGY]... [Google Benchmark's "
+    "flags]\n"
     "  --evaluator FILE.so  rows of another evaluator beside the library's own\n"
     "                       (simdbezier/evaluator_plugin.h, docs/judge-your-own.md)\n"
+    "  --without STRATEGY   the library's rows do without one of its strategies for grids\n"
+    "                       (bench/README.md)\n"
     "bench/README.md describes the rows, and --benchmark_list_tests lists them.\n"
     "exit: 0 all rows are right, 1 a wrong row, a plug-in's fault, or a filter that no row "
     "matches\n"
@@ -37,6 +42,46 @@ void fail_row(benchmark::State& state, const std::string& message) {
 }
 
 bool any_row_failed() { return failed; }
+
+/// Returns the values of "OPTION VALUE" and "OPTION=VALUE", which it takes out of the arguments.
+static std::vector<std::string> take_option(std::vector<char*>& arguments,
+                                            const std::string& option) {
+  std::vector<std::string> values;
+  for (std::size_t k = 1; k < arguments.size();) {
+    const std::string word = arguments[k];
+    const bool next = word == option && k + 1 < arguments.size();
+    if (!next && word.rfind(option + "=", 0) != 0) {
+      ++k;
+      continue;
+    }
+    values.push_back(next ? arguments[k + 1] : word.substr(option.size() + 1));
+    const auto at = arguments.begin() + static_cast<std::ptrdiff_t>(k);
+    arguments.erase(at, at + (next ? 2 : 1));
+  }
+  return values;
+}
+
+/// Lets the library do without these strategies. Returns false, and says so, if one is unknown.
+static bool forbid_strategies(const std::vector<std::string>& names) {
+  using simdbezier::detail::kGridStrategyNames;
+  auto allowed = simdbezier::detail::StrategySet::all();
+  const auto* const last = std::end(kGridStrategyNames) - 1; // tiles, which is the general path
+  for (const std::string& name : names) {
+    const auto* const found = std::find(std::begin(kGridStrategyNames), last, name);
+    if (found == last) {
+      std::fprintf(stderr, "simdbezier_bench: --without: expected one of");
+      std::for_each(std::begin(kGridStrategyNames), last, [](std::string_view known) {
+        std::fprintf(stderr, " %s", std::string(known).c_str());
+      });
+      std::fprintf(stderr, ", found %s\n", name.c_str());
+      return false;
+    }
+    allowed.remove(
+        static_cast<simdbezier::detail::GridStrategy>(found - std::begin(kGridStrategyNames)));
+  }
+  simdbezier::detail::allow_strategies(allowed);
+  return true;
+}
 
 std::string RowName::text() const {
   const char* const names[] = {"position", "position_normal", "position_derivatives",
@@ -65,7 +110,10 @@ int main(int argc, char** argv) {
     std::fputs(kUsage, stdout); // Google Benchmark's flags follow
   }
   bool faulty = false;
-  const auto plugins = start_plugins(take_evaluators(arguments), faulty);
+  const auto plugins = start_plugins(take_option(arguments, "--evaluator"), faulty);
+  if (!forbid_strategies(take_option(arguments, "--without"))) {
+    return 2;
+  }
   int count = static_cast<int>(arguments.size());
   arguments.push_back(nullptr);
   benchmark::Initialize(&count, arguments.data());

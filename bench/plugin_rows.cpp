@@ -216,23 +216,6 @@ void add_rows(const PluginProcess& plugin) {
 
 } // namespace
 
-std::vector<std::string> take_evaluators(std::vector<char*>& arguments) {
-  constexpr char kFlag[] = "--evaluator";
-  std::vector<std::string> files;
-  for (std::size_t k = 1; k < arguments.size();) {
-    const std::string word = arguments[k];
-    const bool next = word == kFlag && k + 1 < arguments.size();
-    if (!next && word.rfind(std::string(kFlag) + "=", 0) != 0) {
-      ++k;
-      continue;
-    }
-    files.push_back(next ? arguments[k + 1] : word.substr(sizeof kFlag));
-    const auto at = arguments.begin() + static_cast<std::ptrdiff_t>(k);
-    arguments.erase(at, at + (next ? 2 : 1));
-  }
-  return files;
-}
-
 std::vector<PluginProcess> start_plugins(const std::vector<std::string>& files, bool& faulty) {
   std::vector<PluginProcess> plugins;
   for (const std::string& file : files) {

@@ -11,9 +11,6 @@ namespace simdbezier_bench {
 
 using PluginProcess = std::shared_ptr<simdbezier::tools::EvaluatorProcess>;
 
-/// Takes "--evaluator FILE" and "--evaluator=FILE" out of the program's arguments.
-std::vector<std::string> take_evaluators(std::vector<char*>& arguments);
-
 /// Starts a process for each file, before the program has threads. What is wrong with a file is
 /// printed, and makes `faulty` true; the others run.
 std::vector<PluginProcess> start_plugins(const std::vector<std::string>& files, bool& faulty);

@@ -92,7 +92,7 @@ SIMDBEZIER_PART void sweep_normal_patches(const GridTask<T>& shared_task, const 
 /// by one distance, which prefetchers of stores follow; in a loop over components their distances
 /// change, and lines on their way to the second-level cache take up to twice as long.
 template <typename Piece>
-constexpr bool kOwnStores = (Piece::kKnown) && (Piece::kStraight) && !(Piece::kAcross);
+constexpr bool kOwnStores = (Piece::kKnown) && !(Piece::kAcross);
 
 /// Calls f(0), f(1), f(2): each in code of its own, or in a loop.
 template <bool kApart, typename F>

@@ -53,9 +53,8 @@ private:
 /// grid is one such piece.
 template <typename T>
 struct RowPiece {
-  static constexpr bool kKnown = false;   ///< how many rows
-  static constexpr bool kStraight = true; ///< as far as they are known
-  static constexpr bool kAcross = false;  ///< lie across lines, which are put together
+  static constexpr bool kKnown = false;  ///< how many rows
+  static constexpr bool kAcross = false; ///< lie across lines, which are put together
 
   std::size_t first = 0; ///< row
   bool lead = false;     ///< whether there is a first row on an edge, and which

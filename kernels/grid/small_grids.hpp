@@ -9,9 +9,8 @@
 //   border    group s, lane e   inner sample s of edge e: along the edge
 // One permutation makes 16 consecutive samples of these, and another one adds corners. The
 // operations of a sample are those of the tiles, and so are its bits. Positions stand here,
-// derivatives in grid/small_grid_jets.hpp. AVX2, and some squares on AVX-512, take other lanes:
-// grid/small_grids_across.hpp, and 4 x 4 floats grid/squares_of_four.hpp. Doubles on AVX-512 have
-// two groups, and tiles.
+// derivatives in grid/small_grid_jets.hpp. AVX2, and some squares on AVX-512, take patches
+// as lanes: grid/small_grids_across.hpp. Doubles on AVX-512 have two groups, and tiles.
 #pragma once
 
 #include "kernels/drain/drain_kernel.hpp"

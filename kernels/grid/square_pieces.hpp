@@ -50,13 +50,10 @@ struct NoSharedRows {
 /// pairs. The compiler knows its size, so that sweeps are straight code, without counting, tests
 /// and addresses: 198 instead of 389 instructions for the positions of an 8 x 8 grid, 660 instead
 /// of 1022 for 17 x 17 (AVX-512). kLiesAcross: rows begin anywhere in cache lines, which are put
-/// together; otherwise rows that share lines, and sides of more than 17, are for machines where
-/// stores across lines are cheap.
+/// together; otherwise rows that share lines are for machines where stores across lines are cheap.
 template <typename T, std::size_t kSide, bool kLiesAcross>
 struct SquarePiece {
   static constexpr bool kKnown = true;
-  static constexpr bool kStraight =
-      kSide <= 17 || !kLiesAcross; ///< code without loops; across lines that is slower for more
   static constexpr bool kAcross = kLiesAcross;
   static constexpr std::size_t first = 0;
   static constexpr bool lead = true;

@@ -80,7 +80,7 @@ SIMDBEZIER_INLINE void sweep_position(const Piece& piece, const Component<Scalar
     return;
   }
   constexpr RowOrder kRowOrder{kRows, Piece::kAcross ? RowPairs::never : ThisTile::kPairs,
-                               kRows == 1 && Piece::kStraight ? 4 : 1};
+                               kRows == 1 ? 4 : 1};
   for_rows<kRowOrder>(
       piece, 0, nu,
       [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
@@ -198,7 +198,7 @@ SIMDBEZIER_INLINE void sweep_derivatives(const Piece& piece, const Component<Sca
     return;
   }
   constexpr RowOrder kRowOrder{kRows, Piece::kAcross ? RowPairs::never : ThisTile::kPairs,
-                               Piece::kKnown && Piece::kStraight ? 2 : 1};
+                               Piece::kKnown ? 2 : 1};
   if constexpr (kGoesPlaneByPlane<Piece, ThisTile>) {
     const auto put_edge = [&](RowKind kind, RowPlace place) SIMDBEZIER_INLINE_LAMBDA {
       to_planes.edge(columns.edge(c, tile, edge_of(kind)), kind, place);

@@ -14,6 +14,7 @@
 #include "src/output/output_plan.hpp"
 #include "src/runtime/cache_sizes.hpp"
 #include "src/runtime/line_costs.hpp"
+#include "src/runtime/strategies.hpp"
 #include "src/storage/patch_storage.hpp"
 #include "src/tables/kernel_table.hpp"
 #include "src/tables/mesh_table.hpp"
@@ -106,6 +107,7 @@ struct PatchKernels {
   bool watertight;
   bool by_lines;                ///< as GridTask has it
   bool plain_to_memory = false; ///< likewise
+  StrategySet allowed = allowed_strategies();
   std::size_t first_component;
 
   template <typename Wishes>
@@ -130,7 +132,8 @@ struct PatchKernels {
     const bool one_pass = !choice.second && choice.outputs != kAnyOutputs;
     return {.row = bicubic && one_pass ? nu : 0,
             .lanes = table->lanes,
-            .records = table->puts_records && watertight && has_no_origins()};
+            .records = table->puts_records && watertight && has_no_origins() &&
+                       allowed.has(GridStrategy::records)};
   }
   /// Likewise on one grid for all patches, past the caches as well.
   [[nodiscard]] DirectRows direct_rows(const GridPlan<T>& plan) const noexcept {
@@ -138,7 +141,7 @@ struct PatchKernels {
     // Kernels stream whole lines, of one register or, where that pays, of two.
     const bool lines = table->lanes * sizeof(T) == 64;
     rows.streamed = lines || streams_pairs();
-    rows.streamed_anywhere = turns_rows(plan);
+    rows.streamed_anywhere = allowed.has(GridStrategy::streamed_order) && turns_rows(plan);
     rows.same_place = choice.outputs == kPositionNormal;
     rows.streamed_records = rows.records && lines;
     return rows;
@@ -179,7 +182,8 @@ private:
     return has_no_origins() && !table->compact && registers * table->lanes * sizeof(T) == 64;
   }
   [[nodiscard]] bool streams_pairs() const noexcept {
-    return makes_lines(2) && choice.outputs != kPositionNormal;
+    return allowed.has(GridStrategy::streamed_rows) && makes_lines(2) &&
+           choice.outputs != kPositionNormal;
   }
 
   /// Whether grids are streamed row by row, wherever rows begin. Others are faster by way of
@@ -215,11 +219,14 @@ private:
 
   void run(void (*kernel)(GridTask<T>&), OutputSet outputs, GridTask<T>& task) const noexcept {
     const std::size_t most = strip_rows(task, outputs, table->lanes * sizeof(T));
-    if (most <= kMostStripRows && fills_strips(task, most)) [[unlikely]] {
+    const bool strips = allowed.has(GridStrategy::strips) && most <= kMostStripRows;
+    if (strips && fills_strips(task, most)) [[unlikely]] {
       in_strips(task, most, kernel);
+      task.taken.add(GridStrategy::strips);
     } else {
       kernel(task);
     }
+    note_strategies(task.taken);
   }
 };
 

@@ -80,6 +80,7 @@ void PieceEvaluator<T>::fill(GridTask<T>& task, const PatchKernels<T>& kernels,
   task.watertight = kernels.watertight;
   task.record = to.record;
   task.drain = to.drain;
+  task.allowed = kernels.allowed;
 }
 
 template <typename T>

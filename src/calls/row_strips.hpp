@@ -102,6 +102,7 @@ void in_strips(GridTask<T>& task, std::size_t most, const Run& run) noexcept {
     go_on(strip.status);
   }
   task.executed = strip.executed;
+  task.taken = strip.taken;
 }
 
 } // namespace simdbezier::detail

@@ -11,6 +11,7 @@
 #include <simdbezier/sample_status.hpp>
 
 #include "src/storage/patch_arrays.hpp"
+#include "src/tables/grid_strategy.hpp"
 #include "src/tables/output_needs.hpp"
 
 namespace simdbezier {
@@ -98,6 +99,8 @@ struct GridTask : SampleTask<T> {
   std::size_t cached_bytes; ///< of samples stay in the first-level cache while tile follows tile
   std::size_t record;       ///< values from one sample to the next: see OutputPlan::record()
   DrainQueue<T>* drain; ///< null, or what a kernel passes on while it computes: see drain_some()
+  StrategySet allowed;  ///< read by the kernels of bicubic patches
+  StrategySet taken;    ///< written by these
 };
 
 /// Scattered samples with unit-stride outputs.

@@ -75,6 +75,7 @@ public:
     grid_.patch_step = piece.rows * piece.columns;
     grid_.record = to.record;
     grid_.by_lines = kernels_.by_lines;
+    grid_.allowed = kernels_.allowed;
     grid_.drain = to.drain;
     kernels_.run(grid_);
     executed_ = grid_.executed;
