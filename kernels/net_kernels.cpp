@@ -12,7 +12,7 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 template <typename T>
 constexpr detail::NetTable<T> make_net_table() {
   return {split_kernel<T>,    segment_kernel<T>, map_kernel<T>, box_kernel<T>,
-          flatness_kernel<T>, rate_kernel<T>,    kBoundKernels, mean_kernel};
+          flatness_kernel<T>, rate_kernel<T>,    kBoundKernels, {mean_lines, mean_points}};
 }
 
 extern const detail::NetTable<float> net_table_f32;

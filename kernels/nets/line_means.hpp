@@ -33,30 +33,54 @@ SIMDBEZIER_INLINE V mean_at(const detail::MeanTask& task, std::size_t at) {
   return select_where<V>(same, first, sum) + V(0.0);
 }
 
-template <std::size_t kTerms>
-void mean_line(const detail::MeanTask& task) {
-  std::size_t at = 0;
-  for (; at + kWideLanes <= task.values; at += kWideLanes) {
-    store_vector<Wide>(task.out + at, mean_at<Wide, kTerms>(task, at));
-  }
-  for (; at < task.values; ++at) {
-    task.out[at] = mean_at<double, kTerms>(task, at);
+/// Calls mean.operator()<kTerms>(): degrees up to 3 have up to 4 terms, and then the loop over them
+/// is unrolled.
+template <typename Mean>
+SIMDBEZIER_INLINE void with_terms(std::size_t terms, const Mean& mean) {
+  switch (terms) {
+  case 1:
+    return mean.template operator()<1>();
+  case 2:
+    return mean.template operator()<2>();
+  case 3:
+    return mean.template operator()<3>();
+  case 4:
+    return mean.template operator()<4>();
+  default:
+    return mean.template operator()<0>();
   }
 }
 
-/// Degrees up to 3 have up to 4 terms, and then the loop over them is unrolled.
-inline void mean_kernel(const detail::MeanTask& task) {
-  switch (task.terms) {
-  case 1:
-    return mean_line<1>(task);
-  case 2:
-    return mean_line<2>(task);
-  case 3:
-    return mean_line<3>(task);
-  case 4:
-    return mean_line<4>(task);
-  default:
-    return mean_line<0>(task);
+inline void mean_lines(const detail::MeanTask& task) {
+  with_terms(task.terms, [&]<std::size_t kTerms>() SIMDBEZIER_INLINE_LAMBDA {
+    std::size_t at = 0;
+    for (; at + kWideLanes <= task.values; at += kWideLanes) {
+      store_vector<Wide>(task.out + at, mean_at<Wide, kTerms>(task, at));
+    }
+    for (; at < task.values; ++at) {
+      task.out[at] = mean_at<double, kTerms>(task, at);
+    }
+  });
+}
+
+/// Points are few values, so that whole registers are written: the next point overwrites what is
+/// too much.
+inline void mean_points(const detail::PointMeansTask& task) {
+  static_assert(kWideLanes <= detail::kMeanSlack + 1);
+  double* out = task.out;
+  for (std::size_t n = 0; n < task.count; ++n, out += task.channels) {
+    const detail::SplineMean& mean = task.means[n];
+    const double* points[detail::kMostOrder];
+    for (std::size_t k = 0; k < mean.terms; ++k) {
+      points[k] = task.points + detail::wrapped(mean.first + k, task.period) * task.channels;
+    }
+    const detail::MeanTask one{
+        points, task.factors + mean.factor, mean.terms, mean.divisor, out, task.channels};
+    with_terms(mean.terms, [&]<std::size_t kTerms>() SIMDBEZIER_INLINE_LAMBDA {
+      for (std::size_t at = 0; at < task.channels; at += kWideLanes) {
+        store_vector<Wide>(out + at, mean_at<Wide, kTerms>(one, at));
+      }
+    });
   }
 }
 

@@ -68,7 +68,7 @@ public:
 
   /// Packs rows [begin, end) up to the first fault.
   PackReport pack(std::size_t begin, std::size_t end, unsigned char* scratch) const {
-    SplineCutter<S> cutter(list_, table_.nets->mean, scratch);
+    SplineCutter<S> cutter(list_, table_.nets->means, scratch);
     S* const nets = reinterpret_cast<S*>(scratch + whole_lines(list_.scratch_bytes()));
     PackReport report;
     for (std::size_t row = begin; row < end && report;) {

@@ -6,16 +6,9 @@
 #include <vector>
 
 #include "src/splines/spline_knots.hpp"
+#include "src/tables/mean_task.hpp"
 
 namespace simdbezier::detail {
-
-/// One Bézier control point: (sum_j factors[j] d[first + j]) / divisor, j < terms.
-struct SplineMean {
-  std::size_t first;  ///< of the spline's points, which begin again after period()
-  std::size_t factor; ///< where its factors begin
-  std::size_t terms;  ///< 1 to degree + 1; a single factor is 1
-  double divisor;     ///< 1, or what makes factors whole numbers
-};
 
 class SplineFactors {
 public:
@@ -35,9 +28,8 @@ public:
     return means_[span * order_ + k];
   }
   [[nodiscard]] const std::vector<SplineMean>& means() const noexcept { return means_; }
-  [[nodiscard]] const double* factors(const SplineMean& mean) const noexcept {
-    return factors_.data() + mean.factor;
-  }
+  /// All factors; those of a mean begin at SplineMean::factor.
+  [[nodiscard]] const double* factors() const noexcept { return factors_.data(); }
   /// Points after which they begin again.
   [[nodiscard]] std::size_t period() const noexcept { return period_; }
 

@@ -176,8 +176,8 @@ template <typename S>
 std::size_t SplineList<S>::scratch_bytes() const noexcept {
   std::size_t most = 0;
   for (const PreparedSpline<S>& spline : splines_) {
-    const std::size_t row = spline.surface.columns * spline.channels();
-    most = std::max(most, row + (spline.v->order() + 1) * spline.line_values());
+    most = std::max(most, spline.row_values() + kMeanSlack +
+                              (spline.v->order() + 1) * spline.line_room());
   }
   return most * sizeof(double);
 }

@@ -12,11 +12,6 @@
 
 namespace simdbezier::detail {
 
-/// A point's number where points begin again after `period`, without a division for most.
-constexpr std::size_t wrapped(std::size_t number, std::size_t period) noexcept {
-  return number < period ? number : number % period;
-}
-
 /// A spline surface, or a curve as one of a single row, with what its knots say.
 template <typename S>
 struct PreparedSpline {
@@ -34,7 +29,10 @@ struct PreparedSpline {
            (surface.weights == Weights::none ? 0 : 1);
   }
   [[nodiscard]] std::size_t patches() const noexcept { return u->spans() * v->spans(); }
+  /// Values of a line, and with the room that kernels need behind it.
   [[nodiscard]] std::size_t line_values() const noexcept { return u->means().size() * channels(); }
+  [[nodiscard]] std::size_t line_room() const noexcept { return line_values() + kMeanSlack; }
+  [[nodiscard]] std::size_t row_values() const noexcept { return surface.columns * channels(); }
   [[nodiscard]] const S* point(std::size_t row, std::size_t column) const noexcept {
     return surface.points +
            static_cast<std::ptrdiff_t>(wrapped(row, surface.rows)) * surface.row_stride +

@@ -16,8 +16,9 @@ template <typename S>
 void SplineCutter<S>::begin(const PreparedSpline<S>& spline) noexcept {
   spline_ = &spline;
   row_ = scratch_;
-  mean_of_lines_ = row_ + spline.surface.columns * spline.channels();
-  lines_ = mean_of_lines_ + spline.line_values();
+  mean_of_lines_ = row_ + spline.row_values() + kMeanSlack;
+  lines_ = mean_of_lines_ + spline.line_room();
+  std::fill_n(row_ + spline.row_values(), kMeanSlack, 0.0); // is read, to no effect
   std::fill_n(held_, kMostOrder, kNoRow);
 }
 
@@ -36,21 +37,15 @@ void SplineCutter<S>::fill(std::size_t row, double* line) noexcept {
       to[c] *= to[channels - 1];
     }
   }
-  const SplineFactors& factors = *spline_->u;
-  for (const SplineMean& mean : factors.means()) {
-    const double* points[kMostOrder];
-    for (std::size_t k = 0; k < mean.terms; ++k) {
-      points[k] = row_ + wrapped(mean.first + k, factors.period()) * channels;
-    }
-    mean_({points, factors.factors(mean), mean.terms, mean.divisor, line, channels});
-    line += channels;
-  }
+  const SplineFactors& u = *spline_->u;
+  means_.points(
+      {u.means().data(), u.means().size(), u.factors(), row_, u.period(), channels, line});
 }
 
 template <typename S>
 const double* SplineCutter<S>::line(std::size_t row) noexcept {
   const std::size_t slot = row % spline_->v->order();
-  double* const line = lines_ + slot * spline_->line_values();
+  double* const line = lines_ + slot * spline_->line_room();
   if (held_[slot] != row) {
     fill(row, line);
     held_[slot] = row;
@@ -134,8 +129,8 @@ void SplineCutter<S>::cut(std::size_t row, const NetView<S>& out) noexcept {
     for (std::size_t k = 0; k < mean.terms; ++k) {
       lines[k] = line(mean.first + k);
     }
-    mean_(
-        {lines, v.factors(mean), mean.terms, mean.divisor, mean_of_lines_, spline_->line_values()});
+    means_.lines({lines, v.factors() + mean.factor, mean.terms, mean.divisor, mean_of_lines_,
+                  spline_->line_values()});
     store(mean_of_lines_, j, out);
   }
   const bool exact_points = out.weights == Weights::cartesian; // ends are copies of Cartesian ones

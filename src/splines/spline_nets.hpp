@@ -17,8 +17,8 @@ namespace simdbezier::detail {
 template <typename S>
 class SplineCutter {
 public:
-  SplineCutter(const SplineList<S>& list, MeanKernel mean, unsigned char* scratch) noexcept
-      : list_(list), mean_(mean), scratch_(reinterpret_cast<double*>(scratch)) {}
+  SplineCutter(const SplineList<S>& list, const MeanKernels& means, unsigned char* scratch) noexcept
+      : list_(list), means_(means), scratch_(reinterpret_cast<double*>(scratch)) {}
 
   /// Writes the nets of a row of spans to out[0 …]. Their weights are homogeneous or Cartesian.
   void cut(std::size_t row, const NetView<S>& out) noexcept;
@@ -33,7 +33,7 @@ private:
   void restore(std::size_t span_v, const NetView<S>& out) const noexcept;
 
   const SplineList<S>& list_;
-  MeanKernel mean_;
+  MeanKernels means_;
   double* scratch_;
   const PreparedSpline<S>* spline_ = nullptr;
   double* row_ = nullptr; ///< a row of the spline's points in double

@@ -47,9 +47,9 @@ Status cut_all(const SplineList<T>& list, const NetView<T>& out, const Options& 
   if (const Status status = resolve_isa(options.isa, isa); !status) {
     return status;
   }
-  const MeanKernel mean = net_table<float>(isa).mean;
+  const MeanKernels& means = net_table<float>(isa).means;
   const auto work = [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
-    SplineCutter<T> cutter(list, mean, scratch);
+    SplineCutter<T> cutter(list, means, scratch);
     for (std::size_t row = begin; row < end; ++row) {
       NetView<T> to = out;
       to.points += static_cast<std::ptrdiff_t>(list.patch_of(row)) * out.patch_stride;

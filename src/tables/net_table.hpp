@@ -143,7 +143,7 @@ struct NetTable {
   NetKernel<FlatnessTask<T>> flatness;
   NetKernel<RateTask<T>> rates;
   BoundKernels bounds; ///< in double, whatever T is
-  MeanKernel mean;     ///< likewise
+  MeanKernels means;   ///< likewise
 };
 
 } // namespace simdbezier::detail
