@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 
 #include "src/certificate/direction_roundings.hpp"
 #include "src/storage/net_shape.hpp"
@@ -25,17 +26,20 @@ public:
     }
   }
 
-private:
-  friend struct TermSums;
   struct Factors {
     double scale; ///< 2^-(k+l)
     double value; ///< roundings of a term, and one of its coefficient
     double du;
     double dv;
   };
+  /// The factors of all terms, [power k of X][power l of Y].
+  [[nodiscard]] std::span<const Factors> all() const { return {at_, order_u_ * order_v_}; }
+
+private:
+  friend struct TermSums;
   std::size_t order_u_;
   std::size_t order_v_;
-  Factors at_[kMostOrder * kMostOrder]; ///< [power k of X][power l of Y]
+  Factors at_[kMostOrder * kMostOrder];
 };
 
 /// Sums over the terms of a polynomial at |X| = |Y| = 1/2, where they are largest.
