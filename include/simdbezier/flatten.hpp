@@ -57,7 +57,7 @@ template <typename T>
 /// Returns:     ok | the statuses of views | non_finite_input | bad_weight | unequal_lengths (spans
 ///              that are not one value a curve) | bad_tolerance (not above zero, or not above the
 ///              curve's error, an error below zero, or more than most_points would be needed; the
-///              report names the curve).
+///              report names the curve) | out_of_memory.
 template <typename S>
 [[nodiscard]] SIMDBEZIER_API FlattenReport choose_polylines(const ControlCurves<S>& curves,
                                                             const FlattenOptions& options,

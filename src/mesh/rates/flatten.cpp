@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include "src/calls/curve_input.hpp"
 #include "src/mesh/rates/bound_parts.hpp"
@@ -174,7 +175,22 @@ std::uint32_t points_for(double second, double t, std::uint32_t most) {
   return n < most ? static_cast<std::uint32_t>(n) + 1 : 0;
 }
 
-/// Chooses one curve's points: ok | non_finite_input | bad_weight | bad_tolerance.
+/// Takes fewer segments than `count` - 1, or than `most` if count is 0, if these hold.
+Status take_fewer(const CurveBound& bound, std::uint32_t most, double t, std::uint32_t& count,
+                  double& found) noexcept {
+  try {
+    const std::uint32_t usual = count == 0 ? most : count - 1;
+    if (const std::uint32_t n = bound.fewer_segments(usual, t); n < usual) {
+      count = n + 1;
+      found = t;
+    }
+  } catch (const std::bad_alloc&) {
+    return Status::out_of_memory;
+  }
+  return Status::ok;
+}
+
+/// Chooses one curve's points: ok | non_finite_input | bad_weight | bad_tolerance | out_of_memory.
 template <typename S>
 Status choose_points(const ControlCurves<S>& curves, const FlattenOptions& options,
                      std::size_t curve, std::span<std::uint32_t> points,
@@ -192,11 +208,8 @@ Status choose_points(const ControlCurves<S>& curves, const FlattenOptions& optio
   std::uint32_t count = possible ? points_for(second, t, most) : 0;
   double found = count == 0 ? t : bound_of(second, count - 1);
   if (possible && bound.is_spread()) {
-    const std::uint32_t usual = count == 0 ? most : count - 1;
-    double fewer = t;
-    if (const std::uint32_t n = bound.fewer_segments(usual, fewer); n < usual) {
-      count = n + 1;
-      found = fewer;
+    if (const Status status = take_fewer(bound, most, t, count, found); !status) {
+      return status;
     }
   }
   if (count == 0) {

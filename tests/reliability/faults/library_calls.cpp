@@ -219,6 +219,31 @@ std::vector<Call> nets() {
          return tessellate<float>(ControlNets<float>::packed(&kSquares[0], 3, 1, 1), options)
              .status;
        }},
+      {"tessellate, of weights that are far apart", true,
+       [&](Results&, const Options& o) {
+         static constexpr float kQuarter[] = {1, 0, 0, 1, 1, 1, 0, 1000, 0, 1, 0, 1,
+                                              1, 0, 1, 1, 1, 1, 1, 1000, 0, 1, 1, 1};
+         MeshOptions options;
+         options.tolerance = 1e-3;
+         options.threads = o.threads;
+         return tessellate<float>(
+                    ControlNets<float>::packed(&kQuarter[0], 1, 2, 1, 3, Weights::cartesian),
+                    options)
+             .status;
+       }},
+      {"choose_polylines, of weights that are far apart", true,
+       [&](Results&, const Options& o) {
+         static constexpr float kQuarters[] = {1, 0, 0, 1, 1, 1, 0, 1000, 0, 1, 0, 1,
+                                               1, 0, 1, 1, 1, 1, 1, 1000, 0, 1, 1, 1};
+         std::uint32_t points[2];
+         FlattenOptions options;
+         options.tolerance = 1e-3;
+         options.threads = o.threads;
+         return choose_polylines(
+                    ControlCurves<float>::packed(&kQuarters[0], 2, 2, 3, Weights::cartesian),
+                    options, points, {})
+             .status;
+       }},
       {"evaluate_grid, of a spline", true,
        [&](Results& r, const Options& o) {
          const double at[] = {0, 0.5, 1.5, 3.25, 4};
