@@ -6,24 +6,6 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// So many bytes of rarer outputs stay in the first-level cache while one tile follows the other;
-/// for others, GridTask has the number.
-constexpr std::size_t kCachedBytes = 12288;
-
-/// Returns the number of planes that a kernel writes.
-constexpr std::size_t written_planes(detail::OutputSet outputs) {
-  return outputs == detail::kPosition         ? 3
-         : outputs == detail::kPositionNormal ? 6
-         : outputs == detail::kAnyOutputs     ? 12
-                                              : 9;
-}
-
-/// Returns what a kernel writes of one patch.
-template <detail::OutputSet kOutputs, typename T>
-SIMDBEZIER_PART std::size_t bytes_of(const GridTask<T>& task, const RowPiece<T>& piece) {
-  return piece.rows() * task.nu * written_planes(kOutputs) * sizeof(T);
-}
-
 /// Evaluates a task as a whole, if there is a strategy for it, and returns whether there is.
 template <typename T, detail::OutputSet kOutputs>
 SIMDBEZIER_PART bool run_whole(GridTask<T>& task) {

@@ -9,12 +9,14 @@
 // TileByTile, takes whatever no other one does.
 #pragma once
 
+#include "kernels/grid/component_sweeps.hpp"
 #include "kernels/grid/normal_bands.hpp"
 #include "kernels/grid/record_rows.hpp"
 #include "kernels/grid/row_bands.hpp"
 #include "kernels/grid/small_grid_jets.hpp"
 #include "kernels/grid/small_jets_across.hpp"
 #include "kernels/grid/square_sweeps.hpp"
+#include "kernels/grid/squares_of_four.hpp"
 #include "kernels/grid/streamed_lines.hpp"
 #include "kernels/grid/streamed_normals.hpp"
 #include "kernels/grid/streamed_planes.hpp"
@@ -32,6 +34,24 @@ inline constexpr bool kWideKernels = true;
 inline constexpr bool kWideKernels = false;
 #endif
 
+/// So many bytes of rarer outputs stay in the first-level cache while one tile follows the other;
+/// for others, GridTask has the number.
+constexpr std::size_t kCachedBytes = 12288;
+
+/// Returns the number of planes that a kernel writes.
+constexpr std::size_t written_planes(detail::OutputSet outputs) {
+  return outputs == detail::kPosition         ? 3
+         : outputs == detail::kPositionNormal ? 6
+         : outputs == detail::kAnyOutputs     ? 12
+                                              : 9;
+}
+
+/// Returns what a kernel writes of one patch.
+template <detail::OutputSet kOutputs, typename T>
+SIMDBEZIER_PART std::size_t bytes_of(const GridTask<T>& task, const RowPiece<T>& piece) {
+  return piece.rows() * task.nu * written_planes(kOutputs) * sizeof(T);
+}
+
 /// Small grids with patches as lanes.
 template <detail::OutputSet kOutputs, typename T>
 struct SmallAcross {
@@ -42,6 +62,23 @@ struct SmallAcross {
   }
   static SIMDBEZIER_PART void run(const GridTask<T>& task) {
     sweep_small_grid_across<kOutputs>(task);
+  }
+};
+
+/// 4 x 4 samples, all components in one register.
+template <detail::OutputSet kOutputs, typename T>
+struct SquaresOfFour {
+  static constexpr GridStrategy kName = GridStrategy::squares_of_four;
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+  static constexpr bool kExists = kUsual<kOutputs> && kFourGroups<vec<T>>;
+#else
+  static constexpr bool kExists = false;
+#endif
+  static SIMDBEZIER_PART bool applies(const GridTask<T>& task) {
+    return is_small_grid(task) && is_square_of_four(task);
+  }
+  static SIMDBEZIER_PART void run(const GridTask<T>& task) {
+    sweep_squares_of_four<kOutputs>(task);
   }
 };
 
@@ -181,6 +218,22 @@ struct Bands {
   }
 };
 
+/// All tiles of one component of large patches before those of the next one. Plain stores get to
+/// memory faster if lines of all planes come at once.
+template <detail::OutputSet kOutputs, typename T>
+struct Components {
+  static constexpr GridStrategy kName = GridStrategy::components;
+  static constexpr bool kExists = kSweepsByComponents<kOutputs, vec<T>>;
+  static SIMDBEZIER_PART bool applies(const GridTask<T>& task, const RowPiece<T>& piece) {
+    return (!kUsual<kOutputs> || stays_in_planes(task)) && !task.plain_to_memory &&
+           task.nu >= 2 * kLanes<vec<T>> && bytes_of<kOutputs>(task, piece) > kCachedBytes;
+  }
+  static SIMDBEZIER_PART void sweep(const GridTask<T>& task, const RowPiece<T>& piece,
+                                    std::size_t patch, std::size_t end) {
+    sweep_by_components<kOutputs>(task, piece, patch, end);
+  }
+};
+
 /// Rows of one tile, put together to whole lines.
 template <detail::OutputSet kOutputs, typename T>
 struct AcrossLines {
@@ -259,10 +312,12 @@ struct StrategyList {
 
 /// Those of whole tasks, and those of pieces of rows but for StreamedOrder.
 template <detail::OutputSet kOutputs, typename T>
-using TaskStrategies = StrategyList<SmallAcross<kOutputs, T>, SmallGroups<kOutputs, T>>;
+using TaskStrategies =
+    StrategyList<SmallAcross<kOutputs, T>, SquaresOfFour<kOutputs, T>, SmallGroups<kOutputs, T>>;
 template <detail::OutputSet kOutputs, typename T>
 using PieceStrategies =
     StrategyList<Records<kOutputs, T>, StreamedRows<kOutputs, T>, Squares<kOutputs, T>,
-                 Bands<kOutputs, T>, AcrossLines<kOutputs, T>, TileByTile<kOutputs, T>>;
+                 Bands<kOutputs, T>, Components<kOutputs, T>, AcrossLines<kOutputs, T>,
+                 TileByTile<kOutputs, T>>;
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

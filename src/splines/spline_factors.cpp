@@ -131,7 +131,10 @@ void SplineFactors::add_span(const SplineKnots& knots, std::size_t span) {
   const SplineSpan& here = knots.spans()[span];
   const std::size_t degree = order_ - 1;
   const TwoDoubles ends[2] = {{here.interval.begin, 0}, {here.interval.end, 0}};
-  TwoDoubles found[kMostOrder][kMostOrder] = {};
+  TwoDoubles found[kMostOrder][kMostOrder];
+  for (std::size_t k = 0; k <= degree; ++k) {
+    std::fill_n(found[k], degree + 1, TwoDoubles{0, 0}); // most splines are of low degrees
+  }
   for (std::size_t side = 0; side < 2; ++side) {
     Triangle triangle(knots, here.first);
     for (std::size_t own = 0; own <= degree; ++own) { // times that this side's end counts

@@ -10,23 +10,25 @@ namespace simdbezier::detail {
 
 /// In the order in which they are asked whether they apply; `tiles` always does.
 enum class GridStrategy : std::uint8_t {
-  small_across,   ///< 3 x 3 to 6 x 6 samples, lanes are patches
-  small_groups,   ///< 3 x 3 to 6 x 6 samples, lanes are groups of four
-  streamed_order, ///< past the caches, row after row, each plane as one stream
-  records,        ///< triples and vertices, put together in registers
-  streamed_rows,  ///< past the caches, two or three lines of a row side by side
-  squares,        ///< squares whose size the compiler knows
-  bands,          ///< all registers of a row side by side
-  across_lines,   ///< rows of one tile, put together to whole lines
-  strips,         ///< some rows at a time, where rows compete for places in a cache
-  tiles           ///< one or two registers of columns after the other
+  small_across,    ///< 3 x 3 to 6 x 6 samples, lanes are patches
+  squares_of_four, ///< 4 x 4 samples, all components in one register
+  small_groups,    ///< 3 x 3 to 6 x 6 samples, lanes are groups of four
+  streamed_order,  ///< past the caches, row after row, each plane as one stream
+  records,         ///< triples and vertices, put together in registers
+  streamed_rows,   ///< past the caches, two or three lines of a row side by side
+  squares,         ///< squares whose size the compiler knows
+  bands,           ///< all registers of a row side by side
+  components,      ///< large patches, all tiles of one component before those of the next one
+  across_lines,    ///< rows of one tile, put together to whole lines
+  strips,          ///< some rows at a time, where rows compete for places in a cache
+  tiles            ///< one or two registers of columns after the other
 };
 inline constexpr std::size_t kGridStrategies = static_cast<std::size_t>(GridStrategy::tiles) + 1;
 
 /// Names as the benchmark's --without spells them.
 inline constexpr std::string_view kGridStrategyNames[kGridStrategies] = {
-    "small_across", "small_groups", "streamed_order", "records", "streamed_rows",
-    "squares",      "bands",        "across_lines",   "strips",  "tiles"};
+    "small_across", "squares_of_four", "small_groups", "streamed_order", "records", "streamed_rows",
+    "squares",      "bands",           "components",   "across_lines",   "strips",  "tiles"};
 
 /// A set of strategies.
 class StrategySet {

@@ -173,12 +173,15 @@ std::string strategies_of(Isa isa) {
   const bool slow = split != nullptr && std::string(split) == "slow";
   switch (isa) {
   case Isa::avx512:
-    return std::string("small_across small_groups streamed_order records squares bands ") +
+    return std::string(
+               "small_across squares_of_four small_groups streamed_order records squares bands ") +
            (slow ? "across_lines strips" : "strips");
   case Isa::avx2:
-    return "small_across streamed_order records streamed_rows squares bands strips";
-  default:
+    return "small_across streamed_order records streamed_rows squares bands components strips";
+  case Isa::scalar:
     return "strips";
+  default:
+    return "components strips";
   }
 }
 

@@ -180,6 +180,25 @@ TEST(UnevenPatches, have_few_more_cells_than_they_need) {
   }
 }
 
+// The fewest cells of which dense samples are within the tolerance, with one diagonal a quarter,
+// are 420, 704, 10 and, of squares of cells, 365 x 365.
+TEST(UnevenPatches, with_one_heavy_weight_have_at_most_four_times_the_cells_they_need) {
+  constexpr struct {
+    double weight;
+    double tolerance;
+    std::uint32_t fewest;
+  } kCases[] = {{1e3, 1e-2, 420}, {1e5, 1e-2, 704}, {1e6, 2e-2, 10}, {1e5, 1e-3, 365 * 365}};
+  for (const auto& heavy : kCases) {
+    const TestPatch patch = net_of("one heavy weight", 3, 3, Weights::cartesian, [&](int i, int j) {
+      return std::array{kEven[i], kEven[j], 0.3 * std::sin(1.7 * (4 * j + i) + 0.3),
+                        i == 1 && j == 1 ? heavy.weight : 1.0};
+    });
+    const Choice choice = choose(patch, heavy.tolerance);
+    EXPECT_LE(choice.deviation[0], heavy.tolerance);
+    EXPECT_LE(choice.nu[0] * choice.nv[0], 4 * heavy.fewest) << heavy.weight;
+  }
+}
+
 /// The mesh of copies of a patch that need not be where it is, and how far samples of the first one
 /// are from its triangles.
 struct Sampled {

@@ -163,7 +163,7 @@ typedef struct simdbezier_tile_format {
   size_t struct_size;
   uint32_t outputs; // SIMDBEZIER_OUTPUT_POSITION | …; 0: positions
   simdbezier_tile_layout layout;
-  size_t samples; // the most in one tile; 0: what fits half of a first-level cache
+  size_t samples; // the most in one tile; 0: what fits 24 KiB
   int32_t first_component;
 } simdbezier_tile_format;
 
