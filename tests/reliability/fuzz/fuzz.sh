@@ -65,7 +65,7 @@ for target in "${targets[@]}"; do
            -artifact_prefix="$found/")
   [[ -f $dictionary ]] && options+=(-dict="$dictionary")
   inputs=("$corpus")
-  for folder in "$here/seeds/$target" "$here/regressions/$target"; do
+  for folder in "$here/seeds/$target" "$build/$here/seeds/$target" "$here/regressions/$target"; do
     [[ -d $folder ]] && inputs+=("$folder")
   done
   begin=$SECONDS
