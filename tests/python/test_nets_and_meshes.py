@@ -1,5 +1,6 @@
 """Operations on nets, and meshes with their files."""
 import html
+import json
 import math
 import os
 import pathlib
@@ -249,7 +250,7 @@ def test_vtu_files_take_nan(tmp_path):
 
 
 @pytest.mark.parametrize('parameters', [False, True])
-@pytest.mark.parametrize('ending', ['obj', 'ply', 'stl', 'glb', 'vtu'])
+@pytest.mark.parametrize('ending', ['obj', 'ply', 'stl', 'glb', 'vtu', 'raw'])
 @pytest.mark.parametrize('dtype', [np.float32, np.float64])
 def test_meshes_become_files(tmp_path, ending, dtype, parameters):
     mesh = simdbezier.tessellate(hill(dtype), tolerance=1e-2, parameters=parameters)
@@ -271,6 +272,14 @@ def test_meshes_become_files(tmp_path, ending, dtype, parameters):
         np.testing.assert_array_equal(arrays['Points'].reshape(-1, 3), mesh.positions)
         np.testing.assert_array_equal(arrays['connectivity'].reshape(-1, 3), mesh.triangles)
         assert ('patch' in arrays) == ('TCoords' in arrays) == parameters
+    elif ending == 'raw':
+        begin = 8 + int.from_bytes(data[:8], 'little')
+        head = json.loads(data[8:begin])
+        vertices = np.frombuffer(data, np.dtype(head['vertex']), head['vertices'], begin)
+        np.testing.assert_array_equal(vertices['position'], mesh.positions)
+        np.testing.assert_array_equal(vertices['normal'], mesh.normals)
+        corners = np.frombuffer(data, '<u4', offset=begin + vertices.nbytes)
+        np.testing.assert_array_equal(corners.reshape(head['faces'], 3), mesh.triangles)
     else:
         assert data[:4] == b'glTF' and struct.unpack_from('<I', data, 8)[0] == len(data)
     mesh.save(str(path))

@@ -156,7 +156,7 @@ void understand_parts(const Words& words, Arguments& arguments) {
   if (arguments.shard || words.command == Command::plan) {
     expect_local_options(arguments);
     if (arguments.mesh.format == MeshFormat::obj) {
-      bad_usage("-o: expected a mesh in ply, stl, glb or vtu for parts, found obj");
+      bad_usage("-o: expected a mesh in ply, stl, glb, vtu or raw for parts, found obj");
     }
   }
 }

@@ -1,9 +1,7 @@
 // What a GLB file says about its vertices and indices.
 #include <tools/mesh_files/glb_file.hpp>
 
-#include <cmath>
-#include <initializer_list>
-#include <string_view>
+#include <tools/mesh_files/json_text.hpp>
 
 namespace simdbezier::tools {
 
@@ -29,51 +27,6 @@ std::uint64_t component_type(FieldType type) {
     break;
   }
   return 5126;
-}
-
-std::string quoted(std::string_view text) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string quoted(1, '"');
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20) {
-      quoted += "\\u00";
-      quoted += kDigits[byte >> 4];
-      quoted += kDigits[byte & 15];
-      continue;
-    }
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-    }
-    quoted += c;
-  }
-  quoted += '"';
-  return quoted;
-}
-
-std::string joined(std::initializer_list<std::string_view> parts) {
-  std::string text;
-  for (const std::string_view part : parts) {
-    text += part;
-  }
-  return text;
-}
-
-std::string list(const std::array<double, 3>& values) {
-  return joined(
-      {"[", shortest(values[0]), ",", shortest(values[1]), ",", shortest(values[2]), "]"});
-}
-
-// "name":value
-std::string member(std::string_view name, std::string_view value) {
-  return joined({quoted(name), ":", value});
-}
-std::string member(std::string_view name, std::uint64_t value) {
-  return member(name, std::to_string(value));
-}
-
-bool has_deviation(const MeshContents& contents) {
-  return contents.deviation && std::isfinite(*contents.deviation); // JSON has no infinity
 }
 
 std::string asset(const MeshContents& contents) {

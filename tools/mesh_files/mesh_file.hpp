@@ -40,7 +40,8 @@ struct MeshAbilities {
   X(stl, "an STL file", {.most_faces = 0xFFFFFFFF}) /* has normals of facets only */               \
   X(glb, "a GLB file",  {.normals = true, .quantised = true, .moved = true,                        \
                          .most_patches = std::uint64_t{1} << 24}) /* their numbers are floats */ \
-  X(vtu, "a VTU file",  {.quads = true, .normals = true, .doubles = true, .point_data = true})
+  X(vtu, "a VTU file",  {.quads = true, .normals = true, .doubles = true, .point_data = true})     \
+  X(raw, "raw arrays",  {.quads = true, .normals = true, .doubles = true})
 // clang-format on
 
 #define SIMDBEZIER_DECLARE_MESH_FORMAT(NAME, ...) NAME,
@@ -110,7 +111,7 @@ struct PointData {
 struct MeshContents {
   std::uint64_t vertices = 0;
   std::uint64_t faces = 0;
-  unsigned corners = 3;          ///< those that a face has: 3, or 4 in OBJ and PLY
+  unsigned corners = 3;          ///< those that a face has: 3, or 4 in formats with quads
   std::uint64_t among_quads = 0; ///< faces of 4 corners that are triangles (kNoVertex)
   bool normals = false;
   bool uv = false;           ///< within 0 and 1

@@ -3,9 +3,7 @@
 // both.
 #include <tools/mesh_files/mesh_formats.hpp>
 
-#include <tools/mesh_files/mesh_bytes.hpp>
-#include <tools/mesh_files/vertex_records.hpp>
-#include <tools/process/little_endian.hpp>
+#include <tools/mesh_files/record_file.hpp>
 #include <tools/process/output_file.hpp>
 
 namespace simdbezier::tools {
@@ -24,52 +22,7 @@ std::string properties(const std::string& type, std::initializer_list<const char
 }
 
 template <typename T>
-class PlyWriter final : public MeshWriter<T> {
-public:
-  PlyWriter(const std::string& path, const MeshContents& mesh)
-      : MeshWriter<T>(path, mesh), packer_(path, mesh, exact_records<T>(mesh, true)),
-        size_(checked_file_size(path, Count(mesh.vertices) * exact_records<T>(mesh, true).size +
-                                          face_bytes(mesh))),
-        file_(path) {
-    const std::string text = ply_head<T>(mesh);
-    file_.expect_room(checked_file_size(path, Count(size_) + text.size()));
-    file_.text(text);
-  }
-
-  [[nodiscard]] bool is_terminal() const override { return file_.is_terminal(); }
-
-private:
-  static constexpr std::size_t kIndexBytes = sizeof(std::uint32_t);
-
-  void take_vertices(const VertexBlock<T>& block) override {
-    const std::span<const std::byte> records = packer_.pack(block);
-    file_.bytes(records.data(), records.size());
-  }
-
-  void take_faces(std::span<const std::uint32_t> corners) override {
-    faces_.clear();
-    append_ply_faces(corners, this->contents().corners, faces_);
-    file_.bytes(faces_.data(), faces_.size());
-  }
-
-  static Count face_bytes(const MeshContents& mesh) {
-    return Count(mesh.faces - mesh.among_quads) * (1 + mesh.corners * kIndexBytes) +
-           Count(mesh.among_quads) * (1 + 3 * kIndexBytes);
-  }
-
-  void put_on_disk() override { file_.complete(); }
-  void put_in_place() override { file_.commit(); }
-
-  RecordPacker<T> packer_;
-  std::uintmax_t size_;
-  OutputFile file_;
-  std::vector<std::byte> faces_;
-};
-
-} // namespace
-
-template <typename T>
-std::string ply_head(const MeshContents& mesh) {
+std::string head_of(const MeshContents& mesh) {
   const std::string type = sizeof(T) == sizeof(float) || mesh.floats ? "float" : "double";
   std::string text = "ply\nformat binary_little_endian 1.0\n";
   text += mesh.generator.empty() ? "" : "comment " + mesh.generator + "\n";
@@ -86,28 +39,21 @@ std::string ply_head(const MeshContents& mesh) {
   return text + "vertex_indices\nend_header\n";
 }
 
-void append_ply_faces(std::span<const std::uint32_t> corners, unsigned each,
-                      std::vector<std::byte>& to) {
-  std::size_t at = to.size();
-  to.resize(at + ply_face_bytes(each, corners.size() / each, 0));
-  for (std::size_t k = 0; k < corners.size(); k += each) {
-    const std::size_t count = corners[k + each - 1] == kNoVertex ? 3 : each;
-    to[at++] = static_cast<std::byte>(count);
-    for (std::size_t c = 0; c < count; ++c, at += sizeof(std::uint32_t)) {
-      store_little(&to[at], corners[k + c]);
-    }
-  }
-  to.resize(at);
+} // namespace
+
+template <typename T>
+RecordFile ply_file(const MeshContents& contents) {
+  return {head_of<T>(contents), exact_records<T>(contents, true), true};
 }
 
 template <typename T>
 std::unique_ptr<MeshWriter<T>> make_ply_writer(const std::string& path,
                                                const MeshContents& contents) {
-  return std::make_unique<PlyWriter<T>>(path, contents);
+  return make_record_writer<T>(path, contents, ply_file<T>(contents));
 }
 
-template std::string ply_head<float>(const MeshContents&);
-template std::string ply_head<double>(const MeshContents&);
+template RecordFile ply_file<float>(const MeshContents&);
+template RecordFile ply_file<double>(const MeshContents&);
 template std::unique_ptr<MeshWriter<float>> make_ply_writer(const std::string&,
                                                             const MeshContents&);
 template std::unique_ptr<MeshWriter<double>> make_ply_writer(const std::string&,

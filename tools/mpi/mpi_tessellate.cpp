@@ -295,7 +295,7 @@ void run_mpi_tessellate(Ranks& ranks, const Arguments& asked) {
   ranks.together([&] {
     chosen_isa();
     if (!is_written_by_ranks(arguments.mesh.format)) {
-      bad_usage("-o: expected a mesh in ply or stl, found " +
+      bad_usage("-o: expected a mesh in ply, raw or stl, found " +
                 mesh_format_name(arguments.mesh.format));
     }
     if (arguments.in == "-") {

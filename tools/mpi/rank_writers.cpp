@@ -3,8 +3,7 @@
 #include <vector>
 
 #include <tools/mesh_files/mesh_bytes.hpp>
-#include <tools/mesh_files/mesh_formats.hpp>
-#include <tools/mesh_files/vertex_records.hpp>
+#include <tools/mesh_files/record_file.hpp>
 #include <tools/process/little_endian.hpp>
 
 namespace simdbezier::tools {
@@ -36,21 +35,21 @@ private:
 };
 
 template <typename T>
-std::uint64_t ply_faces_at(const MeshContents& whole) {
-  return ply_head<T>(whole).size() + whole.vertices * exact_records<T>(whole, true).size;
+RecordFile record_file(MeshFormat format, const MeshContents& whole) {
+  return format == MeshFormat::raw ? raw_file<T>(whole) : ply_file<T>(whole);
 }
 
 template <typename T>
-class PlyShardWriter final : public MeshWriter<T> {
+class RecordShardWriter final : public MeshWriter<T> {
 public:
-  PlyShardWriter(RankFile& file, const MeshContents& whole, const MeshContents& shard,
-                 const ShardPlace& place)
-      : MeshWriter<T>("", shard), whole_(whole.vertices),
-        packer_("", shard, exact_records<T>(whole, true)),
-        vertices_(file, ply_head<T>(whole).size() +
-                            place.first_vertex * exact_records<T>(whole, true).size),
-        faces_(file, ply_faces_at<T>(whole) +
-                         ply_face_bytes(whole.corners, place.first_face, place.quads_before)) {}
+  RecordShardWriter(RankFile& file, const RecordFile& format, const MeshContents& whole,
+                    const MeshContents& shard, const ShardPlace& place)
+      : MeshWriter<T>("", shard), whole_(whole.vertices), format_(format),
+        packer_("", shard, format.records),
+        vertices_(file, format.head.size() + place.first_vertex * format.records.size),
+        faces_(file,
+               format.head.size() + whole.vertices * format.records.size +
+                   format.face_bytes<std::uint64_t>(whole, place.first_face, place.quads_before)) {}
   [[nodiscard]] std::uint64_t foreign_vertices() const noexcept override { return whole_; }
 
 private:
@@ -60,7 +59,7 @@ private:
     vertices_.flush_when_full();
   }
   void take_faces(std::span<const std::uint32_t> corners) override {
-    append_ply_faces(corners, this->contents().corners, faces_.bytes());
+    format_.append_faces(corners, this->contents().corners, faces_.bytes());
     faces_.flush_when_full();
   }
   void put_on_disk() override {
@@ -70,6 +69,7 @@ private:
   void put_in_place() override {}
 
   std::uint64_t whole_;
+  RecordFile format_;
   RecordPacker<T> packer_;
   PlacedBytes vertices_;
   PlacedBytes faces_;
@@ -120,20 +120,23 @@ private:
 } // namespace
 
 bool is_written_by_ranks(MeshFormat format) {
-  return format == MeshFormat::ply || format == MeshFormat::stl;
+  return format == MeshFormat::ply || format == MeshFormat::raw || format == MeshFormat::stl;
 }
 
 template <typename T>
 std::uint64_t ranked_bytes(MeshFormat format, const MeshContents& whole) {
-  return format == MeshFormat::stl
-             ? stl_head(whole).size() + whole.faces * kStlFacetBytes
-             : ply_faces_at<T>(whole) +
-                   ply_face_bytes(whole.corners, whole.faces, whole.among_quads);
+  if (format == MeshFormat::stl) {
+    return stl_head(whole).size() + whole.faces * kStlFacetBytes;
+  }
+  const RecordFile file = record_file<T>(format, whole);
+  return file.head.size() + whole.vertices * file.records.size +
+         file.face_bytes<std::uint64_t>(whole, whole.faces, whole.among_quads);
 }
 
 template <typename T>
 void write_head(RankFile& file, MeshFormat format, const MeshContents& whole) {
-  const std::string head = format == MeshFormat::stl ? stl_head(whole) : ply_head<T>(whole);
+  const std::string head =
+      format == MeshFormat::stl ? stl_head(whole) : record_file<T>(format, whole).head;
   file.write(0, std::as_bytes(std::span(head)));
 }
 
@@ -144,7 +147,8 @@ make_rank_writer(RankFile& file, MeshFormat format, const MeshContents& whole,
   if (format == MeshFormat::stl) {
     return std::make_unique<StlShardWriter<T>>(file, whole, shard, place, foreign);
   }
-  return std::make_unique<PlyShardWriter<T>>(file, whole, shard, place);
+  return std::make_unique<RecordShardWriter<T>>(file, record_file<T>(format, whole), whole, shard,
+                                                place);
 }
 
 #define SIMDBEZIER_RANK_WRITERS(T)                                                                 \

@@ -26,8 +26,8 @@ template <typename T>
 template <typename T>
 void write_head(RankFile& file, MeshFormat format, const MeshContents& whole);
 
-/// A writer for a shard, whose contents `shard` are. Faces have the whole mesh's numbers in PLY. In
-/// STL they have the shard's, behind which `foreign` are: values of further vertices.
+/// A writer for a shard, whose contents `shard` are. Faces have the whole mesh's numbers, but for
+/// STL, in which they have the shard's, behind which `foreign` are: values of further vertices.
 template <typename T>
 [[nodiscard]] std::unique_ptr<MeshWriter<T>>
 make_rank_writer(RankFile& file, MeshFormat format, const MeshContents& whole,

@@ -36,8 +36,9 @@ TEST(Help, HasExamplesRangesDefaultsAndExitCodes) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
       {"tessellate",
        {"N or NUxNV, each from 2 to 1048576", "(default 16)", "1 to 1024, or 0 for all",
-        "(default f32", "rounded to float first", "--no-normals", ".obj, .ply, .stl, .glb or .vtu",
-        "at most 4097 a direction in one mesh without gaps", "a device or pipe needs --to"}},
+        "(default f32", "rounded to float first", "--no-normals",
+        ".obj, .ply, .stl, .glb, .vtu or .raw", "at most 4097 a direction in one mesh without gaps",
+        "a device or pipe needs --to"}},
       {"evaluate",
        {"position, du, dv, duu, duv, dvv, normal, curvature", "(default position)",
         "they come in the order named here", "patch,x,y with x = 2u-1",

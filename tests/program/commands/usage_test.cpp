@@ -49,7 +49,8 @@ std::vector<BadUsage> bad_usages() {
       {"OutputWithoutOption", tessellate({"out.obj"}), "found 'out.obj'"},
       {"OptionOfAnotherCommand", {"info", "builtin:teapot", "--grid", "3"}, "found '--grid'"},
       {"OutputWithoutName", tessellate({"-o"}),
-       "-o: expected a name that ends in .obj, .ply, .stl, .glb or .vtu, or - with --to, found the "
+       "-o: expected a name that ends in .obj, .ply, .stl, .glb, .vtu or .raw, or - with --to, "
+       "found the "
        "end "
        "of the command line"},
       {"CsvWithoutName",
@@ -63,7 +64,8 @@ std::vector<BadUsage> bad_usages() {
        "--grid: expected N or NUxNV, each from 2 to "
        "1048576, found the end of the command line"},
       {"OptionForValue", tessellate({"-o", "--grid", "4"}),
-       "-o: expected a name that ends in .obj, .ply, .stl, .glb or .vtu, or - with --to, found "
+       "-o: expected a name that ends in .obj, .ply, .stl, .glb, .vtu or .raw, or - with --to, "
+       "found "
        "'--grid'"},
       {"OptionForOptionsValue", tessellate_obj({"--threads", "--grid=4"}),
        "--threads: expected 1 to 1024, or 0 for all, found '--grid=4'"},
@@ -81,9 +83,11 @@ std::vector<BadUsage> bad_usages() {
       {"StatsEmpty", tessellate_obj({"--stats="}), "--stats: expected text or json, found ''"},
       {"GridEmptyBehindEquals", tessellate_obj({"--grid=", "4"}), grid + "'"},
       {"OutputEmptyBehindEquals", tessellate({"-o="}),
-       "-o: expected a name that ends in .obj, .ply, .stl, .glb or .vtu, or - with --to, found ''"},
+       "-o: expected a name that ends in .obj, .ply, .stl, .glb, .vtu or .raw, or - with --to, "
+       "found ''"},
       {"OutputBehindEquals", tessellate({"-o=x.obj"}),
-       "-o: expected a name that ends in .obj, .ply, .stl, .glb or .vtu, or - with --to, found "
+       "-o: expected a name that ends in .obj, .ply, .stl, .glb, .vtu or .raw, or - with --to, "
+       "found "
        "'=x.obj'"},
       {"FormatOfBuiltin",
        {"info", "builtin:teapot", "--format", "obj"},
@@ -110,17 +114,18 @@ std::vector<BadUsage> bad_usages() {
        {"info", "-", "--format", "step"},
        "--format: reading .step files is not supported yet"},
       {"NoOutput", tessellate({}),
-       "-o: expected a name that ends in .obj, .ply, .stl, .glb or .vtu, or - with --to, found "
+       "-o: expected a name that ends in .obj, .ply, .stl, .glb, .vtu or .raw, or - with --to, "
+       "found "
        "nothing"},
       {"NoOutputOfCsv",
        {"evaluate", "builtin:teapot"},
        "-o: expected a name that ends in .csv, or - for standard output, found nothing"},
       {"UnknownOutput", tessellate({"-o", "out.xyz"}),
-       "expected a name that ends in .obj, .ply, .stl, .glb or .vtu"},
+       "expected a name that ends in .obj, .ply, .stl, .glb, .vtu or .raw"},
       {"GltfOfManyFiles", tessellate({"-o", "out.gltf"}),
        "or - with --to, found 'out.gltf' (.glb is the form of glTF that is one file)"},
       {"GltfOfManyFilesByName", tessellate({"-o", "-", "--to", "gltf"}),
-       "--to: expected obj, ply, stl, glb or vtu, found 'gltf' (.glb is the form"},
+       "--to: expected obj, ply, stl, glb, vtu or raw, found 'gltf' (.glb is the form"},
       {"OutputWithoutExtension", tessellate({"-o", "obj"}), "expected a name that ends in"},
       {"MeshToStandardOutput", tessellate({"-o", "-"}), "expected a name that ends in"},
       {"GridZero", tessellate_obj({"--grid", "0"}), grid},

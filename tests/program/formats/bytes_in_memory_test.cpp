@@ -81,7 +81,7 @@ TEST(BytesInMemory, are_a_mesh_file) {
   const std::vector<float> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const std::vector<std::uint32_t> triangle = {0, 1, 2};
   const TemporaryFolder folder;
-  for (const std::string name : {"obj", "ply", "stl", "glb", "vtu"}) {
+  for (const std::string name : {"obj", "ply", "stl", "glb", "vtu", "raw"}) {
     const std::string path = folder.path("mesh." + name);
     tools::MeshContents contents;
     contents.vertices = 3;

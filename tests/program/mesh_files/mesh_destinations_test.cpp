@@ -22,8 +22,8 @@ using tools::MeshFormat;
 
 TEST(MeshOutput, MayBeAPipe) {
   const SampleMesh mesh = make_sample({.vertices = 3000, .faces = 5000, .normals = false}, true);
-  for (const MeshFormat format :
-       {MeshFormat::obj, MeshFormat::ply, MeshFormat::stl, MeshFormat::glb, MeshFormat::vtu}) {
+  for (const MeshFormat format : {MeshFormat::obj, MeshFormat::ply, MeshFormat::stl,
+                                  MeshFormat::glb, MeshFormat::vtu, MeshFormat::raw}) {
     const TemporaryFolder folder;
     const std::string pipe = folder.path("pipe");
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
@@ -36,7 +36,7 @@ TEST(MeshOutput, MayBeAPipe) {
   }
 }
 
-const char* const kExtensions[] = {"obj", "ply", "stl", "glb", "vtu"};
+const char* const kExtensions[] = {"obj", "ply", "stl", "glb", "vtu", "raw"};
 
 TEST(MeshOutput, FailsOnAFullDevice) {
   for (const std::string extension : kExtensions) {
@@ -126,7 +126,8 @@ TEST(MeshOutput, FailsOnASmallDisk) {
                               {"ply", "24", "room for "},
                               {"stl", "24", "room for "},
                               {"glb", "24", "room for "},
-                              {"vtu", "24", "room for "}};
+                              {"vtu", "24", "room for "},
+                              {"raw", "24", "room for "}};
   for (const Attempt& attempt : attempts) {
     const std::string name = std::string("mesh.") + attempt.extension;
     const std::string out = folder.write(name, "before");

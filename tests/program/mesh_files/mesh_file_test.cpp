@@ -75,6 +75,15 @@ const Case kCases[] = {
      "ushort"},
     {"GlbEmpty", MeshFormat::glb, false, {.vertices = 0, .faces = 0}},
     {"GlbWithoutFaces", MeshFormat::glb, false, {.vertices = 5, .faces = 0}},
+    {"RawF32", MeshFormat::raw, false, {}, "<u4"},
+    {"RawF64", MeshFormat::raw, true, {}, "<u4"},
+    {"RawBare", MeshFormat::raw, false, {.normals = false}, "<u4"},
+    {"RawUv", MeshFormat::raw, true, {.normals = false, .uv = true}, "<u4"},
+    {"RawAll", MeshFormat::raw, true, {.uv = true, .patches = true}, "<u4"},
+    {"RawPatches", MeshFormat::raw, false, {.normals = false, .patches = true}, "<u4"},
+    {"RawQuads", MeshFormat::raw, false, {.vertices = 9000, .corners = 4}, "<u4"},
+    {"RawFloats", MeshFormat::raw, true, {.uv = true, .patches = true, .floats = true}, "<u4"},
+    {"RawEmpty", MeshFormat::raw, false, {.vertices = 0, .faces = 0}, "<u4"},
     {"VtuF32", MeshFormat::vtu, false, {}, "Int32"},
     {"VtuF64", MeshFormat::vtu, true, {}, "Int32"},
     {"VtuBare", MeshFormat::vtu, false, {.normals = false}, "Int32"},
@@ -97,6 +106,8 @@ ReadMesh read(MeshFormat format, const std::string& bytes) {
     return read_stl_mesh(bytes);
   case MeshFormat::vtu:
     return read_vtu_mesh(bytes);
+  case MeshFormat::raw:
+    return read_raw_mesh(bytes);
   case MeshFormat::glb:
     break;
   }
@@ -214,6 +225,10 @@ TEST_P(MeshFile, SaysItsDeviation) {
     EXPECT_EQ(read(GetParam().format, bytes(mesh)).position_type,
               GetParam().doubles && !has_floats() ? "Float64" : "Float32");
   }
+  if (GetParam().format == MeshFormat::raw && !is_empty()) {
+    EXPECT_EQ(read(GetParam().format, bytes(mesh)).position_type,
+              GetParam().doubles && !has_floats() ? "<f8" : "<f4");
+  }
   mesh.contents.deviation = 0.1;
   mesh.contents.generator = "test \"1.0\"";
   const ReadMesh file = read(GetParam().format, bytes(mesh));
@@ -318,6 +333,7 @@ TEST(MeshFormatOf, GoesByTheExtension) {
   EXPECT_EQ(tools::mesh_format_of("b.ply.stl"), MeshFormat::stl);
   EXPECT_EQ(tools::mesh_format_of("b.glb"), MeshFormat::glb);
   EXPECT_EQ(tools::mesh_format_of("b.vtu"), MeshFormat::vtu);
+  EXPECT_EQ(tools::mesh_format_of("b.raw"), MeshFormat::raw);
   for (const char* const name : {"", "-", "obj", "b.gltf", "b.glb.gz", "b.", ".ply"}) {
     EXPECT_EQ(tools::mesh_format_of(name), std::nullopt) << name;
   }

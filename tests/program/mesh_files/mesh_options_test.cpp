@@ -174,7 +174,10 @@ const Refused kRefused[] = {
     {"QuantisedPly", 2, {"--quantise", "16"}, "--quantise: expected an output in glb, found ply"},
     {"QuantisedWords", 2, {"--quantise", "12"}, "--quantise: expected 16 or 8, found '12'"},
     {"OtherFormat", 2, {"--to", "obj"}, "--to: expected the format of "},
-    {"UnknownFormat", 2, {"--to", "fbx"}, "--to: expected obj, ply, stl, glb or vtu, found 'fbx'"},
+    {"UnknownFormat",
+     2,
+     {"--to", "fbx"},
+     "--to: expected obj, ply, stl, glb, vtu or raw, found 'fbx'"},
 };
 
 class RefusedOptions : public ::testing::TestWithParam<Refused> {};
@@ -241,9 +244,9 @@ TEST(RefusedMeshOptions, SurfacesOfOneSide) {
 }
 
 TEST(RefusedMeshOptions, WhatAFormatDoesNotHold) {
-  const std::array<std::string, 3> cases[] = {{"--quads", "stl", "obj, ply or vtu"},
-                                              {"--quads", "glb", "obj, ply or vtu"},
-                                              {"--parameters", "stl", "obj, ply, glb or vtu"}};
+  const std::array<std::string, 3> cases[] = {{"--quads", "stl", "obj, ply, vtu or raw"},
+                                              {"--quads", "glb", "obj, ply, vtu or raw"},
+                                              {"--parameters", "stl", "obj, ply, glb, vtu or raw"}};
   for (const auto& [option, extension, formats] : cases) {
     for (const std::vector<std::string>& out :
          {std::vector<std::string>{"out." + extension}, {"-", "--to", extension}}) {
@@ -276,8 +279,9 @@ TEST(RefusedMeshOptions, JsonAmongData) {
 }
 
 TEST(RefusedMeshOptions, StandardOutputWithoutAFormat) {
-  expect_failure(run({"tessellate", "builtin:teapot", "-o", "-"}), 2,
-                 "-o: expected a name that ends in .obj, .ply, .stl, .glb or .vtu, or - with --to");
+  expect_failure(
+      run({"tessellate", "builtin:teapot", "-o", "-"}), 2,
+      "-o: expected a name that ends in .obj, .ply, .stl, .glb, .vtu or .raw, or - with --to");
 }
 
 } // namespace

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* const kExtensions[] = {"obj", "ply", "stl", "glb", "vtu"};
+const char* const kExtensions[] = {"obj", "ply", "stl", "glb", "vtu", "raw"};
 
 // Every way of making a mesh, for what has to hold for all of them.
 const std::vector<std::vector<std::string>> kWays = {{"--grid", "9"},

@@ -60,12 +60,14 @@ struct ReadMesh {
 [[nodiscard]] ReadMesh read_stl_mesh(const std::string& bytes);
 [[nodiscard]] ReadMesh read_glb_mesh(const std::string& bytes);
 [[nodiscard]] ReadMesh read_vtu_mesh(const std::string& bytes);
+[[nodiscard]] ReadMesh read_raw_mesh(const std::string& bytes);
 /// The one of these that a file's extension names.
 [[nodiscard]] inline ReadMesh read_mesh(const std::string& extension, const std::string& bytes) {
   return extension == "obj"   ? read_obj_mesh(bytes)
          : extension == "ply" ? read_ply_mesh(bytes)
          : extension == "stl" ? read_stl_mesh(bytes)
          : extension == "vtu" ? read_vtu_mesh(bytes)
+         : extension == "raw" ? read_raw_mesh(bytes)
                               : read_glb_mesh(bytes);
 }
 

@@ -91,6 +91,8 @@ const Stored kStored[] = {
     {"FloatObj", "obj", {"--precision", "f64", "--vertex-precision", "f32"}, false},
     {"FloatPly", "ply", {"--precision", "f64", "--vertex-precision", "f32"}, false},
     {"DoublePly", "ply", {"--precision", "f64", "--vertex-precision", "f64"}, true},
+    {"RawF32", "raw", {}, false},
+    {"RawF64", "raw", {"--precision", "f64"}, true},
     {"VtuF32", "vtu", {}, false},
     {"VtuF64", "vtu", {"--precision", "f64"}, true},
     {"FloatVtu", "vtu", {"--precision", "f64", "--vertex-precision", "f32"}, false},
@@ -193,7 +195,8 @@ std::string square(const std::string& x, const std::string& size) {
 TEST(TinyModel, IsWholeOrRefused) {
   const TemporaryFolder folder;
   const std::string in = folder.write("in.bpt", square("0", "1e-100"));
-  for (const char* const name : {"out.obj", "out.ply", "out.stl", "out.glb", "out.vtu"}) {
+  for (const char* const name :
+       {"out.obj", "out.ply", "out.stl", "out.glb", "out.vtu", "out.raw"}) {
     for (const Words& finer :
          {Words{"--relative", "1e-2"}, {"--grid", "3"}, {"--grid", "3", "--no-weld"}}) {
       const std::string out = folder.path(name);

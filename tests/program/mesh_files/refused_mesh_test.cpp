@@ -93,8 +93,8 @@ TEST_P(RefusedMesh, IsRefusedBeforeAnythingIsWritten) {
 INSTANTIATE_TEST_SUITE_P(All, RefusedMesh, ::testing::ValuesIn(refused_contents()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-const MeshFormat kFormats[] = {MeshFormat::obj, MeshFormat::ply, MeshFormat::stl, MeshFormat::glb,
-                               MeshFormat::vtu};
+const MeshFormat kFormats[] = {MeshFormat::obj, MeshFormat::ply, MeshFormat::stl,
+                               MeshFormat::glb, MeshFormat::vtu, MeshFormat::raw};
 
 TEST(RefusedNumbers, AreNotFinite) {
   for (const MeshFormat format : kFormats) {
@@ -137,7 +137,8 @@ TEST(RefusedNumbers, DoNotFitIntoFloats) {
 TEST(RefusedNumbers, AreNotThoseThatFitIntoFloats) {
   const TemporaryFolder folder;
   const std::string in = folder.write("in.bv", "4 1 0 0 0 3e38 0 0 0 3e38 0 3e38 3e38 0\n");
-  for (const char* const name : {"out.stl", "out.glb", "out.obj", "out.ply", "out.vtu"}) {
+  for (const char* const name :
+       {"out.stl", "out.glb", "out.obj", "out.ply", "out.vtu", "out.raw"}) {
     for (const char* const precision : {"f32", "f64"}) {
       const Outcome made =
           run({"tessellate", in, "-o", folder.path(name), "--grid", "3", "--precision", precision});

@@ -116,6 +116,8 @@ TEST(UnweldedMesh, FlipTurnsFacesAndNormalsOnly) {
                                       {"stl", {"--no-normals"}},
                                       {"glb", {}},
                                       {"glb", {"--no-normals"}},
+                                      {"raw", {}},
+                                      {"raw", {"--quads"}},
                                       {"vtu", {}},
                                       {"vtu", {"--quads", "--no-normals"}}};
   for (const std::string precision : {"f32", "f64"}) {

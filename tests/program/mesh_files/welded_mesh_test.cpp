@@ -188,7 +188,8 @@ const WithParameters kWithParameters[] = {{"obj", {}},
                                           {"glb", {"--quantise", "16"}},
                                           {"obj", {"--no-weld"}},
                                           {"glb", {"--no-weld", "--no-normals"}},
-                                          {"vtu", {"--quads"}}};
+                                          {"vtu", {"--quads"}},
+                                          {"raw", {"--quads"}}};
 
 // The same faces, whose vertices have their own u, v in every patch.
 TEST(WeldedMesh, ParametersAreEachPatchsOwn) {

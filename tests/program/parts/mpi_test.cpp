@@ -75,6 +75,8 @@ constexpr Case kCases[] = {{"ply", "--relative 1e-2"},
                            {"ply", "--grid 4x3 --quads --parameters"},
                            {"stl", "--no-weld --grid 3"},
                            {"ply", "--no-weld --grid 3 --flip"},
+                           {"raw", "--grid 4x3 --quads --parameters"},
+                           {"raw", "--relative 1e-2 --precision f64"},
                            {"stl", "--grid 2 --precision f64"}};
 
 TEST_P(Mpi, any_number_of_ranks_makes_the_same_bytes) {
@@ -155,7 +157,7 @@ TEST_P(Mpi, faults_have_an_exit_code_a_message_and_leave_nothing) {
       {"tessellate " + folder_.path("cut.sbp") + out, 1, "expected block 0"},
       {"tessellate builtin:teapot -o " + folder_.path("no/folder.ply"), 1,
        "no/folder.ply: expected"},
-      {"tessellate builtin:teapot -o " + folder_.path("a.glb"), 2, "expected a mesh in ply or stl"},
+      {"tessellate builtin:teapot -o " + folder_.path("a.glb"), 2, "expected a mesh in ply, raw or stl"},
       {"tessellate builtin:teapot" + out + " --tolerance 1e-9", 1, "expected a distance above"},
       {"evaluate builtin:teapot -o " + folder_.path("no/folder.csv"), 1, "no/folder.csv: expected"},
       {"evaluate builtin:teapot -o -", 2, "-o: expected a file that all ranks can write"},
