@@ -43,6 +43,17 @@ void fail_row(benchmark::State& state, const std::string& message) {
 
 bool any_row_failed() { return failed; }
 
+std::string strategies_taken() {
+  const simdbezier::detail::StrategySet taken = simdbezier::detail::take_strategies();
+  std::string names;
+  for (std::size_t k = 0; k < simdbezier::detail::kGridStrategies; ++k) {
+    if (taken.has(static_cast<simdbezier::detail::GridStrategy>(k))) {
+      names += (names.empty() ? "" : " ") + std::string(simdbezier::detail::kGridStrategyNames[k]);
+    }
+  }
+  return names;
+}
+
 /// Returns the values of "OPTION VALUE" and "OPTION=VALUE", which it takes out of the arguments.
 static std::vector<std::string> take_option(std::vector<char*>& arguments,
                                             const std::string& option) {

@@ -54,6 +54,9 @@ int max_threads();
 
 /// Ends a row with an error, which makes the program's exit code 1.
 void fail_row(benchmark::State& state, const std::string& message);
+
+/// Returns the names of the strategies for grids that the library has taken since the last call.
+std::string strategies_taken();
 bool any_row_failed();
 
 /// Runs `call` under the benchmark's clock and reports rates per second; `items` and `bytes` are
@@ -102,7 +105,9 @@ void register_row(const std::string& name, benchmark::TimeUnit unit, int threads
       }
       *checked = true;
     }
+    static_cast<void>(strategies_taken());
     time_calls(state, threads, row.items(), row.bytes(), [&row] { row(); });
+    state.SetLabel(strategies_taken());
   };
   benchmark::RegisterBenchmark(name.c_str(), run)->Unit(unit);
 }

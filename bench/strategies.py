@@ -5,9 +5,9 @@ usage: strategies.py BENCH [ROUNDS [REGEX]]
 
 BENCH is simdbezier_bench. Runs its grid rows that match REGEX (default: floats on the widest
 instruction set, planes, one thread) as they are and without each strategy, in turns, ROUNDS times
-(default: 5), and prints a table: a line a row, a column a strategy, a cell the median speed without
-the strategy divided by that with all of them. Cells from 0.97 to 1.03 are left empty, and so are
-lines without a cell.
+(default: 5), and prints a table: a line a row, a column a strategy. A cell is the best speed
+without the strategy divided by the best one with all of them; it is empty if the row does not take
+the strategy.
 """
 
 import json
@@ -17,19 +17,18 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True  # results.py is imported from the source tree
-from results import Row, natural_order, repetitions  # noqa: E402
-
-UNCHANGED = 0.03
-
+from results import natural_order, repetitions  # noqa: E402
 
 def run(bench, regex, without):
-    """Row name -> samples/s of one run."""
+    """Row name -> (samples/s, strategies that it took) of one run."""
     with tempfile.NamedTemporaryFile(suffix=".json") as out:
         command = [bench, f"--benchmark_filter={regex}", f"--benchmark_out={out.name}"]
         command += [f"--without={without}"] if without else []
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         with open(out.name, encoding="utf-8") as file:
-            return repetitions(json.load(file))
+            report = json.load(file)
+    labels = {row["run_name"]: row.get("label", "").split() for row in report["benchmarks"]}
+    return {name: (max(values), labels[name]) for name, values in repetitions(report).items()}
 
 
 def strategies(bench):
@@ -50,17 +49,19 @@ def widest(bench):
 def main(bench, rounds="5", regex=None):
     regex = regex or f"^grid/[a-z_]*/f32/{widest(bench)}/[0-9x]*/(cache|memory)/threads:1$"
     ways = ["", *strategies(bench)]
-    found = {way: {} for way in ways}
+    best = {way: {} for way in ways}
+    taken = {}
     for _ in range(int(rounds)):
         for way in ways:
-            for name, values in run(bench, regex, way).items():
-                found[way].setdefault(name, []).extend(values)
+            for name, (rate, strategies_of_row) in run(bench, regex, way).items():
+                best[way][name] = max(rate, best[way].get(name, 0))
+                if not way:
+                    taken[name] = strategies_of_row
     print("| row | " + " | ".join(ways[1:]) + " |")
     print("| --- |" + " --- |" * len(ways[1:]))
-    for name in sorted(found[""], key=natural_order):
-        base = Row(found[""][name]).median
-        ratios = [Row(found[way][name]).median / base for way in ways[1:]]
-        cells = [f"{ratio:.2f}" if abs(ratio - 1) > UNCHANGED else "" for ratio in ratios]
+    for name in sorted(best[""], key=natural_order):
+        cells = [f"{best[way][name] / best[''][name]:.2f}" if way in taken[name] else ""
+                 for way in ways[1:]]
         if any(cells):
             print(f"| {name} | " + " | ".join(cells) + " |")
 
