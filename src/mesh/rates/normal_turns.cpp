@@ -5,12 +5,33 @@
 // next one are added up along rows, and along columns.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "src/mesh/net_points.hpp"
 #include "src/mesh/rates/group_bound.hpp"
 
 namespace simdbezier::detail {
 namespace {
+
+/// The angle of (x, y), where y is not below 0, to a few units in the last place: atan2() may have
+/// another last bit in another C library, and rates would depend on it.
+double angle_of(double x, double y) {
+  const double most = std::max(std::fabs(x), y);
+  const bool steep = y >= std::fabs(x); // counted from the y axis
+  double t = most > 0 ? (steep ? x : y) / most : 0;
+  for (int halving = 0; halving < 2; ++halving) {
+    t /= 1 + std::sqrt(1 + t * t);
+  }
+  double series = 0; // of the arctangent; |t| is at most tan(pi / 16)
+  for (int k = 21; k > 0; k -= 2) {
+    series = 1.0 / k - t * t * series;
+  }
+  const double angle = 4 * t * series;
+  return !(most > 0) ? 0
+         : steep     ? std::numbers::pi / 2 - angle
+         : x < 0     ? std::numbers::pi - angle
+                     : angle;
+}
 
 /// Angles between vectors that follow each other; those without a direction are passed over.
 class TurnSum {
@@ -20,7 +41,7 @@ public:
       return;
     }
     const Point3 n = cross(last_, next);
-    sum_ += std::atan2(std::sqrt(dot(n, n)), dot(last_, next));
+    sum_ += angle_of(dot(last_, next), std::sqrt(dot(n, n)));
     last_ = next;
   }
   [[nodiscard]] double sum() const { return sum_; }
