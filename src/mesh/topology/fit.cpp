@@ -14,12 +14,13 @@
 
 namespace simdbezier {
 namespace detail {
-namespace {
 
+/// Of the sides of each patch. Not in an anonymous namespace, because a lambda of a function with
+/// external linkage captures it.
 template <typename S>
-class Fit {
+class TopologyFit {
 public:
-  Fit(const TopologyData& topology, std::span<const ControlNets<S>> nets)
+  TopologyFit(const TopologyData& topology, std::span<const ControlNets<S>> nets)
       : topology_(topology), edges_(nets), corners_(nets) {}
 
   /// Whether a patch's sides are joined.
@@ -54,8 +55,6 @@ private:
   NetCorners<S> corners_;
 };
 
-} // namespace
-
 template <typename S>
 Status check_model(std::span<const ControlNets<S>> nets) noexcept {
   constexpr std::size_t kMostPatches = std::size_t{1} << 29;
@@ -81,7 +80,7 @@ template Status check_model(std::span<const ControlNets<double>>) noexcept;
 template <typename S>
 std::size_t first_misfit(const TopologyData& topology, std::span<const ControlNets<S>> nets,
                          int threads) {
-  const Fit<S> fit(topology, nets);
+  const TopologyFit<S> fit(topology, nets);
   std::atomic<std::size_t> lowest = topology.patches();
   auto body = [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t patch = begin; patch < end; ++patch) {
