@@ -65,15 +65,20 @@ struct SmallAcross {
   }
 };
 
+/// Whether small grids have kernels in which a register is four groups of four lanes.
+#if defined(SIMDBEZIER_KERNELS_AVX512)
+template <detail::OutputSet kOutputs, typename T>
+constexpr bool kInFourGroups = kUsual<kOutputs>&& kFourGroups<vec<T>>;
+#else
+template <detail::OutputSet kOutputs, typename T>
+constexpr bool kInFourGroups = false;
+#endif
+
 /// 4 x 4 samples, all components in one register.
 template <detail::OutputSet kOutputs, typename T>
 struct SquaresOfFour {
   static constexpr GridStrategy kName = GridStrategy::squares_of_four;
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-  static constexpr bool kExists = kUsual<kOutputs> && kFourGroups<vec<T>>;
-#else
-  static constexpr bool kExists = false;
-#endif
+  static constexpr bool kExists = kInFourGroups<kOutputs, T>;
   static SIMDBEZIER_PART bool applies(const GridTask<T>& task) {
     return is_small_grid(task) && is_square_of_four(task);
   }
@@ -86,11 +91,7 @@ struct SquaresOfFour {
 template <detail::OutputSet kOutputs, typename T>
 struct SmallGroups {
   static constexpr GridStrategy kName = GridStrategy::small_groups;
-#if defined(SIMDBEZIER_KERNELS_AVX512)
-  static constexpr bool kExists = kUsual<kOutputs> && kFourGroups<vec<T>>;
-#else
-  static constexpr bool kExists = false;
-#endif
+  static constexpr bool kExists = kInFourGroups<kOutputs, T>;
   static SIMDBEZIER_PART bool applies(const GridTask<T>& task) { return is_small_grid(task); }
   static SIMDBEZIER_PART void run(const GridTask<T>& task) {
     if constexpr (kOutputs == detail::kPosition) {
