@@ -10,11 +10,11 @@ namespace simdbezier::tools {
 namespace {
 
 using Names = std::array<std::string_view, 3>;
-constexpr Names kUnit = {"patch", "u", "v"};
-constexpr Names kCentred = {"patch", "x", "y"};
+constexpr Names kUnitNames = {"patch", "u", "v"};
+constexpr Names kCentredNames = {"patch", "x", "y"};
 // Results have these names, because x, y and z are positions there. Samples may have them too, so
 // that the first columns of results are samples again.
-constexpr Names kCentredResult = {"patch", "centred_u", "centred_v"};
+constexpr Names kCentredResultNames = {"patch", "centred_u", "centred_v"};
 
 std::string header_of(const Names& names) {
   return std::string(names[0]) + "," + std::string(names[1]) + "," + std::string(names[2]);
@@ -94,14 +94,14 @@ std::size_t column_count(std::span<const Output> outputs) {
 
 SampleReader::SampleReader(const std::string& path, std::size_t patches)
     : input_(path), patches_(patches) {
-  const std::string expected = "the header " + header_of(kUnit) + ", " + header_of(kCentred) +
-                               " or " + header_of(kCentredResult);
+  const std::string expected = "the header " + header_of(kUnitNames) + ", " +
+                               header_of(kCentredNames) + " or " + header_of(kCentredResultNames);
   if (!next_line()) {
     fail(expected, "the end of the file");
   }
   const Fields fields(line_);
-  centred_ = fields.are(kCentred) || fields.are(kCentredResult);
-  if (!centred_ && !fields.are(kUnit)) {
+  centred_ = fields.are(kCentredNames) || fields.are(kCentredResultNames);
+  if (!centred_ && !fields.are(kUnitNames)) {
     const std::string_view repeated = fields.repeated();
     fail(expected,
          in_quotes(line_) + (repeated.empty() ? "" : " with " + in_quotes(repeated) + " twice"));
@@ -159,7 +159,7 @@ void SampleReader::fail(const std::string& expected, const std::string& found) c
 }
 
 std::string result_header(bool centred, std::span<const Output> outputs) {
-  const Names& names = centred ? kCentredResult : kUnit;
+  const Names& names = centred ? kCentredResultNames : kUnitNames;
   std::string line(names[0]);
   for (const std::string_view name : std::span(names).subspan(1)) {
     line.append(",").append(name);
