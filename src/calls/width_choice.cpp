@@ -26,7 +26,7 @@ constexpr int kRounds = 6;
 constexpr std::int64_t kLongest = 200'000; ///< nanoseconds, after which no further round begins
 
 /// What is said to be faster has to be so by more than a clock's errors.
-constexpr double kMargin = 1.05;
+constexpr double kWidthMargin = 1.05;
 
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
@@ -57,8 +57,9 @@ public:
         break;
       }
     }
-    return static_cast<double>(best[1]) * kMargin < static_cast<double>(best[0]) ? Width::narrower
-                                                                                 : Width::widest;
+    return static_cast<double>(best[1]) * kWidthMargin < static_cast<double>(best[0])
+               ? Width::narrower
+               : Width::widest;
   }
 
 private:

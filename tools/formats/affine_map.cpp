@@ -1,4 +1,5 @@
 #include <tools/formats/affine_map.hpp>
+#include <tools/formats/roundings.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@ using Vector = AffineMap::Vector;
 using Rows = AffineMap::Rows;
 
 constexpr Rows kIdentity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}};
-constexpr double kRounding = 1 + 0x1p-40; // of a computation of bounds
-constexpr double kUnit = 0x1p-53;         // u: what one rounding adds at most, relatively
 
 struct Turn {
   double sine;

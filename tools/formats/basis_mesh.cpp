@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include <tools/formats/roundings.hpp>
 #include <tools/process/failure.hpp>
 #include <tools/process/output_file.hpp>
 
@@ -13,8 +14,6 @@ namespace simdbezier::tools {
 
 namespace {
 
-constexpr double kUnit = 0x1p-53;         // u: what one rounding adds at most, relatively
-constexpr double kRounding = 1 + 0x1p-40; // of a computation of bounds
 constexpr double kMostInteger = 0x1p53;
 
 using Integers = std::array<std::uint64_t, kMostDegree + 1>;

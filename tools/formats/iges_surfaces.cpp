@@ -12,6 +12,7 @@
 #include <tools/formats/iges_kinds.hpp>
 #include <tools/formats/iges_parameters.hpp>
 #include <tools/formats/parameter_boundary.hpp>
+#include <tools/formats/roundings.hpp>
 #include <tools/process/counts.hpp>
 #include <tools/process/failure.hpp>
 #include <tools/process/output_file.hpp>
@@ -21,7 +22,6 @@ namespace simdbezier::tools {
 namespace {
 
 constexpr std::size_t kMostPoints = std::size_t{1} << 31;
-constexpr double kUnit = 0x1p-53;
 constexpr double kSmallest = 0x1p-1066; // more than what underflows in some dozen operations
 
 double length(const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); }
