@@ -17,7 +17,7 @@ class ExactPoints {
 public:
   ExactPoints(const GivenNet& net, std::size_t count, std::size_t components)
       : count_(count), components_(components < 3 ? components : 3), weights_(net.all->weights),
-        tolerance_(one_point_tolerance(weights_, net.all->in_double)) {
+        is_place_(components <= 3), tolerance_(one_point_tolerance(weights_, net.all->in_double)) {
     const std::size_t channels = components + (rational() ? 1 : 0);
     for (std::size_t k = 0; k < count; ++k) {
       for (std::size_t c = 0; c < components_; ++c) {
@@ -92,19 +92,24 @@ public:
 
 private:
   [[nodiscard]] bool are_one(std::size_t k, std::size_t l) const {
+    double size = 0;
+    double apart = 0;
     for (std::size_t c = 0; c < components_; ++c) {
       const double x = point_[k][c] / weight_[k];
       const double y = point_[l][c] / weight_[l];
-      if (!is_one_coordinate(std::fmin(x, y), std::fmax(x, y), tolerance_)) {
+      size = std::fmax(is_place_ ? size : 0, std::fmax(std::fabs(x), std::fabs(y)));
+      apart = std::fmax(is_place_ ? apart : 0, std::fabs(x - y));
+      if (!is_place_ && !(apart <= tolerance_ * size)) {
         return false;
       }
     }
-    return true;
+    return apart <= tolerance_ * size;
   }
 
   std::size_t count_;
   std::size_t components_;
   Weights weights_;
+  bool is_place_; ///< coordinates are compared with the largest one, as joint_components() says
   double tolerance_;
   double largest_point_ = 0;
   double largest_weight_ = 0;

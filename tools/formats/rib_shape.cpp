@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include <tools/formats/roundings.hpp>
 #include <tools/process/failure.hpp>
 
 namespace simdbezier::tools {
@@ -46,27 +47,63 @@ void exchange_directions(PatchFile& file, RibShape& shape) {
   std::swap(shape.u, shape.v);
 }
 
-/// Moves points; the k-th one stands in line_of(k). Returns a bound on how far any of them is from
-/// where it should be.
+/// Whether two homogeneous points are one, by the rule of the library (docs/accuracy.md, Edges that
+/// are points).
+bool are_one(const double* a, const double* b) {
+  double size = 0;
+  double apart = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double x = a[c] / a[3];
+    const double y = b[c] / b[3];
+    size = std::max({size, std::abs(x), std::abs(y)});
+    apart = std::max(apart, std::abs(x - y));
+  }
+  return apart <= 16 * kUnit * size;
+}
+
+/// Moves the points of nets of `columns` x `rows`; the k-th one stands in line_of(k). Returns a
+/// bound on how far any of them is from where it should be. Neighbours that are one point stay one,
+/// since sums that cancel would take them apart.
 template <typename Line>
 double move_points(const std::string& name, std::span<double> values, const RibShape& shape,
-                   const Line& line_of) {
+                   std::size_t columns, std::size_t rows, const Line& line_of) {
   if (shape.map.is_identity()) {
     return 0;
   }
   const std::size_t each = values_of(shape);
+  const std::vector<double> given(values.begin(), values.end());
   double error = 0;
+  double merged = 0; // what is added to the error of a point by those that follow it
   for (std::size_t k = 0; k * each < values.size(); ++k) {
     double* const point = values.data() + k * each;
     const double weight = each == 4 ? point[3] : 1;
-    error = std::max(error, shape.map.move(point, weight));
+    const auto is_one_with = [&](std::size_t other) {
+      return each == 4 && are_one(&given[k * each], &given[other * each]);
+    };
+    const std::size_t at = k % (columns * rows);
+    const std::size_t before = at % columns != 0 && is_one_with(k - 1)     ? k - 1
+                               : at >= columns && is_one_with(k - columns) ? k - columns
+                                                                           : k;
+    if (before == k) {
+      error = std::max(error, shape.map.move(point, weight));
+    } else {
+      double size = 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double moved = values[before * each + c] / values[before * each + 3];
+        size = std::max({size, std::abs(moved), std::abs(given[k * each + c] / weight)});
+        point[c] = moved * weight;
+      }
+      // As far as both were apart, for each point of a row and a column; and two roundings.
+      const auto most = static_cast<double>(columns + rows);
+      merged = std::max(merged, most * 32 * kUnit * size * (1 + shape.map.stretch()) * kRounding);
+    }
     for (std::size_t c = 0; c < 3; ++c) {
       if (!std::isfinite(point[c] / weight)) {
         bad_input_at(name, line_of(k), "a point that its transformations leave finite", "another");
       }
     }
   }
-  return error;
+  return error + merged;
 }
 
 double close_mesh(PatchFile& file, const RibShape& shape) {
@@ -85,8 +122,10 @@ double close_mesh(PatchFile& file, const RibShape& shape) {
                                   shape.v.mesh, shape.weights, taken.values, taken.lines});
     error = error == 0 ? 0 : error * shape.map.stretch();
   }
-  return error + move_points(file.name, std::span(file.points).subspan(first_value), shape,
-                             [&](std::size_t k) { return file.lines[first_line + k]; });
+  const std::size_t order =
+      shape.has_bezier_points() ? static_cast<std::size_t>(shape.degree) + 1 : 4;
+  return error + move_points(file.name, std::span(file.points).subspan(first_value), shape, order,
+                             order, [&](std::size_t k) { return file.lines[first_line + k]; });
 }
 
 // What making patches of it rounds is not part of the bound.
@@ -95,7 +134,8 @@ double close_spline(PatchFile& file, const RibShape& shape) {
   FileSpline spline{shape.line, *shape.u.spline, *shape.v.spline, shape.weights,
                     std::move(taken.values)};
   const double error =
-      move_points(file.name, spline.points, shape, [&](std::size_t k) { return taken.lines[k]; });
+      move_points(file.name, spline.points, shape, shape.u.spline->points, shape.v.spline->points,
+                  [&](std::size_t k) { return taken.lines[k]; });
   file.close_spline(spline);
   return error;
 }

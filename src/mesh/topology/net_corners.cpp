@@ -14,13 +14,13 @@ namespace {
 /// Whether two control points of a view are one.
 template <typename S>
 bool are_one(const ControlNets<S>& nets, const Point3& a, const Point3& b) noexcept {
-  const double tolerance = one_point_tolerance(nets.weights, sizeof(S) == sizeof(double));
+  double size = 0;
+  double apart = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    if (!is_one_coordinate(std::min(a.x[c], b.x[c]), std::max(a.x[c], b.x[c]), tolerance)) {
-      return false;
-    }
+    size = std::max({size, std::fabs(a.x[c]), std::fabs(b.x[c])});
+    apart = std::max(apart, std::fabs(a.x[c] - b.x[c]));
   }
-  return true;
+  return apart <= one_point_tolerance(nets.weights, sizeof(S) == sizeof(double)) * size;
 }
 
 /// The way from an end of a side, whose values begin at `end`, to its first control point that is

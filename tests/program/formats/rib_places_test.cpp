@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/program/formats/format_files.hpp"
+#include "tests/program/process/program.hpp"
 
 namespace simdbezier::tests::rib_places_test {
 namespace {
@@ -226,6 +227,24 @@ TEST(RibSide, ExchangesTheDirectionsOfMeshes) {
   for (std::size_t p = 0; p < 3; ++p) {
     for (std::size_t k = 0; k < 4; ++k) {
       EXPECT_EQ(patch_points(file, p)[k].x, expected[p][k]);
+    }
+  }
+}
+
+// A tip whose points are 3/1 and 0.3/0.1, moved so that sums cancel, stays one point.
+TEST(RibPole, StaysOnePointWhereverItIsMoved) {
+  const std::string tip = "NuPatch 2 2 [0 0 1 1] 0 1 2 2 [0 0 1 1] 0 1 \"Pw\" "
+                          "[1 0 0 1  0 1 0 1  0 0 3 1  0 0 .3 .1]\n";
+  const std::string patch = "Patch \"bilinear\" \"Pw\" [1 0 0 1  0 1 0 1  0 0 3 1  0 0 .3 .1]\n";
+  for (const std::string& shape : {tip, patch}) {
+    for (const char* const moves :
+         {"Translate 0 0 0", "Translate 0 0 -3", "Rotate 45 1 0 0\nTranslate 0 0 -3",
+          "Rotate 45 1 0 0\nTranslate 0 3 0", "Rotate 30 1 0 0", "Rotate 45 1 1 0"}) {
+      SCOPED_TRACE(moves);
+      const Outcome outcome =
+          run({"info", "-", "--format", "rib"}, {.input = std::string(moves) + "\n" + shape});
+      EXPECT_EQ(outcome.code, 0);
+      EXPECT_NE(outcome.out.find("1 collapsed"), std::string::npos) << outcome.out;
     }
   }
 }
