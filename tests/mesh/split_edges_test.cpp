@@ -316,6 +316,37 @@ TYPED_TEST(SplitEdges, count_what_cannot_be_joined) {
 
 /// Values that are no numbers, or have no place among others, are found by nobody, and nothing
 /// hangs.
+/// A rectangle in the plane z = 0, from (x0, y0) to (x1, y1).
+std::vector<double> rectangle(double x0, double y0, double x1, double y1) {
+  return {x0, y0, 0, x1, y0, 0, x0, y1, 0, x1, y1, 0};
+}
+
+// Corners on both sides of a patch that are nearly opposite make one cut, not two beside each
+// other.
+TEST(SplitEdgesCuts, that_are_nearer_than_the_snap_are_one) {
+  for (const double y : {0.25, 1 / 3.0, 0.37, 0.6180339}) {
+    for (const double apart : {0.0, 1e-16, 1e-15, 1e-14, 1e-12, 1e-9, 1e-7, 1e-6, 9e-6}) {
+      SCOPED_TRACE(testing::Message() << y << " and " << apart << " more");
+      std::vector<double> values;
+      for (const auto& part :
+           {rectangle(0, 0, 1, 1), rectangle(-1, 0, 0, y), rectangle(-1, y, 0, 1),
+            rectangle(1, 0, 2, y + apart), rectangle(1, y + apart, 2, 1)}) {
+        values.insert(values.end(), part.begin(), part.end());
+      }
+      MeshOptions options;
+      options.nu = options.nv = 2;
+      options.snap = 1e-5;
+      options.split_edges = true;
+      const auto nets = ControlNets<double>::packed(values.data(), 5, 1, 1);
+      const MeshPlan<double> plan = plan_mesh<double>(nets, options);
+      ASSERT_EQ(plan.status, Status::ok);
+      EXPECT_EQ(plan.pieces.size(), 6U);
+      EXPECT_EQ(plan.splits.unjoined, 0U);
+      EXPECT_EQ(tessellate<double>(nets, options).triangles.size(), 12U);
+    }
+  }
+}
+
 TEST(SplitEdgesInput, odd_values_end) {
   const double odd[] = {0,
                         -1,

@@ -2,6 +2,7 @@
 #include <simdbezier/split_edges.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
 #include <utility>
@@ -21,17 +22,19 @@ namespace detail {
 namespace {
 
 /// Where patches are to be cut: for each patch and direction, 2 * patch + (0 in u, 1 in v).
+template <typename S>
 class Cuts {
 public:
-  Cuts(const TopologyData& topology, double merged, std::size_t most)
-      : topology_(topology), merged_(merged), most_(most), cuts_(2 * topology.patches()),
+  Cuts(const TopologyData& topology, const NetCorners<S>& nets, std::size_t most)
+      : topology_(topology), nets_(nets), most_(most), cuts_(2 * topology.patches()),
         pieces_(topology.patches()) {}
 
   [[nodiscard]] bool any() const { return pieces_ > topology_.patches(); }
 
-  /// Cuts a side's patch, and all across the cut. False, and nothing has changed, where that makes
-  /// too many pieces.
-  bool insert(std::size_t side, double t) {
+  /// Cuts a side's patch, and all across the cut. A cut whose ends are within `near` of those of
+  /// another one is that one: the piece between them would have two sides of hardly any length.
+  /// False, and nothing has changed, where that makes too many pieces.
+  bool insert(std::size_t side, double t, double near) {
     std::vector<Cut> open;
     std::vector<Cut> made;
     const auto add = [&](std::size_t at, double where) {
@@ -43,14 +46,13 @@ public:
       open.pop_back();
       std::vector<double>& own = cuts_[cut.line];
       if (std::any_of(own.begin(), own.end(),
-                      [&](double other) { return std::fabs(other - cut.t) <= merged_; })) {
+                      [&](double other) { return is_one(cut, other, near); })) {
         continue;
       }
       own.push_back(cut.t);
       made.push_back(cut);
       pieces_ += cuts_[cut.line ^ 1].size() + 1;
-      const std::size_t first = kPatchEdges * (cut.line / 2) + (cut.line % 2 == 0 ? 0 : 2);
-      for (const std::size_t at : {first, first + 1}) {
+      for (const std::size_t at : sides_of(cut.line)) {
         const Side& along = topology_.sides[at];
         for (const std::uint32_t other : along.collapsed() ? std::span<const std::uint32_t>()
                                                            : topology_.sides_of(along.edge())) {
@@ -83,8 +85,27 @@ private:
     double t;
   };
 
+  /// The two sides that a cut begins and ends on.
+  static std::array<std::size_t, 2> sides_of(std::size_t line) {
+    const std::size_t first = kPatchEdges * (line / 2) + (line % 2 == 0 ? 0 : 2);
+    return {first, first + 1};
+  }
+  [[nodiscard]] bool is_one(const Cut& cut, double other, double near) const {
+    constexpr double kParameters = 64 * kRoundoff<S>;
+    constexpr double kFar = 1.0 / 16; // for `near` to be looked at
+    const double apart = std::fabs(other - cut.t);
+    const auto is_near = [&](std::size_t side) {
+      SideNet net;
+      nets_.read_side(side, net);
+      const SideCurve curve(net);
+      return length(curve.at(other) - curve.at(cut.t)) <= near;
+    };
+    const std::array<std::size_t, 2> sides = sides_of(cut.line);
+    return apart <= kParameters || (apart <= kFar && is_near(sides[0]) && is_near(sides[1]));
+  }
+
   const TopologyData& topology_;
-  double merged_; ///< cuts as near to each other as this are one
+  const NetCorners<S>& nets_;
   std::size_t most_;
   std::vector<std::vector<double>> cuts_;
   std::size_t pieces_;
@@ -142,7 +163,7 @@ Status cut_patch(const ControlNets<S>& one, const PatchPiece& from, const std::v
 }
 
 template <typename S>
-Status cut_all(const Cuts& cuts, SplitNets<S>& split) {
+Status cut_all(const Cuts<S>& cuts, SplitNets<S>& split) {
   SplitNets<S> cut = split;
   cut.nets.clear();
   cut.pieces.clear();
@@ -185,13 +206,14 @@ Status split_once(const SplitOptions& options, std::size_t most, SplitNets<S>& s
   if (const Status status = find_topology(nets, topology, how); !status) {
     return status;
   }
-  Cuts cuts(*topology.data(), 64 * kRoundoff<S>, most);
-  split.counts = {split.counts.splits, 0, 0};
   const NetCorners<S> corners(nets);
+  Cuts<S> cuts(*topology.data(), corners, most);
+  split.counts = {split.counts.splits, 0, 0};
   for (const Along& along : AlongFinder<S>(corners, *topology.data(), split.snap).find()) {
     bool joined = along.distance <= split.snap;
     for (const double t : {along.t0, along.t1}) {
-      joined = joined && (t == 0 || t == 1 || cuts.insert(along.side, t));
+      joined =
+          joined && (t == 0 || t == 1 || cuts.insert(along.side, t, split.snap - along.distance));
     }
     split.counts.splits += joined ? 1 : 0;
     split.counts.unjoined += joined ? 0 : 1;
