@@ -149,7 +149,8 @@ template <typename S>
 ///             bad_components (also: not those of `out`) | bad_weight | bad_grid (too few points) |
 ///             bad_knots | bad_range | bad_tolerance | bad_patch_range (`out` has another number of
 ///             nets) | unequal_lengths (`intervals`) | overlapping_outputs | non_finite_input |
-///             coefficient_overflow (a product w P) | the statuses of running.
+///             coefficient_overflow (a value, or a product w P, beyond 2^980 or, in float, 2^127)
+///             | the statuses of running.
 /// Cost:       about (degree_u + 1) (degree_v + 1)^2 products and sums a channel and patch.
 template <typename T>
 [[nodiscard]] SIMDBEZIER_API SplineReport to_bezier(std::span<const SplineSurface<T>> surfaces,

@@ -6,8 +6,53 @@
 #include <limits>
 
 #include "src/runtime/fp_environment.hpp"
+#include "src/storage/one_point.hpp"
 
 namespace simdbezier {
+namespace detail {
+namespace {
+
+/// How far points that are one and follow each other in a row or a column are apart at most;
+/// quotients are rounded.
+template <typename S>
+double merged_step(const SplineSurface<S>& surface) {
+  if (surface.weights != Weights::homogeneous) {
+    return 0;
+  }
+  const auto components = static_cast<std::size_t>(surface.components);
+  const auto value = [&](const S* point, std::size_t c) {
+    return static_cast<double>(point[static_cast<std::ptrdiff_t>(c) * surface.component_stride]);
+  };
+  double most = 0;
+  const auto compare = [&](const S* a, const S* b) {
+    if (!are_one_point(a, b - a, 2, components, surface.component_stride, surface.weights)) {
+      return;
+    }
+    double apart = 0;
+    double size = 0;
+    for (std::size_t c = 0; c < components; ++c) {
+      const double x = value(a, c) / value(a, components);
+      apart = std::hypot(apart, x - value(b, c) / value(b, components));
+      size = std::hypot(size, x);
+    }
+    most = std::max(most, apart + 0x1p-51 * size);
+  };
+  // The last ones of periodic directions are followed by the first ones.
+  for (std::size_t row = 0; row < surface.rows; ++row) {
+    for (std::size_t column = 0; column < surface.columns; ++column) {
+      const auto at = [&](std::size_t j, std::size_t i) {
+        return surface.points + static_cast<std::ptrdiff_t>(j % surface.rows) * surface.row_stride +
+               static_cast<std::ptrdiff_t>(i % surface.columns) * surface.point_stride;
+      };
+      compare(at(row, column), at(row, column + 1));
+      compare(at(row, column), at(row + 1, column));
+    }
+  }
+  return most;
+}
+
+} // namespace
+} // namespace detail
 
 template <typename S>
 double extraction_error(const SplineSurface<S>& surface) noexcept {
@@ -49,8 +94,11 @@ double extraction_error(const SplineSurface<S>& surface) noexcept {
                      4 * static_cast<double>(std::numeric_limits<S>::denorm_min()) *
                          (1 + (rational ? farthest : 0));
   const double least = lightest - relative * (rational ? heaviest : 0);
+  // Points of the patches that are means of one point are the one of these nearest to zero.
+  const double merged =
+      std::sqrt(3.0) * (surface.degree_u + surface.degree_v) * detail::merged_step(surface);
   constexpr double kRounding = 1 + 0x1p-40; // of this computation
-  return least > 0 ? off / least * kRounding : std::numeric_limits<double>::infinity();
+  return least > 0 ? (off / least + merged) * kRounding : std::numeric_limits<double>::infinity();
 }
 
 template SIMDBEZIER_API double extraction_error(const SplineSurface<float>&) noexcept;

@@ -35,6 +35,11 @@ Status check_points(const SplineSurface<S>& surface) noexcept {
   return lies_in(lattice, 1, surface.memory) ? Status::ok : Status::input_too_small;
 }
 
+/// Values beyond might overflow in sums with whole numbers as factors, which are up to 15!, or when
+/// a mean is rounded to float.
+template <typename S>
+constexpr S kMostValue = sizeof(S) == sizeof(double) ? S(0x1p980) : S(0x1p127);
+
 /// Looks at every control value, and whether neighbours are one point.
 template <typename S>
 SplineReport inspect(PreparedSpline<S>& spline) noexcept {
@@ -52,13 +57,14 @@ SplineReport inspect(PreparedSpline<S>& spline) noexcept {
           return {is_weight ? Status::bad_weight : Status::non_finite_input, 0, number,
                   static_cast<int>(c)};
         }
-        if (surface.weights == Weights::cartesian && !is_weight) {
-          const double weight = static_cast<double>(
-              point[static_cast<std::ptrdiff_t>(components) * surface.component_stride]);
-          if (std::isfinite(weight) &&
-              !std::isfinite(static_cast<S>(static_cast<double>(value) * weight))) {
-            return {Status::coefficient_overflow, 0, number, static_cast<int>(c)};
-          }
+        const bool multiplied = surface.weights == Weights::cartesian && !is_weight;
+        const double factor =
+            multiplied
+                ? static_cast<double>(
+                      point[static_cast<std::ptrdiff_t>(components) * surface.component_stride])
+                : 1;
+        if (std::fabs(static_cast<double>(value) * factor) > double{kMostValue<S>}) {
+          return {Status::coefficient_overflow, 0, number, static_cast<int>(c)};
         }
       }
       const S* const neighbours[] = {column > 0 ? spline.point(row, column - 1) : nullptr,

@@ -161,6 +161,35 @@ TYPED_TEST(SplineMeshes, KeepNoToleranceThatCuttingExceeds) {
   EXPECT_LE(mesh.deviation, options.tolerance);
 }
 
+// Points of a pole that are one but not equal: patches have one of them, and the bound says so.
+template <typename S>
+void expect_pole_within(double unit) {
+  constexpr std::size_t kColumns = 8;
+  std::vector<S> points;
+  for (std::size_t k = 0; k < 2 * kColumns; ++k) {
+    const std::size_t column = k % kColumns;
+    const double x = k < kColumns ? 1 + 16 * unit * static_cast<double>(column % 2) : 0.5;
+    const double y = k < kColumns ? 0 : (static_cast<double>(column) - 3.5) / 16;
+    points.insert(points.end(), {static_cast<S>(x), static_cast<S>(y), 0, 1});
+  }
+  const double knots[] = {0, 0, 1, 1};
+  SplineSurface<S> surface;
+  surface.points = points.data();
+  surface.rows = 2;
+  surface.columns = kColumns;
+  surface.row_stride = 4 * kColumns;
+  surface.point_stride = 4;
+  surface.weights = Weights::homogeneous;
+  surface.degree_v = 1;
+  surface.knots_v = knots;
+  EXPECT_GE(extraction_error(surface), 11 * unit); // of means by 1/3 and 2/3
+  EXPECT_LE(extraction_error(surface), 200 * unit);
+}
+TEST(SplineMeshBounds, CountWhatPolesLose) {
+  expect_pole_within<float>(0x1p-24);
+  expect_pole_within<double>(0x1p-53);
+}
+
 TEST(SplineMeshReports, NameTheSurface) {
   std::vector<SurfaceModel<double>> models = two_models<double>();
   const auto report_of = [&](auto spoil) {
