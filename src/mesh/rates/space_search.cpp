@@ -11,9 +11,11 @@ namespace simdbezier::detail {
 namespace {
 
 /// Pieces, in units of an operation for each pair of control points: of which some take 0.1 s; and
-/// where no other bound holds, so that the mesh would be refused: some seconds.
+/// where weights are far apart and other bounds ask for many cells, or do not hold at all so that
+/// the mesh would be refused: up to some seconds.
 constexpr double kMostWork = 0x1p26;
-constexpr double kLastWork = 0x1p27;
+constexpr double kLastWork = 0x1p28;
+constexpr double kManyCells = 4096;
 /// Pieces may be looked at so many times for each cell that is expected, and at first.
 constexpr double kLooksForEach = 8;
 constexpr double kFirstLooks = 512;
@@ -117,9 +119,12 @@ CertifiedCells SpaceBound::choose(const CellCounts& usual, double stop, std::uin
   const auto count = [](std::uint32_t k) { return k < 8 ? k : (8 + k % 8) << (k / 8 - 1); };
   looked_at_ = 0;
   const double expected = spread_ ? usual.product() : 4 * bends_.fewest(stop) + 1;
-  const bool is_last = std::max(usual.nu, usual.nv) >= most;
-  most_looks_ = std::min((is_last ? kLastWork : kMostWork) / work_,
-                         kLooksForEach * std::min(usual.product(), expected) + kFirstLooks);
+  const bool needs_it =
+      std::max(usual.nu, usual.nv) >= most || (spread_ && usual.product() >= kManyCells);
+  most_looks_ = needs_it
+                    ? kLastWork / work_
+                    : std::min(kMostWork / work_,
+                               kLooksForEach * std::min(usual.product(), expected) + kFirstLooks);
   const double all = std::min(usual.product(), most_looks_);
   misses_.assign(1, {{{0.5, 0.5}, {0.5, 0.5}}});
   std::vector<CellCounts> candidates;
