@@ -8,6 +8,7 @@
 #include <tools/patches/edge_counts.hpp>
 #include <tools/patches/library_status.hpp>
 #include <tools/patches/pack_patches.hpp>
+#include <tools/patches/patch_box.hpp>
 #include <tools/patches/patch_rounding.hpp>
 
 namespace simdbezier::tools {
@@ -17,6 +18,7 @@ GridMesh<T>::GridMesh(const ModelPart& part, const Arguments& arguments, MeshSta
     : arguments_(arguments), patches_(part.file.count), first_patch_(part.first_patch()),
       numbered_(part.patches), grid_(arguments.grid), box_(part.box),
       evaluator_(part.file, arguments.grid, arguments.threads) {
+  expect_no_point<T>(box_, part.file.name);
   const MeshContents mesh = contents();
   stats.patches = patches_;
   stats.vertices = stats.samples = mesh.vertices;

@@ -85,6 +85,7 @@ WeldedMesh<T>::WeldedMesh(ModelPart part, const Arguments& arguments, MeshStats&
 template <typename T>
 void WeldedMesh<T>::take_points(PatchFile file) {
   stats_.diagonal = diagonal_of(box_);
+  expect_no_point<T>(box_, name_);
   errors_.resize(patches_);
   for (std::size_t first = 0; first < patches_; first += kBlockPatches) {
     const std::size_t count = std::min(kBlockPatches, patches_ - first);

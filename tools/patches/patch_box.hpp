@@ -2,9 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
+#include <string>
 
 #include <tools/formats/patch_file.hpp>
 #include <tools/mesh_files/mesh_file.hpp>
+#include <tools/process/failure.hpp>
+#include <tools/process/output_file.hpp>
 
 namespace simdbezier::tools {
 
@@ -15,5 +19,21 @@ namespace simdbezier::tools {
 
 /// Returns whether an origin inside of the box would at least halve the largest coordinate.
 [[nodiscard]] bool is_far(const MeshBox& box);
+
+/// Throws Failure that names --origin if numbers of T make one point of a model that is none.
+template <typename T>
+void expect_no_point(const MeshBox& box, const std::string& name) {
+  const auto is_one = [&](std::size_t c) {
+    return static_cast<T>(box.low[c]) == static_cast<T>(box.high[c]);
+  };
+  const bool fits = largest_coordinate(box) <= double{std::numeric_limits<T>::max()};
+  if (fits && box.low != box.high && is_one(0) && is_one(1) && is_one(2)) {
+    bad_input(name +
+              ": expected a model that numbers of --precision do not make one point, found "
+              "one of size " +
+              shortest(diagonal_of(box)) +
+              (is_far(box) ? " far from the origin (--origin auto moves it)" : ""));
+  }
+}
 
 } // namespace simdbezier::tools
