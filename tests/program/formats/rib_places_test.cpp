@@ -243,7 +243,7 @@ TEST(RibPole, StaysOnePointWhereverItIsMoved) {
       SCOPED_TRACE(moves);
       const Outcome outcome =
           run({"info", "-", "--format", "rib"}, {.input = std::string(moves) + "\n" + shape});
-      EXPECT_EQ(outcome.code, 0);
+      EXPECT_EQ(outcome.exit_code, 0);
       EXPECT_NE(outcome.out.find("1 collapsed"), std::string::npos) << outcome.out;
     }
   }
