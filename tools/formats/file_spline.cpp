@@ -107,6 +107,10 @@ void PatchFile::close_spline(const FileSpline& spline) {
   if (report.status == Status::non_finite_input || report.status == Status::bad_weight) {
     bad_input_at(name, spline.line, "finite coordinates and weights above 0", "others");
   }
+  if (report.status == Status::coefficient_overflow) {
+    bad_input_at(name, spline.line, "coordinates of at most 1e295, also when multiplied by weights",
+                 "others");
+  }
   check(report.status);
   for (std::size_t k = first; k < points.size(); k += stride) {
     add_line(spline.line);
