@@ -10,7 +10,8 @@
 // One permutation makes 16 consecutive samples of these, and another one adds corners. The
 // operations of a sample are those of the tiles, and so are its bits. Positions stand here,
 // derivatives in grid/small_grid_jets.hpp. AVX2, and some squares on AVX-512, take patches
-// as lanes: grid/small_grids_across.hpp. Doubles on AVX-512 have two groups, and tiles.
+// as lanes: grid/small_grids_across.hpp; so do grids of two rows or columns, which are all border.
+// Doubles on AVX-512 have two groups, and tiles.
 #pragma once
 
 #include "kernels/drain/drain_kernel.hpp"
@@ -22,22 +23,32 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
-/// Whether the task's grid is a small one with edges of its own.
+/// Whether the task is a watertight grid that ends at the patch's edges, with at most kMostInner
+/// rows and columns between them: two rows alone are the edges v = 0 and 1.
 template <typename T>
-SIMDBEZIER_PART bool is_small_grid(const GridTask<T>& task) {
-  if (!task.watertight || task.origins != nullptr || task.nu < kLeastSmall ||
-      task.nu > kMostSmall || task.run_count != 3) {
+SIMDBEZIER_PART bool is_closed_grid(const GridTask<T>& task) {
+  if (!task.watertight || task.origins != nullptr || task.nu < 2 || task.nu > kMostSmall ||
+      task.run_count < 2 || task.run_count > 3) {
     return false;
   }
-  const RowRun<T>* const run = task.runs;
-  bool small = run[0].kind == RowKind::edge_v0 && run[0].rows == 1 &&
-               run[1].kind == RowKind::interior && run[1].rows <= kMostInner &&
-               run[2].kind == RowKind::edge_v1 && run[2].rows == 1 && task.x[0] == T(-0.5) &&
-               task.x[task.nu - 1] == T(0.5);
-  for (std::size_t i = 1; i + 1 < task.nu; ++i) {
-    small = small && task.x[i] > T(-0.5) && task.x[i] < T(0.5);
+  const RowRun<T>& first = task.runs[0];
+  const RowRun<T>& last = task.runs[task.run_count - 1];
+  bool closed = first.kind == RowKind::edge_v0 && first.rows == 1 &&
+                last.kind == RowKind::edge_v1 && last.rows == 1 && task.x[0] == T(-0.5) &&
+                task.x[task.nu - 1] == T(0.5);
+  if (task.run_count == 3) {
+    closed = closed && task.runs[1].kind == RowKind::interior && task.runs[1].rows <= kMostInner;
   }
-  return small;
+  for (std::size_t i = 1; i + 1 < task.nu; ++i) {
+    closed = closed && task.x[i] > T(-0.5) && task.x[i] < T(0.5);
+  }
+  return closed;
+}
+
+/// Whether it has rows and columns between the edges as well.
+template <typename T>
+SIMDBEZIER_PART bool is_small_grid(const GridTask<T>& task) {
+  return task.nu >= kLeastSmall && task.run_count == 3 && is_closed_grid(task);
 }
 
 /// Whether rows of a small grid are as many as its columns, and pairs.

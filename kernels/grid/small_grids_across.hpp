@@ -36,8 +36,8 @@ struct SmallGridAcross {
 
   explicit SIMDBEZIER_PART SmallGridAcross(const GridTask<T>& task)
       : x(task.x), nu(kInner > 0 ? kInner + 2 : task.nu),
-        nv(kInner > 0 ? kInner + 2 : task.runs[1].rows + std::size_t{2}),
-        mirrored(kInner > 0 || are_mirrored(task.runs[1].y, task.runs[1].rows)),
+        nv(kInner > 0 ? kInner + 2 : inner_rows(task) + 2),
+        mirrored(kInner > 0 || are_mirrored(task.runs[1].y, inner_rows(task))),
         column{point(task.x[1]), point(task.x[2]), point(task.x[3]), point(task.x[4])},
         row{point(task.runs[1].y[0]), point(task.runs[1].y[1]), point(task.runs[1].y[2]),
             point(task.runs[1].y[3])} {}
@@ -78,6 +78,9 @@ struct SmallGridAcross {
   }
 
 private:
+  static SIMDBEZIER_PART std::size_t inner_rows(const GridTask<T>& task) {
+    return task.run_count == 2 ? 0 : task.runs[1].rows;
+  }
   template <typename F>
   static SIMDBEZIER_INLINE void for_inner(std::size_t count, const F& f) {
     if constexpr (kInner > 0) {

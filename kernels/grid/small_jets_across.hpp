@@ -156,12 +156,15 @@ constexpr bool is_known_across(std::size_t side) {
 /// that are whole registers have tiles which find tangents as fast. Where registers are lines,
 /// there are such grids of mirrored squares only, staged ones are stored faster patch by patch as
 /// well, and idle lanes of the last register cost what is gained: an eighth of the patches at most
-/// where that is little, half of them elsewhere.
+/// where that is little, half of them elsewhere. Grids of two rows or columns have edges only.
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
   constexpr std::size_t kL = kLanes<vec<T>>;
   if (task.patch_count < kL || task.record > 1 || task.streaming || task.plain_to_memory) {
     return false;
+  }
+  if (!is_small_grid(task)) { // no other strategy knows these
+    return true;
   }
   if constexpr (kLineWide<vec<T>>) {
     const std::size_t idle = (kL - task.patch_count % kL) % kL; // lanes of the last register
@@ -197,13 +200,11 @@ SIMDBEZIER_PART void sweep_small_grid_across(const GridTask<T>& task) {
     }
     return false;
   };
-  const bool known = kLineWide<vec<T>> || is_mirrored_square(task);
+  const bool known = is_small_grid(task) && (kLineWide<vec<T>> || is_mirrored_square(task));
   if (known && (sweep_known.template operator()<4>() || sweep_known.template operator()<5>())) {
     return;
   }
-  if constexpr (!kLineWide<vec<T>>) {
-    sweep_across<kOutputs, 0>(task);
-  }
+  sweep_across<kOutputs, 0>(task);
 }
 
 #endif

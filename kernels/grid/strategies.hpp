@@ -58,7 +58,7 @@ struct SmallAcross {
   static constexpr GridStrategy kName = GridStrategy::small_across;
   static constexpr bool kExists = kWideKernels && kUsual<kOutputs>;
   static SIMDBEZIER_PART bool applies(const GridTask<T>& task) {
-    return is_small_grid(task) && pays_across<kOutputs>(task);
+    return is_closed_grid(task) && pays_across<kOutputs>(task);
   }
   static SIMDBEZIER_PART void run(const GridTask<T>& task) {
     sweep_small_grid_across<kOutputs>(task);

@@ -1,7 +1,10 @@
 // Vertices of meshes against surfaces and normals by the tests' own formulas, and against the grids
 // of the library for their bits.
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -17,6 +20,46 @@ Point to_point(const std::array<T, 3>& x) {
   return {x[0], x[1], x[2]};
 }
 
+/// A sheet of so many patches a side: more of them than the samples of which are kept at once, if a
+/// side has 24.
+MeshModel sheet(std::size_t side) {
+  MeshModel model;
+  model.name = "sheet of " + std::to_string(side);
+  for (std::size_t p = 0; p < side * side; ++p) {
+    PatchPoints& patch = model.patches.emplace_back();
+    for (std::size_t j = 0; j < 4; ++j) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto x = static_cast<double>(3 * (p % side) + i);
+        const auto y = static_cast<double>(3 * (p / side) + j);
+        patch[j][i] = {x + 0.1 * y, y, std::sin(0.5 * x) * std::cos(0.4 * y)};
+      }
+    }
+  }
+  return model;
+}
+
+/// A model, and the largest rate of its mesh.
+struct Case {
+  MeshModel model;
+  std::uint32_t most;
+
+  [[nodiscard]] std::string name() const {
+    return model.name + ", rates up to " + std::to_string(most);
+  }
+};
+
+/// Sheets whose patches go together in a kernel: all of them, some of them, or only their corners.
+std::vector<Case> sheets() {
+  std::vector<Case> cases;
+  for (const std::size_t side : {2U, 9U, 24U}) {
+    for (const std::uint32_t most : {1U, 2U, 3U, 7U}) {
+      cases.push_back({sheet(side), most});
+      cases.push_back({shuffled(sheet(side), most), most});
+    }
+  }
+  return cases;
+}
+
 std::vector<MeshModel> models_and_shuffled() {
   std::vector<MeshModel> models = mesh_models();
   for (unsigned seed = 1; seed < 3; ++seed) {
@@ -30,9 +73,14 @@ std::vector<MeshModel> models_and_shuffled() {
 using EvaluateMesh = IsaTest;
 
 TEST_P(EvaluateMesh, positions_and_parameters_are_the_surface) {
+  std::vector<Case> cases = sheets();
   for (const MeshModel& model : models_and_shuffled()) {
-    SCOPED_TRACE(model.name);
-    EvaluatedMesh<double> mesh(model, 7, 1);
+    cases.push_back({model, 7});
+  }
+  for (const Case& given : cases) {
+    const auto& [model, most] = given;
+    SCOPED_TRACE(given.name());
+    EvaluatedMesh<double> mesh(model, most, 1);
     run<Options>({}, [&](const Options& options) {
       return evaluate_mesh(mesh.set, mesh.layout, mesh.outputs(), options);
     });
@@ -56,9 +104,14 @@ TYPED_TEST_SUITE(VertexBits, Scalars);
 /// Every patch's triangles have its own grid's points, edges of neighbours included.
 TYPED_TEST(VertexBits, are_those_of_each_patchs_grid) {
   using T = TypeParam;
+  std::vector<Case> cases = sheets();
   for (const MeshModel& model : models_and_shuffled()) {
-    SCOPED_TRACE(model.name);
-    EvaluatedMesh<T> mesh(model, 9, 2);
+    cases.push_back({model, 9});
+  }
+  for (const Case& given : cases) {
+    const auto& [model, most] = given;
+    SCOPED_TRACE(given.name());
+    EvaluatedMesh<T> mesh(model, most, 2);
     mesh.evaluate_all();
     for (std::size_t p = 0; p < model.patches.size(); ++p) {
       const Grid<T> grid = Grid<T>::uniform(mesh.nu[p] + 1, mesh.nv[p] + 1, {p, 1});
@@ -102,6 +155,8 @@ public:
         }
       }
     }
+    std::sort(touching_.begin(), touching_.end(),
+              [](const Touching& a, const Touching& b) { return a.position[0] < b.position[0]; });
   }
 
   /// The normal of a vertex; zero where one of its patches has none.
@@ -114,7 +169,12 @@ public:
     const Point& x = mesh_.position[vertex];
     std::set<std::array<double, 3>> seen;
     Point sum{};
-    for (const Touching& touching : touching_) {
+    const auto is_left = [](const Touching& touching, double limit) {
+      return touching.position[0] < limit;
+    };
+    auto from = std::lower_bound(touching_.begin(), touching_.end(), x[0] - 1e-9, is_left);
+    for (; from != touching_.end() && from->position[0] <= x[0] + 1e-9; ++from) {
+      const Touching& touching = *from;
       if (length(touching.position - x) < 1e-9 &&
           seen.insert({static_cast<double>(touching.patch), touching.u, touching.v}).second) {
         if (!(length(touching.normal) > 1e-6)) {
@@ -176,6 +236,37 @@ TEST(MeshNormals, are_merged_over_all_patches_at_a_vertex) {
     }
   }
   EXPECT_GT(compared, 3000U);
+}
+
+TEST_P(EvaluateMesh, merges_the_normals_of_patches_of_few_cells) {
+  for (const Case& given : sheets()) {
+    const auto& [model, most] = given;
+    SCOPED_TRACE(given.name());
+    TopologyOptions how;
+    how.orient = true;
+    EvaluatedMesh<double> mesh(model, most, 3, how);
+    run<Options>({}, [&](const Options& options) {
+      return evaluate_mesh(mesh.set, mesh.layout, mesh.outputs(), options);
+    });
+    const NormalOracle oracle(mesh, model);
+    const MeshOutputs<double> all = mesh.outputs();
+    for (std::size_t k = 0; k < mesh.normal.size(); ++k) {
+      ASSERT_LT(length(mesh.normal[k] - oracle.at(k)), 1e-9) << k;
+    }
+    // Either output alone has the same bits.
+    const auto position = mesh.position;
+    const auto normal = mesh.normal;
+    for (const bool alone : {false, true}) {
+      MeshOutputs<double> one;
+      (alone ? one.normal : one.position) = alone ? all.normal : all.position;
+      mesh.position.assign(position.size(), {});
+      mesh.normal.assign(normal.size(), {});
+      run<Options>({}, [&](const Options& options) {
+        return evaluate_mesh(mesh.set, mesh.layout, one, options);
+      });
+      EXPECT_EQ(alone ? mesh.normal : mesh.position, alone ? normal : position);
+    }
+  }
 }
 
 TEST(MeshNormals, of_sides_that_disagree_are_the_first_ones) {

@@ -61,41 +61,52 @@ bool are_one(const double* a, const double* b) {
   return apart <= 16 * kUnit * size;
 }
 
-/// Moves the points of nets of `columns` x `rows`; the k-th one stands in line_of(k). Returns a
-/// bound on how far any of them is from where it should be. Neighbours that are one point stay one,
-/// since sums that cancel would take them apart.
+/// Nets of points in rows, one net after the other.
+struct NetRows {
+  std::size_t columns;
+  std::size_t rows;
+  std::size_t each; ///< values of a point
+
+  /// The neighbour before point k of `values` that is one point with it, or k itself.
+  [[nodiscard]] std::size_t one_before(const std::vector<double>& values, std::size_t k) const {
+    const auto is_one_with = [&](std::size_t other) {
+      return each == 4 && are_one(&values[k * each], &values[other * each]);
+    };
+    const std::size_t at = k % (columns * rows);
+    return at % columns != 0 && is_one_with(k - 1)     ? k - 1
+           : at >= columns && is_one_with(k - columns) ? k - columns
+                                                       : k;
+  }
+};
+
+/// Moves the points of a shape's nets; the k-th one stands in line_of(k). Returns a bound on how
+/// far any of them is from where it should be. A point that is one with a neighbour takes its
+/// place, since sums that cancel would take them apart.
 template <typename Line>
 double move_points(const std::string& name, std::span<double> values, const RibShape& shape,
-                   std::size_t columns, std::size_t rows, const Line& line_of) {
+                   const NetRows& nets, const Line& line_of) {
   if (shape.map.is_identity()) {
     return 0;
   }
-  const std::size_t each = values_of(shape);
+  const std::size_t each = nets.each;
   const std::vector<double> given(values.begin(), values.end());
+  // As far as two points that are one may be apart, for each point of a row and a column; and two
+  // roundings.
+  const double apart = static_cast<double>(nets.columns + nets.rows) * 32 * kUnit *
+                       (1 + shape.map.stretch()) * kRounding;
   double error = 0;
   double merged = 0; // what is added to the error of a point by those that follow it
   for (std::size_t k = 0; k * each < values.size(); ++k) {
     double* const point = values.data() + k * each;
     const double weight = each == 4 ? point[3] : 1;
-    const auto is_one_with = [&](std::size_t other) {
-      return each == 4 && are_one(&given[k * each], &given[other * each]);
-    };
-    const std::size_t at = k % (columns * rows);
-    const std::size_t before = at % columns != 0 && is_one_with(k - 1)     ? k - 1
-                               : at >= columns && is_one_with(k - columns) ? k - columns
-                                                                           : k;
-    if (before == k) {
-      error = std::max(error, shape.map.move(point, weight));
-    } else {
-      double size = 0;
+    if (const std::size_t before = nets.one_before(given, k); before != k) {
       for (std::size_t c = 0; c < 3; ++c) {
         const double moved = values[before * each + c] / values[before * each + 3];
-        size = std::max({size, std::abs(moved), std::abs(given[k * each + c] / weight)});
+        merged = std::max({merged, apart * std::abs(moved), apart * std::abs(point[c] / weight)});
         point[c] = moved * weight;
       }
-      // As far as both were apart, for each point of a row and a column; and two roundings.
-      const auto most = static_cast<double>(columns + rows);
-      merged = std::max(merged, most * 32 * kUnit * size * (1 + shape.map.stretch()) * kRounding);
+    } else {
+      error = std::max(error, shape.map.move(point, weight));
     }
     for (std::size_t c = 0; c < 3; ++c) {
       if (!std::isfinite(point[c] / weight)) {
@@ -124,8 +135,9 @@ double close_mesh(PatchFile& file, const RibShape& shape) {
   }
   const std::size_t order =
       shape.has_bezier_points() ? static_cast<std::size_t>(shape.degree) + 1 : 4;
-  return error + move_points(file.name, std::span(file.points).subspan(first_value), shape, order,
-                             order, [&](std::size_t k) { return file.lines[first_line + k]; });
+  return error + move_points(file.name, std::span(file.points).subspan(first_value), shape,
+                             {order, order, values_of(shape)},
+                             [&](std::size_t k) { return file.lines[first_line + k]; });
 }
 
 // What making patches of it rounds is not part of the bound.
@@ -134,7 +146,8 @@ double close_spline(PatchFile& file, const RibShape& shape) {
   FileSpline spline{shape.line, *shape.u.spline, *shape.v.spline, shape.weights,
                     std::move(taken.values)};
   const double error =
-      move_points(file.name, spline.points, shape, shape.u.spline->points, shape.v.spline->points,
+      move_points(file.name, spline.points, shape,
+                  {shape.u.spline->points, shape.v.spline->points, values_of(shape)},
                   [&](std::size_t k) { return taken.lines[k]; });
   file.close_spline(spline);
   return error;

@@ -44,6 +44,9 @@ struct MeshData {
   std::size_t most_boundary_vertices = 0;
   std::size_t most_boundary_samples = 0; ///< a vertex counts once for every patch that has it
   std::size_t most_sides = 1;            ///< of one edge
+  std::uint32_t least_nu = 1;            ///< of one patch
+  std::uint32_t most_nu = 1;
+  std::uint32_t most_nv = 1;
   std::uint32_t vertices = 0;
 
   static constexpr std::size_t kWhole = ~std::size_t(0);
@@ -52,10 +55,7 @@ struct MeshData {
     return (runs_in_u(side) ? nu : nv)[side / kPatchEdges];
   }
   [[nodiscard]] std::size_t patches() const noexcept { return nu.size(); }
-  /// The largest rates; 0 where there are no patches.
-  [[nodiscard]] std::uint32_t most_nu() const noexcept { return most_of(nu); }
-  [[nodiscard]] std::uint32_t most_nv() const noexcept { return most_of(nv); }
-  [[nodiscard]] std::uint32_t most_rate() const noexcept { return std::max(most_nu(), most_nv()); }
+  [[nodiscard]] std::uint32_t most_rate() const noexcept { return std::max(most_nu, most_nv); }
   [[nodiscard]] std::uint32_t inner_points(std::size_t patch) const noexcept {
     return (nu[patch] - 1) * (nv[patch] - 1);
   }
@@ -89,11 +89,6 @@ struct MeshData {
     for (const std::uint32_t side : topology.data()->sides_of(edge)) {
       include_rate(rates, rate(side));
     }
-  }
-
-private:
-  static std::uint32_t most_of(const std::vector<std::uint32_t>& rates) noexcept {
-    return rates.empty() ? 0 : *std::max_element(rates.begin(), rates.end());
   }
 };
 

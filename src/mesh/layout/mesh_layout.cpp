@@ -100,6 +100,10 @@ void measure_boundaries(MeshData& mesh, int threads) {
     raise(most_sides, sides);
   };
   divide_work(topology.edges(), 1, threads, of_edges);
+  const auto [least, most] = std::minmax_element(mesh.nu.begin(), mesh.nu.end());
+  mesh.least_nu = *least;
+  mesh.most_nu = *most;
+  mesh.most_nv = *std::max_element(mesh.nv.begin(), mesh.nv.end());
   mesh.most_boundary_vertices = most_vertices;
   mesh.most_boundary_samples = most_samples;
   mesh.most_sides = most_sides;

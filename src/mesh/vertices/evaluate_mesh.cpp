@@ -50,8 +50,7 @@ public:
       : outputs_(out, way), task_(task), parameters_(parameters), kernels_(kernels),
         sizes_(task, 0) {
     task_.kernels = &kernels_;
-    const auto& nu = task.mesh->nu;
-    outputs_.put_directly(kernels_.direct_rows(*std::min_element(nu.begin(), nu.end()) - 1));
+    outputs_.put_directly(kernels_.direct_rows(task.mesh->least_nu - 1));
     sizes_ = VertexSizes<T>(task_, std::min(chunk(), kMostChunk));
     delivery_bytes_ = whole_lines(
         Delivery<T>::scratch_bytes(outputs_.staged_planes(), outputs_.streaming(), sizes_.chunk));

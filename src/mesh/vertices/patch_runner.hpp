@@ -11,6 +11,7 @@
 #include "src/calls/kernel_choice.hpp"
 #include "src/exact/normal_fallback.hpp"
 #include "src/mesh/topology/topology_data.hpp"
+#include "src/mesh/vertices/patch_copies.hpp"
 
 namespace simdbezier::detail {
 
@@ -63,22 +64,26 @@ public:
   /// without outputs.
   void run(std::size_t patch, std::size_t count, const PieceParameters<T>& piece,
            const PieceTarget<T>& to) noexcept {
-    if (!to.wanted()) {
-      return;
+    if (to.wanted()) {
+      aim(grid_, kernels_.set->place(patch), to);
+      run_grid(count, piece, to);
     }
-    aim(grid_, kernels_.set->place(patch), to);
-    grid_.patch_count = count;
-    grid_.x = piece.x;
-    grid_.nu = piece.columns;
-    grid_.runs = piece.runs;
-    grid_.run_count = piece.run_count;
-    grid_.patch_step = piece.rows * piece.columns;
-    grid_.record = to.record;
-    grid_.by_lines = kernels_.by_lines;
-    grid_.allowed = kernels_.allowed;
-    grid_.drain = to.drain;
-    kernels_.run(grid_);
-    executed_ = grid_.executed;
+  }
+  /// The same of copies of patches of one bucket, from copy `first` on.
+  void run(const PatchCopies<T>& copies, std::uint32_t bucket, std::size_t first, std::size_t count,
+           const PieceParameters<T>& piece, const PieceTarget<T>& to) noexcept {
+    if (to.wanted()) {
+      aim(grid_, {bucket, 0}, to);
+      static_cast<PatchArrays<T>&>(grid_) = copies.arrays(kernels_.set->buckets[bucket], first);
+      grid_.prefetch = false;
+      run_grid(count, piece, to);
+    }
+  }
+  /// Makes a copy of a patch.
+  void copy(std::size_t patch, PatchCopies<T>& copies, std::size_t copy,
+            bool normals) const noexcept {
+    const PatchPlace place = kernels_.set->place(patch);
+    copies.put(kernels_.set->buckets[place.bucket], place.index, copy, normals);
   }
 
   /// Points between the ends of a patch's side, to consecutive places. along: their half-centred
@@ -116,6 +121,11 @@ public:
                              sides, normal);
   }
 
+  [[nodiscard]] std::size_t lanes() const noexcept { return kernels_.table->lanes; }
+  /// Whether kernels evaluate grids that end at a patch's edges with patches as lanes.
+  [[nodiscard]] bool takes_closed_grids() const noexcept {
+    return lanes() * sizeof(T) >= 32 && kernels_.set->buckets[0].origins == nullptr;
+  }
   /// The bucket of a patch with whose edges a kernel is acquainted, or kNoEdges.
   static constexpr std::uint32_t kNoEdges = ~0U;
   [[nodiscard]] std::uint32_t edge_bucket(std::size_t patch) const noexcept {
@@ -145,6 +155,21 @@ public:
   [[nodiscard]] Isa executed() const noexcept { return executed_; }
 
 private:
+  void run_grid(std::size_t count, const PieceParameters<T>& piece,
+                const PieceTarget<T>& to) noexcept {
+    grid_.patch_count = count;
+    grid_.x = piece.x;
+    grid_.nu = piece.columns;
+    grid_.runs = piece.runs;
+    grid_.run_count = piece.run_count;
+    grid_.patch_step = piece.rows * piece.columns;
+    grid_.record = to.record;
+    grid_.by_lines = kernels_.by_lines;
+    grid_.allowed = kernels_.allowed;
+    grid_.drain = to.drain;
+    kernels_.run(grid_);
+    executed_ = grid_.executed;
+  }
   void aim(SampleTask<T>& task, const PatchPlace& place, const PieceTarget<T>& to) noexcept {
     const PatchStorage<T>& bucket = kernels_.set->buckets[place.bucket];
     if (bucket_ != &bucket) {

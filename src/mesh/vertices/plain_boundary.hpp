@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "src/mesh/layout/mesh_data.hpp"
 #include "src/mesh/vertices/boundary_parameters.hpp"
 #include "src/mesh/vertices/boundary_samples.hpp"
+#include "src/mesh/vertices/closed_grids.hpp"
 #include "src/mesh/vertices/corner_cache.hpp"
 #include "src/mesh/vertices/parameter_lines.hpp"
 #include "src/mesh/vertices/patch_runner.hpp"
@@ -22,9 +24,11 @@ template <typename T>
 class PlainBoundary {
 public:
   PlainBoundary(const MeshData& mesh, PatchRunner<T>& runner, ParameterLines<T>& lines,
-                UnionLines<T>& unions, CornerCache<T>& corners, bool normals) noexcept
+                UnionLines<T>& unions, CornerCache<T>& corners, ClosedGrids<T>& grids,
+                bool positions, bool normals) noexcept
       : mesh_(mesh), topology_(*mesh.topology.data()), runner_(runner), lines_(lines),
-        unions_(unions), corners_(corners), normals_(normals) {}
+        unions_(unions), corners_(corners), grids_(grids), positions_(positions),
+        normals_(normals) {}
 
   /// Writes the vertex of some joined corners. lowest: the first of them. False where nothing is
   /// written, because it is none of the plain ones.
@@ -37,7 +41,7 @@ public:
                             to.parameters);
     }
     const std::size_t place = mesh_.corners[lowest] - to.first;
-    const CornerValues<T>& own = corners_.at(lowest);
+    const CornerValues<T> own = corner_values(lowest);
     put(own.position, to.position, place, to.step);
     if (!normals_) {
       return true;
@@ -46,7 +50,7 @@ public:
     for (std::uint32_t corner = topology_.next_corner[lowest]; corner != lowest;
          corner = topology_.next_corner[corner]) {
       if (!topology_.is_apart(corner, kApartCorner)) {
-        sum.add(corners_.at(corner).normal, topology_.is_turned(corner / kPatchCorners));
+        sum.add(corner_values(corner).normal, topology_.is_turned(corner / kPatchCorners));
       }
     }
     T merged[3];
@@ -67,6 +71,10 @@ public:
     // No branches: in a mesh of many rates nothing predicts which of both is larger.
     const std::uint32_t low = std::min(rate, other);
     const std::uint32_t high = std::max(rate, other);
+    if (low == high && high <= ClosedGrids<T>::kMostRate && sides.size() <= 2 &&
+        !mesh_.is_split(sides.front()) && put_small_edge(edge, sides, to)) {
+      return true;
+    }
     const bool united = high <= UnionLines<T>::kMost; // equal rates as well
     const std::uint32_t bucket = runner_.edge_bucket(sides.front() / kPatchEdges);
     if (sides.size() > 2 || mesh_.is_split(sides.front()) ||
@@ -108,11 +116,80 @@ public:
 private:
   static constexpr std::size_t kMost = 64;
 
+  CornerValues<T> corner_values(std::uint32_t corner) noexcept {
+    const ClosedGrid<T>* const grid =
+        topology_.short_sides_at(corner) == 0 ? grids_.of(corner / kPatchCorners) : nullptr;
+    if (grid == nullptr) {
+      return corners_.at(corner);
+    }
+    CornerValues<T> values{};
+    const std::size_t sample = grid->corner(corner % kPatchCorners);
+    if (positions_) {
+      grids_.read_position(*grid, sample, values.position);
+    }
+    if (normals_) {
+      grids_.read_normal(*grid, sample, values.normal);
+    }
+    return values;
+  }
+  /// The points of an edge between patches of few cells. False where nothing is written.
+  bool put_small_edge(std::uint32_t edge, std::span<const std::uint32_t> sides,
+                      const VertexTarget<T>& to) noexcept {
+    const std::uint32_t own = sides.front();
+    const std::uint32_t other = sides.back();
+    const std::size_t patch = own / kPatchEdges;
+    const std::size_t other_patch = other / kPatchEdges;
+    if (!ClosedGrids<T>::are_apart(patch, other_patch)) {
+      return false;
+    }
+    const bool merges = normals_ && other != own && !topology_.is_apart(other, kApartSide);
+    const ClosedGrid<T>* const grid = grids_.of(patch);
+    const ClosedGrid<T>* const beyond = merges ? grids_.of(other_patch) : grid;
+    if (grid == nullptr || beyond == nullptr || !grids_.is_whole(*grid, patch) ||
+        (merges && !grids_.is_whole(*beyond, other_patch))) {
+      return false;
+    }
+    if (to.parameters.wanted()) {
+      put_parameters(edge, own, to);
+    }
+    const std::uint32_t segments = mesh_.segments[edge];
+    const std::size_t place = mesh_.edge_first[edge] - to.first;
+    const auto point_on = [&](const ClosedGrid<T>& of, std::uint32_t side, std::uint32_t k) {
+      return of.side_point(side, topology_.sides[side].reversed() ? segments - k : k);
+    };
+    for (std::uint32_t k = 1; k < segments; ++k) {
+      const std::size_t sample = point_on(*grid, own, k);
+      T values[3];
+      if (positions_) {
+        grids_.read_position(*grid, sample, values);
+        put(values, to.position, place + k - 1, to.step);
+      }
+      if (normals_) {
+        grids_.read_normal(*grid, sample, values);
+        NormalSum<T> sum(values, topology_.is_turned(patch));
+        if (merges) {
+          grids_.read_normal(*beyond, point_on(*beyond, other, k), values);
+          sum.add(values, topology_.is_turned(other_patch));
+        }
+        sum.finish(values);
+        put(values, to.normal, place + k - 1, to.step);
+      }
+    }
+    return true;
+  }
+
   /// Those of the points between an edge's ends, on its first side.
   void put_parameters(std::uint32_t edge, std::uint32_t side,
                       const VertexTarget<T>& to) const noexcept {
-    std::uint32_t scratch[4]; // of two sides
     std::size_t at = mesh_.edge_first[edge] - to.parameters_first;
+    const std::uint32_t segments = mesh_.segments[edge];
+    if (segments == mesh_.rate(side)) { // all other rates are divisors of it
+      for (std::uint32_t k = 1; k < segments; ++k) {
+        put_side_parameters(topology_, side, k, segments, at++, to.parameters);
+      }
+      return;
+    }
+    std::uint32_t scratch[4]; // of two sides
     for_edge_points(mesh_, edge, scratch,
                     [&](std::uint32_t, std::uint32_t numerator, std::uint32_t denominator) {
                       put_side_parameters(topology_, side, numerator, denominator, at++,
@@ -133,6 +210,8 @@ private:
   ParameterLines<T>& lines_;
   UnionLines<T>& unions_;
   CornerCache<T>& corners_;
+  ClosedGrids<T>& grids_;
+  bool positions_;
   bool normals_;
   std::size_t count_ = 0;
   std::uint32_t bucket_ = 0; ///< of all edges that wait

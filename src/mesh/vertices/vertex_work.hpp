@@ -38,7 +38,7 @@ struct VertexSizes {
 
   VertexSizes(const VertexTask<T>& task, std::size_t wanted_chunk) noexcept {
     const MeshData& mesh = *task.mesh;
-    const std::size_t widest = mesh.most_nu();
+    const std::size_t widest = mesh.most_nu;
     most_rate = mesh.most_rate();
     chunk = std::max({wanted_chunk, mesh.most_boundary_vertices, widest});
     wishes = {task.dimension, task.normals, task.every_patch(),
@@ -64,7 +64,7 @@ public:
   [[nodiscard]] static std::size_t scratch_bytes(const VertexTask<T>& task,
                                                  const VertexSizes<T>& sizes) noexcept {
     return lines_bytes(sizes) + BoundarySamples<T>::bytes(*task.mesh, sizes.wishes) +
-           BoundaryStore<T>::bytes(*task.mesh);
+           grids_bytes(task) + BoundaryStore<T>::bytes(*task.mesh);
   }
 
   VertexWorker(const VertexTask<T>& task, const VertexSizes<T>& sizes, Sink& sink,
@@ -73,7 +73,10 @@ public:
         lines_(reinterpret_cast<T*>(take(scratch, lines_bytes(sizes))), sizes.most_rate),
         samples_(mesh_, sizes.wishes, runner_, lines_,
                  take(scratch, BoundarySamples<T>::bytes(mesh_, sizes.wishes))),
-        plain_(mesh_, runner_, lines_, samples_.unions(), samples_.corners(), task.normals),
+        grids_(mesh_, runner_, lines_, task.dimension > 0, task.normals,
+               take(scratch, grids_bytes(task))),
+        plain_(mesh_, runner_, lines_, samples_.unions(), samples_.corners(), grids_,
+               task.dimension > 0, task.normals),
         store_(mesh_, task.values, take(scratch, BoundaryStore<T>::bytes(mesh_))) {}
 
   /// Computes the boundaries and rows that begin at vertices [begin, end).
@@ -99,6 +102,9 @@ public:
 private:
   static std::size_t lines_bytes(const VertexSizes<T>& sizes) noexcept {
     return whole_lines(ParameterLines<T>::memory_values(sizes.most_rate) * sizeof(T));
+  }
+  static std::size_t grids_bytes(const VertexTask<T>& task) noexcept {
+    return ClosedGrids<T>::bytes(*task.mesh, task.dimension > 0, task.normals);
   }
   static unsigned char* take(unsigned char*& memory, std::size_t bytes) noexcept {
     unsigned char* const taken = memory;
@@ -180,17 +186,53 @@ private:
     }
     const T* const x = lines_.line(mesh_.nu[patch]);
     const T* const y = lines_.line(mesh_.nv[patch]);
+    const ClosedGrid<T>* const grid = rows_from_grid(patch);
     while (row < last) {
       make_room(mesh_.inner[patch] + row * columns, columns);
       const std::size_t rows =
           std::min({last - row, (sizes_.chunk - filled_) / columns, kMostMeshRows});
       const PieceTarget<T> to{moved(target_.position), moved(target_.normal), target_.step,
                               target_.drain};
-      const RowRun<T> run{y + row, static_cast<std::uint32_t>(rows), RowKind::interior};
-      runner_.run(patch, 1, {x, columns, &run, 1, rows}, to);
+      if (grid != nullptr) {
+        copy_rows(*grid, row, rows, to);
+      } else {
+        const RowRun<T> run{y + row, static_cast<std::uint32_t>(rows), RowKind::interior};
+        runner_.run(patch, 1, {x, columns, &run, 1, rows}, to);
+      }
       finish_rows(patch, row, rows, to.normal);
       row += rows;
       filled_ += rows * columns;
+    }
+  }
+  /// The grid that has a patch's inner points; null where there is none.
+  const ClosedGrid<T>* rows_from_grid(std::size_t patch) noexcept {
+    if (std::max(mesh_.nu[patch], mesh_.nv[patch]) > ClosedGrids<T>::kMostRate) {
+      return nullptr;
+    }
+    const ClosedGrid<T>* const grid = grids_.of(patch);
+    return grid != nullptr && grids_.is_whole(*grid, patch) ? grid : nullptr;
+  }
+  void copy_rows(const ClosedGrid<T>& grid, std::size_t row, std::size_t rows,
+                 const PieceTarget<T>& to) const noexcept {
+    const std::size_t columns = grid.columns - std::size_t{2};
+    std::size_t at = 0;
+    for (std::size_t j = row + 1; j <= row + rows; ++j) {
+      for (std::size_t i = 1; i <= columns; ++i, at += to.record) {
+        T values[3];
+        if (to.position.wanted()) {
+          grids_.read_position(grid, grid.sample(i, j), values);
+          put(values, to.position, at);
+        }
+        if (to.normal.wanted()) {
+          grids_.read_normal(grid, grid.sample(i, j), values);
+          put(values, to.normal, at);
+        }
+      }
+    }
+  }
+  static void put(const T (&values)[3], const Planes<T>& to, std::size_t at) noexcept {
+    for (std::size_t c = 0; c < 3; ++c) {
+      to.component[c][at] = values[c];
     }
   }
   /// Planes behind what the chunk holds already.
@@ -233,6 +275,7 @@ private:
   PatchRunner<T> runner_;
   ParameterLines<T> lines_;
   BoundarySamples<T> samples_;
+  ClosedGrids<T> grids_;
   PlainBoundary<T> plain_;
   BoundaryStore<T> store_;
   VertexTarget<T> target_; ///< of the chunk
