@@ -15,12 +15,12 @@ namespace {
 
 bool is_positive(double value) { return value > 0 && std::isfinite(value); }
 
-/// The control points of a patch, as far as a camera asks.
-struct SeenPatch {
+template <typename S>
+PointBox box_of(const ControlNets<S>& nets, std::size_t patch) {
   PointBox box;
-  double nearest = HUGE_VAL; ///< the depths of points, times the length of the camera's direction
-  double farthest = -HUGE_VAL;
-};
+  for_points(nets, patch, [&](const Point3& point) { box.include(point); });
+  return box;
+}
 
 /// Values between two.
 struct Interval {
@@ -67,18 +67,22 @@ public:
   template <typename S>
   [[nodiscard]] double tolerance(const ControlNets<S>& nets, std::size_t patch,
                                  double pixels) const {
-    SeenPatch seen;
+    double nearest = HUGE_VAL; // the depths of points, times the length of the camera's direction
+    double farthest = -HUGE_VAL;
     for_points(nets, patch, [&](const Point3& point) {
       const double depth = along_axis(point);
-      seen.nearest = std::min(seen.nearest, depth);
-      seen.farthest = std::max(seen.farthest, depth);
-      seen.box.include(point);
+      nearest = std::min(nearest, depth);
+      farthest = std::max(farthest, depth);
     });
-    if (seen.farthest / length_ < camera_.nearest || (camera_.skip_outside && is_outside(seen)) ||
-        (camera_.skip_back && is_back(nets, patch, seen))) {
-      return std::max(seen.box.diagonal(), camera_.nearest);
+    const bool behind = farthest / length_ < camera_.nearest;
+    if (behind || camera_.skip_outside || camera_.skip_back) { // else nothing asks for a box
+      const PointBox box = box_of(nets, patch);
+      if (behind || (camera_.skip_outside && is_outside(box)) ||
+          (camera_.skip_back && is_back(nets, patch, box))) {
+        return std::max(box.diagonal(), camera_.nearest);
+      }
     }
-    const double depth = std::max(seen.nearest / length_, camera_.nearest);
+    const double depth = std::max(nearest / length_, camera_.nearest);
     return pixels * (camera_.orthographic ? 1 : depth) / pixels_per_unit_;
   }
 
@@ -93,22 +97,21 @@ private:
 
   /// Whether the sphere around a patch's box is outside of the cone (or cylinder) whose section is
   /// the circle around the picture.
-  [[nodiscard]] bool is_outside(const SeenPatch& seen) const {
-    const Point3 from_eye = {{seen.box.middle(0) - camera_.eye[0],
-                              seen.box.middle(1) - camera_.eye[1],
-                              seen.box.middle(2) - camera_.eye[2]}};
+  [[nodiscard]] bool is_outside(const PointBox& box) const {
+    const Point3 from_eye = {{box.middle(0) - camera_.eye[0], box.middle(1) - camera_.eye[1],
+                              box.middle(2) - camera_.eye[2]}};
     const double depth = dot(from_eye, axis_) / length_;
     const double off_axis = length(cross(from_eye, axis_)) / length_;
     const double beside =
         camera_.orthographic ? off_axis - radius_ : (off_axis - depth * radius_) / secant_;
-    const double rounding = kMargin * (length(from_eye) + seen.box.diagonal());
-    return beside > seen.box.diagonal() / 2 + rounding; // false where something is not finite
+    const double rounding = kMargin * (length(from_eye) + box.diagonal());
+    return beside > box.diagonal() / 2 + rounding; // false where something is not finite
   }
   /// Whether du x dv points away from the eye wherever the derivatives are between the differences
   /// of control points, and the surface is between these.
   template <typename S>
   [[nodiscard]] bool is_back(const ControlNets<S>& nets, std::size_t patch,
-                             const SeenPatch& seen) const {
+                             const PointBox& box) const {
     if (nets.weights != Weights::none) {
       return false;
     }
@@ -127,7 +130,7 @@ private:
     }
     const IntervalVector du = intervals_of(box_u);
     const IntervalVector dv = intervals_of(box_v);
-    IntervalVector sight = intervals_of(seen.box);
+    IntervalVector sight = intervals_of(box);
     Interval facing = {0, 0};
     double size = 0;
     for (std::size_t c = 0; c < 3; ++c) {
