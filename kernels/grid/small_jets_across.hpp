@@ -163,8 +163,10 @@ SIMDBEZIER_PART bool pays_across(const GridTask<T>& task) {
   if (task.patch_count < kL || task.record > 1 || task.streaming || task.plain_to_memory) {
     return false;
   }
-  if (!is_small_grid(task)) { // no other strategy knows these
-    return true;
+  if (!is_small_grid(task)) { // tiles of two rows keep up where a register is a whole line
+    constexpr bool kPays =
+        !kLineWide<vec<T>> || (sizeof(T) == 4 && kOutputs != detail::kPositionDerivatives);
+    return kPays || task.nu == 2;
   }
   if constexpr (kLineWide<vec<T>>) {
     const std::size_t idle = (kL - task.patch_count % kL) % kL; // lanes of the last register
