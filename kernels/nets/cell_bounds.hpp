@@ -214,19 +214,4 @@ SIMDBEZIER_INLINE V bound_of_cells(const QuarterNets<V>& nets, const LaneCells<V
   return worst * broadcast<V>(kBoundSlack<T>);
 }
 
-/// Returns the same for one cell a lane, which has one zone.
-template <typename V>
-SIMDBEZIER_INLINE V bound_of_one(const QuarterNets<V>& nets, const SecondTerms<V>& doubt,
-                                 V& diagonals) {
-  using T = ScalarOf<V>;
-  const V zero = broadcast<V>(T(0));
-  const V one = broadcast<V>(T(1));
-  const CellSteps<V> step(LaneCells<V>{one, one}, doubt);
-  const ZoneTerms<V> terms =
-      zone_terms(nets, step, doubt, largest_squares<LargestSquare<V>>(nets, step));
-  const ZoneBound<V> zone(terms, 2, 2);
-  diagonals = select_where<V>(zone.falls, broadcast<V>(static_cast<T>(1U << 8)), zero);
-  return larger_of<V>(zone.bound, zero) * broadcast<V>(kBoundSlack<T>);
-}
-
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

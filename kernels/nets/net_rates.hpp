@@ -96,7 +96,7 @@ SIMDBEZIER_INLINE CertifiedCells<V> choose_cells(const RateScratch<V>& scratch,
   MaskOf<V> holds_one = filip.nu * filip.nv <= broadcast<V>(T(kFewCells));
   CertifiedCells<V> single{{one, one}, one, one};
   if (any_of<V>(holds_one)) {
-    single.bound = bound_of_one<V>(scratch.nets, group.doubt, single.diagonals);
+    single.bound = bound_of_cells<V>(scratch.nets, single.cells, group.doubt, single.diagonals);
     holds_one = holds_one & (single.bound <= t);
     if (all_of<V>(holds_one)) {
       return single;

@@ -70,14 +70,19 @@ std::vector<MeshModel> models_and_shuffled() {
   return models;
 }
 
+/// The sheets, and the other models with rates up to `most`.
+std::vector<Case> all_cases(std::uint32_t most) {
+  std::vector<Case> cases = sheets();
+  for (const MeshModel& model : models_and_shuffled()) {
+    cases.push_back({model, most});
+  }
+  return cases;
+}
+
 using EvaluateMesh = IsaTest;
 
 TEST_P(EvaluateMesh, positions_and_parameters_are_the_surface) {
-  std::vector<Case> cases = sheets();
-  for (const MeshModel& model : models_and_shuffled()) {
-    cases.push_back({model, 7});
-  }
-  for (const Case& given : cases) {
+  for (const Case& given : all_cases(7)) {
     const auto& [model, most] = given;
     SCOPED_TRACE(given.name());
     EvaluatedMesh<double> mesh(model, most, 1);
@@ -104,11 +109,7 @@ TYPED_TEST_SUITE(VertexBits, Scalars);
 /// Every patch's triangles have its own grid's points, edges of neighbours included.
 TYPED_TEST(VertexBits, are_those_of_each_patchs_grid) {
   using T = TypeParam;
-  std::vector<Case> cases = sheets();
-  for (const MeshModel& model : models_and_shuffled()) {
-    cases.push_back({model, 9});
-  }
-  for (const Case& given : cases) {
+  for (const Case& given : all_cases(9)) {
     const auto& [model, most] = given;
     SCOPED_TRACE(given.name());
     EvaluatedMesh<T> mesh(model, most, 2);

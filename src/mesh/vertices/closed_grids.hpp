@@ -86,13 +86,18 @@ public:
     return block.usable ? &block.grid[patch % kPatches] : nullptr;
   }
 
-  /// These read a sample of what is wanted.
+  /// These read a sample; `position` or `normal` stays as it is where it is not wanted.
   void read_position(const ClosedGrid<T>& grid, std::size_t sample,
                      T (&position)[3]) const noexcept {
-    read(grid.first + sample, grid.plane, position);
+    if (positions_) {
+      read(grid.first + sample, grid.plane, position);
+    }
   }
   void read_normal(const ClosedGrid<T>& grid, std::size_t sample, T (&normal)[3]) const noexcept {
-    read(grid.first + (positions_ ? 3 : 0) * std::size_t{grid.plane} + sample, grid.plane, normal);
+    if (normals_) {
+      const std::size_t before = positions_ ? 3 : 0;
+      read(grid.first + before * grid.plane + sample, grid.plane, normal);
+    }
   }
 
 private:
@@ -184,9 +189,10 @@ private:
     for (std::size_t k = 0; k < count; ++k) {
       member[end[rates_of(first + k, whole).key()]++] = static_cast<std::uint8_t>(k);
     }
-    const bool copied = !alike || count < runner_.lanes() || runner_.together(first, count) < count;
+    const bool copied = !alike || runner_.together(first, count) < count;
     if (copied) {
-      make_copies(first, member, count);
+      const std::size_t last = rates_of(first + member[count - 1], whole).key();
+      make_copies(first, member, count, count - (last == 0 ? 0 : end[last - 1]));
     }
     T* values = values_ + number % kBlocks * block_values(positions_, normals_);
     for (std::size_t at = 0; at < count;) {
@@ -202,9 +208,10 @@ private:
     return true;
   }
 
-  /// Copies the members of groups in the order in which they are read fastest. As many more copies
-  /// of the last one as there are lanes follow.
-  void make_copies(std::size_t first, const std::uint8_t* member, std::size_t count) noexcept {
+  /// Copies the members of groups in the order in which they are read fastest. If the last group,
+  /// of `last_count` members, fills no register, more copies of its last one follow.
+  void make_copies(std::size_t first, const std::uint8_t* member, std::size_t count,
+                   std::size_t last_count) noexcept {
     std::uint8_t copy[kPatches];
     for (std::size_t k = 0; k < count; ++k) {
       copy[member[k]] = static_cast<std::uint8_t>(k);
@@ -212,8 +219,8 @@ private:
     for (std::size_t k = 0; k < count; ++k) {
       runner_.copy(first + k, copies_, copy[k], normals_);
     }
-    for (std::size_t k = 1; k < runner_.lanes(); ++k) {
-      runner_.copy(first + member[count - 1], copies_, count + k - 1, normals_);
+    for (std::size_t k = last_count; k < runner_.lanes(); ++k) {
+      runner_.copy(first + member[count - 1], copies_, count + k - last_count, normals_);
     }
   }
 

@@ -25,10 +25,9 @@ class PlainBoundary {
 public:
   PlainBoundary(const MeshData& mesh, PatchRunner<T>& runner, ParameterLines<T>& lines,
                 UnionLines<T>& unions, CornerCache<T>& corners, ClosedGrids<T>& grids,
-                bool positions, bool normals) noexcept
+                bool normals) noexcept
       : mesh_(mesh), topology_(*mesh.topology.data()), runner_(runner), lines_(lines),
-        unions_(unions), corners_(corners), grids_(grids), positions_(positions),
-        normals_(normals) {}
+        unions_(unions), corners_(corners), grids_(grids), normals_(normals) {}
 
   /// Writes the vertex of some joined corners. lowest: the first of them. False where nothing is
   /// written, because it is none of the plain ones.
@@ -42,7 +41,7 @@ public:
     }
     const std::size_t place = mesh_.corners[lowest] - to.first;
     const CornerValues<T> own = corner_values(lowest);
-    put(own.position, to.position, place, to.step);
+    put_vertex(own.position, to.position, place, to.step);
     if (!normals_) {
       return true;
     }
@@ -55,7 +54,7 @@ public:
     }
     T merged[3];
     sum.finish(merged);
-    put(merged, to.normal, place, to.step);
+    put_vertex(merged, to.normal, place, to.step);
     return true;
   }
 
@@ -66,19 +65,20 @@ public:
       return true;
     }
     const auto sides = topology_.sides_of(edge);
+    if (sides.size() > 2 || mesh_.is_split(sides.front())) {
+      return false;
+    }
     const std::uint32_t rate = mesh_.rate(sides.front());
     const std::uint32_t other = mesh_.rate(sides.back());
     // No branches: in a mesh of many rates nothing predicts which of both is larger.
     const std::uint32_t low = std::min(rate, other);
     const std::uint32_t high = std::max(rate, other);
-    if (low == high && high <= ClosedGrids<T>::kMostRate && sides.size() <= 2 &&
-        !mesh_.is_split(sides.front()) && put_small_edge(edge, sides, to)) {
+    if (low == high && high <= ClosedGrids<T>::kMostRate && put_small_edge(edge, sides, to)) {
       return true;
     }
     const bool united = high <= UnionLines<T>::kMost; // equal rates as well
     const std::uint32_t bucket = runner_.edge_bucket(sides.front() / kPatchEdges);
-    if (sides.size() > 2 || mesh_.is_split(sides.front()) ||
-        !(united || (segments == high && ParameterLines<T>::is_kept(high))) ||
+    if (!(united || (segments == high && ParameterLines<T>::is_kept(high))) ||
         bucket == PatchRunner<T>::kNoEdges ||
         bucket != runner_.edge_bucket(sides.back() / kPatchEdges)) {
       return false;
@@ -124,12 +124,8 @@ private:
     }
     CornerValues<T> values{};
     const std::size_t sample = grid->corner(corner % kPatchCorners);
-    if (positions_) {
-      grids_.read_position(*grid, sample, values.position);
-    }
-    if (normals_) {
-      grids_.read_normal(*grid, sample, values.normal);
-    }
+    grids_.read_position(*grid, sample, values.position);
+    grids_.read_normal(*grid, sample, values.normal);
     return values;
   }
   /// The points of an edge between patches of few cells. False where nothing is written.
@@ -159,11 +155,9 @@ private:
     };
     for (std::uint32_t k = 1; k < segments; ++k) {
       const std::size_t sample = point_on(*grid, own, k);
-      T values[3];
-      if (positions_) {
-        grids_.read_position(*grid, sample, values);
-        put(values, to.position, place + k - 1, to.step);
-      }
+      T values[3] = {};
+      grids_.read_position(*grid, sample, values);
+      put_vertex(values, to.position, place + k - 1, to.step);
       if (normals_) {
         grids_.read_normal(*grid, sample, values);
         NormalSum<T> sum(values, topology_.is_turned(patch));
@@ -172,7 +166,7 @@ private:
           sum.add(values, topology_.is_turned(other_patch));
         }
         sum.finish(values);
-        put(values, to.normal, place + k - 1, to.step);
+        put_vertex(values, to.normal, place + k - 1, to.step);
       }
     }
     return true;
@@ -197,13 +191,6 @@ private:
                     });
   }
 
-  static void put(const T (&values)[3], const Planes<T>& to, std::size_t place,
-                  std::size_t step) noexcept {
-    for (std::size_t c = 0; c < 3 && to.component[c] != nullptr; ++c) {
-      to.component[c][place * step] = values[c];
-    }
-  }
-
   const MeshData& mesh_;
   const TopologyData& topology_;
   PatchRunner<T>& runner_;
@@ -211,7 +198,6 @@ private:
   UnionLines<T>& unions_;
   CornerCache<T>& corners_;
   ClosedGrids<T>& grids_;
-  bool positions_;
   bool normals_;
   std::size_t count_ = 0;
   std::uint32_t bucket_ = 0; ///< of all edges that wait

@@ -2,7 +2,8 @@
 //
 // Patch by patch there are the vertices on its boundary that it owns, and its inner points, row by
 // row. Both go to planes that a delivery provides, chunk by chunk: inner rows straight from the
-// grid kernels, boundaries by way of samples of all patches that have them.
+// grid kernels, or from closed grids of patches of few cells, boundaries by way of samples of all
+// patches that have them.
 #pragma once
 
 #include <algorithm>
@@ -75,8 +76,7 @@ public:
                  take(scratch, BoundarySamples<T>::bytes(mesh_, sizes.wishes))),
         grids_(mesh_, runner_, lines_, task.dimension > 0, task.normals,
                take(scratch, grids_bytes(task))),
-        plain_(mesh_, runner_, lines_, samples_.unions(), samples_.corners(), grids_,
-               task.dimension > 0, task.normals),
+        plain_(mesh_, runner_, lines_, samples_.unions(), samples_.corners(), grids_, task.normals),
         store_(mesh_, task.values, take(scratch, BoundaryStore<T>::bytes(mesh_))) {}
 
   /// Computes the boundaries and rows that begin at vertices [begin, end).
@@ -217,22 +217,13 @@ private:
     const std::size_t columns = grid.columns - std::size_t{2};
     std::size_t at = 0;
     for (std::size_t j = row + 1; j <= row + rows; ++j) {
-      for (std::size_t i = 1; i <= columns; ++i, at += to.record) {
-        T values[3];
-        if (to.position.wanted()) {
-          grids_.read_position(grid, grid.sample(i, j), values);
-          put(values, to.position, at);
-        }
-        if (to.normal.wanted()) {
-          grids_.read_normal(grid, grid.sample(i, j), values);
-          put(values, to.normal, at);
-        }
+      for (std::size_t i = 1; i <= columns; ++i, ++at) {
+        T values[3] = {};
+        grids_.read_position(grid, grid.sample(i, j), values);
+        put_vertex(values, to.position, at, to.record);
+        grids_.read_normal(grid, grid.sample(i, j), values);
+        put_vertex(values, to.normal, at, to.record);
       }
-    }
-  }
-  static void put(const T (&values)[3], const Planes<T>& to, std::size_t at) noexcept {
-    for (std::size_t c = 0; c < 3; ++c) {
-      to.component[c][at] = values[c];
     }
   }
   /// Planes behind what the chunk holds already.
