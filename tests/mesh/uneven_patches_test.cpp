@@ -264,6 +264,65 @@ TEST(UnevenPatches, are_as_close_as_certified_whatever_their_neighbours) {
   }
 }
 
+/// Rates and certificates of a set of patches, all at once.
+struct Choices {
+  std::vector<std::uint32_t> nu;
+  std::vector<std::uint32_t> nv;
+  std::vector<std::uint16_t> diagonals;
+  std::vector<double> deviation;
+  Status status;
+
+  Choices(const std::vector<TestPatch>& patches, const RateOptions& options)
+      : nu(patches.size(), 3), nv(patches.size(), 3), diagonals(patches.size()),
+        deviation(patches.size()) {
+    std::vector<ControlNets<double>> nets;
+    for (const TestPatch& patch : patches) {
+      nets.push_back(patch.nets());
+    }
+    const std::span<const ControlNets<double>> views(nets);
+    Topology topology;
+    EXPECT_EQ(find_topology(views, topology), Status::ok);
+    status = choose_rates(views, topology, options, {nu, nv, diagonals, deviation}).status;
+  }
+  friend bool operator==(const Choices&, const Choices&) = default;
+};
+
+/// A flat patch whose side at v = 0 is a point: one cell would do, but makes no triangle there.
+TestPatch raised_pole() {
+  return net_of("pole", 3, 3, Weights::none, [](int i, int j) {
+    return std::array{-500.0 + (j == 0 ? 0 : i), 1.0 * j, 5.0, 1.0};
+  });
+}
+
+// Rates of the pole are raised after they were certified, and nothing joins it to the patch.
+TEST(UnevenPatches, have_certificates_that_no_other_patch_changes) {
+  RateOptions edges;
+  edges.longest_edge = 0.4;
+  RateOptions keeps;
+  keeps.keep = 2;
+  for (const TestPatch& patch : patches_and_random(by_form(60U, 400U))) {
+    SCOPED_TRACE(patch.name);
+    for (RateOptions options : {RateOptions(), edges, keeps}) {
+      for (const double tolerance : {0.1, 0.01}) {
+        options.tolerance = tolerance;
+        const Choices alone({patch}, options);
+        if (!alone.status && std::isfinite(options.longest_edge)) {
+          continue; // weights far apart allow no bound of edges
+        }
+        ASSERT_EQ(alone.status, Status::ok);
+        Choices beside({patch, raised_pole()}, options);
+        ASSERT_GT(beside.nu[1] * beside.nv[1], 1U);
+        EXPECT_LE(beside.deviation[0], tolerance);
+        beside.nu.pop_back();
+        beside.nv.pop_back();
+        beside.diagonals.pop_back();
+        beside.deviation.pop_back();
+        EXPECT_TRUE(beside == alone);
+      }
+    }
+  }
+}
+
 template <typename T>
 void expect_two_triangles(const double (&along)[4]) {
   const TestPatch patch = flat(along);

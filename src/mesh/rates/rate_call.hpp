@@ -61,13 +61,13 @@ public:
     return snapped ? RateReport{Status::snap_too_large, report.patch} : report;
   }
 
-  /// The rates of the frame before, if they may be kept.
-  [[nodiscard]] std::vector<CellCounts> rates_before() const {
-    std::vector<CellCounts> before(options_.keep >= 1 ? out_.nu.size() : 0);
-    for (std::size_t patch = 0; patch < before.size(); ++patch) {
-      before[patch] = {out_.nu[patch], out_.nv[patch]};
+  /// The rates that are there now.
+  [[nodiscard]] std::vector<CellCounts> rates() const {
+    std::vector<CellCounts> all(out_.nu.size());
+    for (std::size_t patch = 0; patch < all.size(); ++patch) {
+      all[patch] = {out_.nu[patch], out_.nv[patch]};
     }
-    return before;
+    return all;
   }
 
   /// Rates of the frame before take the place of chosen ones that have few cells less, if they
@@ -106,7 +106,7 @@ public:
     const auto is_open = [&](std::size_t patch, bool kernel) {
       return !kernel || measures() || has_corner(patch) || out_.nu[patch] == kUndecided;
     };
-    const RateReport report = for_groups(is_open, [&](const PatchGroup& open) {
+    return for_groups(is_open, [&](const PatchGroup& open) {
       Lanes<double> t;
       t.fill(1);
       open.for_lanes([&](std::size_t lane, std::size_t patch) {
@@ -130,28 +130,30 @@ public:
       }
       put_chosen(open, chosen);
     });
-    return report && measures() ? certify() : report;
   }
 
-  /// Looks at the bound again where rates have been raised, since it does not fall with every step.
-  RateReport settle(bool& changed) {
-    const RateReport certified = certify();
-    if (!certified) {
-      return certified;
-    }
-    std::atomic<bool> any = false;
-    const auto exceeds = [&](std::size_t patch, bool) {
-      return !(deviations_[patch] <= wanted(patch));
+  /// Certifies rates that have been raised since they were `certified`, and raises them further
+  /// where that does not hold, since the bound does not fall with every step. The certificates of
+  /// all other patches stay, so that none depends on patches elsewhere.
+  RateReport settle(const std::vector<CellCounts>& certified, bool& changed) {
+    const auto is_raised = [&](std::size_t patch, bool) {
+      return out_.nu[patch] != certified[patch].nu || out_.nv[patch] != certified[patch].nv;
     };
-    const RateReport report = for_groups(exceeds, [&](const PatchGroup& open) {
-      any = true;
-      put_chosen(open, open.bound().raise(rates(open), tolerances(open), most_));
+    std::atomic<bool> any = false;
+    const RateReport report = for_groups(is_raised, [&](const PatchGroup& open) {
+      const Lanes<CellCounts> cells = rates(open);
+      const Lanes<CertifiedCells> raised = open.bound().raise(cells, tolerances(open), most_);
+      open.for_lanes([&](std::size_t lane, std::size_t) {
+        any = any || raised[lane].cells.product() != cells[lane].product();
+      });
+      put_chosen(open, raised);
     });
     changed = any;
     return report;
   }
 
-  /// Certifies the caller's rates, for nets that have not been checked yet.
+  /// Certifies the caller's rates, for nets that have not been checked yet, as closely as pays: by
+  /// the kernel, and by GroupBound where that one is coarse.
   RateReport certify_given() {
     for (std::size_t patch = 0; patch < out_.nu.size(); ++patch) {
       const auto is_rate = [](std::uint32_t n) { return n >= 1 && n <= kMostSegments; };
@@ -159,26 +161,17 @@ public:
         return {Status::bad_rates, patch};
       }
     }
-    const RateReport checked = find_faults();
-    return checked ? certify(true) : checked;
-  }
-
-  /// Forms the certificate of the rates that are there: the kernel's, and where that one is coarser
-  /// than the tolerance by which GroupBound may have chosen them, GroupBound's.
-  /// closest: whether a closer bound is looked for also where the first one is within the
-  /// tolerance.
-  RateReport certify(bool closest = false) {
-    constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
-    const RateReport ran = run_kernels(false, closest ? 0 : kNever);
-    if (!ran) {
+    if (const RateReport checked = find_faults(); !checked) {
+      return checked;
+    }
+    if (const RateReport ran = run_kernels(false, 0); !ran) {
       return ran;
     }
     const auto is_open = [&](std::size_t patch, bool kernel) {
-      return !kernel || has_corner(patch) || deviations_[patch] < 0 ||
-             !(deviations_[patch] <= wanted(patch));
+      return !kernel || has_corner(patch) || deviations_[patch] < 0;
     };
     return for_groups(is_open, [&](const PatchGroup& open) {
-      const Lanes<double> enough = closest ? Lanes<double>{} : tolerances(open);
+      const Lanes<double> enough{};
       const Lanes<CertifiedCells> certified = open.bound().certify(rates(open), enough);
       open.for_lanes([&](std::size_t lane, std::size_t patch) { put(patch, certified[lane]); });
     });

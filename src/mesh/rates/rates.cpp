@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <new>
+#include <vector>
 
 #include "src/mesh/rates/rate_call.hpp"
 #include "src/mesh/topology/fit.hpp"
@@ -85,29 +86,26 @@ RateReport choose_rates(std::span<const ControlNets<S>> nets, const Topology& to
     return {runs};
   }
   detail::RateCall<S> call(nets, topology, options, isa, out);
-  const auto before = call.rates_before();
+  const std::vector<detail::CellCounts> before =
+      options.keep >= 1 ? call.rates() : std::vector<detail::CellCounts>();
   RateReport report = call.choose();
   if (report && !before.empty()) {
     report = call.keep(before);
   }
   // Raising the rates of one patch can make its edges coincide with others, or raise its bound.
-  bool settled = true;
   for (bool changed = true; report && changed;) {
+    const std::vector<detail::CellCounts> certified = call.rates();
     std::size_t raised = 0;
     report.status = separate_vertices(topology, out.nu, out.nv, raised);
     changed = false;
     if (report && raised > 0) {
-      report = call.settle(changed);
+      report = call.settle(certified, changed);
     }
-    settled = settled && !changed;
   }
   for (std::size_t patch = 0; report && patch < out.nu.size(); ++patch) {
     if (std::max(out.nu[patch], out.nv[patch]) > options.most_segments) {
       report = {Status::bad_tolerance, patch};
     }
-  }
-  if (report && !settled) {
-    return call.certify();
   }
   return call.with_snapping_blamed(report);
 } catch (const std::bad_alloc&) {
