@@ -194,6 +194,11 @@ struct SplinePlaces {
   double* v = nullptr;
   double* length_u = nullptr; ///< of the patch's interval: dS/dU = (dS/du) / length_u
   double* length_v = nullptr;
+  /// The same parameters in [-1, 1], for Parameters::centred: ((U - a) - (b - U)) / (b - a) in the
+  /// interval [a, b]. Mirrored parameters of exactly mirrored knots give mirrored values, bit for
+  /// bit, which 2 u - 1 does not.
+  double* centred_u = nullptr;
+  double* centred_v = nullptr;
 };
 
 /// Finds the patch and the local parameters of each (U[k], V[k]).
@@ -234,7 +239,8 @@ template <typename S>
 ///             evaluated together. At knots, the patch that locate() takes counts.
 /// out:        as in evaluate(). Derivatives are by U and V: the results of evaluate(), divided by
 ///             powers of the intervals' lengths with one rounding (first derivatives) or two
-///             (second ones). All else has the bits of evaluate() at locate()'s places, centred.
+///             (second ones). All else has the bits of evaluate() at locate()'s centred places,
+///             rounded to T: exactly mirrored splines have equal bits at mirrored parameters.
 /// Allocation: a few values for each of U and V.
 /// Returns:    what locate() and evaluate() return.
 template <typename T, typename S>
@@ -258,6 +264,15 @@ template <typename T, typename S>
 evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& surface, std::span<const double> U,
                  std::span<const double> V, const std::type_identity_t<Outputs<T>>& out,
                  const Options& options = {}, std::size_t first_patch = 0) noexcept;
+
+/// Evaluates a spline curve at parameters t[k], in any order, in the same way.
+/// curve: its knots, degree and range are read, its points are not.
+/// set:   packed from what to_bezier() makes of it; its pieces are those from `first_curve` on.
+template <typename T, typename S>
+[[nodiscard]] SIMDBEZIER_API SplineReport
+evaluate_samples(const CurveSet<T>& set, const SplineCurve<S>& curve, std::span<const double> t,
+                 const std::type_identity_t<CurveOutputs<T>>& out, const Options& options = {},
+                 std::size_t first_curve = 0) noexcept;
 
 /// A bound on the error of a Bézier control point of a surface in double, relative to the largest
 /// |d| of the component (with weights: to |w d|, and for weights to the largest of them): (m_u +

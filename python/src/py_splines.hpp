@@ -99,7 +99,8 @@ struct GivenSpline {
 };
 
 /// Throws where a report about control points is not ok.
-void require_points(const SplineReport& report, const GivenSpline& spline);
+void require_points(const SplineReport& report, const GivenSpline& spline,
+                    const std::string& argument = "points");
 
 /// A set that whoever asks first packs, while others wait.
 template <typename Set>
@@ -144,10 +145,12 @@ void require_parameters(const SplineReport& report, const GivenSpline& spline,
 /// Where samples lie: what locate() gives.
 struct FoundPlaces {
   explicit FoundPlaces(std::size_t count)
-      : patch(count), u(count), v(count), length_u(count, 1.0), length_v(count, 1.0) {}
+      : patch(count), u(count), v(count), length_u(count, 1.0), length_v(count, 1.0),
+        centred_u(count), centred_v(count, -1.0) {}
 
   [[nodiscard]] SplinePlaces view() {
-    return {patch.data(), u.data(), v.data(), length_u.data(), length_v.data()};
+    return {patch.data(),    u.data(),         v.data(),        length_u.data(),
+            length_v.data(), centred_u.data(), centred_v.data()};
   }
 
   std::vector<std::uint32_t> patch;
@@ -155,6 +158,8 @@ struct FoundPlaces {
   std::vector<double> v;
   std::vector<double> length_u;
   std::vector<double> length_v;
+  std::vector<double> centred_u;
+  std::vector<double> centred_v; ///< of curves the row v = 0
 };
 
 /// What derivatives of these orders are divided by at sample k.
@@ -186,5 +191,6 @@ void add_derivatives(const AnyPatchSet& set, const FoundPlaces& places,
 
 /// A SplineSurface that a Python object is; null where it is something else.
 [[nodiscard]] const GivenSpline* spline_surface_of(const py::handle& object);
+[[nodiscard]] bool is_spline_curve(const py::handle& object);
 
 } // namespace simdbezier::python

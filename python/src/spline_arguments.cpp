@@ -28,7 +28,7 @@ Interval range_of(const py::object& range, const std::string& argument) {
 
 /// What is wrong with knots.
 [[noreturn]] void throw_knots(const SplineDirection& direction, std::size_t points,
-                              std::size_t knot) {
+                              std::size_t knot, double tolerance) {
   const std::vector<double>& knots = direction.knots;
   const std::size_t expected = direction.expected_knots(points);
   if (knots.size() != expected) {
@@ -44,7 +44,7 @@ Interval range_of(const py::object& range, const std::string& argument) {
   }
   const std::string number = "number " + std::to_string(knot) + ", " + text_of(knots[knot]);
   if (!(std::abs(knots[knot]) <= 0x1p1000)) {
-    throw_value_error(direction.knots_name, number + ", is no finite number of moderate size");
+    throw_value_error(direction.knots_name, number + ", is not finite or beyond 2^1000");
   }
   if (knot > 0 && knots[knot] < knots[knot - 1]) {
     throw_value_error(direction.knots_name,
@@ -54,8 +54,10 @@ Interval range_of(const py::object& range, const std::string& argument) {
   if (!(domain.begin < domain.end)) {
     throw_value_error(direction.knots_name, "the domain begins and ends at " + text_of(domain.end));
   }
-  throw_value_error(direction.knots_name, number + ", occurs more than " +
-                                              std::to_string(direction.degree + 1) + " times");
+  throw_value_error(direction.knots_name,
+                    number + ", occurs more than " + std::to_string(direction.degree + 1) +
+                        " times" +
+                        (tolerance > 0 ? ", together with those within knot_tolerance" : ""));
 }
 
 int order_of(const py::object& value, const std::string& argument) {
@@ -103,12 +105,8 @@ void add_derivatives_of(const PatchSet<T>& set, const FoundPlaces& places,
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     arrays.emplace_back(shape);
   }
-  std::vector<T> x;
-  std::vector<T> y;
-  for (std::size_t k = 0; k < places.patch.size(); ++k) {
-    x.push_back(to_centred<T>(places.u[k]));
-    y.push_back(to_centred<T>(places.v[k]));
-  }
+  const std::vector<T> x(places.centred_u.begin(), places.centred_u.end());
+  const std::vector<T> y(places.centred_v.begin(), places.centred_v.end());
   const Samples<T> samples{places.patch, x, y, Parameters::centred};
   Status status;
   for (int first = 0; status && first < components; first += 3) {
@@ -183,7 +181,7 @@ void require_knots(const SplineReport& report, const GivenSpline& spline) {
   const std::size_t points = is_v ? spline.rows() : spline.columns();
   switch (report.status.code()) {
   case Status::bad_knots:
-    throw_knots(direction, points, report.point);
+    throw_knots(direction, points, report.point, spline.tolerance);
   case Status::bad_grid:
     throw_value_error(
         "points", "expected " + std::to_string(direction.degree + (direction.periodic ? 0 : 1)) +
@@ -209,7 +207,8 @@ void require_knots(const SplineReport& report, const GivenSpline& spline) {
   }
 }
 
-void require_points(const SplineReport& report, const GivenSpline& spline) {
+void require_points(const SplineReport& report, const GivenSpline& spline,
+                    const std::string& argument) {
   const bool is_product = report.status == Status::coefficient_overflow &&
                           (spline.points_are_float()
                                ? product_overflows<float>(report, spline.points, spline.values())
@@ -220,7 +219,7 @@ void require_points(const SplineReport& report, const GivenSpline& spline) {
     const bool beside = is_weight && spline.points.weights == Weights::cartesian;
     const std::size_t columns = std::max<std::size_t>(spline.columns(), 1);
     const bool is_curve = spline.points.array && spline.points.array.ndim() == 2;
-    throw_value_error(beside ? "weights" : "points",
+    throw_value_error(beside ? "weights" : argument,
                       std::string(to_string(report.status)) +
                           (is_curve ? " (point " + std::to_string(report.point)
                                     : " (row " + std::to_string(report.point / columns) +
@@ -228,7 +227,7 @@ void require_points(const SplineReport& report, const GivenSpline& spline) {
                           (is_weight ? "" : ", component " + std::to_string(report.component)) +
                           ")");
   }
-  require_ok(report.status, "points");
+  require_ok(report.status, argument);
 }
 
 void require_parameters(const SplineReport& report, const GivenSpline& spline,

@@ -74,8 +74,7 @@ public:
     py::dict result;
     if (!only_derivatives(wanted, outputs, out)) {
       result = std::visit(
-          [&](const auto& of) { return evaluate_some(of, ts, places, outputs, out, threads); },
-          set());
+          [&](const auto& of) { return evaluate_some(of, ts, outputs, out, threads); }, set());
     }
     if (!wanted.empty()) {
       add_derivatives(derivative_set(), places, wanted, {ts.size()}, threads, result);
@@ -146,34 +145,13 @@ private:
 
   template <typename T>
   [[nodiscard]] py::dict evaluate_some(const CurveSet<T>& of, const py::array_t<double>& ts,
-                                       const FoundPlaces& places, const py::object& outputs,
-                                       const py::object& out, const py::object& threads) const {
-    std::vector<T> centred;
-    for (const double local : places.u) {
-      centred.push_back(to_centred<T>(local));
-    }
-    const CurveSamples<T> samples{places.patch, centred, Parameters::centred};
+                                       const py::object& outputs, const py::object& out,
+                                       const py::object& threads) const {
     return evaluate_outputs<Curves, T>(
         components(), {ts.size()}, outputs, out, {{"t", ts}}, threads,
         [&](const CurveOutputs<T>& to, const Options& options) {
-          const Status status = simdbezier::evaluate(of, samples, to, options);
-          if (status) {
-            divide(to.d1, places, 1);
-            divide(to.d2, places, 2);
-          }
-          return status;
+          return evaluate_samples(of, given_.curve_axis(), span_of(ts), to, options).status;
         });
-  }
-
-  /// By the length of each sample's interval, so many times.
-  template <typename T>
-  static void divide(const Vectors<T>& vectors, const FoundPlaces& places, int times) {
-    for (T* const component : {vectors.x, vectors.y, vectors.z}) {
-      for (std::size_t k = 0; component != nullptr && k < places.patch.size(); ++k) {
-        component[static_cast<std::ptrdiff_t>(k) * vectors.stride] /=
-            divisor_at<T>(places, k, times, 0);
-      }
-    }
   }
 
   /// What derivatives of any order are evaluated from.
@@ -199,6 +177,8 @@ private:
 };
 
 } // namespace
+
+bool is_spline_curve(const py::handle& object) { return py::isinstance<PySplineCurve>(object); }
 
 void add_spline_curve(py::module_& module) {
   py::class_<PySplineCurve> type(

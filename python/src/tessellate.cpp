@@ -139,7 +139,8 @@ py::object tessellated(const std::vector<const GivenSpline*>& splines, const Mes
     return mesh;
   };
   py::object mesh = made_mesh<T>(options, "points", make);
-  require_points(report, *splines[report.surface]);
+  require_points(report, *splines[report.surface],
+                 splines.size() == 1 ? "points" : "points[" + std::to_string(report.surface) + "]");
   return mesh;
 }
 
@@ -148,6 +149,9 @@ std::vector<const GivenSpline*> given_splines(const py::object& points) {
   std::vector<const GivenSpline*> splines;
   if (const GivenSpline* const one = spline_surface_of(points)) {
     return {one};
+  }
+  if (is_spline_curve(points)) {
+    throw_type_error("points", "expected surfaces, found a SplineCurve, which evaluate() samples");
   }
   if (!py::isinstance<py::list>(points) && !py::isinstance<py::tuple>(points)) {
     return splines;

@@ -66,7 +66,9 @@ SplinePlaces places_of(const simdbezier_spline_places* given, std::size_t count,
   places.patch = numbers_at<std::uint32_t>(known.patch, path / "patch");
   places.u = numbers_at<double>(known.u, path / "u");
   places.length_u = numbers_at<double>(known.length_u, path / "length_u");
+  places.centred_u = numbers_at<double>(known.centred_u, path / "centred_u");
   if (!is_curve) {
+    places.centred_v = numbers_at<double>(known.centred_v, path / "centred_v");
     places.v = numbers_at<double>(known.v, path / "v");
     places.length_v = numbers_at<double>(known.length_v, path / "length_v");
   }

@@ -54,7 +54,7 @@ struct AxisRuns {
         runs.push_back({finder.span(), k, 0, parameters.size(), finder.length()});
       }
       ++runs.back().count;
-      parameters.push_back(half_centred(to_centred<T>(finder.local()), Parameters::centred));
+      parameters.push_back(half_centred(static_cast<T>(finder.centred()), Parameters::centred));
     }
     end_run();
     return {};

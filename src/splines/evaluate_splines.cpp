@@ -53,62 +53,6 @@ private:
   const AxisRuns<T>& v_;
 };
 
-/// Divides what is by local parameters by the lengths of their intervals.
-template <typename T>
-void divide_derivatives(const OutputList<T>& out, const std::vector<double>& length_u,
-                        const std::vector<double>& length_v) noexcept {
-  for (std::size_t g = 0; g < out.vector_count; ++g) {
-    const Orders orders = orders_of(g);
-    const Vectors<T>& vectors = *out.vectors[g];
-    for (T* const component : {vectors.x, vectors.y, vectors.z}) {
-      if (!out.wants(g) || orders.u + orders.v == 0 || component == nullptr) {
-        continue;
-      }
-      for (std::size_t k = 0; k < length_u.size(); ++k) {
-        component[static_cast<std::ptrdiff_t>(k) * vectors.stride] /=
-            divisor_of<T>(orders, length_u[k], length_v[k]);
-      }
-    }
-  }
-}
-
-template <typename T, typename S>
-SplineReport evaluate_at_places(const PatchSet<T>& set, const SplineSurface<S>& surface,
-                                std::span<const double> U, std::span<const double> V,
-                                const Outputs<T>& out, const Options& options,
-                                std::size_t first_patch) {
-  if (U.size() != V.size()) {
-    return {Status::unequal_lengths};
-  }
-  std::vector<std::uint32_t> patch(U.size());
-  std::vector<double> u(U.size());
-  std::vector<double> v(U.size());
-  std::vector<double> length_u(U.size());
-  std::vector<double> length_v(U.size());
-  const SplineReport located =
-      locate(surface, U.size(), U.data(), V.data(),
-             {patch.data(), u.data(), v.data(), length_u.data(), length_v.data()});
-  if (!located) {
-    return located;
-  }
-  if (set.size() < first_patch || set.size() - first_patch < span_count(surface).patches()) {
-    return {Status::bad_patch_range};
-  }
-  std::vector<T> x(U.size());
-  std::vector<T> y(U.size());
-  for (std::size_t k = 0; k < U.size(); ++k) {
-    patch[k] += static_cast<std::uint32_t>(first_patch);
-    x[k] = to_centred<T>(u[k]);
-    y[k] = to_centred<T>(v[k]);
-  }
-  const Samples<T> samples{patch, x, y, Parameters::centred};
-  const Status status = evaluate(set, samples, out, options);
-  if (status == Status::ok) {
-    divide_derivatives(OutputList<T>(out), length_u, length_v);
-  }
-  return {status};
-}
-
 } // namespace
 } // namespace detail
 
@@ -149,17 +93,6 @@ SplineReport evaluate_grid(const SplineSurface<S>& surface, std::span<const doub
   return evaluate_grid(set, surface, U, V, out, options);
 }
 
-template <typename T, typename S>
-SplineReport evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& surface,
-                              std::span<const double> U, std::span<const double> V,
-                              const std::type_identity_t<Outputs<T>>& out, const Options& options,
-                              std::size_t first_patch) noexcept {
-  const detail::DefaultFpEnvironment environment;
-  return detail::guarded([&] {
-    return detail::evaluate_at_places<T, S>(set, surface, U, V, out, options, first_patch);
-  });
-}
-
 #define SIMDBEZIER_INSTANTIATE(T, S)                                                               \
   template SIMDBEZIER_API SplineReport evaluate_grid(                                              \
       const PatchSet<T>&, const SplineSurface<S>&, std::span<const double>,                        \
@@ -167,11 +100,7 @@ SplineReport evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& su
       std::size_t) noexcept;                                                                       \
   template SIMDBEZIER_API SplineReport evaluate_grid(                                              \
       const SplineSurface<S>&, std::span<const double>, std::span<const double>,                   \
-      const Outputs<T>&, const Options&) noexcept;                                                 \
-  template SIMDBEZIER_API SplineReport evaluate_samples(                                           \
-      const PatchSet<T>&, const SplineSurface<S>&, std::span<const double>,                        \
-      std::span<const double>, const std::type_identity_t<Outputs<T>>&, const Options&,            \
-      std::size_t) noexcept;
+      const Outputs<T>&, const Options&) noexcept;
 SIMDBEZIER_INSTANTIATE(float, float)
 SIMDBEZIER_INSTANTIATE(float, double)
 SIMDBEZIER_INSTANTIATE(double, float)

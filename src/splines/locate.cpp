@@ -16,7 +16,7 @@ void put(V* array, std::size_t k, V value) noexcept {
   }
 }
 
-/// Calls visit(k, finder) for every parameter of one direction.
+/// Calls visit(k, finder) for every parameter of one direction, up to the first at fault.
 template <typename Visit>
 SplineReport for_places(const SplineKnots& knots, const SplineAxis& axis, std::size_t count,
                         const double* parameters, int direction, const Visit& visit) {
@@ -53,6 +53,7 @@ SplineReport find_places(const SplineSurface<S>& surface, std::size_t count,
   const auto patches_u = static_cast<std::uint32_t>(knots[0].spans().size());
   double* const local[2] = {places.u, places.v};
   double* const length[2] = {places.length_u, places.length_v};
+  double* const centred[2] = {places.centred_u, places.centred_v};
   for (int d = 0; d < directions; ++d) {
     static_cast<void>(for_places(knots[d], axis_of(surface, d), count, at[d], d,
                                  [&](std::size_t k, const SpanFinder& finder) {
@@ -63,6 +64,7 @@ SplineReport find_places(const SplineSurface<S>& surface, std::size_t count,
                                    }
                                    put(local[d], k, finder.local());
                                    put(length[d], k, finder.length());
+                                   put(centred[d], k, finder.centred());
                                  }));
   }
   return {};

@@ -48,6 +48,12 @@ public:
     const Interval& interval = spans_[span_].interval;
     return (parameter_ - interval.begin) / interval.length();
   }
+  /// In [-1, 1], such that mirrored parameters in exactly mirrored knots give mirrored values, bit
+  /// for bit: 2 local() - 1 does not.
+  [[nodiscard]] double centred() const noexcept {
+    const Interval& interval = spans_[span_].interval;
+    return ((parameter_ - interval.begin) - (interval.end - parameter_)) / interval.length();
+  }
 
 private:
   const std::vector<SplineSpan>& spans_;

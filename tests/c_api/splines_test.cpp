@@ -98,8 +98,8 @@ TYPED_TEST(CSplines, AreLocatedAndEvaluated) {
 
   constexpr std::size_t kCount = TestFixture::kSamples;
   std::uint32_t patch[2][kCount];
-  std::vector<double> places[2] = {std::vector<double>(4 * kCount),
-                                   std::vector<double>(4 * kCount)};
+  std::vector<double> places[2] = {std::vector<double>(6 * kCount),
+                                   std::vector<double>(6 * kCount)};
   auto c_places = sized<simdbezier_spline_places>();
   c_places.length = kCount;
   c_places.patch = patch[0];
@@ -108,11 +108,14 @@ TYPED_TEST(CSplines, AreLocatedAndEvaluated) {
   c_places.v = at + kCount;
   c_places.length_u = at + 2 * kCount;
   c_places.length_v = at + 3 * kCount;
+  c_places.centred_u = at + 4 * kCount;
+  c_places.centred_v = at + 5 * kCount;
   EXPECT_C_OK(
       simdbezier_spline_locate(&this->surface_, this->u_, kCount, this->v_, kCount, &c_places));
   double* const to = places[1].data();
   ASSERT_TRUE(locate(this->same_, kCount, this->u_, this->v_,
-                     {patch[1], to, to + kCount, to + 2 * kCount, to + 3 * kCount}));
+                     {patch[1], to, to + kCount, to + 2 * kCount, to + 3 * kCount, to + 4 * kCount,
+                      to + 5 * kCount}));
   EXPECT_TRUE(std::equal(patch[0], patch[0] + kCount, patch[1]));
   expect_same_bits(places[0], places[1], "places");
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -36,6 +37,12 @@ AxisModel reversed(const AxisModel& axis) {
     other.range = {end - axis.range.end, end - axis.range.begin};
   }
   return other;
+}
+
+/// Where a parameter lies on the reversed direction, without a rounding.
+double reversed_parameter(const AxisModel& axis, double t) {
+  const auto points = static_cast<double>(axis.points);
+  return (!axis.knots.empty() ? 3 : axis.periodic ? points : points - axis.degree) - t;
 }
 
 /// Periodic pieces begin with points 0 to degree; those of the reversed spline with the last ones.
@@ -78,6 +85,26 @@ protected:
     CutSurface<T> result(surface, {.threads = 1, .isa = isa(), .executed = &executed});
     expect_ran(result.report.status, executed);
     return result;
+  }
+
+  /// The last component of positions, as a grid's and as single samples'.
+  template <typename T>
+  std::vector<T> positions(const SplineSurface<double>& surface, const std::vector<double>& U,
+                           double V) {
+    PatchSet<T> set;
+    EXPECT_TRUE(pack(surface, set));
+    std::vector<T> all(2 * U.size());
+    for (const bool on_grid : {true, false}) {
+      Outputs<T> out;
+      out.first_component = surface.components - 1;
+      out.position = {all.data() + (on_grid ? 0 : U.size()), nullptr, nullptr};
+      const std::vector<double> Vs(on_grid ? 1 : U.size(), V);
+      run(Options{}, [&](const Options& how) {
+        return on_grid ? evaluate_grid(set, surface, U, Vs, out, how).status
+                       : evaluate_samples(set, surface, U, Vs, out, how).status;
+      });
+    }
+    return all;
   }
 
   /// Calls test(model, name) for surfaces of every kind of knots in both directions.
@@ -172,6 +199,43 @@ TEST_P(JunctionTest, ReversedSplinesGiveReversedBits) {
       }
     }
   });
+}
+
+/// Some parameters in every interval, multiples of 2^-46.
+std::vector<double> parameters_in(Random& random, std::span<const PatchInterval> intervals) {
+  std::vector<double> all;
+  for (const PatchInterval& interval : intervals) {
+    for (int k = 0; k < 3; ++k) {
+      const double t = interval.u.begin + random.between(0.01, 0.99) * interval.u.length();
+      const double rounded = std::nearbyint(t * 0x1p46) * 0x1p-46;
+      if (interval.u.begin < rounded && rounded < interval.u.end) {
+        all.push_back(rounded);
+      }
+    }
+  }
+  return all;
+}
+
+TEST_P(JunctionTest, ReversedSplinesHaveTheSamePositionsAtMirroredParameters) {
+  Random random(16);
+  std::size_t compared = 0;
+  for_models<double>(15, [&](const SurfaceModel<double>& model) {
+    const SurfaceModel<double> other = reversed_u(model);
+    std::vector<PatchInterval> intervals(span_count(model.view()).patches());
+    PatchSet<float> set;
+    ASSERT_TRUE(pack(model.view(), set, intervals));
+    const std::vector<double> U =
+        parameters_in(random, std::span(intervals).first(span_count(model.view()).u));
+    std::vector<double> mirrored;
+    for (const double t : U) {
+      mirrored.push_back(reversed_parameter(model.u, t));
+    }
+    const double V = intervals.front().v.begin;
+    EXPECT_EQ(positions<float>(model.view(), U, V), positions<float>(other.view(), mirrored, V));
+    EXPECT_EQ(positions<double>(model.view(), U, V), positions<double>(other.view(), mirrored, V));
+    compared += U.size();
+  });
+  EXPECT_GT(compared, 1000U);
 }
 
 /// An edge v = begin that is clamped is one spline curve, whichever direction the other surface has

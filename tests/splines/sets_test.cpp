@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -128,9 +130,14 @@ protected:
           {patch.data(), local[0].data(), local[1].data(), local[2].data(), local[3].data()}));
       std::vector<T> x(samples);
       std::vector<T> y(samples);
+      const auto centred = [](const Interval& in, double t) {
+        return static_cast<T>(((t - in.begin) - (in.end - t)) / in.length());
+      };
       for (std::size_t k = 0; k < samples; ++k) {
-        x[k] = to_centred<T>(local[0][k]);
-        y[k] = to_centred<T>(local[1][k]);
+        x[k] = centred(intervals[patch[k]].u, all_u[k]);
+        y[k] = centred(intervals[patch[k]].v, all_v[k]);
+        ASSERT_NEAR(local[0][k], (x[k] + 1) / 2, std::numeric_limits<T>::epsilon());
+        ASSERT_NEAR(local[1][k], (y[k] + 1) / 2, std::numeric_limits<T>::epsilon());
       }
       AllOutputs<T> expected(samples);
       this->scattered(set, Samples<T>{patch, x, y, Parameters::centred}, expected.out);
@@ -235,6 +242,57 @@ TEST_P(SplineSetTest, SurfacesOfSeveralShapesBecomeOneSet) {
   EXPECT_EQ(set.size(), first);
 }
 
+/// Samples in a curve's own parameter are those of its pieces, divided by powers of the lengths of
+/// their intervals.
+void expect_own_parameters(const SplineCurve<double>& curve, const std::vector<double>& values,
+                           const std::vector<Interval>& intervals) {
+  CurveSet<double> set;
+  ASSERT_TRUE(pack(ControlCurves<double>::packed(std::span<const double>(values), curve.degree,
+                                                 curve.components, curve.weights),
+                   set));
+  std::vector<double> t;
+  std::vector<std::uint32_t> piece;
+  std::vector<double> centred;
+  for (std::size_t k = intervals.size(); k-- > 0;) {
+    const Interval& in = intervals[k];
+    for (const double at : {in.begin, in.begin + 0.3 * in.length(), in.begin + in.length() / 2}) {
+      t.push_back(at);
+      piece.push_back(static_cast<std::uint32_t>(k));
+      centred.push_back(((at - in.begin) - (in.end - at)) / in.length());
+    }
+  }
+  const auto evaluate_some = [&](const auto& run, std::vector<double>(&to)[3]) {
+    CurveOutputs<double> out;
+    for (std::size_t order = 0; order < 3; ++order) {
+      to[order].assign(2 * t.size(), -77);
+      out[static_cast<CurveOutput>(order)] =
+          Vectors<double>{to[order].data(), to[order].data() + t.size(), nullptr};
+    }
+    ASSERT_EQ(run(out), Status::ok);
+  };
+  std::vector<double> expected[3];
+  std::vector<double> found[3];
+  evaluate_some(
+      [&](const CurveOutputs<double>& out) {
+        return evaluate(set, CurveSamples<double>{piece, centred, Parameters::centred}, out);
+      },
+      expected);
+  evaluate_some(
+      [&](const CurveOutputs<double>& out) { return evaluate_samples(set, curve, t, out).status; },
+      found);
+  for (std::size_t k = 0; k < 2 * t.size(); ++k) {
+    const double length = intervals[piece[k % t.size()]].length();
+    EXPECT_EQ(found[0][k], expected[0][k]);
+    EXPECT_EQ(found[1][k], expected[1][k] / length);
+    EXPECT_EQ(found[2][k], expected[2][k] / (length * length));
+  }
+  CurveOutputs<double> none;
+  EXPECT_EQ(evaluate_samples(set, curve, t, none, {}, 1).status, Status::bad_patch_range);
+  t[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(evaluate_samples(set, curve, t, none).status, Status::non_finite_input);
+  EXPECT_EQ(evaluate_samples(set, curve, t, none).point, 1U);
+}
+
 /// Curves are cut as the rows of surfaces are, in both forms of weights.
 TEST_P(SplineSetTest, CurvesAreCutAsSurfacesAre) {
   Random random(24);
@@ -272,6 +330,7 @@ TEST_P(SplineSetTest, CurvesAreCutAsSurfacesAre) {
         ASSERT_NEAR(values[k], expected, slack) << name_of(kind);
         EXPECT_EQ(intervals[patch], cut.intervals[patch].u);
       }
+      expect_own_parameters(curve, values, intervals);
     }
   }
 }

@@ -79,6 +79,8 @@ typedef struct simdbezier_spline_places {
   double* v;
   double* length_u;
   double* length_v;
+  double* centred_u;
+  double* centred_v;
 } simdbezier_spline_places;
 
 // Control points with all values side by side, row after row, and uniform knots; set others later.
