@@ -245,6 +245,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
     }
   }
   arguments.reading.ignore_trims = words->has("--ignore-trims");
+  arguments.reading.knot_tolerance = positive(*words, "--knot-tolerance").value_or(0);
   arguments.json = words->has("--json");
   if (const auto shards = words->value("--shards")) {
     arguments.shards = parse_shards(*shards, "--shards");

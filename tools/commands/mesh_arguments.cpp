@@ -34,10 +34,6 @@ std::optional<double> number(const Words& words, const char* option, Fits&& fits
   }
   return value;
 }
-std::optional<double> positive(const Words& words, const char* option) {
-  return number(words, option, [](double value) { return value > 0; });
-}
-
 // Reads N numbers separated by commas.
 template <std::size_t N>
 std::array<double, N> parse_numbers(const Words& words, const char* option,
@@ -238,6 +234,10 @@ StatsForm parse_stats(const Words& words) {
 }
 
 } // namespace
+
+std::optional<double> positive(const Words& words, const char* option) {
+  return number(words, option, [](double value) { return value > 0; });
+}
 
 MeshArguments parse_mesh_arguments(const Words& words) {
   check_combinations(words);

@@ -48,6 +48,9 @@ struct MeshArguments {
   [[nodiscard]] bool adaptive() const noexcept { return tolerance || relative || pixels || angle; }
 };
 
+/// Reads an option that is a number above 0, in its own unit.
+[[nodiscard]] std::optional<double> positive(const Words& words, const char* option);
+
 /// Throws Failure: exit code 2 where words are none of ours or contradict each other, and 1 where a
 /// number cannot be what it is for.
 [[nodiscard]] MeshArguments parse_mesh_arguments(const Words& words);

@@ -135,6 +135,8 @@ Entries make_entries() {
        "Output, required; may be a device or pipe", " evaluate "},
       {"--format", "NAME", patch_format_names(""), "Format of IN, otherwise told by its name", all},
       {"--ignore-trims", "", "", "Reads surfaces as a whole of which curves cut out a part", all},
+      {"--knot-tolerance", "T", "a number above 0",
+       "Knots of splines that are no further apart, in their own parameter, count as equal", all},
       {"--grid", "N|NUxNV", sides,
        "Samples of every patch (default 16); at most 4097 a direction in one mesh without gaps",
        " tessellate plan "},

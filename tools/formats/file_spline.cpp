@@ -16,7 +16,7 @@ namespace simdbezier::tools {
 namespace {
 
 /// What is expected of a direction that the library refuses, and what is found.
-std::pair<std::string, std::string> complaint(const SplineDirection& direction,
+std::pair<std::string, std::string> complaint(const SplineDirection& direction, double tolerance,
                                               const SplineReport& report) {
   const std::vector<double>& knots = direction.knots;
   const auto order = static_cast<std::size_t>(direction.degree) + 1;
@@ -44,7 +44,9 @@ std::pair<std::string, std::string> complaint(const SplineDirection& direction,
   if (!(begin < end)) {
     return {"a domain from one knot to a larger one", shortest(begin) + " to " + shortest(end)};
   }
-  return {"every knot at most " + std::to_string(order) + " times", shortest(knot) + " once more"};
+  return {"every knot at most " + std::to_string(order) + " times",
+          shortest(knot) + " once more" +
+              (tolerance > 0 ? ", with those within --knot-tolerance" : "")};
 }
 
 /// Refuses knots that the library refuses, and none, which it would take for uniform ones.
@@ -57,13 +59,14 @@ void require_knots(const std::string& file, const FileSpline& spline,
   if (report.status == Status::bad_grid || report.status == Status::bad_knots ||
       report.status == Status::bad_range) {
     const bool is_v = report.component == 1;
-    const auto [expected, found] = complaint(is_v ? spline.v : spline.u, report);
+    const auto [expected, found] =
+        complaint(is_v ? spline.v : spline.u, surface.knot_tolerance, report);
     bad_input_at(file, spline.line, expected + (is_v ? " in v" : " in u"), found);
   }
   check(report.status);
 }
 
-SplineSurface<double> view_of(const FileSpline& spline) {
+SplineSurface<double> view_of(const FileSpline& spline, double knot_tolerance) {
   SplineSurface<double> surface;
   const std::ptrdiff_t channels = spline.weights == Weights::none ? 3 : 4;
   surface.points = spline.points.data();
@@ -80,6 +83,7 @@ SplineSurface<double> view_of(const FileSpline& spline) {
   surface.knots_v = spline.v.knots;
   surface.u_range = spline.u.range;
   surface.v_range = spline.v.range;
+  surface.knot_tolerance = knot_tolerance;
   surface.memory = spline.points;
   return surface;
 }
@@ -87,7 +91,7 @@ SplineSurface<double> view_of(const FileSpline& spline) {
 } // namespace
 
 void PatchFile::close_spline(const FileSpline& spline) {
-  const SplineSurface<double> surface = view_of(spline);
+  const SplineSurface<double> surface = view_of(spline, knot_tolerance);
   require_knots(name, spline, surface);
   const SpanCounts spans = span_count(surface);
   const bool rational = spline.weights != Weights::none;

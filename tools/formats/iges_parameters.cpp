@@ -137,6 +137,21 @@ void IgesParameters::skip(std::size_t count, const char* what) {
   }
 }
 
+void IgesParameters::finish() {
+  constexpr std::size_t kMost = 1U << 20;
+  for (const char* const what : {"a number of associativities", "a number of properties"}) {
+    if (more()) {
+      for (std::size_t left = integer(what, 0, kMost); left > 0; --left) {
+        pointer("a pointer to an associativity or a property");
+      }
+    }
+  }
+  if (more()) {
+    next("");
+    fail("the end of the entity's parameters");
+  }
+}
+
 void IgesParameters::fail(const std::string& expected) const {
   fail(expected, is_string_ ? "a string" : left_out() ? "none" : in_quotes(text_));
 }

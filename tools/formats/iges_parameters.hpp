@@ -28,6 +28,9 @@ public:
   std::optional<std::size_t> pointer(const char* what);
   /// … or anything.
   void skip(std::size_t count, const char* what);
+  /// Reads what may stand behind an entity's own parameters, and has to be the last: pointers to
+  /// associativities and notes, and pointers to properties, each behind their number.
+  void finish();
 
   /// Returns whether there are more parameters.
   [[nodiscard]] bool more() const noexcept { return !ended_; }

@@ -103,6 +103,7 @@ IgesSurface read_spline_surface(IgesRecords& records, std::size_t entity) {
   }
   spline.u.range = range(parameters, spline.u, "u");
   spline.v.range = range(parameters, spline.v, "v");
+  parameters.finish();
   return surface;
 }
 

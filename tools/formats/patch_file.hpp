@@ -77,6 +77,7 @@ struct PatchFile {
       lines; ///< of every point's first coordinate; empty where there is no file
   std::vector<std::uint32_t> vertices; ///< where meshes name their points: numbers of points
   double moved_error = 0;              ///< how far points may be from where they were moved to
+  double knot_tolerance = 0;           ///< that of close_spline()
   double cut_error = 0; ///< how far those of splines may be from their surfaces besides
   std::vector<SplineRecord> splines; ///< those whose patches are among these
   std::size_t ignored_trims = 0; ///< surfaces that are here as a whole, and of which a part counts
@@ -162,6 +163,7 @@ enum class PatchFormat : std::uint8_t {
 /// What may be asked of readers.
 struct ReadOptions {
   bool ignore_trims = false; ///< read surfaces as a whole of which the file shows a part
+  double knot_tolerance = 0; ///< knots that are no further apart count as equal
 };
 
 #define SIMDBEZIER_DECLARE_PATCH_READER(NAME)                                                      \

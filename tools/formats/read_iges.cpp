@@ -29,6 +29,7 @@ public:
       : options_(options), records_(read_iges_records(input)), part_(records_.entities.size()),
         on_surface_(records_.entities.size()) {
     file_.name = records_.name;
+    file_.knot_tolerance = options.knot_tolerance;
   }
 
   PatchFile read() {

@@ -30,6 +30,7 @@ public:
   ObjReader(TextInput& input, const ReadOptions& options)
       : options_(options), lexer_(input, {.comments = true, .lines = true}) {
     file_.name = input.name();
+    file_.knot_tolerance = options.knot_tolerance;
   }
 
   PatchFile read() {

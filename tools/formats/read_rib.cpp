@@ -30,6 +30,7 @@ public:
   RibReader(TextInput& input, const ReadOptions& options)
       : tokens_(input), scopes_(tokens_), surfaces_(tokens_, file_, options.ignore_trims) {
     file_.name = input.name();
+    file_.knot_tolerance = options.knot_tolerance;
   }
 
   PatchFile read() {

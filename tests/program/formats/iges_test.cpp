@@ -276,6 +276,29 @@ TEST(Iges, WeightsThatAreEqualAreNone) {
   EXPECT_TRUE(read_text("iges", iges_text({{128, others}})).runs.at(0).rational());
 }
 
+// Pointers to associativities and to properties may follow, each behind their number, and no more.
+TEST(Iges, HasNothingBehindItsPointers) {
+  const std::string patch = std::string(kPatch).substr(0, std::string(kPatch).size() - 1);
+  const std::string property = "406,1,1;";
+  for (const std::string rest : {",0;", ",,;", ",0,0;", ",0,1,3;", ",2,3,3,1,3;"}) {
+    EXPECT_EQ(refusal("iges", iges_text({{128, patch + rest}, {406, property, 0, "00010000"}})),
+              "");
+  }
+  constexpr struct {
+    const char* rest;
+    const char* message;
+  } kRefused[] = {{",0,0,7;", "expected the end of the entity's parameters, found '7'"},
+                  {",0,1,3,;", "expected the end of the entity's parameters, found none"},
+                  {",.5;", "expected a number of associativities, found '.5'"},
+                  {",0,2,3;", "expected a pointer to an associativity or a property, found"},
+                  {",0,1,2;", "or a property, an odd number, found '2'"}};
+  for (const auto& item : kRefused) {
+    const std::string found =
+        refusal("iges", iges_text({{128, patch + item.rest}, {406, property, 0, "00010000"}}));
+    EXPECT_NE(found.find(item.message), std::string::npos) << found;
+  }
+}
+
 // What entities show each other grows with every level, here by two.
 TEST(Iges, InstancesDoNotMultiplyWithoutEnd) {
   Entities entities = {{128, kPatch}};

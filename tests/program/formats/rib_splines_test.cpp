@@ -121,6 +121,33 @@ TEST_P(SplineFaultTest, IsRefusedWithItsLine) {
 INSTANTIATE_TEST_SUITE_P(All, SplineFaultTest, ::testing::ValuesIn(kFaults),
                          [](const auto& test) { return std::string(test.param.name); });
 
+// The knot 1 stands in the file as 1 and 1.000001: two spans, or three.
+TEST(RibSplines, KnotsWithinAToleranceAreOne) {
+  const std::string text = replaced(kSpline, "4 3 [0 0 0 1 2 2 2]", "5 3 [0 0 0 1 1.000001 2 2 2]");
+  const std::string points =
+      replaced(text, "[1 0 0 3 0 0 5 0 0 9 0 0  1 1 0 3 1 0 5 1 0 9 1 0]",
+               "[1 0 0 3 0 0 4 0 0 5 0 0 9 0 0  1 1 0 3 1 0 4 1 0 5 1 0 9 1 0]");
+  const TemporaryFolder folder;
+  const std::string in = folder.write("in.rib", points);
+  const auto patches = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments = {"info", in, "--json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return nlohmann::json::parse(run(arguments).out).at("patches").get<int>();
+  };
+  EXPECT_EQ(patches({}), 3);
+  EXPECT_EQ(patches({"--knot-tolerance", "1e-7"}), 3);
+  EXPECT_EQ(patches({"--knot-tolerance", "1e-5"}), 2);
+  const Outcome wide = run({"info", in, "--knot-tolerance", "1.5"});
+  EXPECT_EQ(wide.exit_code, 1);
+  EXPECT_NE(wide.err.find(":1: expected"), std::string::npos) << wide.err;
+  for (const char* const found : {"0", "-1", "nan", "x"}) {
+    const Outcome refused = run({"info", in, "--knot-tolerance", found});
+    EXPECT_NE(refused.err.find("--knot-tolerance: expected a number above 0, found"),
+              std::string::npos)
+        << refused.err;
+  }
+}
+
 /// A polygon in the plane of parameters; w is 1.
 std::string polygon(const std::vector<double>& u, const std::vector<double>& v) {
   std::string knots = "0 ";
