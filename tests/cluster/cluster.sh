@@ -165,10 +165,12 @@ check "nothing is left" absent .killed.ply.simdbezier-mpi.tmp
 # A full disk.
 mkdir "$folder/full"
 if mount -t tmpfs -o size=2m tmpfs "$folder/full" 2>/dev/null; then
-  code=0
-  "${ranks[@]}" -o "$folder/full/out.ply" 2>full.log || code=$?
-  check "a full disk is a failure" test "$code" -eq 1
-  check "a full disk has its message" grep -q "expected room" full.log
+  for out in out.ply out.hdf; do
+    code=0
+    "${ranks[@]}" -o "$folder/full/$out" 2>full.log || code=$?
+    check "a full disk is a failure for $out" test "$code" -eq 1
+    check "a full disk has its message for $out" grep -q "expected room" full.log
+  done
   code=0
   simdbezier tessellate model.sbp --grid 60 --shard 1/2 -o "$folder/full/out.ply" 2>full.log || code=$?
   check "a full disk is a failure for a shard" test "$code" -eq 1

@@ -227,11 +227,12 @@ PatchFile read_input(const Arguments& arguments) {
   return file;
 }
 
-std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
-  const std::optional<Words> words = split_command_line(argc, argv);
+std::optional<Arguments> parse_arguments(int argc, const char* const* argv, bool of_ranks) {
+  std::optional<Words> words = split_command_line(argc, argv);
   if (!words) {
     return std::nullopt;
   }
+  words->of_ranks = of_ranks;
   Arguments arguments;
   arguments.command = words->command;
   arguments.in = words->value("IN").value_or("");

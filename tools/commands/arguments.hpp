@@ -59,7 +59,8 @@ void expect_local_options(const Arguments& arguments);
 [[nodiscard]] PatchFile read_input(const Arguments& arguments);
 
 /// Returns nothing where help or the version was asked for, which has then been printed.
-/// Throws Failure with exit code 2 on bad usage.
-[[nodiscard]] std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
+/// Throws Failure with exit code 2 on bad usage. of_ranks: whether they are simdbezier-mpi's.
+[[nodiscard]] std::optional<Arguments> parse_arguments(int argc, const char* const* argv,
+                                                       bool of_ranks = false);
 
 } // namespace simdbezier::tools

@@ -146,7 +146,7 @@ void check_rest(const CLI::App& app, const std::string& command,
 Words collect(const Parser& parser, Command command) {
   const std::string name(command_name(command));
   const CLI::App& app = *parser.commands[static_cast<std::size_t>(command)];
-  Words words{command, {}};
+  Words words{command, {}, false};
   for (const OptionEntry& entry : option_entries()) {
     const CLI::Option* const option = entry.is_of(name) ? app.get_option(entry.name) : nullptr;
     if (option == nullptr || option->count() == 0) {

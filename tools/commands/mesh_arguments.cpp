@@ -132,16 +132,17 @@ void check_combinations(const Words& words) {
 MeshFormat parse_format(const Words& words) {
   const std::string out = *words.value("-o");
   if (const auto name = words.value("--to")) {
-    const auto format = mesh_format_of("mesh." + *name);
+    const auto format = mesh_format_of("mesh." + *name, words.of_ranks);
     if (!format) {
       refuse(2, words, "--to", in_quotes(*name) + mesh_format_hint("mesh." + *name));
     }
-    if (!is_written_directly(out) && mesh_format_of(out) && mesh_format_of(out) != format) {
+    const auto named = mesh_format_of(out, words.of_ranks);
+    if (!is_written_directly(out) && named && named != format) {
       bad_usage("--to: expected the format of " + out + ", found " + in_quotes(*name));
     }
     return *format;
   }
-  const auto format = mesh_format_of(out);
+  const auto format = mesh_format_of(out, words.of_ranks);
   if (!format) {
     refuse(2, words, "-o", in_quotes(out) + mesh_format_hint(out));
   }

@@ -19,8 +19,11 @@ struct FormatEntry {
   MeshAbilities can;
 };
 #define SIMDBEZIER_MESH_FORMAT_ROW(NAME, FILE, ...) {#NAME, FILE, __VA_ARGS__},
-constexpr FormatEntry kFormats[] = {SIMDBEZIER_EACH_MESH_FORMAT(SIMDBEZIER_MESH_FORMAT_ROW)};
+constexpr FormatEntry kFormats[] = {SIMDBEZIER_EACH_MESH_FORMAT(
+    SIMDBEZIER_MESH_FORMAT_ROW) SIMDBEZIER_EACH_FORMAT_OF_RANKS(SIMDBEZIER_MESH_FORMAT_ROW)};
 #undef SIMDBEZIER_MESH_FORMAT_ROW
+constexpr auto kFormatsOfOne =
+    std::span(kFormats).first(static_cast<std::size_t>(MeshFormat::hdf)); // those of ranks follow
 
 const FormatEntry& entry_of(MeshFormat format) {
   return kFormats[static_cast<std::size_t>(format)];
@@ -74,16 +77,18 @@ void check_contents(const std::string& path, MeshFormat format, const MeshConten
   assert(contents.data.empty() || entry.can.point_data);
 }
 
-std::optional<MeshFormat> mesh_format_of(const std::string& path) {
+std::optional<MeshFormat> mesh_format_of(const std::string& path, bool ranks) {
   const std::string extension = extension_of(path);
-  const auto* const entry = std::ranges::find(kFormats, extension, &FormatEntry::extension);
-  return entry == std::end(kFormats)
-             ? std::nullopt
-             : std::optional(static_cast<MeshFormat>(entry - std::begin(kFormats)));
+  const std::span<const FormatEntry> formats = ranks ? kFormats : kFormatsOfOne;
+  const auto entry = std::ranges::find(formats, extension, &FormatEntry::extension);
+  return entry == formats.end() ? std::nullopt
+                                : std::optional(static_cast<MeshFormat>(entry - formats.begin()));
 }
 
 std::string mesh_format_hint(const std::string& path) {
-  return extension_of(path) == "gltf" ? " (.glb is the form of glTF that is one file)" : "";
+  return extension_of(path) == "gltf" ? " (.glb is the form of glTF that is one file)"
+         : mesh_format_of(path, true) ? " (which simdbezier-mpi writes)"
+                                      : "";
 }
 
 std::string mesh_format_name(MeshFormat format) { return entry_of(format).extension; }
@@ -92,7 +97,7 @@ const MeshAbilities& mesh_abilities(MeshFormat format) { return entry_of(format)
 
 std::string mesh_format_names(const std::string& prefix, bool MeshAbilities::*ability) {
   std::vector<std::string> wanted;
-  for (const FormatEntry& entry : kFormats) {
+  for (const FormatEntry& entry : kFormatsOfOne) {
     if (ability == nullptr || entry.can.*ability) {
       wanted.push_back(prefix + entry.extension);
     }

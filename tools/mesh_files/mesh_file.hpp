@@ -42,26 +42,31 @@ struct MeshAbilities {
                          .most_patches = std::uint64_t{1} << 24}) /* their numbers are floats */ \
   X(vtu, "a VTU file",  {.quads = true, .normals = true, .doubles = true, .point_data = true})     \
   X(raw, "raw arrays",  {.quads = true, .normals = true, .doubles = true})
+/// Those that only simdbezier-mpi writes (tools/mpi).
+#define SIMDBEZIER_EACH_FORMAT_OF_RANKS(X)                                                         \
+  X(hdf, "a VTKHDF file", {.quads = true, .normals = true, .doubles = true, .point_data = true})
 // clang-format on
 
 #define SIMDBEZIER_DECLARE_MESH_FORMAT(NAME, ...) NAME,
 enum class MeshFormat : std::uint8_t {
   SIMDBEZIER_EACH_MESH_FORMAT(SIMDBEZIER_DECLARE_MESH_FORMAT)
+      SIMDBEZIER_EACH_FORMAT_OF_RANKS(SIMDBEZIER_DECLARE_MESH_FORMAT)
 };
 #undef SIMDBEZIER_DECLARE_MESH_FORMAT
 
-/// Returns the format that a file's name asks for by its extension.
-[[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::string& path);
+/// Returns the format that a file's name asks for by its extension. ranks: whether it may be one
+/// that only ranks write.
+[[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::string& path, bool ranks = false);
 
 [[nodiscard]] const MeshAbilities& mesh_abilities(MeshFormat format);
 
-/// Returns "" or a word behind a name that is none of ours, where it is nearly one.
+/// Returns "" or a word behind a name that is none of ours, where it is nearly one, or of ranks.
 [[nodiscard]] std::string mesh_format_hint(const std::string& path);
 
 /// Returns "obj", ….
 [[nodiscard]] std::string mesh_format_name(MeshFormat format);
-/// Returns "obj, ply, … or glb", every name behind `prefix`: all formats, or those with the
-/// ability.
+/// Returns "obj, ply, … or glb", every name behind `prefix`: all formats that one process writes,
+/// or those of them with the ability.
 [[nodiscard]] std::string mesh_format_names(const std::string& prefix,
                                             bool MeshAbilities::*ability = nullptr);
 

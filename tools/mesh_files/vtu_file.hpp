@@ -14,6 +14,9 @@
 
 namespace simdbezier::tools {
 
+inline constexpr std::uint8_t kVtkTriangle = 5; ///< VTK's numbers for cells
+inline constexpr std::uint8_t kVtkQuad = 9;
+
 struct VtuArray {
   std::string name;
   NumberType type;
@@ -27,6 +30,10 @@ struct VtuSection {
   std::string attributes; ///< " Normals=\"Normals\""
   std::vector<VtuArray> arrays;
 };
+
+/// Returns the arrays of a mesh of triangles or quads. T: the type of its numbers.
+template <typename T>
+[[nodiscard]] std::vector<VtuSection> vtu_sections(const MeshContents& mesh);
 
 /// The arrays are written in the order of the sections, which are the four above.
 class VtuFile {

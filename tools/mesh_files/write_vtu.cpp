@@ -13,9 +13,6 @@ namespace simdbezier::tools {
 
 namespace {
 
-constexpr std::uint8_t kTriangle = 5; // VTK's numbers for cells
-constexpr std::uint8_t kQuad = 9;
-
 // VTK wants offsets and corners in one type, and counts in signed ones.
 bool is_large(const MeshContents& mesh) {
   return !(Count(mesh.faces) * mesh.corners + mesh.vertices)
@@ -23,42 +20,10 @@ bool is_large(const MeshContents& mesh) {
 }
 
 template <typename T>
-std::vector<VtuSection> sections(const MeshContents& mesh) {
-  const NumberType real =
-      sizeof(T) == sizeof(float) || mesh.floats ? number_type<float>() : number_type<double>();
-  const NumberType index =
-      is_large(mesh) ? number_type<std::int64_t>() : number_type<std::int32_t>();
-  VtuSection data{"PointData", "", {}};
-  if (mesh.normals) {
-    data.attributes += R"( Normals="Normals")";
-    data.arrays.push_back({"Normals", real, 3, mesh.vertices});
-  }
-  if (mesh.uv) {
-    data.attributes += R"( TCoords="TCoords")";
-    data.arrays.push_back({"TCoords", real, 2, mesh.vertices});
-  }
-  if (mesh.patches > 0) {
-    data.arrays.push_back({"patch", number_type<std::uint32_t>(), 1, mesh.vertices});
-  }
-  for (const PointData& item : mesh.data) {
-    data.arrays.push_back({item.name, item.type, item.components, mesh.vertices});
-  }
-  const std::uint64_t corners = mesh.faces * mesh.corners - mesh.among_quads;
-  return {{"Points", "", {{"Points", real, 3, mesh.vertices}}},
-          data,
-          {"Cells",
-           "",
-           {{"connectivity", index, 1, corners},
-            {"offsets", index, 1, mesh.faces},
-            {"types", number_type<std::uint8_t>(), 1, mesh.faces}}},
-          {"CellData", "", {}}};
-}
-
-template <typename T>
 class VtuWriter final : public MeshWriter<T> {
 public:
   VtuWriter(const std::string& path, const MeshContents& mesh)
-      : MeshWriter<T>(path, mesh), sections_(sections<T>(mesh)),
+      : MeshWriter<T>(path, mesh), sections_(vtu_sections<T>(mesh)),
         packer_(path, mesh, exact_records<T>(mesh, false)),
         record_bytes_(exact_records<T>(mesh, false).size), rest_(path), sizes_(path),
         file_(path, mesh, mesh.faces, sections_), large_(is_large(mesh)) {
@@ -163,7 +128,7 @@ private:
     std::uint64_t end = 0;
     for_sizes([&](std::uint8_t size) { index(end += size); });
     file_.begin_array();
-    for_sizes([&](std::uint8_t size) { file_.number(size == 3 ? kTriangle : kQuad); });
+    for_sizes([&](std::uint8_t size) { file_.number(size == 3 ? kVtkTriangle : kVtkQuad); });
     file_.complete();
   }
   void put_in_place() override { file_.commit(); }
@@ -182,11 +147,45 @@ private:
 } // namespace
 
 template <typename T>
+std::vector<VtuSection> vtu_sections(const MeshContents& mesh) {
+  const NumberType real =
+      sizeof(T) == sizeof(float) || mesh.floats ? number_type<float>() : number_type<double>();
+  const NumberType index =
+      is_large(mesh) ? number_type<std::int64_t>() : number_type<std::int32_t>();
+  VtuSection data{"PointData", "", {}};
+  if (mesh.normals) {
+    data.attributes += R"( Normals="Normals")";
+    data.arrays.push_back({"Normals", real, 3, mesh.vertices});
+  }
+  if (mesh.uv) {
+    data.attributes += R"( TCoords="TCoords")";
+    data.arrays.push_back({"TCoords", real, 2, mesh.vertices});
+  }
+  if (mesh.patches > 0) {
+    data.arrays.push_back({"patch", number_type<std::uint32_t>(), 1, mesh.vertices});
+  }
+  for (const PointData& item : mesh.data) {
+    data.arrays.push_back({item.name, item.type, item.components, mesh.vertices});
+  }
+  const std::uint64_t corners = mesh.faces * mesh.corners - mesh.among_quads;
+  return {{"Points", "", {{"Points", real, 3, mesh.vertices}}},
+          data,
+          {"Cells",
+           "",
+           {{"connectivity", index, 1, corners},
+            {"offsets", index, 1, mesh.faces},
+            {"types", number_type<std::uint8_t>(), 1, mesh.faces}}},
+          {"CellData", "", {}}};
+}
+
+template <typename T>
 std::unique_ptr<MeshWriter<T>> make_vtu_writer(const std::string& path,
                                                const MeshContents& contents) {
   return std::make_unique<VtuWriter<T>>(path, contents);
 }
 
+template std::vector<VtuSection> vtu_sections<float>(const MeshContents&);
+template std::vector<VtuSection> vtu_sections<double>(const MeshContents&);
 template std::unique_ptr<MeshWriter<float>> make_vtu_writer(const std::string&,
                                                             const MeshContents&);
 template std::unique_ptr<MeshWriter<double>> make_vtu_writer(const std::string&,

@@ -28,7 +28,7 @@ int run(int argc, char** argv) {
   try {
     std::optional<Arguments> arguments;
     ranks.together([&] {
-      arguments = parse_arguments(argc, argv);
+      arguments = parse_arguments(argc, argv, true);
       if (arguments && arguments->command != Command::tessellate &&
           arguments->command != Command::evaluate) {
         bad_usage("expected tessellate or evaluate, found another command, which simdbezier has");

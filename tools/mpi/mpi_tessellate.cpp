@@ -225,13 +225,17 @@ private:
     }
     bytes = static_cast<std::uint64_t>(ranks_.most(static_cast<double>(bytes)));
     RankFile file(ranks_, MPI_COMM_WORLD, arguments_.out, bytes);
+    std::vector<std::uint64_t> arrays;
     ranks_.together([&] {
       if (ranks_.is_first()) {
-        write_head<T>(file, format, whole);
+        arrays = write_head<T>(file, format, whole);
       }
+    });
+    arrays = ranks_.of_first(std::move(arrays));
+    ranks_.together([&] {
       Progress progress("tessellating", "patches", stats_.patches, ranks_.is_first());
       for (KnownShard<T>& shard : own_) {
-        write(shard, file, whole, progress);
+        write(shard, file, whole, arrays, progress);
       }
     });
     {
@@ -241,7 +245,8 @@ private:
     written_ = file.written();
   }
 
-  void write(KnownShard<T>& shard, RankFile& file, const MeshContents& whole, Progress& progress) {
+  void write(KnownShard<T>& shard, RankFile& file, const MeshContents& whole,
+             std::span<const std::uint64_t> arrays, Progress& progress) {
     const MeshFormat format = arguments_.mesh.format;
     MeshStats again;
     ShardMesh<T> mesh = shard.mesh ? std::move(*shard.mesh) : make_mesh(shard, again);
@@ -255,8 +260,8 @@ private:
       const std::vector<std::uint32_t> numbers = directory_.numbers(mesh.source().links().foreign);
       mesh.welded ? mesh.welded->place(first, numbers) : mesh.loose->place(first);
     }
-    const auto writer = make_rank_writer<T>(file, format, whole, shard.contents, shard.place,
-                                            std::span<const T>(foreign));
+    const auto writer = make_rank_writer<T>(file, format, whole, arrays, shard.contents,
+                                            shard.place, std::span<const T>(foreign));
     StageSeconds seconds;
     mesh.source().write(*writer, seconds, progress);
     {
@@ -295,7 +300,7 @@ void run_mpi_tessellate(Ranks& ranks, const Arguments& asked) {
   ranks.together([&] {
     chosen_isa();
     if (!is_written_by_ranks(arguments.mesh.format)) {
-      bad_usage("-o: expected a mesh in ply, raw or stl, found " +
+      bad_usage("-o: expected a mesh in " + formats_of_ranks() + ", found " +
                 mesh_format_name(arguments.mesh.format));
     }
     if (arguments.in == "-") {

@@ -41,9 +41,8 @@ RankFile::RankFile(const Ranks& ranks, MPI_Comm communicator, std::string path, 
     }
     static_cast<void>(remember_temporary(folder_.number(), temporary_));
   });
-  const std::string whole = folder_name_ + "/" + temporary_;
-  const int opened = MPI_File_open(communicator, whole.c_str(), MPI_MODE_CREATE | MPI_MODE_WRONLY,
-                                   MPI_INFO_NULL, &file_);
+  const int opened = MPI_File_open(communicator, temporary_path().c_str(),
+                                   MPI_MODE_CREATE | MPI_MODE_WRONLY, MPI_INFO_NULL, &file_);
   try {
     ranks_.together([&] { expect(opened, "a writable file"); });
     const int sized = MPI_File_set_size(file_, static_cast<MPI_Offset>(bytes));

@@ -24,6 +24,9 @@ public:
   RankFile(const RankFile&) = delete;
   RankFile& operator=(const RankFile&) = delete;
 
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  /// Where the file is until it has its name.
+  [[nodiscard]] std::string temporary_path() const { return folder_name_ + "/" + temporary_; }
   /// Writes bytes of this rank. Throws Failure.
   void write(std::uint64_t at, std::span<const std::byte> bytes);
   [[nodiscard]] std::uint64_t written() const noexcept { return written_; }

@@ -4,35 +4,13 @@
 
 #include <tools/mesh_files/mesh_bytes.hpp>
 #include <tools/mesh_files/record_file.hpp>
+#include <tools/mpi/hdf_file.hpp>
+#include <tools/mpi/placed_bytes.hpp>
 #include <tools/process/little_endian.hpp>
 
 namespace simdbezier::tools {
 
 namespace {
-
-constexpr std::size_t kBufferBytes = std::size_t{1} << 22;
-
-// Bytes on their way to consecutive places.
-class PlacedBytes {
-public:
-  PlacedBytes(RankFile& file, std::uint64_t at) : file_(file), at_(at) {}
-  [[nodiscard]] std::vector<std::byte>& bytes() noexcept { return bytes_; }
-  void flush_when_full() {
-    if (bytes_.size() >= kBufferBytes) {
-      flush();
-    }
-  }
-  void flush() {
-    file_.write(at_, bytes_);
-    at_ += bytes_.size();
-    bytes_.clear();
-  }
-
-private:
-  RankFile& file_;
-  std::uint64_t at_;
-  std::vector<std::byte> bytes_;
-};
 
 template <typename T>
 RecordFile record_file(MeshFormat format, const MeshContents& whole) {
@@ -119,8 +97,14 @@ private:
 
 } // namespace
 
+std::string formats_of_ranks() {
+  return kHasHdf ? "ply, raw, stl or hdf"
+                 : "ply, raw or stl (hdf needs HDF5, without which simdbezier-mpi was built)";
+}
+
 bool is_written_by_ranks(MeshFormat format) {
-  return format == MeshFormat::ply || format == MeshFormat::raw || format == MeshFormat::stl;
+  return format == MeshFormat::ply || format == MeshFormat::raw || format == MeshFormat::stl ||
+         (kHasHdf && format == MeshFormat::hdf);
 }
 
 template <typename T>
@@ -128,24 +112,42 @@ std::uint64_t ranked_bytes(MeshFormat format, const MeshContents& whole) {
   if (format == MeshFormat::stl) {
     return stl_head(whole).size() + whole.faces * kStlFacetBytes;
   }
+  if constexpr (kHasHdf) {
+    if (format == MeshFormat::hdf) {
+      return hdf_bytes<T>(whole);
+    }
+  }
   const RecordFile file = record_file<T>(format, whole);
   return file.head.size() + whole.vertices * file.records.size +
          file.face_bytes<std::uint64_t>(whole, whole.faces, whole.among_quads);
 }
 
 template <typename T>
-void write_head(RankFile& file, MeshFormat format, const MeshContents& whole) {
+std::vector<std::uint64_t> write_head(RankFile& file, MeshFormat format,
+                                      const MeshContents& whole) {
+  if constexpr (kHasHdf) {
+    if (format == MeshFormat::hdf) {
+      return write_hdf_head<T>(file, whole);
+    }
+  }
   const std::string head =
       format == MeshFormat::stl ? stl_head(whole) : record_file<T>(format, whole).head;
   file.write(0, std::as_bytes(std::span(head)));
+  return {};
 }
 
 template <typename T>
 std::unique_ptr<MeshWriter<T>>
 make_rank_writer(RankFile& file, MeshFormat format, const MeshContents& whole,
-                 const MeshContents& shard, const ShardPlace& place, std::span<const T> foreign) {
+                 std::span<const std::uint64_t> arrays, const MeshContents& shard,
+                 const ShardPlace& place, std::span<const T> foreign) {
   if (format == MeshFormat::stl) {
     return std::make_unique<StlShardWriter<T>>(file, whole, shard, place, foreign);
+  }
+  if constexpr (kHasHdf) {
+    if (format == MeshFormat::hdf) {
+      return make_hdf_shard_writer<T>(file, whole, arrays, shard, place);
+    }
   }
   return std::make_unique<RecordShardWriter<T>>(file, record_file<T>(format, whole), whole, shard,
                                                 place);
@@ -153,10 +155,10 @@ make_rank_writer(RankFile& file, MeshFormat format, const MeshContents& whole,
 
 #define SIMDBEZIER_RANK_WRITERS(T)                                                                 \
   template std::uint64_t ranked_bytes<T>(MeshFormat, const MeshContents&);                         \
-  template void write_head<T>(RankFile&, MeshFormat, const MeshContents&);                         \
+  template std::vector<std::uint64_t> write_head<T>(RankFile&, MeshFormat, const MeshContents&);   \
   template std::unique_ptr<MeshWriter<T>> make_rank_writer(                                        \
-      RankFile&, MeshFormat, const MeshContents&, const MeshContents&, const ShardPlace&,          \
-      std::span<const T>);
+      RankFile&, MeshFormat, const MeshContents&, std::span<const std::uint64_t>,                  \
+      const MeshContents&, const ShardPlace&, std::span<const T>);
 SIMDBEZIER_RANK_WRITERS(float)
 SIMDBEZIER_RANK_WRITERS(double)
 #undef SIMDBEZIER_RANK_WRITERS

@@ -4,33 +4,36 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <tools/mesh_files/mesh_file.hpp>
 #include <tools/mpi/rank_file.hpp>
+#include <tools/mpi/shard_place.hpp>
 
 namespace simdbezier::tools {
 
-/// What a shard has to know of the whole file.
-struct ShardPlace {
-  std::uint64_t first_vertex = 0;
-  std::uint64_t first_face = 0;
-  std::uint64_t quads_before = 0; ///< among_quads of all shards before
-};
-
 /// Returns whether several processes can write one file of the format.
 [[nodiscard]] bool is_written_by_ranks(MeshFormat format);
-/// Returns the size of the whole file.
+/// Returns the names of those, for messages.
+[[nodiscard]] std::string formats_of_ranks();
+/// Returns the size of the whole file, or an upper bound.
 template <typename T>
 [[nodiscard]] std::uint64_t ranked_bytes(MeshFormat format, const MeshContents& whole);
-/// Writes what stands before all vertices; the deviation of `whole` is the one to be stated.
+/// Writes, on one rank and before all others, what is not the mesh's numbers; the deviation of
+/// `whole` is the one to be stated. Returns where arrays begin, in formats in which a library
+/// decides that.
 template <typename T>
-void write_head(RankFile& file, MeshFormat format, const MeshContents& whole);
+[[nodiscard]] std::vector<std::uint64_t> write_head(RankFile& file, MeshFormat format,
+                                                    const MeshContents& whole);
 
-/// A writer for a shard, whose contents `shard` are. Faces have the whole mesh's numbers, but for
-/// STL, in which they have the shard's, behind which `foreign` are: values of further vertices.
+/// A writer for a shard, whose contents `shard` are. arrays: what write_head() has returned. Faces
+/// have the whole mesh's numbers, but for STL, in which they have the shard's, behind which
+/// `foreign` are: values of further vertices.
 template <typename T>
 [[nodiscard]] std::unique_ptr<MeshWriter<T>>
 make_rank_writer(RankFile& file, MeshFormat format, const MeshContents& whole,
-                 const MeshContents& shard, const ShardPlace& place, std::span<const T> foreign);
+                 std::span<const std::uint64_t> arrays, const MeshContents& shard,
+                 const ShardPlace& place, std::span<const T> foreign);
 
 } // namespace simdbezier::tools

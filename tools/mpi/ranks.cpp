@@ -55,6 +55,12 @@ std::uint64_t Ranks::sum_before(std::uint64_t value) const {
   return is_first() ? 0 : before; // which MPI_Exscan leaves undefined
 }
 
+std::vector<std::uint64_t> Ranks::of_first(std::vector<std::uint64_t> values) const {
+  values.resize(sum(is_first() ? values.size() : 0));
+  MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_UINT64_T, 0, communicator_);
+  return values;
+}
+
 std::vector<double> Ranks::gather(const std::vector<double>& values) const {
   std::vector<double> all(is_first() ? values.size() * static_cast<std::size_t>(count_) : 0);
   const auto each = static_cast<int>(values.size());

@@ -32,6 +32,8 @@ public:
   [[nodiscard]] double least(double value) const { return -most(-value); }
   /// Returns the sum over lower ranks.
   [[nodiscard]] std::uint64_t sum_before(std::uint64_t value) const;
+  /// Returns the values of the first rank.
+  [[nodiscard]] std::vector<std::uint64_t> of_first(std::vector<std::uint64_t> values) const;
   /// Returns what all ranks have, on the first rank; nothing elsewhere.
   [[nodiscard]] std::vector<double> gather(const std::vector<double>& values) const;
   /// Sends values to each rank, and returns what came from all of them.

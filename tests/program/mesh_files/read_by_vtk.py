@@ -1,5 +1,6 @@
-"""What VTK reads from .vtu files: one JSON object a file. A file may be followed by a CSV file of
-`simdbezier evaluate`, whose positions are then compared with those that VTK finds on its cells.
+"""What VTK reads from .vtu and VTKHDF files: one JSON object a file. A file may be followed by a CSV
+file of `simdbezier evaluate`, whose positions are then compared with those that VTK finds on its
+cells.
 """
 import csv
 import json
@@ -49,7 +50,8 @@ for name in sys.argv[1:]:
     if name.endswith('.csv'):
         print(json.dumps({'difference': largest_difference(grid, name)}))
         continue
-    reader = vtk.vtkXMLUnstructuredGridReader()
+    is_hdf = name.endswith('.hdf')
+    reader = vtk.vtkHDFReader() if is_hdf else vtk.vtkXMLUnstructuredGridReader()
     complaints = []
     reader.AddObserver('ErrorEvent', lambda *_: complaints.append('error'))
     reader.AddObserver('WarningEvent', lambda *_: complaints.append('warning'))

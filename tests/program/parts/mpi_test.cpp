@@ -6,8 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include <sys/wait.h>
-
+#include "tests/program/parts/mpi_ranks.hpp"
 #include "tests/program/parts/part_models.hpp"
 #include "tests/program/process/program.hpp"
 #include "tests/support/long_form.hpp"
@@ -15,55 +14,7 @@
 namespace simdbezier::tests::mpi_test {
 namespace {
 
-/// What starts ranks, and the program that was built for it.
-struct Launcher {
-  const char* mpiexec;
-  const char* program;
-};
-#ifdef SIMDBEZIER_MPI_PROGRAMS
-constexpr Launcher kLaunchers[] = {SIMDBEZIER_MPI_PROGRAMS};
-#else
-constexpr Launcher kLaunchers[] = {{nullptr, nullptr}};
-#endif
-
-class Mpi : public ::testing::TestWithParam<std::size_t> {
-protected:
-  void SetUp() override {
-    if (kLaunchers[GetParam()].program == nullptr) {
-      GTEST_SKIP() << "simdbezier-mpi is not built";
-    }
-  }
-
-  struct Answer {
-    int exit_code;
-    std::string out;
-    std::string err;
-  };
-  // Runs so many ranks, which may be more than there are cores.
-  Answer run_ranks(int ranks, const std::string& words, int threads = 1) const {
-    const Launcher& launcher = kLaunchers[GetParam()];
-    const std::string command =
-        "OMP_NUM_THREADS=" + std::to_string(threads) +
-        " OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"
-        " OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none"
-        " OMPI_MCA_btl_vader_single_copy_mechanism=none TMPDIR=/tmp " +
-        launcher.mpiexec + " -n " + std::to_string(ranks) + " " + launcher.program + " " + words +
-        " > '" + folder_.path("out") + "' 2> '" + folder_.path("err") + "' < /dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder_.path("out")),
-            read_file(folder_.path("err"))};
-  }
-  [[nodiscard]] bool has_leftovers() const {
-    for (const std::string& name : folder_.names()) {
-      if (name.find(".tmp") != std::string::npos) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  TemporaryFolder folder_;
-};
+using Mpi = MpiRanks;
 
 struct Case {
   const char* extension;
@@ -157,8 +108,7 @@ TEST_P(Mpi, faults_have_an_exit_code_a_message_and_leave_nothing) {
       {"tessellate " + folder_.path("cut.sbp") + out, 1, "expected block 0"},
       {"tessellate builtin:teapot -o " + folder_.path("no/folder.ply"), 1,
        "no/folder.ply: expected"},
-      {"tessellate builtin:teapot -o " + folder_.path("a.glb"), 2,
-       "expected a mesh in ply, raw or stl"},
+      {"tessellate builtin:teapot -o " + folder_.path("a.glb"), 2, "expected a mesh in ply, raw"},
       {"tessellate builtin:teapot" + out + " --tolerance 1e-9", 1, "expected a distance above"},
       {"evaluate builtin:teapot -o " + folder_.path("no/folder.csv"), 1, "no/folder.csv: expected"},
       {"evaluate builtin:teapot -o -", 2, "-o: expected a file that all ranks can write"},

@@ -87,6 +87,20 @@ __attribute__((visibility("default"))) ssize_t write(int file, const void* data,
   return next<ssize_t(int, const void*, size_t)>("write")(file, data, size);
 }
 
+// A disk that has room for nothing, or for little at a time.
+__attribute__((visibility("default"))) ssize_t pwrite64(int file, const void* data, size_t size,
+                                                        off64_t at) {
+  constexpr size_t kMuch = size_t{1} << 16;
+  return is_wanted("disk_full") || (size > kMuch && is_wanted("disk_full_for_much"))
+             ? failed(ENOSPC)
+             : next<ssize_t(int, const void*, size_t, off64_t)>("pwrite64")(file, data, size, at);
+}
+
+__attribute__((visibility("default"))) ssize_t pwrite(int file, const void* data, size_t size,
+                                                      off_t at) {
+  return pwrite64(file, data, size, at);
+}
+
 __attribute__((visibility("default"))) int openat(int folder, const char* name, int flags, ...) {
   va_list rest;
   va_start(rest, flags);
