@@ -174,6 +174,8 @@ SIMDBEZIER_API simdbezier_status simdbezier_spline_pack(const simdbezier_spline_
                                                         simdbezier_patch_set** set);
 
 // locate(): u and v are parameters of the spline, equally many. The points are not read.
+// Samples of curves: locate them, pass centred_u to simdbezier_evaluate_curve_samples(), and divide
+// d1 by length_u and d2 by its square.
 SIMDBEZIER_API simdbezier_status simdbezier_spline_locate(const simdbezier_spline_surface* surface,
                                                           const double* u, size_t u_length,
                                                           const double* v, size_t v_length,
