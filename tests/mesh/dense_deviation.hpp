@@ -1,6 +1,7 @@
 // How far a mesh is from its patches, by dense samples and formulas of the tests' own.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -64,7 +65,60 @@ double farthest_sample(const MeshPlan<T>& plan, const Mesh<T>& mesh, const Surfa
   return std::sqrt(worst);
 }
 
-/// The same for a bicubic patch.
+/// The largest distance of points of all triangles of patch p from a surface, of which a fine mesh
+/// is taken: twice as fine at the ends of each cell as in its middle.
+template <typename T, typename Surface>
+double farthest_from_surface(const MeshPlan<T>& plan, const Mesh<T>& mesh, const Surface& surface,
+                             std::size_t p) {
+  constexpr std::uint32_t kInCell = 24;
+  struct Piece {
+    std::array<Point, 4> at;
+    double size; ///< no point is farther from the first one
+  };
+  const auto parameter = [](std::uint32_t k, std::uint32_t n) {
+    const double t = static_cast<double>(k % kInCell) / kInCell;
+    return (k / kInCell + t * t * (3 - 2 * t)) / n;
+  };
+  std::vector<Piece> pieces;
+  for (std::uint32_t j = 0; j < kInCell * plan.nv[p]; ++j) {
+    for (std::uint32_t i = 0; i < kInCell * plan.nu[p]; ++i) {
+      Piece piece{{}, 0};
+      for (std::uint32_t k = 0; k < 4; ++k) {
+        piece.at[k] = surface(parameter(i + k % 2, plan.nu[p]), parameter(j + k / 2, plan.nv[p]));
+        piece.size = std::max(
+            piece.size,
+            std::sqrt(squared_distance(piece.at[k], {piece.at[0], piece.at[0], piece.at[0]})));
+      }
+      pieces.push_back(piece);
+    }
+  }
+  double worst = 0;
+  for (std::size_t t = plan.layout.first_triangle(p); t < plan.layout.first_triangle(p + 1); ++t) {
+    const Point corners[] = {corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2)};
+    for (std::uint32_t k = 0; k < 25; ++k) {
+      const double a = (k % 5) / 4.0;
+      const double b = (1 - a) * (k / 5) / 4.0;
+      Point x;
+      for (std::size_t c = 0; c < 3; ++c) {
+        x[c] = corners[0][c] + a * (corners[1][c] - corners[0][c]) +
+               b * (corners[2][c] - corners[0][c]);
+      }
+      double least = std::numeric_limits<double>::infinity();
+      for (const Piece& piece : pieces) {
+        const double far = std::sqrt(squared_distance(x, {piece.at[0], piece.at[0], piece.at[0]}));
+        if (far - piece.size < least) {
+          least = std::min(
+              {least, std::sqrt(squared_distance(x, {piece.at[0], piece.at[1], piece.at[2]})),
+               std::sqrt(squared_distance(x, {piece.at[1], piece.at[3], piece.at[2]}))});
+        }
+      }
+      worst = std::max(worst, least);
+    }
+  }
+  return std::max(0.0, worst - 1e-9); // squares of distances are rounded
+}
+
+/// farthest_sample() of a bicubic patch.
 template <typename T>
 double found_deviation(const MeshPlan<T>& plan, const Mesh<T>& mesh, const PatchPoints& patch,
                        std::size_t p, std::uint32_t in_cell) {

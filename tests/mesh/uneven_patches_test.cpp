@@ -181,13 +181,17 @@ TEST(UnevenPatches, have_few_more_cells_than_they_need) {
 }
 
 // The fewest cells of which dense samples are within the tolerance, with one diagonal a quarter,
-// are 420, 704, 10 and, of squares of cells, 365 x 365.
+// are 420, 704, 10 and, of squares of cells, 365 x 365; with samples of triangles as well, 780.
 TEST(UnevenPatches, with_one_heavy_weight_have_at_most_four_times_the_cells_they_need) {
   constexpr struct {
     double weight;
     double tolerance;
     std::uint32_t fewest;
-  } kCases[] = {{1e3, 1e-2, 420}, {1e5, 1e-2, 704}, {1e6, 2e-2, 10}, {1e5, 1e-3, 365 * 365}};
+  } kCases[] = {{1e3, 1e-2, 420},
+                {1e5, 1e-2, 704},
+                {1e6, 2e-2, 10},
+                {1e5, 1e-3, 365 * 365},
+                {1e6, 1e-2, 780}};
   for (const auto& heavy : kCases) {
     const TestPatch patch = net_of("one heavy weight", 3, 3, Weights::cartesian, [&](int i, int j) {
       return std::array{kEven[i], kEven[j], 0.3 * std::sin(1.7 * (4 * j + i) + 0.3),
@@ -199,8 +203,8 @@ TEST(UnevenPatches, with_one_heavy_weight_have_at_most_four_times_the_cells_they
   }
 }
 
-/// The mesh of copies of a patch that need not be where it is, and how far samples of the first one
-/// are from its triangles.
+/// The mesh of copies of a patch that need not be where it is, how far samples of the first one are
+/// from its triangles and, if these are few, they from that.
 struct Sampled {
   MeshPlan<double> plan;
   double found = 0;
@@ -216,6 +220,9 @@ struct Sampled {
     if (plan.status == Status::ok && plan.nu[0] * plan.nv[0] <= 150) {
       const auto surface = [&](double u, double v) { return patch.at(u, v); };
       found = farthest_sample(plan, mesh, surface, 0, 4);
+      found = plan.nu[0] * plan.nv[0] > 8
+                  ? found
+                  : std::max(found, farthest_from_surface(plan, mesh, surface, 0));
     }
   }
 };

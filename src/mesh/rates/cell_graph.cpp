@@ -107,7 +107,8 @@ double CellGraph::outside(double x, double y) const {
   return least;
 }
 
-GraphDistance CellGraph::of_hull(const double* points, std::size_t count) const {
+GraphDistance CellGraph::of_hull(const double* points, std::size_t count,
+                                 bool heights_alone) const {
   double high[2] = {0, 0}; // above either plane
   double low[2] = {0, 0};
   double out = 0;
@@ -121,7 +122,7 @@ GraphDistance CellGraph::of_hull(const double* points, std::size_t count) const 
       high[k] = std::max(high[k], above);
       low[k] = std::max(low[k], -above);
     }
-    out = std::max(out, outside(x, y));
+    out = heights_alone ? 0 : std::max(out, outside(x, y));
   }
   // Above the lower of two planes is what is above either of them, below it what is below both.
   return is_ridge_ ? GraphDistance{std::max(high[0], high[1]), std::min(low[0], low[1]), out, 0}
@@ -131,7 +132,7 @@ GraphDistance CellGraph::of_hull(const double* points, std::size_t count) const 
 GraphDistance CellGraph::from_side(std::size_t number, const double* points,
                                    std::size_t count) const {
   const Side& side = side_[number];
-  GraphDistance most;
+  GraphDistance most = of_hull(points, count, true);
   for (const double* point = points; point != points + count * kChannels; point += kChannels) {
     const double weight = 1 / point[3];
     const double above = (point[2] - rise_[number / 2] * point[1]) * weight;

@@ -35,9 +35,12 @@ public:
   /// Writes a homogeneous point in the graph's own axes.
   void turn(const double* from, double* to) const;
 
-  /// A bound on the distances of all points of the hull of `count` turned homogeneous points.
-  [[nodiscard]] GraphDistance of_hull(const double* points, std::size_t count) const;
-  /// The same for points near one side, from that side: 0 is AB, 1 BC, 2 CD, 3 DA.
+  /// A bound on the distances of all points of the hull of `count` turned homogeneous points, or on
+  /// heights alone.
+  [[nodiscard]] GraphDistance of_hull(const double* points, std::size_t count,
+                                      bool heights_alone = false) const;
+  /// The same for points near one side, from that side: 0 is AB, 1 BC, 2 CD, 3 DA. Heights are
+  /// those over the graph and over the plane of the side's triangle, whichever are larger.
   [[nodiscard]] GraphDistance from_side(std::size_t side, const double* points,
                                         std::size_t count) const;
   /// The largest slope.

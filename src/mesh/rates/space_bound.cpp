@@ -22,6 +22,9 @@ constexpr double kSideShare = 1.0 / 16;
 constexpr std::size_t kMostCellHalvings = 2000;
 constexpr std::size_t kMostSideHalvings = 200;
 
+/// Of the time that a piece takes, what a cell takes that is nowhere larger than the tolerance.
+constexpr double kSmallCell = 1.0 / 64;
+
 /// In each direction.
 constexpr std::size_t kBendSamples = 9;
 
@@ -126,9 +129,14 @@ double SpaceBound::motion(std::uint32_t i, std::uint32_t j, const CellCounts& ce
 /// What the distances of a piece come to: docs/tessellation.md has the cases.
 double SpaceBound::Look::total(const GraphDistance& piece) const {
   const double shift = std::max(cut.outside, cut.inside);
-  const double across = std::max({piece.outside + cut.inside, inside + shift, shift});
-  const double along = std::max(piece.above + cut.below, piece.below + cut.above);
-  const double steep = along + graph.slope() * (std::max(piece.outside, inside) + shift);
+  const double across = std::max(piece.outside + cut.inside, shift);
+  return std::max(sides, distance(piece, piece.outside + shift, across));
+}
+
+/// Of points that far across the axis, where the graph may have been that far along it.
+double SpaceBound::Look::distance(const GraphDistance& piece, double along, double across) const {
+  const double steep =
+      std::max(piece.above + cut.below, piece.below + cut.above) + graph.slope() * along;
   return std::sqrt(steep * steep + across * across);
 }
 
@@ -193,14 +201,21 @@ GraphDistance SpaceBound::bound_side(const Look& look, SideLook& side, std::size
   double* const points = piece(level);
   const GraphDistance measured = look.graph.from_side(side.side, points, side.points);
   side.found.include(look.graph.from_side(side.side, points, 1));
-  const double enough = look.enough * kSideShare;
-  const auto is_close = [&](double bound, double found) {
-    return bound <= std::max(enough, kCloseEnough * found);
+  const GraphDistance& found = side.found;
+  const auto is_close = [&](double bound, double least, double share) {
+    return bound <= std::max(look.enough * share, kCloseEnough * least);
   };
-  const bool close = is_close(measured.inside, side.found.inside) &&
-                     (!side.is_cut || (is_close(measured.outside, side.found.outside) &&
-                                       is_close(measured.above, side.found.above) &&
-                                       is_close(measured.below, side.found.below)));
+  const auto are_close = [&](double share) {
+    return is_close(measured.above, found.above, share) &&
+           is_close(measured.below, found.below, share);
+  };
+  if (!side.is_cut && !(measured.inside > 0)) {
+    return {}; // nothing is passed on the way to the segment
+  }
+  const bool close =
+      is_close(measured.inside, found.inside, kSideShare) &&
+      (side.is_cut ? is_close(measured.outside, found.outside, kSideShare) && are_close(kSideShare)
+                   : are_close(0.5));
   if (close || depth == kDeepest || side.halvings == kMostSideHalvings) {
     return measured;
   }
@@ -216,6 +231,7 @@ void SpaceBound::bound_sides(const bool (&is_cut)[4], bool falling, Look& look) 
   const std::size_t row = columns_ * kChannels;
   const double* const net = piece(0);
   const double* const first[4] = {net, net + row - kChannels, net + (rows_ - 1) * row, net};
+  GraphDistance all;
   for (std::size_t k = 0; k < 4; ++k) { // at v = 0, u = 1, v = 1, u = 0
     const bool along_u = k % 2 == 0;
     SideLook side{(falling ? k + 3 : k) % 4, along_u ? columns_ : rows_, is_cut[k]};
@@ -223,11 +239,13 @@ void SpaceBound::bound_sides(const bool (&is_cut)[4], bool falling, Look& look) 
       std::copy_n(first[k] + i * (along_u ? kChannels : row), kChannels, piece(1) + i * kChannels);
     }
     const GraphDistance found = bound_side(look, side, 1, 1);
-    look.inside = std::max(look.inside, found.inside);
+    all.include(found);
     if (is_cut[k]) {
       look.cut.include(found);
     }
   }
+  const double shift = std::max(look.cut.outside, look.cut.inside);
+  look.sides = look.distance(all, all.inside + shift, all.inside + shift);
 }
 
 /// The middle of the cell in the first level's place.
@@ -326,8 +344,14 @@ double SpaceBound::bound_range(const Range& u, const Range& v, const CellCounts&
     take_row(j, cells.nv);
     for (std::uint32_t i = u.begin; i < u.end; ++i) {
       take_cell(i, cells.nu);
-      moved = std::max(moved, motion(i, j, cells));
-      most = std::max(most, bound_cell(i, j, cells, falling, std::max(enough, most), stop));
+      const double least = std::max(enough, most);
+      if (const double size = 2 * radius(); size <= least) { // wherever corners move in it
+        most = std::max(most, size);
+        looked_at_ += kSmallCell;
+      } else {
+        moved = std::max(moved, motion(i, j, cells));
+        most = std::max(most, bound_cell(i, j, cells, falling, least, stop));
+      }
       if (!(most + moved <= stop && looked_at_ <= most_looks_)) {
         miss = {(i + 0.5) / cells.nu, (j + 0.5) / cells.nv};
         return kInfinity;

@@ -49,11 +49,12 @@ private:
     double enough;
     double stop;
     GraphDistance cut = {}; ///< of what vertices of neighbours may be
-    double inside = 0;      ///< how far sides are inside of the triangles
+    double sides = 0;       ///< what sides ask for where they are inside of the triangles
     double found = 0;       ///< what points of the surface alone ask for
     std::size_t halvings = 0;
 
     [[nodiscard]] double total(const GraphDistance& piece) const;
+    [[nodiscard]] double distance(const GraphDistance& piece, double along, double across) const;
   };
   /// One side of a cell.
   struct SideLook {
