@@ -58,7 +58,7 @@ SCRIPT
 array() { # OUT
   local job
   job=$(sbatch --parsable shards.sh "${options[@]}" -o "$1")
-  sbatch --parsable --dependency=afterok:"$job" --output=join.log \
+  sbatch --parsable --dependency=afterok:"$job" --kill-on-invalid-dep=yes --output=join.log \
     --wrap="simdbezier join -o $1 --shards 6"
 }
 job=$(array array.ply)
@@ -119,7 +119,7 @@ sleep 1
 for pids in pids-*; do
   read -r task daemon <"$pids"
   if ls -l /proc/"$daemon"/fd 2>/dev/null | grep -q 'slurmd-n0.log\|spool-n0'; then
-    kill -KILL "$task" "$daemon" 2>/dev/null || true
+    kill -KILL "$daemon" "$task" 2>/dev/null || true # a daemon that lives on reports the task
   fi
 done
 rm -f slow
