@@ -11,13 +11,21 @@ namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
 template <typename T>
 constexpr detail::NetTable<T> make_net_table() {
-  return {split_kernel<T>,    segment_kernel<T>, map_kernel<T>, box_kernel<T>,
-          flatness_kernel<T>, rate_kernel<T>,    kBoundKernels, {mean_lines, mean_points}};
+  return {rate_kernel<T>, kBoundKernels, {mean_lines, mean_points}};
+}
+
+template <typename T>
+constexpr detail::NetOperationTable<T> make_operations() {
+  return {split_kernel<T>, segment_kernel<T>, map_kernel<T>, box_kernel<T>, flatness_kernel<T>};
 }
 
 extern const detail::NetTable<float> net_table_f32;
 extern const detail::NetTable<double> net_table_f64;
 constinit const detail::NetTable<float> net_table_f32 = make_net_table<float>();
 constinit const detail::NetTable<double> net_table_f64 = make_net_table<double>();
+extern const detail::NetOperationTable<float> net_operations_f32;
+extern const detail::NetOperationTable<double> net_operations_f64;
+constinit const detail::NetOperationTable<float> net_operations_f32 = make_operations<float>();
+constinit const detail::NetOperationTable<double> net_operations_f64 = make_operations<double>();
 
 } // namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE

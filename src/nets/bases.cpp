@@ -39,8 +39,8 @@ NetReport change_basis(const ControlNets<T>& nets, const MutableNets<T>& out, Ba
   const LinearMap u = map_of(basis, nets.degree_u);
   const LinearMap v = map_of(basis, nets.degree_v);
   const MapTask<T> task{view_of(nets), view_of(out), &u, &v, support_of(u), support_of(v)};
-  return compute_nets(nets, &NetTable<T>::map, task, 3 * shape_of(nets).control_values(), options,
-                      is_power(basis));
+  return compute_nets(nets, &NetOperationTable<T>::map, task, 3 * shape_of(nets).control_values(),
+                      options, is_power(basis));
 }
 
 } // namespace

@@ -40,7 +40,7 @@ NetReport run_boxes(const ControlNets<T>& nets, int levels, const Boxes<T>& out,
   }
   const BoxTask<T> task{view_of(nets), out.low.first, out.high.first, levels};
   const std::size_t net = shape_of(nets).control_values();
-  return compute_nets(nets, &NetTable<T>::boxes, task,
+  return compute_nets(nets, &NetOperationTable<T>::boxes, task,
                       (1 + 2 * static_cast<std::size_t>(levels)) * net, options);
 }
 
@@ -78,7 +78,7 @@ NetReport flatness(const ControlNets<T>& nets, const std::type_identity_t<Values
   }
   const T root = detail::root_of_components<T>(nets.components);
   const detail::FlatnessTask<T> task{detail::view_of(nets), out.first, root};
-  return detail::compute_nets(nets, &detail::NetTable<T>::flatness, task,
+  return detail::compute_nets(nets, &detail::NetOperationTable<T>::flatness, task,
                               detail::shape_of(nets).control_values(), options);
 }
 

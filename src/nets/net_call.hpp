@@ -96,16 +96,16 @@ template <typename S>
 Status check_nets(const ControlNets<S>& nets, std::initializer_list<const MutableNets<S>*> out,
                   int degree_u, int degree_v) noexcept;
 
-/// Runs a kernel on all patches; `values` of a group are scratch.
-template <typename T, typename Task>
-Status run_net_kernel(NetKernel<Task> NetTable<T>::*kernel, const Task& task, std::size_t count,
+/// Runs a kernel of one of the tables of nets on all patches; `values` of a group are scratch.
+template <typename Table, typename Task>
+Status run_net_kernel(NetKernel<Task> Table::*kernel, const Task& task, std::size_t count,
                       std::size_t values, const Options& options) noexcept {
   Isa isa = Isa::automatic;
   const Status runs = resolve_isa(options.isa, isa);
   if (runs != Status::ok) {
     return runs;
   }
-  const NetKernel<Task> run = net_table<T>(isa).*kernel;
+  const NetKernel<Task> run = net_table<Table>(isa).*kernel;
   return run_blocks(lane_groups(count), duration_of(count, 100), options, values * kLineBytes,
                     [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
                       const std::size_t last = end * kMaxLanes < count ? end * kMaxLanes : count;
@@ -115,7 +115,7 @@ Status run_net_kernel(NetKernel<Task> NetTable<T>::*kernel, const Task& task, st
 
 /// The way of all operations on nets whose views have been checked: find faults, then compute.
 template <typename T, typename Task>
-NetReport compute_nets(const ControlNets<T>& nets, NetKernel<Task> NetTable<T>::*kernel,
+NetReport compute_nets(const ControlNets<T>& nets, NetKernel<Task> NetOperationTable<T>::*kernel,
                        const Task& task, std::size_t values, const Options& options,
                        bool signed_weights = false) noexcept {
   Isa isa = Isa::automatic;
@@ -127,7 +127,7 @@ NetReport compute_nets(const ControlNets<T>& nets, NetKernel<Task> NetTable<T>::
   if (!checked) {
     return checked;
   }
-  return {run_net_kernel<T, Task>(kernel, task, nets.count, values, options)};
+  return {run_net_kernel(kernel, task, nets.count, values, options)};
 }
 
 } // namespace simdbezier::detail

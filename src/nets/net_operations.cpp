@@ -59,7 +59,7 @@ NetReport run_split(const ControlNets<T>& nets, const UnitParameter<T>* u,
     task.support_v[half] =
         support_of_piece(nets.degree_v, v == nullptr || half == 0, v == nullptr || half == 1);
   }
-  return compute_nets(nets, &NetTable<T>::split, task, 3 * net_values(nets), options);
+  return compute_nets(nets, &NetOperationTable<T>::split, task, 3 * net_values(nets), options);
 }
 
 template <typename T>
@@ -81,7 +81,7 @@ NetReport run_map(const ControlNets<T>& nets, const MutableNets<T>& out, const L
   NetShape most = shape_of(nets);
   most.degree_u = std::max(most.degree_u, out.degree_u);
   most.degree_v = std::max(most.degree_v, out.degree_v);
-  return compute_nets(nets, &NetTable<T>::map, task, 3 * most.control_values(), options);
+  return compute_nets(nets, &NetOperationTable<T>::map, task, 3 * most.control_values(), options);
 }
 
 /// Copies values, without any arithmetic, in the order of `nets`, a view of `original` in another
@@ -221,7 +221,7 @@ NetReport segment(const ControlNets<T>& nets, const std::type_identity_t<SubPatc
                                     {detail::weighting(piece.v0), detail::weighting(piece.v1)},
                                     detail::support_between(nets.degree_u, piece.u0, piece.u1),
                                     detail::support_between(nets.degree_v, piece.v0, piece.v1)};
-  return detail::compute_nets(nets, &detail::NetTable<T>::segment, task,
+  return detail::compute_nets(nets, &detail::NetOperationTable<T>::segment, task,
                               4 * detail::net_values(nets), options);
 }
 

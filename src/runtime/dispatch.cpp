@@ -1,6 +1,5 @@
 // The instruction sets of this build, and the choice of one. isa_list.inc is written by
-// cmake/isa.cmake: one SIMDBEZIER_ISA_ENTRY(name) for each instruction set of this build, narrowest
-// first.
+// cmake/isa.cmake: SIMDBEZIER_EACH_ISA(X, …) is X(name, …) for each of them, narrowest first.
 #include "src/runtime/dispatch.hpp"
 
 #include <algorithm>
@@ -11,47 +10,14 @@
 
 #include <simdbezier/isa.hpp>
 
-namespace simdbezier {
-
-#define SIMDBEZIER_ISA_ENTRY(isa)                                                                  \
-  namespace isa_##isa {                                                                            \
-    extern const detail::KernelTable<float> table_f32;                                             \
-    extern const detail::KernelTable<double> table_f64;                                            \
-    extern const detail::NetTable<float> net_table_f32;                                            \
-    extern const detail::NetTable<double> net_table_f64;                                           \
-  }
 #include "isa_list.inc"
-#undef SIMDBEZIER_ISA_ENTRY
+
+namespace simdbezier {
 
 namespace {
 
-// A list for each kind of table, so that a static program is linked without the kernels of types in
-// which it does not evaluate, though it may change nets in them.
-#define SIMDBEZIER_ISA_ENTRY(isa) Isa::isa,
-constexpr Isa kIsas[] = {
-#include "isa_list.inc"
-};
-#undef SIMDBEZIER_ISA_ENTRY
-#define SIMDBEZIER_ISA_ENTRY(isa) &isa_##isa::table_f32,
-constexpr const detail::KernelTable<float>* kFloatTables[] = {
-#include "isa_list.inc"
-};
-#undef SIMDBEZIER_ISA_ENTRY
-#define SIMDBEZIER_ISA_ENTRY(isa) &isa_##isa::table_f64,
-constexpr const detail::KernelTable<double>* kDoubleTables[] = {
-#include "isa_list.inc"
-};
-#undef SIMDBEZIER_ISA_ENTRY
-#define SIMDBEZIER_ISA_ENTRY(isa) &isa_##isa::net_table_f32,
-constexpr const detail::NetTable<float>* kFloatNetTables[] = {
-#include "isa_list.inc"
-};
-#undef SIMDBEZIER_ISA_ENTRY
-#define SIMDBEZIER_ISA_ENTRY(isa) &isa_##isa::net_table_f64,
-constexpr const detail::NetTable<double>* kDoubleNetTables[] = {
-#include "isa_list.inc"
-};
-#undef SIMDBEZIER_ISA_ENTRY
+#define SIMDBEZIER_ISA_ENTRY(isa, ...) Isa::isa,
+constexpr Isa kIsas[] = {SIMDBEZIER_EACH_ISA(SIMDBEZIER_ISA_ENTRY, )};
 
 struct AvailableIsas {
   std::array<Isa, std::size(kIsas)> list{};
@@ -148,26 +114,30 @@ const Table& table_of(Isa isa, const Table* const (&tables)[std::size(kIsas)]) n
 }
 
 } // namespace
-
-template <>
-const KernelTable<float>& kernel_table<float>(Isa isa) noexcept {
-  return table_of(isa, kFloatTables);
-}
-
-template <>
-const KernelTable<double>& kernel_table<double>(Isa isa) noexcept {
-  return table_of(isa, kDoubleTables);
-}
-
-template <>
-const NetTable<float>& net_table<float>(Isa isa) noexcept {
-  return table_of(isa, kFloatNetTables);
-}
-
-template <>
-const NetTable<double>& net_table<double>(Isa isa) noexcept {
-  return table_of(isa, kDoubleNetTables);
-}
-
 } // namespace detail
+
+// A list for each kind of table, so that a static program is linked without the kernels of types
+// and operations that it does not call.
+#define SIMDBEZIER_DECLARE_TABLE(isa, Table, name)                                                 \
+  namespace isa_##isa {                                                                            \
+    extern const detail::Table name;                                                               \
+  }
+#define SIMDBEZIER_TABLE_ADDRESS(isa, Table, name) &isa_##isa::name,
+#define SIMDBEZIER_TABLE(function, Table, name)                                                    \
+  SIMDBEZIER_EACH_ISA(SIMDBEZIER_DECLARE_TABLE, Table, name)                                       \
+  template <>                                                                                      \
+  const detail::Table& detail::function(Isa isa) noexcept {                                        \
+    static constexpr const detail::Table* kTables[] = {                                            \
+        SIMDBEZIER_EACH_ISA(SIMDBEZIER_TABLE_ADDRESS, Table, name)};                               \
+    return table_of(isa, kTables);                                                                 \
+  }
+SIMDBEZIER_TABLE(kernel_table<float>, KernelTable<float>, table_f32)
+SIMDBEZIER_TABLE(kernel_table<double>, KernelTable<double>, table_f64)
+SIMDBEZIER_TABLE(net_table<detail::NetTable<float>>, NetTable<float>, net_table_f32)
+SIMDBEZIER_TABLE(net_table<detail::NetTable<double>>, NetTable<double>, net_table_f64)
+SIMDBEZIER_TABLE(net_table<detail::NetOperationTable<float>>, NetOperationTable<float>,
+                 net_operations_f32)
+SIMDBEZIER_TABLE(net_table<detail::NetOperationTable<double>>, NetOperationTable<double>,
+                 net_operations_f64)
+
 } // namespace simdbezier

@@ -12,9 +12,9 @@ bool cpu_supports(Isa isa) noexcept;
 /// The table of an instruction set that available_isas() lists.
 template <typename T>
 const KernelTable<T>& kernel_table(Isa isa) noexcept;
-/// Its table of operations on nets alone.
-template <typename T>
-const NetTable<T>& net_table(Isa isa) noexcept;
+/// Its NetTable or NetOperationTable.
+template <typename Table>
+const Table& net_table(Isa isa) noexcept;
 
 /// The instruction set on which a call with `requested` may run instead of the resolved one,
 /// because it is the next narrower one and gives the same bits. automatic: there is none, or

@@ -47,7 +47,7 @@ Status cut_all(const SplineList<T>& list, const NetView<T>& out, const Options& 
   if (const Status status = resolve_isa(options.isa, isa); !status) {
     return status;
   }
-  const MeanKernels& means = net_table<float>(isa).means;
+  const MeanKernels& means = net_table<NetTable<float>>(isa).means;
   const auto work = [&](int, std::size_t begin, std::size_t end, unsigned char* scratch) {
     SplineCutter<T> cutter(list, means, scratch);
     for (std::size_t row = begin; row < end; ++row) {

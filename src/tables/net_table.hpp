@@ -134,13 +134,20 @@ template <typename Task>
 using NetKernel = Isa (*)(const Task& task, std::size_t begin, std::size_t end,
                           unsigned char* scratch);
 
+/// Operations that make nets of nets, or measure them. They are a table of their own because static
+/// programs that only evaluate and mesh are linked without them.
 template <typename T>
-struct NetTable {
+struct NetOperationTable {
   NetKernel<SplitTask<T>> split;
   NetKernel<SegmentTask<T>> segment;
   NetKernel<MapTask<T>> map;
   NetKernel<BoxTask<T>> boxes;
   NetKernel<FlatnessTask<T>> flatness;
+};
+
+/// What meshes and splines need of nets.
+template <typename T>
+struct NetTable {
   NetKernel<RateTask<T>> rates;
   BoundKernels bounds; ///< in double, whatever T is
   MeanKernels means;   ///< likewise

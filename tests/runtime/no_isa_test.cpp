@@ -24,6 +24,10 @@ extern const detail::NetTable<float> net_table_f32;
 extern const detail::NetTable<double> net_table_f64;
 const detail::NetTable<float> net_table_f32{};
 const detail::NetTable<double> net_table_f64{};
+extern const detail::NetOperationTable<float> net_operations_f32;
+extern const detail::NetOperationTable<double> net_operations_f64;
+const detail::NetOperationTable<float> net_operations_f32{};
+const detail::NetOperationTable<double> net_operations_f64{};
 } // namespace SIMDBEZIER_FOREIGN_TABLES
 
 namespace {

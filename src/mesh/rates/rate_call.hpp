@@ -272,7 +272,7 @@ private:
         task.diagonals = &out_.diagonals[first];
         task.deviations = &deviations_[first];
         const Status status =
-            run_net_kernel<S, RateTask<S>>(&NetTable<S>::rates, task, nets.count, kRateValues, run);
+            run_net_kernel(&NetTable<S>::rates, task, nets.count, kRateValues, run);
         if (status != Status::ok) {
           return {status};
         }
