@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "src/runtime/sort.hpp"
 #include "src/storage/net_shape.hpp"
 
 namespace simdbezier::detail {
@@ -12,9 +13,10 @@ namespace {
 std::ptrdiff_t size_of(std::ptrdiff_t stride) noexcept { return stride < 0 ? -stride : stride; }
 
 void sort_by_stride(Lattice::Direction (&direction)[4]) noexcept {
-  std::sort(direction, direction + 4, [](const Lattice::Direction& a, const Lattice::Direction& b) {
-    return size_of(a.stride) < size_of(b.stride);
-  });
+  sort_range(direction, direction + 4,
+             [](const Lattice::Direction& a, const Lattice::Direction& b) {
+               return size_of(a.stride) < size_of(b.stride);
+             });
 }
 
 /// Whether distance = sum of k * stride with -low[d] <= k <= high[d] has a solution, directions
@@ -102,7 +104,7 @@ bool collide(const Lattice& a, const Lattice& b, std::ptrdiff_t value_bytes) noe
   }
   // a + i s = b + j s where i - j runs from -b.last to a.last: only if both step alike.
   std::size_t order[4] = {0, 1, 2, 3};
-  std::sort(order, order + 4, [&a](std::size_t p, std::size_t q) {
+  sort_range(order, order + 4, [&a](std::size_t p, std::size_t q) {
     return size_of(a.direction[p].stride) < size_of(a.direction[q].stride);
   });
   Lattice::Direction low[4];

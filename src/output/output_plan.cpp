@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "src/runtime/cache_sizes.hpp"
+#include "src/runtime/sort.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -152,7 +153,7 @@ void OutputPlan<T>::add_streams() noexcept {
       }
     }
   }
-  std::sort(columns, columns + count, [](const StagedColumn<T>& a, const StagedColumn<T>& b) {
+  sort_range(columns, columns + count, [](const StagedColumn<T>& a, const StagedColumn<T>& b) {
     return std::less<>()(a.first, b.first);
   });
   for (std::size_t k = 0; k < count; ++k) {

@@ -8,6 +8,7 @@
 
 #include "src/mesh/layout/cells.hpp"
 #include "src/mesh/layout/mesh_data.hpp"
+#include "src/runtime/sort.hpp"
 
 namespace simdbezier::detail {
 
@@ -47,7 +48,7 @@ public:
     mesh_.diagonals[patch] = kCuts[0];
     cut(patch, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
       triangles.push_back({{a, b, c}, patch});
-      std::sort(triangles.back().vertices.begin(), triangles.back().vertices.end());
+      sort_range(triangles.back().vertices.begin(), triangles.back().vertices.end());
     });
   }
   void append(std::uint32_t patch, std::vector<MeshEdge>& edges) {
@@ -66,7 +67,7 @@ public:
       add_points(patch);
     }
     mesh_.inner[patch] = inner;
-    std::sort(points_.begin(), points_.end());
+    sort_range(points_.begin(), points_.end());
     points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
     for (const std::uint64_t ends : points_) {
       const auto a = static_cast<std::uint32_t>(ends >> 32);
@@ -107,7 +108,7 @@ private:
   /// No other patch has edges to a patch's inner points, which are most of all edges, so only those
   /// that coincide with others of their own patch go on to be compared.
   void move_coinciding(std::vector<MeshEdge>& edges) {
-    std::sort(inside_.begin(), inside_.end());
+    sort_range(inside_.begin(), inside_.end());
     for (std::size_t k = 0; k < inside_.size(); ++k) {
       const auto joins_same = [&](std::size_t other) {
         return other < inside_.size() && inside_[other].vertices == inside_[k].vertices;

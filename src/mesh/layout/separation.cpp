@@ -8,6 +8,7 @@
 #include "src/mesh/layout/layout_builder.hpp"
 #include "src/mesh/layout/patch_edges.hpp"
 #include "src/mesh/topology/topology_data.hpp"
+#include "src/runtime/sort.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -142,7 +143,7 @@ private:
   /// Calls visit(those) for all that have the same vertices.
   template <typename Value, typename Visit>
   static void for_same_vertices(std::vector<Value>& all, const Visit& visit) {
-    std::sort(all.begin(), all.end());
+    sort_range(all.begin(), all.end());
     for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
       while (end < all.size() && all[end].vertices == all[begin].vertices) {
         ++end;
@@ -159,7 +160,7 @@ private:
     for_same_vertices(doubts.edges, [this](std::span<MeshEdge> same) { add_coinciding(same); });
     for_same_vertices(doubts.triangles,
                       [this](std::span<OnlyTriangle> same) { add_coinciding(same); });
-    std::sort(doubtful_.begin(), doubtful_.end());
+    sort_range(doubtful_.begin(), doubtful_.end());
     doubtful_.erase(std::unique(doubtful_.begin(), doubtful_.end()), doubtful_.end());
     std::erase_if(doubtful_, [&](std::uint32_t patch) { return has_equal_sides(patch); });
     for (const std::uint32_t patch : doubtful_) {
@@ -184,7 +185,7 @@ private:
         doubtful_.push_back(edge.patch);
       }
     } else if (places) {
-      std::sort(same.begin(), same.end(), [](const MeshEdge& a, const MeshEdge& b) {
+      sort_range(same.begin(), same.end(), [](const MeshEdge& a, const MeshEdge& b) {
         return a.patch != b.patch ? a.patch < b.patch : a.place < b.place;
       });
       for (std::size_t k = 1; k < same.size(); ++k) {

@@ -6,6 +6,7 @@
 
 #include "src/mesh/rates/filip_terms.hpp"
 #include "src/mesh/rates/group_bound.hpp"
+#include "src/runtime/sort.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -50,7 +51,7 @@ public:
       candidates_[k] =
           CellRank({near_centre(centre.nu, k / 4 - 1), near_centre(centre.nv, k % 4 - 1)});
     }
-    std::sort(std::begin(candidates_), std::end(candidates_));
+    sort_range(std::begin(candidates_), std::end(candidates_));
     move_on();
   }
 

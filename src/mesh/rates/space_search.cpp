@@ -5,6 +5,7 @@
 #include <simdbezier/mesh_layout.hpp>
 
 #include "src/mesh/rates/space_bound.hpp"
+#include "src/runtime/sort.hpp"
 #include "src/tables/bound_task.hpp"
 
 namespace simdbezier::detail {
@@ -141,7 +142,7 @@ CertifiedCells SpaceBound::choose(const CellCounts& usual, double stop, std::uin
         }
       }
     }
-    std::sort(candidates.begin(), candidates.end(), [](const CellCounts& a, const CellCounts& b) {
+    sort_range(candidates.begin(), candidates.end(), [](const CellCounts& a, const CellCounts& b) {
       return a.product() < b.product() || (a.product() == b.product() && a.nu < b.nu);
     });
     for (const CellCounts& cells : candidates) {

@@ -13,6 +13,7 @@
 #include "src/mesh/topology/side_curve.hpp"
 #include "src/mesh/topology/snapping.hpp"
 #include "src/mesh/topology/topology_data.hpp"
+#include "src/runtime/sort.hpp"
 
 namespace simdbezier::detail {
 
@@ -47,7 +48,7 @@ public:
     for (std::size_t c = 1; c < 3; ++c) {
       axis_ = box.high(c) - box.low(c) > box.high(axis_) - box.low(axis_) ? c : axis_;
     }
-    std::sort(open_.begin(), open_.end(), [&](const OpenSide& a, const OpenSide& b) {
+    sort_range(open_.begin(), open_.end(), [&](const OpenSide& a, const OpenSide& b) {
       return a.place(axis_) != b.place(axis_) ? a.place(axis_) < b.place(axis_) : a.side < b.side;
     });
   }

@@ -9,6 +9,7 @@
 #include "src/mesh/topology/neighbours.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/fresh_vector.hpp"
+#include "src/runtime/sort.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -70,8 +71,8 @@ private:
       corners_.insert(corners_.end(), corner_pairs_.begin(), corner_pairs_.end());
       edges_.insert(edges_.end(), edge_pairs_.begin(), edge_pairs_.end());
     }
-    std::sort(corners_.begin(), corners_.end());
-    std::sort(edges_.begin(), edges_.end());
+    sort_range(corners_.begin(), corners_.end());
+    sort_range(edges_.begin(), edges_.end());
     edge_patches_.resize(topology_.edges());
     for (std::size_t edge = 0; edge < topology_.edges(); ++edge) {
       std::size_t last = topology_.patches();
@@ -216,7 +217,7 @@ std::vector<std::uint32_t> patches_at(const TopologyData& topology, ReachedCorne
       });
     }
   }
-  std::sort(found.begin(), found.end());
+  sort_range(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }

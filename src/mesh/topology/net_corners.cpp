@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "src/runtime/batch.hpp"
+#include "src/runtime/sort.hpp"
 #include "src/storage/one_point.hpp"
 
 namespace simdbezier::detail {
@@ -179,7 +180,7 @@ void mark_repeated_of(const NetCorners<S>& nets, std::span<const std::uint32_t> 
   for (const std::uint32_t patch : group) {
     patches.emplace_back(nets.lowest_point(patch), patch);
   }
-  std::sort(patches.begin(), patches.end());
+  sort_range(patches.begin(), patches.end());
   std::vector<std::uint32_t> different; // those with one lowest point
   for (std::size_t k = 0; k < patches.size(); ++k) {
     if (k == 0 || patches[k].first != patches[k - 1].first) {
@@ -207,7 +208,7 @@ FourEdges edges_of(const TopologyData& topology, std::size_t patch) {
     const Side& side = topology.sides[kPatchEdges * patch + k];
     edges[k] = side.collapsed() ? ~0U : side.edge();
   }
-  std::sort(edges.begin(), edges.end());
+  sort_range(edges.begin(), edges.end());
   return edges;
 }
 
@@ -247,7 +248,7 @@ void mark_repeated(const NetCorners<S>& nets, std::span<const std::uint32_t> can
       patches.push_back({edges_of(topology, patch), patch});
     }
   }
-  std::sort(patches.begin(), patches.end(), [](const EdgesOf& a, const EdgesOf& b) {
+  sort_range(patches.begin(), patches.end(), [](const EdgesOf& a, const EdgesOf& b) {
     return a.edges != b.edges ? a.edges < b.edges : a.patch < b.patch;
   });
   for (std::size_t begin = 0, end = 0; begin < patches.size(); begin = end) {
@@ -257,7 +258,7 @@ void mark_repeated(const NetCorners<S>& nets, std::span<const std::uint32_t> can
     }
     mark_repeated_of(nets, group, topology);
   }
-  std::sort(topology.originals.begin(), topology.originals.end());
+  sort_range(topology.originals.begin(), topology.originals.end());
   topology.counts.repeated_patches = topology.originals.size();
 }
 

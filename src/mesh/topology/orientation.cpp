@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "src/runtime/batch.hpp"
+#include "src/runtime/sort.hpp"
 
 namespace simdbezier::detail {
 namespace {
@@ -152,7 +153,7 @@ void mark_apart(TopologyData& topology) {
       corners.insert(corners.end(), {topology.corner_of(a, 0), topology.corner_of(a, 1)});
     }
   }
-  std::sort(corners.begin(), corners.end());
+  sort_range(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   ApartCorners apart(topology);
   for (const std::uint32_t corner : corners) {

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "src/runtime/sort.hpp"
+
 namespace simdbezier::detail {
 namespace {
 
@@ -102,7 +104,7 @@ public:
         sides_.push_back(placed);
       }
     }
-    std::sort(sides_.begin(), sides_.end(), [](const PlacedSide& a, const PlacedSide& b) {
+    sort_range(sides_.begin(), sides_.end(), [](const PlacedSide& a, const PlacedSide& b) {
       return a.cell != b.cell ? a.cell < b.cell : a.side < b.side;
     });
   }
@@ -129,7 +131,7 @@ public:
         }
       }
     }
-    std::sort(matches.begin(), matches.end());
+    sort_range(matches.begin(), matches.end());
     return matches;
   }
 

@@ -16,6 +16,7 @@
 #include "src/mesh/topology/topology_data.hpp"
 #include "src/nets/net_call.hpp"
 #include "src/runtime/fp_environment.hpp"
+#include "src/runtime/sort.hpp"
 
 namespace simdbezier {
 namespace detail {
@@ -75,7 +76,7 @@ public:
   [[nodiscard]] std::vector<double> bounds(std::size_t patch, std::size_t direction) const {
     std::vector<double> bounds = cuts_[2 * patch + direction];
     bounds.insert(bounds.end(), {0.0, 1.0});
-    std::sort(bounds.begin(), bounds.end());
+    sort_range(bounds.begin(), bounds.end());
     return bounds;
   }
 

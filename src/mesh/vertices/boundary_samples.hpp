@@ -12,6 +12,7 @@
 #include "src/mesh/vertices/corner_cache.hpp"
 #include "src/mesh/vertices/merged_normals.hpp"
 #include "src/mesh/vertices/parameter_lines.hpp"
+#include "src/runtime/sort.hpp"
 
 namespace simdbezier::detail {
 
@@ -36,7 +37,7 @@ void for_edge_points(const MeshData& mesh, std::uint32_t edge, std::uint32_t* sc
   for (std::size_t k = 0; k < sides.size(); ++k) {
     rates[k] = mesh.rate(sides[k]);
   }
-  std::sort(rates, rates + sides.size());
+  sort_range(rates, rates + sides.size());
   const auto count = static_cast<std::size_t>(std::unique(rates, rates + sides.size()) - rates);
   walk_union({rates, count}, scratch + sides.size(),
              [&](std::uint32_t k, const std::uint32_t* next, std::size_t lowest) {
