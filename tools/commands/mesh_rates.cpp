@@ -1,6 +1,7 @@
 #include <tools/commands/mesh_rates.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -69,11 +70,11 @@ template <typename T>
   const std::size_t patch = report.patch;
   const std::string name = patches.describe(patch);
   const double found = tolerances.of(patch);
-  if (found == kUnlimited) {
+  const double error = patches.errors[patch] + patches.storage_error;
+  if (found == kUnlimited || !std::isfinite(error)) {
     bad_input(resolution_options(mesh) + ": expected a patch whose error of rounding is bounded, " +
               "found " + name);
   }
-  const double error = patches.errors[patch] + patches.storage_error;
   const std::string option = tolerances.option_of(patch);
   if (!(found > error)) {
     bad_input(

@@ -1,6 +1,7 @@
 #include <tools/commands/mesh_stats.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
@@ -49,8 +50,10 @@ std::string stats_as_text(const MeshStats& stats) {
   }
   text += "vertices           " + std::to_string(stats.vertices) + "\n";
   text += "triangles          " + std::to_string(stats.triangles) + "\n";
-  text += "deviation          " + rounded(stats.deviation) + " at most, certified";
-  text += stats.diagonal > 0
+  text += "deviation          ";
+  text += std::isfinite(stats.deviation) ? rounded(stats.deviation) + " at most, certified"
+                                         : "not bounded";
+  text += stats.diagonal > 0 && std::isfinite(stats.deviation)
               ? "; " + rounded(stats.deviation / stats.diagonal) + " of the diagonal\n"
               : "\n";
   text += "diagonal           " + rounded(stats.diagonal) + "\n";

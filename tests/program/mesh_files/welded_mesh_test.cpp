@@ -338,9 +338,14 @@ TEST(WeldedMesh, OfVeryDifferentWeightsIsWrittenAsFloats) {
   EXPECT_EQ(glb.positions, ply.positions);
   EXPECT_FALSE(glb.deviation) << "none is certified";
   EXPECT_EQ(stl.faces.size(), ply.faces.size());
-  expect_failure(run({"tessellate", in, "--angle", "10", "-o", folder.path("out.ply")}), 1,
-                 "--angle: expected a patch whose error of rounding is bounded, found patch 0 of " +
-                     in);
+  for (const std::string option : {"--angle", "--tolerance", "--relative"}) {
+    expect_failure(
+        run({"tessellate", in, option, "0.1", "-o", folder.path("out.ply")}), 1,
+        option + ": expected a patch whose error of rounding is bounded, found patch 0 of " + in);
+  }
+  const std::string stats =
+      run({"tessellate", in, "--grid", "9", "--stats", "-o", folder.path("out.ply")}).err;
+  EXPECT_NE(stats.find("deviation          not bounded\n"), std::string::npos) << stats;
   const ReadMesh mesh = read_glb_mesh(tessellated(in, "glb", {"--grid", "9", "--quantise", "16"}));
   ASSERT_EQ(mesh.positions.size(), ply.positions.size());
   for (std::size_t k = 0; k < mesh.positions.size(); ++k) {
