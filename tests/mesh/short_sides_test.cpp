@@ -93,5 +93,27 @@ TEST(ShortSides, have_the_normals_of_points) {
   }
 }
 
+// Both ends of the side v = 0 are one point, and its middle is half as far away as its control
+// point.
+TEST(ShortSides, that_bulge_count_in_the_certificate) {
+  constexpr double kBulge = 0.1;
+  constexpr double kX[3] = {-1, 0, 1};
+  std::vector<double> values;
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < 3; ++i) {
+      values.insert(values.end(), {j * kX[i], j == 0 && i == 1 ? -kBulge : j, 0.0});
+    }
+  }
+  MeshOptions options;
+  options.nu = options.nv = 8;
+  options.point_size = 2 * kBulge;
+  const auto nets =
+      ControlNets<double>::packed(std::span<const double>(values), 2, 1, 3, Weights::none);
+  const Mesh<double> mesh = tessellate<double>(nets, options);
+  ASSERT_EQ(mesh.status, Status::ok);
+  EXPECT_EQ(mesh.counts.collapsed_sides, 1U);
+  EXPECT_GE(mesh.deviation, kBulge / 2);
+}
+
 } // namespace
 } // namespace simdbezier::tests::short_sides_test

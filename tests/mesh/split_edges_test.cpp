@@ -64,6 +64,28 @@ void expect_parameters(const Mesh<S>& mesh, const std::vector<TestPatch>& patche
   EXPECT_LE(worst, most);
 }
 
+/// Pieces begin where they say, but for the errors that they state; what is not cut has none.
+template <typename S>
+void expect_errors(const GeneralViews<S>& views, const std::vector<TestPatch>& patches) {
+  SplitNets<S> split;
+  ASSERT_EQ(split_edges<S>(views.nets, split), Status::ok);
+  std::size_t number = 0;
+  for (const ControlNets<S>& nets : split.nets) {
+    for (std::size_t k = 0; k < nets.count; ++k, ++number) {
+      const PatchPiece& piece = split.pieces[number];
+      EXPECT_EQ(piece.error > 0, piece.u0 > 0 || piece.u1 < 1 || piece.v0 > 0 || piece.v1 < 1);
+      const auto x = patches[piece.patch].at(static_cast<long double>(piece.u0),
+                                             static_cast<long double>(piece.v0));
+      const S* const at = nets.points + static_cast<std::ptrdiff_t>(k) * nets.patch_stride;
+      const long double weight = nets.weights == Weights::homogeneous ? at[3] : S(1);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const long double apart = std::fabs(at[c] / weight - x[c]);
+        EXPECT_LE(apart, piece.error + 1e-18L * std::fabs(x[c]));
+      }
+    }
+  }
+}
+
 /// What patches of a gluing have besides a cut: unlike ones differ in degrees and scales of
 /// weights.
 enum class Kind : std::uint8_t { plain, weighted, unlike };
@@ -93,6 +115,7 @@ void expect_closed(unsigned seed, Kind kind) {
   const Mesh<S> mesh = tessellate<S, S>(views.nets, options);
   ASSERT_EQ(mesh.status, Status::ok);
   expect_parameters(mesh, patches, size * (sizeof(S) == 4 ? 1e-3 : 1e-9));
+  expect_errors(views, patches);
   if (seed % 4 == 0) {
     expect_certified(plan, mesh, patches);
   }

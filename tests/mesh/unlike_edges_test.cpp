@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 #include <set>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -113,6 +114,59 @@ TYPED_TEST(UnlikeEdges, are_joined) {
       SCOPED_TRACE(std::string(how.name) + ", seed " + std::to_string(seed));
       expect_joined<TypeParam>(RandomGluing(seed), how, size, seed);
     }
+  }
+}
+
+/// Two patches whose edge at x = 0 has equal control points, and weights 1, w, 1 on either side.
+template <typename S>
+std::array<std::vector<S>, 2> beside(double w, double other) {
+  std::array<std::vector<S>, 2> patches;
+  for (const bool right : {false, true}) {
+    for (int j = 0; j < 3; ++j) {
+      for (int i = 0; i < 2; ++i) {
+        const double x = 100 * (i - (right ? 0.0 : 1.0));
+        const double weight = j == 1 ? (right ? other : w) : 1;
+        patches[right].insert(patches[right].end(), {S(x), S(3 * j), S(j == 1 ? 3 : 0), S(weight)});
+      }
+    }
+  }
+  return patches;
+}
+
+// Middles of the edges are at (0, 3, 3 w / (1 + w)).
+TYPED_TEST(UnlikeEdges, of_other_weights_are_other_curves) {
+  for (const auto [w, other] : {std::array{1.0, 1.2}, {1.2, 1.0}, {1.0, 1.01}, {0.9, 1.1}}) {
+    SCOPED_TRACE(std::to_string(w) + " beside " + std::to_string(other));
+    const auto values = beside<TypeParam>(w, other);
+    std::vector<ControlNets<TypeParam>> nets;
+    for (const std::vector<TypeParam>& patch : values) {
+      nets.push_back(ControlNets<TypeParam>::packed(patch.data(), 1, 1, 2, 3, Weights::cartesian));
+    }
+    const double apart = std::fabs(3 * w / (1 + w) - 3 * other / (1 + other));
+    for (const double snap : {0.99 * apart, 2.0}) {
+      MeshOptions options;
+      options.tolerance = 100;
+      options.snap = snap;
+      const Mesh<TypeParam> mesh = tessellate<TypeParam, TypeParam>(nets, options);
+      ASSERT_EQ(mesh.status, Status::ok);
+      EXPECT_EQ(mesh.counts.open_edges, snap < apart ? 8U : 6U);
+      EXPECT_TRUE(snap < apart || mesh.deviation >= apart);
+    }
+  }
+}
+
+// A degree cannot be raised without roundings, though here there are none.
+TYPED_TEST(UnlikeEdges, of_other_degrees_are_no_closer_than_roundings) {
+  const TypeParam line[] = {-1, 0, 0, 0, 0, 0, -1, 6, 0, 0, 6, 0};
+  const TypeParam raised[] = {0, 0, 0, 1, 0, 0, 0, 3, 0, 1, 3, 0, 0, 6, 0, 1, 6, 0};
+  const ControlNets<TypeParam> nets[] = {ControlNets<TypeParam>::packed(std::span(line), 1, 1),
+                                         ControlNets<TypeParam>::packed(std::span(raised), 1, 2)};
+  for (const double snap : {1e-18, 1e-12}) {
+    Topology topology;
+    TopologyOptions how;
+    how.snap = snap;
+    ASSERT_EQ(find_topology<TypeParam>(nets, topology, how), Status::ok);
+    EXPECT_EQ(topology.counts().open_edges, snap < 1e-15 ? 8U : 6U);
   }
 }
 
