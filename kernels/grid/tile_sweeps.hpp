@@ -18,10 +18,18 @@
 
 namespace simdbezier::SIMDBEZIER_ISA_NAMESPACE {
 
+/// Whether registers are those of SSE2, of which a row of few columns has many.
+#if defined(SIMDBEZIER_KERNELS_SSE2)
+inline constexpr bool kSse2 = true;
+#else
+inline constexpr bool kSse2 = false;
+#endif
+
 /// Whether two registers of columns are swept as one, which counts rows half as often and writes to
 /// no cache line twice. Their polynomials take 8 of 16 or 32 registers, or 16 of 32.
 template <detail::OutputSet kOutputs, typename T>
-constexpr bool kSweepsTwice = (kOutputs == detail::kPosition && sizeof(T) * kLanes<vec<T>> >= 32) ||
+constexpr bool kSweepsTwice = (kOutputs == detail::kPosition &&
+                               (kSse2 || sizeof(T) * kLanes<vec<T>> >= 32)) ||
                               (kOutputs == detail::kPositionDerivatives && kLineWide<vec<T>>);
 
 /// Whether two registers of a line are streamed together. Memory takes each second line at half of
@@ -46,12 +54,16 @@ struct TileSweeper {
 /// Whether the last `rest` columns of `first` and more take a register of their own that begins
 /// within the one before it. Some columns are computed twice, by idle lanes. That saves stores of
 /// parts of registers, which AVX2 has no good instruction for, and makes pairs of rows of the tile.
-/// Normals are so much arithmetic that two rows in one register are better where they fit.
+/// Normals are so much arithmetic that two rows in one register are better where they fit. SSE2 has
+/// a single column in such a register as well: few lanes are idle.
+template <detail::OutputSet kOutputs>
+constexpr bool kSingleColumns = kUsual<kOutputs> &&
+                                (!kSse2 || kOutputs == detail::kPositionDerivatives);
 template <detail::OutputSet kOutputs, typename V>
 SIMDBEZIER_PART bool overlaps(std::size_t first, std::size_t rest) {
-  constexpr std::size_t kShort = kOutputs == detail::kPositionNormal ? kLanes<V> / 2
-                                 : kUsual<kOutputs>                  ? 1
-                                                                     : 0;
+  constexpr std::size_t kShort = !kSingleColumns<kOutputs>             ? 0
+                                 : kOutputs == detail::kPositionNormal ? kLanes<V> / 2
+                                                                       : 1;
   return !kLineWide<V> && first > 0 && rest > kShort;
 }
 
@@ -115,7 +127,7 @@ SIMDBEZIER_PART void sweep_tiles(const GridTask<T>& task, const RowPiece<T>& pie
   using V = vec<T>;
   constexpr std::size_t kL = kLanes<V>;
   const TileSweeper<kOutputs, kKnown, T> tiles{task, piece, patch, end};
-  const ColumnSplit<V> split(task.nu, kUsual<kOutputs>);
+  const ColumnSplit<V> split(task.nu, kSingleColumns<kOutputs>);
   // A single column goes along with the last whole register.
   const std::size_t plain = split.single ? split.full - kL : split.full;
   std::size_t first = 0;
