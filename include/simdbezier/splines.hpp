@@ -87,7 +87,7 @@ struct SplineSurface {
   Interval u_range = {}; ///< empty: the whole domain
   Interval v_range = {};
   /// Neighbouring knots that are no further apart, all of them together, count as equal: as the
-  /// first of them, and at the end as the last one.
+  /// first of them, and at the end as the last one. Ends of ranges that near a knot are that knot.
   double knot_tolerance = 0;
   std::span<const S> memory = {}; ///< as in ControlNets
 };
@@ -238,9 +238,11 @@ template <typename S>
 /// U, V:       as locate() takes them. Ascending ones are the fastest: those of one span are
 ///             evaluated together. At knots, the patch that locate() takes counts.
 /// out:        as in evaluate(). Derivatives are by U and V: the results of evaluate(), divided by
-///             powers of the intervals' lengths with one rounding (first derivatives) or two
-///             (second ones). All else has the bits of evaluate() at locate()'s centred places,
-///             rounded to T: exactly mirrored splines have equal bits at mirrored parameters.
+///             powers of the intervals' lengths, which are formed in double and rounded to T: a
+///             power that T cannot hold gives 0, infinite or nan. All else has the bits of
+///             evaluate() at locate()'s centred places, rounded to T. Exactly mirrored splines have
+///             equal positions at mirrored parameters, bit for bit, and all else between knots: at
+///             a knot, one takes the right side and the other the left one.
 /// Allocation: a few values for each of U and V.
 /// Returns:    what locate() and evaluate() return.
 template <typename T, typename S>
@@ -258,7 +260,8 @@ template <typename T, typename S>
                                                         const Options& options = {}) noexcept;
 
 /// Evaluates a spline surface at single parameters (U[k], V[k]), in any order, otherwise like
-/// evaluate_grid(). Allocation: 36 bytes and two T a sample. Also returns unequal_lengths.
+/// evaluate_grid(). They are copied first, so that outputs may lie in U and V. Allocation: 36 bytes
+/// and two T a sample. Also returns unequal_lengths.
 template <typename T, typename S>
 [[nodiscard]] SIMDBEZIER_API SplineReport
 evaluate_samples(const PatchSet<T>& set, const SplineSurface<S>& surface, std::span<const double> U,

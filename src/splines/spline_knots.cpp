@@ -77,6 +77,15 @@ Status SplineKnots::check_multiplicity(std::size_t& knot) const noexcept {
   return Status::ok;
 }
 
+Interval SplineKnots::with_knots(Interval range, double tolerance) const noexcept {
+  const bool empty = range.empty();
+  for (const double knot : knots_) {
+    range.begin = std::abs(range.begin - knot) <= tolerance ? knot : range.begin;
+    range.end = std::abs(range.end - knot) <= tolerance ? knot : range.end;
+  }
+  return empty ? Interval{} : range;
+}
+
 void SplineKnots::find_spans(const Interval& range) {
   const std::size_t before = periodic_ ? 0 : static_cast<std::size_t>(degree_);
   for (std::size_t i = 0; i < points_ - before; ++i) {
@@ -123,7 +132,7 @@ Status SplineKnots::build(const SplineAxis& axis, std::size_t& knot) {
   if (!range.empty() && !(inside && range.begin < range.end)) { // false for nan
     return Status::bad_range;
   }
-  find_spans(range);
+  find_spans(with_knots(range, axis.tolerance));
   return spans_.empty() ? Status::bad_range : Status::ok;
 }
 

@@ -48,6 +48,8 @@ public:
 private:
   [[nodiscard]] Status take_knots(const SplineAxis& axis, std::size_t& knot);
   [[nodiscard]] Status check_multiplicity(std::size_t& knot) const noexcept;
+  /// Ends of a range that are no further from a knot than knots that count as equal are that knot.
+  [[nodiscard]] Interval with_knots(Interval range, double tolerance) const noexcept;
   void find_spans(const Interval& range);
 
   int degree_ = 0;

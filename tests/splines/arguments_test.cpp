@@ -231,6 +231,21 @@ TEST(SplineArguments, KnotsWithinTheToleranceAreOne) {
                         std::span(given.intervals).first(6)));
   EXPECT_EQ(given.intervals[0].u.begin, 0); // the ends are those of the knots
   EXPECT_EQ(given.intervals[2].u.end, 4);
+  // Ends of ranges near a knot are that knot: a whole domain stays whole, and nothing is cut off.
+  const std::vector<double> whole = given.values;
+  for (const Interval range : {Interval{1e-12, 4 - 1e-12}, {1e-10, 4 + 1e-10}}) {
+    given.surface.u_range = range;
+    EXPECT_EQ(span_count(given.surface).u, 3U);
+    ASSERT_TRUE(to_bezier(given.surface,
+                          MutableNets<double>::packed(std::span(given.values).first(6 * 48), 6, 2,
+                                                      3, 3, Weights::homogeneous),
+                          std::span(given.intervals).first(6)));
+    EXPECT_TRUE(given.values == whole);
+    EXPECT_EQ(given.intervals[0].u.begin, 0);
+    EXPECT_EQ(given.intervals[2].u.end, 4);
+  }
+  given.surface.u_range = {1 - 1e-10, 2 + 1e-10};
+  EXPECT_EQ(span_count(given.surface).u, 1U);
 }
 
 } // namespace

@@ -91,7 +91,7 @@ SplineSurface<double> view_of(const FileSpline& spline, double knot_tolerance) {
 } // namespace
 
 void PatchFile::close_spline(const FileSpline& spline) {
-  const SplineSurface<double> surface = view_of(spline, knot_tolerance);
+  const SplineSurface<double> surface = view_of(spline, spline.merges_knots ? knot_tolerance : 0);
   require_knots(name, spline, surface);
   const SpanCounts spans = span_count(surface);
   const bool rational = spline.weights != Weights::none;

@@ -24,6 +24,7 @@ struct FileSpline {
   SplineDirection v;
   Weights weights = Weights::none;
   std::vector<double> points; ///< x y z or x y z w, u fastest, u.points * v.points of them
+  bool merges_knots = true; ///< false for ends of pieces that stand apart, each as often as it must
 };
 
 /// What is left of it when its patches have been added.

@@ -166,6 +166,7 @@ IgesSurface read_parametric_surface(IgesRecords& records, std::size_t entity) {
   }
   spline.u.points = 4 * columns;
   spline.v.points = 4 * rows;
+  spline.merges_knots = false;
   for (const auto& [direction, breaks] : {std::pair(&spline.u, &u), std::pair(&spline.v, &v)}) {
     for (const double at : *breaks) {
       direction->knots.insert(direction->knots.end(), 4, at);

@@ -158,6 +158,7 @@ void close_obj_surface(PatchFile& file, const ObjSurface& surface) {
   spline.v.range = surface.v.range;
   spline.weights = surface.rational ? Weights::cartesian : Weights::none;
   spline.points = values_of(file, surface).values;
+  spline.merges_knots = surface.type == ObjType::bspline;
   file.close_spline(spline);
 }
 

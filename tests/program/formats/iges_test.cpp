@@ -257,6 +257,9 @@ TEST(Iges, ParametricSurfacesHaveLocalParameters) {
   }
   EXPECT_GT(file.moved_error, 0);
   EXPECT_LT(file.moved_error, 1e-12);
+  const TemporaryFolder folder; // break points are no knots to be merged, however near
+  const std::string path = folder.write("in.igs", iges_text({{114, text}}));
+  EXPECT_EQ(tools::read_patches(path, tools::PatchFormat::iges, {.knot_tolerance = 0.6}).count, 2U);
 }
 
 TEST(Iges, HasOtherDelimitersAndNoneAtAll) {
