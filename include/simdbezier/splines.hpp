@@ -87,7 +87,8 @@ struct SplineSurface {
   Interval u_range = {}; ///< empty: the whole domain
   Interval v_range = {};
   /// Neighbouring knots that are no further apart, all of them together, count as equal: as the
-  /// first of them, and at the end as the last one. Ends of ranges that near a knot are that knot.
+  /// first of them, and at the end as the last one. An end of a range that is no further from a
+  /// knot is that knot.
   double knot_tolerance = 0;
   std::span<const S> memory = {}; ///< as in ControlNets
 };

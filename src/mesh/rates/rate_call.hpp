@@ -99,7 +99,7 @@ public:
     if (const RateReport checked = find_faults(); !checked) {
       return checked;
     }
-    const RateReport ran = run_kernels(true, kFewestLooked);
+    const RateReport ran = run_kernels(true);
     if (!ran) {
       return ran;
     }
@@ -164,7 +164,7 @@ public:
     if (const RateReport checked = find_faults(); !checked) {
       return checked;
     }
-    if (const RateReport ran = run_kernels(false, 0); !ran) {
+    if (const RateReport ran = run_kernels(false); !ran) {
       return ran;
     }
     const auto is_open = [&](std::size_t patch, bool kernel) {
@@ -252,7 +252,8 @@ private:
     return {};
   }
 
-  RateReport run_kernels(bool choose, std::uint32_t fewest_looked) {
+  /// Chooses rates, or certifies those that are there, however few their cells.
+  RateReport run_kernels(bool choose) {
     std::size_t first = 0;
     Options run;
     run.threads = options_.threads;
@@ -262,7 +263,7 @@ private:
         RateTask<S> task{};
         task.in = view_of(nets);
         task.choose = choose;
-        task.fewest_looked = fewest_looked;
+        task.fewest_looked = choose ? kFewestLooked : 0;
         task.tolerance = options_.tolerance;
         task.tolerances = options_.tolerances.empty() ? nullptr : &options_.tolerances[first];
         task.errors = errors_.empty() ? nullptr : &errors_[first];
