@@ -51,14 +51,16 @@ struct TileSweeper {
   }
 };
 
-/// Whether the last `rest` columns of `first` and more take a register of their own that begins
-/// within the one before it. Some columns are computed twice, by idle lanes. That saves stores of
-/// parts of registers, which AVX2 has no good instruction for, and makes pairs of rows of the tile.
-/// Normals are so much arithmetic that two rows in one register are better where they fit. SSE2 has
-/// a single column in such a register as well: few lanes are idle.
+/// Whether a single last column goes along with the register before it. SSE2 has it in a register
+/// that overlaps, of which few lanes are idle, but for derivatives.
 template <detail::OutputSet kOutputs>
 constexpr bool kSingleColumns = kUsual<kOutputs> &&
                                 (!kSse2 || kOutputs == detail::kPositionDerivatives);
+
+/// Whether the last `rest` columns of `first` and more take a register of their own that begins
+/// within the one before it. Some columns are computed twice, by idle lanes. That saves stores of
+/// parts of registers, which AVX2 has no good instruction for, and makes pairs of rows of the tile.
+/// Normals are so much arithmetic that two rows in one register are better where they fit.
 template <detail::OutputSet kOutputs, typename V>
 SIMDBEZIER_PART bool overlaps(std::size_t first, std::size_t rest) {
   constexpr std::size_t kShort = !kSingleColumns<kOutputs>             ? 0
