@@ -13,7 +13,7 @@
 #include "bench/machine.hpp"
 #include "bench/plugin_rows.hpp"
 #include "bench/rows.hpp"
-#include "src/runtime/strategies.hpp"
+#include "src/choice/strategies.hpp"
 
 namespace simdbezier_bench {
 namespace {

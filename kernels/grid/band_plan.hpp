@@ -21,7 +21,8 @@ constexpr std::size_t kMostInBand = kLineWide<V> ? 6 : 8;
 constexpr std::size_t kMostPlaneByPlane = 6;
 
 /// Whether rows of the task lie a multiple of 512 bytes apart, and leave the cache while one tile
-/// follows the other. Below 4096 bytes there are no strips of such rows (src/calls/row_strips.hpp).
+/// follows the other. Below 4096 bytes there are no strips of such rows
+/// (src/choice/row_strips.hpp).
 template <detail::OutputSet kOutputs, typename T>
 SIMDBEZIER_PART bool rows_leave(const GridTask<T>& task, std::size_t rows) {
   if (task.nu * sizeof(T) % 512 != 0) {

@@ -2,8 +2,8 @@
 // registers of a row side by side, and then the next row, if a tile's lines would leave the cache.
 //
 // Lines of such rows share few sets of a first-level cache. Tile by tile, rows would have to go in
-// strips (src/calls/row_strips.hpp), too short for pairs of mirrored rows. Other rows gain nothing:
-// what a tile keeps in registers is an operand in memory here.
+// strips (src/choice/row_strips.hpp), too short for pairs of mirrored rows. Other rows gain
+// nothing: what a tile keeps in registers is an operand in memory here.
 #pragma once
 
 #include "kernels/grid/patch_sweeps.hpp"

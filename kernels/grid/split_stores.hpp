@@ -1,4 +1,4 @@
-// Stores alone, in the order of a plane's rows: by them src/runtime/line_costs.cpp finds out what
+// Stores alone, in the order of a plane's rows: by them src/choice/line_costs.cpp finds out what
 // stores across cache lines cost.
 #pragma once
 

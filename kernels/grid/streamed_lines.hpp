@@ -84,7 +84,7 @@ constexpr bool kIsStaged = !kLineWide<vec<T>> && kColumns * sizeof(T) < 40;
 
 /// Whether squares of this side are streamed by straight code: those whose rows are a part of a
 /// line, but more than half of it. AVX2 is faster in a loop for 15 x 15 derivatives. PatchKernels
-/// of src/calls/kernel_choice.hpp has such squares streamed where rows of their length are not.
+/// of src/choice/kernel_choice.hpp has such squares streamed where rows of their length are not.
 template <detail::OutputSet kOutputs, typename T, std::size_t kSide>
 constexpr bool kStreamsSquare = (kSide * sizeof(T) > 32) && (kSide * sizeof(T) < 64) &&
                                 !kIsStaged<T, kSide> &&

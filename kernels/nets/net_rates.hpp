@@ -1,5 +1,5 @@
 // Cells that bicubic polynomial patches need, and what they certify: lanes are patches. Patches of
-// other kinds, and corners whose diagonal is forced, are left to src/mesh/rates/group_bound.hpp.
+// other kinds, and corners whose diagonal is forced, are left to src/mesh/bounds/group_bound.hpp.
 #pragma once
 
 #include "kernels/nets/cell_candidates.hpp"

@@ -1,5 +1,5 @@
 // How much bicubic patches bend out of their tangent planes: lanes are patches. An estimate that
-// proves nothing, as src/mesh/rates/normal_bends.hpp has it for all kinds of patches.
+// proves nothing, as src/mesh/bounds/normal_bends.hpp has it for all kinds of patches.
 #pragma once
 
 #include "kernels/nets/cell_bounds.hpp"

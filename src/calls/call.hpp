@@ -27,7 +27,7 @@
 #include <simdbezier/options.hpp>
 #include <simdbezier/samples.hpp>
 
-#include "src/calls/destined_call.hpp"
+#include "src/choice/destined_call.hpp"
 #include "src/output/output_list.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/dispatch.hpp"

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "src/calls/grid_plan.hpp"
-#include "src/calls/kernel_choice.hpp"
+#include "src/choice/kernel_choice.hpp"
 #include "src/output/delivery.hpp"
 
 namespace simdbezier::detail {

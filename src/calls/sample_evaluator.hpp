@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "src/calls/kernel_choice.hpp"
 #include "src/calls/sample_pieces.hpp"
+#include "src/choice/kernel_choice.hpp"
 #include "src/exact/normal_fallback.hpp"
 #include "src/runtime/batch.hpp"
 

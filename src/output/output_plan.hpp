@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
+#include "src/choice/destination.hpp"
 #include "src/output/output_list.hpp"
-#include "src/runtime/destination.hpp"
 #include "src/tables/drain_queue.hpp"
 
 namespace simdbezier::detail {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "src/calls/run_packer.hpp"
 #include "src/nets/net_call.hpp"
+#include "src/pack/run_packer.hpp"
 #include "src/runtime/dispatch.hpp"
 #include "src/splines/spline_axes.hpp"
 #include "src/splines/spline_nets.hpp"

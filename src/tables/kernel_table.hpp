@@ -94,7 +94,7 @@ struct GridTask : SampleTask<T> {
   std::size_t run_count;
 
   bool streaming;       ///< rows are to be stored past the caches: see src/output/output_plan.hpp
-  bool by_lines;        ///< rows are stored in whole lines: see src/runtime/line_costs.hpp
+  bool by_lines;        ///< rows are stored in whole lines: see src/choice/line_costs.hpp
   bool plain_to_memory; ///< outputs leave the caches, by plain stores
   std::size_t cached_bytes; ///< of samples stay in the first-level cache while tile follows tile
   std::size_t record;       ///< values from one sample to the next: see OutputPlan::record()

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src/runtime/strategies.hpp"
+#include "src/choice/strategies.hpp"
 #include "tests/calls/grid_cases.hpp"
 #include "tests/support/isa_fixture.hpp"
 

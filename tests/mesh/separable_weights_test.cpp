@@ -11,7 +11,7 @@
 
 #include <simdbezier/rates.hpp>
 
-#include "src/mesh/rates/separable_bound.hpp"
+#include "src/mesh/bounds/separable_bound.hpp"
 #include "tests/mesh/sampled_patch.hpp"
 
 namespace simdbezier::tests::separable_weights_test {

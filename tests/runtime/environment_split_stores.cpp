@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "src/runtime/line_costs.hpp"
+#include "src/choice/line_costs.hpp"
 
 namespace {
 

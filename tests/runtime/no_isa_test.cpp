@@ -3,7 +3,7 @@
 // ones.
 #include <gtest/gtest.h>
 
-#include "src/calls/pack_request.hpp"
+#include "src/pack/pack_request.hpp"
 #include "src/runtime/dispatch.hpp"
 
 namespace simdbezier {

@@ -1,7 +1,7 @@
 // Which way to memory large calls keep. The calls are made up, and so are their clock, which stands
 // still but for what they add to it, and the machine's caches, which hold what plain stores have
 // left in them until streaming stores have given them time to write it back.
-#include "src/calls/destined_call.hpp"
+#include "src/choice/destined_call.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include "src/choice/clock.hpp"
+#include "src/choice/page_faults.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/cache_sizes.hpp"
-#include "src/runtime/clock.hpp"
-#include "src/runtime/page_faults.hpp"
 
 namespace simdbezier::detail {
 

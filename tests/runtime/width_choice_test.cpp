@@ -1,14 +1,14 @@
 // Which of two instruction sets a call keeps. The calls are made up, and so is their clock, which
 // stands still but for what they add to it.
-#include "src/calls/width_choice.hpp"
+#include "src/choice/width_choice.hpp"
 
 #include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "src/choice/clock.hpp"
 #include "src/runtime/batch.hpp"
-#include "src/runtime/clock.hpp"
 
 namespace simdbezier::detail {
 

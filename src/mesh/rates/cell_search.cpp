@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <iterator>
 
+#include "src/mesh/bounds/group_bound.hpp"
 #include "src/mesh/rates/filip_terms.hpp"
-#include "src/mesh/rates/group_bound.hpp"
 #include "src/runtime/sort.hpp"
 
 namespace simdbezier::detail {

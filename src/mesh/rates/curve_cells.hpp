@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "src/mesh/rates/chord_distance.hpp"
+#include "src/mesh/bounds/chord_distance.hpp"
 
 namespace simdbezier::detail {
 

@@ -1,7 +1,7 @@
 // Filip's form of a bound: coarser than others, but the fewest cells that keep it have a formula.
 #pragma once
 
-#include "src/mesh/rates/bound_parts.hpp"
+#include "src/mesh/bounds/bound_parts.hpp"
 
 namespace simdbezier::detail {
 

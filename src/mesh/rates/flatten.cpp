@@ -7,10 +7,10 @@
 #include <limits>
 #include <new>
 
-#include "src/calls/curve_input.hpp"
-#include "src/mesh/rates/bound_parts.hpp"
+#include "src/mesh/bounds/bound_parts.hpp"
+#include "src/mesh/bounds/power_of_two.hpp"
 #include "src/mesh/rates/curve_cells.hpp"
-#include "src/mesh/rates/power_of_two.hpp"
+#include "src/pack/curve_input.hpp"
 #include "src/runtime/attempt.hpp"
 #include "src/runtime/batch.hpp"
 #include "src/runtime/fp_environment.hpp"

@@ -8,7 +8,7 @@
 
 #include <simdbezier/rates.hpp>
 
-#include "src/mesh/rates/group_bound.hpp"
+#include "src/mesh/bounds/group_bound.hpp"
 #include "src/runtime/batch.hpp"
 
 namespace simdbezier::detail {

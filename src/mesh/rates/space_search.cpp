@@ -4,7 +4,7 @@
 
 #include <simdbezier/mesh_layout.hpp>
 
-#include "src/mesh/rates/space_bound.hpp"
+#include "src/mesh/bounds/space_bound.hpp"
 #include "src/runtime/sort.hpp"
 #include "src/tables/bound_task.hpp"
 

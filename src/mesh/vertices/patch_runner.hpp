@@ -8,7 +8,7 @@
 #include <span>
 
 #include "src/calls/grid_plan.hpp"
-#include "src/calls/kernel_choice.hpp"
+#include "src/choice/kernel_choice.hpp"
 #include "src/exact/normal_fallback.hpp"
 #include "src/mesh/topology/topology_data.hpp"
 #include "src/mesh/vertices/patch_copies.hpp"

@@ -1,0 +1,12 @@
+// See src/choice/any_work.hpp.
+#include "src/choice/any_work.hpp"
+
+#include "src/runtime/batch.hpp"
+
+namespace simdbezier::detail {
+
+Status run_work(const AnyWork& work, const Options& options) noexcept {
+  return run_blocks_here(work.units, work.duration, options, work.scratch_bytes, work);
+}
+
+} // namespace simdbezier::detail

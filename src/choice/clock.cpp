@@ -1,0 +1,19 @@
+// See src/choice/clock.hpp.
+#include "src/choice/clock.hpp"
+
+#if !defined(__wasm__)
+#include <chrono>
+#endif
+
+namespace simdbezier::detail {
+
+std::int64_t clock_now() noexcept {
+#if defined(__wasm__)
+  return 0; // browsers' clocks are coarse, or stop: whatever is measured is taken to be equal
+#else
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+#endif
+}
+
+} // namespace simdbezier::detail

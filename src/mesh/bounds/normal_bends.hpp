@@ -1,0 +1,56 @@
+// How much a patch bends out of its tangent planes, which is what its triangles can be close to
+// wherever parameters run. An estimate that proves nothing: it tells where bounds on point sets
+// pay.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "src/mesh/bounds/bound_parts.hpp"
+#include "src/mesh/bounds/vector_patch.hpp"
+
+namespace simdbezier::detail {
+
+/// Bernstein polynomials and their first two derivatives at n uniform parameters in each direction.
+class BendSamples {
+public:
+  BendSamples() = default;
+  /// n: an odd number. Of nets of so many control points.
+  BendSamples(std::size_t n, std::size_t columns, std::size_t rows);
+
+  [[nodiscard]] bool suits(const VectorNet& net) const {
+    return net.columns == columns_ && net.rows == rows_;
+  }
+
+private:
+  friend class NormalBends;
+  std::size_t n_ = 0;
+  std::size_t columns_ = 0;
+  std::size_t rows_ = 0;
+  std::vector<double> along_u_; ///< [sample][derivative][control point]
+  std::vector<double> along_v_;
+};
+
+class NormalBends {
+public:
+  NormalBends(const BendSamples& samples, const VectorPatch& patch);
+
+  /// About how far the triangles of small cells are from the surface, with the better diagonal in
+  /// each quarter. few: directions of fewer segments do not count, since their cells are not small.
+  [[nodiscard]] double at(const CellCounts& cells, std::uint32_t few) const;
+  /// About the number of small cells that have this distance.
+  [[nodiscard]] double fewest(double distance) const;
+
+private:
+  /// Second derivatives along the normal; zeros where there is none.
+  struct Bend {
+    double uu = 0;
+    double uv = 0;
+    double vv = 0;
+  };
+  std::size_t n_;
+  std::vector<Bend> at_; ///< [u][v]
+};
+
+} // namespace simdbezier::detail
